@@ -1,0 +1,26 @@
+#pragma once
+// Prescribed values, plain or as an expression with its unit, and points.
+
+#include "cases/program/config.h"
+#include "physics/tensor.h"
+
+#include <functional>
+#include <optional>
+
+namespace pfdm {
+
+/// SI value at x [m] and the load parameter t [-].
+using ScalarField = std::function<double(const Vector& x, double t)>;
+
+struct Amount {
+  ScalarField value;
+  std::optional<double> at_full_load;  ///< of a plain quantity, which is reached linearly at t = 1; SI
+};
+
+/// "800 um", reached linearly at t = 1, or { expr = "0.1*t", unit = "um" }, used as it stands.
+Amount read_amount(const ConfigValue& value, const Dimension& due);
+
+/// Three lengths [m].
+Vector read_point(const ConfigValue& value, const Range& allowed = range::any);
+
+}  // namespace pfdm

@@ -1,0 +1,150 @@
+#include "cases/program/fracture_case.h"
+
+#include "cases/program/amount.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+constexpr Range above_zero_to_one{std::numeric_limits<double>::min(), 1.0, false, "above 0 and at most 1"};
+constexpr Range at_least_one{1.0, 1e9, false, "at least 1"};
+constexpr Range count{0.0, 1e9, false, "zero or positive"};
+
+template <class Law>
+const Law* find_law(const ConfigTable& table, std::string_view key, const Law& otherwise, std::span<const Law> laws,
+                    std::string_view what) {
+  const auto value = table.find(key);
+  return value ? &choose(*value, laws, what) : &otherwise;
+}
+
+/// Returns the length that serves the materials which give none [m].
+std::optional<double> read_fracture(const ConfigTable& root, FractureModel& model) {
+  const ConfigTable table = root.table("fracture");
+  model.crack = find_law(table, "model", crack_geometry("AT2"), crack_geometries(), "crack geometric function");
+  model.degradation = find_law(table, "degradation", degradation("quadratic"), degradations(), "degradation function");
+  model.split = find_law(table, "split", energy_split("volumetric_deviatoric"), energy_splits(), "energy split");
+  const std::string ways[] = {"bounds", "history"};
+  const auto irreversibility = table.find("irreversibility");
+  if (irreversibility && irreversibility->one_of(ways, "way of irreversibility") == "history")
+    model.irreversibility = Irreversibility::history;
+  model.residual_stiffness = table.number("residual_stiffness", above_zero_to_one, model.residual_stiffness);
+  if (!table.has("length")) return std::nullopt;
+  return table.quantity("length", dimension::length, range::positive);
+}
+
+LoadingSettings read_loading(const ConfigTable& root) {
+  LoadingSettings loading;
+  if (!root.has("loading")) return loading;
+  const ConfigTable table = root.table("loading");
+  loading.end = table.number("end", range::positive, loading.end);
+  loading.initial_increment = table.number("initial_increment", range::positive, loading.initial_increment);
+  loading.maximum_increment = table.number("maximum_increment", range::positive,
+                                           std::max(loading.maximum_increment, loading.initial_increment));
+  loading.minimum_increment = table.number("minimum_increment", range::positive, loading.minimum_increment);
+  if (loading.minimum_increment > loading.initial_increment || loading.initial_increment > loading.maximum_increment)
+    throw table.error(fmt::format("the increments must not fall: minimum {}, initial {}, maximum {}",
+                                  loading.minimum_increment, loading.initial_increment, loading.maximum_increment));
+  return loading;
+}
+
+StaggeredSettings read_solver(const ConfigTable& root) {
+  StaggeredSettings settings;
+  if (!root.has("solver")) return settings;
+  const ConfigTable table = root.table("solver");
+  settings.damage_tolerance = table.number("damage_tolerance", above_zero_to_one, settings.damage_tolerance);
+  settings.energy_tolerance = table.number("energy_tolerance", above_zero_to_one, settings.energy_tolerance);
+  settings.equilibrium_tolerance =
+      table.number("equilibrium_tolerance", above_zero_to_one, settings.equilibrium_tolerance);
+  settings.maximum_iterations =
+      static_cast<Index>(table.integer("maximum_iterations", at_least_one, settings.maximum_iterations));
+  return settings;
+}
+
+void read_curve(const ConfigTable& output, FractureCase& fracture) {
+  const ConfigTable curve = output.table("curve");
+  fracture.curve_patch = curve.at("patch");
+  fracture.output.curve.patch = curve.string("patch");
+  const std::vector<std::string> components{"x", "y", "z"};
+  const std::string component = curve.at("component").one_of(components, "component");
+  fracture.output.curve.component = component[0] - 'x';
+}
+
+/// Names that the file uses against those that the mesh has; an empty list means that they are not known yet.
+void check_names(const FractureCase& fracture, std::span<const std::string> regions,
+                 std::span<const std::string> patches) {
+  if (!regions.empty())
+    for (const RegionMaterial& material : fracture.materials.by_region)
+      material.where.one_of(regions, "region of the mesh");
+  if (patches.empty()) return;
+  for (const BoundarySettings& boundary : fracture.boundary) boundary.patch.one_of(patches, "patch of the mesh");
+  fracture.curve_patch->one_of(patches, "patch of the mesh");
+}
+
+/// The load parameter at which the curve's patch has been displaced by `entry`.
+double load_at_displacement(const ConfigValue& entry, const FractureCase& fracture) {
+  const CurveSettings& curve = fracture.output.curve;
+  for (const BoundarySettings& boundary : fracture.boundary) {
+    if (boundary.condition.patch != curve.patch) continue;
+    const auto full = boundary.displacement_at_full_load[static_cast<std::size_t>(curve.component)];
+    if (full && *full != 0.0) return entry.quantity(dimension::length) / *full;
+  }
+  throw entry.error(
+      fmt::format("the displacement of patch \"{}\" along the curve's component is not prescribed by a "
+                  "plain quantity; give load parameters, as in 0.78",
+                  curve.patch));
+}
+
+std::vector<double> read_frames(const ConfigTable& output, const FractureCase& fracture) {
+  std::vector<double> loads;
+  const auto frames = output.find("frames_at");
+  if (!frames) return loads;
+  for (const ConfigValue& entry : frames->list()) {
+    const double load = entry.is_string() ? load_at_displacement(entry, fracture) : entry.number();
+    if (!(load > 0.0) || load > fracture.loading.end * (1.0 + 1e-12))
+      throw entry.error(fmt::format("this is at load parameter {:.6g}; the loading goes from 0 to {:.6g}", load,
+                                    fracture.loading.end));
+    loads.push_back(std::min(load, fracture.loading.end));
+  }
+  std::sort(loads.begin(), loads.end());
+  loads.erase(std::unique(loads.begin(), loads.end()), loads.end());
+  return loads;
+}
+
+void read_output(const ConfigTable& root, FractureCase& fracture) {
+  const ConfigTable output = root.table("output");
+  read_curve(output, fracture);
+  check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);  // the frames need the curve's patch
+  fracture.loading.stops = read_frames(output, fracture);
+  fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", count, 0));
+  if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
+}
+
+}  // namespace
+
+FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+  FractureCase fracture;
+  fracture.title = root.string("title");
+  fracture.mesh = read_mesh_recipe(root.table("mesh"), case_directory);
+  const std::optional<double> default_ell = read_fracture(root, fracture.model);
+  fracture.materials = read_materials(root, default_ell);
+  fracture.boundary = read_boundary(root, fracture.materials);
+  for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
+  fracture.loading = read_loading(root);
+  fracture.staggered = read_solver(root);
+  read_output(root, fracture);
+  return fracture;
+}
+
+FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
+  std::vector<std::string> patches;
+  for (const Patch& patch : mesh.patches) patches.push_back(patch.name);
+  check_names(fracture, mesh.region_names, patches);
+  FractureModel model = fracture.model;
+  model.regions = models_of_regions(fracture.materials, mesh.region_names);
+  return model;
+}
+
+}  // namespace pfdm

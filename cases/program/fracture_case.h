@@ -1,0 +1,46 @@
+#pragma once
+// Reads a case of kind "fracture": mesh, materials, boundary conditions, loading, output.
+
+#include "cases/program/boundary_reader.h"
+#include "cases/program/materials.h"
+#include "cases/program/mesh_recipe.h"
+#include "solver/fracture_model.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// Whose force and displacement make the curve.
+struct CurveSettings {
+  std::string patch;
+  int component = 2;  ///< 0, 1, 2 for x, y, z
+};
+
+struct FractureOutput {
+  CurveSettings curve;
+  Index frames_every = 0;                ///< steps; 0 = only LoadingSettings::stops and the last step
+  std::optional<Vector> slices_through;  ///< [m]
+};
+
+struct FractureCase {
+  std::string title;
+  MeshRecipe mesh;
+  Materials materials;
+  std::vector<BoundarySettings> boundary;
+  FractureModel model;  ///< its regions are filled in by model_on()
+  StaggeredSettings staggered;
+  LoadingSettings loading;
+  FractureOutput output;
+  std::optional<ConfigValue> curve_patch;  ///< in the file, for messages
+};
+
+/// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
+FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+
+/// The model with one entry per region of the mesh. Throws InputError, with file and line, for patches and regions
+/// that the mesh does not have and for regions without a material.
+FractureModel model_on(const FractureCase& fracture, const Mesh& mesh);
+
+}  // namespace pfdm

@@ -1,0 +1,207 @@
+#include "cases/program/fracture_program.h"
+
+#include "cases/program/fracture_case.h"
+#include "cases/program/fracture_results.h"
+#include "cases/program/progress.h"
+#include "mesh/quality.h"
+#include "solver/fracture_run.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+namespace pfdm {
+namespace {
+
+/// Thrown out of the load stepping when --max-steps is reached.
+struct EnoughSteps {};
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+/// Where the wall-clock time of a run goes [s].
+struct RunTimes {
+  Stopwatch whole;
+  double mesh = 0.0;
+  double results = 0.0;
+};
+
+struct FractureProgram {
+  FractureCase fracture;
+  std::string name;
+  std::string hash;
+};
+
+Mesh make_mesh(const FractureProgram& program, Log& log) {
+  const Stopwatch watch;
+  Mesh mesh = program.fracture.mesh.make();
+  log.say(fmt::format("mesh: {} cells, {} points, {} faces, made in {:.1f} s", mesh.n_cells(), mesh.points.size(),
+                      mesh.n_faces(), watch.seconds()));
+  return mesh;
+}
+
+FractureRun make_run(const FractureProgram& program, const Mesh& mesh) {
+  const FractureCase& fracture = program.fracture;
+  return FractureRun(mesh, model_on(fracture, mesh), fracture.staggered, fracture.loading);
+}
+
+void say_regions(const Mesh& mesh, Log& log) {
+  std::vector<Index> cells(mesh.region_names.size());
+  for (const Index region : mesh.region) ++cells[as_size(region)];
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    log.say(fmt::format("  region {:<16} {:>9} cells", mesh.region_names[i], cells[i]));
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Measured on tetrahedra with prism layers: 170 MB at 43,000 cells, 439 MB at 115,000; libraries and I/O on top.
+double estimated_memory(Index cells) { return 3.8e3 * cells + 80e6; }
+
+void check(const FractureProgram& program, Session& session) {
+  Log& log = session.log;
+  const LoadingSettings& loading = program.fracture.loading;
+  const Mesh mesh = make_mesh(program, log);
+  const FractureRun run = make_run(program, mesh);
+  log.say(fmt::format("{}: {}", program.name, program.fracture.title));
+  log.say(fmt::format("cells {}", mesh.n_cells()));
+  say_regions(mesh, log);
+  log.say(fmt::format("unknowns {} of displacement, {} of damage", run.n_unknowns(), mesh.n_cells()));
+  log.say(fmt::format("memory about {:.0f} MB", 1e-6 * estimated_memory(mesh.n_cells())));
+  log.say(fmt::format("steps {} or more, up to load {:g}", std::ceil(loading.end / loading.maximum_increment - 1e-9),
+                      loading.end));
+  log.say(fmt::format("results go to {}", session.results.string()));
+  log.say("the input is in order");
+}
+
+void mesh_only(const FractureProgram& program, Session& session) {
+  const Mesh mesh = make_mesh(program, session.log);
+  model_on(program.fracture, mesh);
+  for (const std::string& line : lines_of(describe(mesh_quality(mesh)))) session.log.say(line);
+  write_mesh(session.results, mesh);
+  session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
+}
+
+std::optional<FractureState> state_to_go_on_from(const FractureProgram& program, const FractureState& initial,
+                                                 const Session& session) {
+  if (!session.restart) return std::nullopt;
+  auto state = find_checkpoint(session.results, program.hash);
+  if (state &&
+      (state->damage.size() != initial.damage.size() || state->displacement.size() != initial.displacement.size()))
+    throw InputError(
+        fmt::format("{}: the checkpoint belongs to another mesh; run without --restart", session.results.string()));
+  return state;
+}
+
+RunSummary summary_of(const FractureProgram& program, const Session& session, const FractureRun& run,
+                      const RunTimes& times) {
+  RunSummary summary;
+  summary.case_name = program.name;
+  summary.version = session.version;
+  summary.threads = session.threads;
+  summary.unknowns = run.n_unknowns();
+  summary.staggered_iterations = run.staggered_iterations();
+  summary.krylov_iterations = run.krylov_iterations();
+  summary.cpu_seconds_by_stage = run.cpu_seconds_by_stage();
+  summary.wall_seconds = times.whole.seconds();
+  summary.wall_seconds_by_stage = {
+      {"mesh", times.mesh}, {"results", times.results}, {"solve", summary.wall_seconds - times.mesh - times.results}};
+  summary.cpu_seconds = cpu_seconds();
+  summary.peak_memory = peak_memory();
+  return summary;
+}
+
+/// Steps until the end of the load, --max-steps or failure; returns what became of it.
+std::string advance(FractureRun& run, FractureState& state, FractureResults& results, const FractureProgram& program,
+                    Session& session, RunTimes& times) {
+  Progress progress(session.log, state.load, program.fracture.loading.end);
+  const Index first_step = state.step;
+  const int component = program.fracture.output.curve.component;
+  RunHooks hooks;
+  hooks.iterated = [&](const IterationReport& iteration) { progress.iterated(iteration); };
+  hooks.warned = [&](const std::string& message) { session.log.warn(message); };
+  hooks.step_done = [&](const FractureState& now, const StepReport& report) {
+    const Stopwatch watch;
+    results.step_done(now, report, [&] { return run.output(now); });
+    times.results += watch.seconds();
+    state = now;
+    progress.step_done(report, results.last_row().displacement, results.last_row().force[component]);
+    if (session.max_steps && now.step - first_step >= *session.max_steps) throw EnoughSteps();
+  };
+  try {
+    run.run(state, hooks);
+    return "complete";
+  } catch (const EnoughSteps&) {
+    return "stopped by --max-steps";
+  }
+}
+
+void solve(FractureRun& run, FractureState state, FractureResults& results, const FractureProgram& program,
+           Session& session, RunTimes& times) {
+  const auto finish = [&](const std::string& status) {
+    RunSummary summary = summary_of(program, session, run, times);
+    summary.status = status;
+    results.write_summary(summary);
+    session.log.say(fmt::format("{} at step {}, load {:.6g}, after {:.1f} s; results in {}", status, state.step,
+                                state.load, times.whole.seconds(), session.results.string()));
+  };
+  try {
+    finish(advance(run, state, results, program, session, times));
+  } catch (const ComputationError& error) {
+    try {
+      results.write_last_frame([&] { return run.output(state); });
+      finish(fmt::format("failed: {}", error.what()));
+    } catch (const ComputationError&) {
+      // A full disk is often what failed in the first place; the first message is the one to show.
+    }
+    throw;
+  }
+}
+
+void run_case(const FractureProgram& program, Session& session) {
+  session.log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, program.fracture.title,
+                              session.threads));
+  RunTimes times;
+  const Mesh mesh = make_mesh(program, session.log);
+  times.mesh = times.whole.seconds();
+  FractureRun run = make_run(program, mesh);
+  const FractureState initial = run.initial_state();
+  const auto last = state_to_go_on_from(program, initial, session);
+  if (last && last->load >= program.fracture.loading.end && is_complete(session.results)) {
+    session.log.say(fmt::format("the run in {} is complete already", session.results.string()));
+    return;
+  }
+  write_mesh(session.results, mesh);
+  session.log.open_file(session.results / "run.log", last.has_value());
+  FractureResults results(session.results, mesh, program.fracture, program.hash, last);
+  if (session.restart)
+    session.log.say(last ? fmt::format("goes on after step {}, load {:.6g}", last->step, last->load)
+                         : "there is no checkpoint to go on from: starts at the beginning");
+  solve(run, last ? *last : initial, results, program, session, times);
+}
+
+}  // namespace
+
+RunnableCase read_fracture_program(const CaseFile& file) {
+  auto program = std::make_shared<FractureProgram>();
+  program->fracture = read_fracture_case(file.config.root(), file.directory);
+  program->name = std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory)).filename().string();
+  program->hash = case_hash(file, program->fracture.mesh.data_files);
+  return {.title = program->fracture.title,
+          .check = [program](Session& session) { check(*program, session); },
+          .mesh = [program](Session& session) { mesh_only(*program, session); },
+          .run = [program](Session& session) { run_case(*program, session); }};
+}
+
+}  // namespace pfdm

@@ -1,0 +1,10 @@
+#pragma once
+// A case of kind "fracture" as a program: what check, mesh and run do with it.
+
+#include "cases/program/kinds.h"
+
+namespace pfdm {
+
+RunnableCase read_fracture_program(const CaseFile& file);
+
+}  // namespace pfdm

@@ -1,0 +1,137 @@
+#include "cases/program/fracture_results.h"
+
+#include "mesh/quality.h"
+#include "postproc/atomic_file.h"
+#include "postproc/checkpoint.h"
+#include "postproc/frame.h"
+#include "postproc/slice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* checkpoint_file = "checkpoint.bin";
+constexpr const char* curve_file = "force_displacement.csv";
+constexpr const char* frames_file = "fields.pvd";
+constexpr const char* summary_file = "summary.json";
+constexpr const char* frames_folder = "fields";
+
+/// Otherwise a run that dies early would leave an older run's files beside its own.
+void remove_earlier_run(const fs::path& directory) {
+  std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
+  for (const char* file : {checkpoint_file, curve_file, frames_file, summary_file})
+    fs::remove(directory / file, ignored);
+  for (const auto& entry : fs::directory_iterator(directory / frames_folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);
+  }
+}
+
+fs::path prepared(const fs::path& directory, bool goes_on) {
+  make_folder(directory / frames_folder);
+  std::error_code ignored;
+  if (goes_on)
+    fs::remove(directory / summary_file, ignored);
+  else
+    remove_earlier_run(directory);
+  return directory;
+}
+
+Index patch_number(const Mesh& mesh, const std::string& name) {
+  return static_cast<Index>(&mesh.patch(name) - mesh.patches.data());
+}
+
+bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+}  // namespace
+
+void write_mesh(const fs::path& results, const Mesh& mesh) {
+  make_folder(results);
+  const CellQuality quality = cell_quality(mesh);
+  VtuWriter(mesh).write(results / "mesh.vtu",
+                        {{"material", &mesh.region},
+                         {"volume", &mesh.cell_volume},
+                         {"non_orthogonality", &quality.non_orthogonality},
+                         {"skewness", &quality.skewness},
+                         {"volume_ratio", &quality.volume_ratio},
+                         {"aspect_ratio", &quality.aspect_ratio},
+                         {"min_dihedral_angle", &quality.min_dihedral_angle}},
+                        0.0);
+}
+
+std::optional<FractureState> find_checkpoint(const fs::path& results, const std::string& case_hash) {
+  const fs::path file = results / checkpoint_file;
+  if (!fs::exists(file)) return std::nullopt;
+  return read_checkpoint(file, case_hash);
+}
+
+bool is_complete(const fs::path& results) { return fs::exists(results / summary_file); }
+
+FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureCase& fracture,
+                                 std::string case_hash, const std::optional<FractureState>& last)
+    : directory_(prepared(directory, last.has_value())),
+      mesh_(mesh),
+      fracture_(fracture),
+      case_hash_(std::move(case_hash)),
+      curve_patch_(patch_number(mesh, fracture.output.curve.patch)),
+      curve_(last ? CurveFile(directory_ / curve_file, last->step) : CurveFile(directory_ / curve_file)),
+      frames_(last ? PvdSeries(directory_ / frames_file, last->load) : PvdSeries(directory_ / frames_file)),
+      writer_(mesh),
+      damage_(as_size(mesh.n_cells()), 0.0) {
+  if (!last) return;
+  last_step_ = last->step;
+  last_load_ = last->load;
+  damage_ = last->damage;
+}
+
+void FractureResults::step_done(const FractureState& state, const StepReport& report, const Output& output) {
+  last_step_ = state.step;
+  last_load_ = state.load;
+  damage_ = state.damage;
+  curve_.append(curve_row(report, curve_patch_, fracture_.output.curve.component));
+  if (frame_is_due(state)) write_frame(state.step, state.load, output());
+  write_checkpoint(directory_ / checkpoint_file, state, case_hash_);
+}
+
+bool FractureResults::frame_is_due(const FractureState& state) const {
+  const auto& stops = fracture_.loading.stops;
+  const Index every = fracture_.output.frames_every;
+  return std::ranges::any_of(stops, [&](double stop) { return same_load(stop, state.load); }) ||
+         same_load(state.load, fracture_.loading.end) || (every > 0 && state.step % every == 0);
+}
+
+void FractureResults::write_frame(Index step, double load, const OutputFields& output) {
+  const std::string file = fmt::format("{}/step_{:06}.vtu", frames_folder, step);
+  writer_.write(directory_ / file, frame_fields(mesh_, output), load);
+  frames_.add(load, file);
+}
+
+void FractureResults::write_last_frame(const Output& output) {
+  const auto& frames = frames_.frames();
+  if (frames.empty() || !same_load(frames.back().load, last_load_)) write_frame(last_step_, last_load_, output());
+}
+
+std::map<std::string, double> FractureResults::damaged_areas() const {
+  const auto& through = fracture_.output.slices_through;
+  if (!through) return {};
+  return {{"damaged_area_yz_m2", damaged_area(mesh_, damage_, *through, Vector::UnitX())},
+          {"damaged_area_xz_m2", damaged_area(mesh_, damage_, *through, Vector::UnitY())},
+          {"damaged_area_xy_m2", damaged_area(mesh_, damage_, *through, Vector::UnitZ())}};
+}
+
+void FractureResults::write_summary(RunSummary summary) const {
+  summary.case_hash = case_hash_;
+  summary.cells = mesh_.n_cells();
+  summary.steps = last_step_;
+  summary.figures = headlines(curve_.rows(), fracture_.output.curve.component);
+  summary.other_figures = damaged_areas();
+  pfdm::write_summary(directory_ / summary_file, summary);
+}
+
+}  // namespace pfdm

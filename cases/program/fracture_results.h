@@ -1,0 +1,65 @@
+#pragma once
+// The results directory of a fracture run: curve, frames, checkpoint, summary. Files are written whole or not at all;
+// all functions throw ComputationError where they cannot be written.
+
+#include "cases/program/fracture_case.h"
+#include "mesh/mesh.h"
+#include "postproc/curve_csv.h"
+#include "postproc/pvd.h"
+#include "postproc/summary.h"
+#include "postproc/vtu_writer.h"
+#include "solver/state.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace pfdm {
+
+/// Writes mesh.vtu: material (the number of the region), volume [m^3] and quality figures. Makes the directory.
+void write_mesh(const std::filesystem::path& results, const Mesh& mesh);
+
+/// The state to go on from; none if there is no checkpoint. Throws InputError if it belongs to another case.
+std::optional<FractureState> find_checkpoint(const std::filesystem::path& results, const std::string& case_hash);
+
+/// Whether the directory holds the results of a run that came to its end.
+bool is_complete(const std::filesystem::path& results);
+
+class FractureResults {
+ public:
+  /// Replaces the files of an earlier run, or goes on after `last`. Keeps references to mesh and case.
+  FractureResults(std::filesystem::path directory, const Mesh& mesh, const FractureCase& fracture,
+                  std::string case_hash, const std::optional<FractureState>& last);
+
+  using Output = std::function<OutputFields()>;
+  /// Appends the row, then writes the frame, if one is due, then the checkpoint: killed in between, a restart takes the
+  /// rows and frames beyond the checkpoint away and does them again.
+  void step_done(const FractureState& state, const StepReport& report, const Output& output);
+  /// A frame of the last state, if it has none yet.
+  void write_last_frame(const Output& output);
+  /// Fills in what the curve and the last damage tell.
+  void write_summary(RunSummary summary) const;
+
+  const CurveRow& last_row() const { return curve_.rows().back(); }
+
+ private:
+  bool frame_is_due(const FractureState& state) const;
+  void write_frame(Index step, double load, const OutputFields& output);
+  std::map<std::string, double> damaged_areas() const;
+
+  std::filesystem::path directory_;
+  const Mesh& mesh_;
+  const FractureCase& fracture_;
+  std::string case_hash_;
+  Index curve_patch_;
+  CurveFile curve_;
+  PvdSeries frames_;
+  VtuWriter writer_;
+  Index last_step_ = 0;
+  double last_load_ = 0.0;
+  CellField<double> damage_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,23 @@
+#include "cases/program/kinds.h"
+
+#include "cases/program/fracture_program.h"
+
+namespace pfdm {
+namespace {
+
+constexpr CaseKind table[] = {
+    {"fracture", "phase-field fracture of a solid under load", read_fracture_program},
+};
+
+}  // namespace
+
+std::span<const CaseKind> case_kinds() { return table; }
+
+RunnableCase read_case(const CaseFile& file) {
+  const CaseKind& kind = choose(file.config.root().at("kind"), case_kinds(), "kind of case");
+  RunnableCase runnable = kind.read(file);
+  file.config.reject_unknown_keys();
+  return runnable;
+}
+
+}  // namespace pfdm

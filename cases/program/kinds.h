@@ -1,0 +1,33 @@
+#pragma once
+// The kinds of case, and what each can do. To add one, write its `read` and a row of the table at the foot of
+// kinds.cpp.
+
+#include "cases/program/case_file.h"
+#include "cases/program/session.h"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace pfdm {
+
+/// A case that was read and found in order.
+struct RunnableCase {
+  std::string title;
+  std::function<void(Session&)> check;  ///< says what would run
+  std::function<void(Session&)> mesh;   ///< meshes only
+  std::function<void(Session&)> run;
+};
+
+struct CaseKind {
+  std::string_view name;
+  std::string_view description;
+  RunnableCase (*read)(const CaseFile& file);
+};
+std::span<const CaseKind> case_kinds();
+
+/// Throws InputError for whatever is wrong with the file, unknown keys included.
+RunnableCase read_case(const CaseFile& file);
+
+}  // namespace pfdm

@@ -1,0 +1,36 @@
+#pragma once
+// What the program says while it works: to the console and to run.log. The only place that knows spdlog.
+
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <string>
+
+namespace pfdm {
+
+class Log {
+ public:
+  /// On a terminal progress is redrawn in place; `quiet` silences the console, not the file.
+  Log(std::ostream& console, bool terminal, bool quiet);
+  ~Log();
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
+  /// Everything goes to this file too, what was said so far as well. Throws ComputationError if it cannot be written.
+  void open_file(const std::filesystem::path& file, bool append);
+
+  void say(const std::string& message);
+  void warn(const std::string& message);
+  /// A step of long work is done: `line` goes to the file, and to a console that is no terminal.
+  void step(const std::string& line);
+  /// Shown in the terminal's last line until something else is said.
+  void progress(const std::string& bar);
+
+ private:
+  struct Sinks;
+  void to_file(const std::string& message);
+  void clear_progress();
+  std::unique_ptr<Sinks> sinks_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,141 @@
+#include "cases/program/materials.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+constexpr Range poisson_range{-1.0, 0.5, true, "between -1 and 0.5"};
+
+/// What a material or a region's override may say.
+struct MaterialKeys {
+  std::optional<double> young_modulus, poisson_ratio, toughness, length;
+  std::optional<bool> damageable;
+};
+
+std::optional<double> find_quantity(const ConfigTable& table, std::string_view key, const Dimension& due) {
+  const auto value = table.find(key);
+  return value ? std::optional(value->quantity(due, range::positive)) : std::nullopt;
+}
+
+MaterialKeys read_keys(const ConfigTable& table) {
+  MaterialKeys keys;
+  keys.young_modulus = find_quantity(table, "young_modulus", dimension::stress);
+  if (const auto value = table.find("poisson_ratio")) keys.poisson_ratio = value->number(poisson_range);
+  keys.toughness = find_quantity(table, "toughness", dimension::toughness);
+  keys.length = find_quantity(table, "length", dimension::length);
+  if (const auto value = table.find("damageable")) keys.damageable = value->boolean();
+  return keys;
+}
+
+MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by) {
+  if (by.young_modulus) base.young_modulus = by.young_modulus;
+  if (by.poisson_ratio) base.poisson_ratio = by.poisson_ratio;
+  if (by.toughness) base.toughness = by.toughness;
+  if (by.length) base.length = by.length;
+  if (by.damageable) base.damageable = by.damageable;
+  return base;
+}
+
+RegionModel make_model(const MaterialKeys& keys, const std::string& region, std::optional<double> default_ell,
+                       const ConfigTable& table) {
+  RegionModel model;
+  model.elasticity = from_young_poisson(*keys.young_modulus, *keys.poisson_ratio);
+  model.damageable = keys.damageable.value_or(true);
+  model.Gc = keys.toughness.value_or(0.0);
+  model.ell = keys.length.value_or(default_ell.value_or(0.0));
+  if (!model.damageable) return model;
+  if (!keys.toughness)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no toughness (Gc); give toughness, as in "
+                    "\"{}\", or damageable = false",
+                    region, dimension::toughness.example));
+  if (model.ell == 0.0)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no length (ell); give it in [fracture] or "
+                    "here, as in \"10 um\"",
+                    region));
+  return model;
+}
+
+struct RegionOverride {
+  std::string region;
+  ConfigValue value;
+  MaterialKeys keys;
+  bool used = false;
+};
+
+std::vector<RegionOverride> read_overrides(const ConfigTable& root) {
+  std::vector<RegionOverride> overrides;
+  if (!root.has("regions")) return overrides;
+  for (const auto& [name, value] : root.table("regions").entries())
+    overrides.push_back({name, value, read_keys(value.table())});
+  return overrides;
+}
+
+void add_region(Materials& materials, const ConfigValue& where, const RegionModel& model) {
+  const std::string region = where.string();
+  for (const RegionMaterial& other : materials.by_region)
+    if (other.region == region) throw where.error(fmt::format("region \"{}\" already has a material", region));
+  materials.by_region.push_back({region, model, where});
+}
+
+void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
+                   std::optional<double> default_ell, std::vector<RegionOverride>& overrides) {
+  table.quantity("young_modulus", dimension::stress, range::positive);
+  table.number("poisson_ratio", poisson_range);
+  const MaterialKeys base = read_keys(table);
+  materials.by_name.push_back({name, from_young_poisson(*base.young_modulus, *base.poisson_ratio)});
+  for (const ConfigValue& region : table.at("regions").list()) {
+    const std::string region_name = region.string();
+    MaterialKeys keys = base;
+    for (RegionOverride& over : overrides)
+      if (over.region == region_name) {
+        keys = overridden(keys, over.keys);
+        over.used = true;
+      }
+    add_region(materials, region, make_model(keys, region_name, default_ell, table));
+  }
+}
+
+}  // namespace
+
+const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const {
+  std::vector<std::string> names;
+  for (const NamedElasticity& material : by_name) names.push_back(material.material);
+  const std::string wanted = name.one_of(names, "material");
+  return std::find_if(by_name.begin(), by_name.end(), [&](const auto& m) { return m.material == wanted; })->elasticity;
+}
+
+Materials read_materials(const ConfigTable& root, std::optional<double> default_ell) {
+  Materials materials;
+  std::vector<RegionOverride> overrides = read_overrides(root);
+  for (const auto& [name, value] : root.table("materials").entries())
+    read_material(materials, name, value.table(), default_ell, overrides);
+  for (const RegionOverride& over : overrides)
+    if (!over.used)
+      throw over.value.error(
+          fmt::format("region \"{}\" has no material; name it in some material's regions", over.region));
+  return materials;
+}
+
+std::vector<RegionModel> models_of_regions(const Materials& materials, std::span<const std::string> regions) {
+  const auto& given = materials.by_region;
+  for (const RegionMaterial& entry : given) entry.where.one_of(regions, "region of the mesh");
+  std::vector<RegionModel> models;
+  for (const std::string& region : regions) {
+    const auto found = std::find_if(given.begin(), given.end(), [&](const auto& m) { return m.region == region; });
+    if (found == given.end())
+      throw InputError(
+          fmt::format("{}: region \"{}\" of the mesh has no material; name it in the regions of one of "
+                      "[materials.*]",
+                      given.empty() ? "case.toml" : given.front().where.file(), region));
+    models.push_back(found->model);
+  }
+  return models;
+}
+
+}  // namespace pfdm

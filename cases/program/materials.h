@@ -1,0 +1,40 @@
+#pragma once
+// The materials of a case and the regions that they fill.
+
+#include "cases/program/config.h"
+#include "solver/fracture_model.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct RegionMaterial {
+  std::string region;
+  RegionModel model;
+  ConfigValue where;  ///< where the region was given its material
+};
+
+struct NamedElasticity {
+  std::string material;
+  IsotropicElasticity elasticity;
+};
+
+struct Materials {
+  std::vector<NamedElasticity> by_name;
+  std::vector<RegionMaterial> by_region;
+
+  /// The elasticity of the material that `name` holds; throws InputError naming those there are.
+  const IsotropicElasticity& elasticity(const ConfigValue& name) const;
+};
+
+/// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file; `default_ell` [m] serves those
+/// that give no length of their own.
+Materials read_materials(const ConfigTable& root, std::optional<double> default_ell);
+
+/// One model per region of the mesh, in its order. Throws InputError for a region without a material and for a material
+/// whose region is not in the mesh.
+std::vector<RegionModel> models_of_regions(const Materials& materials, std::span<const std::string> regions);
+
+}  // namespace pfdm

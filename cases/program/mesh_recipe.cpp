@@ -1,0 +1,174 @@
+#include "cases/program/mesh_recipe.h"
+
+#include "cases/program/amount.h"
+#include "mesh/box_hexes.h"
+#include "mesh/import_vtk.h"
+#include "mesh/particles_in_box.h"
+#include "postproc/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace pfdm {
+namespace {
+
+constexpr Range cell_count{1.0, 1e6, false, "at least 1"};
+constexpr Range dihedral_range{0.0, 30.0, false, "between 0 and 30 degrees"};
+const std::vector<std::string> box_sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+
+std::vector<AxisBlock> read_axis(const ConfigValue& blocks) {
+  std::vector<AxisBlock> axis;
+  for (const ConfigValue& entry : blocks.list()) {
+    const ConfigTable block = entry.table();
+    axis.push_back({.length = block.quantity("length", dimension::length, range::positive),
+                    .n = static_cast<Index>(block.integer("cells", cell_count)),
+                    .ratio = block.number("ratio", range::positive, 1.0)});
+  }
+  if (axis.empty()) throw blocks.error("the list is empty; it needs at least one { length = ..., cells = ... }");
+  return axis;
+}
+
+std::vector<std::string> names_of_regions(const BoxHexesSettings& settings) {
+  std::vector<std::string> names{settings.base_region};
+  for (const SubRegion& region : settings.regions) names.push_back(region.name);
+  return names;
+}
+
+MeshRecipe read_box_hexes(const ConfigTable& table, const std::filesystem::path&) {
+  BoxHexesSettings settings;
+  if (const auto origin = table.find("origin")) settings.origin = read_point(*origin);
+  settings.axes = {read_axis(table.at("x")), read_axis(table.at("y")), read_axis(table.at("z"))};
+  settings.base_region = table.string("region", settings.base_region);
+  for (const ConfigTable& region : table.tables("regions"))
+    settings.regions.push_back({.name = region.string("name"),
+                                .lower = read_point(region.at("lower")),
+                                .upper = read_point(region.at("upper"))});
+  return {.make = [settings] { return make_box_hexes(settings); },
+          .regions = names_of_regions(settings),
+          .patches = box_sides,
+          .data_files = {}};
+}
+
+struct Layers {
+  Index count = 0;
+  double thickness = 0.0;  // of each [m]
+  std::string region = "interface";
+};
+
+Layers read_layers(const ConfigTable& table) {
+  return {.count = static_cast<Index>(table.integer("count", cell_count)),
+          .thickness = table.quantity("thickness", dimension::length, range::positive),
+          .region = table.string("region", "interface")};
+}
+
+Particle read_particle(const ConfigTable& table, const Layers& common_layers) {
+  Particle particle;
+  if (const auto centre = table.find("centre")) particle.centre = read_point(*centre);
+  particle.radius = 0.5 * table.quantity("diameter", dimension::length, range::positive);
+  particle.region = table.string("region", particle.region);
+  if (table.has("subdivisions") == table.has("surface_size"))
+    throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\"");
+  particle.subdivision = static_cast<Index>(table.integer("subdivisions", cell_count, 0));
+  particle.surface_size = table.quantity("surface_size", dimension::length, range::positive, 0.0);
+  const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : common_layers;
+  particle.n_layers = layers.count;
+  particle.layer_thickness = layers.count * layers.thickness;
+  particle.layer_region = layers.region;
+  return particle;
+}
+
+std::vector<std::string> names_of_regions(const ParticlesInBoxSettings& settings) {
+  std::vector<std::string> names{settings.matrix_region};
+  for (const Particle& particle : settings.particles) {
+    names.push_back(particle.region);
+    if (particle.n_layers > 0) names.push_back(particle.layer_region);
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+MeshRecipe read_particles_in_box(const ConfigTable& table, const std::filesystem::path&) {
+  ParticlesInBoxSettings settings;
+  const Vector size = read_point(table.at("size"), range::positive);
+  const auto centre_value = table.find("centre");
+  const Vector centre = centre_value ? read_point(*centre_value) : Vector::Zero().eval();
+  settings.lower = centre - 0.5 * size;
+  settings.upper = centre + 0.5 * size;
+  settings.matrix_region = table.string("region", settings.matrix_region);
+  const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : Layers{};
+  for (const ConfigTable& particle : table.tables("particles"))
+    settings.particles.push_back(read_particle(particle, layers));
+  settings.size_far = table.quantity("size_far", dimension::length, range::positive, settings.size_far);
+  settings.boundary_size = table.quantity("boundary_size", dimension::length, range::positive, settings.boundary_size);
+  settings.grading = table.number("grading", range::not_negative, settings.grading);
+  settings.particle_size_factor = table.number("particle_size_factor", range::positive, settings.particle_size_factor);
+  settings.max_radius_edge_ratio =
+      table.number("max_radius_edge_ratio", range::positive, settings.max_radius_edge_ratio);
+  settings.min_dihedral_angle = table.number("min_dihedral_angle", dihedral_range, settings.min_dihedral_angle);
+  return {.make = [settings] { return make_particles_in_box(settings); },
+          .regions = names_of_regions(settings),
+          .patches = box_sides,
+          .data_files = {}};
+}
+
+/// { 1 = "bead", 2 = "matrix" }
+std::map<Index, std::string> read_numbered_names(const ConfigTable& table, std::string_view key) {
+  std::map<Index, std::string> names;
+  if (!table.has(key)) return names;
+  for (const auto& [number, name] : table.table(key).entries()) {
+    const auto index = parse_int(number);
+    if (!index) throw name.error(fmt::format("\"{}\" stands where a whole number is due, as in 1 = \"bead\"", number));
+    names[*index] = name.string();
+  }
+  return names;
+}
+
+PatchRule read_plane_patch(const ConfigTable& patch, double scale) {
+  const std::vector<std::string> axes{"x", "y", "z"};
+  const int axis = patch.at("axis").one_of(axes, "axis")[0] - 'x';
+  // A ten-thousandth of the file's unit: more than the rounding of coordinates in single precision.
+  const double tolerance = patch.quantity("tolerance", dimension::length, range::positive, 1e-4 * scale);
+  return plane_patch(patch.string("name"), axis, patch.quantity("at", dimension::length), tolerance);
+}
+
+MeshRecipe read_vtk(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  ImportVtkSettings settings;
+  const ConfigValue file = table.at("file");
+  settings.file = case_directory / file.string();
+  if (!std::filesystem::is_regular_file(settings.file))
+    throw file.error(fmt::format("there is no file {}", settings.file.string()));
+  const ConfigValue unit = table.at("length_unit");
+  settings.scale = unit.in_context([&] { return unit_in_si(unit.string(), dimension::length); });
+  settings.region_array = table.string("region_array", "");
+  settings.region_names = read_numbered_names(table, "region_names");
+  settings.face_array = table.string("face_array", "");
+  settings.face_sets = read_numbered_names(table, "face_sets");
+  settings.merge_tolerance = table.quantity("merge_tolerance", dimension::length, range::not_negative, 0.0);
+  for (const ConfigTable& patch : table.tables("patches"))
+    settings.patches.push_back(read_plane_patch(patch, settings.scale));
+  return {
+      .make = [settings] { return import_vtk(settings); }, .regions = {}, .patches = {}, .data_files = {settings.file}};
+}
+
+constexpr MeshGenerator table[] = {
+    {"particles_in_box", "a box of tetrahedra with spheres in prism layers", read_particles_in_box},
+    {"box_hexes", "a box of hexahedra, graded along each axis, with regions cut out of it", read_box_hexes},
+    {"vtk", "a mesh from a .vtu or legacy .vtk file", read_vtk},
+};
+
+}  // namespace
+
+std::span<const MeshGenerator> mesh_generators() { return table; }
+
+MeshRecipe read_mesh_recipe(const ConfigTable& settings, const std::filesystem::path& case_directory) {
+  const MeshGenerator& generator = choose(settings.at("generator"), mesh_generators(), "mesh generator");
+  MeshRecipe recipe = generator.read(settings, case_directory);
+  recipe.make = [make = recipe.make, settings] { return settings.in_context(make); };
+  return recipe;
+}
+
+}  // namespace pfdm

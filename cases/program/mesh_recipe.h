@@ -1,0 +1,34 @@
+#pragma once
+// Reads [mesh]: which generator makes the mesh, with which settings.
+
+#include "cases/program/config.h"
+#include "mesh/mesh.h"
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct MeshRecipe {
+  std::function<Mesh()> make;        ///< throws InputError
+  std::vector<std::string> regions;  ///< that the mesh may have; empty if only the mesh tells
+  std::vector<std::string> patches;  ///< likewise
+  std::vector<std::filesystem::path> data_files;
+};
+
+/// A way to make meshes; to add one, write `read` and a row of the table at the foot of mesh_recipe.cpp.
+struct MeshGenerator {
+  std::string_view name;
+  std::string_view description;
+  /// `settings` is the table [mesh]; relative paths start at `case_directory`.
+  MeshRecipe (*read)(const ConfigTable& settings, const std::filesystem::path& case_directory);
+};
+std::span<const MeshGenerator> mesh_generators();
+
+/// Errors of the recipe's `make` name [mesh].
+MeshRecipe read_mesh_recipe(const ConfigTable& settings, const std::filesystem::path& case_directory);
+
+}  // namespace pfdm

@@ -1,0 +1,29 @@
+#pragma once
+// A TOML file as plain data with line numbers. The only place that knows toml++.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace pfdm {
+
+struct TomlValue;
+using TomlArray = std::vector<TomlValue>;
+/// In the order of the lines.
+using TomlTable = std::vector<std::pair<std::string, TomlValue>>;
+
+struct TomlValue {
+  std::variant<std::string, bool, std::int64_t, double, TomlArray, TomlTable> value;
+  int line = 0;      ///< where the value stands
+  int key_line = 0;  ///< where its key stands, or the same
+};
+
+/// `shown_as` is the file's name in messages. Throws InputError with the line of what TOML does not allow.
+TomlValue parse_toml(const std::string& text, const std::string& shown_as);
+
+/// The value as TOML would write it, shortened, for messages.
+std::string shown(const TomlValue& value);
+
+}  // namespace pfdm

@@ -1,0 +1,37 @@
+#pragma once
+// A box of hexahedra, graded along each axis, with named regions cut out of it: bars, plates, notched specimens.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace pfdm {
+
+/// A stretch of an axis cut into n cells whose widths grow geometrically.
+struct AxisBlock {
+  double length = 0.0;  ///< [m], > 0
+  Index n = 1;          ///< >= 1
+  double ratio = 1.0;   ///< width of the last cell over that of the first, > 0
+};
+
+/// Cells whose centre lies in the box between two corners [m].
+struct SubRegion {
+  std::string name;
+  Vector lower = Vector::Zero();
+  Vector upper = Vector::Zero();
+};
+
+struct BoxHexesSettings {
+  Vector origin = Vector::Zero();              ///< lower corner [m]
+  std::array<std::vector<AxisBlock>, 3> axes;  ///< along x, y, z; each block begins where the one before it ends
+  std::vector<SubRegion> regions;              ///< where they overlap, the later one wins
+  std::string base_region = "body";            ///< all that no sub-region takes
+};
+
+/// Patches xmin, xmax, ymin, ymax, zmin, zmax; region_names holds base_region (if any cell is left in it) and the
+/// sub-regions, each name once. Throws InputError for a block that is not positive or a region with no cell.
+Mesh make_box_hexes(const BoxHexesSettings& settings);
+
+}  // namespace pfdm

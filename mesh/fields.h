@@ -1,0 +1,44 @@
+#pragma once
+// Fields typed by where their values live, so that a cell's value is never read with a face's index.
+
+#include "physics/tensor.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace pfdm {
+
+constexpr std::size_t as_size(Index i) { return static_cast<std::size_t>(i); }
+
+template <class T, class Place>
+class Field {
+ public:
+  Field() = default;
+  explicit Field(std::size_t n, const T& value = T{}) : values_(n, value) {}
+  explicit Field(std::vector<T> values) : values_(std::move(values)) {}
+
+  T& operator[](Index i) { return values_[static_cast<std::size_t>(i)]; }
+  const T& operator[](Index i) const { return values_[static_cast<std::size_t>(i)]; }
+  Index size() const { return static_cast<Index>(values_.size()); }
+  T* data() { return values_.data(); }
+  const T* data() const { return values_.data(); }
+  auto begin() { return values_.begin(); }
+  auto end() { return values_.end(); }
+  auto begin() const { return values_.begin(); }
+  auto end() const { return values_.end(); }
+  std::vector<T>& values() { return values_; }
+  const std::vector<T>& values() const { return values_; }
+  friend bool operator==(const Field&, const Field&) = default;
+
+ private:
+  std::vector<T> values_;
+};
+
+struct AtCells;
+struct AtFaces;
+template <class T>
+using CellField = Field<T, AtCells>;
+template <class T>
+using FaceField = Field<T, AtFaces>;
+
+}  // namespace pfdm

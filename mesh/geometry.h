@@ -1,0 +1,21 @@
+#pragma once
+// Areas, volumes and centres of polygons and polyhedra. A face is the fan of triangles about the mean of its points:
+// both its cells see the same surface, so volumes add up and every cell closes, planar faces or not.
+
+#include "mesh/mesh.h"
+
+namespace pfdm {
+
+struct FaceGeometry {
+  Vector area;    ///< area vector, sum of the triangles' [m^2]
+  Vector centre;  ///< mean of the triangles' centroids weighted by their areas' parts along the normal [m]
+};
+
+FaceGeometry face_geometry(const std::vector<Vector>& points, std::span<const Index> face);
+
+/// Fills face_centre, face_area, cell_centre and cell_volume of a mesh whose tables are complete. Volumes and centroids
+/// are sums over the tetrahedra between the face triangles and the mean of the cell's face centres: exact for planar
+/// faces.
+void compute_geometry(Mesh& mesh);
+
+}  // namespace pfdm

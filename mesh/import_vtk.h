@@ -1,0 +1,39 @@
+#pragma once
+// Meshes made elsewhere, from unstructured VTK files (.vtu, or .vtk of the legacy format): tetrahedra, wedges,
+// pyramids, hexahedra, voxels and polyhedra. Triangles, quadrilaterals and polygons may name patches.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesh/patch_rules.h"
+
+namespace pfdm {
+
+struct ImportVtkSettings {
+  std::filesystem::path file;
+  double scale = 1.0;  ///< the file's unit of length [m]
+
+  /// Cell array of whole numbers that tells the regions; empty: the first there is of "region", "material",
+  /// "gmsh:physical", "medit:ref", "cell_tags" and "CellEntityIds", or without any one region, "body".
+  std::string region_array;
+  std::map<Index, std::string> region_names;  ///< names of its numbers; region_<number> where there is none
+
+  /// Cell array whose numbers, on the file's faces, tell the patches; empty: the same as for the regions.
+  std::string face_array;
+  std::map<Index, std::string> face_sets;  ///< number -> patch
+
+  /// Patches by position [m], for boundary faces in no face set. Without patches and face sets: xmin ... zmax, as far
+  /// as the mesh has faces on these planes of its bounding box.
+  std::vector<PatchRule> patches;
+
+  double merge_tolerance = 0.0;  ///< points closer than this become one [m]; 0: all stay
+};
+
+/// Cells in mirrored order (writers disagree about wedges) are put right. Throws InputError, naming the file and what
+/// is wrong with it: unreadable, no volume cells, a cell of another type, a cell without positive volume, a number or
+/// an array that is not there.
+Mesh import_vtk(const ImportVtkSettings& settings);
+
+}  // namespace pfdm

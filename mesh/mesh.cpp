@@ -1,0 +1,208 @@
+#include "mesh/mesh.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "mesh/cell_faces.h"
+#include "mesh/cell_ordering.h"
+#include "mesh/geometry.h"
+#include "physics/error.h"
+
+namespace pfdm {
+namespace {
+
+constexpr double closure_tolerance = 1e-9;  // |sum of area vectors| over sum of areas
+const std::string default_patch = "walls";
+
+void check_soup(const CellSoup& soup) {
+  const std::size_t n = soup.shape.size();
+  if (n == 0) throw InputError("the mesh has no cells");
+  const auto n_polyhedra = static_cast<std::size_t>(std::ranges::count(soup.shape, CellShape::polyhedron));
+  if (soup.cell_offsets.size() != n + 1 || soup.region.size() != n || soup.polyhedron_faces.size() != n_polyhedra)
+    throw InputError("the lists of cells have different lengths");
+  const auto in_range = [](const std::vector<Index>& list, std::size_t size) {
+    return std::ranges::all_of(list, [size](Index i) { return i >= 0 && static_cast<std::size_t>(i) < size; });
+  };
+  if (!in_range(soup.cell_points, soup.points.size())) throw InputError("a cell names a point that is not there");
+  if (!in_range(soup.region, soup.region_names.size())) throw InputError("a cell names a region that is not there");
+  if (!std::ranges::all_of(soup.points, [](const Vector& x) { return x.allFinite(); }))
+    throw InputError("a point of the mesh has a coordinate that is not a number");
+}
+
+std::vector<Index> order_for_locality(const HalfFaces& halves, const std::vector<FacePair>& pairs, Index n_cells) {
+  std::vector<std::pair<Index, Index>> neighbours;
+  neighbours.reserve(pairs.size());
+  for (const FacePair& pair : pairs)
+    if (pair.second >= 0) neighbours.emplace_back(halves.cell[pair.first], halves.cell[pair.second]);
+  return reverse_cuthill_mckee(n_cells, neighbours);
+}
+
+void copy_cells(Mesh& mesh, const CellSoup& soup, const std::vector<Index>& order) {
+  mesh.cell_offsets = {0};
+  mesh.cell_points.reserve(soup.cell_points.size());
+  for (const Index old : order) {
+    mesh.shape.values().push_back(soup.shape[old]);
+    mesh.region.values().push_back(soup.region[old]);
+    mesh.cell_points.insert(mesh.cell_points.end(), soup.cell_points.begin() + soup.cell_offsets[old],
+                            soup.cell_points.begin() + soup.cell_offsets[old + 1]);
+    mesh.cell_offsets.push_back(static_cast<Index>(mesh.cell_points.size()));
+  }
+}
+
+// A face about to be placed: its half-face on the owner's side, and its rank among patches (interior -1).
+struct PlacedFace {
+  Index owner, neighbour, half_face, patch;
+};
+
+std::vector<PlacedFace> place_faces(const HalfFaces& halves, const std::vector<FacePair>& pairs,
+                                    const std::vector<Index>& order) {
+  std::vector<Index> new_number(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) new_number[order[i]] = static_cast<Index>(i);
+  std::vector<PlacedFace> faces;
+  faces.reserve(pairs.size());
+  for (const FacePair& pair : pairs) {
+    const Index a = new_number[halves.cell[pair.first]];
+    const Index b = pair.second < 0 ? -1 : new_number[halves.cell[pair.second]];
+    if (b < 0)
+      faces.push_back({a, -1, pair.first, 0});
+    else if (a == b)
+      throw InputError(fmt::format("cell {} has one face twice", halves.cell[pair.first]));
+    else
+      faces.push_back({std::min(a, b), std::max(a, b), a < b ? pair.first : pair.second, -1});
+  }
+  return faces;
+}
+
+Index patch_slot(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::ranges::find(names, name);
+  if (found != names.end()) return static_cast<Index>(found - names.begin());
+  names.push_back(name);
+  return static_cast<Index>(names.size() - 1);
+}
+
+// Gives each boundary face its patch and returns the names in order; rules of one name share a patch.
+std::vector<std::string> claim_boundary(std::vector<PlacedFace>& faces, const HalfFaces& halves,
+                                        const std::vector<Vector>& points, const std::vector<PatchRule>& rules) {
+  std::vector<std::string> names;
+  std::vector<Index> slot;
+  for (const PatchRule& rule : rules) slot.push_back(patch_slot(names, rule.name));
+  std::vector<bool> used(rules.size(), false);
+  for (PlacedFace& face : faces) {
+    if (face.neighbour >= 0) continue;
+    const auto ids = halves.points_of(face.half_face);
+    const FaceGeometry geometry = face_geometry(points, ids);
+    const Vector normal = geometry.area.normalized();
+    std::size_t r = 0;
+    while (r < rules.size() && !rules[r].holds(geometry.centre, normal, ids)) ++r;
+    if (r < rules.size()) used[r] = true;
+    face.patch = r < rules.size() ? slot[r] : patch_slot(names, default_patch);
+  }
+  for (std::size_t r = 0; r < rules.size(); ++r)
+    if (!used[r] && rules[r].required)
+      throw InputError(fmt::format("no boundary face of the mesh belongs to patch \"{}\"", rules[r].name));
+  return names;
+}
+
+void store_faces(Mesh& mesh, std::vector<PlacedFace>& faces, const HalfFaces& halves,
+                 const std::vector<std::string>& patch_names) {
+  std::ranges::stable_sort(faces, [](const PlacedFace& a, const PlacedFace& b) {
+    return std::tie(a.patch, a.owner, a.neighbour) < std::tie(b.patch, b.owner, b.neighbour);
+  });
+  for (const std::string& name : patch_names) mesh.patches.push_back({name, 0, 0});
+  mesh.face_offsets = {0};
+  for (const PlacedFace& face : faces) {
+    mesh.owner.values().push_back(face.owner);
+    if (face.neighbour >= 0) mesh.neighbour.values().push_back(face.neighbour);
+    if (face.patch >= 0) ++mesh.patches[face.patch].n_faces;
+    const auto ids = halves.points_of(face.half_face);
+    mesh.face_points.insert(mesh.face_points.end(), ids.begin(), ids.end());
+    mesh.face_offsets.push_back(static_cast<Index>(mesh.face_points.size()));
+  }
+  Index next = mesh.n_interior_faces();
+  for (Patch& patch : mesh.patches) {
+    patch.first_face = next;
+    next += patch.n_faces;
+  }
+  std::erase_if(mesh.patches, [](const Patch& patch) { return patch.n_faces == 0; });
+}
+
+void list_faces_of_cells(Mesh& mesh) {
+  std::vector<Index>& offsets = mesh.cell_face_offsets;
+  offsets.assign(static_cast<std::size_t>(mesh.n_cells()) + 1, 0);
+  for (const Index c : mesh.owner) ++offsets[c + 1];
+  for (const Index c : mesh.neighbour) ++offsets[c + 1];
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  mesh.cell_faces.resize(static_cast<std::size_t>(offsets.back()));
+  std::vector<Index> fill(offsets.begin(), offsets.end() - 1);
+  for (Index f = 0; f < mesh.n_faces(); ++f) {
+    mesh.cell_faces[fill[mesh.owner[f]]++] = f;
+    if (mesh.is_interior(f)) mesh.cell_faces[fill[mesh.neighbour[f]]++] = f;
+  }
+}
+
+// A cell's area vectors do not sum to zero when two cells overlap: the shared face then has both on one side.
+void check_cells(const Mesh& mesh, const std::vector<Index>& order) {
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    Vector sum = Vector::Zero();
+    double total = 0.0;
+    for (const Index f : mesh.faces_of_cell(c)) {
+      sum += mesh.owner[f] == c ? mesh.face_area[f] : Vector(-mesh.face_area[f]);
+      total += mesh.face_area[f].norm();
+    }
+    if (!(sum.norm() <= closure_tolerance * total))
+      throw InputError(
+          fmt::format("cell {} does not close: it overlaps a neighbour, or its points are out of order", order[c]));
+    if (!(mesh.cell_volume[c] > 1e-15 * std::pow(total, 1.5)))
+      throw InputError(
+          fmt::format("cell {} has the volume {:.6g} m^3, which is not positive", order[c], mesh.cell_volume[c]));
+  }
+}
+
+}  // namespace
+
+const Patch& Mesh::patch(const std::string& name) const {
+  const auto found = std::ranges::find(patches, name, &Patch::name);
+  if (found != patches.end()) return *found;
+  std::vector<std::string> names;
+  for (const Patch& p : patches) names.push_back(p.name);
+  throw InputError(fmt::format("no patch is called \"{}\"; there are: {}", name, fmt::join(names, ", ")));
+}
+
+Index Mesh::region_index(const std::string& name) const {
+  const auto found = std::ranges::find(region_names, name);
+  if (found != region_names.end()) return static_cast<Index>(found - region_names.begin());
+  throw InputError(fmt::format("no region is called \"{}\"; there are: {}", name, fmt::join(region_names, ", ")));
+}
+
+void CellSoup::add_cell(CellShape cell_shape, std::span<const Index> ids, Index cell_region) {
+  shape.push_back(cell_shape);
+  region.push_back(cell_region);
+  cell_points.insert(cell_points.end(), ids.begin(), ids.end());
+  cell_offsets.push_back(static_cast<Index>(cell_points.size()));
+}
+
+Mesh assemble_mesh(CellSoup soup, const std::vector<PatchRule>& rules) {
+  check_soup(soup);
+  const HalfFaces halves = half_faces(soup);
+  const std::vector<FacePair> pairs = pair_half_faces(halves, static_cast<Index>(soup.points.size()));
+  const std::vector<Index> order = order_for_locality(halves, pairs, static_cast<Index>(soup.shape.size()));
+  std::vector<PlacedFace> faces = place_faces(halves, pairs, order);
+  const std::vector<std::string> patch_names = claim_boundary(faces, halves, soup.points, rules);
+
+  Mesh mesh;
+  copy_cells(mesh, soup, order);
+  store_faces(mesh, faces, halves, patch_names);
+  list_faces_of_cells(mesh);
+  mesh.points = std::move(soup.points);
+  mesh.region_names = std::move(soup.region_names);
+  compute_geometry(mesh);
+  check_cells(mesh, order);
+  return mesh;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,46 @@
+#pragma once
+// A box of matrix with spherical particles, each in thin prism layers if wanted: wedges in the layers, tetrahedra
+// inside the particles and in the matrix, all conforming. Without particles: a box of tetrahedra.
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+
+namespace pfdm {
+
+struct Particle {
+  Vector centre = Vector::Zero();  ///< [m]
+  double radius = 0.0;             ///< [m]
+  /// Its surface: either the edge length [m] or the subdivision n of an icosahedron (20 n^2 triangles); the other 0.
+  double surface_size = 0.0;
+  Index subdivision = 0;
+  std::string region = "bead";
+  Index n_layers = 0;            ///< 0: the particle's surface itself is the interface
+  double layer_thickness = 0.0;  ///< of all layers together [m]
+  std::string layer_region = "interface";
+};
+
+struct ParticlesInBoxSettings {
+  Vector lower = Vector::Zero();  ///< corners of the box [m]
+  Vector upper = Vector::Zero();
+  std::vector<Particle> particles;
+  std::string matrix_region = "matrix";
+  /// Wanted edge length in the matrix: that of the nearest outermost layer + grading * distance from it, at most
+  /// size_far; inside a particle that of its surface + grading * depth, at most particle_size_factor times that of the
+  /// surface.
+  double grading = 0.4;                                                   ///< [-]
+  double size_far = std::numeric_limits<double>::infinity();              ///< [m]
+  double particle_size_factor = std::numeric_limits<double>::infinity();  ///< [-]; 1: uniform
+  double boundary_size = 0.0;          ///< edge length on the box's surface [m]; 0: as wanted there by the rule above
+  double max_radius_edge_ratio = 1.4;  ///< of tetrahedra: circumradius over shortest edge [-]
+  double min_dihedral_angle = 10.0;    ///< of tetrahedra, as far as the surfaces allow [degrees]
+};
+
+/// Patches xmin, xmax, ymin, ymax, zmin, zmax. Layers are of equal thickness, their side faces are plane. The same
+/// settings give the same mesh. Throws InputError naming particle and numbers if one leaves the box, touches another or
+/// has a size that is not positive; ComputationError if the mesh does not fill the box.
+Mesh make_particles_in_box(const ParticlesInBoxSettings& settings);
+
+}  // namespace pfdm

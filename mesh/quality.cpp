@@ -1,0 +1,138 @@
+#include "mesh/quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+namespace pfdm {
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+constexpr std::array<const char*, 5> shape_names{"tetrahedra", "wedges", "pyramids", "hexahedra", "polyhedra"};
+
+double angle_between(const Vector& a, const Vector& b) { return std::atan2(a.cross(b).norm(), a.dot(b)) * degrees; }
+
+struct FaceQuality {
+  double non_orthogonality, skewness, volume_ratio;
+};
+
+FaceQuality face_quality(const Mesh& mesh, Index face) {
+  const Index p = mesh.owner[face];
+  const Index n = mesh.neighbour[face];
+  const Vector line = mesh.cell_centre[n] - mesh.cell_centre[p];
+  const Vector& area = mesh.face_area[face];
+  const Vector to_face = mesh.face_centre[face] - mesh.cell_centre[p];
+  const Vector pierced = (to_face.dot(area) / line.dot(area)) * line;
+  const double a = mesh.cell_volume[p];
+  const double b = mesh.cell_volume[n];
+  return {angle_between(line, area), (to_face - pierced).norm() / line.norm(), std::max(a, b) / std::min(a, b)};
+}
+
+struct CellEdge {
+  Index low, high, face;
+};
+
+// Each edge of the cell twice in a row, once for each of its two faces.
+void list_edges(const Mesh& mesh, Index cell, std::vector<CellEdge>& edges) {
+  edges.clear();
+  for (const Index f : mesh.faces_of_cell(cell)) {
+    const auto ids = mesh.points_of_face(f);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const auto [low, high] = std::minmax(ids[i], ids[(i + 1) % ids.size()]);
+      edges.push_back({low, high, f});
+    }
+  }
+  std::ranges::sort(edges, [](const CellEdge& a, const CellEdge& b) {
+    return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
+  });
+}
+
+double dihedral_angle(const Mesh& mesh, Index cell, Index f, Index g) {
+  const auto outward = [&](Index face) {
+    return mesh.owner[face] == cell ? mesh.face_area[face] : Vector(-mesh.face_area[face]);
+  };
+  return 180.0 - angle_between(outward(f), outward(g));
+}
+
+Statistic statistic(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  const auto [min, max] = std::ranges::minmax(values);
+  return {min, std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()), max};
+}
+
+void count_cells(const Mesh& mesh, MeshQuality& quality) {
+  std::array<Index, shape_names.size()> by_shape{};
+  std::vector<Index> by_region(mesh.region_names.size(), 0);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    ++by_shape[static_cast<std::size_t>(mesh.shape[c])];
+    ++by_region[mesh.region[c]];
+  }
+  for (std::size_t s = 0; s < by_shape.size(); ++s)
+    if (by_shape[s] > 0) quality.shapes.emplace_back(shape_names[s], by_shape[s]);
+  for (std::size_t r = 0; r < by_region.size(); ++r) quality.regions.emplace_back(mesh.region_names[r], by_region[r]);
+  for (const Patch& patch : mesh.patches) quality.patches.emplace_back(patch.name, patch.n_faces);
+}
+
+void measure_faces(const Mesh& mesh, MeshQuality& quality) {
+  std::vector<double> non_orthogonality, skewness, volume_ratio;
+  for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
+    const FaceQuality face = face_quality(mesh, f);
+    non_orthogonality.push_back(face.non_orthogonality);
+    skewness.push_back(face.skewness);
+    volume_ratio.push_back(face.volume_ratio);
+  }
+  quality.non_orthogonality = statistic(non_orthogonality);
+  quality.skewness = statistic(skewness);
+  quality.volume_ratio = statistic(volume_ratio);
+}
+
+}  // namespace
+
+CellQuality cell_quality(const Mesh& mesh) {
+  const auto n = static_cast<std::size_t>(mesh.n_cells());
+  CellQuality quality{CellField<double>(n), CellField<double>(n), CellField<double>(n, 1.0), CellField<double>(n, 1.0),
+                      CellField<double>(n, 180.0)};
+  for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
+    const FaceQuality face = face_quality(mesh, f);
+    for (const Index c : {mesh.owner[f], mesh.neighbour[f]}) {
+      quality.non_orthogonality[c] = std::max(quality.non_orthogonality[c], face.non_orthogonality);
+      quality.skewness[c] = std::max(quality.skewness[c], face.skewness);
+      quality.volume_ratio[c] = std::max(quality.volume_ratio[c], face.volume_ratio);
+    }
+  }
+  std::vector<CellEdge> edges;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    list_edges(mesh, c, edges);
+    double shortest = std::numeric_limits<double>::infinity();
+    double longest = 0.0;
+    for (std::size_t e = 0; e + 1 < edges.size(); e += 2) {
+      const double length = (mesh.points[edges[e].high] - mesh.points[edges[e].low]).norm();
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+      quality.min_dihedral_angle[c] =
+          std::min(quality.min_dihedral_angle[c], dihedral_angle(mesh, c, edges[e].face, edges[e + 1].face));
+    }
+    quality.aspect_ratio[c] = longest / shortest;
+  }
+  return quality;
+}
+
+MeshQuality mesh_quality(const Mesh& mesh) {
+  MeshQuality quality;
+  quality.n_points = static_cast<Index>(mesh.points.size());
+  quality.n_faces = mesh.n_faces();
+  quality.n_cells = mesh.n_cells();
+  count_cells(mesh, quality);
+  quality.volume = std::accumulate(mesh.cell_volume.begin(), mesh.cell_volume.end(), 0.0);
+  quality.cell_volume = statistic(mesh.cell_volume.values());
+  measure_faces(mesh, quality);
+  const CellQuality cells = cell_quality(mesh);
+  quality.aspect_ratio = statistic(cells.aspect_ratio.values());
+  quality.min_dihedral_angle = statistic(cells.min_dihedral_angle.values());
+  return quality;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,50 @@
+#include "physics/energy_split.h"
+
+#include "physics/registry.h"
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+constexpr EnergySplit none{
+    .name = "none",
+    .description = "the whole elastic energy is degraded",
+    .energy = [](const IsotropicElasticity& c, const Tensor& eps) { return SplitEnergy{energy_density(c, eps), 0.0}; },
+    .secant = [](const IsotropicElasticity& c, double g, const Tensor&) {
+      return IsotropicElasticity{g * c.lambda, g * c.mu};
+    },
+    .secant_depends_on_strain = false,
+};
+
+// Amor, Marigo, Maurini, J. Mech. Phys. Solids 57 (2009) 1209, eqs. 25-26: compression of the volume is kept.
+constexpr EnergySplit volumetric_deviatoric{
+    .name = "volumetric_deviatoric",
+    .description = "shear and expansion are degraded, compression is not (Amor 2009)",
+    .energy = [](const IsotropicElasticity& c, const Tensor& eps) {
+      const double trace = eps.trace();
+      const double expansion = std::max(trace, 0.0);
+      const double compression = std::min(trace, 0.0);
+      const Tensor shear = deviator(eps);
+      const double K = c.bulk_modulus();
+      return SplitEnergy{0.5 * K * expansion * expansion + c.mu * contract(shear, shear),
+                         0.5 * K * compression * compression};
+    },
+    .secant = [](const IsotropicElasticity& c, double g, const Tensor& eps) {
+      const double K = (eps.trace() >= 0.0 ? g : 1.0) * c.bulk_modulus();
+      return IsotropicElasticity{K - 2.0 * g * c.mu / 3.0, g * c.mu};
+    },
+    .secant_depends_on_strain = true,
+};
+
+constexpr EnergySplit table[] = {none, volumetric_deviatoric};
+
+}  // namespace
+
+std::span<const EnergySplit> energy_splits() { return table; }
+
+const EnergySplit& energy_split(std::string_view name) {
+  return find_by_name(energy_splits(), name, "energy split");
+}
+
+}  // namespace pfdm

@@ -1,0 +1,28 @@
+#pragma once
+// Results files are written whole or not at all: into a temporary file of the same folder, flushed to the disk,
+// renamed.
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+namespace pfdm {
+
+/// The file holds exactly `content` afterwards. Throws ComputationError that names the file and the reason (disk full,
+/// no permission); what the file held before is then untouched and no temporary file stays.
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// Likewise, for libraries that insist on opening files themselves: `write` makes the temporary file it is given.
+/// What `write` throws is passed on.
+void replace_file(const std::filesystem::path& path,
+                  const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// Makes a folder and those above it; throws ComputationError where that cannot be.
+void make_folder(const std::filesystem::path& folder);
+
+namespace detail {
+/// Writes all of `content` to an open file; `path` is for the message of the ComputationError.
+void write_all(int descriptor, std::string_view content, const std::filesystem::path& path);
+}  // namespace detail
+
+}  // namespace pfdm

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""Plots force-displacement curves (force_displacement.csv) into one picture.
+
+Needs the Debian package python3-matplotlib.
+"""
+
+import argparse
+import csv
+import pathlib
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+DIRECTIONS = "xyz"
+
+
+def read_curve(path):
+    """Columns of a curve by name, as lists of numbers."""
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    if not rows:
+        raise SystemExit(f"{path} has no rows")
+    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+
+
+def pulled_direction(curve):
+    """The direction in which the largest force acts."""
+    return max(DIRECTIONS, key=lambda d: max(map(abs, curve[f"force_{d}_N"])))
+
+
+def plot(axes, path, label, direction):
+    curve = read_curve(path)
+    force = curve[f"force_{direction or pulled_direction(curve)}_N"]
+    displacement = [1e6 * u for u in curve["displacement_m"]]
+    (line,) = axes.plot(displacement, force, lw=1.6, marker="o", ms=2.5, label=label)
+    peak = max(range(len(force)), key=lambda i: abs(force[i]))
+    axes.plot(displacement[peak], force[peak], "o", ms=7, mfc="none", mec=line.get_color())
+    return displacement[peak], force[peak]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("curves", nargs="+", type=pathlib.Path, help="force_displacement.csv files")
+    parser.add_argument("--labels", nargs="*", help="one per curve; default: the case's folder")
+    parser.add_argument("--direction", choices=DIRECTIONS, help="of the force; default: that of the largest")
+    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("force_displacement.png"))
+    arguments = parser.parse_args()
+    labels = arguments.labels or [path.resolve().parent.parent.name for path in arguments.curves]
+    if len(labels) != len(arguments.curves):
+        parser.error(f"{len(labels)} labels for {len(arguments.curves)} curves")
+
+    figure, axes = plt.subplots(figsize=(6.0, 4.0), constrained_layout=True)
+    for path, label in zip(arguments.curves, labels):
+        u, f = plot(axes, path, label, arguments.direction)
+        print(f"{label}: peak {f:.6g} N at {u:.6g} um")
+    axes.set_xlabel("displacement [µm]")
+    axes.set_ylabel("force [N]")
+    axes.grid(alpha=0.3)
+    axes.legend(frameon=False)
+    figure.savefig(arguments.output, dpi=160)
+    print(arguments.output)
+
+
+if __name__ == "__main__":
+    main()

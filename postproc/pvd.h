@@ -1,0 +1,38 @@
+#pragma once
+// fields.pvd: the list of frames, in order of load, that ParaView opens as one animation.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct Frame {
+  double load = 0.0;  ///< load parameter [-], or time [s]
+  std::string file;   ///< relative to the .pvd
+  friend bool operator==(const Frame&, const Frame&) = default;
+};
+
+/// Throws InputError if the file cannot be read or is not one of ours.
+std::vector<Frame> read_pvd(const std::filesystem::path& path);
+
+/// A list of frames that is on the disk, whole, after each change.
+class PvdSeries {
+ public:
+  /// Starts a list without frames. Throws ComputationError if the file cannot be written, as add() does.
+  explicit PvdSeries(std::filesystem::path path);
+  /// Goes on from a list on the disk, of which the frames up to `last_load` are kept; without a file, from none.
+  /// Throws InputError likewise to read_pvd.
+  PvdSeries(std::filesystem::path path, double last_load);
+
+  void add(double load, const std::string& file);
+  const std::vector<Frame>& frames() const { return frames_; }
+
+ private:
+  void write() const;
+
+  std::filesystem::path path_;
+  std::vector<Frame> frames_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,119 @@
+#include "postproc/summary.h"
+
+#include "postproc/atomic_file.h"
+
+#include <sys/resource.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double balance_error(const CurveRow& row) {
+  if (!(row.external_work > 0.0)) return Headlines::none;
+  return std::abs(row.external_work - row.elastic_energy - row.fracture_energy) / row.external_work;
+}
+
+double initial_stiffness(std::span<const CurveRow> rows, int component) {
+  const CurveRow& start = rows.front();
+  const auto loaded =
+      std::ranges::find_if(rows, [&](const CurveRow& row) { return row.displacement != start.displacement; });
+  if (loaded == rows.end()) return Headlines::none;
+  return (loaded->force[component] - start.force[component]) / (loaded->displacement - start.displacement);
+}
+
+double largest_balance_error(std::span<const CurveRow> rows) {
+  double largest = Headlines::none;
+  for (const CurveRow& row : rows) largest = std::fmax(largest, balance_error(row));
+  return largest;
+}
+
+Json to_json(const Headlines& f) {
+  return {{"peak_force_N", f.peak_force},
+          {"displacement_at_peak_m", f.displacement_at_peak},
+          {"load_at_peak", f.load_at_peak},
+          {"initial_stiffness_N_per_m", f.initial_stiffness},
+          {"final_force_N", f.final_force},
+          {"final_displacement_m", f.final_displacement},
+          {"final_load", f.final_load},
+          {"final_elastic_energy_J", f.final_elastic_energy},
+          {"final_fracture_energy_J", f.final_fracture_energy},
+          {"external_work_J", f.external_work},
+          {"energy_balance_error", f.energy_balance_error},
+          {"max_energy_balance_error", f.max_energy_balance_error},
+          {"max_damage", f.max_damage},
+          {"damaged_volume_m3", f.damaged_volume}};
+}
+
+Json to_json(const RunSummary& s) {
+  Json json = {{"case", s.case_name},
+               {"status", s.status},
+               {"version", s.version},
+               {"case_hash", s.case_hash},
+               {"threads", s.threads},
+               {"cells", s.cells},
+               {"unknowns", s.unknowns},
+               {"steps", s.steps},
+               {"staggered_iterations", s.staggered_iterations},
+               {"krylov_iterations", s.krylov_iterations},
+               {"wall_seconds", s.wall_seconds},
+               {"cpu_seconds", s.cpu_seconds},
+               {"wall_seconds_by_stage", s.wall_seconds_by_stage},
+               {"cpu_seconds_by_stage", s.cpu_seconds_by_stage},
+               {"peak_memory_bytes", s.peak_memory}};
+  json.update(to_json(s.figures));
+  for (const auto& [name, value] : s.other_figures) json[name] = value;
+  return json;
+}
+
+rusage usage() {
+  rusage now{};
+  getrusage(RUSAGE_SELF, &now);
+  return now;
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
+Headlines headlines(std::span<const CurveRow> rows, int component) {
+  Headlines figures;
+  if (rows.empty()) return figures;
+  const auto force = [component](const CurveRow& row) { return row.force[component]; };
+  const CurveRow& peak = *std::ranges::max_element(rows, {}, [&](const CurveRow& row) { return std::abs(force(row)); });
+  figures.peak_force = force(peak);
+  figures.displacement_at_peak = peak.displacement;
+  figures.load_at_peak = peak.load;
+  figures.initial_stiffness = initial_stiffness(rows, component);
+  const CurveRow& last = rows.back();
+  figures.final_force = force(last);
+  figures.final_displacement = last.displacement;
+  figures.final_load = last.load;
+  figures.final_elastic_energy = last.elastic_energy;
+  figures.final_fracture_energy = last.fracture_energy;
+  figures.external_work = last.external_work;
+  figures.max_damage = last.max_damage;
+  figures.damaged_volume = last.damaged_volume;
+  figures.energy_balance_error = balance_error(last);
+  figures.max_energy_balance_error = largest_balance_error(rows);
+  return figures;
+}
+
+void write_summary(const std::filesystem::path& path, const RunSummary& summary) {
+  write_file(path, to_json(summary).dump(2) + "\n");
+}
+
+double peak_memory() { return 1024.0 * static_cast<double>(usage().ru_maxrss); }  // Linux counts in KiB
+
+double cpu_seconds() {
+  const rusage now = usage();
+  return seconds(now.ru_utime) + seconds(now.ru_stime);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,65 @@
+#pragma once
+// summary.json: what ran, what it cost, and the figures that one asks for first.
+
+#include "postproc/curve_csv.h"
+
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+
+namespace pfdm {
+
+/// Figures of a force-displacement curve; NaN where the curve has none.
+struct Headlines {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double peak_force = none;                ///< largest in magnitude, of the force along the displacement [N]
+  double displacement_at_peak = none;      ///< [m]
+  double load_at_peak = none;              ///< load parameter [-]
+  double initial_stiffness = none;         ///< secant from the first row to the first other displacement [N/m]
+  double final_force = none;               ///< [N]
+  double final_displacement = none;        ///< [m]
+  double final_load = none;                ///< load parameter [-]
+  double final_elastic_energy = none;      ///< [J]
+  double final_fracture_energy = none;     ///< [J]
+  double external_work = none;             ///< at the end [J]
+  double max_damage = none;                ///< at the end [-]
+  double damaged_volume = none;            ///< at the end [m^3]
+  double energy_balance_error = none;      ///< |W - E_elastic - E_fracture| / W at the end [-]
+  double max_energy_balance_error = none;  ///< the largest over all rows with W > 0 [-]
+};
+
+/// `component` 0, 1, 2: the direction of the displacement in the rows.
+Headlines headlines(std::span<const CurveRow> rows, int component);
+
+struct RunSummary {
+  std::string case_name;
+  std::string status;  ///< "complete", or why it ended before
+  std::string version;
+  std::string case_hash;
+  int threads = 0;
+  Index cells = 0;
+  Index unknowns = 0;
+  Index steps = 0;
+  Index staggered_iterations = 0;
+  Index krylov_iterations = 0;
+  double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;
+  std::map<std::string, double> wall_seconds_by_stage;
+  std::map<std::string, double> cpu_seconds_by_stage;
+  double peak_memory = 0.0;  ///< [byte]
+  Headlines figures;
+  std::map<std::string, double> other_figures;  ///< a case's own, with the unit in the name
+};
+
+/// Written whole or not at all; numbers that are not finite become null. Throws ComputationError if the file cannot be
+/// written.
+void write_summary(const std::filesystem::path& path, const RunSummary& summary);
+
+/// The most memory that this process has had so far [byte].
+double peak_memory();
+/// Processor time of all threads of this process so far [s].
+double cpu_seconds();
+
+}  // namespace pfdm

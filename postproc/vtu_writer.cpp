@@ -1,0 +1,200 @@
+#include "postproc/vtu_writer.h"
+
+#include "physics/error.h"
+#include "postproc/atomic_file.h"
+
+#include <fmt/format.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <array>
+
+namespace pfdm {
+namespace {
+
+int vtk_cell_type(CellShape shape) {
+  switch (shape) {
+    case CellShape::tetrahedron: return VTK_TETRA;
+    case CellShape::wedge: return VTK_WEDGE;
+    case CellShape::pyramid: return VTK_PYRAMID;
+    case CellShape::hexahedron: return VTK_HEXAHEDRON;
+    case CellShape::polyhedron: return VTK_POLYHEDRON;
+  }
+  return VTK_EMPTY_CELL;
+}
+
+vtkSmartPointer<vtkPoints> make_points(const Mesh& mesh) {
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
+  vtkIdType id = 0;
+  for (const Vector& x : mesh.points) points->SetPoint(id++, x.data());
+  return points;
+}
+
+// [n_points, p..., n_points, p...] over the faces of a cell, each counter-clockwise when seen from outside the cell.
+std::vector<vtkIdType> face_stream(const Mesh& mesh, Index cell) {
+  std::vector<vtkIdType> stream;
+  for (const Index face : mesh.faces_of_cell(cell)) {
+    const auto points = mesh.points_of_face(face);
+    stream.push_back(static_cast<vtkIdType>(points.size()));
+    if (mesh.owner[face] == cell)
+      stream.insert(stream.end(), points.begin(), points.end());
+    else
+      stream.insert(stream.end(), points.rbegin(), points.rend());
+  }
+  return stream;
+}
+
+void insert_cell(vtkUnstructuredGrid& grid, const Mesh& mesh, Index cell) {
+  const auto span = mesh.points_of_cell(cell);
+  const std::vector<vtkIdType> points(span.begin(), span.end());
+  const auto n_points = static_cast<vtkIdType>(points.size());
+  const int type = vtk_cell_type(mesh.shape[cell]);
+  if (type != VTK_POLYHEDRON) {
+    grid.InsertNextCell(type, n_points, points.data());
+    return;
+  }
+  const std::vector<vtkIdType> faces = face_stream(mesh, cell);
+  const auto n_faces = static_cast<vtkIdType>(mesh.faces_of_cell(cell).size());
+  grid.InsertNextCell(type, n_points, points.data(), n_faces, faces.data());
+}
+
+vtkSmartPointer<vtkStringArray> make_region_names(const Mesh& mesh) {
+  auto names = vtkSmartPointer<vtkStringArray>::New();
+  names->SetName("region_names");
+  for (const std::string& name : mesh.region_names) names->InsertNextValue(name);
+  return names;
+}
+
+// VTK reads the values where they are; its interface has no notion of arrays that it may not write to.
+template <class Array, class T>
+vtkSmartPointer<vtkDataArray> view(const T* values, Index n_cells, int n_components) {
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetNumberOfComponents(n_components);
+  constexpr int keep_ownership = 1;
+  array->SetArray(const_cast<T*>(values), vtkIdType{n_components} * n_cells, keep_ownership);
+  return array;
+}
+
+template <class Array, class Field, class Components>
+vtkSmartPointer<vtkDataArray> copy(const Field& field, int n_components, const Components& components_of) {
+  using Real = typename Array::ValueType;
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetNumberOfComponents(n_components);
+  array->SetNumberOfTuples(field.size());
+  Real* out = array->GetPointer(0);
+  for (const auto& value : field)
+    for (const double component : components_of(value)) *out++ = static_cast<Real>(component);
+  return array;
+}
+
+template <class Field, class Components>
+vtkSmartPointer<vtkDataArray> copy(const Field& field, Precision precision, int n, const Components& components_of) {
+  return precision == Precision::single_precision ? copy<vtkFloatArray>(field, n, components_of)
+                                                  : copy<vtkDoubleArray>(field, n, components_of);
+}
+
+vtkSmartPointer<vtkDataArray> to_array(const CellField<double>& field, Precision precision) {
+  if (precision == Precision::double_precision) return view<vtkDoubleArray>(field.data(), field.size(), 1);
+  return copy(field, precision, 1, [](double value) { return std::array{value}; });
+}
+
+vtkSmartPointer<vtkDataArray> to_array(const CellField<Vector>& field, Precision precision) {
+  static_assert(sizeof(Vector) == 3 * sizeof(double));
+  if (precision == Precision::double_precision) {
+    const double* values = field.size() == 0 ? nullptr : field.data()->data();
+    return view<vtkDoubleArray>(values, field.size(), 3);
+  }
+  return copy(field, precision, 3, [](const Vector& v) { return std::array{v.x(), v.y(), v.z()}; });
+}
+
+vtkSmartPointer<vtkDataArray> to_array(const CellField<Tensor>& field, Precision precision) {
+  auto array = copy(field, precision, 6, [](const Tensor& tensor) {
+    const Tensor s = symmetric_part(tensor);
+    return std::array{s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
+  });
+  vtkIdType component = 0;
+  for (const char* name : {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}) array->SetComponentName(component++, name);
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> to_array(const CellField<Index>& field, Precision) {
+  static_assert(sizeof(Index) == sizeof(int));
+  return view<vtkIntArray>(field.data(), field.size(), 1);
+}
+
+vtkSmartPointer<vtkDataArray> to_array(const NamedField& field, Index n_cells) {
+  const auto convert = [&](const auto* values) {
+    if (values->size() != n_cells)
+      throw InputError(fmt::format("the field \"{}\" has {} values for {} cells", field.name, values->size(), n_cells));
+    return to_array(*values, field.precision);
+  };
+  auto array = std::visit(convert, field.values);
+  array->SetName(field.name.c_str());
+  return array;
+}
+
+vtkSmartPointer<vtkDoubleArray> time_value(double time) {
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName("TimeValue");
+  array->InsertNextValue(time);
+  return array;
+}
+
+// Into memory, and from there to the disk by write_file: VTK overlooks some errors of the disk.
+std::string serialise(vtkUnstructuredGrid& grid) {
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputData(&grid);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  // A frame of 120,000 cells: 0.05 s and 13 MB with LZ4, 0.5 s and 11 MB with zlib at level 1, 0.1 s and 17 MB without.
+  writer->SetCompressorTypeToLZ4();
+  writer->SetHeaderTypeToUInt64();
+  writer->SetIdTypeToInt32();
+  writer->WriteToOutputStringOn();
+  if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError)
+    throw ComputationError(fmt::format("VTK could not encode a mesh with {} cells (its error {})",
+                                       grid.GetNumberOfCells(), writer->GetErrorCode()));
+  return writer->GetOutputString();
+}
+
+}  // namespace
+
+struct VtuWriter::Grid {
+  vtkNew<vtkUnstructuredGrid> mesh;
+};
+
+VtuWriter::VtuWriter(const Mesh& mesh) : grid_(std::make_unique<Grid>()) {
+  vtkUnstructuredGrid& grid = *grid_->mesh;
+  grid.SetPoints(make_points(mesh));
+  grid.Allocate(mesh.n_cells());
+  for (Index cell = 0; cell < mesh.n_cells(); ++cell) insert_cell(grid, mesh, cell);
+  grid.GetFieldData()->AddArray(make_region_names(mesh));
+}
+
+VtuWriter::~VtuWriter() = default;
+VtuWriter::VtuWriter(VtuWriter&&) noexcept = default;
+VtuWriter& VtuWriter::operator=(VtuWriter&&) noexcept = default;
+
+void VtuWriter::write(const std::filesystem::path& path, const std::vector<NamedField>& fields, double time) const {
+  // A shallow copy shares the cells and leaves no pointers to the caller's values behind.
+  vtkNew<vtkUnstructuredGrid> frame;
+  frame->ShallowCopy(grid_->mesh);
+  const auto n_cells = static_cast<Index>(frame->GetNumberOfCells());
+  for (const NamedField& field : fields) frame->GetCellData()->AddArray(to_array(field, n_cells));
+  frame->GetFieldData()->AddArray(time_value(time));
+  write_file(path, serialise(*frame));
+}
+
+}  // namespace pfdm

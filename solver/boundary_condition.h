@@ -1,0 +1,26 @@
+#pragma once
+// What is prescribed on a patch.
+
+#include "physics/tensor.h"
+
+#include <array>
+#include <functional>
+#include <string>
+
+namespace pfdm {
+
+struct BoundaryCondition {
+  enum class Kind {
+    components,  ///< each Cartesian component is a displacement or a traction
+    symmetry,    ///< no normal displacement, no tangential traction
+    plane,       ///< front or back of a mesh one cell thick: plane strain, the cells carry no gradient across it
+  };
+  std::string patch;
+  Kind kind = Kind::components;
+  std::array<bool, 3> displacement_prescribed{false, false, false};  ///< otherwise that component is a traction
+  /// Components: displacement [m] where prescribed, traction [Pa] elsewhere; x [m], load parameter t [-].
+  /// Empty means zero everywhere.
+  std::function<Vector(const Vector& x, double t)> value;
+};
+
+}  // namespace pfdm

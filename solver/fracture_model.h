@@ -1,0 +1,50 @@
+#pragma once
+// Everything that a fracture run is given besides its mesh: materials by region, boundary conditions, settings.
+
+#include "physics/crack_geometry.h"
+#include "physics/degradation.h"
+#include "physics/energy_split.h"
+#include "solver/boundary_condition.h"
+
+#include <vector>
+
+namespace pfdm {
+
+struct RegionModel {
+  IsotropicElasticity elasticity;
+  double Gc = 0.0;         ///< fracture toughness [J/m^2]
+  double ell = 0.0;        ///< regularisation length [m]
+  bool damageable = true;  ///< false pins d = 0 in the region
+};
+
+enum class Irreversibility {
+  bounds,   ///< d_n <= d <= 1, by active set
+  history,  ///< the driving energy is the largest that was seen (Miehe et al., CMAME 199 (2010) 2765, eq. 38)
+};
+
+struct FractureModel {
+  std::vector<RegionModel> regions;  ///< one per region of the mesh
+  const CrackGeometry* crack = nullptr;
+  const Degradation* degradation = nullptr;
+  const EnergySplit* split = nullptr;
+  Irreversibility irreversibility = Irreversibility::bounds;
+  double residual_stiffness = 1e-6;  ///< k of g_k = (1 - k) g + k
+  std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
+};
+
+struct StaggeredSettings {
+  double damage_tolerance = 1e-4;  ///< largest change of d between iterations
+  double energy_tolerance = 1e-4;  ///< change of the total energy over the energy
+  double equilibrium_tolerance = 1e-6;  ///< row-scaled residual of the momentum balance at an accepted step, relative
+  Index maximum_iterations = 500;
+};
+
+struct LoadingSettings {
+  double end = 1.0;                 ///< load parameter t at the end
+  double initial_increment = 0.05;  ///< of t
+  double minimum_increment = 1e-5;
+  double maximum_increment = 0.05;
+  std::vector<double> stops;  ///< values of t that a step must end on (frames)
+};
+
+}  // namespace pfdm

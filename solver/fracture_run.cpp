@@ -1,0 +1,176 @@
+#include "solver/fracture_run.h"
+
+#include "physics/error.h"
+#include "solver/parallel.h"
+#include "solver/staggered.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr Index easy_iterations = 12;   // a step that needs no more lets the increment grow
+constexpr double growth = 1.5, cut = 0.5;
+constexpr double load_rounding = 1e-12;  // of the load parameter
+
+void require_complete(const Mesh& mesh, const FractureModel& model) {
+  if (model.regions.size() != mesh.region_names.size())
+    throw InputError(fmt::format("the mesh has {} regions, the model {}", mesh.region_names.size(), model.regions.size()));
+  if (model.crack == nullptr || model.degradation == nullptr || model.split == nullptr)
+    throw InputError("the model names no crack geometric function, degradation or energy split");
+  for (std::size_t r = 0; r < model.regions.size(); ++r) {
+    const RegionModel& region = model.regions[r];
+    if (region.damageable && !(region.Gc > 0.0 && region.ell > 0.0))
+      throw InputError(fmt::format("region \"{}\" can be damaged but has no positive toughness and length",
+                                   mesh.region_names[r]));
+  }
+}
+
+}  // namespace
+
+struct FractureRun::Parts {
+  const Mesh& mesh;
+  FractureModel model;
+  LoadingSettings loading;
+  Unknowns unknowns;
+  Staggered staggered;
+  Index krylov_iterations = 0, staggered_iterations = 0;
+
+  Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& settings, LoadingSettings l)
+      : mesh(m),
+        model(std::move(fm)),
+        loading(std::move(l)),
+        unknowns((require_complete(m, model), place_unknowns(m, model))),
+        staggered(m, model, unknowns, settings) {}
+
+  double next_stop(double load) const {
+    double stop = loading.end;
+    for (const double s : loading.stops)
+      if (s > load + load_rounding) stop = std::min(stop, s);
+    return stop;
+  }
+
+  std::vector<Vector> boundary_forces(const FractureState& state) {
+    return staggered.momentum().balance().boundary_forces(state.displacement);
+  }
+
+  double work_increment(const FractureState& from, const FractureState& to) const {
+    double work = 0.0;
+    for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f) {
+      const Index node = unknowns.node_of_face[f];
+      if (node < 0) continue;
+      const auto k = as_size(f - mesh.n_interior_faces());
+      work += 0.5 * (from.boundary_force[k] + to.boundary_force[k])
+                        .dot(to.displacement[as_size(node)] - from.displacement[as_size(node)]);
+    }
+    return work;
+  }
+
+  StepReport report(const FractureState& state, const StepOutcome& outcome, double increment) {
+    StepReport r;
+    r.step = state.step;
+    r.load = state.load;
+    r.reaction = sum_by_patch(state.boundary_force);
+    r.patch_displacement = staggered.momentum().balance().patch_displacements(state.displacement);
+    r.elastic_energy = outcome.elastic_energy;
+    r.fracture_energy = staggered.damage_equation().fracture_energy(state.damage);
+    r.external_work = state.external_work;
+    r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return state.damage[c]; });
+    r.damaged_volume =
+        parallel_sum(mesh.n_cells(), [&](Index c) { return state.damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
+    r.staggered_iterations = outcome.iterations;
+    r.krylov_iterations = outcome.krylov_iterations;
+    r.increment = increment;
+    return r;
+  }
+
+  std::vector<Vector> sum_by_patch(const std::vector<Vector>& boundary_force) const {
+    std::vector<Vector> sums(mesh.patches.size(), Vector::Zero());
+    for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+      for (Index f = 0; f < mesh.patches[p].n_faces; ++f)
+        sums[p] += boundary_force[as_size(mesh.patches[p].first_face + f - mesh.n_interior_faces())];
+    return sums;
+  }
+};
+
+FractureRun::FractureRun(const Mesh& mesh, FractureModel model, StaggeredSettings staggered, LoadingSettings loading)
+    : parts_(std::make_unique<Parts>(mesh, std::move(model), staggered, std::move(loading))) {}
+
+FractureRun::~FractureRun() = default;
+
+FractureState FractureRun::initial_state() const {
+  const auto n = as_size(parts_->mesh.n_cells());
+  FractureState state;
+  state.increment = parts_->loading.initial_increment;
+  state.displacement.assign(as_size(parts_->unknowns.n_nodes()), Vector::Zero());
+  state.damage = CellField<double>(n, 0.0);
+  state.driving_energy = CellField<double>(n, 0.0);
+  state.strain = CellField<Tensor>(n, Tensor::Zero());
+  state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
+  return state;
+}
+
+FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
+  Parts& parts = *parts_;
+  if (state.step == 0 && hooks.step_done) hooks.step_done(state, parts.report(state, {}, 0.0));
+  while (state.load < parts.loading.end - load_rounding) {
+    const double stop = parts.next_stop(state.load);
+    FractureState trial = state;
+    trial.step = state.step + 1;
+    trial.load = state.load + state.increment > stop - load_rounding ? stop : state.load + state.increment;
+    const double increment = trial.load - state.load;
+    if (state.load > 0.0)
+      for (Vector& u : trial.displacement) u *= trial.load / state.load;
+    const StepOutcome outcome = parts.staggered.solve_step(state, trial, hooks);
+    parts.krylov_iterations += outcome.krylov_iterations;
+    parts.staggered_iterations += outcome.iterations;
+    if (!outcome.converged) {
+      state.increment = cut * increment;
+      if (state.increment < parts.loading.minimum_increment)
+        throw ComputationError(fmt::format(
+            "step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load): more iterations "
+            "(solver.maximum_iterations) or a smaller loading.minimum_increment may help",
+            trial.step, trial.load, parts.loading.minimum_increment));
+      if (hooks.warned)
+        hooks.warned(fmt::format("step {} at load {:.6g} did not converge; the increment is cut to {:.3g}", trial.step,
+                                 trial.load, state.increment));
+      continue;
+    }
+    trial.boundary_force = parts.boundary_forces(trial);
+    trial.external_work = state.external_work + parts.work_increment(state, trial);
+    if (outcome.iterations <= easy_iterations)
+      trial.increment = std::min(growth * std::max(increment, state.increment), parts.loading.maximum_increment);
+    state = std::move(trial);
+    if (hooks.step_done) hooks.step_done(state, parts.report(state, outcome, increment));
+  }
+  return state;
+}
+
+OutputFields FractureRun::output(const FractureState& state) const {
+  Staggered& staggered = parts_->staggered;
+  staggered.degrade(state);
+  const CellMechanics mechanics = staggered.momentum().balance().mechanics(state.displacement);
+  const Mesh& mesh = parts_->mesh;
+  CellField<double> density(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c) density[c] = mechanics.energy[c] / mesh.cell_volume[c];
+  return {.displacement = CellField<Vector>(std::vector<Vector>(state.displacement.begin(),
+                                                                state.displacement.begin() + mesh.n_cells())),
+          .damage = state.damage,
+          .stress = mechanics.stress,
+          .strain = mechanics.strain,
+          .energy_density = density,
+          .driving_energy = state.driving_energy};
+}
+
+Index FractureRun::n_unknowns() const { return 3 * parts_->unknowns.n_nodes(); }
+
+std::map<std::string, double> FractureRun::cpu_seconds_by_stage() const { return parts_->staggered.clock().seconds(); }
+
+Index FractureRun::krylov_iterations() const { return parts_->krylov_iterations; }
+
+Index FractureRun::staggered_iterations() const { return parts_->staggered_iterations; }
+
+}  // namespace pfdm

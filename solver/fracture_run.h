@@ -1,0 +1,54 @@
+#pragma once
+// A fracture run from its mesh and model: the load stepping, with hooks for whoever writes results.
+
+#include "mesh/mesh.h"
+#include "solver/fracture_model.h"
+#include "solver/state.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace pfdm {
+
+/// Called while a step is being solved; return false to stop the run at once.
+struct IterationReport {
+  Index step = 0;
+  Index iteration = 0;
+  double load = 0.0;
+  double damage_change = 0.0;
+  double energy_change = 0.0;
+  Index krylov_iterations = 0;
+};
+
+struct RunHooks {
+  /// After every accepted step, and once for the unloaded state (step 0) of a run that is not restarted.
+  std::function<void(const FractureState&, const StepReport&)> step_done;
+  std::function<void(const IterationReport&)> iterated;
+  std::function<void(const std::string& message)> warned;
+};
+
+class FractureRun {
+ public:
+  /// Throws InputError for what cannot be: a missing patch, a body free to move, a region without toughness.
+  FractureRun(const Mesh& mesh, FractureModel model, StaggeredSettings staggered, LoadingSettings loading);
+  ~FractureRun();
+
+  FractureState initial_state() const;
+  /// From `state` to the end of the load. Throws ComputationError when the smallest increment does not converge;
+  /// all accepted steps have then been reported.
+  FractureState run(FractureState state, const RunHooks& hooks);
+
+  OutputFields output(const FractureState& state) const;
+  Index n_unknowns() const;                                ///< of displacement
+  std::map<std::string, double> cpu_seconds_by_stage() const;
+  Index krylov_iterations() const;
+  Index staggered_iterations() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,61 @@
+#pragma once
+// Cell gradients by weighted least squares, exact for linear fields: grad u = sum_j (u_j - u_P) (x) c_j.
+//
+// Samples are neighbours of the same zone and the nodes on the cell's faces. Tetrahedra take two rings of face
+// neighbours with weight |d|^-2, all other cells one ring with |d|^-3: two rings on flat curved prisms falsify the
+// stress, one ring on tetrahedra does not converge. A neighbour's weight falls with min(1, g_j/g_P), so that a
+// broken cell does not bridge into a sound one.
+
+#include "mesh/mesh.h"
+
+#include <vector>
+
+namespace pfdm {
+
+struct GradientSettings {
+  CellField<Index> zone;                    ///< which cells may see each other
+  FaceField<Index> node_of_face;            ///< sample nodes on faces (-1: none), numbered from n_cells on; or empty
+  Vector plane_normal = Vector::Zero();     ///< direction without gradient, if any
+  std::vector<char> wanted;                 ///< cells whose gradient is asked for; empty: all
+  bool zero_if_deficient = false;           ///< too few neighbours: gradient zero; otherwise InputError
+};
+
+class Gradient {
+ public:
+  Gradient(const Mesh& mesh, const GradientSettings& settings);
+
+  /// Rebuilds the coefficients where the stiffness factors g of a cell's neighbourhood have changed.
+  void update(const CellField<double>& g);
+
+  Tensor of(const Vector* u, Index cell) const {
+    Tensor gradient = Tensor::Zero();
+    const Vector here = u[cell];
+    for (std::size_t s = begin(cell); s < end(cell); ++s)
+      gradient.noalias() += (u[sample_[s]] - here) * coefficient_[s].transpose();
+    return gradient;
+  }
+
+  Vector of(const double* d, Index cell) const {
+    Vector gradient = Vector::Zero();
+    for (std::size_t s = begin(cell); s < end(cell); ++s) gradient += (d[sample_[s]] - d[cell]) * coefficient_[s];
+    return gradient;
+  }
+
+  Index n_cells() const { return static_cast<Index>(offsets_.size()) - 1; }
+
+ private:
+  std::size_t begin(Index cell) const { return offsets_[static_cast<std::size_t>(cell)]; }
+  std::size_t end(Index cell) const { return offsets_[static_cast<std::size_t>(cell) + 1]; }
+  void build(Index cell, const CellField<double>* g);
+  bool has_full_rank(Index cell, const std::vector<Index>& samples) const;
+
+  std::vector<std::size_t> offsets_;
+  std::vector<Index> sample_;
+  std::vector<Vector> coefficient_;  // [1/m]
+  std::vector<Vector> node_;         // position of every node [m]
+  std::vector<bool> wide_;           // two rings, |d|^-2
+  CellField<double> g_;              // at the last update
+  Vector plane_normal_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,209 @@
+#include "solver/momentum.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+Tensor scaling(double along, double across, const Vector& n) {
+  return across * Tensor::Identity() + (along - across) * n * n.transpose();
+}
+
+CellField<Tensor> closures(const Mesh& mesh) {
+  CellField<Tensor> closure(as_size(mesh.n_cells()));
+  parallel_for(mesh.n_cells(), [&](Index c) {
+    Tensor K = Tensor::Zero();
+    for (const Index f : mesh.faces_of_cell(c)) {
+      const double sign = mesh.owner[f] == c ? 1.0 : -1.0;
+      K += sign * mesh.face_area[f] * (mesh.face_centre[f] - mesh.cell_centre[c]).transpose();
+    }
+    closure[c] = (K / mesh.cell_volume[c]).inverse();
+  });
+  return closure;
+}
+
+}  // namespace
+
+MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
+    : mesh_(mesh),
+      unknowns_(unknowns),
+      gradient_(mesh, {.zone = unknowns.zone, .node_of_face = unknowns.node_of_face, .plane_normal = unknowns.plane_normal, .wanted = {}}),
+      moduli_(as_size(mesh.n_cells())),
+      force_of_face_(as_size(mesh.n_faces()), -1),
+      second_side_of_node_(unknowns.face_of_node.size(), -1),
+      first_side_of_node_(unknowns.face_of_node.size(), -1),
+      closure_(closures(mesh)),
+      gradients_(as_size(mesh.n_cells())) {
+  for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
+    if (unknowns.node_of_face[f] >= 0) continue;
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    force_of_face_[as_size(f)] = static_cast<Index>(links_.size());
+    links_.push_back({.face = f,
+                      .P = P,
+                      .N = N,
+                      .area = mesh.face_area[f].norm(),
+                      .n = mesh.face_area[f].normalized(),
+                      .d_P = mesh.face_centre[f] - mesh.cell_centre[P],
+                      .d_N = mesh.face_centre[f] - mesh.cell_centre[N],
+                      .weight_n = 0.0,
+                      .weight_t = 0.0,
+                      .c_n = 0.0,
+                      .c_t = 0.0});
+  }
+  const auto add_side = [&](Index node, Index f, Index cell, double sign) {
+    sides_.push_back({.face = f,
+                      .cell = cell,
+                      .node = node,
+                      .area = mesh.face_area[f].norm(),
+                      .n = sign * mesh.face_area[f].normalized(),
+                      .d = mesh.face_centre[f] - mesh.cell_centre[cell],
+                      .a_n = 0.0,
+                      .a_t = 0.0});
+    return static_cast<Index>(sides_.size()) - 1;
+  };
+  for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k) {
+    const Index f = unknowns.face_of_node[k], node = unknowns.n_cells + static_cast<Index>(k);
+    first_side_of_node_[k] = add_side(node, f, mesh.owner[f], 1.0);
+    force_of_face_[as_size(f)] = static_cast<Index>(links_.size()) + first_side_of_node_[k];
+    if (mesh.is_interior(f)) second_side_of_node_[k] = add_side(node, f, mesh.neighbour[f], -1.0);
+  }
+  forces_.resize(links_.size() + sides_.size());
+  cell_offsets_.push_back(0);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    for (const Index f : mesh.faces_of_cell(c)) {
+      const Index force = force_of_face_[as_size(f)], node = unknowns.node_of_face[f];
+      if (force < 0) continue;
+      if (mesh.owner[f] == c)
+        cell_forces_.push_back({force, 1.0});
+      else if (node < 0)
+        cell_forces_.push_back({force, -1.0});
+      else
+        cell_forces_.push_back({static_cast<Index>(links_.size()) + second_side_of_node_[as_size(node - unknowns.n_cells)], 1.0});
+    }
+    cell_offsets_.push_back(cell_forces_.size());
+  }
+}
+
+void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
+  moduli_ = moduli;
+  gradient_.update(g);
+  parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
+    Link& link = links_[as_size(i)];
+    const IsotropicElasticity &P = moduli[link.P], &N = moduli[link.N];
+    const double h_P = std::abs(link.d_P.dot(link.n)), h_N = std::abs(link.d_N.dot(link.n));
+    const double a_n = P.constrained_modulus() / h_P, b_n = N.constrained_modulus() / h_N;
+    const double a_t = P.mu / h_P, b_t = N.mu / h_N;
+    link.weight_n = b_n / (a_n + b_n);
+    link.weight_t = b_t / (a_t + b_t);
+    link.c_n = a_n * link.weight_n;
+    link.c_t = a_t * link.weight_t;
+  });
+  parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
+    Side& side = sides_[as_size(i)];
+    const double h = std::abs(side.d.dot(side.n));
+    side.a_n = moduli[side.cell].constrained_modulus() / h;
+    side.a_t = moduli[side.cell].mu / h;
+  });
+}
+
+Vector MomentumOperator::normal_stress(Index cell, const Vector& n) const {
+  const Tensor& G = gradients_[cell];
+  const IsotropicElasticity& c = moduli_[cell];
+  return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
+}
+
+void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
+  parallel_for(mesh_.n_cells(), [&](Index c) { gradients_[c] = gradient_.of(u.data(), c); });
+  const auto n_links = static_cast<Index>(links_.size());
+  parallel_for(n_links, [&](Index i) {
+    const Link& link = links_[as_size(i)];
+    const Vector stress_P = normal_stress(link.P, link.n), stress_N = normal_stress(link.N, link.n);
+    const Vector jump = u[as_size(link.N)] + gradients_[link.N] * link.d_N - u[as_size(link.P)] -
+                        gradients_[link.P] * link.d_P;
+    forces_[as_size(i)] =
+        link.area * (stress_N + scale(link.weight_n, link.weight_t, link.n, stress_P - stress_N) +
+                     scale(link.c_n, link.c_t, link.n, jump));
+  });
+  parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
+    const Side& side = sides_[as_size(i)];
+    const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - gradients_[side.cell] * side.d;
+    forces_[as_size(n_links + i)] =
+        side.area * (normal_stress(side.cell, side.n) + scale(side.a_n, side.a_t, side.n, gap));
+  });
+}
+
+void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& out) const {
+  compute_forces(u);
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    Vector sum = Vector::Zero();
+    for (std::size_t k = cell_offsets_[as_size(c)]; k < cell_offsets_[as_size(c) + 1]; ++k)
+      sum += cell_forces_[k].sign * forces_[as_size(cell_forces_[k].force)];
+    out[as_size(c)] = -sum;
+  });
+  const std::size_t n_links = links_.size();
+  parallel_for(static_cast<Index>(first_side_of_node_.size()), [&](Index k) {
+    Vector sum = forces_[n_links + as_size(first_side_of_node_[as_size(k)])];
+    if (const Index second = second_side_of_node_[as_size(k)]; second >= 0) sum += forces_[n_links + as_size(second)];
+    out[as_size(unknowns_.n_cells + k)] = unknowns_.free_directions[as_size(k)] * sum;
+  });
+}
+
+std::vector<Vector> MomentumOperator::load_vector(double t) const {
+  std::vector<Vector> load(as_size(unknowns_.n_nodes()), Vector::Zero());
+  for (const PatchCondition& on : unknowns_.conditions) {
+    const BoundaryCondition& condition = on.condition;
+    if (condition.kind != BoundaryCondition::Kind::components || !condition.value) continue;
+    const Patch& patch = mesh_.patches[as_size(on.patch)];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Index node = unknowns_.node_of_face[f];
+      load[as_size(node)] = unknowns_.free_directions[as_size(node - unknowns_.n_cells)] *
+                            condition.value(mesh_.face_centre[f], t) * mesh_.face_area[f].norm();
+    }
+  }
+  return load;
+}
+
+void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
+  for (const PatchCondition& on : unknowns_.conditions) {
+    const BoundaryCondition& condition = on.condition;
+    if (condition.kind == BoundaryCondition::Kind::plane) continue;
+    const Patch& patch = mesh_.patches[as_size(on.patch)];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Index node = unknowns_.node_of_face[f];
+      const Tensor& is_free = unknowns_.free_directions[as_size(node - unknowns_.n_cells)];
+      const Vector value = condition.value ? condition.value(mesh_.face_centre[f], t) : Vector::Zero();
+      u[as_size(node)] = is_free * u[as_size(node)] + (Tensor::Identity() - is_free) * value;
+    }
+  }
+}
+
+BlockTriplets MomentumOperator::compact_matrix() const {
+  BlockTriplets matrix;
+  matrix.diagonal.assign(as_size(unknowns_.n_nodes()), Tensor::Zero());
+  matrix.off_diagonal.reserve(links_.size() + sides_.size());
+  const auto bounded = [](const Vector& d, const Vector& n) { return std::max(std::abs(d.dot(n)), 1e-3 * d.norm()); };
+  for (const Link& link : links_) {
+    const double h_P = bounded(link.d_P, link.n), h_N = bounded(link.d_N, link.n);
+    const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
+    const double along = 1.0 / (h_P / P.constrained_modulus() + h_N / N.constrained_modulus());
+    const double across = 1.0 / (h_P / P.mu + h_N / N.mu);
+    const Tensor c = link.area * scaling(along, across, link.n);
+    matrix.diagonal[as_size(link.P)] += c;
+    matrix.diagonal[as_size(link.N)] += c;
+    matrix.off_diagonal.push_back({link.P, link.N, -c});
+  }
+  for (const Side& side : sides_) {
+    const double h = bounded(side.d, side.n);
+    const Tensor a = (side.area / h) * scaling(moduli_[side.cell].constrained_modulus(), moduli_[side.cell].mu, side.n);
+    const Tensor& is_free = unknowns_.free_directions[as_size(side.node - unknowns_.n_cells)];
+    matrix.diagonal[as_size(side.cell)] += a;
+    matrix.diagonal[as_size(side.node)] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);
+    if (!is_free.isZero()) matrix.off_diagonal.push_back({side.cell, side.node, -a * is_free});
+  }
+  return matrix;
+}
+
+}  // namespace pfdm

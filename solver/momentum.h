@@ -1,0 +1,100 @@
+#pragma once
+// The momentum balance on cell-centred finite volumes with two-sided faces. Every face lets both its cells reconstruct
+// the traction and takes the face displacement at which they agree, so traction is continuous whatever the moduli:
+//
+//   a = (mu_P I + (lambda+mu)_P n n^T) / h_P,  b likewise for N,  c = a (a+b)^-1 b,
+//   t = b (a+b)^-1 sigma_P n + a (a+b)^-1 sigma_N n + c J,  J = (u_N + G_N d_N) - (u_P + G_P d_P),
+//
+// with G the least-squares gradients and d_P = x_f - x_P. On orthogonal cells the normal gradients cancel and the exact
+// series flux is left: a broken cell (g -> 0) disconnects its neighbours. Faces between elastic zones and on the
+// boundary carry u_f itself: each side has t_c = sigma_c n + a_c (u_f - u_c - G_c d_c).
+
+#include "solver/block_matrix.h"
+#include "solver/gradient.h"
+#include "solver/unknowns.h"
+
+#include <vector>
+
+namespace pfdm {
+
+/// What a displacement means in the cells.
+struct CellMechanics {
+  CellField<Tensor> strain;  ///< from the two-sided face displacements (Green-Gauss) [-]
+  CellField<Tensor> stress;  ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]
+  CellField<double> energy;  ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
+};
+
+class MomentumOperator {
+ public:
+  MomentumOperator(const Mesh& mesh, const Unknowns& unknowns);
+
+  /// Secant moduli of every cell, and the stiffness factors g that weigh the gradients.
+  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+
+  /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node.
+  void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
+  /// Forces from prescribed tractions at the load parameter t, [N].
+  std::vector<Vector> load_vector(double t) const;
+  /// Writes the prescribed components of the boundary nodes at the load parameter t.
+  void prescribe(double t, std::vector<Vector>& u) const;
+
+  /// The compact symmetric matrix that preconditions A: c between cells, a from a cell to its face nodes.
+  BlockTriplets compact_matrix() const;
+
+  CellMechanics mechanics(const std::vector<Vector>& u) const;
+  std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;      ///< per boundary face [N]
+  /// Traction [Pa] on each interior face that carries a node, on its owner.
+  std::vector<std::pair<Index, Vector>> interface_tractions(const std::vector<Vector>& u) const;
+  std::vector<Vector> patch_displacements(const std::vector<Vector>& u) const;  ///< per patch, area mean [m]
+
+ private:
+  // An interior face within one elastic zone.
+  struct Link {
+    Index face, P, N;
+    double area;
+    Vector n;             // from P to N
+    Vector d_P, d_N;      // from the cell centres to the face centre
+    double weight_n, weight_t;  // of sigma_P in the traction; those of sigma_N complete them to 1
+    double c_n, c_t;      // [Pa/m]
+  };
+  // One side of a face that carries a node.
+  struct Side {
+    Index face, cell, node;
+    double area;
+    Vector n;         // outwards from the cell
+    Vector d;         // from the cell centre to the face centre
+    double a_n, a_t;  // [Pa/m]
+  };
+  struct SignedForce {
+    Index force;
+    double sign;
+  };
+
+  // (across I + (along - across) n n^T) v for a unit normal n.
+  static Vector scale(double along, double across, const Vector& n, const Vector& v) {
+    return across * v + ((along - across) * n.dot(v)) * n;
+  }
+
+  void compute_forces(const std::vector<Vector>& u) const;
+  Vector normal_stress(Index cell, const Vector& n) const;
+  Vector face_displacement(const Link& link, const std::vector<Vector>& u) const;
+  FaceField<Vector> face_displacements(const std::vector<Vector>& u) const;
+  Vector seen_from(Index cell, Index face, const FaceField<Vector>& u_face, const std::vector<Vector>& u) const;
+
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+  Gradient gradient_;
+  CellField<IsotropicElasticity> moduli_;
+  std::vector<Link> links_;
+  std::vector<Side> sides_;
+  std::vector<Index> force_of_face_;        // owner's side; -1 for plane patches
+  std::vector<Index> second_side_of_node_;  // of interface nodes: the neighbour's side, else -1
+  std::vector<Index> first_side_of_node_;
+  std::vector<std::size_t> cell_offsets_;
+  std::vector<SignedForce> cell_forces_;
+  CellField<Tensor> closure_;  // K^-1 of K = (1/V) sum S (x) (x_f - x_c): the identity where faces are plane
+  mutable CellField<Tensor> gradients_;  // work space of apply
+  mutable std::vector<Vector> forces_;   // per link, then per side: A t outwards from P or from the side's cell
+};
+
+}  // namespace pfdm

@@ -1,0 +1,104 @@
+// What a displacement means: strain, stress and energy of the cells, reactions of the patches.
+//
+// The strain is that of the face displacements at which the two sides of each face agree (Green-Gauss). It is exact in
+// a laminate however broken a layer is, where the least-squares gradient, which reaches over the layer, is wrong by
+// factors; and with the tractions it closes the energy account: sum over cells of 1/2 sum A t.(u_f - u_c) is half the
+// work of the boundary forces, because t and u_f are one on each face and the forces on a cell cancel.
+
+#include "solver/momentum.h"
+#include "solver/parallel.h"
+
+namespace pfdm {
+
+// Equal tractions on both sides: (a + b) u_f = a (u_P + G_P d_P) + b (u_N + G_N d_N) + (sigma_N - sigma_P) n.
+Vector MomentumOperator::face_displacement(const Link& link, const std::vector<Vector>& u) const {
+  const Vector from_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
+  const Vector from_N = u[as_size(link.N)] + gradients_[link.N] * link.d_N;
+  const Vector stress_jump = normal_stress(link.N, link.n) - normal_stress(link.P, link.n);
+  const double sum_n = link.c_n / (link.weight_n * (1.0 - link.weight_n));
+  const double sum_t = link.c_t / (link.weight_t * (1.0 - link.weight_t));
+  return from_P + scale(link.weight_n, link.weight_t, link.n, from_N - from_P) +
+         scale(1.0 / sum_n, 1.0 / sum_t, link.n, stress_jump);
+}
+
+FaceField<Vector> MomentumOperator::face_displacements(const std::vector<Vector>& u) const {
+  FaceField<Vector> u_face(as_size(mesh_.n_faces()), Vector::Zero());
+  parallel_for(static_cast<Index>(links_.size()),
+               [&](Index i) { u_face[links_[as_size(i)].face] = face_displacement(links_[as_size(i)], u); });
+  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k)
+    u_face[unknowns_.face_of_node[k]] = u[as_size(unknowns_.n_cells) + k];
+  return u_face;
+}
+
+// Faces of plane patches carry no unknown: they move with their cell, within the plane.
+Vector MomentumOperator::seen_from(Index cell, Index face, const FaceField<Vector>& u_face,
+                                   const std::vector<Vector>& u) const {
+  if (force_of_face_[as_size(face)] >= 0) return u_face[face];
+  const Vector& n = unknowns_.plane_normal;
+  return u[as_size(cell)] - n.dot(u[as_size(cell)]) * n;
+}
+
+CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u) const {
+  compute_forces(u);
+  const FaceField<Vector> u_face = face_displacements(u);
+  const auto n = as_size(mesh_.n_cells());
+  CellMechanics result{.strain = CellField<Tensor>(n), .stress = CellField<Tensor>(n), .energy = CellField<double>(n)};
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    const double volume = mesh_.cell_volume[c];
+    Tensor gradient = Tensor::Zero(), moment = Tensor::Zero();
+    double work = 0.0;
+    std::size_t k = cell_offsets_[as_size(c)];
+    for (const Index f : mesh_.faces_of_cell(c)) {
+      const Vector area = (mesh_.owner[f] == c ? 1.0 : -1.0) * mesh_.face_area[f];
+      const Vector rise = seen_from(c, f, u_face, u) - u[as_size(c)];
+      gradient += rise * area.transpose();
+      if (force_of_face_[as_size(f)] < 0) continue;
+      const Vector force = cell_forces_[k].sign * forces_[as_size(cell_forces_[k].force)];
+      moment += force * (mesh_.face_centre[f] - mesh_.cell_centre[c]).transpose();
+      work += 0.5 * force.dot(rise);
+      ++k;
+    }
+    result.strain[c] = symmetric_part(gradient * closure_[c].transpose() / volume);
+    const Vector& normal = unknowns_.plane_normal;
+    result.stress[c] = symmetric_part((moment * closure_[c]) / volume) +
+                       moduli_[c].lambda * result.strain[c].trace() * normal * normal.transpose();
+    result.energy[c] = work;
+  });
+  return result;
+}
+
+std::vector<Vector> MomentumOperator::boundary_forces(const std::vector<Vector>& u) const {
+  compute_forces(u);
+  const Index first = mesh_.n_interior_faces();
+  std::vector<Vector> boundary(as_size(mesh_.n_faces() - first), Vector::Zero());
+  for (Index f = first; f < mesh_.n_faces(); ++f)
+    if (const Index force = force_of_face_[as_size(f)]; force >= 0) boundary[as_size(f - first)] = forces_[as_size(force)];
+  return boundary;
+}
+
+std::vector<std::pair<Index, Vector>> MomentumOperator::interface_tractions(const std::vector<Vector>& u) const {
+  compute_forces(u);
+  std::vector<std::pair<Index, Vector>> tractions;
+  for (const Index f : unknowns_.face_of_node)
+    if (mesh_.is_interior(f))
+      tractions.emplace_back(f, forces_[as_size(force_of_face_[as_size(f)])] / mesh_.face_area[f].norm());
+  return tractions;
+}
+
+std::vector<Vector> MomentumOperator::patch_displacements(const std::vector<Vector>& u) const {
+  std::vector<Vector> mean(mesh_.patches.size(), Vector::Zero());
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    const Patch& patch = mesh_.patches[p];
+    double area = 0.0;
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Index node = unknowns_.node_of_face[f];
+      if (node < 0) continue;
+      mean[p] += mesh_.face_area[f].norm() * u[as_size(node)];
+      area += mesh_.face_area[f].norm();
+    }
+    if (area > 0.0) mean[p] /= area;
+  }
+  return mean;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,101 @@
+#include "solver/momentum_solver.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr Index most_iterations = 2000;
+
+std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
+  std::vector<Index> position(as_size(unknowns.n_nodes()));
+  Index next = 0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    position[as_size(c)] = next++;
+    for (const Index f : mesh.faces_of_cell(c))
+      if (unknowns.node_of_face[f] >= 0 && mesh.owner[f] == c) position[as_size(unknowns.node_of_face[f])] = next++;
+  }
+  return position;
+}
+
+}  // namespace
+
+MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns)
+    : unknowns_(unknowns),
+      operator_(mesh, unknowns),
+      position_of_node_(interleave_face_nodes(mesh, unknowns)),
+      b_(as_size(unknowns.n_nodes())),
+      x_(as_size(unknowns.n_nodes())) {}
+
+void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
+  operator_.set_moduli(moduli, g);
+  const bool moved = multigrid_ && parallel_max(g.size(), [&](Index c) {
+                                     return std::max(g[c] / g_of_multigrid_[c], g_of_multigrid_[c] / g[c]);
+                                   }) > 2.0;
+  if (multigrid_ && !moved) return;
+  g_of_multigrid_ = g;
+  build_preconditioner();
+}
+
+void MomentumSolver::build_preconditioner() {
+  const BlockTriplets compact = operator_.compact_matrix();
+  scale_.resize(compact.diagonal.size());
+  for (std::size_t i = 0; i < scale_.size(); ++i) scale_[i] = 1.0 / std::sqrt(compact.diagonal[i].trace() / 3.0);
+  multigrid_.emplace(compress(compact, position_of_node_));
+  reference_load_.reset();
+  ++n_preconditioners_;
+}
+
+void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vector>& z) {
+  const auto n = static_cast<Index>(r.size());
+  parallel_for(n, [&](Index i) {
+    Lane& to = b_[as_size(position_of_node_[as_size(i)])];
+    to.head<3>() = r[as_size(i)].cast<float>();
+    to[3] = 0.0F;
+  });
+  multigrid_->apply(b_, x_);
+  parallel_for(n, [&](Index i) {
+    z[as_size(i)] = x_[as_size(position_of_node_[as_size(i)])].head<3>().cast<double>();
+    // What is prescribed stays so.
+    if (i >= unknowns_.n_cells) z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
+  });
+}
+
+// The norm that residuals are measured against: that of the prescribed values alone.
+double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load) {
+  if (reference_load_ == t) return reference_;
+  std::vector<Vector> prescribed(load.size(), Vector::Zero()), image(load.size());
+  operator_.prescribe(t, prescribed);
+  operator_.apply(prescribed, image);
+  for (std::size_t i = 0; i < load.size(); ++i) image[i] = load[i] - image[i];
+  reference_load_ = t;
+  reference_ = scaled_norm(image, scale_);
+  return reference_;
+}
+
+Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vector<Vector>& u) {
+  const std::vector<Vector> load = operator_.load_vector(t);
+  const double reference = reference_norm(t, load);
+  operator_.prescribe(t, u);
+  if (reference == 0.0) {
+    std::fill(u.begin(), u.end(), Vector::Zero());
+    return {.converged = true};
+  }
+  const KrylovProblem problem{
+      .apply = [this](const std::vector<Vector>& x, std::vector<Vector>& y) { operator_.apply(x, y); },
+      .precondition = [this](const std::vector<Vector>& r, std::vector<Vector>& z) { precondition(r, z); },
+      .scale = scale_};
+  const auto target = [&](double initial) {
+    return std::max(tolerance.floor * reference, std::min(tolerance.ceiling * reference, tolerance.reduction * initial));
+  };
+  const KrylovResult result = solve_fgmres(problem, load, u, target, most_iterations);
+  return {.converged = result.converged,
+          .iterations = result.iterations,
+          .initial_residual = result.initial_residual / reference,
+          .residual = result.residual / reference};
+}
+
+}  // namespace pfdm

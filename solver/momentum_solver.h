@@ -1,0 +1,60 @@
+#pragma once
+// Equilibrium at fixed damage: flexible GMRES on the traction operator, preconditioned by multigrid on its compact
+// matrix. Residuals are measured row-scaled by (tr D / 3)^-1/2: unscaled, the norm is all glass and blind to broken
+// cells.
+
+#include "solver/fgmres.h"
+#include "solver/momentum.h"
+#include "solver/multigrid.h"
+
+#include <optional>
+
+namespace pfdm {
+
+struct Equilibrium {
+  bool converged = false;
+  Index iterations = 0;
+  double initial_residual = 0.0;  ///< relative to that of the prescribed displacements and tractions alone
+  double residual = 0.0;          ///< at the end, relative likewise
+};
+
+class MomentumSolver {
+ public:
+  MomentumSolver(const Mesh& mesh, const Unknowns& unknowns);
+
+  /// New secant moduli; the multigrid is built again when some cell's stiffness factor g has moved by more than 2.
+  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+  /// Has the multigrid built anew at the next set_moduli.
+  void forget_preconditioner() { multigrid_.reset(); }
+
+  /// Writes the prescribed values at t into u and solves to a residual of
+  /// max(floor, min(ceiling, reduction x initial)).
+  struct Tolerance {
+    double reduction = 0.0;
+    double ceiling = 1e-8;
+    double floor = 1e-8;
+  };
+  Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
+
+  MomentumOperator& balance() { return operator_; }
+  const MomentumOperator& balance() const { return operator_; }
+  Index n_preconditioners() const { return n_preconditioners_; }
+
+ private:
+  void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
+  void build_preconditioner();
+  double reference_norm(double t, const std::vector<Vector>& load);
+
+  const Unknowns& unknowns_;
+  MomentumOperator operator_;
+  std::vector<Index> position_of_node_;  // multigrid row of each node: face nodes follow a cell of theirs
+  std::optional<Multigrid> multigrid_;
+  CellField<double> g_of_multigrid_;
+  std::vector<double> scale_;
+  std::optional<double> reference_load_;  // load parameter that reference_ belongs to
+  double reference_ = 0.0;
+  std::vector<Lane> b_, x_;
+  Index n_preconditioners_ = 0;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,97 @@
+#include "solver/staggered.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+
+Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
+                     const StaggeredSettings& settings)
+    : mesh_(mesh),
+      model_(model),
+      settings_(settings),
+      momentum_(mesh, unknowns),
+      damage_(mesh, model, unknowns.plane_normal) {}
+
+StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks) {
+  StepOutcome outcome;
+  Relaxation relaxation;
+  momentum_.forget_preconditioner();  // a run that is gone on with does the same
+  double energy_before = 0.0;
+  while (outcome.iterations < settings_.maximum_iterations && !outcome.converged) {
+    degrade(state);
+    const Equilibrium equilibrium = solve_momentum(state, {.reduction = 0.1, .ceiling = 1e-4, .floor = 0.1 * settings_.equilibrium_tolerance});
+    if (!equilibrium.converged) return outcome;
+    outcome.elastic_energy = update_driving_energy(start, state);
+    CellField<double> answer = state.damage;
+    solve_damage(start, state, answer);
+    const double change =
+        parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
+    const double energy = outcome.elastic_energy + damage_.fracture_energy(answer);
+    const double energy_change = std::abs(energy - energy_before) / std::max(energy, 1e-300);
+    energy_before = energy;
+    ++outcome.iterations;
+    outcome.krylov_iterations += equilibrium.iterations;
+    outcome.converged = change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance &&
+                        equilibrium.residual <= settings_.equilibrium_tolerance;
+    if (outcome.converged)
+      state.damage = answer;
+    else
+      state.damage = relaxation.next(state.damage, answer, start.damage);
+    if (hooks.iterated)
+      hooks.iterated({state.step, outcome.iterations, state.load, change, energy_change, equilibrium.iterations});
+  }
+  // Reactions balance, and energies belong to the damage of the step.
+  degrade(state);
+  const Equilibrium equilibrium = solve_momentum(state, {.reduction = 0.0, .ceiling = 3e-8, .floor = 3e-8});
+  outcome.krylov_iterations += equilibrium.iterations;
+  outcome.converged = outcome.converged && equilibrium.converged;
+  outcome.elastic_energy = update_driving_energy(start, state);
+  return outcome;
+}
+
+double Staggered::stiffness_factor(Index cell, double d) const {
+  if (!damage_.is_damageable(cell)) return 1.0;
+  return (1.0 - model_.residual_stiffness) * model_.degradation->g(d) + model_.residual_stiffness;
+}
+
+void Staggered::degrade(const FractureState& state) {
+  const auto lap = clock_.lap("moduli_and_preconditioner");
+  CellField<double> g(as_size(mesh_.n_cells()));
+  CellField<IsotropicElasticity> moduli(as_size(mesh_.n_cells()));
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    g[c] = stiffness_factor(c, state.damage[c]);
+    moduli[c] = model_.split->secant(model_.regions[as_size(mesh_.region[c])].elasticity, g[c], state.strain[c]);
+  });
+  momentum_.set_moduli(moduli, g);
+}
+
+Equilibrium Staggered::solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance) {
+  const auto lap = clock_.lap("momentum");
+  return momentum_.solve(state.load, tolerance, state.displacement);
+}
+
+// Returns the elastic energy.
+double Staggered::update_driving_energy(const FractureState& start, FractureState& state) {
+  const auto lap = clock_.lap("driving_energy");
+  CellMechanics mechanics = momentum_.balance().mechanics(state.displacement);
+  const bool history = model_.irreversibility == Irreversibility::history;
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    const RegionModel& region = model_.regions[as_size(mesh_.region[c])];
+    const double psi = model_.split->energy(region.elasticity, mechanics.strain[c]).psi_plus;
+    state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
+  });
+  state.strain = std::move(mechanics.strain);
+  return parallel_sum(mesh_.n_cells(), [&](Index c) { return mechanics.energy[c]; });
+}
+
+void Staggered::solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d) {
+  const auto lap = clock_.lap("damage");
+  const bool bounds = model_.irreversibility == Irreversibility::bounds;
+  const CellField<double> zero(bounds ? 0 : as_size(mesh_.n_cells()), 0.0);
+  damage_.solve(state.driving_energy, bounds ? start.damage : zero, 1, d);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,47 @@
+#pragma once
+// Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
+// the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797).
+
+#include "solver/damage_equation.h"
+#include "solver/fracture_run.h"
+#include "solver/momentum_solver.h"
+#include "solver/relaxation.h"
+#include "solver/stage_clock.h"
+
+namespace pfdm {
+
+struct StepOutcome {
+  bool converged = false;
+  Index iterations = 0;
+  Index krylov_iterations = 0;
+  double elastic_energy = 0.0;  ///< [J]
+};
+
+class Staggered {
+ public:
+  Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings);
+
+  /// Brings `state`, whose load is the step's, to equilibrium. `start` is the state that damage may not fall below.
+  StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks);
+
+  MomentumSolver& momentum() { return momentum_; }
+  const DamageEquation& damage_equation() const { return damage_; }
+  StageClock& clock() { return clock_; }
+  /// Sets the secant moduli of the state in the momentum balance.
+  void degrade(const FractureState& state);
+
+ private:
+  Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
+  double update_driving_energy(const FractureState& start, FractureState& state);
+  void solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
+  double stiffness_factor(Index cell, double d) const;
+
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  StaggeredSettings settings_;
+  MomentumSolver momentum_;
+  DamageEquation damage_;
+  StageClock clock_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,49 @@
+#pragma once
+// The state of a fracture run is a value: it can be copied, written, and gone on from.
+
+#include "mesh/fields.h"
+
+#include <vector>
+
+namespace pfdm {
+
+struct FractureState {
+  Index step = 0;          ///< accepted load steps so far
+  double load = 0.0;       ///< load parameter t
+  double increment = 0.0;  ///< the next increment to try
+  /// Displacement [m] of the cells, then of the faces that carry an unknown (material interfaces and boundary).
+  std::vector<Vector> displacement;
+  CellField<double> damage;          ///< d [-]
+  CellField<double> driving_energy;  ///< psi_plus, or its history [J/m^3]
+  CellField<Tensor> strain;          ///< of the last equilibrium [-]; tells which cells are in compression
+  std::vector<Vector> boundary_force;  ///< on each boundary face [N], in the mesh's face order
+  double external_work = 0.0;        ///< [J]
+};
+
+/// One row of the force-displacement curve.
+struct StepReport {
+  Index step = 0;
+  double load = 0.0;
+  std::vector<Vector> reaction;            ///< force on each patch [N]
+  std::vector<Vector> patch_displacement;  ///< area mean of each patch's displacement [m]
+  double elastic_energy = 0.0;             ///< [J]
+  double fracture_energy = 0.0;            ///< [J]
+  double external_work = 0.0;              ///< [J]
+  double max_damage = 0.0;                 ///< [-]
+  double damaged_volume = 0.0;             ///< volume with d > 0.5 [m^3]
+  Index staggered_iterations = 0;
+  Index krylov_iterations = 0;
+  double increment = 0.0;                  ///< of the load parameter
+};
+
+/// Cell fields for output at a converged state.
+struct OutputFields {
+  CellField<Vector> displacement;      ///< [m]
+  CellField<double> damage;            ///< [-]
+  CellField<Tensor> stress;            ///< [Pa]
+  CellField<Tensor> strain;            ///< [-]
+  CellField<double> energy_density;    ///< degraded elastic energy [J/m^3]
+  CellField<double> driving_energy;    ///< [J/m^3]
+};
+
+}  // namespace pfdm

@@ -1,0 +1,116 @@
+#include "solver/unknowns.h"
+
+#include "physics/error.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace pfdm {
+namespace {
+
+CellField<Index> elastic_zones(const Mesh& mesh, const FractureModel& model) {
+  std::vector<Index> zone_of_region;
+  for (std::size_t r = 0; r < model.regions.size(); ++r) {
+    std::size_t same = 0;
+    while (!(model.regions[same].elasticity == model.regions[r].elasticity)) ++same;
+    zone_of_region.push_back(static_cast<Index>(same));
+  }
+  CellField<Index> zone(static_cast<std::size_t>(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c) zone[c] = zone_of_region[static_cast<std::size_t>(mesh.region[c])];
+  return zone;
+}
+
+std::vector<PatchCondition> conditions_by_patch(const Mesh& mesh, const FractureModel& model) {
+  std::vector<PatchCondition> conditions;
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+    conditions.push_back({static_cast<Index>(p), {.patch = mesh.patches[p].name, .value = {}}});
+  std::vector<bool> said(mesh.patches.size(), false);
+  for (const BoundaryCondition& condition : model.boundary) {
+    const Patch& patch = mesh.patch(condition.patch);
+    const auto p = static_cast<std::size_t>(&patch - mesh.patches.data());
+    if (said[p]) throw InputError(fmt::format("patch \"{}\" has two boundary conditions", patch.name));
+    said[p] = true;
+    conditions[p].condition = condition;
+  }
+  return conditions;
+}
+
+// Mean unit normal of a patch that has to be plane.
+Vector plane_patch_normal(const Mesh& mesh, const Patch& patch, std::string_view kind) {
+  const Vector normal = mesh.face_area[patch.first_face].normalized();
+  for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+    if (mesh.face_area[f].normalized().dot(normal) < 1.0 - 1e-8)
+      throw InputError(fmt::format("patch \"{}\" is not plane; a {} patch must be", patch.name, kind));
+  return normal;
+}
+
+Tensor free_directions(const BoundaryCondition& condition, const Vector& face_area) {
+  if (condition.kind == BoundaryCondition::Kind::symmetry) {
+    const Vector n = face_area.normalized();
+    return Tensor::Identity() - n * n.transpose();
+  }
+  Vector is_free;
+  for (int i = 0; i < 3; ++i) is_free[i] = condition.displacement_prescribed[static_cast<std::size_t>(i)] ? 0.0 : 1.0;
+  return is_free.asDiagonal();
+}
+
+// The six rigid motions must all be resisted by prescribed displacements: the quadratic form of the prescribed
+// components of u = a + b x (x - x0) may not be singular.
+void require_held(const Mesh& mesh, const Unknowns& unknowns) {
+  Eigen::Matrix<double, 6, 6> form = Eigen::Matrix<double, 6, 6>::Zero();
+  const Vector origin = mesh.points.front();
+  double size2 = 0.0;
+  for (const Vector& x : mesh.points) size2 = std::max(size2, (x - origin).squaredNorm());
+  const auto resist = [&](const Vector& x, const Tensor& prescribed) {
+    Eigen::Matrix<double, 3, 6> motion;
+    const Vector r = (x - origin) / std::sqrt(size2);
+    motion << Tensor::Identity(), (Tensor() << 0, r[2], -r[1], -r[2], 0, r[0], r[1], -r[0], 0).finished();
+    form += motion.transpose() * prescribed * motion;
+  };
+  for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k)
+    resist(mesh.face_centre[unknowns.face_of_node[k]], Tensor::Identity() - unknowns.free_directions[k]);
+  const Vector n = unknowns.plane_normal;
+  if (n.norm() > 0.0)
+    for (Index c = 0; c < mesh.n_cells(); ++c) resist(mesh.cell_centre[c], n * n.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(form);
+  if (eigen.eigenvalues()[0] < 1e-10 * eigen.eigenvalues()[5] || eigen.eigenvalues()[5] == 0.0)
+    throw InputError(
+        "the body can still move rigidly: prescribe displacements (or symmetry) so that all three translations and "
+        "rotations are held");
+}
+
+}  // namespace
+
+Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
+  Unknowns unknowns;
+  unknowns.n_cells = mesh.n_cells();
+  unknowns.zone = elastic_zones(mesh, model);
+  unknowns.conditions = conditions_by_patch(mesh, model);
+  unknowns.node_of_face = FaceField<Index>(static_cast<std::size_t>(mesh.n_faces()), -1);
+  const auto add_node = [&](Index face, const Tensor& directions) {
+    unknowns.node_of_face[face] = unknowns.n_nodes();
+    unknowns.face_of_node.push_back(face);
+    unknowns.free_directions.push_back(directions);
+  };
+  for (Index f = 0; f < mesh.n_interior_faces(); ++f)
+    if (unknowns.zone[mesh.owner[f]] != unknowns.zone[mesh.neighbour[f]]) add_node(f, Tensor::Identity());
+  for (const PatchCondition& on : unknowns.conditions) {
+    const Patch& patch = mesh.patches[static_cast<std::size_t>(on.patch)];
+    if (on.condition.kind == BoundaryCondition::Kind::plane) {
+      unknowns.plane_normal = plane_patch_normal(mesh, patch, "plane");
+      continue;
+    }
+    if (on.condition.kind == BoundaryCondition::Kind::symmetry) plane_patch_normal(mesh, patch, "symmetry");
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+      add_node(f, free_directions(on.condition, mesh.face_area[f]));
+  }
+  require_held(mesh, unknowns);
+  return unknowns;
+}
+
+}  // namespace pfdm

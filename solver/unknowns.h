@@ -1,0 +1,34 @@
+#pragma once
+// Where displacement unknowns live: one node per cell, then one per face that lies between two elastic zones or on the
+// boundary. Faces of plane patches (one-cell-thick meshes) carry none.
+
+#include "mesh/mesh.h"
+#include "solver/fracture_model.h"
+
+#include <vector>
+
+namespace pfdm {
+
+/// One boundary condition, found on its patch.
+struct PatchCondition {
+  Index patch = 0;
+  BoundaryCondition condition;
+};
+
+struct Unknowns {
+  CellField<Index> zone;          ///< cells of equal elasticity share a zone
+  FaceField<Index> node_of_face;  ///< -1 where a face carries no unknown
+  std::vector<Index> face_of_node;  ///< entry k is the face of node n_cells + k
+  std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free where nothing was said
+  std::vector<Tensor> free_directions;  ///< per face node: projector onto the displacements that are not prescribed
+  Vector plane_normal = Vector::Zero();  ///< of the plane patches; zero in three-dimensional meshes
+  Index n_cells = 0;
+
+  Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }
+};
+
+/// Throws InputError for a condition on a patch that is not there, two conditions on one patch, a symmetry patch that
+/// is not plane, or a body that nothing holds against a rigid motion.
+Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model);
+
+}  // namespace pfdm

@@ -1,0 +1,101 @@
+#include "tests/cases/temporary_case.h"
+
+#include "cases/program/program.h"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+namespace pfdm {
+
+std::string bar_case() {
+  return R"(kind = "fracture"
+title = "a bar"
+
+[mesh]
+generator = "box_hexes"
+x = [{ length = "20 mm", cells = 21 }]
+y = [{ length = "1 mm", cells = 2 }]
+z = [{ length = "1 mm", cells = 1 }]
+region = "bar"
+[[mesh.regions]]
+name = "weak"
+lower = ["9.6 mm", "-1 mm", "-1 mm"]
+upper = ["10.4 mm", "2 mm", "2 mm"]
+
+[materials.concrete]
+regions = ["bar", "weak"]
+young_modulus = "30 GPa"
+poisson_ratio = 0.2
+toughness = "100 J/m^2"
+
+[regions.weak]
+toughness = "80 J/m^2"
+
+[fracture]
+model = "AT1"
+split = "none"
+length = "4 mm"
+
+[[boundary]]
+patch = "xmin"
+displacement = ["0 mm", "free", "free"]
+[[boundary]]
+patch = "xmax"
+displacement = ["0.015 mm", "free", "free"]
+[[boundary]]
+patches = ["ymin", "ymax"]
+type = "symmetry"
+[[boundary]]
+patches = ["zmin", "zmax"]
+type = "plane"
+
+[loading]
+initial_increment = 0.1
+maximum_increment = 0.1
+
+[output]
+curve = { patch = "xmax", component = "x" }
+frames_at = ["0.006 mm"]
+)";
+}
+
+std::string replaced(std::string text, const std::string& old_text, const std::string& new_text) {
+  const std::size_t place = text.find(old_text);
+  if (place == std::string::npos || text.find(old_text, place + 1) != std::string::npos)
+    throw std::logic_error(old_text + " does not occur exactly once");
+  return text.replace(place, old_text.size(), new_text);
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TemporaryCase::TemporaryCase(const std::string& case_toml) {
+  std::string pattern = (std::filesystem::temp_directory_path() / "pfdm_case_XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
+  path_ = pattern;
+  write("case.toml", case_toml);
+}
+
+TemporaryCase::~TemporaryCase() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+void TemporaryCase::write(const std::string& file, const std::string& content) const {
+  std::ofstream(path_ / file, std::ios::binary) << content;
+}
+
+Outcome run(const std::vector<std::string>& arguments) {
+  std::ostringstream out;
+  std::ostringstream err;
+  const int status = run_program(arguments, out, err);
+  return {status, out.str(), err.str()};
+}
+
+}  // namespace pfdm

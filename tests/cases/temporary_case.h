@@ -1,0 +1,42 @@
+#pragma once
+// Case directories made for a test, and the program run on them in this process.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// A small bar in tension of 10 steps, which breaks.
+std::string bar_case();
+
+/// `text` with its one occurrence of `old_text` replaced; throws if it does not occur exactly once.
+std::string replaced(std::string text, const std::string& old_text, const std::string& new_text);
+
+/// The content of a file; empty if there is none.
+std::string content_of(const std::filesystem::path& file);
+
+/// A directory that goes away with the object.
+class TemporaryCase {
+ public:
+  explicit TemporaryCase(const std::string& case_toml);
+  ~TemporaryCase();
+  TemporaryCase(const TemporaryCase&) = delete;
+  TemporaryCase& operator=(const TemporaryCase&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path results() const { return path_ / "results"; }
+  void write(const std::string& file, const std::string& content) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+struct Outcome {
+  int status = 0;
+  std::string out;
+  std::string err;
+};
+Outcome run(const std::vector<std::string>& arguments);
+
+}  // namespace pfdm

@@ -1,0 +1,179 @@
+// Whatever is wrong with the input ends with status 2 and one message that says what, where and what is allowed.
+
+#include "tests/cases/temporary_case.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+struct BadInput {
+  const char* name;
+  const char* good;
+  const char* bad;
+  std::vector<std::string> message;  // all of it has to be said
+};
+
+void PrintTo(const BadInput& input, std::ostream* stream) { *stream << input.name; }
+
+class BadCase : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadCase, IsRefusedWithOneMessage) {
+  const BadInput& input = GetParam();
+  const TemporaryCase directory(replaced(bar_case(), input.good, input.bad));
+  for (const char* command : {"check", "run"}) {
+    const Outcome outcome = run({command, directory.path().string()});
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    for (const std::string& part : input.message)
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is missing in " << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(directory.results()));
+  }
+}
+
+const BadInput bad_inputs[] = {
+    {"unit_of_another_dimension",
+     "\"30 GPa\"",
+     "\"30 um\"",
+     {"case.toml:17: [materials.concrete] young_modulus: \"30 um\" is a length; a stress is due here, as in \"75 "
+      "MPa\""}},
+    {"no_unit", "length = \"4 mm\"", "length = 4", {"case.toml:27: [fracture] length: 4 has no unit; a length is due"}},
+    {"unknown_unit", "\"4 mm\"", "\"4 furlong_\"", {"the unit \"furlong_\" is not known"}},
+    {"missing_key", "poisson_ratio = 0.2\n", "", {"case.toml:15: [materials.concrete] \"poisson_ratio\" is missing"}},
+    {"missing_table",
+     "[fracture]",
+     "[[boundary]]\n[[boundary.x]]",
+     {"\"fracture\" is missing; the table [fracture] is due"}},
+    {"misspelt_required_key",
+     "poisson_ratio",
+     "poison_ratio",
+     {"\"poison_ratio\" is not known here; did you mean \"poisson_ratio\"?"}},
+    {"misspelt_optional_key",
+     "maximum_increment",
+     "maximal_increment",
+     {"case.toml:44: [loading] \"maximal_increment\" is not known here; did you mean \"maximum_increment\"? (allowed: ",
+      "initial_increment"}},
+    {"misspelt_key_in_a_list", "frames_at", "frames_of", {"[output] \"frames_of\"", "did you mean \"frames_at\"?"}},
+    {"unknown_table", "[loading]", "[load]", {"\"load\" is not known here"}},
+    {"patch_that_is_not_there",
+     "patch = \"xmin\"",
+     "patch = \"xmim\"",
+     {"case.toml:30: [boundary] patch: \"xmim\" is no patch of the mesh; did you mean \"xmin\"? (there are: xmin, "
+      "xmax,"}},
+    {"patch_of_the_curve",
+     "curve = { patch = \"xmax\"",
+     "curve = { patch = \"top\"",
+     {"case.toml:47: [output.curve] patch: \"top\" is no patch of the mesh"}},
+    {"patch_named_twice",
+     "[\"ymin\", \"ymax\"",
+     "[\"xmin\", \"ymax\"",
+     {"patch \"xmin\" already has a boundary condition"}},
+    {"region_that_is_not_there",
+     "[\"bar\", \"weak\"]",
+     "[\"baar\", \"weak\"]",
+     {"case.toml:16: [materials.concrete] regions[0]: \"baar\" is no region of the mesh; did you mean \"bar\"?"}},
+    {"region_without_material",
+     "regions = [\"bar\", \"weak\"]\n",
+     "regions = [\"weak\"]\n",
+     {"region \"bar\" of the mesh has no material"}},
+    {"region_with_two_materials",
+     "regions = [\"bar\", \"weak\"]\n",
+     "regions = [\"bar\", \"weak\", \"bar\"]\n",
+     {"region \"bar\" already has a material"}},
+    {"override_of_no_region", "[regions.weak]", "[regions.weaker]", {"region \"weaker\" has no material"}},
+    {"material_without_toughness",
+     "toughness = \"100 J/m^2\"\n",
+     "",
+     {"case.toml:15: [materials.concrete] region \"bar\" can be damaged but has no toughness (Gc)"}},
+    {"material_without_length", "length = \"4 mm\"\n", "", {"region \"bar\" can be damaged but has no length (ell)"}},
+    {"negative_size", "\"20 mm\"", "\"-20 mm\"", {"case.toml:6: [mesh.x] length: \"-20 mm\" must be positive"}},
+    {"no_cells", "cells = 21", "cells = 0", {"cells: 0 must be at least 1"}},
+    {"poisson_ratio_of_a_half", "poisson_ratio = 0.2", "poisson_ratio = 0.5", {"0.5 must be between -1 and 0.5"}},
+    {"region_with_no_cell", "\"9.6 mm\", \"-1 mm\"", "\"10.39 mm\", \"-1 mm\"", {"case.toml:4: [mesh]", "weak"}},
+    {"unknown_generator", "\"box_hexes\"", "\"box_hexe\"", {"no mesh generator; did you mean \"box_hexes\"?"}},
+    {"unknown_kind", "\"fracture\"", "\"fractal\"", {"case.toml:1: kind: \"fractal\" is no kind of case", "fracture"}},
+    {"unknown_model", "\"AT1\"", "\"AT3\"", {"no crack geometric function", "AT1", "AT2"}},
+    {"bad_expression",
+     "\"0.015 mm\"",
+     "{ expr = \"0.1*q\", unit = \"mm\" }",
+     {"case.toml:34:", "the expression \"0.1*q\" cannot be read", "x, y, z"}},
+    {"expression_with_wrong_unit",
+     "\"0.015 mm\"",
+     "{ expr = \"0.1*t\", unit = \"kg\" }",
+     {"is a mass; a length is due"}},
+    {"expression_without_unit", "\"0.015 mm\"", "{ expr = \"0.1*t\" }", {"\"unit\" is missing"}},
+    {"wrong_number_of_components",
+     "[\"0 mm\", \"free\", \"free\"]",
+     "[\"0 mm\", \"free\"]",
+     {"the list has 2 entries; 3 are due"}},
+    {"displacement_and_traction",
+     "displacement = [\"0 mm\", \"free\", \"free\"]",
+     "displacement = [\"0 mm\", \"free\", \"free\"]\ntraction = [\"1 Pa\", \"free\", \"free\"]",
+     {"this component's displacement is prescribed as well"}},
+    {"frame_beyond_the_end",
+     "\"0.006 mm\"",
+     "\"0.06 mm\"",
+     {"this is at load parameter 4; the loading goes from 0 to 1"}},
+    {"increments_that_fall", "initial_increment = 0.1", "initial_increment = 0.2", {"the increments must not fall"}},
+    {"unknown_type",
+     "displacement = [\"0 mm\", \"free\", \"free\"]",
+     "type = \"fre\"",
+     {"no type of boundary condition; did you mean \"free\"?"}},
+    {"no_toml", "[mesh]", "[mesh", {"case.toml:4:"}},
+    {"mesh_file_that_is_not_there",
+     "generator = \"box_hexes\"\n",
+     "generator = \"vtk\"\nfile = \"data/no.vtu\"\nlength_unit = \"mm\"\n",
+     {"case.toml:6: [mesh] file: there is no file"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Program, BadCase, testing::ValuesIn(bad_inputs),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+TEST(BadInput, MeshFileThatCannotBeRead) {
+  const TemporaryCase directory(replaced(bar_case(), "generator = \"box_hexes\"\n",
+                                         "generator = \"vtk\"\nfile = \"m.vtu\"\nlength_unit = \"mm\"\n"));
+  directory.write("m.vtu", "this is no mesh");
+  directory.write("case.toml", [&] {
+    std::string text = content_of(directory.path() / "case.toml");
+    const std::size_t first = text.find("x = ");
+    return text.erase(first, text.find("[materials") - first);
+  }());
+  const Outcome outcome = run({"run", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("m.vtu"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("case.toml:4: [mesh]"), std::string::npos) << outcome.err;
+}
+
+TEST(BadInput, CaseThatIsNotThere) {
+  const Outcome outcome = run({"run", "no/such/case"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, "pfdm: no/such/case: there is no such case directory\n");
+}
+
+TEST(BadInput, WrongUsage) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {}, {"rum", "case"}, {"run"}, {"run", "x", "--threads", "0"}, {"run", "x", "--no-such-option"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_FALSE(outcome.err.empty());
+  }
+}
+
+TEST(BadInput, UnknownCommand) {
+  EXPECT_EQ(run({"rn", "case"}).err,
+            "pfdm: there is no command \"rn\"; did you mean \"run\"? (there are: run, check, mesh, list, test)\n");
+}
+
+TEST(BadInput, ResultsThatCannotBeWritten) {
+  const TemporaryCase directory(bar_case());
+  directory.write("file", "");
+  const Outcome outcome =
+      run({"run", directory.path().string(), "--output", (directory.path() / "file/results").string()});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("file/results"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace pfdm

@@ -1,0 +1,168 @@
+// The program from end to end, on a bar that breaks.
+
+#include "tests/cases/temporary_case.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::json summary_in(const fs::path& results) {
+  return nlohmann::json::parse(content_of(results / "summary.json"));
+}
+
+TEST(Program, RunsACaseAndWritesItsResults) {
+  const TemporaryCase directory(bar_case());
+  const Outcome outcome = run({"run", directory.path().string(), "--threads", "1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  for (const char* file :
+       {"summary.json", "force_displacement.csv", "fields.pvd", "mesh.vtu", "run.log", "checkpoint.bin"})
+    EXPECT_TRUE(fs::exists(directory.results() / file)) << file;
+  // Frames at the wanted displacement and at the end.
+  const auto frames = fs::directory_iterator(directory.results() / "fields");
+  EXPECT_EQ(std::distance(begin(frames), end(frames)), 2);
+  const nlohmann::json summary = summary_in(directory.results());
+  EXPECT_EQ(summary["status"], "complete");
+  EXPECT_EQ(summary["cells"], 42);
+  EXPECT_NEAR(summary["final_load"].get<double>(), 1.0, 1e-12);
+  EXPECT_NE(outcome.out.find("step   10"), std::string::npos) << outcome.out;
+  EXPECT_NE(content_of(directory.results() / "run.log").find("step   10"), std::string::npos);
+}
+
+TEST(Program, GoesOnToTheSameCurveAsAnUnbrokenRun) {
+  const TemporaryCase directory(bar_case());
+  const std::string place = directory.path().string();
+  const fs::path whole = directory.path() / "whole";
+  const fs::path broken = directory.path() / "broken";
+  ASSERT_EQ(run({"run", place, "--output", whole.string()}).status, 0);
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--max-steps", "4"}).status, 0);
+  EXPECT_EQ(summary_in(broken)["status"], "stopped by --max-steps");
+  EXPECT_NE(content_of(broken / "force_displacement.csv"), content_of(whole / "force_displacement.csv"));
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--restart", "--max-steps", "3"}).status, 0);
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--restart"}).status, 0);
+  EXPECT_EQ(content_of(broken / "force_displacement.csv"), content_of(whole / "force_displacement.csv"));
+  EXPECT_EQ(content_of(broken / "fields.pvd"), content_of(whole / "fields.pvd"));
+  EXPECT_EQ(content_of(broken / "checkpoint.bin"), content_of(whole / "checkpoint.bin"));
+  EXPECT_EQ(summary_in(broken)["status"], "complete");
+}
+
+TEST(Program, TakesRowsBeyondTheCheckpointAway) {
+  const TemporaryCase directory(bar_case());
+  const std::string place = directory.path().string();
+  ASSERT_EQ(run({"run", place, "--max-steps", "4"}).status, 0);
+  const std::string checkpoint = content_of(directory.results() / "checkpoint.bin");
+  ASSERT_EQ(run({"run", place, "--restart"}).status, 0);
+  const std::string curve = content_of(directory.results() / "force_displacement.csv");
+  directory.write("results/checkpoint.bin", checkpoint);  // as if killed between row and checkpoint
+  fs::remove(directory.results() / "summary.json");
+  ASSERT_EQ(run({"run", place, "--restart"}).status, 0);
+  EXPECT_EQ(content_of(directory.results() / "force_displacement.csv"), curve);
+}
+
+TEST(Program, RestartsWhatIsCompleteByDoingNothing) {
+  const TemporaryCase directory(bar_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const std::string summary = content_of(directory.results() / "summary.json");
+  const Outcome again = run({"run", directory.path().string(), "--restart"});
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.out.find("complete already"), std::string::npos);
+  EXPECT_EQ(content_of(directory.results() / "summary.json"), summary);
+}
+
+TEST(Program, RefusesToGoOnWithAnotherCase) {
+  const TemporaryCase directory(bar_case());
+  ASSERT_EQ(run({"run", directory.path().string(), "--max-steps", "2"}).status, 0);
+  const std::string curve = content_of(directory.results() / "force_displacement.csv");
+  directory.write("case.toml", replaced(bar_case(), "30 GPa", "31 GPa"));
+  const Outcome outcome = run({"run", directory.path().string(), "--restart"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("checkpoint.bin"), std::string::npos) << outcome.err;
+  EXPECT_EQ(content_of(directory.results() / "force_displacement.csv"), curve);
+}
+
+TEST(Program, StartsAfreshWithoutRestart) {
+  const TemporaryCase directory(bar_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  ASSERT_EQ(run({"run", directory.path().string(), "--max-steps", "1"}).status, 0);
+  const auto frames = fs::directory_iterator(directory.results() / "fields");
+  EXPECT_EQ(std::distance(begin(frames), end(frames)), 0);
+  const std::string curve = content_of(directory.results() / "force_displacement.csv");
+  EXPECT_EQ(std::count(curve.begin(), curve.end(), '\n'), 3);  // header, unloaded state, step 1
+}
+
+TEST(Program, SaysHowFarAFailedRunCame) {
+  const std::string text = replaced(bar_case(), "maximum_increment = 0.1", "minimum_increment = 0.05");
+  const TemporaryCase directory(text + "[solver]\nmaximum_iterations = 3\n");
+  const Outcome outcome = run({"run", directory.path().string()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  const nlohmann::json summary = summary_in(directory.results());
+  EXPECT_EQ(summary["status"].get<std::string>().substr(0, 7), "failed:");
+  EXPECT_LT(summary["final_load"].get<double>(), 1.0);
+  EXPECT_EQ(run({"run", directory.path().string(), "--restart"}).status, 1);
+}
+
+TEST(Program, ChecksWithoutWriting) {
+  const TemporaryCase directory(bar_case());
+  const Outcome outcome = run({"check", directory.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  for (const char* part : {"42 cells", "unknowns", "memory", "steps 10"})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " is missing in " << outcome.out;
+  EXPECT_FALSE(fs::exists(directory.results()));
+}
+
+TEST(Program, MeshesOnly) {
+  const TemporaryCase directory(bar_case());
+  const Outcome outcome = run({"mesh", directory.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("non-orthogonality"), std::string::npos);
+  EXPECT_TRUE(fs::exists(directory.results() / "mesh.vtu"));
+  EXPECT_FALSE(fs::exists(directory.results() / "force_displacement.csv"));
+}
+
+TEST(Program, SaysNothingWhenQuiet) {
+  const TemporaryCase directory(bar_case());
+  const Outcome outcome = run({"run", directory.path().string(), "--quiet", "--max-steps", "1"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  EXPECT_FALSE(content_of(directory.results() / "run.log").empty());
+}
+
+TEST(Program, ReadsBoundaryExpressions) {
+  const TemporaryCase directory(
+      replaced(replaced(bar_case(), "\"0.015 mm\"", "{ expr = \"15*t\", unit = \"um\" }"), "\"0.006 mm\"", "0.4"));
+  const TemporaryCase plain(bar_case());
+  ASSERT_EQ(run({"run", directory.path().string(), "--max-steps", "3"}).status, 0);
+  ASSERT_EQ(run({"run", plain.path().string(), "--max-steps", "3"}).status, 0);
+  const nlohmann::json a = summary_in(directory.results());
+  const nlohmann::json b = summary_in(plain.results());
+  EXPECT_NEAR(a["final_force_N"].get<double>(), b["final_force_N"].get<double>(),
+              1e-6 * std::abs(b["final_force_N"].get<double>()));
+}
+
+TEST(Program, ListsLawsAndCases) {
+  const Outcome laws = run({"list", "--laws"});
+  EXPECT_EQ(laws.status, 0);
+  for (const char* name :
+       {"AT1", "AT2", "quadratic", "volumetric_deviatoric", "symmetry", "box_hexes", "vtk", "goodier"})
+    EXPECT_NE(laws.out.find(name), std::string::npos) << name;
+  const Outcome cases = run({"list"});
+  EXPECT_EQ(cases.status, 0);
+  EXPECT_NE(cases.out.find("glass_bead_quick"), std::string::npos) << cases.out;
+}
+
+TEST(Program, HelpsAndTellsItsVersion) {
+  EXPECT_EQ(run({"--help"}).status, 0);
+  EXPECT_EQ(run({"run", "--help"}).status, 0);
+  EXPECT_NE(run({"run", "--help"}).out.find("--restart"), std::string::npos);
+  EXPECT_EQ(run({"--version"}).out.substr(0, 5), "pfdm ");
+}
+
+}  // namespace
+}  // namespace pfdm

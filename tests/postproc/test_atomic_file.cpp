@@ -1,0 +1,111 @@
+#include "physics/error.h"
+#include "postproc/atomic_file.h"
+#include "tests/postproc/temporary_folder.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace pfdm::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(AtomicFile, holds_what_was_written_and_leaves_nothing_else) {
+  const TemporaryFolder folder;
+  const std::string content("one\0two\n", 8);
+  write_file(folder / "a.txt", "an earlier, longer content");
+  write_file(folder / "a.txt", content);
+  EXPECT_EQ(content_of(folder / "a.txt"), content);
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(AtomicFile, overwrites_what_a_killed_run_left_behind) {
+  const TemporaryFolder folder;
+  put(folder / ".a.txt.partial", "half of something longer than the new content");
+  write_file(folder / "a.txt", "whole");
+  EXPECT_EQ(content_of(folder / "a.txt"), "whole");
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(AtomicFile, names_file_and_reason_when_the_folder_is_a_file) {
+  const TemporaryFolder folder;
+  put(folder / "file", "");
+  const auto path = folder / "file" / "a.txt";
+  const std::string message = message_of<ComputationError>([&] { write_file(path, "x"); });
+  EXPECT_THAT(message, HasSubstr(path.string()));
+  EXPECT_THAT(message, HasSubstr("Not a directory"));
+}
+
+TEST(AtomicFile, names_the_reason_when_the_folder_is_missing) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(message_of<ComputationError>([&] { write_file(folder / "no" / "a.txt", "x"); }),
+              HasSubstr("No such file or directory"));
+}
+
+TEST(AtomicFile, names_the_reason_when_the_disk_is_full) {
+  const int full = open("/dev/full", O_WRONLY);
+  ASSERT_GE(full, 0);
+  const std::string message =
+      message_of<ComputationError>([&] { detail::write_all(full, "content", "results/summary.json"); });
+  close(full);
+  EXPECT_EQ(message, "cannot write results/summary.json: No space left on device");
+}
+
+TEST(AtomicFile, says_when_a_folder_may_not_be_written_to) {
+  if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "closed");
+  std::filesystem::permissions(folder / "closed", std::filesystem::perms::owner_read);
+  EXPECT_THAT(message_of<ComputationError>([&] { write_file(folder / "closed" / "a", "x"); }),
+              HasSubstr("Permission denied"));
+}
+
+TEST(AtomicFile, keeps_the_old_file_and_no_temporary_one_when_writing_fails) {
+  const TemporaryFolder folder;
+  put(folder / "a.txt", "old");
+  const auto fail_half_way = [](const std::filesystem::path& temporary) {
+    put(temporary, "half");
+    throw ComputationError("half way");
+  };
+  EXPECT_EQ(message_of<ComputationError>([&] { replace_file(folder / "a.txt", fail_half_way); }), "half way");
+  EXPECT_EQ(content_of(folder / "a.txt"), "old");
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(AtomicFile, keeps_the_old_file_when_the_disk_fills_up_half_way) {
+  const TemporaryFolder folder;
+  put(folder / "a.txt", "old");
+  const FileSizeLimit limit(1000);
+  EXPECT_THAT(message_of<ComputationError>([&] { write_file(folder / "a.txt", std::string(5000, 'x')); }),
+              HasSubstr("a.txt: File too large"));
+  EXPECT_EQ(content_of(folder / "a.txt"), "old");
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(AtomicFile, leaves_no_temporary_file_when_the_renaming_fails) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "taken");
+  EXPECT_THAT(message_of<ComputationError>([&] { write_file(folder / "taken", "x"); }), HasSubstr("Is a directory"));
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(AtomicFile, replaces_through_a_callback) {
+  const TemporaryFolder folder;
+  replace_file(folder / "a.txt", [](const std::filesystem::path& temporary) { put(temporary, "new"); });
+  EXPECT_EQ(content_of(folder / "a.txt"), "new");
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(AtomicFile, makes_folders_or_says_why_not) {
+  const TemporaryFolder folder;
+  make_folder(folder / "a" / "b");
+  make_folder(folder / "a" / "b");
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "a" / "b"));
+  put(folder / "file", "");
+  EXPECT_THAT(message_of<ComputationError>([&] { make_folder(folder / "file" / "b"); }), HasSubstr("file/b"));
+}
+
+}  // namespace
+}  // namespace pfdm::test

@@ -1,0 +1,107 @@
+#include "physics/error.h"
+#include "postproc/checkpoint.h"
+#include "tests/postproc/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace pfdm::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string hash = "9f86d081884c7d65";
+
+FractureState awkward_state() {
+  FractureState s;
+  s.step = 17;
+  s.load = 1.0 / 3.0;
+  s.increment = 0.1;
+  for (int i = 0; i < 5; ++i) s.displacement.push_back(Vector(std::sin(i), -0.0, 1e-310));
+  s.damage = CellField<double>(std::vector<double>{0.1, 0.2, std::nextafter(1.0, 0.0)});
+  s.driving_energy = CellField<double>(std::vector<double>{1e300, 0.0, -0.0});
+  s.strain = CellField<Tensor>(3, Tensor::Identity() / 7.0);
+  s.strain[1](0, 2) = 1e-3;
+  s.boundary_force = {Vector(1, 2, 3), Vector(4, 5, 6)};
+  s.external_work = std::exp(1.0);
+  return s;
+}
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+TEST(Checkpoint, state_comes_back_bit_for_bit) {
+  const TemporaryFolder folder;
+  const FractureState s = awkward_state();
+  write_checkpoint(folder / "c.bin", s, hash);
+  const FractureState r = read_checkpoint(folder / "c.bin", hash);
+  EXPECT_EQ(r.step, s.step);
+  EXPECT_EQ(r.load, s.load);
+  EXPECT_EQ(r.increment, s.increment);
+  EXPECT_EQ(r.displacement, s.displacement);
+  EXPECT_TRUE(std::signbit(r.displacement[0].y()));
+  EXPECT_EQ(r.damage, s.damage);
+  EXPECT_EQ(r.driving_energy, s.driving_energy);
+  EXPECT_TRUE(std::signbit(r.driving_energy[2]));
+  EXPECT_EQ(r.strain, s.strain);
+  EXPECT_EQ(r.boundary_force, s.boundary_force);
+  EXPECT_TRUE(same_bits(r.external_work, s.external_work));
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(Checkpoint, an_empty_state_comes_back) {
+  const TemporaryFolder folder;
+  write_checkpoint(folder / "c.bin", {}, "");
+  EXPECT_EQ(read_checkpoint(folder / "c.bin", "").damage.size(), 0);
+}
+
+TEST(Checkpoint, every_shortened_file_is_refused) {
+  const TemporaryFolder folder;
+  write_checkpoint(folder / "c.bin", awkward_state(), hash);
+  const std::string whole = content_of(folder / "c.bin");
+  for (std::size_t n = 0; n < whole.size(); ++n) {
+    put(folder / "short.bin", whole.substr(0, n));
+    EXPECT_THAT(message_of<InputError>([&] { read_checkpoint(folder / "short.bin", hash); }), HasSubstr("cut short"))
+        << n;
+  }
+  put(folder / "long.bin", whole + "x");
+  EXPECT_THAT(message_of<InputError>([&] { read_checkpoint(folder / "long.bin", hash); }), HasSubstr("added to"));
+}
+
+TEST(Checkpoint, every_flipped_bit_is_noticed) {
+  const TemporaryFolder folder;
+  write_checkpoint(folder / "c.bin", awkward_state(), hash);
+  const std::string whole = content_of(folder / "c.bin");
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(damaged[i] ^ (1 << (i % 8)));
+    put(folder / "damaged.bin", damaged);
+    EXPECT_NE(message_of<InputError>([&] { read_checkpoint(folder / "damaged.bin", hash); }), "") << "byte " << i;
+  }
+}
+
+TEST(Checkpoint, says_what_is_wrong) {
+  const TemporaryFolder folder;
+  const auto complaint = [&](const std::string& content, const std::string& wanted) {
+    put(folder / "c.bin", content);
+    return message_of<InputError>([&] { read_checkpoint(folder / "c.bin", wanted); });
+  };
+  write_checkpoint(folder / "good.bin", awkward_state(), hash);
+  const std::string whole = content_of(folder / "good.bin");
+  EXPECT_THAT(complaint(whole, "another"), HasSubstr("another case"));
+  EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
+  std::string other = whole;
+  other[8] = 9;
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 1"));
+  other = whole;
+  other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
+  EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));
+  EXPECT_THAT(complaint("step,load,displacement_m and so on, long enough", hash), HasSubstr("is not a checkpoint"));
+  EXPECT_THAT(message_of<InputError>([&] { read_checkpoint(folder / "none.bin", hash); }), HasSubstr("No such file"));
+}
+
+}  // namespace
+}  // namespace pfdm::test

@@ -1,0 +1,111 @@
+#include "physics/error.h"
+#include "postproc/curve_csv.h"
+#include "tests/postproc/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pfdm::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+CurveRow awkward_row(Index step) {
+  const double x = std::sin(1.0 + step) / 3.0;
+  return {step,  0.1 * step, 1e-9 * x, Vector(x, -1e5 * x, 1e-320), 1e-7 * x * x, 0.1, 1.0 / 3.0, 0.999999999999999,
+          3e-17, 12 + step};
+}
+
+void fill(const std::filesystem::path& path, Index n_rows) {
+  CurveFile file(path);
+  for (Index step = 0; step < n_rows; ++step) file.append(awkward_row(step));
+}
+
+TEST(CurveCsv, has_the_header_of_the_interface_and_a_row_per_step) {
+  const TemporaryFolder folder;
+  CurveFile file(folder / "c.csv");
+  file.append({1, 0.05, 1e-6, Vector(0.5, 0, -2), 1e-9, 2e-9, 3e-9, 0.25, 1e-12, 7});
+  EXPECT_EQ(content_of(folder / "c.csv"),
+            "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,external_work_J,"
+            "max_damage,damaged_volume_m3,staggered_iterations\n"
+            "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7\n");
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(CurveCsv, numbers_come_back_exactly) {
+  const TemporaryFolder folder;
+  fill(folder / "c.csv", 4);
+  EXPECT_THAT(read_curve(folder / "c.csv"),
+              ElementsAre(awkward_row(0), awkward_row(1), awkward_row(2), awkward_row(3)));
+}
+
+TEST(CurveCsv, a_torn_last_line_is_left_out) {
+  const TemporaryFolder folder;
+  fill(folder / "c.csv", 2);
+  const std::string whole = content_of(folder / "c.csv");
+  const std::string complete_number = "2,0.2,1,1,1,1,1,1,1,1,1,12";  // of 123, perhaps
+  for (const std::string torn : {"2", "2,0.1,3", complete_number.c_str()}) {
+    put(folder / "torn.csv", whole + torn);
+    EXPECT_THAT(read_curve(folder / "torn.csv"), ElementsAre(awkward_row(0), awkward_row(1))) << torn;
+  }
+  put(folder / "torn.csv", "step,lo");
+  EXPECT_THAT(read_curve(folder / "torn.csv"), IsEmpty());
+}
+
+TEST(CurveCsv, a_restart_keeps_the_rows_up_to_its_step) {
+  const TemporaryFolder folder;
+  fill(folder / "c.csv", 4);
+  put(folder / "c.csv", content_of(folder / "c.csv") + "4,0.4,1e-");
+  CurveFile file(folder / "c.csv", 1);
+  EXPECT_THAT(read_curve(folder / "c.csv"), ElementsAre(awkward_row(0), awkward_row(1)));
+  file.append(awkward_row(2));
+  EXPECT_THAT(read_curve(folder / "c.csv"), ElementsAre(awkward_row(0), awkward_row(1), awkward_row(2)));
+  EXPECT_EQ(read_curve(folder / "c.csv"), file.rows());
+}
+
+TEST(CurveCsv, a_restarted_file_equals_an_unbroken_one) {
+  const TemporaryFolder folder;
+  fill(folder / "unbroken.csv", 6);
+  fill(folder / "broken.csv", 5);
+  CurveFile file(folder / "broken.csv", 2);
+  for (Index step = 3; step < 6; ++step) file.append(awkward_row(step));
+  EXPECT_EQ(content_of(folder / "broken.csv"), content_of(folder / "unbroken.csv"));
+}
+
+TEST(CurveCsv, names_file_and_line_of_what_is_not_a_row) {
+  const TemporaryFolder folder;
+  const std::string header = std::string(curve_header) + "\n";
+  const std::string good = "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7\n";
+  for (const std::string bad : {"1,2\n", "x,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7\n",
+                                "1,0.05,1e-06,0.5,0,-2 N,1e-09,2e-09,3e-09,0.25,1e-12,7\n",
+                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,8\n",
+                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7.5\n", "\n"}) {
+    put(folder / "bad.csv", header + good + bad + good);
+    EXPECT_THAT(message_of<InputError>([&] { read_curve(folder / "bad.csv"); }), HasSubstr("bad.csv, line 3:")) << bad;
+  }
+  put(folder / "other.csv", "separation_m,traction_Pa\n");
+  EXPECT_THAT(message_of<InputError>([&] { read_curve(folder / "other.csv"); }), HasSubstr("other.csv, line 1:"));
+  EXPECT_THAT(message_of<InputError>([&] { read_curve(folder / "none.csv"); }), HasSubstr("none.csv"));
+}
+
+TEST(CurveCsv, a_row_is_seen_from_one_patch_and_direction) {
+  StepReport report;
+  report.step = 3;
+  report.load = 0.3;
+  report.reaction = {Vector(1, 2, 3), Vector(4, 5, 6)};
+  report.patch_displacement = {Vector(10, 20, 30), Vector(40, 50, 60)};
+  report.elastic_energy = 1;
+  report.fracture_energy = 2;
+  report.external_work = 3;
+  report.max_damage = 0.5;
+  report.damaged_volume = 7;
+  report.staggered_iterations = 9;
+  EXPECT_EQ(curve_row(report, 1, 2), (CurveRow{3, 0.3, 60, Vector(4, 5, 6), 1, 2, 3, 0.5, 7, 9}));
+}
+
+}  // namespace
+}  // namespace pfdm::test

@@ -1,0 +1,96 @@
+#include "postproc/summary.h"
+#include "tests/postproc/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace pfdm::test {
+namespace {
+
+// Linear up to 6 N at 3 um, then broken; 25 % of the work goes astray in step 1, 0 at the peak, 10 % at the end.
+std::vector<CurveRow> broken_bar() {
+  return {{0, 0.0, 0.0, Vector(0, 0, 0), 0.0, 0.0, 0.0, 0.0, 0.0, 1},
+          {1, 0.25, 1e-6, Vector(0, 2, 9), 0.75e-6, 0.0, 1e-6, 0.125, 0.0, 3},
+          {2, 0.75, 3e-6, Vector(0, 6, 9), 9e-6, 0.0, 9e-6, 0.5, 1e-15, 20},
+          {3, 1.0, 4e-6, Vector(0, 0.5, 9), 1e-6, 8e-6, 10e-6, 1.0, 1e-12, 90}};
+}
+
+TEST(Headlines, of_a_bar_that_breaks) {
+  const Headlines f = headlines(broken_bar(), 1);
+  EXPECT_EQ(f.peak_force, 6.0);
+  EXPECT_EQ(f.displacement_at_peak, 3e-6);
+  EXPECT_EQ(f.load_at_peak, 0.75);
+  EXPECT_DOUBLE_EQ(f.initial_stiffness, 2e6);
+  EXPECT_EQ(f.final_force, 0.5);
+  EXPECT_EQ(f.final_displacement, 4e-6);
+  EXPECT_EQ(f.final_load, 1.0);
+  EXPECT_EQ(f.final_elastic_energy, 1e-6);
+  EXPECT_EQ(f.final_fracture_energy, 8e-6);
+  EXPECT_EQ(f.external_work, 10e-6);
+  EXPECT_EQ(f.max_damage, 1.0);
+  EXPECT_EQ(f.damaged_volume, 1e-12);
+  EXPECT_NEAR(f.energy_balance_error, 0.1, 1e-12);
+  EXPECT_NEAR(f.max_energy_balance_error, 0.25, 1e-12);
+}
+
+TEST(Headlines, in_compression_keep_the_sign_of_the_force) {
+  std::vector<CurveRow> rows = broken_bar();
+  for (CurveRow& row : rows) {
+    row.force = -row.force;
+    row.displacement = -row.displacement;
+  }
+  const Headlines f = headlines(rows, 1);
+  EXPECT_EQ(f.peak_force, -6.0);
+  EXPECT_EQ(f.displacement_at_peak, -3e-6);
+  EXPECT_DOUBLE_EQ(f.initial_stiffness, 2e6);
+}
+
+TEST(Headlines, of_no_curve_or_an_unloaded_one_are_not_numbers) {
+  EXPECT_TRUE(std::isnan(headlines({}, 0).peak_force));
+  const std::vector<CurveRow> unloaded{broken_bar().front()};
+  const Headlines f = headlines(unloaded, 1);
+  EXPECT_EQ(f.peak_force, 0.0);
+  EXPECT_TRUE(std::isnan(f.initial_stiffness));
+  EXPECT_TRUE(std::isnan(f.energy_balance_error));
+  EXPECT_TRUE(std::isnan(f.max_energy_balance_error));
+}
+
+TEST(Summary, has_units_in_its_names_and_null_for_what_is_not_a_number) {
+  const TemporaryFolder folder;
+  RunSummary s;
+  s.case_name = "bar";
+  s.version = "1.2.3";
+  s.case_hash = "abc";
+  s.threads = 2;
+  s.cells = 123000;
+  s.cpu_seconds_by_stage = {{"damage", 1.5}, {"momentum", 20.25}};
+  s.peak_memory = 1e9;
+  s.figures = headlines(broken_bar(), 1);
+  s.figures.initial_stiffness = Headlines::none;
+  s.other_figures = {{"debonded_area_m2", 1e-9}};
+  write_summary(folder / "summary.json", s);
+  const auto json = nlohmann::json::parse(content_of(folder / "summary.json"));
+  EXPECT_EQ(json.at("version"), "1.2.3");
+  EXPECT_EQ(json.at("case_hash"), "abc");
+  EXPECT_EQ(json.at("cells"), 123000);
+  EXPECT_EQ(json.at("cpu_seconds_by_stage").at("momentum"), 20.25);
+  EXPECT_EQ(json.at("peak_force_N").get<double>(), 6.0);
+  EXPECT_EQ(json.at("displacement_at_peak_m").get<double>(), 3e-6);
+  EXPECT_EQ(json.at("energy_balance_error").get<double>(), s.figures.energy_balance_error);
+  EXPECT_TRUE(json.at("initial_stiffness_N_per_m").is_null());
+  EXPECT_EQ(json.at("debonded_area_m2"), 1e-9);
+}
+
+TEST(Summary, measures_this_process) {
+  const double before = peak_memory();
+  EXPECT_GT(before, 1e6);
+  std::vector<char> much(100'000'000, 'x');
+  EXPECT_GE(peak_memory(), before + 0.5e8 * static_cast<double>(much.back() == 'x'));
+  EXPECT_GT(cpu_seconds(), 0.0);
+}
+
+}  // namespace
+}  // namespace pfdm::test

@@ -1,0 +1,240 @@
+#include "physics/error.h"
+#include "postproc/frame.h"
+#include "postproc/vtu_writer.h"
+#include "tests/postproc/boxes.h"
+#include "tests/postproc/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <array>
+#include <cmath>
+
+namespace pfdm::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A cube with a neighbour of every other shape, so that each shape shares a face with it or with its pyramid.
+Mesh mesh_of_all_shapes() {
+  CellSoup soup;
+  soup.points = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0},  {0, 0, 1},     {1, 0, 1}, {1, 1, 1}, {0, 1, 1},
+                 {0, -1, 0}, {1, -1, 0}, {1, -1, 1}, {0, -1, 1}, {0.5, 0.5, 2}, {2, 0, 0}, {2, 1, 0}, {0.5, -1, 1.5}};
+  soup.region_names = {"glass", "epoxy"};
+  const auto add = [&](CellShape shape, std::vector<Index> points, Index region) {
+    soup.add_cell(shape, points, region);
+  };
+  add(CellShape::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}, 0);
+  add(CellShape::pyramid, {4, 5, 6, 7, 12}, 1);
+  add(CellShape::tetrahedron, {4, 12, 15, 5}, 1);
+  add(CellShape::wedge, {1, 13, 5, 2, 14, 6}, 0);
+  add(CellShape::polyhedron, {0, 1, 4, 5, 8, 9, 10, 11}, 1);
+  soup.polyhedron_faces = {
+      {6, 4, 8, 9, 1, 0, 4, 4, 5, 10, 11, 4, 8, 11, 10, 9, 4, 0, 1, 5, 4, 4, 8, 0, 4, 11, 4, 9, 10, 5, 1}};
+  return assemble_mesh(std::move(soup), {});
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_back(const std::filesystem::path& path) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+// Numbers with digits down to the last bit, different in every place.
+double awkward(int i) { return std::sin(1.0 + i) / 3.0; }
+
+struct AwkwardFields {
+  explicit AwkwardFields(Index n)
+      : scalar(as_size(n)),
+        vector(as_size(n), Vector::Zero()),
+        tensor(as_size(n), Tensor::Zero()),
+        integer(as_size(n)) {
+    for (Index i = 0; i < n; ++i) {
+      scalar[i] = awkward(i);
+      vector[i] = Vector(awkward(i), -awkward(i + 1), 1e-300 * awkward(i + 2));
+      for (int k = 0; k < 9; ++k) tensor[i](k / 3, k % 3) = awkward(9 * i + k);
+      tensor[i] = symmetric_part(tensor[i]);
+      integer[i] = 7 - 3 * i;
+    }
+  }
+  CellField<double> scalar;
+  CellField<Vector> vector;
+  CellField<Tensor> tensor;
+  CellField<Index> integer;
+};
+
+TEST(VtuWriter, fields_come_back_bit_for_bit) {
+  const TemporaryFolder folder;
+  const Mesh mesh = mesh_of_all_shapes();
+  const AwkwardFields f(mesh.n_cells());
+  VtuWriter(mesh).write(folder / "a.vtu", {{"s", &f.scalar}, {"v", &f.vector}, {"t", &f.tensor}, {"i", &f.integer}},
+                        0.1);
+  const auto grid = read_back(folder / "a.vtu");
+  vtkCellData& data = *grid->GetCellData();
+  ASSERT_EQ(data.GetNumberOfArrays(), 4);
+  for (const char* name : {"s", "v", "t"}) EXPECT_EQ(data.GetArray(name)->GetDataType(), VTK_DOUBLE) << name;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    EXPECT_EQ(data.GetArray("s")->GetComponent(c, 0), f.scalar[c]);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(data.GetArray("v")->GetComponent(c, k), f.vector[c][k]);
+    EXPECT_EQ(static_cast<Index>(data.GetArray("i")->GetComponent(c, 0)), f.integer[c]);
+  }
+}
+
+TEST(VtuWriter, tensors_have_named_components) {
+  const TemporaryFolder folder;
+  const Mesh mesh = mesh_of_all_shapes();
+  const AwkwardFields f(mesh.n_cells());
+  VtuWriter(mesh).write(folder / "a.vtu", {{"t", &f.tensor}}, 0.0);
+  const auto grid = read_back(folder / "a.vtu");
+  vtkDataArray& array = *grid->GetCellData()->GetArray("t");
+  ASSERT_EQ(array.GetNumberOfComponents(), 6);
+  const std::array<std::string, 6> names{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+  for (int k = 0; k < 6; ++k) {
+    EXPECT_EQ(array.GetComponentName(k), names[static_cast<std::size_t>(k)]);
+    const int row = names[static_cast<std::size_t>(k)][0] - 'X', column = names[static_cast<std::size_t>(k)][1] - 'X';
+    for (Index c = 0; c < mesh.n_cells(); ++c) EXPECT_EQ(array.GetComponent(c, k), f.tensor[c](row, column));
+  }
+}
+
+TEST(VtuWriter, single_precision_rounds_once) {
+  const TemporaryFolder folder;
+  const Mesh mesh = mesh_of_all_shapes();
+  const AwkwardFields f(mesh.n_cells());
+  using enum Precision;
+  VtuWriter(mesh).write(folder / "a.vtu", {{"s", &f.scalar, single_precision}, {"v", &f.vector, single_precision}},
+                        0.0);
+  const auto grid = read_back(folder / "a.vtu");
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    EXPECT_EQ(grid->GetCellData()->GetArray("s")->GetComponent(c, 0), static_cast<float>(f.scalar[c]));
+    EXPECT_EQ(grid->GetCellData()->GetArray("v")->GetComponent(c, 2), static_cast<float>(f.vector[c].z()));
+  }
+}
+
+TEST(VtuWriter, points_and_cells_come_back) {
+  const TemporaryFolder folder;
+  const Mesh mesh = mesh_of_all_shapes();
+  VtuWriter(mesh).write(folder / "a.vtu", {}, 0.0);
+  const auto grid = read_back(folder / "a.vtu");
+  ASSERT_EQ(grid->GetNumberOfPoints(), static_cast<vtkIdType>(mesh.points.size()));
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+    EXPECT_EQ(Vector(grid->GetPoint(static_cast<vtkIdType>(p))), mesh.points[p]);
+  ASSERT_EQ(grid->GetNumberOfCells(), mesh.n_cells());
+  // In the order of CellShape.
+  const std::array types{VTK_TETRA, VTK_WEDGE, VTK_PYRAMID, VTK_HEXAHEDRON, VTK_POLYHEDRON};
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    EXPECT_EQ(grid->GetCellType(c), types[static_cast<std::size_t>(mesh.shape[c])]);
+    vtkNew<vtkIdList> points;
+    grid->GetCellPoints(c, points);
+    EXPECT_TRUE(
+        std::equal(points->begin(), points->end(), mesh.points_of_cell(c).begin(), mesh.points_of_cell(c).end()));
+  }
+}
+
+TEST(VtuWriter, faces_of_polyhedra_are_closed_and_point_outwards) {
+  const TemporaryFolder folder;
+  const Mesh mesh = mesh_of_all_shapes();
+  VtuWriter(mesh).write(folder / "a.vtu", {}, 0.0);
+  const auto grid = read_back(folder / "a.vtu");
+  Index polyhedron = 0;
+  while (mesh.shape[polyhedron] != CellShape::polyhedron) ++polyhedron;
+  vtkNew<vtkIdList> stream;
+  grid->GetFaceStream(polyhedron, stream);
+  ASSERT_EQ(stream->GetId(0), 6);
+  double volume = 0.0;
+  for (vtkIdType at = 1; at < stream->GetNumberOfIds(); at += stream->GetId(at) + 1) {
+    ASSERT_EQ(stream->GetId(at), 4);
+    const auto point = [&](vtkIdType k) { return Vector(grid->GetPoint(stream->GetId(at + 1 + k))); };
+    const Vector area = 0.5 * (point(2) - point(0)).cross(point(3) - point(1));
+    volume += area.dot(point(0)) / 3.0;  // divergence theorem
+  }
+  EXPECT_NEAR(volume, mesh.cell_volume[polyhedron], 1e-14);
+}
+
+TEST(VtuWriter, time_and_region_names_are_field_data) {
+  const TemporaryFolder folder;
+  VtuWriter(mesh_of_all_shapes()).write(folder / "a.vtu", {}, awkward(3));
+  const auto grid = read_back(folder / "a.vtu");
+  vtkFieldData& data = *grid->GetFieldData();
+  ASSERT_NE(data.GetArray("TimeValue"), nullptr);
+  EXPECT_EQ(data.GetArray("TimeValue")->GetComponent(0, 0), awkward(3));
+  const auto* names = vtkStringArray::SafeDownCast(data.GetAbstractArray("region_names"));
+  ASSERT_NE(names, nullptr);
+  ASSERT_EQ(names->GetNumberOfValues(), 2);
+  EXPECT_EQ(const_cast<vtkStringArray*>(names)->GetValue(1), "epoxy");
+}
+
+TEST(VtuWriter, one_writer_makes_frames_that_do_not_mix) {
+  const TemporaryFolder folder;
+  const Mesh mesh = cube_mesh(1.0, 2);
+  const VtuWriter writer(mesh);
+  CellField<double> damage(as_size(mesh.n_cells()), 0.25);
+  writer.write(folder / "first.vtu", {{"damage", &damage}}, 0.0);
+  damage[0] = 0.75;
+  writer.write(folder / "second.vtu", {{"only_here", &damage}}, 1.0);
+  EXPECT_EQ(read_back(folder / "first.vtu")->GetCellData()->GetArray("damage")->GetComponent(0, 0), 0.25);
+  const auto second = read_back(folder / "second.vtu");
+  EXPECT_EQ(second->GetCellData()->GetNumberOfArrays(), 1);
+  EXPECT_EQ(second->GetCellData()->GetArray("only_here")->GetComponent(0, 0), 0.75);
+  EXPECT_EQ(folder.n_entries(), 2u);
+}
+
+TEST(VtuWriter, refuses_a_field_of_another_mesh) {
+  const TemporaryFolder folder;
+  const CellField<double> field(4);
+  const VtuWriter writer(mesh_of_all_shapes());
+  EXPECT_EQ(message_of<InputError>([&] {
+              writer.write(folder / "a.vtu", {{"d", &field}}, 0.0);
+            }),
+            "the field \"d\" has 4 values for 5 cells");
+  EXPECT_EQ(folder.n_entries(), 0u);
+}
+
+TEST(VtuWriter, says_where_it_cannot_write) {
+  const TemporaryFolder folder;
+  put(folder / "file", "");
+  const VtuWriter writer(mesh_of_all_shapes());
+  EXPECT_THAT(message_of<ComputationError>([&] { writer.write(folder / "file" / "a.vtu", {}, 0.0); }),
+              HasSubstr("file/a.vtu: Not a directory"));
+}
+
+TEST(VtuWriter, leaves_nothing_when_the_disk_fills_up_half_way) {
+  const TemporaryFolder folder;
+  const VtuWriter writer(mesh_of_all_shapes());
+  const FileSizeLimit limit(500);
+  EXPECT_THAT(message_of<ComputationError>([&] { writer.write(folder / "a.vtu", {}, 0.0); }),
+              HasSubstr("a.vtu: File too large"));
+  EXPECT_EQ(folder.n_entries(), 0u);
+}
+
+TEST(Frame, has_the_names_of_the_interface) {
+  const TemporaryFolder folder;
+  const Mesh mesh = mesh_of_all_shapes();
+  const AwkwardFields f(mesh.n_cells());
+  const OutputFields output{.displacement = f.vector,
+                            .damage = f.scalar,
+                            .stress = f.tensor,
+                            .strain = f.tensor,
+                            .energy_density = f.scalar,
+                            .driving_energy = f.scalar};
+  VtuWriter(mesh).write(folder / "a.vtu", frame_fields(mesh, output), 0.0);
+  const auto grid = read_back(folder / "a.vtu");
+  for (const char* name : {"damage", "displacement", "stress", "strain", "material", "energy_density"})
+    EXPECT_NE(grid->GetCellData()->GetArray(name), nullptr) << name;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    EXPECT_EQ(grid->GetCellData()->GetArray("damage")->GetComponent(c, 0), f.scalar[c]);
+    EXPECT_EQ(grid->GetCellData()->GetArray("material")->GetComponent(c, 0), mesh.region[c]);
+  }
+}
+
+}  // namespace
+}  // namespace pfdm::test
