@@ -10,11 +10,20 @@ namespace pfdm {
 
 constexpr std::size_t as_size(Index i) { return static_cast<std::size_t>(i); }
 
+/// Zero, also for Eigen's types, which leave T{} uninitialised.
+template <class T>
+T zero_of() {
+  if constexpr (requires { T::Zero(); })
+    return T::Zero();
+  else
+    return T{};
+}
+
 template <class T, class Place>
 class Field {
  public:
   Field() = default;
-  explicit Field(std::size_t n, const T& value = T{}) : values_(n, value) {}
+  explicit Field(std::size_t n, const T& value = zero_of<T>()) : values_(n, value) {}
   explicit Field(std::vector<T> values) : values_(std::move(values)) {}
 
   T& operator[](Index i) { return values_[static_cast<std::size_t>(i)]; }

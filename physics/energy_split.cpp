@@ -11,10 +11,10 @@ constexpr EnergySplit none{
     .name = "none",
     .description = "the whole elastic energy is degraded",
     .energy = [](const IsotropicElasticity& c, const Tensor& eps) { return SplitEnergy{energy_density(c, eps), 0.0}; },
-    .secant = [](const IsotropicElasticity& c, double g, const Tensor&) {
+    .closure = [](const Tensor&) { return 0.0; },
+    .secant = [](const IsotropicElasticity& c, double g, double) {
       return IsotropicElasticity{g * c.lambda, g * c.mu};
     },
-    .secant_depends_on_strain = false,
 };
 
 // Amor, Marigo, Maurini, J. Mech. Phys. Solids 57 (2009) 1209, eqs. 25-26: compression of the volume is kept.
@@ -30,11 +30,11 @@ constexpr EnergySplit volumetric_deviatoric{
       return SplitEnergy{0.5 * K * expansion * expansion + c.mu * contract(shear, shear),
                          0.5 * K * compression * compression};
     },
-    .secant = [](const IsotropicElasticity& c, double g, const Tensor& eps) {
-      const double K = (eps.trace() >= 0.0 ? g : 1.0) * c.bulk_modulus();
+    .closure = [](const Tensor& eps) { return eps.trace() < 0.0 ? 1.0 : 0.0; },
+    .secant = [](const IsotropicElasticity& c, double g, double closure) {
+      const double K = (g + closure * (1.0 - g)) * c.bulk_modulus();
       return IsotropicElasticity{K - 2.0 * g * c.mu / 3.0, g * c.mu};
     },
-    .secant_depends_on_strain = true,
 };
 
 constexpr EnergySplit table[] = {none, volumetric_deviatoric};

@@ -19,9 +19,11 @@ struct EnergySplit {
   std::string_view name;
   std::string_view description;
   SplitEnergy (*energy)(const IsotropicElasticity&, const Tensor& eps);
-  /// Secant moduli of the material degraded to g (residual stiffness included) at the strain eps.
-  IsotropicElasticity (*secant)(const IsotropicElasticity&, double g, const Tensor& eps);
-  bool secant_depends_on_strain;
+  /// 1 where the strain closes cracks, so that part of the stiffness is kept; 0 where it opens them.
+  double (*closure)(const Tensor& eps);
+  /// Secant moduli of the material degraded to g (residual stiffness included). With closure(eps) they give the stress
+  /// of the law; values between 0 and 1 occur while an iteration settles.
+  IsotropicElasticity (*secant)(const IsotropicElasticity&, double g, double closure);
 };
 
 std::span<const EnergySplit> energy_splits();

@@ -94,9 +94,9 @@ class Reader {
 // The one list of what is in a state, for both directions; it does not compile any more when the state gets a member.
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
-  auto& [step, load, increment, displacement, damage, driving_energy, strain, boundary_force, external_work] = state;
+  auto& [step, load, increment, displacement, damage, driving_energy, closure, boundary_force, external_work] = state;
   const auto each = [&](auto&... members) { (archive(members), ...); };
-  each(step, load, increment, displacement, damage, driving_energy, strain, boundary_force, external_work);
+  each(step, load, increment, displacement, damage, driving_energy, closure, boundary_force, external_work);
 }
 
 template <class T>

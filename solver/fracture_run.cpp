@@ -108,7 +108,7 @@ FractureState FractureRun::initial_state() const {
   state.displacement.assign(as_size(parts_->unknowns.n_nodes()), Vector::Zero());
   state.damage = CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
-  state.strain = CellField<Tensor>(n, Tensor::Zero());
+  state.closure = CellField<double>(n, 0.0);
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
   return state;
 }

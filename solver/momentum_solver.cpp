@@ -3,7 +3,9 @@
 #include "solver/parallel.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -76,8 +78,20 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
   return reference_;
 }
 
+void MomentumSolver::set_body_force(std::vector<Vector> force_on_cells) {
+  assert(force_on_cells.empty() || force_on_cells.size() == as_size(unknowns_.n_cells));
+  body_force_ = std::move(force_on_cells);
+  reference_load_.reset();
+}
+
+std::vector<Vector> MomentumSolver::load_vector(double t) const {
+  std::vector<Vector> load = operator_.load_vector(t);
+  for (std::size_t c = 0; c < body_force_.size(); ++c) load[c] += body_force_[c];
+  return load;
+}
+
 Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vector<Vector>& u) {
-  const std::vector<Vector> load = operator_.load_vector(t);
+  const std::vector<Vector> load = load_vector(t);
   const double reference = reference_norm(t, load);
   operator_.prescribe(t, u);
   if (reference == 0.0) {

@@ -35,6 +35,8 @@ class MomentumSolver {
     double floor = 1e-8;
   };
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
+  /// Forces on the cells [N], one per cell, at every load parameter from now on; empty for none.
+  void set_body_force(std::vector<Vector> force_on_cells);
 
   MomentumOperator& balance() { return operator_; }
   const MomentumOperator& balance() const { return operator_; }
@@ -43,10 +45,12 @@ class MomentumSolver {
  private:
   void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
   void build_preconditioner();
+  std::vector<Vector> load_vector(double t) const;
   double reference_norm(double t, const std::vector<Vector>& load);
 
   const Unknowns& unknowns_;
   MomentumOperator operator_;
+  std::vector<Vector> body_force_;       // on the cells [N]; may be empty
   std::vector<Index> position_of_node_;  // multigrid row of each node: face nodes follow a cell of theirs
   std::optional<Multigrid> multigrid_;
   CellField<double> g_of_multigrid_;

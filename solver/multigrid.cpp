@@ -12,7 +12,7 @@ namespace {
 constexpr Index coarsest_size = 120;   // rows solved directly
 constexpr Index most_direct_rows = 1500;
 constexpr int pairwise_passes = 3;     // aggregates of up to 8
-static const int sweeps = getenv("SW") ? atoi(getenv("SW")) : 2;              // before, and after, the coarse correction
+constexpr int sweeps = 2;                           // before, and after, the coarse correction
 constexpr Index group_size = 1024;     // rows of one smoothing task
 
 // Groups of consecutive rows, coloured so that groups of one colour are not coupled.
@@ -103,7 +103,6 @@ Multigrid::Multigrid(BlockMatrix matrix) {
                        .coarse_b = {}, .coarse_x = {}, .direction = {}, .image = {}, .k_residual = {}});
   }
   set_up_work_space();
-  if (getenv("LEV")) { for (auto& l : levels_) printf("%d ", l.matrix.n_rows()); printf("\n"); }
 }
 
 void Multigrid::set_up_work_space() {

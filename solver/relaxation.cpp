@@ -3,13 +3,11 @@
 #include "solver/parallel.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 
 namespace pfdm {
 namespace {
 
-constexpr double least_factor = 0.5;
+constexpr double least_factor = 0.5, most_factor = 5.0;
 
 }  // namespace
 
@@ -19,35 +17,12 @@ CellField<double> Relaxation::next(const CellField<double>& d, const CellField<d
   CellField<double> increment(as_size(n)), result(as_size(n));
   parallel_for(n, [&](Index c) { increment[c] = answer[c] - d[c]; });
   factor_ = 1.0;
-  const double mm = getenv("RF") ? atof(getenv("RF")) : 3.0;
   if (increment_.size() == n) {
     const double product = parallel_sum(n, [&](Index c) { return increment[c] * increment_[c]; });
     const double square = parallel_sum(n, [&](Index c) { return increment_[c] * increment_[c]; });
     const double contraction = square > 0.0 ? product / square : 0.0;
-    factor_ = contraction < 1.0 ? std::clamp(1.0 / (1.0 - contraction), least_factor, mm) : mm;
+    factor_ = contraction < 1.0 ? std::clamp(1.0 / (1.0 - contraction), least_factor, most_factor) : most_factor;
   }
-  static const int mode = getenv("RM") ? atoi(getenv("RM")) : 0;
-  static const double most = getenv("RF") ? atof(getenv("RF")) : 3.0;
-  if (mode == 1 && increment_.size() == n) {
-  parallel_for(n, [&](Index c) {
-    const double rho = increment_[c] != 0 ? increment[c] / increment_[c] : 0;
-    double f = rho < 0 ? 0.5 : rho < 1 ? std::min(most, 1/(1-rho)) : most;
-    result[c] = std::clamp(d[c] + f * increment[c], lower[c], 1.0);
-  });
-  increment_ = std::move(increment);
-  return result;
-  }
-  if (mode == 2 && increment_.size() == n) {
-  parallel_for(n, [&](Index c) {
-    const double rho = increment_[c] != 0 ? increment[c] / increment_[c] : 0;
-    double f = rho < 0 ? 0.5 : rho < 1 ? std::min(most, 1/(1-rho)) : most;
-    f = rho < 0 ? 0.5 : std::max(1.0, std::sqrt(f * factor_));
-    result[c] = std::clamp(d[c] + f * increment[c], lower[c], 1.0);
-  });
-  increment_ = std::move(increment);
-  return result;
-  }
-  if (mode == 3) factor_ = std::min(1.5, most);
   parallel_for(n, [&](Index c) {
     const bool turned = increment_.size() == n && increment[c] * increment_[c] < 0.0;
     result[c] = std::clamp(d[c] + (turned ? 0.5 : factor_) * increment[c], lower[c], 1.0);

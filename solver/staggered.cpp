@@ -18,19 +18,22 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks) {
   StepOutcome outcome;
   Relaxation relaxation;
+  closing_ = CellField<float>(as_size(mesh_.n_cells()), 0.0F);
+  turns_ = CellField<Index>(as_size(mesh_.n_cells()), 0);
   momentum_.forget_preconditioner();  // a run that is gone on with does the same
   double energy_before = 0.0;
   while (outcome.iterations < settings_.maximum_iterations && !outcome.converged) {
     degrade(state);
     const Equilibrium equilibrium = solve_momentum(state, {.reduction = 0.1, .ceiling = 1e-4, .floor = 0.1 * settings_.equilibrium_tolerance});
     if (!equilibrium.converged) return outcome;
-    outcome.elastic_energy = update_driving_energy(start, state);
+    const Energies energies = update_driving_energy(start, state);
     CellField<double> answer = state.damage;
     solve_damage(start, state, answer);
     const double change =
         parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
-    const double energy = outcome.elastic_energy + damage_.fracture_energy(answer);
-    const double energy_change = std::abs(energy - energy_before) / std::max(energy, 1e-300);
+    const double energy = energies.elastic + damage_.fracture_energy(answer);
+    const double energy_change =
+        (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
     outcome.krylov_iterations += equilibrium.iterations;
@@ -48,7 +51,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   const Equilibrium equilibrium = solve_momentum(state, {.reduction = 0.0, .ceiling = 3e-8, .floor = 3e-8});
   outcome.krylov_iterations += equilibrium.iterations;
   outcome.converged = outcome.converged && equilibrium.converged;
-  outcome.elastic_energy = update_driving_energy(start, state);
+  outcome.elastic_energy = update_driving_energy(start, state).elastic;
   return outcome;
 }
 
@@ -63,7 +66,7 @@ void Staggered::degrade(const FractureState& state) {
   CellField<IsotropicElasticity> moduli(as_size(mesh_.n_cells()));
   parallel_for(mesh_.n_cells(), [&](Index c) {
     g[c] = stiffness_factor(c, state.damage[c]);
-    moduli[c] = model_.split->secant(model_.regions[as_size(mesh_.region[c])].elasticity, g[c], state.strain[c]);
+    moduli[c] = model_.split->secant(model_.regions[as_size(mesh_.region[c])].elasticity, g[c], state.closure[c]);
   });
   momentum_.set_moduli(moduli, g);
 }
@@ -73,8 +76,23 @@ Equilibrium Staggered::solve_momentum(FractureState& state, const MomentumSolver
   return momentum_.solve(state.load, tolerance, state.displacement);
 }
 
-// Returns the elastic energy.
-double Staggered::update_driving_energy(const FractureState& start, FractureState& state) {
+// The closure follows the strain with steps that shorten at each turn: at once, cells at the edge of a crack would open
+// and close in turn for ever. Returns the energy [J] by which the present closure is wrong.
+double Staggered::settle(const FractureState& state, Index cell, const Tensor& strain, double& closure) {
+  const double lag = model_.split->closure(strain) - closure;
+  if (lag == 0.0) return 0.0;
+  const IsotropicElasticity& elasticity = model_.regions[as_size(mesh_.region[cell])].elasticity;
+  const double g = stiffness_factor(cell, state.damage[cell]);
+  const double wrong = energy_density(model_.split->secant(elasticity, g, closure + lag), strain) -
+                       energy_density(model_.split->secant(elasticity, g, closure), strain);
+  if (lag * closing_[cell] < 0.0) ++turns_[cell];
+  closing_[cell] = static_cast<float>(lag);
+  constexpr double nearly = 1e-8;
+  closure += std::abs(lag) < nearly ? lag : lag / (2.0 + turns_[cell]);
+  return mesh_.cell_volume[cell] * std::abs(wrong);
+}
+
+Staggered::Energies Staggered::update_driving_energy(const FractureState& start, FractureState& state) {
   const auto lap = clock_.lap("driving_energy");
   CellMechanics mechanics = momentum_.balance().mechanics(state.displacement);
   const bool history = model_.irreversibility == Irreversibility::history;
@@ -83,8 +101,11 @@ double Staggered::update_driving_energy(const FractureState& start, FractureStat
     const double psi = model_.split->energy(region.elasticity, mechanics.strain[c]).psi_plus;
     state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
   });
-  state.strain = std::move(mechanics.strain);
-  return parallel_sum(mesh_.n_cells(), [&](Index c) { return mechanics.energy[c]; });
+  Energies energies;
+  energies.elastic = parallel_sum(mesh_.n_cells(), [&](Index c) { return mechanics.energy[c]; });
+  energies.unsettled = parallel_sum(
+      mesh_.n_cells(), [&](Index c) { return settle(state, c, mechanics.strain[c], state.closure[c]); });
+  return energies;
 }
 
 void Staggered::solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d) {

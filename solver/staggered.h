@@ -32,8 +32,13 @@ class Staggered {
 
  private:
   Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
-  double update_driving_energy(const FractureState& start, FractureState& state);
+  struct Energies {
+    double elastic = 0.0;    // [J]
+    double unsettled = 0.0;  // by which the closure that was used falsifies it [J]
+  };
+  Energies update_driving_energy(const FractureState& start, FractureState& state);
   void solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
+  double settle(const FractureState& state, Index cell, const Tensor& strain, double& closure);
   double stiffness_factor(Index cell, double d) const;
 
   const Mesh& mesh_;
@@ -42,6 +47,8 @@ class Staggered {
   MomentumSolver momentum_;
   DamageEquation damage_;
   StageClock clock_;
+  CellField<float> closing_;  // per cell: last move of the closure, and
+  CellField<Index> turns_;    // how often it has turned within the step
 };
 
 }  // namespace pfdm

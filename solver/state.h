@@ -15,7 +15,7 @@ struct FractureState {
   std::vector<Vector> displacement;
   CellField<double> damage;          ///< d [-]
   CellField<double> driving_energy;  ///< psi_plus, or its history [J/m^3]
-  CellField<Tensor> strain;          ///< of the last equilibrium [-]; tells which cells are in compression
+  CellField<double> closure;         ///< of the energy split: 1 where cracks are closed, 0 where open
   std::vector<Vector> boundary_force;  ///< on each boundary face [N], in the mesh's face order
   double external_work = 0.0;        ///< [J]
 };

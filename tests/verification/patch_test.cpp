@@ -1,47 +1,219 @@
-// A linear displacement is reproduced exactly on every kind of cell and with every kind of boundary.
+// A linear displacement is reproduced exactly on every kind of cell and with every kind of boundary condition.
 
 #include "tests/verification/support.h"
 
+#include "mesh/geometry.h"
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 
 namespace pfdm::verification {
 namespace {
 
-const Tensor slope = (Tensor() << 1.0, 0.3, -0.2, 0.1, -0.7, 0.4, 0.25, -0.15, 0.6).finished() * 1e-3;
+const Tensor general_slope = (Tensor() << 1.0, 0.3, -0.2, 0.1, -0.7, 0.4, 0.25, -0.15, 0.6).finished() * 1e-3;
 
-DisplacementField linear() {
-  return [](const Vector& x) -> Vector { return slope * x; };
+// u = slope (x - origin) in one material.
+struct LinearCase {
+  Tensor slope = general_slope;
+  Vector origin = Vector::Zero();
+  IsotropicElasticity material = from_young_poisson(75e6, 0.44);
+
+  Vector displacement(const Vector& x) const { return slope * (x - origin); }
+  Tensor stress() const { return pfdm::stress(material, symmetric_part(slope)); }
+};
+
+// Components of the displacement that are prescribed, patch by patch; tractions of the exact stress are on the others.
+using Masks = std::map<std::string, std::array<bool, 3>>;
+
+std::vector<BoundaryCondition> exact_boundary(const Mesh& mesh, const LinearCase& exact, const Masks& masks) {
+  std::vector<BoundaryCondition> all;
+  for (const auto& [name, mask] : masks) {
+    const Vector traction = exact.stress() * mesh.face_area[mesh.patch(name).first_face].normalized();
+    all.push_back({.patch = name,
+                   .displacement_prescribed = mask,
+                   .value = [exact, traction, mask](const Vector& x, double) {
+                     Vector value = exact.displacement(x);
+                     for (int i = 0; i < 3; ++i)
+                       if (!mask[as_size(i)]) value[i] = traction[i];
+                     return value;
+                   }});
+  }
+  return all;
 }
 
-void expect_exact(const Mesh& mesh, const FractureModel& model) {
-  const auto solution = solve_elastic(mesh, model, {}, 1e-12);
-  const double error = relative_error(
-      mesh, [&](Index c) { return solution->u[as_size(c)]; }, [&](Index c) -> Vector { return slope * mesh.cell_centre[c]; },
-      [](Index) { return true; });
-  std::printf("%d cells, %d iterations, residual %.1e, error %.1e\n", mesh.n_cells(), solution->equilibrium.iterations,
-              solution->equilibrium.residual, error);
-  EXPECT_LE(error, 1e-9);
-  const IsotropicElasticity& c = model.regions.front().elasticity;
-  const Tensor truth = stress(c, symmetric_part(slope));
-  EXPECT_LE(relative_stress_error(mesh, solution->cells.stress, [&](const Vector&) { return truth; }, [](Index) { return true; }), 1e-9);
+void expect_exact(const Mesh& mesh, const LinearCase& exact, const std::vector<BoundaryCondition>& boundary) {
+  const std::vector<IsotropicElasticity> by_region(mesh.region_names.size(), exact.material);
+  const auto solution = solve_elastic(mesh, elastic_model(by_region, boundary), {}, 1e-13);
+  EXPECT_TRUE(solution->equilibrium.converged);
+  const auto everywhere = [](Index) { return true; };
+  const double u = displacement_error(mesh, *solution, [&](const Vector& x) { return exact.displacement(x); });
+  const double stress = relative_stress_error(
+      mesh, solution->cells.stress, [&](const Vector&) { return exact.stress(); }, everywhere);
+  const double strain = relative_stress_error(
+      mesh, solution->cells.strain, [&](const Vector&) { return symmetric_part(exact.slope); }, everywhere);
+  report_row(fmt::format("{} cells, nu {:.3f}", mesh.n_cells(), exact.material.poisson_ratio()),
+             {{"u", u},
+              {"stress", stress},
+              {"strain", strain},
+              {"reactions", reaction_imbalance(mesh, *solution)},
+              {"energy", energy_imbalance(mesh, *solution)},
+              {"iterations", solution->equilibrium.iterations}});
+  EXPECT_LE(u, 1e-9);
+  EXPECT_LE(stress, 1e-9);
+  EXPECT_LE(strain, 1e-9);
+  EXPECT_LE(reaction_imbalance(mesh, *solution), 1e-6);
+  EXPECT_LE(energy_imbalance(mesh, *solution), 1e-9);
 }
 
-TEST(PatchTest, DisplacementOnTetrahedraAndPrisms) {
-  const Mesh mesh = sphere_in_cube(4, 5, 3.0, 0.5);
-  const IsotropicElasticity c = from_young_poisson(75e6, 0.44);
-  expect_exact(mesh, elastic_model({c, c, c}, displacement_on_all(mesh, linear())));
+BoxHexesSettings graded_box(Index n_z) {
+  BoxHexesSettings settings;
+  settings.origin = Vector(-1.0, -0.5, 0.0);
+  settings.axes = {{{{.length = 2.0, .n = 10, .ratio = 5.0}},
+                    {{.length = 0.6, .n = 5, .ratio = 0.3}, {.length = 0.7, .n = 4, .ratio = 1.0}},
+                    {{.length = 0.8, .n = n_z, .ratio = 2.0}}}};
+  return settings;
 }
 
-TEST(PatchTest, TractionOnTetrahedraAndPrisms) {
-  const Mesh mesh = sphere_in_cube(4, 5, 3.0, 0.5);
-  const IsotropicElasticity c = from_young_poisson(75e6, 0.44);
-  auto boundary = displacement_on_all(mesh, linear());
-  const Tensor sigma = stress(c, symmetric_part(slope));
-  for (BoundaryCondition& b : boundary)
-    if (b.patch == "xmax" || b.patch == "ymin")
-      b = traction_on(b.patch, [&, outward = b.patch == "xmax" ? Vector(1, 0, 0) : Vector(0, -1, 0)](const Vector&) -> Vector { return sigma * outward; });
-  expect_exact(mesh, elastic_model({c, c, c}, boundary));
+// Inner points are moved, so that faces are neither plane nor orthogonal to the lines between cell centres.
+Mesh warped_hexes() {
+  Mesh mesh = make_box_hexes(graded_box(6));
+  std::vector<bool> outer(mesh.points.size(), false);
+  for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f)
+    for (const Index p : mesh.points_of_face(f)) outer[as_size(p)] = true;
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+    const auto i = static_cast<double>(p);
+    if (!outer[p]) mesh.points[p] += 0.02 * Vector(std::sin(37.0 * i), std::sin(91.0 * i), std::sin(53.0 * i));
+  }
+  compute_geometry(mesh);
+  return mesh;
 }
+
+struct NamedMesh {
+  std::string name;
+  Mesh (*make)();
+};
+
+const std::vector<NamedMesh> meshes{
+    {"TetrahedraAndPrisms", [] { return sphere_in_cube(3, 4, 3.0, 0.5); }},
+    {"GradedHexes", [] { return make_box_hexes(graded_box(6)); }},
+    {"WarpedHexes", warped_hexes},
+};
+
+struct NamedMasks {
+  std::string name;
+  Masks of_patch;
+};
+
+constexpr std::array<bool, 3> all{true, true, true}, none{false, false, false};
+
+const std::vector<NamedMasks> boundaries{
+    {"Displacement", {{"xmin", all}, {"xmax", all}, {"ymin", all}, {"ymax", all}, {"zmin", all}, {"zmax", all}}},
+    {"Traction", {{"xmin", all}, {"xmax", none}, {"ymin", none}, {"ymax", none}, {"zmin", none}, {"zmax", none}}},
+    {"MixedComponents",
+     {{"xmin", {true, false, false}},
+      {"xmax", {false, true, false}},
+      {"ymin", {true, true, false}},
+      {"ymax", {false, false, true}},
+      {"zmin", {true, false, true}},
+      {"zmax", {false, true, true}}}},
+};
+
+using MeshAndMasks = std::tuple<NamedMesh, NamedMasks>;
+class PatchTest : public testing::TestWithParam<MeshAndMasks> {};
+
+TEST_P(PatchTest, IsExact) {
+  const auto& [mesh_kind, masks] = GetParam();
+  const Mesh mesh = mesh_kind.make();
+  const LinearCase exact;
+  expect_exact(mesh, exact, exact_boundary(mesh, exact, masks.of_patch));
+}
+
+INSTANTIATE_TEST_SUITE_P(Boundaries, PatchTest,
+                         testing::Combine(testing::ValuesIn(meshes), testing::ValuesIn(boundaries)),
+                         [](const auto& test) {
+                           return std::get<0>(test.param).name + std::get<1>(test.param).name;
+                         });
+
+Vector lowest_corner(const Mesh& mesh) {
+  return *std::min_element(mesh.points.begin(), mesh.points.end(),
+                           [](const Vector& a, const Vector& b) { return a.sum() < b.sum(); });
+}
+
+// Uniaxial tension along the turned x axis: three symmetry faces, free sides, one end pulled.
+class RotatedTension : public testing::TestWithParam<double> {
+ protected:
+  static void pull(Mesh straight, bool by_traction) {
+    const double nu = GetParam();
+    const Tensor R = arbitrary_rotation();
+    const Vector corner = lowest_corner(straight);
+    const Mesh mesh = rotated(std::move(straight), R);
+    const LinearCase exact{.slope = 1e-3 * R * Vector(1.0, -nu, -nu).asDiagonal() * R.transpose(),
+                           .origin = R * corner,
+                           .material = from_young_poisson(75e6, nu)};
+    auto boundary = exact_boundary(mesh, exact, {{"xmax", by_traction ? none : all}});
+    for (const char* patch : {"xmin", "ymin", "zmin"}) boundary.push_back(symmetry_on(patch));
+    expect_exact(mesh, exact, boundary);
+  }
+};
+
+TEST_P(RotatedTension, OfHexesByTraction) { pull(make_box_hexes(graded_box(6)), true); }
+TEST_P(RotatedTension, OfHexesByDisplacement) { pull(make_box_hexes(graded_box(6)), false); }
+TEST_P(RotatedTension, OfTetrahedraAndPrismsByTraction) { pull(sphere_in_cube(3, 4, 3.0, 0.5), true); }
+TEST_P(RotatedTension, OfTetrahedraAndPrismsByDisplacement) { pull(sphere_in_cube(3, 4, 3.0, 0.5), false); }
+
+INSTANTIATE_TEST_SUITE_P(PoissonRatios, RotatedTension, testing::Values(0.3, 0.44, 0.499));
+
+// One cell thick: plane strain, in the plane of the coordinates and in a turned one.
+class PlaneStrain : public testing::TestWithParam<std::tuple<NamedMesh, bool>> {
+ protected:
+  static Tensor rotation() {
+    return std::get<1>(GetParam()) ? arbitrary_rotation() : Tensor(Tensor::Identity());
+  }
+
+  static LinearCase turned(Tensor in_plane_slope) {
+    in_plane_slope.row(2).setZero();
+    in_plane_slope.col(2).setZero();
+    return {.slope = rotation() * in_plane_slope * rotation().transpose()};
+  }
+
+  static void solve(LinearCase exact, const Masks& masks, const std::vector<std::string>& symmetric) {
+    const Mesh straight = std::get<0>(GetParam()).make();
+    exact.origin = rotation() * lowest_corner(straight);
+    const Mesh mesh = rotated(straight, rotation());
+    auto boundary = exact_boundary(mesh, exact, masks);
+    for (const char* patch : {"zmin", "zmax"}) boundary.push_back(plane_on(patch));
+    for (const std::string& patch : symmetric) boundary.push_back(symmetry_on(patch));
+    expect_exact(mesh, exact, boundary);
+  }
+};
+
+TEST_P(PlaneStrain, ByDisplacement) {
+  solve(turned(general_slope), {{"xmin", all}, {"xmax", all}, {"ymin", all}, {"ymax", all}}, {});
+}
+
+TEST_P(PlaneStrain, ByTraction) {
+  solve(turned(general_slope), {{"xmin", all}, {"xmax", none}, {"ymin", none}, {"ymax", none}}, {});
+}
+
+TEST_P(PlaneStrain, BetweenSymmetryFaces) {
+  const Tensor principal = 1e-3 * Vector(1.0, -0.6, 0.0).asDiagonal();
+  solve(turned(principal), {{"xmax", none}, {"ymax", none}}, {"xmin", "ymin"});
+}
+
+const std::vector<NamedMesh> thin_meshes{
+    {"Hexes", [] { return make_box_hexes(graded_box(1)); }},
+    {"Wedges", [] { return extruded_triangles(8, {0.0, 0.1}); }},
+};
+
+INSTANTIATE_TEST_SUITE_P(OneCellThick, PlaneStrain,
+                         testing::Combine(testing::ValuesIn(thin_meshes), testing::Bool()), [](const auto& test) {
+                           return std::get<0>(test.param).name + (std::get<1>(test.param) ? "Turned" : "");
+                         });
 
 }  // namespace
 }  // namespace pfdm::verification

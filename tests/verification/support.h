@@ -1,15 +1,18 @@
 #pragma once
-// What the verification problems share: models of one law, elastic solutions to a tight residual, error norms.
+// What the verification problems share: models of one law, elastic solutions to a tight residual, error norms, and the
+// printing of what was measured.
 
 #include "mesh/box_hexes.h"
 #include "mesh/particles_in_box.h"
 #include "solver/momentum_solver.h"
 
 #include <memory>
+#include <utility>
 
 namespace pfdm::verification {
 
 using DisplacementField = std::function<Vector(const Vector&)>;
+using StressField = std::function<Tensor(const Vector&)>;
 
 BoundaryCondition displacement_on(const std::string& patch, DisplacementField u);
 BoundaryCondition traction_on(const std::string& patch, std::function<Vector(const Vector&)> traction);
@@ -20,7 +23,8 @@ std::vector<BoundaryCondition> displacement_on_all(const Mesh& mesh, const Displ
 /// One elasticity per region, undamageable, no split.
 FractureModel elastic_model(std::vector<IsotropicElasticity> by_region, std::vector<BoundaryCondition> boundary);
 
-/// Equilibrium with the stiffness factors g (all 1 if empty), to a relative residual.
+/// Equilibrium with the stiffness factors g (all 1 if empty) and a body force [N/m^3] (none if empty), to a relative
+/// residual.
 struct ElasticSolution {
   Unknowns unknowns;
   std::unique_ptr<MomentumSolver> solver;
@@ -30,16 +34,40 @@ struct ElasticSolution {
   double cpu_seconds = 0.0;
 };
 std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureModel& model,
-                                               const CellField<double>& g = {}, double residual = 1e-10);
+                                               const CellField<double>& g = {}, double residual = 1e-10,
+                                               const DisplacementField& body_force = {});
 
 /// Volume-weighted L2 norm of the difference over that of the exact field; `counts` says which cells take part.
 double relative_error(const Mesh& mesh, const std::function<Vector(Index)>& value,
                       const std::function<Vector(Index)>& exact, const std::function<bool(Index)>& counts);
-double relative_stress_error(const Mesh& mesh, const CellField<Tensor>& stress,
-                             const std::function<Tensor(const Vector&)>& exact,
+double relative_stress_error(const Mesh& mesh, const CellField<Tensor>& stress, const StressField& exact,
                              const std::function<bool(Index)>& counts);
+/// The displacement's, over all cells.
+double displacement_error(const Mesh& mesh, const ElasticSolution& solution, const DisplacementField& exact);
 
-/// A cube of the given half-width with a sphere of radius 1 at the origin.
+/// Force on each patch [N].
+std::vector<Vector> reactions(const Mesh& mesh, const ElasticSolution& solution);
+/// |sum of the patches' forces| over the largest of them.
+double reaction_imbalance(const Mesh& mesh, const ElasticSolution& solution);
+/// |sum of the cells' energies - half the work of the boundary forces| over the latter.
+double energy_imbalance(const Mesh& mesh, const ElasticSolution& solution);
+
+/// Observed order of convergence between two meshes of mean cell size (volume / cells)^(1/3).
+double observed_order(double coarse_error, Index coarse_cells, double fine_error, Index fine_cells);
+
+/// The mesh turned about the origin; its patches keep their names.
+Mesh rotated(Mesh mesh, const Tensor& rotation);
+/// Some rotation about no special axis.
+Tensor arbitrary_rotation();
+
+/// A unit square of n x n squares cut into triangles, its inner points moved about, extruded through the given levels of
+/// z into layers of wedges of one region "body".
+Mesh extruded_triangles(Index n, const std::vector<double>& levels);
+
+/// A cube of the given half-width with a sphere of radius 1 at the origin; the layers take 0.4 together.
 Mesh sphere_in_cube(Index subdivision, Index n_layers, double half_width, double grading);
+
+/// Prints one row of measured values and records them as properties "label: name" of the running test.
+void report_row(const std::string& label, const std::vector<std::pair<std::string, double>>& values);
 
 }  // namespace pfdm::verification

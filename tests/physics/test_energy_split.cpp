@@ -1,0 +1,93 @@
+#include "physics/energy_split.h"
+#include "physics/error.h"
+#include "tests/physics/physics_checks.h"
+
+namespace pfdm {
+namespace {
+
+// Random strains of both signs of the trace, for one split after the other.
+void for_splits_and_strains(const std::function<void(const EnergySplit&, const Tensor& eps)>& check) {
+  for (const EnergySplit& split : energy_splits()) {
+    SCOPED_TRACE(split.name);
+    RandomTensors random;
+    int expanding = 0, compressed = 0;
+    for (int i = 0; i < 20; ++i) {
+      const Tensor eps = random.symmetric(1e-2);
+      ++(eps.trace() > 0.0 ? expanding : compressed);
+      check(split, eps);
+    }
+    EXPECT_GT(expanding, 4);
+    EXPECT_GT(compressed, 4);
+  }
+}
+
+const IsotropicElasticity glass = from_young_poisson(70e9, 0.3);
+
+TEST(EnergySplit, PartsAreNotNegativeAndAddUp) {
+  for_splits_and_strains([](const EnergySplit& split, const Tensor& eps) {
+    const auto [plus, minus] = split.energy(glass, eps);
+    EXPECT_GE(plus, 0.0);
+    EXPECT_GE(minus, 0.0);
+    EXPECT_NEAR(plus + minus, energy_density(glass, eps), 1e-12 * energy_density(glass, eps));
+  });
+}
+
+TEST(EnergySplit, SecantStressIsTheSlopeOfTheDegradedEnergy) {
+  for (const double g : {1.0, 0.3, 1e-6})
+    for_splits_and_strains([g](const EnergySplit& split, const Tensor& eps) {
+      const auto degraded = [&](const Tensor& e) {
+        const auto [plus, minus] = split.energy(glass, e);
+        return g * plus + minus;
+      };
+      const Tensor expected = slope(degraded, eps, 1e-6);
+      const Tensor sigma = stress(split.secant(glass, g, eps), eps);
+      EXPECT_LE((sigma - expected).norm(), 1e-7 * stress(glass, eps).norm()) << "g = " << g;
+    });
+}
+
+TEST(EnergySplit, SecantEnergyIsTheDegradedEnergy) {
+  for_splits_and_strains([](const EnergySplit& split, const Tensor& eps) {
+    constexpr double g = 0.3;
+    const auto [plus, minus] = split.energy(glass, eps);
+    EXPECT_NEAR(energy_density(split.secant(glass, g, eps), eps), g * plus + minus, 1e-12 * (plus + minus));
+  });
+}
+
+TEST(EnergySplit, SecantSaysWhetherItDependsOnTheStrain) {
+  for (const EnergySplit& split : energy_splits()) {
+    const Tensor opening = 1e-3 * Tensor::Identity(), closing = -opening;
+    EXPECT_EQ(split.secant_depends_on_strain,
+              !(split.secant(glass, 0.3, opening) == split.secant(glass, 0.3, closing)))
+        << split.name;
+  }
+}
+
+TEST(EnergySplit, DoesNotDependOnTheAxes) {
+  RandomTensors rotations;
+  for_splits_and_strains([&](const EnergySplit& split, const Tensor& eps) {
+    const Tensor R = rotations.rotation();
+    const Tensor turned = R * eps * R.transpose();
+    const double psi = energy_density(glass, eps);
+    EXPECT_NEAR(split.energy(glass, turned).psi_plus, split.energy(glass, eps).psi_plus, 1e-12 * psi);
+    const Tensor sigma = stress(split.secant(glass, 0.3, eps), eps);
+    const Tensor sigma_turned = stress(split.secant(glass, 0.3, turned), turned);
+    EXPECT_LE((sigma_turned - R * sigma * R.transpose()).norm(), 1e-12 * sigma.norm());
+  });
+}
+
+TEST(EnergySplit, VolumetricDeviatoricKeepsCompressionAlone) {
+  const EnergySplit& split = energy_split("volumetric_deviatoric");
+  const Tensor compression = -1e-3 * Tensor::Identity();
+  EXPECT_NEAR(split.energy(glass, compression).psi_plus, 0.0, 1e-20);
+  EXPECT_LE((stress(split.secant(glass, 1e-6, compression), compression) - stress(glass, compression)).norm(), 1e-3);
+  Tensor shear = Tensor::Zero();
+  shear(0, 1) = shear(1, 0) = 1e-3;
+  EXPECT_EQ(split.energy(glass, shear).psi_minus, 0.0);
+}
+
+TEST(EnergySplit, UnknownNamesAreAnsweredWithThoseThereAre) {
+  expect_unknown_name_is_answered(energy_splits(), energy_split);
+}
+
+}  // namespace
+}  // namespace pfdm

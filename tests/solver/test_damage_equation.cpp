@@ -1,0 +1,206 @@
+// The damage equation where its solution is known, its bounds, and that it is the minimum of its energy.
+
+#include "solver/damage_equation.h"
+
+#include <cmath>
+
+#include "tests/solver/solver_checks.h"
+
+namespace pfdm {
+namespace {
+
+constexpr double Gc = 10.0, ell = 20e-6;
+const double unit = Gc / ell;  // of energy densities [J/m^3]
+
+FractureModel model_of(const Mesh& mesh, std::string_view law) {
+  FractureModel model;
+  for (std::size_t r = 0; r < mesh.region_names.size(); ++r) model.regions.push_back({.elasticity = {}, .Gc = Gc, .ell = ell});
+  model.crack = &crack_geometry(law);
+  model.degradation = &degradation("quadratic");
+  model.split = &energy_split("none");
+  return model;
+}
+
+CellField<double> uniform(const Mesh& mesh, double value) { return CellField<double>(as_size(mesh.n_cells()), value); }
+
+// A row of cells of width h along x, with regions cut out of it.
+Mesh row(Index n, double h, std::vector<SubRegion> regions = {}) {
+  return box(n, 1, 1, {n * h, h, h}, 1.0, std::move(regions));
+}
+
+SubRegion from_to(const std::string& name, double from, double to) {
+  return {.name = name, .lower = {from, -1.0, -1.0}, .upper = {to, 1.0, 1.0}};
+}
+
+// Cells along x.
+std::vector<Index> in_order_of_x(const Mesh& mesh) {
+  std::vector<Index> cells(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c) cells[as_size(c)] = c;
+  std::sort(cells.begin(), cells.end(), [&](Index a, Index b) { return mesh.cell_centre[a][0] < mesh.cell_centre[b][0]; });
+  return cells;
+}
+
+TEST(DamageEquation, HomogeneousResponseOfAt2) {
+  const Mesh mesh = box(4, 3, 3, Vector::Constant(1e-4));
+  const FractureModel model = model_of(mesh, "AT2");
+  DamageEquation equation(mesh, model, Vector::Zero());
+  for (const double psi : {0.0, 0.01 * unit, 0.5 * unit, 40.0 * unit}) {
+    CellField<double> d = uniform(mesh, 0.0);
+    EXPECT_TRUE(equation.solve(uniform(mesh, psi), uniform(mesh, 0.0), 1, d).converged);
+    const double driving = (1.0 - model.residual_stiffness) * psi;
+    for (const double value : d) EXPECT_NEAR(value, driving / (driving + 0.5 * unit), 1e-9) << psi;
+  }
+}
+
+TEST(DamageEquation, HomogeneousResponseOfAt1HasAThreshold) {
+  const Mesh mesh = box(4, 3, 3, Vector::Constant(1e-4));
+  const FractureModel model = model_of(mesh, "AT1");
+  DamageEquation equation(mesh, model, Vector::Zero());
+  const double threshold = 3.0 / 16.0 * unit;  // sigma^2 / (2 E) at sigma = sqrt(3 E Gc / (8 ell))
+  for (const double share : {0.0, 0.5, 0.999, 1.01, 2.0, 100.0}) {
+    CellField<double> d = uniform(mesh, 0.0);
+    const double psi = share * threshold / (1.0 - model.residual_stiffness);
+    EXPECT_TRUE(equation.solve(uniform(mesh, psi), uniform(mesh, 0.0), 1, d).converged);
+    for (const double value : d) EXPECT_NEAR(value, share > 1.0 ? 1.0 - 1.0 / share : 0.0, 1e-9) << share;
+  }
+}
+
+// Driving energy from nothing to a thousand times what breaks a cell, and bounds anywhere.
+CellField<double> random_driving_energy(const Mesh& mesh) {
+  RandomNumbers random;
+  CellField<double> psi = random.field(mesh.n_cells(), 0.0, 0.3 * unit);
+  for (double& value : psi)
+    if (random.between(0.0, 1.0) < 0.1) value = 1000.0 * unit;
+  return psi;
+}
+
+TEST(DamageEquation, StaysBetweenItsLowerBoundAndOne) {
+  for (const Mesh& mesh : {box(8, 8, 8, Vector::Constant(2e-4)), tetrahedra_and_prisms()})
+    for (const std::string_view law : {"AT1", "AT2"}) {
+      FractureModel model = model_of(mesh, law);
+      if (mesh.n_cells() > 600)
+        for (RegionModel& region : model.regions) region.ell = 0.3;  // the sphere's radius is 1
+      DamageEquation equation(mesh, model, Vector::Zero());
+      RandomNumbers random;
+      const CellField<double> lower = random.field(mesh.n_cells(), 0.0, 0.7);
+      CellField<double> psi = random_driving_energy(mesh), d = lower;
+      for (double& value : psi) value *= ell / model.regions.front().ell;
+      EXPECT_TRUE(equation.solve(psi, lower, 5, d).converged) << law;
+      Index at_bound = 0;
+      for (Index c = 0; c < mesh.n_cells(); ++c) {
+        ASSERT_GE(d[c], lower[c]);
+        ASSERT_LE(d[c], 1.0);
+        at_bound += d[c] == lower[c] ? 1 : 0;
+      }
+      EXPECT_GT(at_bound, mesh.n_cells() / 20) << law;
+      EXPECT_LT(at_bound, mesh.n_cells()) << law;
+    }
+}
+
+// On orthogonal cells the equation is the slope of an energy: no change of one cell within the bounds lowers it.
+TEST(DamageEquation, IsTheMinimumOfItsEnergyWithinTheBounds) {
+  const Mesh mesh = box(6, 6, 6, Vector::Constant(1.2e-4));
+  for (const std::string_view law : {"AT1", "AT2"}) {
+    const FractureModel model = model_of(mesh, law);
+    DamageEquation equation(mesh, model, Vector::Zero());
+    RandomNumbers random;
+    const CellField<double> lower = random.field(mesh.n_cells(), 0.0, 0.5), psi = random_driving_energy(mesh);
+    CellField<double> d = lower;
+    equation.solve(psi, lower, 1, d);
+    const auto energy = [&] {
+      double sum = equation.fracture_energy(d);
+      for (Index c = 0; c < mesh.n_cells(); ++c)
+        sum += (1.0 - model.residual_stiffness) * model.degradation->g(d[c]) * psi[c] * mesh.cell_volume[c];
+      return sum;
+    };
+    const double least = energy();
+    for (Index c = 0; c < mesh.n_cells(); ++c)
+      for (const double change : {-1e-4, 1e-4}) {
+        const double solved = d[c];
+        if (solved + change < lower[c] || solved + change > 1.0) continue;
+        d[c] = solved + change;
+        EXPECT_GE(energy(), least * (1.0 - 1e-12)) << law << ", cell " << c;
+        d[c] = solved;
+      }
+  }
+}
+
+// AT2 with a broken cell amid 2n cells between undamageable ends. At a distance of j cells
+// d_j = sinh(kappa (n + 1/2 - j)) / sinh(kappa (n + 1/2)), cosh(kappa) = 1 + h^2 / (2 ell^2): zero on the faces of the
+// ends, which for h -> 0 is sinh((b - x)/ell) / sinh(b/ell), of energy Gc coth(b/ell).
+TEST(DamageEquation, UndamageableNeighboursPinTheProfile) {
+  constexpr Index n = 15;
+  const double h = 0.1 * ell, half_width = (n + 0.5) * h, end = (2 * n + 5) * h;
+  const Mesh mesh = row(2 * n + 5, h, {from_to("grip", -1.0, 2 * h), from_to("grip", end - 2 * h, 1.0)});
+  FractureModel model = model_of(mesh, "AT2");
+  model.regions[as_size(mesh.region_index("grip"))].damageable = false;
+  DamageEquation equation(mesh, model, Vector::Zero());
+  CellField<double> psi = uniform(mesh, 0.0), d = uniform(mesh, 0.0);
+  const std::vector<Index> cells = in_order_of_x(mesh);
+  psi[cells[n + 2]] = 1e12 * unit;
+  EXPECT_TRUE(equation.solve(psi, uniform(mesh, 0.0), 1, d).converged);
+  const double kappa = std::acosh(1.0 + 0.5 * std::pow(h / ell, 2));
+  for (Index i = 0; i < mesh.n_cells(); ++i) {
+    const double distance = std::abs(i - n - 2);
+    const double discrete = std::max(0.0, std::sinh(kappa * (n + 0.5 - distance)) / std::sinh(kappa * (n + 0.5)));
+    const double smooth =
+        std::max(0.0, std::sinh((half_width - distance * h) / ell) / std::sinh(half_width / ell));
+    EXPECT_NEAR(d[cells[as_size(i)]], discrete, 1e-8) << i;
+    EXPECT_NEAR(d[cells[as_size(i)]], smooth, 1e-3) << i;
+  }
+  EXPECT_NEAR(equation.fracture_energy(d) / (h * h * Gc) * std::tanh(half_width / ell), 1.0, 3e-3);
+}
+
+// AT2, crack amid a weak band of half-width b in a tough bulk: the flux Gc ell d' is continuous, and the least energy
+// is G_i (G_b + G_i t) / (G_i + G_b t), t = tanh(b/ell) (literature.md 4.1).
+TEST(DamageEquation, FluxIsContinuousWhereTheToughnessJumps) {
+  constexpr Index cells_per_length = 20, n = 12 * cells_per_length + 1;
+  const double h = ell / cells_per_length, length = n * h;
+  const double half_width = 0.5 * ell + 0.5 * h;  // of the band, with the broken cell in its middle
+  const Mesh mesh = row(n, h, {from_to("band", 0.5 * length - half_width, 0.5 * length + half_width)});
+  FractureModel model = model_of(mesh, "AT2");
+  model.regions[as_size(mesh.region_index("body"))].Gc = 10.0 * Gc;
+  DamageEquation equation(mesh, model, Vector::Zero());
+  CellField<double> psi = uniform(mesh, 0.0), d = uniform(mesh, 0.0);
+  psi[in_order_of_x(mesh)[n / 2]] = 1e12 * unit;
+  equation.solve(psi, uniform(mesh, 0.0), 1, d);
+  const double t = std::tanh(half_width / ell);
+  EXPECT_NEAR(equation.fracture_energy(d) / (h * h * Gc), (10.0 + t) / (1.0 + 10.0 * t), 3e-3);
+}
+
+TEST(DamageEquation, LeavesWhatItCannotDamage) {
+  const Mesh mesh = row(10, ell, {from_to("grip", -1.0, 5 * ell)});
+  FractureModel model = model_of(mesh, "AT1");
+  const Index grip = mesh.region_index("grip");
+  model.regions[as_size(grip)] = {.elasticity = {}, .damageable = false};  // without toughness or length
+  DamageEquation equation(mesh, model, Vector::Zero());
+  CellField<double> d = uniform(mesh, 0.0);
+  equation.solve(uniform(mesh, 100.0 * unit), uniform(mesh, 0.0), 1, d);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    EXPECT_EQ(equation.is_damageable(c), mesh.region[c] != grip);
+    if (mesh.region[c] == grip)
+      EXPECT_EQ(d[c], 0.0);
+    else
+      EXPECT_GT(d[c], 0.9);
+  }
+}
+
+using DamageThreads = WithThreads;
+
+TEST_F(DamageThreads, SolutionsAreBitwiseTheSame) {
+  const Mesh mesh = box(24, 24, 24, Vector::Constant(6e-4));
+  const FractureModel model = model_of(mesh, "AT2");
+  const CellField<double> psi = random_driving_energy(mesh);
+  std::vector<CellField<double>> solutions;
+  for (const int threads : {1, 2, 3}) {
+    set_threads(threads);
+    DamageEquation equation(mesh, model, Vector::Zero());
+    solutions.push_back(uniform(mesh, 0.0));
+    equation.solve(psi, uniform(mesh, 0.0), 1, solutions.back());
+  }
+  EXPECT_EQ(solutions[1], solutions[0]);
+  EXPECT_EQ(solutions[2], solutions[0]);
+}
+
+}  // namespace
+}  // namespace pfdm

@@ -1,0 +1,82 @@
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "solver/parallel.h"
+#include "tests/solver/solver_checks.h"
+
+namespace pfdm {
+namespace {
+
+using Parallel = WithThreads;
+
+constexpr Index sizes[] = {0, 1, chunk_size - 1, chunk_size, chunk_size + 1, 7 * chunk_size + 123};
+
+TEST_F(Parallel, VisitsEveryItemOnce) {
+  for (const int threads : {1, 2, 3, 4}) {
+    set_threads(threads);
+    EXPECT_EQ(n_threads(), threads);
+    for (const Index n : sizes) {
+      std::vector<std::atomic<int>> visits(as_size(n));
+      parallel_for(n, [&](Index i) { ++visits[as_size(i)]; });
+      for (const auto& count : visits) ASSERT_EQ(count, 1) << n << " items, " << threads << " threads";
+    }
+  }
+}
+
+TEST_F(Parallel, SumsAreBitwiseTheSameForAnyNumberOfThreads) {
+  // Terms of very different size: any other order of summation gives another last digit.
+  const auto term = [](Index i) { return std::sin(1.0 + i) * std::pow(10.0, i % 17); };
+  for (const Index n : sizes) {
+    set_threads(1);
+    const double expected = parallel_sum(n, term);
+    for (const int threads : {2, 3, 4}) {
+      set_threads(threads);
+      for (int repeat = 0; repeat < 20; ++repeat) ASSERT_EQ(parallel_sum(n, term), expected) << n << ' ' << threads;
+    }
+  }
+}
+
+TEST_F(Parallel, SumsAnyTypeThatAdds) {
+  set_threads(3);
+  const Index n = 3 * chunk_size + 1;
+  const Vector sum = parallel_sum<Vector>(n, [](Index i) { return Vector(1.0, i, -1.0); }, Vector::Zero());
+  EXPECT_EQ(sum, Vector(n, 0.5 * n * (n - 1.0), -n));
+}
+
+TEST_F(Parallel, LargestIsThatOfAllChunks) {
+  for (const int threads : {1, 2, 4}) {
+    set_threads(threads);
+    for (const Index peak : {0, 1, chunk_size, 5 * chunk_size + 7})
+      EXPECT_EQ(parallel_max(6 * chunk_size, [&](Index i) { return i == peak ? 2.5 : -1.0; }, -3.0), 2.5);
+    EXPECT_EQ(parallel_max(0, [](Index) { return 1.0; }, -3.0), -3.0);
+    EXPECT_EQ(parallel_max(10, [](Index) { return -5.0; }, -3.0), -3.0);
+  }
+}
+
+TEST_F(Parallel, ExceptionsPassThroughAndTheLoopsGoOnWorking) {
+  for (const int threads : {1, 2, 4}) {
+    set_threads(threads);
+    const auto fails = [](Index i) {
+      if (i == 4 * chunk_size + 5) throw std::runtime_error("cell 8197");
+    };
+    try {
+      parallel_for(10 * chunk_size, fails);
+      ADD_FAILURE() << "nothing was thrown with " << threads << " threads";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "cell 8197");
+    }
+    EXPECT_EQ(parallel_sum(3 * chunk_size, [](Index) { return 1.0; }), 3.0 * chunk_size);
+  }
+}
+
+TEST_F(Parallel, AtLeastOneThread) {
+  set_threads(0);
+  EXPECT_EQ(n_threads(), 1);
+  set_threads(-3);
+  EXPECT_EQ(n_threads(), 1);
+}
+
+}  // namespace
+}  // namespace pfdm

@@ -1,0 +1,75 @@
+#include "solver/relaxation.h"
+
+#include "tests/solver/solver_checks.h"
+
+namespace pfdm {
+namespace {
+
+using Damage = CellField<double>;
+
+Damage field(std::initializer_list<double> values) { return Damage(std::vector<double>(values)); }
+
+TEST(Relaxation, TakesTheFirstAnswerAsItIs) {
+  Relaxation relaxation;
+  EXPECT_EQ(relaxation.next(field({0.1, 0.2}), field({0.3, 0.2}), field({0.0, 0.0})), field({0.3, 0.2}));
+}
+
+// Whatever the answers do, from wherever they start.
+TEST(Relaxation, StaysWithinTheBounds) {
+  constexpr Index n = 5000;
+  RandomNumbers random;
+  const Damage lower = random.field(n, 0.0, 0.9);
+  Relaxation relaxation;
+  Damage d = lower;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    Damage answer(as_size(n));
+    for (Index c = 0; c < n; ++c) answer[c] = random.between(lower[c], 1.0);
+    d = relaxation.next(d, answer, lower);
+    for (Index c = 0; c < n; ++c) {
+      ASSERT_GE(d[c], lower[c]);
+      ASSERT_LE(d[c], 1.0);
+    }
+  }
+}
+
+// Increments that shrink by the same share each time have a limit, which the secant factor finds in one step.
+TEST(Relaxation, FindsTheLimitOfAGeometricSeries) {
+  constexpr double rho = 0.6;  // 1/(1 - rho) = 2.5
+  const Damage limit = field({0.8, 0.4}), lower = field({0.0, 0.0});
+  const auto answer_to = [&](const Damage& d) {
+    return field({limit[0] - rho * (limit[0] - d[0]), limit[1] - rho * (limit[1] - d[1])});
+  };
+  Relaxation relaxation;
+  Damage d = field({0.0, 0.0});
+  for (int iteration = 0; iteration < 2; ++iteration) d = relaxation.next(d, answer_to(d), lower);
+  for (Index c = 0; c < 2; ++c) EXPECT_NEAR(d[c], limit[c], 1e-12);
+}
+
+// A slowly creeping front is not extrapolated without limit.
+TEST(Relaxation, DoesNotOvershootACreepingFront) {
+  Relaxation relaxation;
+  const Damage lower = field({0.0});
+  relaxation.next(field({0.0}), field({0.01}), lower);
+  const double next = relaxation.next(field({0.01}), field({0.02}), lower)[0];
+  EXPECT_GT(next, 0.02);
+  EXPECT_LE(next, 0.01 + 0.01 * 4.0);
+}
+
+// One cell that flips for ever is damped although the field as a whole creeps.
+TEST(Relaxation, HalvesTheIncrementWhereItTurns) {
+  Relaxation relaxation;
+  const Damage lower = field({0.0, 0.0});
+  relaxation.next(field({0.1, 0.5}), field({0.3, 0.6}), lower);
+  const Damage next = relaxation.next(field({0.3, 0.6}), field({0.45, 0.5}), lower);
+  EXPECT_GT(next[0], 0.45);
+  EXPECT_NEAR(next[1], 0.55, 1e-12);
+}
+
+TEST(Relaxation, StandsStillAtAFixedPoint) {
+  Relaxation relaxation;
+  const Damage d = field({0.2, 0.7}), lower = field({0.0, 0.0});
+  for (int iteration = 0; iteration < 3; ++iteration) EXPECT_EQ(relaxation.next(d, d, lower), d);
+}
+
+}  // namespace
+}  // namespace pfdm

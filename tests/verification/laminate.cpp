@@ -1,0 +1,180 @@
+// Layers normal to z between two rigid plates, in tension and in shear: with m the constrained or the shear modulus and
+// h the thickness of a layer, the stress is delta / sum(h / m) and the displacement piecewise linear. A broken layer is
+// one of m -> g m in the same material.
+
+#include "tests/verification/support.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pfdm::verification {
+namespace {
+
+enum class Load { tension, shear };
+enum class Cells { hexes, wedges };
+
+struct Layer {
+  double thickness;
+  Index n_cells;
+  Index material;
+  double g = 1.0;
+};
+
+struct Laminate {
+  std::vector<Layer> layers;
+  std::vector<IsotropicElasticity> materials;
+  Load load = Load::tension;
+
+  double modulus(const Layer& layer) const {
+    const IsotropicElasticity& c = materials[as_size(layer.material)];
+    return layer.g * (load == Load::tension ? c.constrained_modulus() : c.mu);
+  }
+  /// Of the top plate; the bottom one is at rest.
+  Vector shift() const { return 1e-3 * (load == Load::tension ? Vector::UnitZ() : Vector::UnitX()); }
+
+  Vector traction() const {
+    double compliance = 0.0;
+    for (const Layer& layer : layers) compliance += layer.thickness / modulus(layer);
+    return shift() / compliance;
+  }
+
+  const Layer& layer_at(double z) const {
+    std::size_t k = 0;
+    for (double top = layers[0].thickness; z > top && k + 1 < layers.size(); top += layers[k].thickness) ++k;
+    return layers[k];
+  }
+
+  Vector displacement(const Vector& x) const {
+    Vector u = Vector::Zero();
+    double bottom = 0.0;
+    for (const Layer& layer : layers) {
+      u += std::clamp(x[2] - bottom, 0.0, layer.thickness) / modulus(layer) * traction();
+      bottom += layer.thickness;
+    }
+    return u;
+  }
+
+  Tensor strain(const Vector& x) const {
+    return symmetric_part(traction() / modulus(layer_at(x[2])) * Vector::UnitZ().transpose());
+  }
+
+  Tensor stress(const Vector& x) const {
+    const Layer& layer = layer_at(x[2]);
+    return layer.g * pfdm::stress(materials[as_size(layer.material)], strain(x));
+  }
+};
+
+std::vector<double> levels_of(const Laminate& laminate) {
+  std::vector<double> z{0.0};
+  for (const Layer& layer : laminate.layers) {
+    const double bottom = z.back();
+    for (Index k = 1; k <= layer.n_cells; ++k) z.push_back(bottom + layer.thickness * k / layer.n_cells);
+  }
+  return z;
+}
+
+Mesh mesh_of(const Laminate& laminate, Cells cells) {
+  BoxHexesSettings settings;
+  settings.axes = {{{{.length = 1.0, .n = 6, .ratio = 2.0}}, {{.length = 1.0, .n = 4}}, {}}};
+  for (const Layer& layer : laminate.layers)
+    settings.axes[2].push_back({.length = layer.thickness, .n = layer.n_cells});
+  Mesh mesh = cells == Cells::hexes ? make_box_hexes(settings) : extruded_triangles(5, levels_of(laminate));
+  mesh.region_names.resize(laminate.materials.size());
+  for (Index c = 0; c < mesh.n_cells(); ++c) mesh.region[c] = laminate.layer_at(mesh.cell_centre[c][2]).material;
+  return mesh;
+}
+
+// The plates hold all components; the sides neither help nor hinder: under tension they are symmetry faces, under shear
+// only their x component is free, which is that of the motion.
+std::vector<BoundaryCondition> boundary_of(const Laminate& laminate) {
+  const auto shift = [top = laminate.shift()](const Vector&) { return top; };
+  std::vector<BoundaryCondition> boundary{displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                                          displacement_on("zmax", shift), symmetry_on("ymin"), symmetry_on("ymax")};
+  for (const char* patch : {"xmin", "xmax"}) {
+    if (laminate.load == Load::tension)
+      boundary.push_back(symmetry_on(patch));
+    else
+      boundary.push_back({.patch = patch, .displacement_prescribed = {false, true, true}, .value = {}});
+  }
+  return boundary;
+}
+
+struct LaminateErrors {
+  double transmitted = 0.0, displacement = 0.0, stress = 0.0, broken_strain = 0.0;
+};
+
+LaminateErrors errors_of(const Laminate& laminate, Cells cells) {
+  const Mesh mesh = mesh_of(laminate, cells);
+  CellField<double> g(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c) g[c] = laminate.layer_at(mesh.cell_centre[c][2]).g;
+  const auto solution = solve_elastic(mesh, elastic_model(laminate.materials, boundary_of(laminate)), g, 1e-12);
+  EXPECT_TRUE(solution->equilibrium.converged);
+  EXPECT_LE(reaction_imbalance(mesh, *solution), 1e-6);
+  EXPECT_LE(energy_imbalance(mesh, *solution), 1e-6);
+  const auto top = as_size(static_cast<Index>(&mesh.patch("zmax") - mesh.patches.data()));
+  const Vector force = reactions(mesh, *solution)[top];
+  LaminateErrors e;
+  e.transmitted = (force - laminate.traction()).norm() / laminate.traction().norm();
+  e.displacement = displacement_error(mesh, *solution, [&](const Vector& x) { return laminate.displacement(x); });
+  e.stress = relative_stress_error(
+      mesh, solution->cells.stress, [&](const Vector& x) { return laminate.stress(x); }, [](Index) { return true; });
+  e.broken_strain = relative_stress_error(
+      mesh, solution->cells.strain, [&](const Vector& x) { return laminate.strain(x); },
+      [&, most = *std::min_element(g.begin(), g.end())](Index c) { return g[c] == most; });
+  report_row(fmt::format("{} cells", mesh.n_cells()), {{"transmitted", e.transmitted},
+                                                       {"u", e.displacement},
+                                                       {"stress", e.stress},
+                                                       {"strain where g is least", e.broken_strain},
+                                                       {"iterations", solution->equilibrium.iterations}});
+  return e;
+}
+
+using LoadAndCells = std::tuple<Load, Cells>;
+
+std::string name_of(const LoadAndCells& p) {
+  return std::string(std::get<0>(p) == Load::tension ? "Tension" : "Shear") +
+         (std::get<1>(p) == Cells::hexes ? "Hexes" : "Wedges");
+}
+
+const auto loads_and_cells = testing::Combine(testing::Values(Load::tension, Load::shear),
+                                              testing::Values(Cells::hexes, Cells::wedges));
+
+class TwoMaterials : public testing::TestWithParam<LoadAndCells> {
+ protected:
+  static void expect_series(double ratio) {
+    const Laminate laminate{.layers = {{0.3, 3, 0}, {0.25, 2, 1}, {0.2, 1, 0}, {0.25, 3, 1}},
+                            .materials = {from_young_poisson(75e6, 0.44), from_young_poisson(75e6 * ratio, 0.3)},
+                            .load = std::get<0>(GetParam())};
+    const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
+    EXPECT_LE(e.transmitted, 1e-8);
+    EXPECT_LE(e.displacement, 1e-8);
+    EXPECT_LE(e.stress, 1e-8);
+  }
+};
+
+TEST_P(TwoMaterials, OfRatio1e3AreInSeries) { expect_series(1e3); }
+TEST_P(TwoMaterials, OfRatio1e6AreInSeries) { expect_series(1e6); }
+INSTANTIATE_TEST_SUITE_P(Laminate, TwoMaterials, loads_and_cells, [](const auto& test) { return name_of(test.param); });
+
+// One material whose middle is broken: nothing but g tells the layers apart.
+class BrokenLayer : public testing::TestWithParam<LoadAndCells> {
+ protected:
+  static void expect_series(Index n_broken, double nu) {
+    const Laminate laminate{.layers = {{0.45, 4, 0}, {0.1, n_broken, 0, 1e-6}, {0.45, 4, 0}},
+                            .materials = {from_young_poisson(75e6, nu)},
+                            .load = std::get<0>(GetParam())};
+    const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
+    EXPECT_LE(e.transmitted, 1e-4);
+    EXPECT_LE(e.broken_strain, 1e-3);
+  }
+};
+
+TEST_P(BrokenLayer, OneCellThickTransmitsTheSeriesStress) { expect_series(1, 0.44); }
+TEST_P(BrokenLayer, ThreeCellsThickTransmitsTheSeriesStress) { expect_series(3, 0.44); }
+TEST_P(BrokenLayer, NearlyIncompressibleTransmitsTheSeriesStress) { expect_series(2, 0.49); }
+INSTANTIATE_TEST_SUITE_P(Laminate, BrokenLayer, loads_and_cells, [](const auto& test) { return name_of(test.param); });
+
+}  // namespace
+}  // namespace pfdm::verification
