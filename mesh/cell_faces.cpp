@@ -25,16 +25,11 @@ constexpr std::array<LocalFace, 6> hexahedron_faces{
 
 std::span<const LocalFace> local_faces(CellShape shape) {
   switch (shape) {
-    case CellShape::tetrahedron:
-      return tetrahedron_faces;
-    case CellShape::wedge:
-      return wedge_faces;
-    case CellShape::pyramid:
-      return pyramid_faces;
-    case CellShape::hexahedron:
-      return hexahedron_faces;
-    case CellShape::polyhedron:
-      break;
+    case CellShape::tetrahedron: return tetrahedron_faces;
+    case CellShape::wedge: return wedge_faces;
+    case CellShape::pyramid: return pyramid_faces;
+    case CellShape::hexahedron: return hexahedron_faces;
+    case CellShape::polyhedron: break;
   }
   return {};
 }
@@ -149,16 +144,11 @@ void add_standard_cell(HalfFaces& halves, Index cell, CellShape shape, std::span
 
 Index points_per_cell(CellShape shape) {
   switch (shape) {
-    case CellShape::tetrahedron:
-      return 4;
-    case CellShape::wedge:
-      return 6;
-    case CellShape::pyramid:
-      return 5;
-    case CellShape::hexahedron:
-      return 8;
-    case CellShape::polyhedron:
-      break;
+    case CellShape::tetrahedron: return 4;
+    case CellShape::wedge: return 6;
+    case CellShape::pyramid: return 5;
+    case CellShape::hexahedron: return 8;
+    case CellShape::polyhedron: break;
   }
   return 0;
 }

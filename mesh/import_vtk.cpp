@@ -27,19 +27,13 @@ constexpr int vtk_last_flat_type = 9;  // vertices, lines, triangles, strips, po
 
 std::optional<CellShape> shape_of(int vtk_type) {
   switch (vtk_type) {
-    case 10:
-      return CellShape::tetrahedron;
+    case 10: return CellShape::tetrahedron;
     case vtk_voxel:
-    case 12:
-      return CellShape::hexahedron;
-    case 13:
-      return CellShape::wedge;
-    case 14:
-      return CellShape::pyramid;
-    case 42:
-      return CellShape::polyhedron;
-    default:
-      return std::nullopt;
+    case 12: return CellShape::hexahedron;
+    case 13: return CellShape::wedge;
+    case 14: return CellShape::pyramid;
+    case 42: return CellShape::polyhedron;
+    default: return std::nullopt;
   }
 }
 

@@ -54,9 +54,7 @@ struct Mesh {
   std::span<const Index> faces_of_cell(Index cell) const { return slice(cell_face_offsets, cell_faces, cell); }
 
   /// The cell on the other side of an interior face.
-  Index across(Index face, Index cell) const {
-    return owner[face] == cell ? neighbour[face] : owner[face];
-  }
+  Index across(Index face, Index cell) const { return owner[face] == cell ? neighbour[face] : owner[face]; }
 
   /// Throws InputError naming the patches there are.
   const Patch& patch(const std::string& name) const;

@@ -9,10 +9,10 @@ struct IsotropicElasticity {
   double lambda = 0.0;  ///< first Lame constant [Pa]
   double mu = 0.0;      ///< shear modulus [Pa]
 
-  double bulk_modulus() const { return lambda + 2.0 * mu / 3.0; }           ///< K [Pa]
-  double constrained_modulus() const { return lambda + 2.0 * mu; }          ///< M, uniaxial strain [Pa]
+  double bulk_modulus() const { return lambda + 2.0 * mu / 3.0; }                          ///< K [Pa]
+  double constrained_modulus() const { return lambda + 2.0 * mu; }                         ///< M, uniaxial strain [Pa]
   double young_modulus() const { return mu * (3.0 * lambda + 2.0 * mu) / (lambda + mu); }  ///< E [Pa]
-  double poisson_ratio() const { return 0.5 * lambda / (lambda + mu); }     ///< nu [-]
+  double poisson_ratio() const { return 0.5 * lambda / (lambda + mu); }                    ///< nu [-]
   friend bool operator==(const IsotropicElasticity&, const IsotropicElasticity&) = default;
 };
 

@@ -10,31 +10,37 @@ namespace {
 constexpr EnergySplit none{
     .name = "none",
     .description = "the whole elastic energy is degraded",
-    .energy = [](const IsotropicElasticity& c, const Tensor& eps) { return SplitEnergy{energy_density(c, eps), 0.0}; },
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps) {
+          return SplitEnergy{energy_density(c, eps), 0.0};
+        },
     .closure = [](const Tensor&) { return 0.0; },
-    .secant = [](const IsotropicElasticity& c, double g, double) {
-      return IsotropicElasticity{g * c.lambda, g * c.mu};
-    },
+    .secant =
+        [](const IsotropicElasticity& c, double g, double) {
+          return IsotropicElasticity{g * c.lambda, g * c.mu};
+        },
 };
 
 // Amor, Marigo, Maurini, J. Mech. Phys. Solids 57 (2009) 1209, eqs. 25-26: compression of the volume is kept.
 constexpr EnergySplit volumetric_deviatoric{
     .name = "volumetric_deviatoric",
     .description = "shear and expansion are degraded, compression is not (Amor 2009)",
-    .energy = [](const IsotropicElasticity& c, const Tensor& eps) {
-      const double trace = eps.trace();
-      const double expansion = std::max(trace, 0.0);
-      const double compression = std::min(trace, 0.0);
-      const Tensor shear = deviator(eps);
-      const double K = c.bulk_modulus();
-      return SplitEnergy{0.5 * K * expansion * expansion + c.mu * contract(shear, shear),
-                         0.5 * K * compression * compression};
-    },
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps) {
+          const double trace = eps.trace();
+          const double expansion = std::max(trace, 0.0);
+          const double compression = std::min(trace, 0.0);
+          const Tensor shear = deviator(eps);
+          const double K = c.bulk_modulus();
+          return SplitEnergy{0.5 * K * expansion * expansion + c.mu * contract(shear, shear),
+                             0.5 * K * compression * compression};
+        },
     .closure = [](const Tensor& eps) { return eps.trace() < 0.0 ? 1.0 : 0.0; },
-    .secant = [](const IsotropicElasticity& c, double g, double closure) {
-      const double K = (g + closure * (1.0 - g)) * c.bulk_modulus();
-      return IsotropicElasticity{K - 2.0 * g * c.mu / 3.0, g * c.mu};
-    },
+    .secant =
+        [](const IsotropicElasticity& c, double g, double closure) {
+          const double K = (g + closure * (1.0 - g)) * c.bulk_modulus();
+          return IsotropicElasticity{K - 2.0 * g * c.mu / 3.0, g * c.mu};
+        },
 };
 
 constexpr EnergySplit table[] = {none, volumetric_deviatoric};
@@ -43,8 +49,6 @@ constexpr EnergySplit table[] = {none, volumetric_deviatoric};
 
 std::span<const EnergySplit> energy_splits() { return table; }
 
-const EnergySplit& energy_split(std::string_view name) {
-  return find_by_name(energy_splits(), name, "energy split");
-}
+const EnergySplit& energy_split(std::string_view name) { return find_by_name(energy_splits(), name, "energy split"); }
 
 }  // namespace pfdm

@@ -164,7 +164,8 @@ Aggregates aggregate(const BlockMatrix& matrix, int n_passes) {
   result.of_row = match_pairs(couplings, result.count);
   std::vector<Index> last = result.of_row;
   for (int pass = 1; pass < n_passes; ++pass) {
-    auto gathered = gather<float>(couplings.offsets, couplings.columns, couplings.strength, last, result.count, nullptr);
+    auto gathered =
+        gather<float>(couplings.offsets, couplings.columns, couplings.strength, last, result.count, nullptr);
     couplings = {std::move(gathered.offsets), std::move(gathered.columns), std::move(gathered.values)};
     const Index before = result.count;
     last = match_pairs(couplings, result.count);

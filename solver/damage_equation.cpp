@@ -200,8 +200,7 @@ void DamageEquation::precondition(const ActiveSet& active, const std::vector<dou
         for (Index i = begin; i < end; ++i) {
           double sum = r[as_size(i)];
           for (std::size_t k = offsets_[as_size(i)]; k < offsets_[as_size(i) + 1]; ++k)
-            if (const Index j = entries_[k].column; j >= begin && j < i)
-              sum += entries_[k].coefficient * z[as_size(j)];
+            if (const Index j = entries_[k].column; j >= begin && j < i) sum += entries_[k].coefficient * z[as_size(j)];
           z[as_size(i)] = active[as_size(i)] != 0 ? 0.0 : sum / pivots_[as_size(i)];
         }
         for (Index i = end - 1; i >= begin; --i) {

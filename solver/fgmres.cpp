@@ -127,9 +127,8 @@ void add_combination(const Basis& basis, const Hessenberg& hessenberg, Index k, 
 }  // namespace
 
 double scaled_norm(const std::vector<Vector>& v, const std::vector<double>& scale) {
-  return std::sqrt(parallel_sum(static_cast<Index>(v.size()), [&](Index i) {
-    return (scale[as_size(i)] * v[as_size(i)]).squaredNorm();
-  }));
+  return std::sqrt(parallel_sum(static_cast<Index>(v.size()),
+                                [&](Index i) { return (scale[as_size(i)] * v[as_size(i)]).squaredNorm(); }));
 }
 
 KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector>& b, std::vector<Vector>& x,

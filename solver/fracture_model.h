@@ -28,13 +28,13 @@ struct FractureModel {
   const Degradation* degradation = nullptr;
   const EnergySplit* split = nullptr;
   Irreversibility irreversibility = Irreversibility::bounds;
-  double residual_stiffness = 1e-6;  ///< k of g_k = (1 - k) g + k
+  double residual_stiffness = 1e-6;         ///< k of g_k = (1 - k) g + k
   std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
 };
 
 struct StaggeredSettings {
-  double damage_tolerance = 1e-4;  ///< largest change of d between iterations
-  double energy_tolerance = 1e-4;  ///< change of the total energy over the energy
+  double damage_tolerance = 1e-4;       ///< largest change of d between iterations
+  double energy_tolerance = 1e-4;       ///< change of the total energy over the energy
   double equilibrium_tolerance = 1e-6;  ///< row-scaled residual of the momentum balance at an accepted step, relative
   Index maximum_iterations = 500;
 };

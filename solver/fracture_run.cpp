@@ -12,20 +12,21 @@
 namespace pfdm {
 namespace {
 
-constexpr Index easy_iterations = 12;   // a step that needs no more lets the increment grow
+constexpr Index easy_iterations = 12;  // a step that needs no more lets the increment grow
 constexpr double growth = 1.5, cut = 0.5;
 constexpr double load_rounding = 1e-12;  // of the load parameter
 
 void require_complete(const Mesh& mesh, const FractureModel& model) {
   if (model.regions.size() != mesh.region_names.size())
-    throw InputError(fmt::format("the mesh has {} regions, the model {}", mesh.region_names.size(), model.regions.size()));
+    throw InputError(
+        fmt::format("the mesh has {} regions, the model {}", mesh.region_names.size(), model.regions.size()));
   if (model.crack == nullptr || model.degradation == nullptr || model.split == nullptr)
     throw InputError("the model names no crack geometric function, degradation or energy split");
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
     const RegionModel& region = model.regions[r];
     if (region.damageable && !(region.Gc > 0.0 && region.ell > 0.0))
-      throw InputError(fmt::format("region \"{}\" can be damaged but has no positive toughness and length",
-                                   mesh.region_names[r]));
+      throw InputError(
+          fmt::format("region \"{}\" can be damaged but has no positive toughness and length", mesh.region_names[r]));
   }
 }
 
@@ -156,8 +157,8 @@ OutputFields FractureRun::output(const FractureState& state) const {
   const Mesh& mesh = parts_->mesh;
   CellField<double> density(as_size(mesh.n_cells()));
   for (Index c = 0; c < mesh.n_cells(); ++c) density[c] = mechanics.energy[c] / mesh.cell_volume[c];
-  return {.displacement = CellField<Vector>(std::vector<Vector>(state.displacement.begin(),
-                                                                state.displacement.begin() + mesh.n_cells())),
+  return {.displacement = CellField<Vector>(
+              std::vector<Vector>(state.displacement.begin(), state.displacement.begin() + mesh.n_cells())),
           .damage = state.damage,
           .stress = mechanics.stress,
           .strain = mechanics.strain,

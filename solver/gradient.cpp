@@ -86,10 +86,10 @@ Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
     while (!has_full_rank(c, samples) && ++n_rings <= most_rings) samples = neighbourhood.around(c, n_rings);
     if (n_rings > most_rings && settings.zero_if_deficient) samples.clear();
     if (n_rings > most_rings && !settings.zero_if_deficient)
-      throw InputError(fmt::format("the gradient of cell {} at ({:.4g}, {:.4g}, {:.4g}) m cannot be found: the cell has "
-                                   "too few neighbours of its own material; refine the mesh there",
-                                   c, node_[as_size(c)][0], node_[as_size(c)][1],
-                                   node_[as_size(c)][2]));
+      throw InputError(
+          fmt::format("the gradient of cell {} at ({:.4g}, {:.4g}, {:.4g}) m cannot be found: the cell has "
+                      "too few neighbours of its own material; refine the mesh there",
+                      c, node_[as_size(c)][0], node_[as_size(c)][1], node_[as_size(c)][2]));
     sample_.insert(sample_.end(), samples.begin(), samples.end());
     offsets_.push_back(sample_.size());
   }

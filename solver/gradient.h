@@ -13,11 +13,11 @@
 namespace pfdm {
 
 struct GradientSettings {
-  CellField<Index> zone;                    ///< which cells may see each other
-  FaceField<Index> node_of_face;            ///< sample nodes on faces (-1: none), numbered from n_cells on; or empty
-  Vector plane_normal = Vector::Zero();     ///< direction without gradient, if any
-  std::vector<char> wanted;                 ///< cells whose gradient is asked for; empty: all
-  bool zero_if_deficient = false;           ///< too few neighbours: gradient zero; otherwise InputError
+  CellField<Index> zone;                 ///< which cells may see each other
+  FaceField<Index> node_of_face;         ///< sample nodes on faces (-1: none), numbered from n_cells on; or empty
+  Vector plane_normal = Vector::Zero();  ///< direction without gradient, if any
+  std::vector<char> wanted;              ///< cells whose gradient is asked for; empty: all
+  bool zero_if_deficient = false;        ///< too few neighbours: gradient zero; otherwise InputError
 };
 
 class Gradient {

@@ -30,7 +30,10 @@ CellField<Tensor> closures(const Mesh& mesh) {
 MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
     : mesh_(mesh),
       unknowns_(unknowns),
-      gradient_(mesh, {.zone = unknowns.zone, .node_of_face = unknowns.node_of_face, .plane_normal = unknowns.plane_normal, .wanted = {}}),
+      gradient_(mesh, {.zone = unknowns.zone,
+                       .node_of_face = unknowns.node_of_face,
+                       .plane_normal = unknowns.plane_normal,
+                       .wanted = {}}),
       moduli_(as_size(mesh.n_cells())),
       force_of_face_(as_size(mesh.n_faces()), -1),
       second_side_of_node_(unknowns.face_of_node.size(), -1),
@@ -81,7 +84,8 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
       else if (node < 0)
         cell_forces_.push_back({force, -1.0});
       else
-        cell_forces_.push_back({static_cast<Index>(links_.size()) + second_side_of_node_[as_size(node - unknowns.n_cells)], 1.0});
+        cell_forces_.push_back(
+            {static_cast<Index>(links_.size()) + second_side_of_node_[as_size(node - unknowns.n_cells)], 1.0});
     }
     cell_offsets_.push_back(cell_forces_.size());
   }
@@ -121,11 +125,10 @@ void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
   parallel_for(n_links, [&](Index i) {
     const Link& link = links_[as_size(i)];
     const Vector stress_P = normal_stress(link.P, link.n), stress_N = normal_stress(link.N, link.n);
-    const Vector jump = u[as_size(link.N)] + gradients_[link.N] * link.d_N - u[as_size(link.P)] -
-                        gradients_[link.P] * link.d_P;
-    forces_[as_size(i)] =
-        link.area * (stress_N + scale(link.weight_n, link.weight_t, link.n, stress_P - stress_N) +
-                     scale(link.c_n, link.c_t, link.n, jump));
+    const Vector jump =
+        u[as_size(link.N)] + gradients_[link.N] * link.d_N - u[as_size(link.P)] - gradients_[link.P] * link.d_P;
+    forces_[as_size(i)] = link.area * (stress_N + scale(link.weight_n, link.weight_t, link.n, stress_P - stress_N) +
+                                       scale(link.c_n, link.c_t, link.n, jump));
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];

@@ -42,7 +42,7 @@ class MomentumOperator {
   BlockTriplets compact_matrix() const;
 
   CellMechanics mechanics(const std::vector<Vector>& u) const;
-  std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;      ///< per boundary face [N]
+  std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;  ///< per boundary face [N]
   /// Traction [Pa] on each interior face that carries a node, on its owner.
   std::vector<std::pair<Index, Vector>> interface_tractions(const std::vector<Vector>& u) const;
   std::vector<Vector> patch_displacements(const std::vector<Vector>& u) const;  ///< per patch, area mean [m]
@@ -52,10 +52,10 @@ class MomentumOperator {
   struct Link {
     Index face, P, N;
     double area;
-    Vector n;             // from P to N
-    Vector d_P, d_N;      // from the cell centres to the face centre
+    Vector n;                   // from P to N
+    Vector d_P, d_N;            // from the cell centres to the face centre
     double weight_n, weight_t;  // of sigma_P in the traction; those of sigma_N complete them to 1
-    double c_n, c_t;      // [Pa/m]
+    double c_n, c_t;            // [Pa/m]
   };
   // One side of a face that carries a node.
   struct Side {
@@ -92,7 +92,7 @@ class MomentumOperator {
   std::vector<Index> first_side_of_node_;
   std::vector<std::size_t> cell_offsets_;
   std::vector<SignedForce> cell_forces_;
-  CellField<Tensor> closure_;  // K^-1 of K = (1/V) sum S (x) (x_f - x_c): the identity where faces are plane
+  CellField<Tensor> closure_;            // K^-1 of K = (1/V) sum S (x) (x_f - x_c): the identity where faces are plane
   mutable CellField<Tensor> gradients_;  // work space of apply
   mutable std::vector<Vector> forces_;   // per link, then per side: A t outwards from P or from the side's cell
 };

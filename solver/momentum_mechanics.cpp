@@ -72,7 +72,8 @@ std::vector<Vector> MomentumOperator::boundary_forces(const std::vector<Vector>&
   const Index first = mesh_.n_interior_faces();
   std::vector<Vector> boundary(as_size(mesh_.n_faces() - first), Vector::Zero());
   for (Index f = first; f < mesh_.n_faces(); ++f)
-    if (const Index force = force_of_face_[as_size(f)]; force >= 0) boundary[as_size(f - first)] = forces_[as_size(force)];
+    if (const Index force = force_of_face_[as_size(f)]; force >= 0)
+      boundary[as_size(f - first)] = forces_[as_size(force)];
   return boundary;
 }
 

@@ -62,7 +62,8 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
   parallel_for(n, [&](Index i) {
     z[as_size(i)] = x_[as_size(position_of_node_[as_size(i)])].head<3>().cast<double>();
     // What is prescribed stays so.
-    if (i >= unknowns_.n_cells) z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
+    if (i >= unknowns_.n_cells)
+      z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
   });
 }
 
@@ -103,7 +104,8 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
       .precondition = [this](const std::vector<Vector>& r, std::vector<Vector>& z) { precondition(r, z); },
       .scale = scale_};
   const auto target = [&](double initial) {
-    return std::max(tolerance.floor * reference, std::min(tolerance.ceiling * reference, tolerance.reduction * initial));
+    return std::max(tolerance.floor * reference,
+                    std::min(tolerance.ceiling * reference, tolerance.reduction * initial));
   };
   const KrylovResult result = solve_fgmres(problem, load, u, target, most_iterations);
   return {.converged = result.converged,

@@ -9,11 +9,11 @@
 namespace pfdm {
 namespace {
 
-constexpr Index coarsest_size = 120;   // rows solved directly
+constexpr Index coarsest_size = 120;  // rows solved directly
 constexpr Index most_direct_rows = 1500;
-constexpr int pairwise_passes = 3;     // aggregates of up to 8
-constexpr int sweeps = 2;                           // before, and after, the coarse correction
-constexpr Index group_size = 1024;     // rows of one smoothing task
+constexpr int pairwise_passes = 3;  // aggregates of up to 8
+constexpr int sweeps = 2;           // before, and after, the coarse correction
+constexpr Index group_size = 1024;  // rows of one smoothing task
 
 // Groups of consecutive rows, coloured so that groups of one colour are not coupled.
 std::vector<std::vector<Index>> colour_groups(const BlockMatrix& matrix) {
@@ -59,7 +59,8 @@ void sweep_forward(const BlockMatrix& a, const std::vector<std::vector<Index>>& 
                    const std::vector<Lane>& b, std::vector<Lane>& x) {
   for (const auto& groups : groups_by_colour)
     for_groups(groups, [&](Index group) {
-      for (Index i = group * group_size; i < std::min(a.n_rows(), (group + 1) * group_size); ++i) smooth_row(a, i, b, x);
+      for (Index i = group * group_size; i < std::min(a.n_rows(), (group + 1) * group_size); ++i)
+        smooth_row(a, i, b, x);
     });
 }
 
@@ -79,7 +80,8 @@ void multiply(const BlockMatrix& a, const std::vector<Lane>& x, std::vector<Lane
 }
 
 double dot(const std::vector<Lane>& a, const std::vector<Lane>& b) {
-  return parallel_sum(static_cast<Index>(a.size()), [&](Index i) { return double((a[as_size(i)] * b[as_size(i)]).sum()); });
+  return parallel_sum(static_cast<Index>(a.size()),
+                      [&](Index i) { return double((a[as_size(i)] * b[as_size(i)]).sum()); });
 }
 
 // y += factor x.
@@ -91,16 +93,30 @@ void add(double factor, const std::vector<Lane>& x, std::vector<Lane>& y) {
 }  // namespace
 
 Multigrid::Multigrid(BlockMatrix matrix) {
-  levels_.push_back({.matrix = std::move(matrix), .aggregates = {}, .groups_by_colour = {}, .residual = {},
-                     .coarse_b = {}, .coarse_x = {}, .direction = {}, .image = {}, .k_residual = {}});
+  levels_.push_back({.matrix = std::move(matrix),
+                     .aggregates = {},
+                     .groups_by_colour = {},
+                     .residual = {},
+                     .coarse_b = {},
+                     .coarse_x = {},
+                     .direction = {},
+                     .image = {},
+                     .k_residual = {}});
   while (levels_.back().matrix.n_rows() > coarsest_size) {
     Level& fine = levels_.back();
     fine.aggregates = aggregate(fine.matrix, pairwise_passes);
     const bool stalled = fine.aggregates.count > fine.matrix.n_rows() * 4 / 5;
     if (fine.aggregates.count == 0 || (stalled && fine.matrix.n_rows() <= most_direct_rows)) break;
     BlockMatrix coarse = coarsen(fine.matrix, fine.aggregates);
-    levels_.push_back({.matrix = std::move(coarse), .aggregates = {}, .groups_by_colour = {}, .residual = {},
-                       .coarse_b = {}, .coarse_x = {}, .direction = {}, .image = {}, .k_residual = {}});
+    levels_.push_back({.matrix = std::move(coarse),
+                       .aggregates = {},
+                       .groups_by_colour = {},
+                       .residual = {},
+                       .coarse_b = {},
+                       .coarse_x = {},
+                       .direction = {},
+                       .image = {},
+                       .k_residual = {}});
   }
   set_up_work_space();
 }
@@ -154,7 +170,8 @@ void Multigrid::cycle(std::size_t l, const std::vector<Lane>& b, std::vector<Lan
     if (const Index to = level.aggregates.of_row[i]; to >= 0) level.coarse_b[as_size(to)] += b[i] - level.residual[i];
   k_cycle(l + 1, level.coarse_b, level.coarse_x);
   parallel_for(a.n_rows(), [&](Index i) {
-    if (const Index from = level.aggregates.of_row[as_size(i)]; from >= 0) x[as_size(i)] += level.coarse_x[as_size(from)];
+    if (const Index from = level.aggregates.of_row[as_size(i)]; from >= 0)
+      x[as_size(i)] += level.coarse_x[as_size(from)];
   });
   for (int s = 0; s < sweeps; ++s) sweep_backward(a, level.groups_by_colour, b, x);
 }

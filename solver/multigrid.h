@@ -24,8 +24,8 @@ class Multigrid {
     BlockMatrix matrix;
     Aggregates aggregates;  // to the next level; unused on the last
     std::vector<std::vector<Index>> groups_by_colour;
-    std::vector<Lane> residual, coarse_b, coarse_x;         // of the cycle; coarse ones of the next level's size
-    std::vector<Lane> direction[2], image[2], k_residual;   // of the K-cycle on this level
+    std::vector<Lane> residual, coarse_b, coarse_x;        // of the cycle; coarse ones of the next level's size
+    std::vector<Lane> direction[2], image[2], k_residual;  // of the K-cycle on this level
   };
 
   void set_up_work_space();

@@ -22,23 +22,25 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   turns_ = CellField<Index>(as_size(mesh_.n_cells()), 0);
   momentum_.forget_preconditioner();  // a run that is gone on with does the same
   double energy_before = 0.0;
+  bool settled = false;
   while (outcome.iterations < settings_.maximum_iterations && !outcome.converged) {
     degrade(state);
-    const Equilibrium equilibrium = solve_momentum(state, {.reduction = 0.1, .ceiling = 1e-4, .floor = 0.1 * settings_.equilibrium_tolerance});
+    // Loose while the damage still moves; as tight as the step asks for once it has settled.
+    const double floor = 0.1 * settings_.equilibrium_tolerance;
+    const double ceiling = settled ? settings_.equilibrium_tolerance : 1e-4;
+    const Equilibrium equilibrium = solve_momentum(state, {.reduction = 0.1, .ceiling = ceiling, .floor = floor});
     if (!equilibrium.converged) return outcome;
     const Energies energies = update_driving_energy(start, state);
     CellField<double> answer = state.damage;
     solve_damage(start, state, answer);
-    const double change =
-        parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
+    const double change = parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
     const double energy = energies.elastic + damage_.fracture_energy(answer);
-    const double energy_change =
-        (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
+    const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
     outcome.krylov_iterations += equilibrium.iterations;
-    outcome.converged = change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance &&
-                        equilibrium.residual <= settings_.equilibrium_tolerance;
+    settled = change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance;
+    outcome.converged = settled && equilibrium.residual <= settings_.equilibrium_tolerance;
     if (outcome.converged)
       state.damage = answer;
     else
@@ -87,8 +89,12 @@ double Staggered::settle(const FractureState& state, Index cell, const Tensor& s
                        energy_density(model_.split->secant(elasticity, g, closure), strain);
   if (lag * closing_[cell] < 0.0) ++turns_[cell];
   closing_[cell] = static_cast<float>(lag);
-  constexpr double nearly = 1e-8;
-  closure += std::abs(lag) < nearly ? lag : lag / (2.0 + turns_[cell]);
+  // What is kept of the stiffness ranges from g to 1: over decades, so the steps are those of its logarithm.
+  const double step = 1.0 / (1.0 + turns_[cell]);
+  const double kept = g + closure * (1.0 - g), wanted = lag > 0.0 ? 1.0 : g;
+  const double next = std::pow(kept, 1.0 - step) * std::pow(wanted, step);
+  const bool there = std::abs(next / wanted - 1.0) < 1e-3 || g == 1.0;
+  closure = there ? closure + lag : (next - g) / (1.0 - g);
   return mesh_.cell_volume[cell] * std::abs(wrong);
 }
 
@@ -103,8 +109,8 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   });
   Energies energies;
   energies.elastic = parallel_sum(mesh_.n_cells(), [&](Index c) { return mechanics.energy[c]; });
-  energies.unsettled = parallel_sum(
-      mesh_.n_cells(), [&](Index c) { return settle(state, c, mechanics.strain[c], state.closure[c]); });
+  energies.unsettled =
+      parallel_sum(mesh_.n_cells(), [&](Index c) { return settle(state, c, mechanics.strain[c], state.closure[c]); });
   return energies;
 }
 

@@ -13,11 +13,11 @@ struct FractureState {
   double increment = 0.0;  ///< the next increment to try
   /// Displacement [m] of the cells, then of the faces that carry an unknown (material interfaces and boundary).
   std::vector<Vector> displacement;
-  CellField<double> damage;          ///< d [-]
-  CellField<double> driving_energy;  ///< psi_plus, or its history [J/m^3]
-  CellField<double> closure;         ///< of the energy split: 1 where cracks are closed, 0 where open
+  CellField<double> damage;            ///< d [-]
+  CellField<double> driving_energy;    ///< psi_plus, or its history [J/m^3]
+  CellField<double> closure;           ///< of the energy split: 1 where cracks are closed, 0 where open
   std::vector<Vector> boundary_force;  ///< on each boundary face [N], in the mesh's face order
-  double external_work = 0.0;        ///< [J]
+  double external_work = 0.0;          ///< [J]
 };
 
 /// One row of the force-displacement curve.
@@ -33,17 +33,17 @@ struct StepReport {
   double damaged_volume = 0.0;             ///< volume with d > 0.5 [m^3]
   Index staggered_iterations = 0;
   Index krylov_iterations = 0;
-  double increment = 0.0;                  ///< of the load parameter
+  double increment = 0.0;  ///< of the load parameter
 };
 
 /// Cell fields for output at a converged state.
 struct OutputFields {
-  CellField<Vector> displacement;      ///< [m]
-  CellField<double> damage;            ///< [-]
-  CellField<Tensor> stress;            ///< [Pa]
-  CellField<Tensor> strain;            ///< [-]
-  CellField<double> energy_density;    ///< degraded elastic energy [J/m^3]
-  CellField<double> driving_energy;    ///< [J/m^3]
+  CellField<Vector> displacement;    ///< [m]
+  CellField<double> damage;          ///< [-]
+  CellField<Tensor> stress;          ///< [Pa]
+  CellField<Tensor> strain;          ///< [-]
+  CellField<double> energy_density;  ///< degraded elastic energy [J/m^3]
+  CellField<double> driving_energy;  ///< [J/m^3]
 };
 
 }  // namespace pfdm

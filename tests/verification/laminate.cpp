@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm::verification {
@@ -101,32 +102,45 @@ std::vector<BoundaryCondition> boundary_of(const Laminate& laminate) {
   return boundary;
 }
 
+// All relative; `transmitted` is the force on the upper plate.
 struct LaminateErrors {
-  double transmitted = 0.0, displacement = 0.0, stress = 0.0, broken_strain = 0.0;
+  double transmitted = 0.0, displacement = 0.0, stress = 0.0, weakest_strain = 0.0, sound_strain = 0.0;
 };
+
+LaminateErrors measure(const Laminate& laminate, const Mesh& mesh, const CellField<double>& g,
+                       const ElasticSolution& solution) {
+  const auto everywhere = [](Index) { return true; };
+  const auto top = as_size(static_cast<Index>(&mesh.patch("zmax") - mesh.patches.data()));
+  const Vector traction = laminate.traction();
+  LaminateErrors e;
+  e.transmitted = (reactions(mesh, solution)[top] - traction).norm() / traction.norm();
+  e.displacement = displacement_error(mesh, solution, [&](const Vector& x) { return laminate.displacement(x); });
+  e.stress = relative_stress_error(
+      mesh, solution.cells.stress, [&](const Vector& x) { return laminate.stress(x); }, everywhere);
+  const auto strain_error_at = [&](double level) {
+    return relative_stress_error(
+        mesh, solution.cells.strain, [&](const Vector& x) { return laminate.strain(x); },
+        [&](Index c) { return g[c] == level; });
+  };
+  e.weakest_strain = strain_error_at(*std::min_element(g.begin(), g.end()));
+  e.sound_strain = strain_error_at(1.0);
+  return e;
+}
 
 LaminateErrors errors_of(const Laminate& laminate, Cells cells) {
   const Mesh mesh = mesh_of(laminate, cells);
   CellField<double> g(as_size(mesh.n_cells()));
   for (Index c = 0; c < mesh.n_cells(); ++c) g[c] = laminate.layer_at(mesh.cell_centre[c][2]).g;
-  const auto solution = solve_elastic(mesh, elastic_model(laminate.materials, boundary_of(laminate)), g, 1e-12);
+  const auto solution = solve_elastic(mesh, elastic_model(laminate.materials, boundary_of(laminate)), g, 1e-13);
   EXPECT_TRUE(solution->equilibrium.converged);
   EXPECT_LE(reaction_imbalance(mesh, *solution), 1e-6);
   EXPECT_LE(energy_imbalance(mesh, *solution), 1e-6);
-  const auto top = as_size(static_cast<Index>(&mesh.patch("zmax") - mesh.patches.data()));
-  const Vector force = reactions(mesh, *solution)[top];
-  LaminateErrors e;
-  e.transmitted = (force - laminate.traction()).norm() / laminate.traction().norm();
-  e.displacement = displacement_error(mesh, *solution, [&](const Vector& x) { return laminate.displacement(x); });
-  e.stress = relative_stress_error(
-      mesh, solution->cells.stress, [&](const Vector& x) { return laminate.stress(x); }, [](Index) { return true; });
-  e.broken_strain = relative_stress_error(
-      mesh, solution->cells.strain, [&](const Vector& x) { return laminate.strain(x); },
-      [&, most = *std::min_element(g.begin(), g.end())](Index c) { return g[c] == most; });
+  const LaminateErrors e = measure(laminate, mesh, g, *solution);
   report_row(fmt::format("{} cells", mesh.n_cells()), {{"transmitted", e.transmitted},
                                                        {"u", e.displacement},
                                                        {"stress", e.stress},
-                                                       {"strain where g is least", e.broken_strain},
+                                                       {"strain in the weakest cells", e.weakest_strain},
+                                                       {"strain in sound cells", e.sound_strain},
                                                        {"iterations", solution->equilibrium.iterations}});
   return e;
 }
@@ -144,7 +158,7 @@ const auto loads_and_cells = testing::Combine(testing::Values(Load::tension, Loa
 class TwoMaterials : public testing::TestWithParam<LoadAndCells> {
  protected:
   static void expect_series(double ratio) {
-    const Laminate laminate{.layers = {{0.3, 3, 0}, {0.25, 2, 1}, {0.2, 1, 0}, {0.25, 3, 1}},
+    const Laminate laminate{.layers = {{0.3, 3, 0}, {0.25, 3, 1}, {0.1, 1, 0}, {0.2, 2, 1}, {0.15, 2, 0}},
                             .materials = {from_young_poisson(75e6, 0.44), from_young_poisson(75e6 * ratio, 0.3)},
                             .load = std::get<0>(GetParam())};
     const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
@@ -167,7 +181,9 @@ class BrokenLayer : public testing::TestWithParam<LoadAndCells> {
                             .load = std::get<0>(GetParam())};
     const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
     EXPECT_LE(e.transmitted, 1e-4);
-    EXPECT_LE(e.broken_strain, 1e-3);
+    EXPECT_LE(e.displacement, 1e-4);
+    EXPECT_LE(e.weakest_strain, 1e-3);
+    EXPECT_LE(e.sound_strain, 1e-3);
   }
 };
 

@@ -1,0 +1,190 @@
+#pragma once
+// A bar in tension between its ends, one-dimensional (nu = 0), whose middle cells are a little less tough than the rest,
+// so that damage localises there. Two cells wide, one cell thick.
+
+#include "physics/closed_forms/bars.h"
+#include "solver/fracture_run.h"
+#include "solver/staggered.h"
+#include "tests/verification/support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace pfdm::verification {
+
+struct BarSettings {
+  std::string law = "AT1";
+  Index cells_per_length = 10;  ///< cells in one ell
+  double length = 5.3;          ///< of the part that can be damaged, in ell; rounded to an odd number of cells
+  double weakness = 0.02;       ///< share of its toughness that the middle cell lacks
+  /// Undamageable cells at both ends, d = 0 on their faces: without, damage likes the ends, where half a band will do.
+  bool pinned_ends = true;
+};
+
+/// What a load step left behind.
+struct BarState {
+  double load = 0.0;             ///< elongation over that at which the undamaged bar reaches its strength [-]
+  double stress = 0.0;           ///< over the strength [-]
+  double separation = 0.0;       ///< elongation beyond that of an undamaged bar, times strength / Gc [-]
+  double largest_damage = 0.0;   ///< [-]
+  double fracture_energy = 0.0;  ///< per area, over Gc [-]
+  double imbalance = 0.0;        ///< (work - elastic energy - fracture energy) / work [-]
+  CellField<double> damage;
+};
+
+class Bar {
+ public:
+  static constexpr double E = 30e9, Gc = 100.0, ell = 5e-3;
+
+  explicit Bar(const BarSettings& settings) : settings_(settings), mesh_(make_mesh(settings)), model_(make_model()) {}
+
+  const Mesh& mesh() const { return mesh_; }
+  const FractureModel& model() const { return model_; }
+  double cell_width() const { return ell / settings_.cells_per_length; }
+  double length() const { return mesh_.points.back()[0] - mesh_.points.front()[0]; }
+  double area() const { return 2.0 * cell_width() * cell_width(); }
+  double strength() const { return settings_.law == "AT1" ? at1_strength(E, Gc, ell) : at2_strength(E, Gc, ell); }
+
+  /// One leg after the other, each to a load in so many equal steps. No step is cut.
+  struct Leg {
+    double end;
+    Index n_steps;
+  };
+  std::vector<BarState> run(const std::vector<Leg>& legs) const;
+
+  /// The same without irreversibility, as the closed forms have it: every step may heal what the one before broke.
+  std::vector<BarState> run_reversibly(const std::vector<Leg>& legs) const;
+
+  /// Cells along x, in one of the two rows.
+  std::vector<Index> row() const;
+  /// Cells of a row that are broken, d > 0.99.
+  Index n_broken(const CellField<double>& damage) const {
+    const std::vector<Index> cells = row();
+    return static_cast<Index>(std::count_if(cells.begin(), cells.end(), [&](Index c) { return damage[c] > 0.99; }));
+  }
+
+ private:
+  static Mesh make_mesh(const BarSettings& settings);
+  FractureModel make_model() const;
+  BarState state_of(const FractureState& state, double force, double fracture_energy) const;
+  static StaggeredSettings staggered() { return {.maximum_iterations = 2000}; }
+
+  BarSettings settings_;
+  Mesh mesh_;
+  FractureModel model_;
+};
+
+inline Mesh Bar::make_mesh(const BarSettings& settings) {
+  const double h = ell / settings.cells_per_length;
+  const Index ends = settings.pinned_ends ? 1 : 0;
+  const auto half = static_cast<Index>(std::lround(0.5 * settings.length * settings.cells_per_length - 0.5));
+  const Index n = 2 * (half + ends) + 1;
+  BoxHexesSettings box;
+  box.origin = {-0.5 * n * h, 0.0, 0.0};
+  box.axes = {{{{n * h, n, 1.0}}, {{2.0 * h, 2, 1.0}}, {{h, 1, 1.0}}}};
+  const auto slab = [](const std::string& name, double from, double to) -> SubRegion {
+    return {.name = name, .lower = {from, -1.0, -1.0}, .upper = {to, 1.0, 1.0}};
+  };
+  box.regions.push_back(slab("weak", -0.5 * h, 0.5 * h));
+  if (settings.pinned_ends) {
+    box.regions.push_back(slab("end", -n * h, -(0.5 * n - 1.0) * h));
+    box.regions.push_back(slab("end", (0.5 * n - 1.0) * h, n * h));
+  }
+  return make_box_hexes(box);
+}
+
+inline FractureModel Bar::make_model() const {
+  FractureModel model;
+  for (const std::string& name : mesh_.region_names)
+    model.regions.push_back({.elasticity = from_young_poisson(E, 0.0),
+                             .Gc = name == "weak" ? (1.0 - settings_.weakness) * Gc : Gc,
+                             .ell = ell,
+                             .damageable = name != "end"});
+  model.crack = &crack_geometry(settings_.law);
+  model.degradation = &degradation("quadratic");
+  model.split = &energy_split("none");
+  BoundaryCondition pulled = displacement_on("xmax", {});
+  pulled.value = [elongation = strength() / E * length()](const Vector&, double t) {
+    return Vector(elongation * t, 0.0, 0.0);
+  };
+  model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }), pulled,
+                    symmetry_on("ymin"), symmetry_on("ymax"), plane_on("zmin"), plane_on("zmax")};
+  return model;
+}
+
+inline BarState Bar::state_of(const FractureState& state, double force, double fracture_energy) const {
+  const double stress = force / area();
+  const double elongation = state.load * strength() / E * length();
+  return {.load = state.load,
+          .stress = stress / strength(),
+          .separation = (elongation - stress / E * length()) * strength() / Gc,
+          .largest_damage = *std::max_element(state.damage.begin(), state.damage.end()),
+          .fracture_energy = fracture_energy / (area() * Gc),
+          .damage = state.damage};
+}
+
+inline std::vector<BarState> Bar::run(const std::vector<Leg>& legs) const {
+  std::vector<BarState> states;
+  const auto pulled = static_cast<std::size_t>(&mesh_.patch("xmax") - mesh_.patches.data());
+  RunHooks hooks;
+  hooks.step_done = [&](const FractureState& state, const StepReport& report) {
+    if (report.step == 0) return;
+    states.push_back(state_of(state, report.reaction[pulled][0], report.fracture_energy));
+    states.back().imbalance =
+        (report.external_work - report.elastic_energy - report.fracture_energy) / report.external_work;
+  };
+  hooks.warned = [](const std::string& message) { ADD_FAILURE() << message; };
+  FractureState state;
+  for (const auto& [end, n_steps] : legs) {
+    const double increment = (end - state.load) / n_steps;
+    FractureRun leg(mesh_, model_, staggered(),
+                    {.end = end, .initial_increment = increment, .maximum_increment = increment, .stops = {}});
+    if (state.step == 0) state = leg.initial_state();
+    state.increment = increment;
+    state = leg.run(state, hooks);
+  }
+  return states;
+}
+
+inline std::vector<BarState> Bar::run_reversibly(const std::vector<Leg>& legs) const {
+  const FractureState sound = FractureRun(mesh_, model_, staggered(), {}).initial_state();
+  const Unknowns unknowns = place_unknowns(mesh_, model_);
+  Staggered solver(mesh_, model_, unknowns, staggered());
+  const Patch& pulled = mesh_.patch("xmax");
+  std::vector<BarState> states;
+  FractureState state = sound;
+  for (const auto& [end, n_steps] : legs) {
+    const double start = state.load;
+    for (Index step = 1; step <= n_steps; ++step) {
+      state.load = start + (end - start) * step / n_steps;
+      EXPECT_TRUE(solver.solve_step(sound, state, {}).converged) << "load " << state.load;
+      const std::vector<Vector> forces = solver.momentum().balance().boundary_forces(state.displacement);
+      double force = 0.0;
+      for (Index f = pulled.first_face; f < pulled.first_face + pulled.n_faces; ++f)
+        force += forces[as_size(f - mesh_.n_interior_faces())][0];
+      states.push_back(state_of(state, force, solver.damage_equation().fracture_energy(state.damage)));
+    }
+  }
+  return states;
+}
+
+inline std::vector<Index> Bar::row() const {
+  std::vector<Index> cells;
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    if (mesh_.cell_centre[c][1] < cell_width()) cells.push_back(c);
+  std::sort(cells.begin(), cells.end(),
+            [&](Index a, Index b) { return mesh_.cell_centre[a][0] < mesh_.cell_centre[b][0]; });
+  return cells;
+}
+
+/// The state with the largest stress.
+inline const BarState& peak(const std::vector<BarState>& states) {
+  return *std::max_element(states.begin(), states.end(),
+                           [](const BarState& a, const BarState& b) { return a.stress < b.stress; });
+}
+
+}  // namespace pfdm::verification

@@ -1,0 +1,259 @@
+// Bars in tension that localise and break: strength, softening branch and toughness against the closed forms
+// (literature.md 3.3, 3.4, 3.6), and the broken profile against the discrete one.
+
+#include "tests/verification/bar.h"
+
+#include <numbers>
+
+namespace pfdm::verification {
+namespace {
+
+// ---- Strength
+
+std::vector<double> peak_errors(const std::string& law, double length, bool pinned_ends,
+                                const std::vector<Bar::Leg>& legs) {
+  std::vector<double> errors;
+  for (const Index cells : {5, 10, 20}) {
+    const Bar bar({.law = law, .cells_per_length = cells, .length = length, .pinned_ends = pinned_ends});
+    const BarState highest = peak(bar.run(legs));
+    errors.push_back(std::abs(highest.stress - 1.0));
+    report_row(law + " strength, " + std::to_string(cells) + " cells in ell",
+               {{"stress/strength", highest.stress}, {"largest d", highest.largest_damage}});
+  }
+  return errors;
+}
+
+TEST(DamagedBars, At1PeakIsTheStrength) {
+  const auto errors = peak_errors("AT1", 7.3, true, {{0.99, 1}, {1.002, 60}});
+  EXPECT_LE(errors[1], 0.01);
+  EXPECT_LT(errors[1], errors[0]);
+  EXPECT_LT(errors[2], errors[1]);
+}
+
+TEST(DamagedBars, At2PeakIsTheStrength) {
+  const auto errors = peak_errors("AT2", 12.0, false, {{1.6, 8}, {1.9, 30}});
+  EXPECT_LE(errors[1], 0.01);
+  EXPECT_LT(errors[1], errors[0]);
+  EXPECT_LT(errors[2], errors[1]);
+}
+
+// ---- Softening branch of AT1: a bar that is hardly longer than its band softens stably down to 0.8 of the strength.
+
+// Stress over strength at a separation times strength / Gc.
+double at1_stress(double separation) {
+  double low = 1e-12, high = 1.0 - 1e-6;
+  const double unit = Bar::Gc / at1_strength(Bar::E, Bar::Gc, Bar::ell);
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (at1_softening(Bar::E, Bar::Gc, Bar::ell, middle).separation < separation * unit ? low : high) = middle;
+  }
+  return at1_softening(Bar::E, Bar::Gc, Bar::ell, low).stress / at1_strength(Bar::E, Bar::Gc, Bar::ell);
+}
+
+struct BranchError {
+  double largest = 0.0;
+  double lowest_stress = 1.0;
+  Index states = 0;
+};
+
+BranchError at1_branch_error(Index cells_per_length) {
+  const Bar bar({.law = "AT1", .cells_per_length = cells_per_length, .length = 5.3});
+  BranchError error;
+  for (const BarState& state : bar.run({{0.995, 1}, {1.03, 35}})) {
+    if (state.separation < 0.02 || state.stress < 0.5) continue;  // before the band has formed; broken
+    error.largest = std::max(error.largest, std::abs(state.stress - at1_stress(state.separation)));
+    error.lowest_stress = std::min(error.lowest_stress, state.stress);
+    ++error.states;
+  }
+  report_row("AT1 softening, " + std::to_string(cells_per_length) + " cells in ell",
+             {{"largest error/strength", error.largest}, {"down to stress", error.lowest_stress}});
+  return error;
+}
+
+TEST(DamagedBars, At1SofteningFollowsTheClosedForm) {
+  const BranchError coarse = at1_branch_error(5), fine = at1_branch_error(10);
+  EXPECT_GE(fine.states, 10);
+  EXPECT_LT(fine.lowest_stress, 0.85);
+  EXPECT_LE(fine.largest, 0.002);
+  EXPECT_LT(fine.largest, 0.6 * coarse.largest);
+}
+
+// ---- Toughness: one cell breaks, and the discrete surface energy of literature.md 3.6 is dissipated.
+
+void expect_toughness(const BarState& broken, const Bar& bar, double expected, const std::string& label) {
+  report_row(label, {{"dissipated/Gc", broken.fracture_energy},
+                     {"expected", expected},
+                     {"broken cells", bar.n_broken(broken.damage)}});
+  EXPECT_NEAR(broken.fracture_energy, expected, 0.005 * expected) << label;
+  EXPECT_EQ(bar.n_broken(broken.damage), 1) << label;
+}
+
+TEST(DamagedBars, At1DissipatesTheDiscreteToughness) {
+  for (const Index cells : {2, 4, 10}) {
+    const Bar bar({.law = "AT1", .cells_per_length = cells, .length = 8.0, .weakness = 0.005});
+    const BarState broken = bar.run({{0.9, 1}, {1.1, 4}, {8.0, 3}}).back();
+    expect_toughness(broken, bar, at1_discrete_toughness(bar.cell_width(), Bar::ell),
+                     "AT1 toughness, " + std::to_string(cells) + " cells in ell");
+  }
+}
+
+// The far field of AT2 is damaged as well; it heals when the bar breaks, if it may.
+TEST(DamagedBars, At2DissipatesTheDiscreteToughnessReversibly) {
+  for (const Index cells : {2, 4, 10}) {
+    const Bar bar({.law = "AT2", .cells_per_length = cells, .length = 14.0, .weakness = 0.005});
+    const BarState broken = bar.run_reversibly({{1.4, 2}, {2.0, 6}, {12.0, 3}}).back();
+    expect_toughness(broken, bar, at2_discrete_toughness(bar.cell_width(), Bar::ell),
+                     "AT2 toughness, " + std::to_string(cells) + " cells in ell");
+  }
+}
+
+// Least discrete AT2 surface energy per area over Gc of a row of cells with d >= lower, the middle one broken, d = 0 on
+// the outer faces; by projected Gauss-Seidel.
+double at2_obstacle_energy(const std::vector<double>& lower, double h) {
+  std::vector<double> d(lower.size() + 2);
+  std::copy(lower.begin(), lower.end(), d.begin() + 1);
+  const std::size_t n = lower.size(), middle = 1 + n / 2;
+  d[middle] = 1.0;
+  for (int sweep = 0; sweep < 4000; ++sweep) {
+    d[0] = -d[1];  // zero half-way
+    d[n + 1] = -d[n];
+    for (std::size_t i = 1; i <= n; ++i)
+      if (i != middle) d[i] = std::max(lower[i - 1], (d[i - 1] + d[i + 1]) / (2.0 + h * h));
+  }
+  double energy = 0.0;
+  for (std::size_t i = 1; i <= n; ++i) energy += 0.5 * h * d[i] * d[i];
+  for (std::size_t i = 1; i < n; ++i) energy += 0.5 * std::pow(d[i + 1] - d[i], 2) / h;
+  return energy + d[1] * d[1] / h + d[n] * d[n] / h;
+}
+
+// With irreversibility what the far field had spent is kept: the broken profile is the least that lies above the damage
+// of the last step before.
+TEST(DamagedBars, At2KeepsItsBulkDissipation) {
+  const Bar bar({.law = "AT2", .cells_per_length = 10, .length = 14.0, .weakness = 0.005});
+  const std::vector<BarState> states = bar.run({{1.4, 2}, {2.0, 12}, {12.0, 3}});
+  const auto broken = std::find_if(states.begin(), states.end(), [](const BarState& s) { return s.stress < 0.5; });
+  ASSERT_NE(broken, states.end());
+  std::vector<double> before;
+  for (const Index c : bar.row())
+    if (bar.model().regions[as_size(bar.mesh().region[c])].damageable) before.push_back((broken - 1)->damage[c]);
+  const double expected = at2_obstacle_energy(before, 0.1);
+  EXPECT_GT(expected, 1.1);
+  expect_toughness(states.back(), bar, expected, "AT2 toughness with its bulk's");
+}
+
+// ---- The whole law, also where no displacement control can follow it: the profile of the first integral is what the
+// damage equation answers to its own driving energy, and opens by the separation of the closed form.
+
+struct Profile {
+  std::vector<double> x, d;  // x [ell] from the middle outwards
+  double stress;             // [Pa]
+  double separation;         // [m]
+  double far_damage;
+
+  double at(double distance) const {
+    const auto above = std::upper_bound(x.begin(), x.end(), distance);
+    if (above == x.end()) return far_damage;
+    const auto i = static_cast<std::size_t>(above - x.begin());
+    const double share = (distance - x[i - 1]) / (x[i] - x[i - 1]);
+    return d[i - 1] + share * (d[i] - d[i - 1]);
+  }
+};
+
+// ell d' = -sqrt((1-s)(s-s*)(s + s*/(1+s*)))/s with s = 1 - d; s = s* + (1-s*) sin^2 p takes the roots out.
+Profile at1_profile(double d_max) {
+  const double least = 1.0 - d_max;
+  const BarPoint point = at1_softening(Bar::E, Bar::Gc, Bar::ell, d_max);
+  Profile profile{.x = {0.0}, .d = {d_max}, .stress = point.stress, .separation = point.separation, .far_damage = 0.0};
+  constexpr int n = 20000;
+  const double step = 0.5 * std::numbers::pi / n;
+  for (int i = 0; i < n; ++i) {
+    const auto s_at = [&](double p) { return least + (1.0 - least) * std::pow(std::sin(p), 2); };
+    const double s = s_at((i + 0.5) * step);
+    profile.x.push_back(profile.x.back() + step * 2.0 * s / std::sqrt(s + least / (1.0 + least)));
+    profile.d.push_back(1.0 - s_at((i + 1) * step));
+  }
+  return profile;
+}
+
+// ell d' = -((1-D)-s) sqrt((s-s*)(s-s2))/s, s* = D + sqrt D, s2 = D - sqrt D; s = s* + y^2 takes the root out, and
+// y = y_max (1 - exp(-z)) the logarithm at the far end.
+Profile at2_profile(double D) {
+  const double least = D + std::sqrt(D), other = D - std::sqrt(D);
+  const BarPoint point = at2_softening(Bar::E, Bar::Gc, Bar::ell, D);
+  Profile profile{
+      .x = {0.0}, .d = {1.0 - least}, .stress = point.stress, .separation = point.separation, .far_damage = D};
+  const double y_max = std::sqrt(1.0 - D - least);
+  constexpr int n = 40000;
+  constexpr double step = 20.0 / n;
+  for (int i = 0; i < n; ++i) {
+    const double z = (i + 0.5) * step, y = y_max * (1.0 - std::exp(-z)), s = least + y * y;
+    // 1 - D - s = (y_max - y)(y_max + y), y_max - y = y_max exp(-z) = dy/dz
+    profile.x.push_back(profile.x.back() + step * 2.0 * s / ((y_max + y) * std::sqrt(s - other)));
+    profile.d.push_back(1.0 - least - std::pow(y_max * (1.0 - std::exp(-(i + 1) * step)), 2));
+  }
+  return profile;
+}
+
+// Largest difference between the damage that the equation answers and the profile.
+double profile_error(const Bar& bar, const Profile& profile) {
+  CellField<double> exact(as_size(bar.mesh().n_cells())), psi = exact, lower = exact;
+  for (Index c = 0; c < bar.mesh().n_cells(); ++c) {
+    exact[c] = profile.at(std::abs(bar.mesh().cell_centre[c][0]) / Bar::ell);
+    psi[c] = std::pow(profile.stress, 2) / (2.0 * Bar::E * std::pow(1.0 - exact[c], 4));
+  }
+  CellField<double> d = exact;
+  DamageEquation equation(bar.mesh(), bar.model(), Vector::Zero());
+  EXPECT_TRUE(equation.solve(psi, lower, 1, d).converged);
+  double largest = 0.0;
+  for (Index c = 0; c < d.size(); ++c) largest = std::max(largest, std::abs(d[c] - exact[c]));
+  return largest;
+}
+
+// Elongation beyond that of the far field at the profile's stress, over the closed form's separation.
+double separation_ratio(const Bar& bar, const Profile& profile) {
+  CellField<double> g(as_size(bar.mesh().n_cells()));
+  for (Index c = 0; c < bar.mesh().n_cells(); ++c)
+    g[c] = std::pow(1.0 - profile.at(std::abs(bar.mesh().cell_centre[c][0]) / Bar::ell), 2);
+  const auto solution = solve_elastic(bar.mesh(), bar.model(), g, 1e-10);
+  const auto pulled = static_cast<std::size_t>(&bar.mesh().patch("xmax") - bar.mesh().patches.data());
+  const double stress = reactions(bar.mesh(), *solution)[pulled][0] / bar.area();
+  const double elongation = bar.strength() / Bar::E * bar.length() * profile.stress / stress;
+  const double far = profile.stress / Bar::E * bar.length() / std::pow(1.0 - profile.far_damage, 2);
+  return (elongation - far) / profile.separation;
+}
+
+void expect_law(const std::string& law, const Profile& profile) {
+  double errors[2], ratios[2], strength = 0.0;
+  for (const int fine : {0, 1}) {
+    const Bar bar({.law = law,
+                   .cells_per_length = fine == 1 ? 20 : 10,
+                   .length = 40.0,  // near its strength the profile of AT2 is long
+                   .weakness = 0.0,
+                   .pinned_ends = false});
+    errors[fine] = profile_error(bar, profile);
+    ratios[fine] = separation_ratio(bar, profile);
+    strength = bar.strength();
+  }
+  report_row(law + " profile",
+             {{"largest d", profile.d.front()},
+              {"stress/strength", profile.stress / strength},
+              {"error of d at h = ell/10", errors[0]},
+              {"at ell/20", errors[1]},
+              {"error of the separation at ell/10", ratios[0] - 1.0},
+              {"at ell/20", ratios[1] - 1.0}});
+  EXPECT_LE(errors[0], 0.01);
+  EXPECT_LE(errors[1], 0.4 * errors[0]) << "second order";
+  EXPECT_NEAR(ratios[0], 1.0, 1e-3);
+  EXPECT_NEAR(ratios[1], 1.0, 5e-4);
+}
+
+TEST(DamagedBars, At1LawFromEndToEnd) {
+  for (const double d_max : {0.2, 0.4, 0.6, 0.75}) expect_law("AT1", at1_profile(d_max));
+}
+
+TEST(DamagedBars, At2LawFromEndToEnd) {
+  for (const double D : {0.15, 0.1, 0.05, 0.03}) expect_law("AT2", at2_profile(D));
+}
+
+}  // namespace
+}  // namespace pfdm::verification
