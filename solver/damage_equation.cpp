@@ -145,20 +145,14 @@ DamageSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
   for (Index correction = 0; correction < corrections; ++correction) {
     renew_correction(d);
     account.converged = false;
+    parallel_for(n, [&](Index c) { active[as_size(c)] = is_damageable(c) ? 0 : 1; });
     for (Index change = 0; change < most_changes && !account.converged; ++change) {
       before = active;
+      choose_active(psi_plus, lower, change == 0, d, active);
       parallel_for(n, [&](Index c) {
         double sum = pinned_[c] + local_curvature(c, d[c], psi_plus[c]);
         for (std::size_t k = offsets_[as_size(c)]; k < offsets_[as_size(c) + 1]; ++k) sum += entries_[k].coefficient;
         diagonal[as_size(c)] = sum;
-        const double wanted = d[c] - residual(c, d, psi_plus[c]) / sum;
-        active[as_size(c)] = !is_damageable(c) || wanted <= lower[c] || wanted >= 1.0 ? 1 : 0;
-        step[as_size(c)] = !is_damageable(c) ? 0.0 : std::clamp(wanted, lower[c], 1.0);
-      });
-      parallel_for(n, [&](Index c) {
-        if (active[as_size(c)] != 0) d[c] = step[as_size(c)];
-      });
-      parallel_for(n, [&](Index c) {
         r[as_size(c)] = active[as_size(c)] != 0 ? 0.0 : -residual(c, d, psi_plus[c]);
         step[as_size(c)] = 0.0;
       });
@@ -166,14 +160,33 @@ DamageSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
       parallel_for(n, [&](Index c) { d[c] += step[as_size(c)]; });
       ++account.active_set_iterations;
       const double moved = parallel_max(n, [&](Index c) { return std::abs(step[as_size(c)]); });
-      account.converged = change > 0 && active == before && moved < 1e-6;
-      if (change == 0 && moved == 0.0) account.converged = true;
+      account.converged = moved < 1e-6 && (active == before || change == 0);
     }
     parallel_for(n, [&](Index c) {
       if (is_damageable(c)) d[c] = std::clamp(d[c], lower[c], 1.0);
     });
   }
   return account;
+}
+
+// Cells beyond a bound are put on it; those on a bound are held there while the residual pushes against it.
+void DamageEquation::choose_active(const CellField<double>& psi_plus, const CellField<double>& lower, bool first,
+                                   CellField<double>& d, ActiveSet& active) const {
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    if (is_damageable(c)) d[c] = std::clamp(d[c], lower[c], 1.0);
+  });
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    if (!is_damageable(c)) return;
+    const bool at_lower = d[c] <= lower[c], at_upper = d[c] >= 1.0;
+    if (!at_lower && !at_upper) {
+      active[as_size(c)] = 0;
+      return;
+    }
+    const double push = residual(c, d, psi_plus[c]);
+    // What only its neighbours hold down may rise with them: else a profile would grow by a cell per change.
+    const bool held = !first || local_slope(c, d[c], psi_plus[c]) > 0.0;
+    active[as_size(c)] = (at_lower && push >= 0.0 && held) || (at_upper && push <= 0.0) ? 1 : 0;
+  });
 }
 
 // Incomplete Cholesky with the pattern of the matrix and only its diagonal changed (Meijerink, van der Vorst 1977),

@@ -55,6 +55,8 @@ class DamageEquation {
   double local_slope(Index cell, double d, double psi) const;      // of the local terms over the cell [J]
   double local_curvature(Index cell, double d, double psi) const;  // its derivative [J]
   double residual(Index cell, const CellField<double>& d, double psi) const;
+  void choose_active(const CellField<double>& psi_plus, const CellField<double>& lower, bool first,
+                     CellField<double>& d, ActiveSet& active) const;
   void solve_linear(const std::vector<double>& diagonal, const ActiveSet& active, std::vector<double>& residual,
                     std::vector<double>& x, DamageSolution& account);
   void factor(const std::vector<double>& diagonal, const ActiveSet& active);

@@ -118,7 +118,8 @@ void Gradient::build(Index cell, const CellField<double>* g) {
     double weight = 1.0 / length2;
     if (!wide_[as_size(cell)]) weight /= std::sqrt(length2);
     trace += weight * length2;
-    if (g != nullptr && j < n_cells()) weight *= std::min(1.0, (*g)[j] / (*g)[cell]) + 1e-9;
+    constexpr double least = 1e-9;
+    if (j < n_cells()) weight *= (g != nullptr ? std::min(1.0, (*g)[j] / (*g)[cell]) : 1.0) + least;
     coefficient_[s] = weight * d;
     moment.noalias() += coefficient_[s] * d.transpose();
   }

@@ -49,10 +49,7 @@ void smooth_row(const BlockMatrix& a, Index i, const std::vector<Lane>& b, std::
 }
 
 void for_groups(const std::vector<Index>& groups, const auto& body) {
-  if (n_threads() == 1 || groups.size() == 1)
-    for (const Index group : groups) body(group);
-  else
-    detail::run_tasks(static_cast<Index>(groups.size()), [&](Index k) { body(groups[as_size(k)]); });
+  detail::run_tasks(static_cast<Index>(groups.size()), [&](Index k) { body(groups[as_size(k)]); });
 }
 
 void sweep_forward(const BlockMatrix& a, const std::vector<std::vector<Index>>& groups_by_colour,

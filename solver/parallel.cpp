@@ -100,6 +100,12 @@ void set_threads(int n) { pool().resize(std::max(n, 1)); }
 
 int n_threads() { return pool().size(); }
 
-void detail::run_tasks(Index n_tasks, const std::function<void(Index)>& task) { pool().run(n_tasks, task); }
+void detail::run_tasks(Index n_tasks, const std::function<void(Index)>& task) {
+  if (n_tasks > 1 && pool().size() > 1) {
+    pool().run(n_tasks, task);
+    return;
+  }
+  for (Index i = 0; i < n_tasks; ++i) task(i);
+}
 
 }  // namespace pfdm

@@ -25,12 +25,8 @@ void run_tasks(Index n_tasks, const std::function<void(Index)>& task);
 /// body(begin, end) over chunks of `grain` items of [0, n).
 template <class Body>
 void parallel_chunks(Index n, const Body& body, Index grain = chunk_size) {
-  const Index n_chunks = (n + grain - 1) / grain;
-  if (n_chunks <= 1 || n_threads() == 1) {
-    for (Index c = 0; c < n_chunks; ++c) body(c * grain, std::min(n, (c + 1) * grain));
-    return;
-  }
-  detail::run_tasks(n_chunks, [&](Index c) { body(c * grain, std::min(n, (c + 1) * grain)); });
+  // One task object for one thread and for many: compiled twice, the body could be rounded in two ways.
+  detail::run_tasks((n + grain - 1) / grain, [&](Index c) { body(c * grain, std::min(n, (c + 1) * grain)); });
 }
 
 /// body(i) for every i of [0, n).

@@ -74,9 +74,11 @@ void require_held(const Mesh& mesh, const Unknowns& unknowns) {
   };
   for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k)
     resist(mesh.face_centre[unknowns.face_of_node[k]], Tensor::Identity() - unknowns.free_directions[k]);
-  const Vector n = unknowns.plane_normal;
-  if (n.norm() > 0.0)
-    for (Index c = 0; c < mesh.n_cells(); ++c) resist(mesh.cell_centre[c], n * n.transpose());
+  if (const Vector n = unknowns.plane_normal; n.norm() > 0.0) {
+    // A plane mesh can only move within its plane.
+    form.topLeftCorner<3, 3>() += form.trace() * n * n.transpose();
+    form.bottomRightCorner<3, 3>() += form.trace() * (Tensor::Identity() - n * n.transpose());
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(form);
   if (eigen.eigenvalues()[0] < 1e-10 * eigen.eigenvalues()[5] || eigen.eigenvalues()[5] == 0.0)
     throw InputError(
@@ -102,7 +104,10 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
   for (const PatchCondition& on : unknowns.conditions) {
     const Patch& patch = mesh.patches[static_cast<std::size_t>(on.patch)];
     if (on.condition.kind == BoundaryCondition::Kind::plane) {
-      unknowns.plane_normal = plane_patch_normal(mesh, patch, "plane");
+      const Vector normal = plane_patch_normal(mesh, patch, "plane");
+      if (unknowns.plane_normal.norm() > 0.0 && std::abs(normal.dot(unknowns.plane_normal)) < 1.0 - 1e-8)
+        throw InputError(fmt::format("plane patch \"{}\" is not parallel to the other plane patches", patch.name));
+      unknowns.plane_normal = normal;
       continue;
     }
     if (on.condition.kind == BoundaryCondition::Kind::symmetry) plane_patch_normal(mesh, patch, "symmetry");
