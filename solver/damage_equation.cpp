@@ -108,8 +108,7 @@ void DamageEquation::renew_correction(const CellField<double>& d) {
     const Vector& grad_N = gradients_[as_size(link.N)];
     // Only the part of each centre-to-face vector that lies in the face is not in the two-point flux.
     const double beyond = grad_N.dot(d_N - d_N.dot(n) * n) - grad_P.dot(d_P - d_P.dot(n) * n);
-    const double limit = 0.5 * std::abs(d[link.N] - d[link.P]);
-    correction_[as_size(i)] = link.coefficient * std::clamp(beyond, -limit, limit);
+    correction_[as_size(i)] = link.coefficient * beyond;
   });
 }
 

@@ -156,6 +156,7 @@ KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector
       if (k < restart_length) normalise(basis, k, below);
     }
     add_combination(basis, hessenberg, k, x);
+    if (problem.constrain) problem.constrain(x);
     const double estimate = std::abs(hessenberg.rhs[k]);
     if (estimate <= target && estimate >= modest_drop * beta) {
       result.residual = estimate;

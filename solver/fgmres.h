@@ -21,6 +21,8 @@ struct KrylovProblem {
   std::function<void(const std::vector<Vector>& x, std::vector<Vector>& y)> apply;
   /// z = approximately A^-1 r.
   std::function<void(const std::vector<Vector>& r, std::vector<Vector>& z)> precondition;
+  /// Restores what x must hold exactly and the basis, in single precision, does not; may be empty.
+  std::function<void(std::vector<Vector>& x)> constrain = {};
   /// The norm is that of scale_i r_i.
   std::vector<double> scale;
 };

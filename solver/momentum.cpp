@@ -152,6 +152,14 @@ void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& 
     if (const Index second = second_side_of_node_[as_size(k)]; second >= 0) sum += forces_[n_links + as_size(second)];
     out[as_size(unknowns_.n_cells + k)] = unknowns_.free_directions[as_size(k)] * sum;
   });
+  keep_in_plane(out);
+}
+
+// Plane meshes neither move nor are loaded across their plane.
+void MomentumOperator::keep_in_plane(std::vector<Vector>& v) const {
+  const Vector& n = unknowns_.plane_normal;
+  if (n.isZero()) return;
+  parallel_for(static_cast<Index>(v.size()), [&](Index i) { v[as_size(i)] -= n.dot(v[as_size(i)]) * n; });
 }
 
 std::vector<Vector> MomentumOperator::load_vector(double t) const {
@@ -166,6 +174,7 @@ std::vector<Vector> MomentumOperator::load_vector(double t) const {
                             condition.value(mesh_.face_centre[f], t) * mesh_.face_area[f].norm();
     }
   }
+  keep_in_plane(load);
   return load;
 }
 
@@ -181,6 +190,7 @@ void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
       u[as_size(node)] = is_free * u[as_size(node)] + (Tensor::Identity() - is_free) * value;
     }
   }
+  keep_in_plane(u);
 }
 
 BlockTriplets MomentumOperator::compact_matrix() const {

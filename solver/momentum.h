@@ -37,6 +37,8 @@ class MomentumOperator {
   std::vector<Vector> load_vector(double t) const;
   /// Writes the prescribed components of the boundary nodes at the load parameter t.
   void prescribe(double t, std::vector<Vector>& u) const;
+  /// Takes away what lies across the plane of a plane mesh.
+  void keep_in_plane(std::vector<Vector>& v) const;
 
   /// The compact symmetric matrix that preconditions A: c between cells, a from a cell to its face nodes.
   BlockTriplets compact_matrix() const;

@@ -65,6 +65,7 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
     if (i >= unknowns_.n_cells)
       z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
   });
+  operator_.keep_in_plane(z);
 }
 
 // The norm that residuals are measured against: that of the prescribed values alone.
@@ -102,6 +103,7 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
   const KrylovProblem problem{
       .apply = [this](const std::vector<Vector>& x, std::vector<Vector>& y) { operator_.apply(x, y); },
       .precondition = [this](const std::vector<Vector>& r, std::vector<Vector>& z) { precondition(r, z); },
+      .constrain = [&](std::vector<Vector>& x) { operator_.prescribe(t, x); },
       .scale = scale_};
   const auto target = [&](double initial) {
     return std::max(tolerance.floor * reference,

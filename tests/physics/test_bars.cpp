@@ -50,7 +50,7 @@ TEST(Bars, At1FollowsItsTable) {
 }
 
 TEST(Bars, At2FollowsItsTable) {
-  const double table[][2] = {{.9995, .2581}, {.9949, .4413}, {.9853, .5625}, {.9346, .7716}, {.8314, .9175},
+  const double table[][2] = {{.9995, .2581},  {.9949, .4413},  {.9853, .5625},  {.9346, .7716},  {.8314, .9175},
                              {.6375, 1.0275}, {.4225, 1.0755}, {.3033, 1.0835}, {.0972, 1.0643}, {.0308, 1.0417}};
   const double strength = at2_strength(E, Gc, ell);
   for (const auto& [stress, separation] : table) {
@@ -67,7 +67,8 @@ TEST(Bars, At2FollowsItsTable) {
 
 TEST(Bars, At1ReleasesItsToughness) {
   std::vector<BarPoint> law;
-  for (int i = 1; i < 4000; ++i) law.push_back(at1_softening(E, Gc, ell, std::sin(0.5 * std::numbers::pi * i / 4000.0)));
+  for (int i = 1; i < 4000; ++i)
+    law.push_back(at1_softening(E, Gc, ell, std::sin(0.5 * std::numbers::pi * i / 4000.0)));
   EXPECT_NEAR(area(law, at1_strength(E, Gc, ell)) / Gc, 1.0, 1e-4);
 }
 
@@ -91,8 +92,7 @@ TEST(Bars, DiscreteToughnessIsTheMinimumOverARowOfCells) {
     // AT2: d_j = r^j with r + 1/r = 2 + h^2, in units of ell and Gc.
     const double r = 1.0 + 0.5 * h * h - h * std::sqrt(1.0 + 0.25 * h * h);
     double at2 = 0.5 * h;
-    for (int j = 1; j < 2000; ++j)
-      at2 += h * std::pow(r, 2 * j) + std::pow(std::pow(r, j) - std::pow(r, j - 1), 2) / h;
+    for (int j = 1; j < 2000; ++j) at2 += h * std::pow(r, 2 * j) + std::pow(std::pow(r, j) - std::pow(r, j - 1), 2) / h;
     EXPECT_NEAR(at2_discrete_toughness(h * ell, ell), at2, 1e-10) << h;
     // AT1: a parabola that vanishes after about 2/h cells a side.
     const int n = static_cast<int>(std::lround(2.0 / h));

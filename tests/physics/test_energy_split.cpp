@@ -49,7 +49,8 @@ TEST(EnergySplit, SecantEnergyIsTheDegradedEnergy) {
   for_splits_and_strains([](const EnergySplit& split, const Tensor& eps) {
     constexpr double g = 0.3;
     const auto [plus, minus] = split.energy(glass, eps);
-    EXPECT_NEAR(energy_density(split.secant(glass, g, split.closure(eps)), eps), g * plus + minus, 1e-12 * (plus + minus));
+    EXPECT_NEAR(energy_density(split.secant(glass, g, split.closure(eps)), eps), g * plus + minus,
+                1e-12 * (plus + minus));
   });
 }
 
@@ -78,7 +79,9 @@ TEST(EnergySplit, VolumetricDeviatoricKeepsCompressionAlone) {
   const EnergySplit& split = energy_split("volumetric_deviatoric");
   const Tensor compression = -1e-3 * Tensor::Identity();
   EXPECT_NEAR(split.energy(glass, compression).psi_plus, 0.0, 1e-20);
-  EXPECT_LE((stress(split.secant(glass, 1e-6, split.closure(compression)), compression) - stress(glass, compression)).norm(), 1e-3);
+  EXPECT_LE(
+      (stress(split.secant(glass, 1e-6, split.closure(compression)), compression) - stress(glass, compression)).norm(),
+      1e-3);
   Tensor shear = Tensor::Zero();
   shear(0, 1) = shear(1, 0) = 1e-3;
   EXPECT_EQ(split.energy(glass, shear).psi_minus, 0.0);

@@ -14,7 +14,8 @@ const double unit = Gc / ell;  // of energy densities [J/m^3]
 
 FractureModel model_of(const Mesh& mesh, std::string_view law) {
   FractureModel model;
-  for (std::size_t r = 0; r < mesh.region_names.size(); ++r) model.regions.push_back({.elasticity = {}, .Gc = Gc, .ell = ell});
+  for (std::size_t r = 0; r < mesh.region_names.size(); ++r)
+    model.regions.push_back({.elasticity = {}, .Gc = Gc, .ell = ell});
   model.crack = &crack_geometry(law);
   model.degradation = &degradation("quadratic");
   model.split = &energy_split("none");
@@ -36,7 +37,8 @@ SubRegion from_to(const std::string& name, double from, double to) {
 std::vector<Index> in_order_of_x(const Mesh& mesh) {
   std::vector<Index> cells(as_size(mesh.n_cells()));
   for (Index c = 0; c < mesh.n_cells(); ++c) cells[as_size(c)] = c;
-  std::sort(cells.begin(), cells.end(), [&](Index a, Index b) { return mesh.cell_centre[a][0] < mesh.cell_centre[b][0]; });
+  std::sort(cells.begin(), cells.end(),
+            [&](Index a, Index b) { return mesh.cell_centre[a][0] < mesh.cell_centre[b][0]; });
   return cells;
 }
 
@@ -143,8 +145,7 @@ TEST(DamageEquation, UndamageableNeighboursPinTheProfile) {
   for (Index i = 0; i < mesh.n_cells(); ++i) {
     const double distance = std::abs(i - n - 2);
     const double discrete = std::max(0.0, std::sinh(kappa * (n + 0.5 - distance)) / std::sinh(kappa * (n + 0.5)));
-    const double smooth =
-        std::max(0.0, std::sinh((half_width - distance * h) / ell) / std::sinh(half_width / ell));
+    const double smooth = std::max(0.0, std::sinh((half_width - distance * h) / ell) / std::sinh(half_width / ell));
     EXPECT_NEAR(d[cells[as_size(i)]], discrete, 1e-8) << i;
     EXPECT_NEAR(d[cells[as_size(i)]], smooth, 1e-3) << i;
   }

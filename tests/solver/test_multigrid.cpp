@@ -108,7 +108,8 @@ Index expect_solved(const BlockTriplets& a, double tolerance) {
   const KrylovProblem problem = problem_of(a, multigrid);
   const std::vector<Vector> b = random_vectors(a.diagonal.size());
   std::vector<Vector> x(b.size(), Vector::Zero());
-  const KrylovResult result = solve_fgmres(problem, b, x, [&](double initial) { return tolerance * initial; }, 200);
+  const KrylovResult result = solve_fgmres(
+      problem, b, x, [&](double initial) { return tolerance * initial; }, 200);
   EXPECT_TRUE(result.converged);
   EXPECT_NEAR(result.initial_residual, scaled_norm(b, problem.scale), 1e-12 * result.initial_residual);
   const double truth = residual(a, x, b, problem.scale);
@@ -153,7 +154,8 @@ TEST_F(Multigrids, AnswersAreBitwiseTheSameForAnyNumberOfThreads) {
     set_threads(threads);
     Multigrid multigrid(compress(a, in_order(b.size())));
     answers.emplace_back(b.size(), Vector::Zero());
-    solve_fgmres(problem_of(a, multigrid), b, answers.back(), [](double initial) { return 1e-8 * initial; }, 200);
+    solve_fgmres(
+        problem_of(a, multigrid), b, answers.back(), [](double initial) { return 1e-8 * initial; }, 200);
   }
   EXPECT_EQ(answers[1], answers[0]);
   EXPECT_EQ(answers[2], answers[0]);
@@ -212,7 +214,8 @@ TEST_F(Multigrids, NothingToDoTakesNoIteration) {
   std::vector<Vector> x = random_vectors(50), b(50);
   multiply(a, x, b);
   const auto before = x;
-  const KrylovResult result = solve_fgmres(problem_of(a, multigrid), b, x, [](double) { return 1e-9; }, 10);
+  const KrylovResult result = solve_fgmres(
+      problem_of(a, multigrid), b, x, [](double) { return 1e-9; }, 10);
   EXPECT_TRUE(result.converged);
   EXPECT_EQ(result.iterations, 0);
   EXPECT_EQ(x, before);
@@ -224,7 +227,8 @@ TEST_F(Multigrids, TooFewIterationsAreNotCalledConverged) {
   const std::vector<Vector> b = random_vectors(1500);
   std::vector<Vector> x(1500, Vector::Zero());
   const KrylovProblem problem = problem_of(a, multigrid);
-  const KrylovResult result = solve_fgmres(problem, b, x, [](double initial) { return 1e-12 * initial; }, 2);
+  const KrylovResult result = solve_fgmres(
+      problem, b, x, [](double initial) { return 1e-12 * initial; }, 2);
   EXPECT_FALSE(result.converged);
   EXPECT_EQ(result.iterations, 2);
   EXPECT_NEAR(result.residual, residual(a, x, b, problem.scale), 0.02 * result.residual);

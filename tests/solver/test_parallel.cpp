@@ -41,7 +41,8 @@ TEST_F(Parallel, SumsAreBitwiseTheSameForAnyNumberOfThreads) {
 TEST_F(Parallel, SumsAnyTypeThatAdds) {
   set_threads(3);
   const Index n = 3 * chunk_size + 1;
-  const Vector sum = parallel_sum<Vector>(n, [](Index i) { return Vector(1.0, i, -1.0); }, Vector::Zero());
+  const Vector sum = parallel_sum<Vector>(
+      n, [](Index i) { return Vector(1.0, i, -1.0); }, Vector::Zero());
   EXPECT_EQ(sum, Vector(n, 0.5 * n * (n - 1.0), -n));
 }
 
@@ -49,9 +50,15 @@ TEST_F(Parallel, LargestIsThatOfAllChunks) {
   for (const int threads : {1, 2, 4}) {
     set_threads(threads);
     for (const Index peak : {0, 1, chunk_size, 5 * chunk_size + 7})
-      EXPECT_EQ(parallel_max(6 * chunk_size, [&](Index i) { return i == peak ? 2.5 : -1.0; }, -3.0), 2.5);
-    EXPECT_EQ(parallel_max(0, [](Index) { return 1.0; }, -3.0), -3.0);
-    EXPECT_EQ(parallel_max(10, [](Index) { return -5.0; }, -3.0), -3.0);
+      EXPECT_EQ(parallel_max(
+                    6 * chunk_size, [&](Index i) { return i == peak ? 2.5 : -1.0; }, -3.0),
+                2.5);
+    EXPECT_EQ(parallel_max(
+                  0, [](Index) { return 1.0; }, -3.0),
+              -3.0);
+    EXPECT_EQ(parallel_max(
+                  10, [](Index) { return -5.0; }, -3.0),
+              -3.0);
   }
 }
 

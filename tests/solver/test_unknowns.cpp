@@ -44,8 +44,8 @@ TEST(Unknowns, EqualMaterialsShareAZone) {
 
 TEST(Unknowns, FreeDirectionsAreThoseNotPrescribed) {
   const Mesh mesh = box(2, 2, 2);
-  const Unknowns unknowns = place_unknowns(
-      mesh, model_of(mesh, {clamped("xmin"), held_along("xmax", 1), of_kind("zmin", Kind::symmetry)}));
+  const Unknowns unknowns =
+      place_unknowns(mesh, model_of(mesh, {clamped("xmin"), held_along("xmax", 1), of_kind("zmin", Kind::symmetry)}));
   const auto directions_on = [&](const std::string& patch) {
     return unknowns.free_directions[as_size(unknowns.node_of_face[mesh.patch(patch).first_face] - mesh.n_cells())];
   };
@@ -88,8 +88,8 @@ TEST(Unknowns, BodiesThatAreHeldAreAccepted) {
   EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, {clamped("ymax")})));
   EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, {of_kind("xmin", Kind::symmetry), of_kind("ymin", Kind::symmetry),
                                                        of_kind("zmin", Kind::symmetry)})));
-  EXPECT_NO_THROW(place_unknowns(
-      mesh, model_of(mesh, {held_along("xmin", 0), held_along("ymin", 1), held_along("zmax", 2)})));
+  EXPECT_NO_THROW(
+      place_unknowns(mesh, model_of(mesh, {held_along("xmin", 0), held_along("ymin", 1), held_along("zmax", 2)})));
 }
 
 // A body far from the origin and very small is judged like one at the origin.
@@ -121,19 +121,19 @@ TEST(Unknowns, PlaneMeshesNeedOnlyBeHeldInTheirPlane) {
 // Turning about the bar's own axis is not a motion in the plane: nothing needs to resist it.
 TEST(Unknowns, OneCellWideBarsBetweenPlanesAreAccepted) {
   const Mesh mesh = box(10, 1, 1, {10.0, 1.0, 1.0});
-  EXPECT_NO_THROW(place_unknowns(
-      mesh, model_of(mesh, {held_along("xmin", 0), held_along("xmax", 0), of_kind("ymin", Kind::symmetry),
-                            of_kind("ymax", Kind::symmetry), of_kind("zmin", Kind::plane), of_kind("zmax", Kind::plane)})));
+  EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, {held_along("xmin", 0), held_along("xmax", 0),
+                                                       of_kind("ymin", Kind::symmetry), of_kind("ymax", Kind::symmetry),
+                                                       of_kind("zmin", Kind::plane), of_kind("zmax", Kind::plane)})));
 }
 
 // With symmetry on all four sides the face centres, where displacements are held, lie in the two planes through the
 // axis: the unknowns can turn about it, and the matrix is singular.
 TEST(Unknowns, OneCellWideBarsBetweenSymmetriesAreRefused) {
   const Mesh mesh = box(10, 1, 1, {10.0, 1.0, 1.0});
-  EXPECT_THAT(refusal(mesh, {clamped("xmin"), clamped("xmax"), of_kind("ymin", Kind::symmetry),
-                             of_kind("ymax", Kind::symmetry), of_kind("zmin", Kind::symmetry),
-                             of_kind("zmax", Kind::symmetry)}),
-              HasSubstr("rigid"));
+  EXPECT_THAT(
+      refusal(mesh, {clamped("xmin"), clamped("xmax"), of_kind("ymin", Kind::symmetry), of_kind("ymax", Kind::symmetry),
+                     of_kind("zmin", Kind::symmetry), of_kind("zmax", Kind::symmetry)}),
+      HasSubstr("rigid"));
 }
 
 // Plane strain is across one direction.

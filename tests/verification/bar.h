@@ -1,5 +1,5 @@
 #pragma once
-// A bar in tension between its ends, one-dimensional (nu = 0), whose middle cells are a little less tough than the rest,
+// A bar in tension between its ends, one-dimensional (nu = 0), whose middle cell is a little less tough than the rest,
 // so that damage localises there. Two cells wide, one cell thick.
 
 #include "physics/closed_forms/bars.h"
@@ -111,8 +111,12 @@ inline FractureModel Bar::make_model() const {
   pulled.value = [elongation = strength() / E * length()](const Vector&, double t) {
     return Vector(elongation * t, 0.0, 0.0);
   };
-  model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }), pulled,
-                    symmetry_on("ymin"), symmetry_on("ymax"), plane_on("zmin"), plane_on("zmax")};
+  model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                    pulled,
+                    symmetry_on("ymin"),
+                    symmetry_on("ymax"),
+                    plane_on("zmin"),
+                    plane_on("zmax")};
   return model;
 }
 

@@ -1,5 +1,5 @@
-// A glass sphere in Sylgard under remote swelling, the matrix broken to g = 1e-6 in a shell of prism layers: a curved
-// band of one elastic zone, nothing but g tells it from its surroundings. In every concentric layer
+// A glass sphere in Sylgard under remote swelling, the matrix weakened to g in a shell of prism layers: a curved band
+// within one elastic zone, nothing but g tells it from its surroundings. In every concentric layer
 //
 //   u_r = A r + B / r^2,   sigma_rr = 3 K A - 4 mu B / r^3,
 //
@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm::verification {
@@ -68,67 +69,103 @@ class ConcentricLayers {
   Eigen::VectorXd coefficients_;
 };
 
-constexpr double half_width = 4.0;
-constexpr Index n_layers = 10;
-constexpr double layer_thickness = 0.04;
-constexpr Index first_broken = 4;  // counted from the sphere
+constexpr Index subdivision = 8, n_layers = 10, first_broken = 4;  // layers are counted from the sphere
+constexpr double half_width = 4.0, layer_thickness = 0.04;         // [R]
 
-IsotropicElasticity degraded(const IsotropicElasticity& c, double g) { return {g * c.lambda, g * c.mu}; }
+struct Shell {
+  Index n_broken;  // layers
+  double g;
 
-// Prisms of the broken layers: their points lie on the layers' spheres.
-CellField<double> broken_shell(const Mesh& mesh, Index n_broken, double g) {
-  CellField<double> factors(as_size(mesh.n_cells()), 1.0);
-  const double lower = 1.0 + first_broken * layer_thickness, upper = lower + n_broken * layer_thickness;
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    if (mesh.shape[c] != CellShape::wedge) continue;
-    double mean = 0.0;
-    for (const Index p : mesh.points_of_cell(c)) mean += mesh.points[as_size(p)].norm() / 6.0;
-    if (mean > lower && mean < upper) factors[c] = g;
-  }
-  return factors;
+  double lower() const { return 1.0 + first_broken * layer_thickness; }
+  double upper() const { return lower() + n_broken * layer_thickness; }
+  bool holds(double r) const { return r > lower() && r < upper(); }
+};
+
+// Layers are told apart by the mean radius of their points, which lie on spheres; their centres do not.
+double mean_radius(const Mesh& mesh, Index cell) {
+  double sum = 0.0;
+  for (const Index p : mesh.points_of_cell(cell)) sum += mesh.points[as_size(p)].norm();
+  return sum / static_cast<double>(mesh.points_of_cell(cell).size());
+}
+
+CellField<double> stiffness_factors(const Mesh& mesh, const Shell& shell) {
+  CellField<double> g(as_size(mesh.n_cells()), 1.0);
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (mesh.shape[c] == CellShape::wedge && shell.holds(mean_radius(mesh, c))) g[c] = shell.g;
+  return g;
+}
+
+// Root mean square over the sphere's faces, relative.
+double core_traction_error(const Mesh& mesh, const ElasticSolution& solution, double exact) {
+  const auto tractions = solution.solver->balance().interface_tractions(solution.u);
+  double sum = 0.0;
+  for (const auto& [face, traction] : tractions)
+    sum += std::pow(traction.dot(mesh.face_area[face].normalized()) / exact - 1.0, 2);
+  return std::sqrt(sum / static_cast<double>(tractions.size()));
+}
+
+struct ShellErrors {
+  double core_traction = 0.0, displacement = 0.0, shell_strain = 0.0, stress_within = 0.0, stress_beyond = 0.0;
+};
+
+ShellErrors errors_of(const Shell& shell) {
+  const IsotropicElasticity glass = from_young_poisson(70e9, 0.3), sylgard = from_young_poisson(75e6, 0.44);
+  const IsotropicElasticity broken{shell.g * sylgard.lambda, shell.g * sylgard.mu};
+  const ConcentricLayers exact({1.0, shell.lower(), shell.upper()}, {glass, sylgard, broken, sylgard}, 1e-3);
+  const auto u = [&](const Vector& x) { return exact.displacement(x); };
+  const auto strain = [&](const Vector& x) { return exact.strain(x); };
+  const auto sound_stress = [&](const Vector& x) { return stress(sylgard, exact.strain(x)); };
+
+  const Mesh mesh = sphere_in_cube(subdivision, n_layers, half_width, 0.3);
+  std::vector<IsotropicElasticity> by_region;
+  for (const std::string& name : mesh.region_names) by_region.push_back(name == "bead" ? glass : sylgard);
+  const CellField<double> g = stiffness_factors(mesh, shell);
+  const auto solution = solve_elastic(mesh, elastic_model(by_region, displacement_on_all(mesh, u)), g, 1e-10);
+  EXPECT_TRUE(solution->equilibrium.converged);
+  EXPECT_EQ(std::count(g.begin(), g.end(), shell.g), 20 * subdivision * subdivision * shell.n_broken);
+
+  const auto radius = [&](Index c) { return mesh.cell_centre[c].norm(); };
+  const Index bead = mesh.region_index("bead");
+  const CellMechanics& cells = solution->cells;
+  const ShellErrors e{
+      .core_traction = core_traction_error(mesh, *solution, exact.core_traction()),
+      .displacement = displacement_error(mesh, *solution, u),
+      .shell_strain = relative_stress_error(mesh, cells.strain, strain, [&](Index c) { return g[c] < 1.0; }),
+      .stress_within = relative_stress_error(
+          mesh, cells.stress, sound_stress,
+          [&](Index c) { return g[c] == 1.0 && mesh.region[c] != bead && radius(c) < shell.lower(); }),
+      .stress_beyond = relative_stress_error(mesh, cells.stress, sound_stress,
+                                             [&](Index c) { return g[c] == 1.0 && radius(c) > shell.upper(); })};
+  report_row(fmt::format("g {:g} in {} layers, {} cells", shell.g, shell.n_broken, mesh.n_cells()),
+             {{"traction on the sphere", e.core_traction},
+              {"u", e.displacement},
+              {"strain in the shell", e.shell_strain},
+              {"stress within it", e.stress_within},
+              {"beyond it", e.stress_beyond},
+              {"iterations", solution->equilibrium.iterations},
+              {"CPU s", solution->cpu_seconds}});
+  return e;
 }
 
 class BrokenShell : public testing::TestWithParam<std::tuple<Index, double>> {};
 
-TEST_P(BrokenShell, HoldsTheSphereNoMoreThanItShould) {
-  const auto [n_broken, g] = GetParam();
-  const IsotropicElasticity glass = from_young_poisson(70e9, 0.3), matrix = from_young_poisson(75e6, 0.44);
-  const double lower = 1.0 + first_broken * layer_thickness, upper = lower + n_broken * layer_thickness;
-  const ConcentricLayers exact({1.0, lower, upper}, {glass, matrix, degraded(matrix, g), matrix}, 1e-3);
-  const Mesh mesh = sphere_in_cube(8, n_layers, half_width, 0.3);
-  std::vector<IsotropicElasticity> by_region;
-  for (const std::string& name : mesh.region_names) by_region.push_back(name == "bead" ? glass : matrix);
-  const auto u_exact = [&](const Vector& x) { return exact.displacement(x); };
-  const CellField<double> factors = broken_shell(mesh, n_broken, g);
-  const auto solution = solve_elastic(mesh, elastic_model(by_region, displacement_on_all(mesh, u_exact)), factors, 1e-10);
-  EXPECT_TRUE(solution->equilibrium.converged);
-  EXPECT_EQ(std::count(factors.begin(), factors.end(), g), 20 * 8 * 8 * n_broken);
-  double error = 0.0, n_faces = 0.0, mean = 0.0;
-  for (const auto& [face, traction] : solution->solver->balance().interface_tractions(solution->u)) {
-    const double relative = traction.dot(mesh.face_area[face].normalized()) / exact.core_traction() - 1.0;
-    error += relative * relative;
-    mean += relative;
-    n_faces += 1.0;
-  }
-  const double u = displacement_error(mesh, *solution, u_exact);
-  const double strain = relative_stress_error(
-      mesh, solution->cells.strain, [&](const Vector& x) { return exact.strain(x); },
-      [&](Index c) { return factors[c] < 1.0; });
-  const double stress_outside = relative_stress_error(
-      mesh, solution->cells.stress, [&](const Vector& x) { return stress(matrix, exact.strain(x)); },
-      [&](Index c) { return factors[c] == 1.0 && mesh.cell_centre[c].norm() > upper; });
-  const double stress_inside = relative_stress_error(
-      mesh, solution->cells.stress, [&](const Vector& x) { return stress(matrix, exact.strain(x)); },
-      [&](Index c) { return factors[c] == 1.0 && mesh.cell_centre[c].norm() < lower && mesh.cell_centre[c].norm() > 1.0; });
-  report_row(fmt::format("g {}, {} layers, {} cells", g, n_broken, mesh.n_cells()),
-             {{"traction on the sphere", std::sqrt(error / n_faces)}, {"mean", mean / n_faces},
-              {"u", u},
-              {"strain in the shell", strain},
-              {"stress outside", stress_outside}, {"inside", stress_inside}, {"exact core traction", exact.core_traction()},
-              {"iterations", solution->equilibrium.iterations}});
+// A twenty-faced sphere of 1280 triangles is 1 % smaller than round; the stress within the shell, a small one, suffers
+// from the gradients along the layers next to the jump of g (README.md).
+TEST_P(BrokenShell, LoadsTheSphereAsInTheClosedForm) {
+  const ShellErrors e = errors_of({std::get<0>(GetParam()), std::get<1>(GetParam())});
+  EXPECT_LE(e.core_traction, 2.5e-2);
+  EXPECT_LE(e.displacement, 1e-2);
+  EXPECT_LE(e.shell_strain, 2.5e-2);
+  EXPECT_LE(e.stress_beyond, 1.5e-2);
+  EXPECT_LE(e.stress_within, 0.25);
 }
 
-INSTANTIATE_TEST_SUITE_P(Layers, BrokenShell, testing::Combine(testing::Values(1, 2, 4), testing::Values(1.0, 0.1, 1e-2, 1e-4, 1e-6)));
+INSTANTIATE_TEST_SUITE_P(LayersAndStiffness, BrokenShell,
+                         testing::Combine(testing::Values(1, 4), testing::Values(0.1, 1e-2, 1e-6)),
+                         [](const auto& test) {
+                           const long exponent = std::lround(-std::log10(std::get<1>(test.param)));
+                           return fmt::format("{}LayersTo1em{}", std::get<0>(test.param), exponent);
+                         });
 
 }  // namespace
 }  // namespace pfdm::verification

@@ -44,10 +44,10 @@ CellField<double> source_of(const Mesh& mesh, const FractureModel& model, const 
 }
 
 struct Result {
-  double error = 0.0;          // volume-weighted L2, over all cells or one region
+  double error = 0.0;  // volume-weighted L2, over all cells or one region
   double least = 1.0, most = 0.0;
-  double energy = 0.0;         // of the discrete surface energy [J]
-  Index corrections = 0;       // until the damage moves by less than 1e-5
+  double energy = 0.0;    // of the discrete surface energy [J]
+  Index corrections = 0;  // until the damage moves by less than 1e-5
   Index cells = 0;
 };
 
@@ -84,10 +84,13 @@ Result solve(const Mesh& mesh, const std::string& law, const Manufactured& exact
 void expect_order(const std::string& label, const std::vector<Result>& results, double least_order) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Result& r = results[i];
-    const double order =
-        i == 0 ? 0.0 : observed_order(results[i - 1].error, results[i - 1].cells, r.error, r.cells);
-    report_row(label, {{"cells", r.cells}, {"error", r.error}, {"order", order}, {"corrections", r.corrections},
-                       {"least d", r.least}, {"most d", r.most}});
+    const double order = i == 0 ? 0.0 : observed_order(results[i - 1].error, results[i - 1].cells, r.error, r.cells);
+    report_row(label, {{"cells", r.cells},
+                       {"error", r.error},
+                       {"order", order},
+                       {"corrections", r.corrections},
+                       {"least d", r.least},
+                       {"most d", r.most}});
     EXPECT_GE(r.least, 0.0);
     EXPECT_LE(r.most, 1.0);
     EXPECT_LT(r.corrections, 60);

@@ -234,13 +234,12 @@ void expect_law(const std::string& law, const Profile& profile) {
     ratios[fine] = separation_ratio(bar, profile);
     strength = bar.strength();
   }
-  report_row(law + " profile",
-             {{"largest d", profile.d.front()},
-              {"stress/strength", profile.stress / strength},
-              {"error of d at h = ell/10", errors[0]},
-              {"at ell/20", errors[1]},
-              {"error of the separation at ell/10", ratios[0] - 1.0},
-              {"at ell/20", ratios[1] - 1.0}});
+  report_row(law + " profile", {{"largest d", profile.d.front()},
+                                {"stress/strength", profile.stress / strength},
+                                {"error of d at h = ell/10", errors[0]},
+                                {"at ell/20", errors[1]},
+                                {"error of the separation at ell/10", ratios[0] - 1.0},
+                                {"at ell/20", ratios[1] - 1.0}});
   EXPECT_LE(errors[0], 0.01);
   EXPECT_LE(errors[1], 0.4 * errors[0]) << "second order";
   EXPECT_NEAR(ratios[0], 1.0, 1e-3);

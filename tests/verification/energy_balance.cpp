@@ -2,6 +2,7 @@
 // (literature.md 5.5).
 
 #include "tests/verification/bar.h"
+#include "tests/verification/bead.h"
 
 namespace pfdm::verification {
 namespace {
@@ -30,20 +31,9 @@ TEST(EnergyBalance, SofteningBarOfAt1) {
   expect_balance("AT1 bar, softening", imbalance(3), imbalance(6), 0.6);
 }
 
-// A glass bead in Sylgard with a weak band around it, until shortly before it debonds.
+// Until shortly before the bead debonds.
 double bead_imbalance(const Mesh& mesh, const std::string& split, Index n_steps) {
-  FractureModel model;
-  for (const std::string& name : mesh.region_names)
-    model.regions.push_back({.elasticity = name == "bead" ? from_young_poisson(70e9, 0.3) : from_young_poisson(75e6, 0.44),
-                             .Gc = name == "bead" ? 1e7 : name == "interface" ? 1e5 : 1e6,  // radius 1 m
-                             .ell = 0.2});
-  model.crack = &crack_geometry("AT2");
-  model.degradation = &degradation("quadratic");
-  model.split = &energy_split(split);
-  BoundaryCondition pulled{.patch = "zmax", .displacement_prescribed = {false, false, true}, .value = {}};
-  pulled.value = [](const Vector&, double t) { return Vector(0.0, 0.0, 0.17 * t); };
-  model.boundary = {displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }), pulled};
-  FractureRun run(mesh, model, {},
+  FractureRun run(mesh, bead_model(mesh, split, 0.17), {},
                   {.initial_increment = 1.0 / n_steps, .maximum_increment = 1.0 / n_steps, .stops = {}});
   StepReport last;
   RunHooks hooks;

@@ -58,7 +58,8 @@ SphereErrors measure(const Mesh& mesh, const IsotropicElasticity& matrix, const 
 
 SphereErrors errors_of(const SphereCase& sphere, const Mesh& mesh) {
   const double E = 75e6;
-  const IsotropicElasticity glass = from_young_poisson(E * sphere.ratio, 0.3), matrix = from_young_poisson(E, sphere.nu);
+  const IsotropicElasticity glass = from_young_poisson(E * sphere.ratio, 0.3),
+                            matrix = from_young_poisson(E, sphere.nu);
   const Goodier exact(glass, matrix, 1.0, 1e6);
   std::vector<IsotropicElasticity> by_region;
   for (const std::string& name : mesh.region_names) by_region.push_back(name == "bead" ? glass : matrix);

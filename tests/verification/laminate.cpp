@@ -91,8 +91,9 @@ Mesh mesh_of(const Laminate& laminate, Cells cells) {
 // only their x component is free, which is that of the motion.
 std::vector<BoundaryCondition> boundary_of(const Laminate& laminate) {
   const auto shift = [top = laminate.shift()](const Vector&) { return top; };
-  std::vector<BoundaryCondition> boundary{displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
-                                          displacement_on("zmax", shift), symmetry_on("ymin"), symmetry_on("ymax")};
+  std::vector<BoundaryCondition> boundary{
+      displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }), displacement_on("zmax", shift),
+      symmetry_on("ymin"), symmetry_on("ymax")};
   for (const char* patch : {"xmin", "xmax"}) {
     if (laminate.load == Load::tension)
       boundary.push_back(symmetry_on(patch));
@@ -152,13 +153,13 @@ std::string name_of(const LoadAndCells& p) {
          (std::get<1>(p) == Cells::hexes ? "Hexes" : "Wedges");
 }
 
-const auto loads_and_cells = testing::Combine(testing::Values(Load::tension, Load::shear),
-                                              testing::Values(Cells::hexes, Cells::wedges));
+const auto loads_and_cells =
+    testing::Combine(testing::Values(Load::tension, Load::shear), testing::Values(Cells::hexes, Cells::wedges));
 
 class TwoMaterials : public testing::TestWithParam<LoadAndCells> {
  protected:
-  static void expect_series(double ratio) {
-    const Laminate laminate{.layers = {{0.3, 3, 0}, {0.25, 3, 1}, {0.1, 1, 0}, {0.2, 2, 1}, {0.15, 2, 0}},
+  static void expect_series(const std::vector<Layer>& layers, double ratio) {
+    const Laminate laminate{.layers = layers,
                             .materials = {from_young_poisson(75e6, 0.44), from_young_poisson(75e6 * ratio, 0.3)},
                             .load = std::get<0>(GetParam())};
     const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
@@ -168,8 +169,13 @@ class TwoMaterials : public testing::TestWithParam<LoadAndCells> {
   }
 };
 
-TEST_P(TwoMaterials, OfRatio1e3AreInSeries) { expect_series(1e3); }
-TEST_P(TwoMaterials, OfRatio1e6AreInSeries) { expect_series(1e6); }
+const std::vector<Layer> soft_and_stiff{{0.3, 3, 0}, {0.25, 3, 1}, {0.1, 1, 0}, {0.2, 2, 1}, {0.15, 2, 0}};
+const std::vector<Layer> stiff_of_one_cell{{0.3, 3, 0}, {0.2, 1, 1}, {0.15, 2, 0}};
+
+TEST_P(TwoMaterials, OfRatio1e3AreInSeries) { expect_series(soft_and_stiff, 1e3); }
+TEST_P(TwoMaterials, OfRatio1e6AreInSeries) { expect_series(soft_and_stiff, 1e6); }
+// The operator is indefinite on wedges (README.md).
+TEST_P(TwoMaterials, DISABLED_WithAFreeStiffLayerOfOneCellAreInSeries) { expect_series(stiff_of_one_cell, 1e3); }
 INSTANTIATE_TEST_SUITE_P(Laminate, TwoMaterials, loads_and_cells, [](const auto& test) { return name_of(test.param); });
 
 // One material whose middle is broken: nothing but g tells the layers apart.
@@ -181,6 +187,7 @@ class BrokenLayer : public testing::TestWithParam<LoadAndCells> {
                             .load = std::get<0>(GetParam())};
     const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
     EXPECT_LE(e.transmitted, 1e-4);
+    EXPECT_LE(e.stress, 0.25);  // along the layers; without the g-weights of the gradients it is 1e4
     EXPECT_LE(e.displacement, 1e-4);
     EXPECT_LE(e.weakest_strain, 1e-3);
     EXPECT_LE(e.sound_strain, 1e-3);

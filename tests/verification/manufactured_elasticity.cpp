@@ -64,15 +64,13 @@ Errors errors_on(const Mesh& mesh, double nu) {
                                       [&](const Vector& x) { return body_force(c, x); });
   EXPECT_TRUE(solution->equilibrium.converged);
   const auto truth = [&](const Vector& x) { return exact_stress(c, x); };
-  const Errors e{
-      .cells = mesh.n_cells(),
-      .iterations = solution->equilibrium.iterations,
-      .displacement = displacement_error(mesh, *solution, displacement),
-      .stress = relative_stress_error(mesh, solution->cells.stress, truth, [](Index) { return true; })};
-  report_row(fmt::format("nu {}, {} cells", nu, e.cells), {{"u", e.displacement},
-                                                           {"stress", e.stress},
-                                                           {"iterations", e.iterations},
-                                                           {"CPU s", solution->cpu_seconds}});
+  const Errors e{.cells = mesh.n_cells(),
+                 .iterations = solution->equilibrium.iterations,
+                 .displacement = displacement_error(mesh, *solution, displacement),
+                 .stress = relative_stress_error(mesh, solution->cells.stress, truth, [](Index) { return true; })};
+  report_row(
+      fmt::format("nu {}, {} cells", nu, e.cells),
+      {{"u", e.displacement}, {"stress", e.stress}, {"iterations", e.iterations}, {"CPU s", solution->cpu_seconds}});
   return e;
 }
 

@@ -34,14 +34,13 @@ std::vector<BoundaryCondition> exact_boundary(const Mesh& mesh, const LinearCase
   std::vector<BoundaryCondition> all;
   for (const auto& [name, mask] : masks) {
     const Vector traction = exact.stress() * mesh.face_area[mesh.patch(name).first_face].normalized();
-    all.push_back({.patch = name,
-                   .displacement_prescribed = mask,
-                   .value = [exact, traction, mask](const Vector& x, double) {
-                     Vector value = exact.displacement(x);
-                     for (int i = 0; i < 3; ++i)
-                       if (!mask[as_size(i)]) value[i] = traction[i];
-                     return value;
-                   }});
+    all.push_back(
+        {.patch = name, .displacement_prescribed = mask, .value = [exact, traction, mask](const Vector& x, double) {
+           Vector value = exact.displacement(x);
+           for (int i = 0; i < 3; ++i)
+             if (!mask[as_size(i)]) value[i] = traction[i];
+           return value;
+         }});
   }
   return all;
 }
@@ -135,9 +134,7 @@ TEST_P(PatchTest, IsExact) {
 
 INSTANTIATE_TEST_SUITE_P(Boundaries, PatchTest,
                          testing::Combine(testing::ValuesIn(meshes), testing::ValuesIn(boundaries)),
-                         [](const auto& test) {
-                           return std::get<0>(test.param).name + std::get<1>(test.param).name;
-                         });
+                         [](const auto& test) { return std::get<0>(test.param).name + std::get<1>(test.param).name; });
 
 Vector lowest_corner(const Mesh& mesh) {
   return *std::min_element(mesh.points.begin(), mesh.points.end(),
@@ -171,9 +168,7 @@ INSTANTIATE_TEST_SUITE_P(PoissonRatios, RotatedTension, testing::Values(0.3, 0.4
 // One cell thick: plane strain, in the plane of the coordinates and in a turned one.
 class PlaneStrain : public testing::TestWithParam<std::tuple<NamedMesh, bool>> {
  protected:
-  static Tensor rotation() {
-    return std::get<1>(GetParam()) ? arbitrary_rotation() : Tensor(Tensor::Identity());
-  }
+  static Tensor rotation() { return std::get<1>(GetParam()) ? arbitrary_rotation() : Tensor(Tensor::Identity()); }
 
   static LinearCase turned(Tensor in_plane_slope) {
     in_plane_slope.row(2).setZero();
@@ -207,11 +202,14 @@ TEST_P(PlaneStrain, BetweenSymmetryFaces) {
 
 const std::vector<NamedMesh> thin_meshes{
     {"Hexes", [] { return make_box_hexes(graded_box(1)); }},
-    {"Wedges", [] { return extruded_triangles(8, {0.0, 0.1}); }},
+    {"Wedges",
+     [] {
+       return extruded_triangles(8, {0.0, 0.1});
+     }},
 };
 
-INSTANTIATE_TEST_SUITE_P(OneCellThick, PlaneStrain,
-                         testing::Combine(testing::ValuesIn(thin_meshes), testing::Bool()), [](const auto& test) {
+INSTANTIATE_TEST_SUITE_P(OneCellThick, PlaneStrain, testing::Combine(testing::ValuesIn(thin_meshes), testing::Bool()),
+                         [](const auto& test) {
                            return std::get<0>(test.param).name + (std::get<1>(test.param) ? "Turned" : "");
                          });
 

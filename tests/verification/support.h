@@ -60,8 +60,8 @@ Mesh rotated(Mesh mesh, const Tensor& rotation);
 /// Some rotation about no special axis.
 Tensor arbitrary_rotation();
 
-/// A unit square of n x n squares cut into triangles, its inner points moved about, extruded through the given levels of
-/// z into layers of wedges of one region "body".
+/// A unit square of n x n squares cut into triangles, its inner points moved about, extruded through the given levels
+/// of z into layers of wedges of one region "body".
 Mesh extruded_triangles(Index n, const std::vector<double>& levels);
 
 /// A cube of the given half-width with a sphere of radius 1 at the origin; the layers take 0.4 together.

@@ -1,8 +1,7 @@
 // A bead that debonds, at one, two and three threads: the same to the last bit, and in equilibrium at every step.
 
-#include "solver/fracture_run.h"
 #include "solver/parallel.h"
-#include "tests/verification/support.h"
+#include "tests/verification/bead.h"
 
 #include <gtest/gtest.h>
 
@@ -10,21 +9,6 @@
 
 namespace pfdm::verification {
 namespace {
-
-FractureModel bead_model(const Mesh& mesh) {
-  FractureModel model;
-  for (const std::string& name : mesh.region_names)
-    model.regions.push_back({.elasticity = name == "bead" ? from_young_poisson(70e9, 0.3) : from_young_poisson(75e6, 0.44),
-                             .Gc = name == "bead" ? 1e7 : name == "interface" ? 1e5 : 1e6,  // radius 1 m
-                             .ell = 0.2});
-  model.crack = &crack_geometry("AT2");
-  model.degradation = &degradation("quadratic");
-  model.split = &energy_split("volumetric_deviatoric");
-  BoundaryCondition pulled{.patch = "zmax", .displacement_prescribed = {false, false, true}, .value = {}};
-  pulled.value = [](const Vector&, double t) { return Vector(0.0, 0.0, 0.2 * t); };
-  model.boundary = {displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }), pulled};
-  return model;
-}
 
 struct Outcome {
   FractureState state;
@@ -34,7 +18,8 @@ struct Outcome {
 
 Outcome debond(const Mesh& mesh, int threads) {
   set_threads(threads);
-  FractureRun run(mesh, bead_model(mesh), {}, {.initial_increment = 0.25, .maximum_increment = 0.25, .stops = {}});
+  FractureRun run(mesh, bead_model(mesh, "volumetric_deviatoric", 0.2), {},
+                  {.initial_increment = 0.25, .maximum_increment = 0.25, .stops = {}});
   Outcome outcome;
   RunHooks hooks;
   hooks.step_done = [&](const FractureState&, const StepReport& report) {
