@@ -12,7 +12,7 @@ namespace pfdm {
 BlockMatrix compress(const BlockTriplets& triplets, const std::vector<Index>& position_of_node);
 
 /// Aggregate of every row; -1 for rows without couplings, which the smoother alone solves. Aggregates are numbered
-/// by their first row. At most 2^n_passes rows each.
+/// by their first row. Of 2^n_passes rows as a rule; rows without a partner join others, so some are larger.
 struct Aggregates {
   std::vector<Index> of_row;
   Index count = 0;

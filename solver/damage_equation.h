@@ -5,7 +5,7 @@
 //
 // no flux through the boundary, d = 0 in regions that cannot be damaged. Two-point fluxes, in series where Gc or ell
 // jumps, with a deferred correction by two-ring gradients for faces that are not orthogonal to their centre line. The
-// correction is not limited: limiters (half of the two-point flux, say) take the order on tetrahedra from 2 to 0.8, and
+// correction is not limited: a limiter at half of the two-point flux takes the order on tetrahedra from 2 to 0.8, and
 // the bounds hold all the same, by a primal-dual active set
 // (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13 (2002) 865), linear systems by conjugate gradients.
 

@@ -45,7 +45,7 @@ double bead_imbalance(const Mesh& mesh, const std::string& split, Index n_steps)
 }
 
 // Between tetrahedra the driving energy is not exactly the slope of the discrete elastic energy: what is left does not
-// vanish with the increment, only with the cells.
+// vanish with the increment; how it falls with the cells has not been measured.
 TEST(EnergyBalance, BeadBeforeItDebonds) {
   const Mesh mesh = sphere_in_cube(4, 8, 2.5, 0.4);
   for (const std::string split : {"none", "volumetric_deviatoric"}) {
