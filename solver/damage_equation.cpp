@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace pfdm {
 namespace {
 
-constexpr Index factor_block = 8192;  // rows that one incomplete factorisation couples
+constexpr Index factor_block = 8192;       // rows that one incomplete factorisation couples
+constexpr double linear_reduction = 5e-4;  // of the residual, by each linear solve
 
 // Cells whose damage gradient may look at each other: those with equal conductance, so that no kink lies between.
 CellField<Index> smooth_zones(const Mesh& mesh, const FractureModel& model) {
@@ -33,7 +35,8 @@ DamageEquation::DamageEquation(const Mesh& mesh, const FractureModel& model, con
       conductance_(as_size(mesh.n_cells())),
       pinned_(as_size(mesh.n_cells()), 0.0),
       gradient_((build_links(), build_gradient(plane_normal))),
-      gradients_(as_size(mesh.n_cells()), Vector::Zero()) {
+      gradients_(as_size(mesh.n_cells()), Vector::Zero()),
+      range_(as_size(mesh.n_cells()), 0.0) {
   build_rows();
 }
 
@@ -78,25 +81,49 @@ Gradient DamageEquation::build_gradient(const Vector& plane_normal) {
 }
 
 void DamageEquation::build_rows() {
-  offsets_.assign(as_size(mesh_.n_cells()) + 1, 0);
+  const Index n = mesh_.n_cells();
+  std::vector<std::vector<std::pair<Index, double>>> across(as_size(n));
   for (const Link& link : links_) {
-    ++offsets_[as_size(link.P) + 1];
-    ++offsets_[as_size(link.N) + 1];
+    across[as_size(link.P)].emplace_back(link.N, link.coefficient);
+    across[as_size(link.N)].emplace_back(link.P, link.coefficient);
   }
-  for (std::size_t c = 0; c + 1 < offsets_.size(); ++c) offsets_[c + 1] += offsets_[c];
-  entries_.resize(offsets_.back());
-  std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Link& link = links_[i];
-    entries_[next[as_size(link.P)]++] = {link.N, static_cast<Index>(i), link.coefficient};
-    entries_[next[as_size(link.N)]++] = {link.P, static_cast<Index>(i), link.coefficient};
+  rows_.resize(as_size(n));
+  total_.assign(as_size(n), 0.0);
+  deferred_.assign(as_size(n), 0.0);
+  columns_.reserve(2 * links_.size());
+  coefficients_.reserve(2 * links_.size());
+  for (Index c = 0; c < n; ++c) {
+    auto& entries = across[as_size(c)];
+    std::sort(entries.begin(), entries.end());
+    const Index block_begin = c / factor_block * factor_block, block_end = block_begin + factor_block;
+    Row& row = rows_[as_size(c)];
+    const auto reached = [this] { return static_cast<std::int32_t>(columns_.size()); };
+    row.begin = row.below = row.diagonal = row.above = reached();
+    for (const auto& [column, coefficient] : entries) {
+      columns_.push_back(static_cast<std::int32_t>(column));
+      coefficients_.push_back(coefficient);
+      total_[as_size(c)] += coefficient;
+      if (column < block_begin) row.below = reached();
+      if (column < c) row.diagonal = reached();
+      if (column < block_end) row.above = reached();
+    }
+    row.end = reached();
   }
 }
 
 // The two-sided flux is c (d_N + grad_N.d_N - d_P - grad_P.d_P) plus the averaged normal gradients; what is beyond
-// c (d_N - d_P) is deferred.
+// c (d_N - d_P) is deferred, and never moves either side by more than the damage ranges over around it: at the corner
+// of a front the gradients overshoot, and the active set would flip for ever.
 void DamageEquation::renew_correction(const CellField<double>& d) {
-  parallel_for(mesh_.n_cells(), [&](Index c) { gradients_[as_size(c)] = gradient_.of(d.data(), c); });
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    gradients_[as_size(c)] = gradient_.of(d.data(), c);
+    double least = d[c], most = d[c];
+    for (auto k = rows_[as_size(c)].begin; k < rows_[as_size(c)].end; ++k) {
+      least = std::min(least, d[columns_[as_size(k)]]);
+      most = std::max(most, d[columns_[as_size(k)]]);
+    }
+    range_[as_size(c)] = most - least;
+  });
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     const Link& link = links_[as_size(i)];
     if (!link.corrected) return;
@@ -108,8 +135,14 @@ void DamageEquation::renew_correction(const CellField<double>& d) {
     const Vector& grad_N = gradients_[as_size(link.N)];
     // Only the part of each centre-to-face vector that lies in the face is not in the two-point flux.
     const double beyond = grad_N.dot(d_N - d_N.dot(n) * n) - grad_P.dot(d_P - d_P.dot(n) * n);
-    correction_[as_size(i)] = link.coefficient * beyond;
+    const double most = std::min(range_[as_size(link.P)], range_[as_size(link.N)]);
+    correction_[as_size(i)] = link.coefficient * std::clamp(beyond, -most, most);
   });
+  std::fill(deferred_.begin(), deferred_.end(), 0.0);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    deferred_[as_size(links_[i].P)] += correction_[i];
+    deferred_[as_size(links_[i].N)] -= correction_[i];
+  }
 }
 
 double DamageEquation::local_slope(Index cell, double d, double psi) const {
@@ -124,42 +157,47 @@ double DamageEquation::local_curvature(Index cell, double d, double psi) const {
                                     (1.0 - model_.residual_stiffness) * model_.degradation->g_second(d) * psi);
 }
 
-double DamageEquation::residual(Index cell, const CellField<double>& d, double psi) const {
-  double sum = local_slope(cell, d[cell], psi) + pinned_[cell] * d[cell];
-  for (std::size_t k = offsets_[as_size(cell)]; k < offsets_[as_size(cell) + 1]; ++k) {
-    const Entry& entry = entries_[k];
-    const double towards = cell < entry.column ? 1.0 : -1.0;  // P is the smaller of the two
-    sum += entry.coefficient * (d[cell] - d[entry.column]) - towards * correction_[as_size(entry.link)];
-  }
+double DamageEquation::times_off_diagonal(Index cell, const double* x) const {
+  const Row& row = rows_[as_size(cell)];
+  double sum = 0.0;
+  for (auto k = row.begin; k < row.end; ++k) sum += coefficients_[as_size(k)] * x[columns_[as_size(k)]];
   return sum;
 }
 
+double DamageEquation::residual(Index cell, const CellField<double>& d, double psi) const {
+  return local_slope(cell, d[cell], psi) + (pinned_[cell] + total_[as_size(cell)]) * d[cell] -
+         times_off_diagonal(cell, d.data()) - deferred_[as_size(cell)];
+}
+
 DamageSolution DamageEquation::solve(const CellField<double>& psi_plus, const CellField<double>& lower,
-                                     Index corrections, CellField<double>& d) {
+                                     const Tolerance& tolerance, CellField<double>& d) {
   constexpr Index most_changes = 50;  // of the active set
   const Index n = mesh_.n_cells();
   DamageSolution account;
   std::vector<double> r(as_size(n)), diagonal(as_size(n)), step(as_size(n));
-  ActiveSet active(as_size(n), 0), before;
-  for (Index correction = 0; correction < corrections; ++correction) {
+  ActiveSet active(as_size(n), 0);
+  for (Index correction = 0; correction < tolerance.corrections; ++correction) {
     renew_correction(d);
     account.converged = false;
+    double target = 0.0;  // of the step that each cell would still take
     parallel_for(n, [&](Index c) { active[as_size(c)] = is_damageable(c) ? 0 : 1; });
-    for (Index change = 0; change < most_changes && !account.converged; ++change) {
-      before = active;
-      choose_active(psi_plus, lower, change == 0, d, active);
+    for (Index change = 0; change < most_changes; ++change) {
       parallel_for(n, [&](Index c) {
-        double sum = pinned_[c] + local_curvature(c, d[c], psi_plus[c]);
-        for (std::size_t k = offsets_[as_size(c)]; k < offsets_[as_size(c) + 1]; ++k) sum += entries_[k].coefficient;
-        diagonal[as_size(c)] = sum;
+        diagonal[as_size(c)] =
+            pinned_[c] + total_[as_size(c)] + local_curvature(c, std::clamp(d[c], 0.0, 1.0), psi_plus[c]);
+      });
+      choose_active(psi_plus, lower, diagonal, d, active);
+      parallel_for(n, [&](Index c) {
         r[as_size(c)] = active[as_size(c)] != 0 ? 0.0 : -residual(c, d, psi_plus[c]);
         step[as_size(c)] = 0.0;
       });
+      const double wanted = parallel_max(n, [&](Index c) { return std::abs(r[as_size(c)]) / diagonal[as_size(c)]; });
+      if (change == 0) target = std::max(tolerance.reduction * wanted, 1e-10);
+      account.converged = wanted <= target;
+      if (account.converged) break;
       solve_linear(diagonal, active, r, step, account);
       parallel_for(n, [&](Index c) { d[c] += step[as_size(c)]; });
       ++account.active_set_iterations;
-      const double moved = parallel_max(n, [&](Index c) { return std::abs(step[as_size(c)]); });
-      account.converged = moved < 1e-6 && (active == before || change == 0);
     }
     parallel_for(n, [&](Index c) {
       if (is_damageable(c)) d[c] = std::clamp(d[c], lower[c], 1.0);
@@ -168,23 +206,16 @@ DamageSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
   return account;
 }
 
-// Cells beyond a bound are put on it; those on a bound are held there while the residual pushes against it.
-void DamageEquation::choose_active(const CellField<double>& psi_plus, const CellField<double>& lower, bool first,
-                                   CellField<double>& d, ActiveSet& active) const {
-  parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (is_damageable(c)) d[c] = std::clamp(d[c], lower[c], 1.0);
-  });
+// Cells that a Newton step of their own would carry beyond a bound are put on it.
+void DamageEquation::choose_active(const CellField<double>& psi_plus, const CellField<double>& lower,
+                                   const std::vector<double>& diagonal, CellField<double>& d, ActiveSet& active) const {
   parallel_for(mesh_.n_cells(), [&](Index c) {
     if (!is_damageable(c)) return;
-    const bool at_lower = d[c] <= lower[c], at_upper = d[c] >= 1.0;
-    if (!at_lower && !at_upper) {
-      active[as_size(c)] = 0;
-      return;
-    }
-    const double push = residual(c, d, psi_plus[c]);
-    // What only its neighbours hold down may rise with them: else a profile would grow by a cell per change.
-    const bool held = !first || local_slope(c, d[c], psi_plus[c]) > 0.0;
-    active[as_size(c)] = (at_lower && push >= 0.0 && held) || (at_upper && push <= 0.0) ? 1 : 0;
+    const double wanted = d[c] - residual(c, d, psi_plus[c]) / diagonal[as_size(c)];
+    active[as_size(c)] = wanted < lower[c] ? -1 : (wanted > 1.0 ? 1 : 0);
+  });
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    if (is_damageable(c) && active[as_size(c)] != 0) d[c] = active[as_size(c)] < 0 ? lower[c] : 1.0;
   });
 }
 
@@ -195,66 +226,73 @@ void DamageEquation::factor(const std::vector<double>& diagonal, const ActiveSet
   parallel_chunks(
       mesh_.n_cells(),
       [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+          if (active[as_size(i)] != 0) continue;
+          const Row& row = rows_[as_size(i)];
+          for (auto k = row.below; k < row.diagonal; ++k)
+            if (const auto j = as_size(columns_[as_size(k)]); active[j] == 0)
+              pivots_[as_size(i)] -= coefficients_[as_size(k)] * coefficients_[as_size(k)] / pivots_[j];
+        }
         for (Index i = begin; i < end; ++i)
-          for (std::size_t k = offsets_[as_size(i)]; k < offsets_[as_size(i) + 1]; ++k) {
-            const Index j = entries_[k].column;
-            if (j >= begin && j < i && active[as_size(j)] == 0 && active[as_size(i)] == 0)
-              pivots_[as_size(i)] -= entries_[k].coefficient * entries_[k].coefficient / pivots_[as_size(j)];
-          }
+          pivots_[as_size(i)] = active[as_size(i)] != 0 ? 0.0 : 1.0 / pivots_[as_size(i)];
       },
       factor_block);
 }
 
-void DamageEquation::precondition(const ActiveSet& active, const std::vector<double>& r, std::vector<double>& z) const {
+// Returns r.z; pivots_ are inverted, and zero in active rows.
+double DamageEquation::precondition(const std::vector<double>& r, std::vector<double>& z) const {
+  std::vector<double> products(rows_.size() / as_size(factor_block) + 1, 0.0);
   parallel_chunks(
       mesh_.n_cells(),
       [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
+          const Row& row = rows_[as_size(i)];
           double sum = r[as_size(i)];
-          for (std::size_t k = offsets_[as_size(i)]; k < offsets_[as_size(i) + 1]; ++k)
-            if (const Index j = entries_[k].column; j >= begin && j < i) sum += entries_[k].coefficient * z[as_size(j)];
-          z[as_size(i)] = active[as_size(i)] != 0 ? 0.0 : sum / pivots_[as_size(i)];
+          for (auto k = row.below; k < row.diagonal; ++k)
+            sum += coefficients_[as_size(k)] * z[as_size(columns_[as_size(k)])];
+          z[as_size(i)] = sum * pivots_[as_size(i)];
         }
+        double product = 0.0;
         for (Index i = end - 1; i >= begin; --i) {
+          const Row& row = rows_[as_size(i)];
           double sum = 0.0;
-          for (std::size_t k = offsets_[as_size(i)]; k < offsets_[as_size(i) + 1]; ++k)
-            if (const Index j = entries_[k].column; j < end && j > i) sum += entries_[k].coefficient * z[as_size(j)];
-          if (active[as_size(i)] == 0) z[as_size(i)] += sum / pivots_[as_size(i)];
+          for (auto k = row.diagonal; k < row.above; ++k)
+            sum += coefficients_[as_size(k)] * z[as_size(columns_[as_size(k)])];
+          z[as_size(i)] += sum * pivots_[as_size(i)];
+          product += r[as_size(i)] * z[as_size(i)];
         }
+        products[as_size(begin / factor_block)] = product;
       },
       factor_block);
+  return std::accumulate(products.begin(), products.end(), 0.0);
 }
 
-// Conjugate gradients on the inactive rows; the residual falls to a thousandth of its start, or to rounding.
+// Conjugate gradients on the inactive rows; the residual falls by linear_reduction, or to rounding.
 void DamageEquation::solve_linear(const std::vector<double>& diagonal, const ActiveSet& active, std::vector<double>& r,
                                   std::vector<double>& x, DamageSolution& account) {
   constexpr Index most_iterations = 500;
   const Index n = mesh_.n_cells();
-  const auto largest = [&] {
-    return parallel_max(n, [&](Index i) { return std::abs(r[as_size(i)]) / diagonal[as_size(i)]; });
-  };
-  const double target = std::max(1e-11, 1e-4 * largest());
-  if (largest() <= 1e-11) return;
+  double largest = parallel_max(n, [&](Index i) { return std::abs(r[as_size(i)]) / diagonal[as_size(i)]; });
+  const double target = std::max(1e-11, linear_reduction * largest);
+  if (largest <= 1e-11) return;
   factor(diagonal, active);
-  std::vector<double> z(as_size(n)), p(as_size(n), 0.0), q(as_size(n));
+  std::vector<double> z(as_size(n)), p(as_size(n), 0.0), q(as_size(n), 0.0);
   double rho_before = 0.0;
-  for (Index iteration = 0; iteration < most_iterations && largest() > target; ++iteration) {
-    precondition(active, r, z);
-    const double rho = parallel_sum(n, [&](Index i) { return r[as_size(i)] * z[as_size(i)]; });
+  for (Index iteration = 0; iteration < most_iterations && largest > target; ++iteration) {
+    const double rho = precondition(r, z);
     const double beta = iteration == 0 ? 0.0 : rho / rho_before;
     rho_before = rho;
     parallel_for(n, [&](Index i) { p[as_size(i)] = z[as_size(i)] + beta * p[as_size(i)]; });
-    parallel_for(n, [&](Index i) {
-      if (active[as_size(i)] != 0) return;
-      double sum = diagonal[as_size(i)] * p[as_size(i)];
-      for (std::size_t k = offsets_[as_size(i)]; k < offsets_[as_size(i) + 1]; ++k)
-        sum -= entries_[k].coefficient * p[as_size(entries_[k].column)];
-      q[as_size(i)] = sum;
+    const double curvature = parallel_sum(n, [&](Index i) {
+      if (active[as_size(i)] != 0) return 0.0;
+      q[as_size(i)] = diagonal[as_size(i)] * p[as_size(i)] - times_off_diagonal(i, p.data());
+      return p[as_size(i)] * q[as_size(i)];
     });
-    const double alpha = rho / parallel_sum(n, [&](Index i) { return p[as_size(i)] * q[as_size(i)]; });
-    parallel_for(n, [&](Index i) {
+    const double alpha = rho / curvature;
+    largest = parallel_max(n, [&](Index i) {
       x[as_size(i)] += alpha * p[as_size(i)];
       r[as_size(i)] -= alpha * q[as_size(i)];
+      return std::abs(r[as_size(i)]) / diagonal[as_size(i)];
     });
     ++account.krylov_iterations;
   }

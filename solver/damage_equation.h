@@ -5,13 +5,14 @@
 //
 // no flux through the boundary, d = 0 in regions that cannot be damaged. Two-point fluxes, in series where Gc or ell
 // jumps, with a deferred correction by two-ring gradients for faces that are not orthogonal to their centre line. The
-// correction is not limited: a limiter at half of the two-point flux takes the order on tetrahedra from 2 to 0.8, and
-// the bounds hold all the same, by a primal-dual active set
+// correction is limited to the range of the damage around the face; a limiter at half of the two-point flux takes the
+// order on tetrahedra from 2 to 0.8. Bounds by a primal-dual active set
 // (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13 (2002) 865), linear systems by conjugate gradients.
 
 #include "solver/fracture_model.h"
 #include "solver/gradient.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace pfdm {
@@ -27,9 +28,12 @@ class DamageEquation {
   /// plane_normal: of one-cell-thick meshes, else zero.
   DamageEquation(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal);
 
-  /// Solves for d [-] from its present value, given psi_plus [J/m^3] and the lower bound. `corrections` times the
-  /// deferred flux is renewed; 1 suits a staggered loop, which renews it at each of its own iterations.
-  DamageSolution solve(const CellField<double>& psi_plus, const CellField<double>& lower, Index corrections,
+  struct Tolerance {
+    Index corrections = 1;    ///< how often the deferred flux is renewed; a staggered loop renews it at each iteration
+    double reduction = 1e-9;  ///< of the largest step that a cell would take by itself, from its start; 1e-10 at least
+  };
+  /// Solves for d [-] from its present value, given psi_plus [J/m^3] and the lower bound.
+  DamageSolution solve(const CellField<double>& psi_plus, const CellField<double>& lower, const Tolerance& tolerance,
                        CellField<double>& d);
 
   /// Discrete surface energy [J].
@@ -46,8 +50,8 @@ class DamageEquation {
     bool corrected;      // not orthogonal, and both sides know their gradient
   };
 
-  // Active rows keep their value.
-  using ActiveSet = std::vector<char>;
+  // -1 at the lower bound, 1 at the upper, 0 free.
+  using ActiveSet = std::vector<signed char>;
 
   void build_links();
   void build_rows();
@@ -56,12 +60,13 @@ class DamageEquation {
   double local_slope(Index cell, double d, double psi) const;      // of the local terms over the cell [J]
   double local_curvature(Index cell, double d, double psi) const;  // its derivative [J]
   double residual(Index cell, const CellField<double>& d, double psi) const;
-  void choose_active(const CellField<double>& psi_plus, const CellField<double>& lower, bool first,
-                     CellField<double>& d, ActiveSet& active) const;
+  void choose_active(const CellField<double>& psi_plus, const CellField<double>& lower,
+                     const std::vector<double>& diagonal, CellField<double>& d, ActiveSet& active) const;
+  double times_off_diagonal(Index cell, const double* x) const;
   void solve_linear(const std::vector<double>& diagonal, const ActiveSet& active, std::vector<double>& residual,
                     std::vector<double>& x, DamageSolution& account);
   void factor(const std::vector<double>& diagonal, const ActiveSet& active);
-  void precondition(const ActiveSet& active, const std::vector<double>& r, std::vector<double>& z) const;
+  double precondition(const std::vector<double>& r, std::vector<double>& z) const;
 
   const Mesh& mesh_;
   const FractureModel& model_;
@@ -70,18 +75,22 @@ class DamageEquation {
   CellField<double> conductance_;  // 2 Gc ell/c0 [J/m]
   CellField<double> pinned_;       // coefficient towards undamageable neighbours [J]
   std::vector<Link> links_;
-  // Rows: the links of each cell with the cell across.
-  struct Entry {
-    Index column, link;
-    double coefficient;
+  // Rows: the cells across each cell's links, in ascending order. Those that one incomplete factorisation couples are
+  // [below, diagonal) before the cell and [diagonal, above) after it.
+  struct Row {
+    std::int32_t begin, below, diagonal, above, end;
   };
-  std::vector<std::size_t> offsets_;
-  std::vector<Entry> entries_;
-  std::vector<double> correction_;  // per link: flux towards P that is not two-point [J]
+  std::vector<Row> rows_;
+  std::vector<std::int32_t> columns_;
+  std::vector<double> coefficients_;  // [J]
+  std::vector<double> total_;         // of each row
+  std::vector<double> deferred_;      // per cell: flux into it that is not two-point [J]
+  std::vector<double> correction_;    // per link: flux towards P that is not two-point [J]
   Gradient gradient_;
   std::vector<Vector> gradients_;
+  std::vector<double> range_;  // of damage over each cell and its neighbours
   CellField<double> source_;
-  std::vector<double> pivots_;  // of the incomplete factorisation
+  std::vector<double> pivots_;  // of the incomplete factorisation, inverted; zero in active rows
 };
 
 }  // namespace pfdm

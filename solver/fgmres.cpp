@@ -3,6 +3,7 @@
 #include "mesh/fields.h"
 #include "solver/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm {
@@ -134,6 +135,7 @@ double scaled_norm(const std::vector<Vector>& v, const std::vector<double>& scal
 KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector>& b, std::vector<Vector>& x,
                           const std::function<double(double initial)>& target_of, Index most_iterations) {
   constexpr double modest_drop = 1e-4;
+  constexpr double greatest_drop = 1e-5;  // of one cycle: a basis in single precision follows no further
   Basis basis(x.size());
   KrylovResult result;
   double beta = start(problem, b, x, basis);
@@ -152,7 +154,7 @@ KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector
       hessenberg.append(k, h, below);
       ++result.iterations;
       ++k;
-      if (below == 0.0 || std::abs(hessenberg.rhs[k]) <= 0.9 * target) break;
+      if (below == 0.0 || std::abs(hessenberg.rhs[k]) <= std::max(0.9 * target, greatest_drop * beta)) break;
       if (k < restart_length) normalise(basis, k, below);
     }
     add_combination(basis, hessenberg, k, x);

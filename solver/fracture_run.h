@@ -12,7 +12,7 @@
 
 namespace pfdm {
 
-/// Called while a step is being solved; return false to stop the run at once.
+/// How far the solution of a step is.
 struct IterationReport {
   Index step = 0;
   Index iteration = 0;

@@ -135,7 +135,7 @@ void Multigrid::set_up_work_space() {
   for (Index i = 0; i < last.n_rows(); ++i) {
     dense.block<3, 3>(3 * i, 3 * i) = to_tensor(last.diagonal[as_size(i)]).cast<float>();
     for (Index k = last.offsets[as_size(i)]; k < last.offsets[as_size(i) + 1]; ++k)
-      dense.block<3, 3>(3 * i, 3 * last.columns[as_size(k)]) = to_tensor(last.blocks[as_size(k)]).cast<float>();
+      dense.block<3, 3>(3 * i, 3 * last.columns[as_size(k)]) += to_tensor(last.blocks[as_size(k)]).cast<float>();
   }
   coarsest_.compute(dense);
 }

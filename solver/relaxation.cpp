@@ -16,16 +16,19 @@ CellField<double> Relaxation::next(const CellField<double>& d, const CellField<d
   const Index n = d.size();
   CellField<double> increment(as_size(n)), result(as_size(n));
   parallel_for(n, [&](Index c) { increment[c] = answer[c] - d[c]; });
-  factor_ = 1.0;
-  if (increment_.size() == n) {
-    const double product = parallel_sum(n, [&](Index c) { return increment[c] * increment_[c]; });
-    const double square = parallel_sum(n, [&](Index c) { return increment_[c] * increment_[c]; });
-    const double contraction = square > 0.0 ? product / square : 0.0;
-    factor_ = contraction < 1.0 ? std::clamp(1.0 / (1.0 - contraction), least_factor, most_factor) : most_factor;
+  const bool first = increment_.size() != n;
+  if (!first) {
+    const double along = parallel_sum(n, [&](Index c) { return increment_[c] * (increment_[c] - increment[c]); });
+    const double square = parallel_sum(n, [&](Index c) {
+      const double fall = increment_[c] - increment[c];
+      return fall * fall;
+    });
+    // An increment that does not fall asks for the longest step.
+    factor_ = along > 0.0 ? std::clamp(factor_ * along / square, least_factor, most_factor) : most_factor;
   }
   parallel_for(n, [&](Index c) {
-    const bool turned = increment_.size() == n && increment[c] * increment_[c] < 0.0;
-    result[c] = std::clamp(d[c] + (turned ? 0.5 : factor_) * increment[c], lower[c], 1.0);
+    const bool turned = !first && increment[c] * increment_[c] < 0.0;
+    result[c] = std::clamp(d[c] + (turned ? least_factor : factor_) * increment[c], lower[c], 1.0);
   });
   increment_ = std::move(increment);
   return result;

@@ -1,6 +1,6 @@
 #pragma once
-// Acceleration of the staggered loop's damage increments: one secant factor for the whole field (Irons, Tuck, IJNME 1
-// (1969) 275), and half the increment in cells whose increment changes sign.
+// Acceleration of the staggered loop's damage increments: one secant factor for the whole field (Aitken's in vector
+// form: Irons, Tuck, IJNME 1 (1969) 275), and half the increment in cells whose increment changes sign.
 
 #include "mesh/fields.h"
 

@@ -32,14 +32,14 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
     if (!equilibrium.converged) return outcome;
     const Energies energies = update_driving_energy(start, state);
     CellField<double> answer = state.damage;
-    solve_damage(start, state, answer);
+    const bool damage_solved = solve_damage(start, state, answer);
     const double change = parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
     const double energy = energies.elastic + damage_.fracture_energy(answer);
     const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
     outcome.krylov_iterations += equilibrium.iterations;
-    settled = change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance;
+    settled = damage_solved && change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance;
     outcome.converged = settled && equilibrium.residual <= settings_.equilibrium_tolerance;
     if (outcome.converged)
       state.damage = answer;
@@ -114,11 +114,11 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   return energies;
 }
 
-void Staggered::solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d) {
+bool Staggered::solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d) {
   const auto lap = clock_.lap("damage");
   const bool bounds = model_.irreversibility == Irreversibility::bounds;
   const CellField<double> zero(bounds ? 0 : as_size(mesh_.n_cells()), 0.0);
-  damage_.solve(state.driving_energy, bounds ? start.damage : zero, 1, d);
+  return damage_.solve(state.driving_energy, bounds ? start.damage : zero, {.reduction = 1e-3}, d).converged;
 }
 
 }  // namespace pfdm

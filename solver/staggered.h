@@ -37,7 +37,7 @@ class Staggered {
     double unsettled = 0.0;  // by which the closure that was used falsifies it [J]
   };
   Energies update_driving_energy(const FractureState& start, FractureState& state);
-  void solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
+  bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   double settle(const FractureState& state, Index cell, const Tensor& strain, double& closure);
   double stiffness_factor(Index cell, double d) const;
 

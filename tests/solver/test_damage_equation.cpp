@@ -48,7 +48,7 @@ TEST(DamageEquation, HomogeneousResponseOfAt2) {
   DamageEquation equation(mesh, model, Vector::Zero());
   for (const double psi : {0.0, 0.01 * unit, 0.5 * unit, 40.0 * unit}) {
     CellField<double> d = uniform(mesh, 0.0);
-    EXPECT_TRUE(equation.solve(uniform(mesh, psi), uniform(mesh, 0.0), 1, d).converged);
+    EXPECT_TRUE(equation.solve(uniform(mesh, psi), uniform(mesh, 0.0), {}, d).converged);
     const double driving = (1.0 - model.residual_stiffness) * psi;
     for (const double value : d) EXPECT_NEAR(value, driving / (driving + 0.5 * unit), 1e-9) << psi;
   }
@@ -62,7 +62,7 @@ TEST(DamageEquation, HomogeneousResponseOfAt1HasAThreshold) {
   for (const double share : {0.0, 0.5, 0.999, 1.01, 2.0, 100.0}) {
     CellField<double> d = uniform(mesh, 0.0);
     const double psi = share * threshold / (1.0 - model.residual_stiffness);
-    EXPECT_TRUE(equation.solve(uniform(mesh, psi), uniform(mesh, 0.0), 1, d).converged);
+    EXPECT_TRUE(equation.solve(uniform(mesh, psi), uniform(mesh, 0.0), {}, d).converged);
     for (const double value : d) EXPECT_NEAR(value, share > 1.0 ? 1.0 - 1.0 / share : 0.0, 1e-9) << share;
   }
 }
@@ -87,7 +87,7 @@ TEST(DamageEquation, StaysBetweenItsLowerBoundAndOne) {
       const CellField<double> lower = random.field(mesh.n_cells(), 0.0, 0.7);
       CellField<double> psi = random_driving_energy(mesh), d = lower;
       for (double& value : psi) value *= ell / model.regions.front().ell;
-      EXPECT_TRUE(equation.solve(psi, lower, 5, d).converged) << law;
+      EXPECT_TRUE(equation.solve(psi, lower, {.corrections = 5}, d).converged) << law;
       Index at_bound = 0;
       for (Index c = 0; c < mesh.n_cells(); ++c) {
         ASSERT_GE(d[c], lower[c]);
@@ -108,7 +108,7 @@ TEST(DamageEquation, IsTheMinimumOfItsEnergyWithinTheBounds) {
     RandomNumbers random;
     const CellField<double> lower = random.field(mesh.n_cells(), 0.0, 0.5), psi = random_driving_energy(mesh);
     CellField<double> d = lower;
-    equation.solve(psi, lower, 1, d);
+    equation.solve(psi, lower, {}, d);
     const auto energy = [&] {
       double sum = equation.fracture_energy(d);
       for (Index c = 0; c < mesh.n_cells(); ++c)
@@ -140,7 +140,7 @@ TEST(DamageEquation, UndamageableNeighboursPinTheProfile) {
   CellField<double> psi = uniform(mesh, 0.0), d = uniform(mesh, 0.0);
   const std::vector<Index> cells = in_order_of_x(mesh);
   psi[cells[as_size(n + 2)]] = 1e12 * unit;
-  EXPECT_TRUE(equation.solve(psi, uniform(mesh, 0.0), 1, d).converged);
+  EXPECT_TRUE(equation.solve(psi, uniform(mesh, 0.0), {}, d).converged);
   const double kappa = std::acosh(1.0 + 0.5 * std::pow(h / ell, 2));
   for (Index i = 0; i < mesh.n_cells(); ++i) {
     const double distance = std::abs(i - n - 2);
@@ -164,7 +164,7 @@ double error_of_band_toughness(Index cells_per_length) {
   DamageEquation equation(mesh, model, Vector::Zero());
   CellField<double> psi = uniform(mesh, 0.0), d = uniform(mesh, 0.0);
   psi[in_order_of_x(mesh)[as_size(n / 2)]] = 1e12 * unit;
-  EXPECT_TRUE(equation.solve(psi, uniform(mesh, 0.0), 1, d).converged);
+  EXPECT_TRUE(equation.solve(psi, uniform(mesh, 0.0), {}, d).converged);
   const double t = std::tanh(half_width / ell);
   return equation.fracture_energy(d) / (h * h * Gc) - (10.0 + t) / (1.0 + 10.0 * t);
 }
@@ -182,7 +182,7 @@ TEST(DamageEquation, ProfilesOfManyCellsAreFoundAtOnce) {
   DamageEquation equation(mesh, model, Vector::Zero());
   CellField<double> psi = uniform(mesh, 0.0), d = uniform(mesh, 0.0);
   psi[in_order_of_x(mesh)[200]] = 1e12 * unit;
-  const DamageSolution solution = equation.solve(psi, uniform(mesh, 0.0), 1, d);
+  const DamageSolution solution = equation.solve(psi, uniform(mesh, 0.0), {}, d);
   EXPECT_TRUE(solution.converged);
   EXPECT_LE(solution.active_set_iterations, 5);
   EXPECT_NEAR(equation.fracture_energy(d) / (Gc * std::pow(0.02 * ell, 2)), 1.0, 2e-3);
@@ -195,7 +195,7 @@ TEST(DamageEquation, LeavesWhatItCannotDamage) {
   model.regions[as_size(grip)] = {.elasticity = {}, .damageable = false};  // without toughness or length
   DamageEquation equation(mesh, model, Vector::Zero());
   CellField<double> d = uniform(mesh, 0.0);
-  equation.solve(uniform(mesh, 100.0 * unit), uniform(mesh, 0.0), 1, d);
+  equation.solve(uniform(mesh, 100.0 * unit), uniform(mesh, 0.0), {}, d);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     EXPECT_EQ(equation.is_damageable(c), mesh.region[c] != grip);
     if (mesh.region[c] == grip)
@@ -216,7 +216,7 @@ TEST_F(DamageThreads, SolutionsAreBitwiseTheSame) {
     set_threads(threads);
     DamageEquation equation(mesh, model, Vector::Zero());
     solutions.push_back(uniform(mesh, 0.0));
-    equation.solve(psi, uniform(mesh, 0.0), 1, solutions.back());
+    equation.solve(psi, uniform(mesh, 0.0), {}, solutions.back());
   }
   EXPECT_EQ(solutions[1], solutions[0]);
   EXPECT_EQ(solutions[2], solutions[0]);
