@@ -128,19 +128,22 @@ void Gradient::build(Index cell, const CellField<double>* g) {
   for (std::size_t s = begin(cell); s < end(cell); ++s) factor.solveInPlace(coefficient_[s]);
 }
 
-void Gradient::update(const CellField<double>& g) {
+void Gradient::update(const CellField<double>& g, double part) {
+  const CellField<double> before = g_;
   parallel_for(n_cells(), [&](Index c) {
-    bool changed = g[c] != g_[c];
+    if (std::abs(g[c] - before[c]) > part * before[c]) g_[c] = g[c];
+  });
+  parallel_for(n_cells(), [&](Index c) {
+    bool changed = g_[c] != before[c];
     bool flat = true;
     for (std::size_t s = begin(c); s < end(c); ++s) {
       const Index j = sample_[s];
       if (j >= n_cells()) continue;
-      changed = changed || g[j] != g_[j];
-      flat = flat && g[j] >= g[c] && g_[j] >= g_[c];
+      changed = changed || g_[j] != before[j];
+      flat = flat && g_[j] >= g_[c] && before[j] >= before[c];
     }
-    if (changed && !flat) build(c, &g);
+    if (changed && !flat) build(c, &g_);
   });
-  g_ = g;
 }
 
 }  // namespace pfdm

@@ -24,8 +24,9 @@ class Gradient {
  public:
   Gradient(const Mesh& mesh, const GradientSettings& settings);
 
-  /// Rebuilds the coefficients where the stiffness factors g of a cell's neighbourhood have changed.
-  void update(const CellField<double>& g);
+  /// Rebuilds the coefficients where a stiffness factor g of a cell's neighbourhood has moved by more than this part
+  /// of itself since they were built. Any weights are exact for linear fields.
+  void update(const CellField<double>& g, double part = 0.0);
 
   Tensor of(const Vector* u, Index cell) const {
     Tensor gradient = Tensor::Zero();
@@ -54,7 +55,7 @@ class Gradient {
   std::vector<Vector> coefficient_;  // [1/m]
   std::vector<Vector> node_;         // position of every node [m]
   std::vector<bool> wide_;           // two rings, |d|^-2
-  CellField<double> g_;              // at the last update
+  CellField<double> g_;              // that the coefficients were built for
   Vector plane_normal_;
 };
 

@@ -91,9 +91,10 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
   }
 }
 
-void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
+void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
+                                  double part) {
   moduli_ = moduli;
-  gradient_.update(g);
+  gradient_.update(g, part);
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     Link& link = links_[as_size(i)];
     const IsotropicElasticity &P = moduli[link.P], &N = moduli[link.N];
@@ -111,12 +112,6 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
     side.a_n = moduli[side.cell].constrained_modulus() / h;
     side.a_t = moduli[side.cell].mu / h;
   });
-}
-
-Vector MomentumOperator::normal_stress(Index cell, const Vector& n) const {
-  const Tensor& G = gradients_[cell];
-  const IsotropicElasticity& c = moduli_[cell];
-  return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
 }
 
 void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {

@@ -20,7 +20,7 @@ namespace pfdm {
 /// What a displacement means in the cells.
 struct CellMechanics {
   CellField<Tensor> strain;  ///< from the two-sided face displacements (Green-Gauss) [-]
-  CellField<Tensor> stress;  ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]
+  CellField<Tensor> stress;  ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]; empty if it was not wanted
   CellField<double> energy;  ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
 };
 
@@ -28,8 +28,9 @@ class MomentumOperator {
  public:
   MomentumOperator(const Mesh& mesh, const Unknowns& unknowns);
 
-  /// Secant moduli of every cell, and the stiffness factors g that weigh the gradients.
-  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+  /// Secant moduli of every cell, and the stiffness factors g that weigh the gradients; those follow only where g has
+  /// moved by more than this part of itself.
+  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0);
 
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
@@ -43,7 +44,8 @@ class MomentumOperator {
   /// The compact symmetric matrix that preconditions A: c between cells, a from a cell to its face nodes.
   BlockTriplets compact_matrix() const;
 
-  CellMechanics mechanics(const std::vector<Vector>& u) const;
+  enum class Wanted { all, strain_and_energy };
+  CellMechanics mechanics(const std::vector<Vector>& u, Wanted wanted = Wanted::all) const;
   std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;  ///< per boundary face [N]
   /// Traction [Pa] on each interior face that carries a node, on its owner.
   std::vector<std::pair<Index, Vector>> interface_tractions(const std::vector<Vector>& u) const;
@@ -78,7 +80,11 @@ class MomentumOperator {
   }
 
   void compute_forces(const std::vector<Vector>& u) const;
-  Vector normal_stress(Index cell, const Vector& n) const;
+  Vector normal_stress(Index cell, const Vector& n) const {
+    const Tensor& G = gradients_[cell];
+    const IsotropicElasticity& c = moduli_[cell];
+    return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
+  }
   Vector face_displacement(const Link& link, const std::vector<Vector>& u) const;
   FaceField<Vector> face_displacements(const std::vector<Vector>& u) const;
   Vector seen_from(Index cell, Index face, const FaceField<Vector>& u_face, const std::vector<Vector>& u) const;

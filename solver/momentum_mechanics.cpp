@@ -38,11 +38,13 @@ Vector MomentumOperator::seen_from(Index cell, Index face, const FaceField<Vecto
   return u[as_size(cell)] - n.dot(u[as_size(cell)]) * n;
 }
 
-CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u) const {
+CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted wanted) const {
+  const bool with_stress = wanted == Wanted::all;
   compute_forces(u);
   const FaceField<Vector> u_face = face_displacements(u);
   const auto n = as_size(mesh_.n_cells());
-  CellMechanics result{.strain = CellField<Tensor>(n), .stress = CellField<Tensor>(n), .energy = CellField<double>(n)};
+  CellMechanics result{
+      .strain = CellField<Tensor>(n), .stress = CellField<Tensor>(with_stress ? n : 0), .energy = CellField<double>(n)};
   parallel_for(mesh_.n_cells(), [&](Index c) {
     const double volume = mesh_.cell_volume[c];
     Tensor gradient = Tensor::Zero(), moment = Tensor::Zero();
@@ -54,15 +56,16 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u) const {
       gradient += rise * area.transpose();
       if (force_of_face_[as_size(f)] < 0) continue;
       const Vector force = cell_forces_[k].sign * forces_[as_size(cell_forces_[k].force)];
-      moment += force * (mesh_.face_centre[f] - mesh_.cell_centre[c]).transpose();
+      if (with_stress) moment += force * (mesh_.face_centre[f] - mesh_.cell_centre[c]).transpose();
       work += 0.5 * force.dot(rise);
       ++k;
     }
     result.strain[c] = symmetric_part(gradient * closure_[c].transpose() / volume);
+    result.energy[c] = work;
+    if (!with_stress) return;
     const Vector& normal = unknowns_.plane_normal;
     result.stress[c] = symmetric_part((moment * closure_[c]) / volume) +
                        moduli_[c].lambda * result.strain[c].trace() * normal * normal.transpose();
-    result.energy[c] = work;
   });
   return result;
 }

@@ -22,10 +22,11 @@ class MomentumSolver {
  public:
   MomentumSolver(const Mesh& mesh, const Unknowns& unknowns);
 
-  /// New secant moduli; the multigrid is built again when some cell's stiffness factor g has moved by more than 2.
+  /// New secant moduli. The multigrid is built again when some cell's stiffness factor g has moved by more than 2, the
+  /// weights of the gradients where it has moved by more than a hundredth.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
-  /// Has the multigrid built anew at the next set_moduli.
-  void forget_preconditioner() { multigrid_.reset(); }
+  /// Has the next set_moduli build all anew, so that what follows does not depend on what was before.
+  void start_afresh() { multigrid_.reset(); }
 
   /// Writes the prescribed values at t into u and solves to a residual of
   /// max(floor, min(ceiling, reduction x initial)).

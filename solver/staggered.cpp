@@ -20,7 +20,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   Relaxation relaxation;
   closing_ = CellField<float>(as_size(mesh_.n_cells()), 0.0F);
   turns_ = CellField<Index>(as_size(mesh_.n_cells()), 0);
-  momentum_.forget_preconditioner();  // a run that is gone on with does the same
+  momentum_.start_afresh();  // a run that is gone on with does the same
   double energy_before = 0.0;
   bool settled = false;
   while (outcome.iterations < settings_.maximum_iterations && !outcome.converged) {
@@ -100,7 +100,8 @@ double Staggered::settle(const FractureState& state, Index cell, const Tensor& s
 
 Staggered::Energies Staggered::update_driving_energy(const FractureState& start, FractureState& state) {
   const auto lap = clock_.lap("driving_energy");
-  CellMechanics mechanics = momentum_.balance().mechanics(state.displacement);
+  CellMechanics mechanics =
+      momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::strain_and_energy);
   const bool history = model_.irreversibility == Irreversibility::history;
   parallel_for(mesh_.n_cells(), [&](Index c) {
     const RegionModel& region = model_.regions[as_size(mesh_.region[c])];

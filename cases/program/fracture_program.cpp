@@ -4,6 +4,7 @@
 #include "cases/program/fracture_results.h"
 #include "cases/program/progress.h"
 #include "mesh/quality.h"
+#include "postproc/folder_lock.h"
 #include "solver/fracture_run.h"
 
 #include <fmt/format.h>
@@ -177,6 +178,7 @@ void run_case(const FractureProgram& program, Session& session) {
   times.mesh = times.whole.seconds();
   FractureRun run = make_run(program, mesh);
   const FractureState initial = run.initial_state();
+  const FolderLock lock(session.results);
   const auto last = state_to_go_on_from(program, initial, session);
   if (last && last->load >= program.fracture.loading.end && is_complete(session.results)) {
     session.log.say(fmt::format("the run in {} is complete already", session.results.string()));

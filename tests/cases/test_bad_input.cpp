@@ -1,5 +1,6 @@
 // Whatever is wrong with the input ends with status 2 and one message that says what, where and what is allowed.
 
+#include "postproc/folder_lock.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>
@@ -173,6 +174,14 @@ TEST(BadInput, ResultsThatCannotBeWritten) {
       run({"run", directory.path().string(), "--output", (directory.path() / "file/results").string()});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   EXPECT_NE(outcome.err.find("file/results"), std::string::npos) << outcome.err;
+}
+
+TEST(BadInput, ResultsThatAnotherRunIsWriting) {
+  const TemporaryCase directory(bar_case());
+  const FolderLock other(directory.path() / "results");
+  const Outcome outcome = run({"run", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("another run"), std::string::npos) << outcome.err;
 }
 
 }  // namespace
