@@ -13,6 +13,8 @@ namespace pfdm {
 namespace {
 
 constexpr Index easy_iterations = 12;  // a step that needs no more lets the increment grow
+constexpr double bearable_share =
+    0.5;  // of the most iterations: a step that needs no more lets a cut increment recover
 constexpr double growth = 1.5, cut = 0.5;
 constexpr double load_rounding = 1e-12;  // of the load parameter
 
@@ -38,6 +40,7 @@ struct FractureRun::Parts {
   LoadingSettings loading;
   Unknowns unknowns;
   Staggered staggered;
+  Index maximum_iterations;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
   Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& settings, LoadingSettings l)
@@ -45,13 +48,21 @@ struct FractureRun::Parts {
         model(std::move(fm)),
         loading(std::move(l)),
         unknowns((require_complete(m, model), place_unknowns(m, model))),
-        staggered(m, model, unknowns, settings) {}
+        staggered(m, model, unknowns, settings),
+        maximum_iterations(settings.maximum_iterations) {}
 
   double next_stop(double load) const {
     double stop = loading.end;
     for (const double s : loading.stops)
       if (s > load + load_rounding) stop = std::min(stop, s);
     return stop;
+  }
+
+  double next_increment(double increment, Index iterations) const {
+    const double grown = growth * increment;
+    if (iterations <= easy_iterations) return std::min(grown, loading.maximum_increment);
+    const bool bearable = double(iterations) <= bearable_share * double(maximum_iterations);
+    return bearable && increment < loading.initial_increment ? std::min(grown, loading.initial_increment) : increment;
   }
 
   std::vector<Vector> boundary_forces(const FractureState& state) {
@@ -142,8 +153,7 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
     }
     trial.boundary_force = parts.boundary_forces(trial);
     trial.external_work = state.external_work + parts.work_increment(state, trial);
-    if (outcome.iterations <= easy_iterations)
-      trial.increment = std::min(growth * std::max(increment, state.increment), parts.loading.maximum_increment);
+    trial.increment = parts.next_increment(state.increment, outcome.iterations);
     state = std::move(trial);
     if (hooks.step_done) hooks.step_done(state, parts.report(state, outcome, increment));
   }

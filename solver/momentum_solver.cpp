@@ -10,8 +10,6 @@
 namespace pfdm {
 namespace {
 
-constexpr Index most_iterations = 2000;
-
 std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<Index> position(as_size(unknowns.n_nodes()));
   Index next = 0;
@@ -109,7 +107,7 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
     return std::max(tolerance.floor * reference,
                     std::min(tolerance.ceiling * reference, tolerance.reduction * initial));
   };
-  const KrylovResult result = solve_fgmres(problem, load, u, target, most_iterations);
+  const KrylovResult result = solve_fgmres(problem, load, u, target, tolerance.most_iterations);
   return {.converged = result.converged,
           .iterations = result.iterations,
           .initial_residual = result.initial_residual / reference,

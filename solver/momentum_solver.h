@@ -34,6 +34,7 @@ class MomentumSolver {
     double reduction = 0.0;
     double ceiling = 1e-8;
     double floor = 1e-8;
+    Index most_iterations = 2000;  ///< of FGMRES
   };
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
   /// Forces on the cells [N], one per cell, at every load parameter from now on; empty for none.

@@ -36,7 +36,8 @@ class Staggered {
     double elastic = 0.0;    // [J]
     double unsettled = 0.0;  // by which the closure that was used falsifies it [J]
   };
-  Energies update_driving_energy(const FractureState& start, FractureState& state);
+  /// May move the closure of the state to that of its strain.
+  Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   double settle(const FractureState& state, Index cell, const Tensor& strain, double& closure);
   double stiffness_factor(Index cell, double d) const;
