@@ -8,7 +8,8 @@
 namespace pfdm {
 namespace {
 
-constexpr Index inner_iterations = 80;  // of FGMRES, at most, within the loop
+// FGMRES iterations at most, within the loop and of the last solve.
+constexpr Index inner_iterations = 80, last_iterations = 400;
 
 }  // namespace
 
@@ -58,9 +59,10 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   }
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);
-  const Equilibrium equilibrium = solve_momentum(state, {.reduction = 0.0, .ceiling = 3e-8, .floor = 3e-8});
+  const Equilibrium equilibrium =
+      solve_momentum(state, {.reduction = 0.0, .ceiling = 3e-8, .floor = 3e-8, .most_iterations = last_iterations});
   outcome.krylov_iterations += equilibrium.iterations;
-  outcome.converged = outcome.converged && equilibrium.converged;
+  outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
   outcome.elastic_energy = update_driving_energy(start, state, false).elastic;
   return outcome;
 }
