@@ -12,12 +12,13 @@
 
 namespace pfdm {
 
-/// A case that was read and found in order.
+/// A case that was read and found in order. A kind leaves out the jobs that mean nothing to it.
 struct RunnableCase {
   std::string title;
-  std::function<void(Session&)> check;  ///< says what would run
-  std::function<void(Session&)> mesh;   ///< meshes only
-  std::function<void(Session&)> run;
+  std::function<void(Session&)> check{};  ///< says what would run
+  std::function<void(Session&)> mesh{};   ///< meshes only
+  std::function<void(Session&)> run{};
+  std::function<void(Session&)> fit{};  ///< estimates the parameters that the case names
 };
 
 struct CaseKind {
