@@ -65,6 +65,18 @@ TEST(Relaxation, HalvesTheIncrementWhereItTurns) {
   EXPECT_NEAR(next[3], 0.51, 1e-12);
 }
 
+// A cell that answers every change with three times its opposite, beside one that creeps: half steps would swing for
+// ever, and hold up the other.
+TEST(Relaxation, SettlesACellThatOverreacts) {
+  const Damage lower = field({0.0, 0.0});
+  const auto answer_to = [&](const Damage& d) { return field({0.5 - 3.0 * (d[0] - 0.5), 0.8 - 0.9 * (0.8 - d[1])}); };
+  Relaxation relaxation;
+  Damage d = field({0.501, 0.2});
+  for (int iteration = 0; iteration < 40; ++iteration) d = relaxation.next(d, answer_to(d), lower);
+  EXPECT_NEAR(d[0], 0.5, 1e-4);
+  EXPECT_NEAR(d[1], 0.8, 1e-4);
+}
+
 TEST(Relaxation, StandsStillAtAFixedPoint) {
   Relaxation relaxation;
   const Damage d = field({0.2, 0.7}), lower = field({0.0, 0.0});
