@@ -3,6 +3,7 @@
 #include "physics/registry.h"
 
 #include <limits>
+#include <numbers>
 
 namespace pfdm {
 namespace {
@@ -29,7 +30,18 @@ constexpr CrackGeometry at1{
     .support = 2.0,
 };
 
-constexpr CrackGeometry table[] = {at2, at1};
+// Wu, J. Mech. Phys. Solids 103 (2017) 72, eq. 2.27: with the rational degradation the strength does not depend on ell.
+constexpr CrackGeometry wu{
+    .name = "Wu",
+    .description = "alpha = 2d - d^2, c0 = pi; cohesive cracks (PF-CZM), with the rational degradation",
+    .c0 = std::numbers::pi,
+    .alpha = [](double d) { return d * (2.0 - d); },
+    .alpha_prime = [](double d) { return 2.0 - 2.0 * d; },
+    .alpha_second = [](double) { return -2.0; },
+    .support = 0.5 * std::numbers::pi,
+};
+
+constexpr CrackGeometry table[] = {at2, at1, wu};
 
 }  // namespace
 

@@ -7,9 +7,14 @@
 namespace pfdm {
 namespace {
 
+double largest_principal_value(const Tensor& a) {
+  return Eigen::SelfAdjointEigenSolver<Tensor>().computeDirect(a, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
 constexpr EnergySplit none{
     .name = "none",
     .description = "the whole elastic energy is degraded",
+    .variational = true,
     .energy =
         [](const IsotropicElasticity& c, const Tensor& eps) {
           return SplitEnergy{energy_density(c, eps), 0.0};
@@ -25,6 +30,7 @@ constexpr EnergySplit none{
 constexpr EnergySplit volumetric_deviatoric{
     .name = "volumetric_deviatoric",
     .description = "shear and expansion are degraded, compression is not (Amor 2009)",
+    .variational = true,
     .energy =
         [](const IsotropicElasticity& c, const Tensor& eps) {
           const double trace = eps.trace();
@@ -43,7 +49,25 @@ constexpr EnergySplit volumetric_deviatoric{
         },
 };
 
-constexpr EnergySplit table[] = {none, volumetric_deviatoric};
+// Wu, J. Mech. Phys. Solids 103 (2017) 72, eq. 2.44: the largest effective principal stress drives, all stiffness is
+// degraded. Not variational: the energies do not balance where the stress is not uniaxial.
+constexpr EnergySplit rankine{
+    .name = "rankine",
+    .description = "<sigma_1>^2/(2E) drives damage, the whole stiffness is degraded (PF-CZM; not variational)",
+    .variational = false,
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps) {
+          const double tension = std::max(largest_principal_value(stress(c, eps)), 0.0);
+          return SplitEnergy{0.5 * tension * tension / c.young_modulus(), 0.0};
+        },
+    .closure = [](const Tensor&) { return 0.0; },
+    .secant =
+        [](const IsotropicElasticity& c, double g, double) {
+          return IsotropicElasticity{g * c.lambda, g * c.mu};
+        },
+};
+
+constexpr EnergySplit table[] = {none, volumetric_deviatoric, rankine};
 
 }  // namespace
 

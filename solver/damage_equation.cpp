@@ -146,15 +146,18 @@ void DamageEquation::renew_correction(const CellField<double>& d) {
 }
 
 double DamageEquation::local_slope(Index cell, double d, double psi) const {
+  const RationalCoefficients& rational = model_.regions[as_size(mesh_.region[cell])].rational;
   const double slope = density_[cell] * model_.crack->alpha_prime(d) +
-                       (1.0 - model_.residual_stiffness) * model_.degradation->g_prime(d) * psi;
+                       (1.0 - model_.residual_stiffness) * model_.degradation->g_prime(d, rational) * psi;
   const double source = source_.size() > 0 ? source_[cell] : 0.0;
   return mesh_.cell_volume[cell] * (slope - source);
 }
 
 double DamageEquation::local_curvature(Index cell, double d, double psi) const {
-  return mesh_.cell_volume[cell] * (density_[cell] * model_.crack->alpha_second(d) +
-                                    (1.0 - model_.residual_stiffness) * model_.degradation->g_second(d) * psi);
+  const RationalCoefficients& rational = model_.regions[as_size(mesh_.region[cell])].rational;
+  return mesh_.cell_volume[cell] *
+         (density_[cell] * model_.crack->alpha_second(d) +
+          (1.0 - model_.residual_stiffness) * model_.degradation->g_second(d, rational) * psi);
 }
 
 double DamageEquation::times_off_diagonal(Index cell, const double* x) const {

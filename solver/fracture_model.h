@@ -12,9 +12,10 @@ namespace pfdm {
 
 struct RegionModel {
   IsotropicElasticity elasticity;
-  double Gc = 0.0;         ///< fracture toughness [J/m^2]
-  double ell = 0.0;        ///< regularisation length [m]
-  bool damageable = true;  ///< false pins d = 0 in the region
+  double Gc = 0.0;                  ///< fracture toughness [J/m^2]
+  double ell = 0.0;                 ///< regularisation length [m]
+  bool damageable = true;           ///< false pins d = 0 in the region
+  RationalCoefficients rational{};  ///< for the degradations that need a strength
 };
 
 enum class Irreversibility {

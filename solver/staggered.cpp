@@ -69,7 +69,9 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
 
 double Staggered::stiffness_factor(Index cell, double d) const {
   if (!damage_.is_damageable(cell)) return 1.0;
-  return (1.0 - model_.residual_stiffness) * model_.degradation->g(d) + model_.residual_stiffness;
+  return (1.0 - model_.residual_stiffness) *
+             model_.degradation->g(d, model_.regions[as_size(mesh_.region[cell])].rational) +
+         model_.residual_stiffness;
 }
 
 void Staggered::degrade(const FractureState& state) {

@@ -20,8 +20,7 @@ const Law* find_law(const ConfigTable& table, std::string_view key, const Law& o
   return value ? &choose(*value, laws, what) : &otherwise;
 }
 
-/// Returns the length that serves the materials which give none [m].
-std::optional<double> read_fracture(const ConfigTable& root, FractureModel& model) {
+MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   const ConfigTable table = root.table("fracture");
   model.crack = find_law(table, "model", crack_geometry("AT2"), crack_geometries(), "crack geometric function");
   model.degradation = find_law(table, "degradation", degradation("quadratic"), degradations(), "degradation function");
@@ -31,8 +30,11 @@ std::optional<double> read_fracture(const ConfigTable& root, FractureModel& mode
   if (irreversibility && irreversibility->one_of(ways, "way of irreversibility") == "history")
     model.irreversibility = Irreversibility::history;
   model.residual_stiffness = table.number("residual_stiffness", above_zero_to_one, model.residual_stiffness);
-  if (!table.has("length")) return std::nullopt;
-  return table.quantity("length", dimension::length, range::positive);
+  MaterialDefaults defaults;
+  if (table.has("length")) defaults.ell = table.quantity("length", dimension::length, range::positive);
+  if (model.degradation->needs_strength)
+    defaults.softening = find_law(table, "softening", softening_law("linear"), softening_laws(), "softening law");
+  return defaults;
 }
 
 LoadingSettings read_loading(const ConfigTable& root) {
@@ -128,8 +130,8 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   FractureCase fracture;
   fracture.title = root.string("title");
   fracture.mesh = read_mesh_recipe(root.table("mesh"), case_directory);
-  const std::optional<double> default_ell = read_fracture(root, fracture.model);
-  fracture.materials = read_materials(root, default_ell);
+  const MaterialDefaults defaults = read_fracture(root, fracture.model);
+  fracture.materials = read_materials(root, defaults);
   fracture.boundary = read_boundary(root, fracture.materials);
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
   fracture.loading = read_loading(root);

@@ -46,6 +46,7 @@ void list_laws(std::ostream& out) {
   list_table(out, "mesh generators ([mesh] generator)", mesh_generators());
   list_table(out, "crack geometric functions ([fracture] model)", crack_geometries());
   list_table(out, "degradation functions ([fracture] degradation)", degradations());
+  list_table(out, "softening laws of the rational degradation ([fracture] softening)", softening_laws());
   list_table(out, "energy splits ([fracture] split)", energy_splits());
   list_table(out, "boundary conditions ([[boundary]] type)", boundary_types());
   list_table(out, "displacement fields (displacement = { field = ... })", displacement_fields());

@@ -12,7 +12,7 @@ constexpr Range poisson_range{-1.0, 0.5, true, "between -1 and 0.5"};
 
 /// What a material or a region's override may say.
 struct MaterialKeys {
-  std::optional<double> young_modulus, poisson_ratio, toughness, length;
+  std::optional<double> young_modulus, poisson_ratio, toughness, strength, length;
   std::optional<bool> damageable;
 };
 
@@ -26,6 +26,7 @@ MaterialKeys read_keys(const ConfigTable& table) {
   keys.young_modulus = find_quantity(table, "young_modulus", dimension::stress);
   if (const auto value = table.find("poisson_ratio")) keys.poisson_ratio = value->number(poisson_range);
   keys.toughness = find_quantity(table, "toughness", dimension::toughness);
+  keys.strength = find_quantity(table, "strength", dimension::stress);
   keys.length = find_quantity(table, "length", dimension::length);
   if (const auto value = table.find("damageable")) keys.damageable = value->boolean();
   return keys;
@@ -35,18 +36,36 @@ MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by) {
   if (by.young_modulus) base.young_modulus = by.young_modulus;
   if (by.poisson_ratio) base.poisson_ratio = by.poisson_ratio;
   if (by.toughness) base.toughness = by.toughness;
+  if (by.strength) base.strength = by.strength;
   if (by.length) base.length = by.length;
   if (by.damageable) base.damageable = by.damageable;
   return base;
 }
 
-RegionModel make_model(const MaterialKeys& keys, const std::string& region, std::optional<double> default_ell,
+// Strength and toughness make the coefficients of the degradation.
+RationalCoefficients make_coefficients(const MaterialKeys& keys, const RegionModel& model, const std::string& region,
+                                       const SofteningLaw& law, const ConfigTable& table) {
+  if (!keys.strength)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no strength (ft), which the softening law "
+                    "\"{}\" needs; give strength, as in \"{}\", or damageable = false",
+                    region, law.name, dimension::stress.example));
+  const double E = model.elasticity.young_modulus(), longest = longest_length(law, E, model.Gc, *keys.strength);
+  if (model.ell > longest)
+    throw table.error(
+        fmt::format("region \"{}\": the length (ell) is {:.4g} m; with this strength and toughness the "
+                    "\"{}\" law needs one of at most {:.4g} m",
+                    region, model.ell, law.name, longest));
+  return rational_coefficients(law, E, model.Gc, *keys.strength, model.ell);
+}
+
+RegionModel make_model(const MaterialKeys& keys, const std::string& region, const MaterialDefaults& defaults,
                        const ConfigTable& table) {
   RegionModel model;
   model.elasticity = from_young_poisson(*keys.young_modulus, *keys.poisson_ratio);
   model.damageable = keys.damageable.value_or(true);
   model.Gc = keys.toughness.value_or(0.0);
-  model.ell = keys.length.value_or(default_ell.value_or(0.0));
+  model.ell = keys.length.value_or(defaults.ell.value_or(0.0));
   if (!model.damageable) return model;
   if (!keys.toughness)
     throw table.error(
@@ -58,6 +77,8 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, std:
         fmt::format("region \"{}\" can be damaged but has no length (ell); give it in [fracture] or "
                     "here, as in \"10 um\"",
                     region));
+  if (defaults.softening != nullptr)
+    model.rational = make_coefficients(keys, model, region, *defaults.softening, table);
   return model;
 }
 
@@ -84,7 +105,7 @@ void add_region(Materials& materials, const ConfigValue& where, const RegionMode
 }
 
 void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
-                   std::optional<double> default_ell, std::vector<RegionOverride>& overrides) {
+                   const MaterialDefaults& defaults, std::vector<RegionOverride>& overrides) {
   table.quantity("young_modulus", dimension::stress, range::positive);
   table.number("poisson_ratio", poisson_range);
   const MaterialKeys base = read_keys(table);
@@ -97,7 +118,7 @@ void read_material(Materials& materials, const std::string& name, const ConfigTa
         keys = overridden(keys, over.keys);
         over.used = true;
       }
-    add_region(materials, region, make_model(keys, region_name, default_ell, table));
+    add_region(materials, region, make_model(keys, region_name, defaults, table));
   }
 }
 
@@ -110,11 +131,11 @@ const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const 
   return std::find_if(by_name.begin(), by_name.end(), [&](const auto& m) { return m.material == wanted; })->elasticity;
 }
 
-Materials read_materials(const ConfigTable& root, std::optional<double> default_ell) {
+Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults) {
   Materials materials;
   std::vector<RegionOverride> overrides = read_overrides(root);
   for (const auto& [name, value] : root.table("materials").entries())
-    read_material(materials, name, value.table(), default_ell, overrides);
+    read_material(materials, name, value.table(), defaults, overrides);
   for (const RegionOverride& over : overrides)
     if (!over.used)
       throw over.value.error(

@@ -29,9 +29,14 @@ struct Materials {
   const IsotropicElasticity& elasticity(const ConfigValue& name) const;
 };
 
-/// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file; `default_ell` [m] serves those
-/// that give no length of their own.
-Materials read_materials(const ConfigTable& root, std::optional<double> default_ell);
+/// What [fracture] says about all materials.
+struct MaterialDefaults {
+  std::optional<double> ell;                ///< of those that give no length of their own [m]
+  const SofteningLaw* softening = nullptr;  ///< to which every material needs a strength; null: none is asked for
+};
+
+/// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file.
+Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults);
 
 /// One model per region of the mesh, in its order. Throws InputError for a region without a material and for a material
 /// whose region is not in the mesh.

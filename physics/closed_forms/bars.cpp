@@ -37,6 +37,26 @@ BarPoint at2_softening(double E, double Gc, double ell, double d_far) {
   return {.stress = sigma, .separation = w};
 }
 
+// sigma = ft sqrt((2-d)(1-d)^p / (2 P(d))),
+// w = (8 Gf sigma/(pi ft^2)) int_0^d sqrt(b) P(b) (1-b)^-p / sqrt((2-b) - (2-d) (P(b)/P(d)) ((1-d)/(1-b))^p) db;
+// b = d sin^2 t takes the root out of the integrand.
+BarPoint pfczm_softening(const SofteningLaw& law, double Gf, double ft, double d_max) {
+  const RationalCoefficients c = rational_coefficients(law, 1.0, 1.0, 1.0, 1.0);  // all but a1 are the law's alone
+  const auto P = [&](double b) { return 1.0 + c.a2 * b * (1.0 + c.a3 * b); };
+  const double sound = 1.0 - d_max;
+  const double sigma = ft * std::sqrt((2.0 - d_max) * std::pow(sound, c.p) / (2.0 * P(d_max)));
+  constexpr int n = 20000;
+  double integral = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double t = 0.5 * std::numbers::pi * (i + 0.5) / n;
+    const double sine = std::sin(t), b = d_max * sine * sine;
+    const double root = (2.0 - b) - (2.0 - d_max) * (P(b) / P(d_max)) * std::pow(sound / (1.0 - b), c.p);
+    integral += std::sqrt(b) * P(b) * std::pow(1.0 - b, -c.p) / std::sqrt(root) * d_max * std::sin(2.0 * t);
+  }
+  integral *= 0.5 * std::numbers::pi / n;
+  return {.stress = sigma, .separation = 8.0 * Gf * sigma / (std::numbers::pi * ft * ft) * integral};
+}
+
 double at1_discrete_toughness(double h, double ell) { return 1.0 + h * h / (32.0 * ell * ell); }
 
 double at2_discrete_toughness(double h, double ell) { return std::sqrt(1.0 + h * h / (4.0 * ell * ell)); }

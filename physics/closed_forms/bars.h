@@ -1,6 +1,9 @@
 #pragma once
 // Closed forms of a bar in tension whose damage localises: first integrals of the one-dimensional problem with
-// quadratic degradation (Pham, Marigo, C. R. Mecanique 338 (2010) 191, for AT1; the same integral gives AT2).
+// quadratic degradation (Pham, Marigo, C. R. Mecanique 338 (2010) 191, for AT1; the same integral gives AT2), and with
+// the rational one of cohesive cracks.
+
+#include "physics/softening_law.h"
 
 namespace pfdm {
 
@@ -19,6 +22,10 @@ double at2_strength(double E, double Gc, double ell);
 BarPoint at1_softening(double E, double Gc, double ell, double d_max);
 /// AT2, softening branch, at the far field's damage D in (0, 1/4]; reversible far field.
 BarPoint at2_softening(double E, double Gc, double ell, double d_far);
+
+/// The law that Wu's phase field (PF-CZM) produces, at the largest damage d_max in (0, 1): it does not depend on ell or
+/// E, and is the softening law itself for "linear" (Wu, J. Mech. Phys. Solids 103 (2017) 72, eqs. 3.5 and 3.6).
+BarPoint pfczm_softening(const SofteningLaw& law, double Gf, double ft, double d_max);
 
 /// Toughness that a uniform cell-centred two-point scheme dissipates over Gc, when one cell of width h breaks.
 double at1_discrete_toughness(double h, double ell);  ///< 1 + h^2/(32 ell^2)

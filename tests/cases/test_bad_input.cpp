@@ -96,6 +96,14 @@ const BadInput bad_inputs[] = {
     {"unknown_generator", "\"box_hexes\"", "\"box_hexe\"", {"no mesh generator; did you mean \"box_hexes\"?"}},
     {"unknown_kind", "\"fracture\"", "\"fractal\"", {"case.toml:1: kind: \"fractal\" is no kind of case", "fracture"}},
     {"unknown_model", "\"AT1\"", "\"AT3\"", {"no crack geometric function", "AT1", "AT2"}},
+    {"cohesive_crack_without_strength",
+     "model = \"AT1\"",
+     "model = \"Wu\"\ndegradation = \"rational\"",
+     {"region \"bar\" can be damaged but has no strength (ft), which the softening law \"linear\" needs"}},
+    {"unknown_softening_law",
+     "model = \"AT1\"",
+     "model = \"Wu\"\ndegradation = \"rational\"\nsoftening = \"bilinear\"",
+     {"no softening law", "linear, exponential, hyperbolic, cornelissen"}},
     {"bad_expression",
      "\"0.015 mm\"",
      "{ expr = \"0.1*q\", unit = \"mm\" }",
@@ -147,6 +155,19 @@ TEST(BadInput, MeshFileThatCannotBeRead) {
   EXPECT_NE(outcome.err.find("case.toml:4: [mesh]"), std::string::npos) << outcome.err;
 }
 
+TEST(BadInput, LengthThatTheStrengthDoesNotAllow) {
+  const std::string cohesive = replaced(bar_case(), "model = \"AT1\"", "model = \"Wu\"\ndegradation = \"rational\"");
+  const TemporaryCase directory(
+      replaced(cohesive, "poisson_ratio = 0.2\n", "poisson_ratio = 0.2\nstrength = \"40 MPa\"\n"));
+  const Outcome outcome = run({"check", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(
+      outcome.err.find("the length (ell) is 0.004 m; with this strength and toughness the \"linear\" law needs one "
+                       "of at most 0.00119"),
+      std::string::npos)
+      << outcome.err;
+}
+
 TEST(BadInput, CaseThatIsNotThere) {
   const Outcome outcome = run({"run", "no/such/case"});
   EXPECT_EQ(outcome.status, 2);
@@ -164,7 +185,14 @@ TEST(BadInput, WrongUsage) {
 
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
-            "pfdm: there is no command \"rn\"; did you mean \"run\"? (there are: run, check, mesh, list, test)\n");
+            "pfdm: there is no command \"rn\"; did you mean \"run\"? (there are: run, check, mesh, fit, list, test)\n");
+}
+
+TEST(BadInput, JobThatTheKindOfCaseDoesNotHave) {
+  const TemporaryCase directory(bar_case());
+  const Outcome outcome = run({"fit", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("this kind of case has no \"fit\""), std::string::npos) << outcome.err;
 }
 
 TEST(BadInput, ResultsThatCannotBeWritten) {

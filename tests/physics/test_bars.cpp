@@ -78,6 +78,58 @@ TEST(Bars, At2ReleasesItsToughness) {
   EXPECT_NEAR(area(law, at2_strength(E, Gc, ell)) / Gc, 1.0, 1e-4);
 }
 
+TEST(Bars, PfczmProducesTheLinearLawExactly) {
+  constexpr double ft = 3e6, Gf = 120.0;
+  for (double d = 0.05; d < 1.0; d += 0.05) {
+    const BarPoint point = pfczm_softening(softening_law("linear"), Gf, ft, d);
+    EXPECT_NEAR(point.stress / ft, 1.0 - d, 1e-12);
+    EXPECT_NEAR(point.separation * ft / (2.0 * Gf), d, 1e-7);
+  }
+}
+
+// literature.md 3.5: produced laws, w ft/Gf against sigma/ft.
+TEST(Bars, PfczmFollowsItsTables) {
+  struct Table {
+    std::string_view law;
+    std::vector<std::pair<double, double>> points;
+  };
+  const Table tables[] = {{"exponential",
+                           {{.0320, .96848},
+                            {.1660, .84704},
+                            {.3486, .70554},
+                            {.5518, .57542},
+                            {1.0473, .34918},
+                            {1.7629, .16896},
+                            {3.2349, .03877}}},
+                          {"cornelissen",
+                           {{.0292, .9617},
+                            {.1557, .8188},
+                            {.3396, .6621},
+                            {.5586, .5273},
+                            {1.1386, .3124},
+                            {2.0121, .1556},
+                            {3.5086, .0429}}}};
+  for (const Table& table : tables)
+    for (const auto& [separation, stress] : table.points) {
+      double low = 1e-9, high = 1.0 - 1e-9;
+      for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (pfczm_softening(softening_law(table.law), Gc, 1e6, middle).stress > stress * 1e6 ? low : high) = middle;
+      }
+      EXPECT_NEAR(pfczm_softening(softening_law(table.law), Gc, 1e6, low).separation * 1e6 / Gc, separation, 6e-4)
+          << table.law << " at " << stress;
+    }
+}
+
+TEST(Bars, PfczmReleasesItsToughness) {
+  for (const SofteningLaw& softening : softening_laws()) {
+    std::vector<BarPoint> law;
+    for (int i = 1; i < 400; ++i)
+      law.push_back(pfczm_softening(softening, Gc, 1e6, 1.0 - std::pow(1.0 - i / 400.0, 2)));
+    EXPECT_NEAR(area(law, 1e6) / Gc, 1.0, 3e-3) << softening.name;
+  }
+}
+
 // literature.md 3.3 and 3.4: what a bar opens by when it has just broken.
 TEST(Bars, SeparationWhenBroken) {
   const double at1 = at1_softening(E, Gc, ell, 1.0 - 1e-4).separation * at1_strength(E, Gc, ell) / Gc;

@@ -112,7 +112,7 @@ TEST(DamageEquation, IsTheMinimumOfItsEnergyWithinTheBounds) {
     const auto energy = [&] {
       double sum = equation.fracture_energy(d);
       for (Index c = 0; c < mesh.n_cells(); ++c)
-        sum += (1.0 - model.residual_stiffness) * model.degradation->g(d[c]) * psi[c] * mesh.cell_volume[c];
+        sum += (1.0 - model.residual_stiffness) * model.degradation->g(d[c], {}) * psi[c] * mesh.cell_volume[c];
       return sum;
     };
     const double least = energy();

@@ -18,11 +18,17 @@ namespace pfdm::verification {
 
 struct BarSettings {
   std::string law = "AT1";
+  std::string softening{};      ///< of the rational degradation; none: the quadratic one
+  double irwin_lengths = 20.0;  ///< with a softening law: E Gc/(ft^2 ell), which sets its strength ft
   Index cells_per_length = 10;  ///< cells in one ell
+  Index refinement = 1;         ///< of the middle four ell: cells in one of the others, odd
   double length = 5.3;          ///< of the part that can be damaged, in ell; rounded to an odd number of cells
-  double weakness = 0.02;       ///< share of its toughness that the middle cell lacks
+  Index weak_cells = 1;         ///< in the middle, odd
+  double weakness = 0.02;       ///< share of its toughness, or of ft, that the middle cell lacks
   /// Undamageable cells at both ends, d = 0 on their faces: without, damage likes the ends, where half a band will do.
   bool pinned_ends = true;
+  double tolerance = 1e-4;  ///< of damage and energy
+  double residual_stiffness = 1e-6;
 };
 
 /// What a load step left behind.
@@ -47,7 +53,10 @@ class Bar {
   double cell_width() const { return ell / settings_.cells_per_length; }
   double length() const { return mesh_.points.back()[0] - mesh_.points.front()[0]; }
   double area() const { return 2.0 * cell_width() * cell_width(); }
-  double strength() const { return settings_.law == "AT1" ? at1_strength(E, Gc, ell) : at2_strength(E, Gc, ell); }
+  double strength() const {
+    if (!settings_.softening.empty()) return std::sqrt(E * Gc / (settings_.irwin_lengths * ell));
+    return settings_.law == "AT1" ? at1_strength(E, Gc, ell) : at2_strength(E, Gc, ell);
+  }
 
   /// One leg after the other, each to a load in so many equal steps. No step is cut.
   struct Leg {
@@ -71,7 +80,10 @@ class Bar {
   static Mesh make_mesh(const BarSettings& settings);
   FractureModel make_model() const;
   BarState state_of(const FractureState& state, double force, double fracture_energy) const;
-  static StaggeredSettings staggered() { return {.maximum_iterations = 2000}; }
+  StaggeredSettings staggered() const {
+    return {
+        .damage_tolerance = settings_.tolerance, .energy_tolerance = settings_.tolerance, .maximum_iterations = 20000};
+  }
 
   BarSettings settings_;
   Mesh mesh_;
@@ -83,13 +95,18 @@ inline Mesh Bar::make_mesh(const BarSettings& settings) {
   const Index ends = settings.pinned_ends ? 1 : 0;
   const auto half = static_cast<Index>(std::lround(0.5 * settings.length * settings.cells_per_length - 0.5));
   const Index n = 2 * (half + ends) + 1;
+  const Index fine = 4 * settings.cells_per_length / 2 * 2 + 1;  // cells that are refined
+  const double outer = 0.5 * (n - fine) * h, thin = h / settings.refinement;
   BoxHexesSettings box;
   box.origin = {-0.5 * n * h, 0.0, 0.0};
-  box.axes = {{{{n * h, n, 1.0}}, {{2.0 * h, 2, 1.0}}, {{h, 1, 1.0}}}};
+  box.axes[0] = {
+      {outer, (n - fine) / 2, 1.0}, {fine * h, fine * settings.refinement, 1.0}, {outer, (n - fine) / 2, 1.0}};
+  box.axes[1] = {{2.0 * h, 2, 1.0}};
+  box.axes[2] = {{h, 1, 1.0}};
   const auto slab = [](const std::string& name, double from, double to) -> SubRegion {
     return {.name = name, .lower = {from, -1.0, -1.0}, .upper = {to, 1.0, 1.0}};
   };
-  box.regions.push_back(slab("weak", -0.5 * h, 0.5 * h));
+  box.regions.push_back(slab("weak", -0.5 * settings.weak_cells * thin, 0.5 * settings.weak_cells * thin));
   if (settings.pinned_ends) {
     box.regions.push_back(slab("end", -n * h, -(0.5 * n - 1.0) * h));
     box.regions.push_back(slab("end", (0.5 * n - 1.0) * h, n * h));
@@ -105,7 +122,14 @@ inline FractureModel Bar::make_model() const {
                              .ell = ell,
                              .damageable = name != "end"});
   model.crack = &crack_geometry(settings_.law);
-  model.degradation = &degradation("quadratic");
+  model.residual_stiffness = settings_.residual_stiffness;
+  model.degradation = &degradation(settings_.softening.empty() ? "quadratic" : "rational");
+  if (!settings_.softening.empty())
+    for (std::size_t r = 0; r < model.regions.size(); ++r) {
+      const double ft = strength() * (mesh_.region_names[r] == "weak" ? 1.0 - settings_.weakness : 1.0);
+      model.regions[r].Gc = Gc;
+      model.regions[r].rational = rational_coefficients(softening_law(settings_.softening), E, Gc, ft, ell);
+    }
   model.split = &energy_split("none");
   BoundaryCondition pulled = displacement_on("xmax", {});
   pulled.value = [elongation = strength() / E * length()](const Vector&, double t) {

@@ -37,7 +37,7 @@ CellField<double> source_of(const Mesh& mesh, const FractureModel& model, const 
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const double d = exact.d(mesh.cell_centre[c]);
     source[c] = Gc / (model.crack->c0 * ell) * model.crack->alpha_prime(d) +
-                (1.0 - model.residual_stiffness) * model.degradation->g_prime(d) * psi -
+                (1.0 - model.residual_stiffness) * model.degradation->g_prime(d, {}) * psi -
                 2.0 * Gc * ell / model.crack->c0 * exact.laplacian(mesh.cell_centre[c]);
   }
   return source;

@@ -1,0 +1,83 @@
+#include "physics/softening_law.h"
+
+#include "physics/registry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pfdm {
+namespace {
+
+constexpr double no_end = std::numeric_limits<double>::infinity();
+
+constexpr SofteningLaw linear{
+    .name = "linear",
+    .description = "sigma = ft (1 - w/wc), wc = 2 Gf/ft; produced exactly",
+    .initial_slope = 0.5,
+    .final_opening = 2.0,
+    .exponent = 2.0,
+    .traction = [](double w) { return std::max(0.0, 1.0 - 0.5 * w); },
+};
+
+constexpr SofteningLaw exponential{
+    .name = "exponential",
+    .description = "sigma = ft exp(-ft w/Gf)",
+    .initial_slope = 1.0,
+    .final_opening = no_end,
+    .exponent = 2.5,
+    .traction = [](double w) { return std::exp(-w); },
+};
+
+constexpr SofteningLaw hyperbolic{
+    .name = "hyperbolic",
+    .description = "sigma = ft (1 + ft w/Gf)^-2",
+    .initial_slope = 2.0,
+    .final_opening = no_end,
+    .exponent = 4.0,
+    .traction = [](double w) { return 1.0 / ((1.0 + w) * (1.0 + w)); },
+};
+
+// Cornelissen, Hordijk, Reinhardt, Heron 31 (1986) 45, with eta1 = 3, eta2 = 6.93: area Gf for wc = 5.1361 Gf/ft.
+constexpr SofteningLaw cornelissen{
+    .name = "cornelissen",
+    .description = "concrete: sigma = ft ((1 + 27 r^3) exp(-6.93 r) - 28 r exp(-6.93)), r = w/wc, wc = 5.1361 Gf/ft",
+    .initial_slope = 1.3546,
+    .final_opening = 5.1361,
+    .exponent = 2.0,
+    .traction =
+        [](double w) {
+          const double r = std::min(w / 5.1361, 1.0);
+          return (1.0 + 27.0 * r * r * r) * std::exp(-6.93 * r) - 28.0 * r * std::exp(-6.93);
+        },
+};
+
+constexpr SofteningLaw table[] = {linear, exponential, hyperbolic, cornelissen};
+
+double second_coefficient(const SofteningLaw& law) {
+  return 2.0 * std::pow(2.0 * law.initial_slope, 2.0 / 3.0) - law.exponent - 0.5;
+}
+
+}  // namespace
+
+std::span<const SofteningLaw> softening_laws() { return table; }
+
+const SofteningLaw& softening_law(std::string_view name) {
+  return find_by_name(softening_laws(), name, "softening law");
+}
+
+RationalCoefficients rational_coefficients(const SofteningLaw& law, double E, double Gf, double ft, double ell) {
+  RationalCoefficients c;
+  c.p = law.exponent;
+  c.a1 = 4.0 * E * Gf / (std::numbers::pi * ell * ft * ft);
+  c.a2 = second_coefficient(law);
+  if (std::isfinite(law.final_opening)) c.a3 = (0.125 * law.final_opening * law.final_opening - 1.0 - c.a2) / c.a2;
+  return c;
+}
+
+double longest_length(const SofteningLaw& law, double E, double Gf, double ft) {
+  return 4.0 * E * Gf / (std::numbers::pi * ft * ft * (second_coefficient(law) + law.exponent + 0.5));
+}
+
+}  // namespace pfdm

@@ -1,0 +1,68 @@
+// Bars whose phase field is made to produce a cohesive law (PF-CZM): traction against separation follows the law
+// whatever the length ell (literature.md 3.5).
+
+#include "tests/verification/bar.h"
+
+namespace pfdm::verification {
+namespace {
+
+// Stress over strength that the law produces at a separation times strength / Gc.
+double produced_stress(const SofteningLaw& law, double separation) {
+  double low = 1e-12, high = 1.0 - 1e-9;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (pfczm_softening(law, 1.0, 1.0, middle).separation < separation ? low : high) = middle;
+  }
+  return pfczm_softening(law, 1.0, 1.0, low).stress;
+}
+
+struct LawError {
+  double largest = 0.0;  // of the stress, over the strength
+  double lowest_stress = 1.0;
+  double peak = 0.0;
+};
+
+// The bar is half an Irwin length E Gc/ft^2 long whatever ell. The law's foot needs cells of a hundredth of ell where
+// the bar breaks: the last cell still carries 0.13 h/ell of the strength when it should carry none, and the residual
+// stiffness k of a cell as much as 2 k E Gc/(ft^2 h).
+LawError law_error(const std::string& softening, double irwin_lengths) {
+  const Bar bar({.law = "Wu",
+                 .softening = softening,
+                 .irwin_lengths = irwin_lengths,
+                 .cells_per_length = 5,
+                 .refinement = 21,
+                 .length = 0.5 * irwin_lengths,
+                 .weak_cells = 147,
+                 .weakness = 3e-3,
+                 .tolerance = 1e-6,
+                 .residual_stiffness = 1e-9});
+  LawError error;
+  for (const BarState& state : bar.run({{0.99, 1}, {1.05, 6}, {4.3, 50}})) {
+    error.peak = std::max(error.peak, state.stress);
+    if (state.separation < 1e-6) continue;
+    error.lowest_stress = std::min(error.lowest_stress, state.stress);
+    error.largest =
+        std::max(error.largest, std::abs(state.stress - produced_stress(softening_law(softening), state.separation)));
+  }
+  report_row("PF-CZM " + softening + ", E Gc/(ft^2 ell) = " + std::to_string(int(irwin_lengths)),
+             {{"largest error/ft", error.largest}, {"peak/ft", error.peak}, {"down to stress", error.lowest_stress}});
+  return error;
+}
+
+void expect_law(const std::string& softening, double irwin_lengths) {
+  const LawError error = law_error(softening, irwin_lengths);
+  EXPECT_LE(error.largest, 0.01);
+  EXPECT_NEAR(error.peak, 1.0, 0.01);
+  EXPECT_LE(error.lowest_stress, softening == "linear" ? 0.01 : 0.15);
+}
+
+class CohesiveBars : public ::testing::TestWithParam<const char*> {};
+TEST_P(CohesiveBars, FollowTheProducedLaw) { expect_law(GetParam(), 20.0); }
+INSTANTIATE_TEST_SUITE_P(Laws, CohesiveBars, ::testing::Values("linear", "exponential", "hyperbolic", "cornelissen"));
+
+class CohesiveBarsOfLength : public ::testing::TestWithParam<double> {};
+TEST_P(CohesiveBarsOfLength, FollowTheSameLaw) { expect_law("linear", GetParam()); }
+INSTANTIATE_TEST_SUITE_P(Lengths, CohesiveBarsOfLength, ::testing::Values(40.0, 80.0));
+
+}  // namespace
+}  // namespace pfdm::verification
