@@ -31,6 +31,10 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
     model.irreversibility = Irreversibility::history;
   model.residual_stiffness = table.number("residual_stiffness", above_zero_to_one, model.residual_stiffness);
   MaterialDefaults defaults;
+  defaults.crack = model.crack;
+  const std::string toughnesses[] = {"corrected", "as_given"};
+  const auto effective = table.find("effective_toughness");
+  defaults.corrects_toughness = !effective || effective->one_of(toughnesses, "effective toughness") == "corrected";
   if (table.has("length")) defaults.ell = table.quantity("length", dimension::length, range::positive);
   if (model.degradation->needs_strength)
     defaults.softening = find_law(table, "softening", softening_law("linear"), softening_laws(), "softening law");
@@ -130,7 +134,8 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   FractureCase fracture;
   fracture.title = root.string("title");
   fracture.mesh = read_mesh_recipe(root.table("mesh"), case_directory);
-  const MaterialDefaults defaults = read_fracture(root, fracture.model);
+  MaterialDefaults defaults = read_fracture(root, fracture.model);
+  defaults.bands = fracture.mesh.bands;
   fracture.materials = read_materials(root, defaults);
   fracture.boundary = read_boundary(root, fracture.materials);
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);

@@ -41,6 +41,7 @@ struct FractureProgram {
 };
 
 Mesh make_mesh(const FractureProgram& program, Log& log) {
+  for (const std::string& remark : program.fracture.materials.remarks) log.say(remark);
   const Stopwatch watch;
   Mesh mesh = program.fracture.mesh.make();
   log.say(fmt::format("mesh: {} cells, {} points, {} faces, made in {:.1f} s", mesh.n_cells(), mesh.points.size(),

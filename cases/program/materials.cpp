@@ -1,9 +1,12 @@
 #include "cases/program/materials.h"
 
+#include "physics/interface_toughness.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace pfdm {
 namespace {
@@ -86,40 +89,94 @@ struct RegionOverride {
   std::string region;
   ConfigValue value;
   MaterialKeys keys;
+  std::optional<Band> band;  // where the file tells what the mesh generator does not
   bool used = false;
 };
+
+std::optional<Band> read_band(const std::string& region, const ConfigTable& table) {
+  if (!table.has("band")) return std::nullopt;
+  const ConfigTable band = table.table("band");
+  const std::vector<ConfigValue> between = band.at("between").list(2);
+  return Band{
+      region, band.quantity("width", dimension::length, range::positive), {between[0].string(), between[1].string()}};
+}
 
 std::vector<RegionOverride> read_overrides(const ConfigTable& root) {
   std::vector<RegionOverride> overrides;
   if (!root.has("regions")) return overrides;
   for (const auto& [name, value] : root.table("regions").entries())
-    overrides.push_back({name, value, read_keys(value.table())});
+    overrides.push_back({name, value, read_keys(value.table()), read_band(name, value.table())});
   return overrides;
 }
 
-void add_region(Materials& materials, const ConfigValue& where, const RegionModel& model) {
-  const std::string region = where.string();
-  for (const RegionMaterial& other : materials.by_region)
-    if (other.region == region) throw where.error(fmt::format("region \"{}\" already has a material", region));
-  materials.by_region.push_back({region, model, where});
+// A region with what its material and its override say of it.
+struct RegionKeys {
+  std::string region;
+  ConfigValue where;
+  ConfigTable table;  // of the material
+  MaterialKeys keys;
+};
+
+RegionKeys read_region(const ConfigValue& where, const ConfigTable& table, const MaterialKeys& base,
+                       std::vector<RegionOverride>& overrides) {
+  RegionKeys entry{where.string(), where, table, base};
+  for (RegionOverride& over : overrides)
+    if (over.region == entry.region) {
+      entry.keys = overridden(entry.keys, over.keys);
+      over.used = true;
+    }
+  return entry;
 }
 
 void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
-                   const MaterialDefaults& defaults, std::vector<RegionOverride>& overrides) {
+                   std::vector<RegionOverride>& overrides, std::vector<RegionKeys>& regions) {
   table.quantity("young_modulus", dimension::stress, range::positive);
   table.number("poisson_ratio", poisson_range);
   const MaterialKeys base = read_keys(table);
   materials.by_name.push_back({name, from_young_poisson(*base.young_modulus, *base.poisson_ratio)});
-  for (const ConfigValue& region : table.at("regions").list()) {
-    const std::string region_name = region.string();
-    MaterialKeys keys = base;
-    for (RegionOverride& over : overrides)
-      if (over.region == region_name) {
-        keys = overridden(keys, over.keys);
-        over.used = true;
-      }
-    add_region(materials, region, make_model(keys, region_name, defaults, table));
+  for (const ConfigValue& where : table.at("regions").list()) {
+    const std::string region = where.string();
+    if (std::any_of(regions.begin(), regions.end(), [&](const RegionKeys& other) { return other.region == region; }))
+      throw where.error(fmt::format("region \"{}\" already has a material", region));
+    regions.push_back(read_region(where, table, base, overrides));
   }
+}
+
+const RegionKeys* find_region(const std::vector<RegionKeys>& regions, const std::string& name) {
+  const auto found = std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.region == name; });
+  return found == regions.end() ? nullptr : &*found;
+}
+
+BandNeighbour neighbour(const RegionKeys& region) {
+  if (!region.keys.damageable.value_or(true)) return {std::numeric_limits<double>::infinity()};
+  return {region.keys.toughness.value_or(0.0)};
+}
+
+// Replaces the toughness of a band by the one with which a crack in it dissipates what was given.
+void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const MaterialDefaults& defaults,
+                       std::vector<std::string>& remarks) {
+  const auto found =
+      std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.region == band.region; });
+  const RegionKeys *one = find_region(regions, band.neighbours[0]), *other = find_region(regions, band.neighbours[1]);
+  if (found == regions.end() || one == nullptr || other == nullptr)
+    throw InputError(fmt::format("the band \"{}\" lies between \"{}\" and \"{}\", and one of the three has no material",
+                                 band.region, band.neighbours[0], band.neighbours[1]));
+  MaterialKeys& keys = found->keys;
+  const double ell = keys.length.value_or(defaults.ell.value_or(0.0));
+  const BandNeighbour left = neighbour(*one), right = neighbour(*other);
+  if (!keys.damageable.value_or(true) || !keys.toughness || ell == 0.0 || left.Gc == 0.0 || right.Gc == 0.0) return;
+  const double given = *keys.toughness;
+  const double apparent = apparent_toughness(*defaults.crack, given, band.width, ell, left, right);
+  const std::string band_words = fmt::format("region \"{}\" ({:.4g} m wide, ell = {:.4g} m) between \"{}\" and \"{}\"",
+                                             band.region, band.width, ell, band.neighbours[0], band.neighbours[1]);
+  if (!defaults.corrects_toughness) {
+    remarks.push_back(fmt::format("{}: toughness {:.6g} J/m^2 as given; a crack at its middle will dissipate {:.6g}",
+                                  band_words, given, apparent));
+    return;
+  }
+  keys.toughness = band_toughness(*defaults.crack, given, band.width, ell, left, right);
+  remarks.push_back(fmt::format("{}: toughness {:.6g} J/m^2, so that a crack at its middle dissipates the {:.6g} given",
+                                band_words, *keys.toughness, given));
 }
 
 }  // namespace
@@ -134,12 +191,20 @@ const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const 
 Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults) {
   Materials materials;
   std::vector<RegionOverride> overrides = read_overrides(root);
+  std::vector<RegionKeys> regions;
   for (const auto& [name, value] : root.table("materials").entries())
-    read_material(materials, name, value.table(), defaults, overrides);
+    read_material(materials, name, value.table(), overrides, regions);
   for (const RegionOverride& over : overrides)
     if (!over.used)
       throw over.value.error(
           fmt::format("region \"{}\" has no material; name it in some material's regions", over.region));
+  std::vector<Band> bands = defaults.bands;
+  for (const RegionOverride& over : overrides)
+    if (over.band) bands.push_back(*over.band);
+  for (const Band& band : bands) correct_toughness(band, regions, defaults, materials.remarks);
+  for (const RegionKeys& entry : regions)
+    materials.by_region.push_back(
+        {entry.region, make_model(entry.keys, entry.region, defaults, entry.table), entry.where});
   return materials;
 }
 

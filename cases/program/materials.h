@@ -2,6 +2,7 @@
 // The materials of a case and the regions that they fill.
 
 #include "cases/program/config.h"
+#include "cases/program/mesh_recipe.h"
 #include "solver/fracture_model.h"
 
 #include <span>
@@ -24,13 +25,17 @@ struct NamedElasticity {
 struct Materials {
   std::vector<NamedElasticity> by_name;
   std::vector<RegionMaterial> by_region;
+  std::vector<std::string> remarks;  ///< what was made of the numbers given, to be said in the log
 
   /// The elasticity of the material that `name` holds; throws InputError naming those there are.
   const IsotropicElasticity& elasticity(const ConfigValue& name) const;
 };
 
-/// What [fracture] says about all materials.
+/// What [fracture] and the mesh say about all materials.
 struct MaterialDefaults {
+  const CrackGeometry* crack = nullptr;
+  std::vector<Band> bands{};                ///< whose toughness is corrected for their neighbours'
+  bool corrects_toughness = true;           ///< else it is taken as given
   std::optional<double> ell;                ///< of those that give no length of their own [m]
   const SofteningLaw* softening = nullptr;  ///< to which every material needs a strength; null: none is asked for
 };

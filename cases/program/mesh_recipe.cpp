@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 namespace pfdm {
 namespace {
@@ -91,6 +92,15 @@ std::vector<std::string> names_of_regions(const ParticlesInBoxSettings& settings
   return names;
 }
 
+std::vector<Band> bands_of(const ParticlesInBoxSettings& settings) {
+  std::vector<Band> bands;  // one a region: the first particle's stands for those that share it
+  std::set<std::string> seen;
+  for (const Particle& particle : settings.particles)
+    if (particle.n_layers > 0 && seen.insert(particle.layer_region).second)
+      bands.push_back({particle.layer_region, particle.layer_thickness, {particle.region, settings.matrix_region}});
+  return bands;
+}
+
 MeshRecipe read_particles_in_box(const ConfigTable& table, const std::filesystem::path&) {
   ParticlesInBoxSettings settings;
   const Vector size = read_point(table.at("size"), range::positive);
@@ -112,7 +122,8 @@ MeshRecipe read_particles_in_box(const ConfigTable& table, const std::filesystem
   return {.make = [settings] { return make_particles_in_box(settings); },
           .regions = names_of_regions(settings),
           .patches = box_sides,
-          .data_files = {}};
+          .data_files = {},
+          .bands = bands_of(settings)};
 }
 
 /// { 1 = "bead", 2 = "matrix" }

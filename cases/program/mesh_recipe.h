@@ -4,6 +4,7 @@
 #include "cases/program/config.h"
 #include "mesh/mesh.h"
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -12,11 +13,19 @@
 
 namespace pfdm {
 
+/// A thin band between two regions, as the layers around a particle are.
+struct Band {
+  std::string region;
+  double width = 0.0;                     ///< [m]
+  std::array<std::string, 2> neighbours;  ///< regions
+};
+
 struct MeshRecipe {
   std::function<Mesh()> make;        ///< throws InputError
   std::vector<std::string> regions;  ///< that the mesh may have; empty if only the mesh tells
   std::vector<std::string> patches;  ///< likewise
   std::vector<std::filesystem::path> data_files;
+  std::vector<Band> bands{};  ///< those that the generator makes
 };
 
 /// A way to make meshes; to add one, write `read` and a row of the table at the foot of mesh_recipe.cpp.
