@@ -7,7 +7,7 @@
 namespace pfdm {
 namespace {
 
-constexpr std::string_view format_version = "pfdm case 1";
+constexpr std::string_view format_version = "pfdm case 2";
 
 std::uint64_t add_to_hash(std::uint64_t hash, std::string_view bytes) {
   for (const char byte : bytes) {
@@ -33,7 +33,9 @@ CaseFile open_case(const std::filesystem::path& where) {
 
 std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files) {
   std::uint64_t hash = add_to_hash(0xcbf29ce484222325ULL, format_version);
-  hash = add_to_hash(hash, file.text);
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  for (const auto& [key, value] : std::get<TomlTable>(root.value))
+    if (key != "title" && key != "solver" && key != "loading") hash = add_to_hash(hash, key + written(value));
   for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
   return fmt::format("{:016x}", hash);
 }

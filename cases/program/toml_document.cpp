@@ -62,6 +62,26 @@ TomlValue parse_toml(const std::string& text, const std::string& shown_as) {
   }
 }
 
+std::string written(const TomlValue& value) {
+  struct Write {
+    std::string operator()(const TomlArray& array) const {
+      std::string text = "[";
+      for (const TomlValue& element : array) text += written(element) + ",";
+      return text + "]";
+    }
+    std::string operator()(const TomlTable& table) const {
+      std::string text = "{";
+      for (const auto& [key, entry] : table) text += fmt::format("\"{}\"={},", key, written(entry));
+      return text + "}";
+    }
+    std::string operator()(const std::string& text) const { return fmt::format("\"{}\"", text); }
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+    std::string operator()(std::int64_t integer) const { return fmt::format("{}", integer); }
+    std::string operator()(double number) const { return fmt::format("{}", number); }
+  };
+  return std::visit(Write{}, value.value);
+}
+
 std::string shown(const TomlValue& value) {
   struct Show {
     std::string operator()(const std::string& text) const { return fmt::format("\"{}\"", text); }

@@ -23,6 +23,9 @@ struct TomlValue {
 /// `shown_as` is the file's name in messages. Throws InputError with the line of what TOML does not allow.
 TomlValue parse_toml(const std::string& text, const std::string& shown_as);
 
+/// The value in one form only, whatever the layout and the comments of its file; the keys of tables in their order.
+std::string written(const TomlValue& value);
+
 /// The value as TOML would write it, shortened, for messages.
 std::string shown(const TomlValue& value);
 

@@ -86,6 +86,20 @@ TEST(Program, RefusesToGoOnWithAnotherCase) {
   EXPECT_EQ(content_of(directory.results() / "force_displacement.csv"), curve);
 }
 
+// A run that failed for want of iterations is not lost: the solver's settings and the loading may change.
+TEST(Program, GoesOnWithOtherSettingsOfTheSolver) {
+  const TemporaryCase directory(bar_case() + "[solver]\nmaximum_iterations = 3\n");
+  const std::string place = directory.path().string();
+  ASSERT_EQ(run({"run", place}).status, 1);
+  const double reached = summary_in(directory.results())["final_load"].get<double>();
+  ASSERT_GT(reached, 0.0);
+  directory.write("case.toml", "# with more iterations\n" + bar_case() + "[solver]\nmaximum_iterations = 500\n");
+  const Outcome outcome = run({"run", place, "--restart"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("goes on after step"), std::string::npos) << outcome.out;
+  EXPECT_EQ(summary_in(directory.results())["status"], "complete");
+}
+
 TEST(Program, StartsAfreshWithoutRestart) {
   const TemporaryCase directory(bar_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
