@@ -7,6 +7,7 @@
 #include "physics/crack_geometry.h"
 #include "physics/degradation.h"
 #include "physics/energy_split.h"
+#include "physics/hardening.h"
 
 #include <fmt/format.h>
 
@@ -47,6 +48,8 @@ void list_laws(std::ostream& out) {
   list_table(out, "crack geometric functions ([fracture] model)", crack_geometries());
   list_table(out, "degradation functions ([fracture] degradation)", degradations());
   list_table(out, "energy splits ([fracture] split)", energy_splits());
+  list_table(out, "hardening of the endochronic law ([material.hardening] law)", hardening_laws());
+  list_table(out, "rate factors of the endochronic law ([material.rate] law)", rate_factors());
   list_table(out, "boundary conditions ([[boundary]] type)", boundary_types());
   list_table(out, "displacement fields (displacement = { field = ... })", displacement_fields());
 }
