@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,7 +50,8 @@ struct ControlledStep {
   bool converged = false;
 };
 
-/// One step in which the six condition values (normalised rows are not needed) change by `change`.
+/// One step in which the values of the six conditions change by `change`. Not converged if Newton's method is not, as
+/// for stresses that the material cannot bear.
 ControlledStep controlled_step(const EndochronicLaw& law, const EndochronicState& state,
                                const std::array<ControlCondition, 6>& conditions, const Mandel& change, double dt,
                                const ControlSettings& settings = {});
