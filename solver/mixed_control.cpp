@@ -141,8 +141,10 @@ class SegmentRunner {
           "{}: the prescribed stress lies beyond the saturation surface: the deviatoric stress has come to {:.6g} Pa "
           "of the {:.6g} Pa (2 f sum C/alpha) that the material can bear; prescribe less stress, or strain instead",
           where, now, radius);
-    return fmt::format("{}: Newton's method does not converge, not even in steps of 1/{:.0f} of the increment", where,
-                       std::ldexp(1.0, settings_.maximum_halvings));
+    return fmt::format(
+        "{}: Newton's method does not converge, not even in steps of 1/{:.0f} of the increment; the deviatoric stress is "
+        "{:.6g} Pa, and saturates at {:.6g} Pa at this zeta and rate",
+        where, std::ldexp(1.0, settings_.maximum_halvings), now, radius);
   }
 
  private:
