@@ -18,7 +18,8 @@ namespace {
 /// The model as Ceres sees it: residuals and priors as functions of the scaled parameters.
 class Cost : public ceres::CostFunction {
  public:
-  Cost(const ScaledModel& model, std::size_t n_residuals) : model_(model) {
+  Cost(const ScaledModel& model, std::size_t n_residuals, double robust_scale)
+      : model_(model), robust_scale_(robust_scale) {
     set_num_residuals(static_cast<int>(n_residuals));
     mutable_parameter_block_sizes()->assign(model.n_parameters(), 1);
   }
@@ -28,17 +29,29 @@ class Cost : public ceres::CostFunction {
     for (Eigen::Index j = 0; j < u.size(); ++j) u[j] = parameters[j][0];
     const auto r = model_.residuals(u);
     if (!r) return false;
-    std::ranges::copy(*r, residuals);
+    for (std::size_t i = 0; i < r->size(); ++i) residuals[i] = robust((*r)[i]);
     if (jacobians == nullptr) return true;
     const auto J = model_.jacobian(u);
     if (!J) return false;
-    for (Eigen::Index j = 0; j < u.size(); ++j)
-      if (jacobians[j] != nullptr) Eigen::Map<Eigen::VectorXd>(jacobians[j], J->rows()) = J->col(j);
+    for (Eigen::Index j = 0; j < u.size(); ++j) {
+      if (jacobians[j] == nullptr) continue;
+      for (Eigen::Index i = 0; i < J->rows(); ++i)
+        jacobians[j][i] = robust_slope((*r)[static_cast<std::size_t>(i)]) * (*J)(i, j);
+    }
     return true;
   }
 
  private:
+  bool is_large(double r) const { return robust_scale_ > 0.0 && std::abs(r) > robust_scale_; }
+  /// Huber's loss as a square: 2 d |r| - d^2 beyond d. (Ceres would apply a loss to the whole block at once.)
+  double robust(double r) const {
+    const double d = robust_scale_;
+    return is_large(r) ? std::copysign(std::sqrt(2.0 * d * std::abs(r) - d * d), r) : r;
+  }
+  double robust_slope(double r) const { return is_large(r) ? robust_scale_ / std::abs(robust(r)) : 1.0; }
+
   const ScaledModel& model_;
+  double robust_scale_;
 };
 
 class Recorder : public ceres::IterationCallback {
@@ -105,8 +118,7 @@ Attempt minimise(const ScaledModel& model, const Eigen::VectorXd& u, const std::
   std::vector<double*> blocks;
   for (double& entry : attempt.u) blocks.push_back(&entry);
   ceres::Problem problem;
-  auto* loss = settings.robust_scale > 0.0 ? new ceres::HuberLoss(settings.robust_scale) : nullptr;
-  problem.AddResidualBlock(new Cost(model, at_start->size()), loss, blocks);
+  problem.AddResidualBlock(new Cost(model, at_start->size(), settings.robust_scale), nullptr, blocks);
   for (std::size_t j = 0; j < blocks.size(); ++j) {
     const auto [lower, upper] = model.bounds(j);
     if (std::isfinite(lower)) problem.SetParameterLowerBound(blocks[j], 0, lower);

@@ -24,8 +24,7 @@ Mandel elastic_strain(const IsotropicElasticity& c, const Mandel& stress) {
 void complete_by_incompressibility(Mandel& plastic, const std::array<bool, 6>& known) {
   double sum = 0.0;
   int unknown = 0;
-  for (int k = 0; k < 3; ++k)
-    known[static_cast<std::size_t>(k)] ? sum += plastic[k] : ++unknown;
+  for (int k = 0; k < 3; ++k) known[static_cast<std::size_t>(k)] ? sum += plastic[k] : ++unknown;
   for (int k = 0; k < 3; ++k)
     if (!known[static_cast<std::size_t>(k)]) plastic[k] = -sum / unknown;
 }

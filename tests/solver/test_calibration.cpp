@@ -165,6 +165,7 @@ TEST(Calibration, SurvivesAModelThatDoesNotConvergeEverywhere) {
     ++refused;
     return std::nullopt;
   };
+  problem.parameters[0].first = 3.5;
   problem.parameters[1].first = 4.8999999;  // the difference to one side cannot be evaluated
   const FitResult result = fit(problem, {.side_by_side = false});
   EXPECT_GT(refused, 0);
