@@ -9,11 +9,12 @@
 namespace pfdm {
 
 struct IdentificationSettings {
-  FitSettings fit{};
+  /// The stresses are exact to rounding, so that short one-sided differences do.
+  FitSettings fit{.maximum_iterations = 60, .tolerance = 1e-9, .differences = Differences::forward, .step = 1e-7};
   ControlSettings control{};
   FitChoice choice{};
   std::vector<FitParameter> limits{};  ///< bounds and priors by name
-  int least_terms = 0;               ///< 0: as many as the law has, from its values
+  int least_terms = 0;                 ///< 0: as many as the law has, from its values
   int most_terms = 0;
   int maximum_rounds = 30;        ///< of the staggered scheme
   double round_tolerance = 1e-4;  ///< relative change of the rms misfit between rounds

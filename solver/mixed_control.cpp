@@ -42,8 +42,8 @@ class StepSolver {
     rounding_ = 4e-16 * (state.strain.norm() + sigma_0_.norm() / law.elasticity.mu);
   }
 
-  ControlledStep solve(const ControlSettings& settings) {
-    take(Mandel::Zero());
+  ControlledStep solve(const ControlSettings& settings, const Mandel& guess) {
+    begin(guess);
     for (int i = 1; i <= settings.maximum_iterations && now_.converged; ++i) {
       const Mandel direction = newton_direction();
       if (!direction.allFinite() || !search(direction)) break;
@@ -53,6 +53,14 @@ class StepSolver {
   }
 
  private:
+  void begin(const Mandel& guess) {
+    if (!guess.isZero()) {
+      take(guess);
+      if (now_.converged && error() < 0.3 * change_.lpNorm<Eigen::Infinity>()) return;
+    }
+    take(Mandel::Zero());
+  }
+
   void take(const Mandel& increment) {
     increment_ = increment;
     now_ = update(law_, state_, increment, dt_);
@@ -142,7 +150,8 @@ class SegmentRunner {
           "of the {:.6g} Pa (2 f sum C/alpha) that the material can bear; prescribe less stress, or strain instead",
           where, now, radius);
     return fmt::format(
-        "{}: Newton's method does not converge, not even in steps of 1/{:.0f} of the increment; the deviatoric stress is "
+        "{}: Newton's method does not converge, not even in steps of 1/{:.0f} of the increment; the deviatoric stress "
+        "is "
         "{:.6g} Pa, and saturates at {:.6g} Pa at this zeta and rate",
         where, std::ldexp(1.0, settings_.maximum_halvings), now, radius);
   }
@@ -174,10 +183,12 @@ class SegmentRunner {
       change[static_cast<Eigen::Index>(k)] =
           target(k, i, done + part) - value_of(conditions_[k], point_.stress, point_.state.strain);
     const double dt = part * (segment_.times[i + 1] - segment_.times[i]);
-    ControlledStep step = controlled_step(law_, point_.state, conditions_, change, dt, settings_);
+    ControlledStep step =
+        controlled_step(law_, point_.state, conditions_, change, dt, settings_, dt * last_strain_rate_);
     point_.iterations += step.iterations;
     if (!step.converged) return false;
     last_rate_ = (step.update.state.zeta - point_.state.zeta) / dt;
+    last_strain_rate_ = (step.update.state.strain - point_.state.strain) / dt;
     point_.state = std::move(step.update.state);
     point_.stress = step.update.stress;
     ++point_.substeps;
@@ -192,13 +203,14 @@ class SegmentRunner {
   Conditions conditions_;
   std::array<double, 6> begin_{};
   double last_rate_ = 0.0;  ///< of zeta [1/s]
+  Mandel last_strain_rate_ = Mandel::Zero();
 };
 
 }  // namespace
 
 ControlledStep controlled_step(const EndochronicLaw& law, const EndochronicState& state, const Conditions& conditions,
-                               const Mandel& change, double dt, const ControlSettings& settings) {
-  return StepSolver(law, state, conditions, change, dt).solve(settings);
+                               const Mandel& change, double dt, const ControlSettings& settings, const Mandel& guess) {
+  return StepSolver(law, state, conditions, change, dt).solve(settings, guess);
 }
 
 std::optional<std::string> dependent_conditions(const EndochronicLaw& law, const Conditions& conditions) {

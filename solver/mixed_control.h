@@ -51,10 +51,10 @@ struct ControlledStep {
 };
 
 /// One step in which the values of the six conditions change by `change`. Not converged if Newton's method is not, as
-/// for stresses that the material cannot bear.
+/// for stresses that the material cannot bear. `guess`: of the strain increment, used if it is better than none.
 ControlledStep controlled_step(const EndochronicLaw& law, const EndochronicState& state,
                                const std::array<ControlCondition, 6>& conditions, const Mandel& change, double dt,
-                               const ControlSettings& settings = {});
+                               const ControlSettings& settings = {}, const Mandel& guess = Mandel::Zero());
 
 /// Why the conditions cannot determine a step, if so: they contradict or repeat one another.
 std::optional<std::string> dependent_conditions(const EndochronicLaw& law,

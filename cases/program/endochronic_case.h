@@ -1,10 +1,12 @@
 #pragma once
 // A case of kind "endochronic": a material point, its loading, and what is to be estimated.
 
+#include "cases/program/endochronic_fit_case.h"
 #include "cases/program/endochronic_loading.h"
 #include "cases/program/endochronic_material.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace pfdm {
@@ -13,6 +15,7 @@ struct EndochronicCase {
   std::string title;
   EndochronicLaw law;
   EndochronicLoading loading;
+  std::optional<EndochronicFit> fit;
 };
 
 /// Throws InputError for whatever is wrong with it.

@@ -1,6 +1,7 @@
 #include "cases/program/endochronic_program.h"
 
 #include "cases/program/endochronic_case.h"
+#include "cases/program/endochronic_fit_results.h"
 #include "postproc/folder_lock.h"
 #include "postproc/history_csv.h"
 #include "postproc/summary.h"
@@ -14,6 +15,7 @@ namespace pfdm {
 namespace {
 
 struct EndochronicProgram {
+  CaseFile file;
   EndochronicCase point;
   std::string name;
   std::string hash;
@@ -97,16 +99,52 @@ void run_case(const EndochronicProgram& program, Session& session) {
   if (!history.converged) throw ComputationError(fmt::format("case {}: {}", program.name, history.failure));
 }
 
+void say_estimates(const LawFit& fit, Log& log) {
+  for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+    const FitEstimate& e = fit.result.estimates[j];
+    log.say(fmt::format("  {:<14} {:.6g} {}, 95 % between {:.6g} and {:.6g}", fit.parameters[j].name, e.value,
+                        fit.parameters[j].unit, e.lower_95, e.upper_95));
+  }
+  for (const std::string& warning : fit.result.warnings) log.warn(warning);
+}
+
+void fit_case(const EndochronicProgram& program, Session& session) {
+  const auto began = std::chrono::steady_clock::now();
+  Log& log = session.log;
+  EndochronicFit fit = *program.point.fit;
+  log.say(fmt::format("pfdm {}, fit of {}: {}", session.version, program.name, program.point.title));
+  const FolderLock lock(session.results);
+  log.open_file(session.results / "fit.log", false);
+  log.say(
+      fmt::format("method {}: {}; {} experiments", fit.method->name, fit.method->description, fit.experiments.size()));
+  fit.settings.say = [&log](const std::string& message) { log.say(message); };
+  const Identification found = fit.method->identify(program.point.law, fit.experiments, fit.settings);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  write_fit_results(session.results, program.file, fit, found, {program.name, program.hash, session.version, seconds});
+  say_estimates(found.fit, log);
+  log.say(fmt::format("rms misfit {:.6g} Pa of {:.6g} Pa rms stress; {} evaluations, {:.1f} s; {}",
+                      rms_misfit(found.fit.law, fit.experiments, fit.settings.control), rms_stress(fit.experiments),
+                      found.fit.result.evaluations, seconds, found.fit.result.message));
+  log.say(fmt::format("written to {}; run it with: pfdm run {}", session.results.string(),
+                      (session.results / "case.fitted.toml").string()));
+}
+
 }  // namespace
 
 RunnableCase read_endochronic_program(const CaseFile& file) {
-  auto program = std::make_shared<EndochronicProgram>();
+  auto program =
+      std::make_shared<EndochronicProgram>(EndochronicProgram{.file = file, .point = {}, .name = {}, .hash = {}});
   program->point = read_endochronic_case(file.config.root(), file.directory);
   program->name = std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory)).filename().string();
-  program->hash = case_hash(file, program->point.loading.data_files);
-  return {.title = program->point.title,
-          .check = [program](Session& session) { check(*program, session); },
-          .run = [program](Session& session) { run_case(*program, session); }};
+  std::vector<std::filesystem::path> data = program->point.loading.data_files;
+  if (program->point.fit)
+    data.insert(data.end(), program->point.fit->data_files.begin(), program->point.fit->data_files.end());
+  program->hash = case_hash(file, data);
+  RunnableCase runnable{.title = program->point.title,
+                        .check = [program](Session& session) { check(*program, session); },
+                        .run = [program](Session& session) { run_case(*program, session); }};
+  if (program->point.fit) runnable.fit = [program](Session& session) { fit_case(*program, session); };
+  return runnable;
 }
 
 }  // namespace pfdm
