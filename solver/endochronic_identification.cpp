@@ -68,31 +68,39 @@ Identification identify_kernel(const EndochronicLaw& law, const Experiments& exp
                 settings);
 }
 
-/// The law of f that runs best through the points, each with the weight of its influence on the stress.
+/// Rms weight of the points, which scales them.
+double rms_weight(const std::vector<std::vector<HardeningPoint>>& transients) {
+  double sum = 0.0, n = 0.0;
+  for (const auto& points : transients)
+    for (const HardeningPoint& point : points) sum += point.weight * point.weight, n += 1.0;
+  return n > 0.0 ? std::sqrt(sum / n) : 1.0;
+}
+
+/// The law of f that runs best through the points, each with the weight of its influence on the stress. With a kernel
+/// that is not yet right the points lie on another level than f(0) = 1: the level is estimated too, and alpha divided
+/// by it, which is the same material (gauge).
 LawFit fit_hardening(const EndochronicLaw& law, const std::vector<std::vector<HardeningPoint>>& transients,
                      const IdentificationSettings& settings) {
   const FitChoice choice{.kernel = false, .hardening = true, .rate = settings.choice.rate, .young_modulus = false};
-  double scale = 0.0, n = 0.0;
-  for (const auto& points : transients)
-    for (const HardeningPoint& point : points) scale += point.weight * point.weight, n += 1.0;
-  scale = std::sqrt(scale / n);
+  const double scale = rms_weight(transients);
   LawFit fitted{.law = law, .choice = choice, .parameters = fit_parameters(law, choice), .result = {}};
-  if (fitted.parameters.empty()) return fitted;
-  const FitProblem problem{
-      .parameters = fitted.parameters,
-      .residuals = [&](std::span<const double> values) -> std::optional<std::vector<double>> {
-        const auto trial = with_values(law, choice, values);
-        if (!trial) return std::nullopt;
-        std::vector<double> residuals;
-        for (const auto& points : transients)
-          for (const HardeningPoint& p : points)
-            residuals.push_back(p.weight / scale * std::log(trial->hardening(p.zeta, p.rate).f / p.f));
-        return residuals;
-      }};
+  fitted.parameters.push_back(
+      {.name = "level", .unit = "1", .first = 1.0, .lower = 0.02, .upper = 50.0, .log_scale = true});
+  const auto residuals = [&](std::span<const double> values) -> std::optional<std::vector<double>> {
+    const auto trial = with_values(law, choice, values.first(values.size() - 1));
+    if (!trial) return std::nullopt;
+    std::vector<double> result;
+    for (const auto& points : transients)
+      for (const HardeningPoint& p : points)
+        result.push_back(p.weight / scale * std::log(values.back() * trial->hardening(p.zeta, p.rate).f / p.f));
+    return result;
+  };
   FitSettings robust = settings.fit;
   robust.robust_scale = 0.05;  // points just after reversals may be on another root
-  fitted.result = fit(problem, robust);
-  fitted.law = *with_values(law, choice, fitted.result.values());
+  fitted.result = fit({.parameters = fitted.parameters, .residuals = residuals}, robust);
+  const std::vector<double> values = fitted.result.values();
+  fitted.law = *with_values(law, choice, std::span(values).first(values.size() - 1));
+  for (KernelTerm& term : fitted.law.kernel) term.alpha /= values.back();
   return fitted;
 }
 
