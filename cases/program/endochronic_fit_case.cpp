@@ -135,8 +135,7 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
     result.experiments.push_back(read_experiment(table, case_directory));
     result.data_files.push_back(case_directory / table.string("csv"));
   }
-  if (result.experiments.empty())
-    throw fit.error("\"experiments\" is missing; at least one [[fit.experiments]] is due");
+  if (result.experiments.empty()) throw fit.at("experiments").error("at least one [[fit.experiments]] is due");
   require_noise_of_all_or_none(fit, result.experiments);
   return result;
 }

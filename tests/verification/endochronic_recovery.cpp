@@ -1,6 +1,6 @@
 // Statistics of the joint calibration on synthetic data, long: run by hand, its figures stand in README.md.
 //
-//   endochronic_recovery [repetitions]
+//   endochronic_recovery [repetitions] [points of the experiment]
 
 #include "physics/error.h"
 #include "solver/endochronic_identification.h"
@@ -41,16 +41,16 @@ double percentile(std::vector<double> values, double part) {
   return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
 }
 
-void study(double noise, int repetitions) {
+void study(double noise, int repetitions, int points) {
   const EndochronicLaw truth = three_term_law();
-  const std::vector<MaterialExperiment> clean{measured(truth, eight_cycles(331), {0}, 0.0, 1)};
+  const std::vector<MaterialExperiment> clean{measured(truth, eight_cycles(points), {0}, 0.0, 1)};
   double peak = 0.0;
   for (const double sigma : clean[0].channels[0].stress) peak = std::max(peak, std::abs(sigma));
   std::vector<Tally> tallies = tallies_of(truth, {});
   std::vector<double> curve;
   for (int i = 0; i < repetitions; ++i) {
     const std::vector<MaterialExperiment> data{
-        measured(truth, eight_cycles(331), {0}, noise, 1000 + static_cast<unsigned>(i))};
+        measured(truth, eight_cycles(points), {0}, noise, 1000 + static_cast<unsigned>(i))};
     const LawFit fitted = identification_method("joint").identify(first_guess(), data, {}).fit;
     for (std::size_t j = 0; j < tallies.size(); ++j) {
       const FitEstimate& e = fitted.result.estimates[j];
@@ -59,8 +59,8 @@ void study(double noise, int repetitions) {
     }
     curve.push_back(rms_misfit(fitted.law, clean, {}));
   }
-  fmt::print("noise {:.3g} Pa ({:.2g} % of the peak), {} repetitions; curve off by {:.3g} Pa rms (median)\n", noise,
-             100.0 * noise / peak, repetitions, percentile(curve, 0.5));
+  fmt::print("noise {:.3g} Pa ({:.2g} % of the peak), {} points, {} repetitions; curve off by {:.3g} Pa rms (median)\n",
+             noise, 100.0 * noise / peak, points, repetitions, percentile(curve, 0.5));
   int covered = 0;
   for (const Tally& t : tallies) {
     covered += t.covered;
@@ -76,5 +76,6 @@ void study(double noise, int repetitions) {
 
 int main(int argc, char** argv) {
   const int repetitions = argc > 1 ? std::atoi(argv[1]) : 100;
-  for (const double noise : {0.1e6, 0.5e6, 1.0e6}) pfdm::study(noise, repetitions);
+  const int points = argc > 2 ? std::atoi(argv[2]) : 331;
+  for (const double noise : {0.1e6, 0.5e6, 1.0e6}) pfdm::study(noise, repetitions, points);
 }
