@@ -150,8 +150,7 @@ EndochronicLoading read_endochronic_loading(const ConfigTable& loading, const En
   for (const ConfigTable& table : loading.tables("segments"))
     once.push_back(read_segment(table, law, case_directory, result.data_files));
   if (once.empty()) throw loading.at("segments").error("at least one [[loading.segments]] is due");
-  at least one [[loading.segments]] is due ");
-      const auto repeat = loading.integer("repeat", count, 1);
+  const auto repeat = loading.integer("repeat", count, 1);
   for (std::int64_t i = 0; i < repeat; ++i) result.segments.insert(result.segments.end(), once.begin(), once.end());
   result.settings.largest_increment =
       loading.number("largest_strain_increment", range::positive, result.settings.largest_increment);

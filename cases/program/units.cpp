@@ -120,7 +120,8 @@ double parse_quantity(std::string_view text, const Dimension& due) {
   const auto [value, unit] = *parts;
   if (unit.empty()) throw InputError(fmt::format("\"{}\" has no unit; {}", text, with_example(due)));
   // "20 30 um" would be multiplied out by UDUNITS; "20 1/s" is meant so.
-  if (split_number(unit) && !unit.starts_with("1/")) throw InputError(fmt::format("\"{}\" has two numbers; {}", text, with_example(due)));
+  if (split_number(unit) && !unit.starts_with("1/"))
+    throw InputError(fmt::format("\"{}\" has two numbers; {}", text, with_example(due)));
   return to_si(value, unit, text, due);
 }
 

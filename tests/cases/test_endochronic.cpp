@@ -36,8 +36,8 @@ TEST(EndochronicCase, RunsAndWritesItsResults) {
 }
 
 TEST(EndochronicCase, StressBeyondSaturationEndsTheRunWithWhatThereIs) {
-  const std::string no_rate = replaced(tension_case(), "law = \"logarithmic\"\nc = 0.1\nreference_rate = \"1e-4 1/s\"",
-                                       "law = \"none\"");
+  const std::string no_rate =
+      replaced(tension_case(), "law = \"logarithmic\"\nc = 0.1\nreference_rate = \"1e-4 1/s\"", "law = \"none\"");
   const TemporaryCase directory(replaced(no_rate, "strain_xx = \"1 %\"", "stress_xx = \"900 MPa\""));
   const Outcome outcome = run({"run", directory.path().string()});
   EXPECT_EQ(outcome.status, 1);
