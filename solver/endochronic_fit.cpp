@@ -106,6 +106,13 @@ bool noise_is_known(const std::vector<MaterialExperiment>& experiments) {
   });
 }
 
+std::size_t n_stresses(const std::vector<MaterialExperiment>& experiments) {
+  std::size_t n = 0;
+  for (const MaterialExperiment& experiment : experiments)
+    for (const MaterialExperiment::Channel& channel : experiment.channels) n += channel.stress.size();
+  return n;
+}
+
 double rms_stress(const std::vector<MaterialExperiment>& experiments) {
   double sum = 0.0, n = 0.0;
   for (const MaterialExperiment& experiment : experiments)

@@ -47,6 +47,8 @@ std::optional<std::vector<double>> stress_residuals(const EndochronicLaw& law,
                                                     const std::vector<MaterialExperiment>& experiments,
                                                     const ControlSettings& settings = {});
 
+/// How many stresses were measured in all.
+std::size_t n_stresses(const std::vector<MaterialExperiment>& experiments);
 /// Rms of all measured stresses [Pa].
 double rms_stress(const std::vector<MaterialExperiment>& experiments);
 /// Rms of model less measurement of one experiment [Pa]; infinite where the law cannot follow.

@@ -10,13 +10,6 @@ namespace {
 
 using Experiments = std::vector<MaterialExperiment>;
 
-std::size_t n_data(const Experiments& experiments) {
-  std::size_t n = 0;
-  for (const MaterialExperiment& experiment : experiments)
-    for (const MaterialExperiment::Channel& channel : experiment.channels) n += channel.stress.size();
-  return n;
-}
-
 LawFit fit_chosen(const EndochronicLaw& law, const FitChoice& choice, const Experiments& experiments,
                   const IdentificationSettings& settings) {
   return fit_law(law, choice, experiments, settings.limits, settings.fit, settings.control);
@@ -45,7 +38,7 @@ Identification select(const EndochronicLaw& law, const FitChoice& choice, const 
     const FitResult& result = fitted.result;
     tried.push_back(
         {n, rms_misfit(fitted.law, experiments, settings.control),
-         bayesian_information(result.sum_of_squares, n_data(experiments), fitted.parameters.size(), negligible)});
+         bayesian_information(result.sum_of_squares, n_stresses(experiments), fitted.parameters.size(), negligible)});
     settings.say(fmt::format("{} terms: rms misfit {:.6g} Pa, Bayesian information {:.6g}", n, tried.back().rms,
                              tried.back().information));
     const bool better = std::ranges::all_of(

@@ -7,6 +7,7 @@
 #include "postproc/summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cmath>
@@ -47,6 +48,14 @@ void say_law(const EndochronicLaw& law, Log& log) {
   say_initial_stiffness(law, log);
 }
 
+void say_fit(const EndochronicFit& fit, const EndochronicLaw& law, Log& log) {
+  std::vector<std::string> names;
+  for (const FitParameter& p : fit_parameters(law, fit.settings.choice)) names.push_back(p.name);
+  log.say(fmt::format("fit by the method {} to {} experiments of {} stresses, rms {:.6g} Pa; first guess of {}",
+                      fit.method->name, fit.experiments.size(), n_stresses(fit.experiments),
+                      rms_stress(fit.experiments), fmt::join(names, ", ")));
+}
+
 void check(const EndochronicProgram& program, Session& session) {
   const EndochronicCase& point = program.point;
   session.log.say(fmt::format("{}: {}", program.name, point.title));
@@ -54,6 +63,7 @@ void check(const EndochronicProgram& program, Session& session) {
   say_law(point.law, session.log);
   session.log.say(
       fmt::format("{} segments, {} increments", point.loading.segments.size(), n_increments(point.loading)));
+  if (point.fit) say_fit(*point.fit, point.law, session.log);
   session.log.say(fmt::format("results go to {}", session.results.string()));
   session.log.say("the input is in order");
 }
