@@ -65,7 +65,7 @@ Json to_json(const RunSummary& s) {
                {"wall_seconds_by_stage", s.wall_seconds_by_stage},
                {"cpu_seconds_by_stage", s.cpu_seconds_by_stage},
                {"peak_memory_bytes", s.peak_memory}};
-  json.update(to_json(s.figures));
+  if (s.figures) json.update(to_json(*s.figures));
   for (const auto& [name, value] : s.other_figures) json[name] = value;
   return json;
 }

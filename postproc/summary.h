@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -48,8 +49,8 @@ struct RunSummary {
   double cpu_seconds = 0.0;
   std::map<std::string, double> wall_seconds_by_stage;
   std::map<std::string, double> cpu_seconds_by_stage;
-  double peak_memory = 0.0;  ///< [byte]
-  Headlines figures;
+  double peak_memory = 0.0;                     ///< [byte]
+  std::optional<Headlines> figures;             ///< of kinds that have a force-displacement curve
   std::map<std::string, double> other_figures;  ///< a case's own, with the unit in the name
 };
 

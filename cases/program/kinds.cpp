@@ -1,11 +1,13 @@
 #include "cases/program/kinds.h"
 
+#include "cases/program/endochronic_program.h"
 #include "cases/program/fracture_program.h"
 
 namespace pfdm {
 namespace {
 
 constexpr CaseKind table[] = {
+    {"endochronic", "one material point of endochronic plasticity under mixed control", read_endochronic_program},
     {"fracture", "phase-field fracture of a solid under load", read_fracture_program},
 };
 

@@ -7,6 +7,8 @@
 #include "physics/crack_geometry.h"
 #include "physics/degradation.h"
 #include "physics/energy_split.h"
+#include "physics/hardening.h"
+#include "solver/endochronic_identification.h"
 
 #include <fmt/format.h>
 
@@ -48,6 +50,9 @@ void list_laws(std::ostream& out) {
   list_table(out, "degradation functions ([fracture] degradation)", degradations());
   list_table(out, "softening laws of the rational degradation ([fracture] softening)", softening_laws());
   list_table(out, "energy splits ([fracture] split)", energy_splits());
+  list_table(out, "hardening of the endochronic law ([material.hardening] law)", hardening_laws());
+  list_table(out, "rate factors of the endochronic law ([material.rate] law)", rate_factors());
+  list_table(out, "identification of the endochronic law ([fit] method)", identification_methods());
   list_table(out, "boundary conditions ([[boundary]] type)", boundary_types());
   list_table(out, "displacement fields (displacement = { field = ... })", displacement_fields());
 }

@@ -119,8 +119,9 @@ double parse_quantity(std::string_view text, const Dimension& due) {
   if (!parts) throw InputError(fmt::format("\"{}\" does not start with a number; {}", text, with_example(due)));
   const auto [value, unit] = *parts;
   if (unit.empty()) throw InputError(fmt::format("\"{}\" has no unit; {}", text, with_example(due)));
-  // "20 30 um" would be multiplied out by UDUNITS.
-  if (split_number(unit)) throw InputError(fmt::format("\"{}\" has two numbers; {}", text, with_example(due)));
+  // "20 30 um" would be multiplied out by UDUNITS; "20 1/s" is meant so.
+  if (split_number(unit) && !unit.starts_with("1/"))
+    throw InputError(fmt::format("\"{}\" has two numbers; {}", text, with_example(due)));
   return to_si(value, unit, text, due);
 }
 

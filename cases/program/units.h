@@ -20,6 +20,7 @@ inline constexpr Dimension volume{"volume", "m^3", "1 mm^3"};
 inline constexpr Dimension mass{"mass", "kg", "50 g"};
 inline constexpr Dimension time{"time", "s", "1 ms"};
 inline constexpr Dimension frequency{"frequency", "Hz", "2 kHz"};
+inline constexpr Dimension rate{"rate", "1/s", "1e-4 1/s"};
 inline constexpr Dimension velocity{"velocity", "m/s", "1 mm/s"};
 inline constexpr Dimension acceleration{"acceleration", "m/s^2", "5 g0"};
 inline constexpr Dimension acceleration_density{"acceleration spectral density", "m^2/s^4/Hz", "0.05 g0^2/Hz"};

@@ -1,0 +1,14 @@
+#include "cases/program/endochronic_case.h"
+
+namespace pfdm {
+
+EndochronicCase read_endochronic_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+  EndochronicCase result;
+  result.title = root.string("title");
+  result.law = read_endochronic_law(root.table("material"));
+  result.loading = read_endochronic_loading(root.table("loading"), result.law, case_directory);
+  if (root.has("fit")) result.fit = read_endochronic_fit(root.table("fit"), result.law, case_directory);
+  return result;
+}
+
+}  // namespace pfdm

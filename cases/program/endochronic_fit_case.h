@@ -1,0 +1,23 @@
+#pragma once
+// [fit] of a case of kind "endochronic": experiments, method, bounds.
+
+#include "cases/program/config.h"
+#include "solver/endochronic_identification.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace pfdm {
+
+struct EndochronicFit {
+  const IdentificationMethod* method = nullptr;
+  IdentificationSettings settings;
+  std::vector<MaterialExperiment> experiments;
+  std::vector<std::filesystem::path> data_files;
+};
+
+/// `law`: the first guess. Throws InputError with the place of what is wrong.
+EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw& law,
+                                    const std::filesystem::path& case_directory);
+
+}  // namespace pfdm

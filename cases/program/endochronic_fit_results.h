@@ -1,0 +1,23 @@
+#pragma once
+// What pfdm fit writes for a case of kind "endochronic": fit.json, a curve for each experiment, case.fitted.toml.
+
+#include "cases/program/case_file.h"
+#include "cases/program/endochronic_fit_case.h"
+
+namespace pfdm {
+
+struct FitRun {
+  std::string case_name;
+  std::string case_hash;
+  std::string version;
+  double wall_seconds = 0.0;
+};
+
+/// Throws ComputationError where a file cannot be written.
+void write_fit_results(const std::filesystem::path& results, const CaseFile& file, const EndochronicFit& fit,
+                       const Identification& found, const FitRun& run);
+
+/// The text of the case with [material] replaced by `law` and paths of CSV files as seen from `folder`.
+std::string fitted_case(const CaseFile& file, const EndochronicLaw& law, const std::filesystem::path& folder);
+
+}  // namespace pfdm

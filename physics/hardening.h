@@ -1,0 +1,66 @@
+#pragma once
+// How the intrinsic time of the endochronic law slows down: dz = dzeta / f(zeta, zeta_dot), f = F(zeta) R(zeta_dot).
+// Stresses saturate in proportion to f: f > 1 hardens, f < 1 softens. (f, alpha_r) and (l f, l alpha_r) are the same
+// material, so f(0) = 1 is what the laws take unless told otherwise.
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+struct FactorValue {
+  double value = 1.0;
+  double slope = 0.0;  ///< with respect to zeta [-] or zeta_dot [s]
+};
+
+struct FactorParameter {
+  static constexpr double required = std::numeric_limits<double>::quiet_NaN();
+  std::string_view name;
+  std::string_view unit;  ///< SI, "1" for pure numbers
+  bool may_be_zero = false;
+  double otherwise = required;
+};
+
+/// F(zeta) or R(zeta_dot), a row of a table. `p`: the parameters in their order; of a tabulated factor first the
+/// arguments, then as many values.
+struct FactorLaw {
+  std::string_view name;
+  std::string_view description;
+  std::span<const FactorParameter> parameters;
+  bool tabulated = false;
+  FactorValue (*value)(std::span<const double> p, double argument);
+};
+
+std::span<const FactorLaw> hardening_laws();
+std::span<const FactorLaw> rate_factors();
+/// Throw InputError naming those there are.
+const FactorLaw& hardening_law(std::string_view name);
+const FactorLaw& rate_factor(std::string_view name);
+
+/// A law with its parameters.
+struct Factor {
+  const FactorLaw* law = nullptr;
+  std::vector<double> p;
+  FactorValue operator()(double argument) const { return law->value(p, argument); }
+};
+
+/// Throws InputError if the parameters are not as many, or not such, as the law needs to be positive for all arguments.
+Factor make_factor(const FactorLaw& law, std::vector<double> p);
+
+struct HardeningValue {
+  double f = 1.0;
+  double f_zeta = 0.0;  ///< df/dzeta [-]
+  double f_rate = 0.0;  ///< df/dzeta_dot [s]
+};
+
+struct Hardening {
+  Factor with_path = {&hardening_law("constant"), {}};
+  Factor with_rate = {&rate_factor("none"), {}};
+  bool depends_on_rate() const;
+  HardeningValue operator()(double zeta, double rate) const;
+};
+
+}  // namespace pfdm

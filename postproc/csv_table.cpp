@@ -1,0 +1,101 @@
+#include "postproc/csv_table.h"
+
+#include "physics/error.h"
+#include "postproc/atomic_file.h"
+#include "postproc/text_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string_view::npos ? std::string_view{}
+                                         : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t comma = 0; comma != std::string_view::npos;) {
+    comma = line.find(',');
+    words.push_back(trimmed(line.substr(0, comma)));
+    if (comma != std::string_view::npos) line.remove_prefix(comma + 1);
+  }
+  return words;
+}
+
+void read_header(CsvTable& table, std::string_view line, const std::string& where) {
+  for (const std::string_view word : split(line)) {
+    if (word.empty() || parse_double(word))
+      throw InputError(
+          fmt::format("{}: \"{}\" stands where the names of the columns are due, as in time_s,strain_xx", where, line));
+    if (std::ranges::count(table.names, word) > 0)
+      throw InputError(fmt::format("{}: two columns are called \"{}\"", where, word));
+    table.add(std::string(word), {});
+  }
+}
+
+void read_row(CsvTable& table, std::string_view line, const std::string& where) {
+  const auto words = split(line);
+  if (words.size() != table.names.size())
+    throw InputError(fmt::format("{}: {} entries in a table of {} columns", where, words.size(), table.names.size()));
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto value = parse_double(words[i]);
+    if (!value || !std::isfinite(*value))
+      throw InputError(fmt::format("{}: \"{}\" in column \"{}\" is no number", where, words[i], table.names[i]));
+    table.columns[i].push_back(*value);
+  }
+}
+
+}  // namespace
+
+const std::vector<double>& CsvTable::column(std::string_view name) const {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] == name) return columns[i];
+  throw InputError(fmt::format("there is no column \"{}\" (there are: {})", name, fmt::join(names, ", ")));
+}
+
+void CsvTable::add(std::string name, std::vector<double> values) {
+  names.push_back(std::move(name));
+  columns.push_back(std::move(values));
+}
+
+CsvTable read_csv(const std::filesystem::path& path) {
+  const std::string content = read_file(path);
+  std::string_view rest = content;
+  CsvTable table;
+  for (int line_number = 1; !rest.empty(); ++line_number) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = trimmed(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    const std::string where = fmt::format("{}, line {}", path.string(), line_number);
+    if (line.empty()) continue;
+    if (line.front() == '#')
+      table.comments.emplace_back(trimmed(line.substr(1)));
+    else if (table.names.empty())
+      read_header(table, line, where);
+    else
+      read_row(table, line, where);
+  }
+  if (table.n_rows() == 0) throw InputError(fmt::format("{}: there are no rows of numbers in it", path.string()));
+  return table;
+}
+
+void write_csv(const std::filesystem::path& path, const CsvTable& table) {
+  fmt::memory_buffer out;
+  const auto to = std::back_inserter(out);
+  for (const std::string& comment : table.comments) fmt::format_to(to, "# {}\n", comment);
+  fmt::format_to(to, "{}\n", fmt::join(table.names, ","));
+  for (std::size_t row = 0; row < table.n_rows(); ++row)
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      fmt::format_to(to, "{}{}", table.columns[i][row], i + 1 < table.columns.size() ? ',' : '\n');
+  write_file(path, fmt::to_string(out));
+}
+
+}  // namespace pfdm

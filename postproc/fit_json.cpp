@@ -1,0 +1,85 @@
+#include "postproc/fit_json.h"
+
+#include "postproc/atomic_file.h"
+
+#include <nlohmann/json.hpp>
+
+namespace pfdm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json estimates(const FitReport& report) {
+  Json list = Json::array();
+  for (std::size_t j = 0; j < report.parameters.size(); ++j) {
+    const FitParameter& p = report.parameters[j];
+    const FitEstimate& e = report.result.estimates[j];
+    list.push_back({{"name", p.name},
+                    {"unit", p.unit},
+                    {"estimate", e.value},
+                    {"standard_error", e.standard_error},
+                    {"lower_95", e.lower_95},
+                    {"upper_95", e.upper_95},
+                    {"first_guess", p.first},
+                    {"lower_bound", p.lower},
+                    {"upper_bound", p.upper},
+                    {"at_bound", e.at_bound},
+                    {"log_scale", p.log_scale}});
+  }
+  return list;
+}
+
+Json matrix(const Eigen::MatrixXd& m) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < m.rows(); ++i) rows.push_back(std::vector<double>(m.row(i).begin(), m.row(i).end()));
+  return rows;
+}
+
+Json path(const FitResult& result) {
+  Json list = Json::array();
+  for (const FitIteration& i : result.path) list.push_back({{"rms_residual", i.rms}, {"parameters", i.parameters}});
+  return list;
+}
+
+Json experiments(const FitReport& report) {
+  Json list = Json::array();
+  for (const ExperimentMisfit& e : report.experiments)
+    list.push_back({{"name", e.name},
+                    {"data", e.n_data},
+                    {"rms_misfit_Pa", e.rms},
+                    {"rms_stress_Pa", e.rms_stress},
+                    {"relative_misfit", e.rms / e.rms_stress},
+                    {"curve", e.curve}});
+  return list;
+}
+
+}  // namespace
+
+void write_fit_json(const std::filesystem::path& file, const FitReport& report) {
+  const FitResult& result = report.result;
+  Json json = {{"case", report.case_name},
+               {"version", report.version},
+               {"case_hash", report.case_hash},
+               {"method", report.method},
+               {"converged", result.converged},
+               {"message", result.message},
+               {"wall_seconds", report.wall_seconds},
+               {"evaluations", result.evaluations},
+               {"residuals", result.residuals.size()},
+               {"rms_residual", result.rms},
+               {"parameters", estimates(report)},
+               {"warnings", result.warnings},
+               {"experiments", experiments(report)},
+               {"correlation", matrix(result.correlation)},
+               {"start_rms_residual", result.start_rms},
+               {"path", path(result)}};
+  for (const TriedKernel& t : report.tried)
+    json["kernel_terms_tried"].push_back(
+        {{"terms", t.n_terms}, {"rms_misfit_Pa", t.rms}, {"bayesian_information", t.information}});
+  for (const StaggeredRound& r : report.rounds)
+    json["staggered_rounds"].push_back(
+        {{"rms_misfit_after_hardening_Pa", r.rms_after_hardening}, {"rms_misfit_after_kernel_Pa", r.rms_after_kernel}});
+  write_file(file, json.dump(2) + "\n");
+}
+
+}  // namespace pfdm

@@ -1,0 +1,102 @@
+#pragma once
+// Least squares: the parameters of any model with which it meets data. The model is a function from parameters to
+// residuals; the estimates come with confidence intervals, correlations, and the names of parameters that the data
+// cannot tell. The only place that knows Ceres (calibration.cpp).
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+namespace pfdm {
+
+struct GaussianPrior {
+  double mean = 0.0;                ///< as the parameter; of its logarithm's exponential on a logarithmic scale
+  double standard_deviation = 1.0;  ///< as the parameter; of its logarithm on a logarithmic scale
+};
+
+struct FitParameter {
+  std::string name;
+  std::string unit;
+  double first = 1.0;  ///< first guess, which also scales the parameter
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool log_scale = false;  ///< of a positive parameter: its logarithm is estimated
+  std::optional<GaussianPrior> prior = std::nullopt;
+};
+
+/// Residuals at these parameters, always as many; nothing where the model does not converge.
+using Residuals = std::function<std::optional<std::vector<double>>(std::span<const double> parameters)>;
+/// d residual_i / d parameter_j; nothing where the model does not converge.
+using ResidualJacobian = std::function<std::optional<Eigen::MatrixXd>(std::span<const double> parameters)>;
+
+enum class Differences { central, forward };
+
+struct FitProblem {
+  std::vector<FitParameter> parameters;
+  Residuals residuals;
+  ResidualJacobian jacobian = {};  ///< by differences if there is none
+  /// The residuals are divided by the standard deviation of their noise. Otherwise that is estimated from their rms.
+  /// Priors need it.
+  bool noise_is_known = false;
+};
+
+struct FitSettings {
+  int maximum_iterations = 100;
+  double tolerance = 1e-12;  ///< relative change of the parameters
+  Differences differences = Differences::central;
+  double step = 6e-6;        ///< of the differences, in parameters over their first guess (or of the logarithm)
+  bool side_by_side = true;  ///< evaluations on all threads; not for models that use threads themselves
+  int starts = 1;            ///< more than one: the others at random within the bounds
+  double spread = 1.0;  ///< of random starts about the first guess, factor exp(+-spread), where there are no bounds
+  std::uint64_t seed = 1;
+  double robust_scale = 0.0;  ///< residuals well above count less (Huber); 0: least squares
+};
+
+struct FitEstimate {
+  double value = 0.0;
+  double standard_error = 0.0;  ///< infinite if the data cannot see the parameter
+  double lower_95 = 0.0, upper_95 = 0.0;
+  bool at_bound = false;
+};
+
+struct FitIteration {
+  double rms = 0.0;  ///< of the residuals
+  std::vector<double> parameters;
+};
+
+struct FitResult {
+  bool converged = false;
+  std::string message;  ///< what ended the fit
+  std::vector<FitEstimate> estimates;
+  Eigen::MatrixXd covariance;   ///< of the parameters, of their logarithms on a logarithmic scale
+  Eigen::MatrixXd correlation;  ///< likewise
+  std::vector<std::string> warnings;
+  std::vector<FitIteration> path;  ///< of the best start
+  std::vector<double> residuals;   ///< at the estimates, without priors
+  double rms = 0.0;                ///< of the residuals
+  double sum_of_squares = 0.0;     ///< of the residuals
+  std::vector<double> start_rms;   ///< what each start came to; infinite where the model did not converge
+  int evaluations = 0;             ///< of the model
+
+  std::vector<double> values() const;
+};
+
+/// Throws InputError if the problem makes no sense (first guess out of bounds, a prior without known noise, fewer
+/// residuals than parameters), ComputationError if the model does not converge at any start.
+FitResult fit(const FitProblem& problem, const FitSettings& settings = {});
+
+/// Bayesian information criterion of a fit with n residuals of unknown noise: n ln(sum/n) + k ln n. `negligible`: an
+/// rms below which residuals are rounding, which more parameters do not improve.
+double bayesian_information(double sum_of_squares, std::size_t n_residuals, std::size_t n_parameters,
+                            double negligible);
+
+/// Least squares with x >= 0, for models that are linear in x (Lawson, Hanson 1974).
+Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+}  // namespace pfdm

@@ -1,0 +1,48 @@
+#pragma once
+// Parameters of a fit over their first guess, or as logarithms of that ratio, and the model as a function of them.
+
+#include "solver/calibration.h"
+
+#include <atomic>
+#include <utility>
+
+namespace pfdm {
+
+class ScaledModel {
+ public:
+  ScaledModel(const FitProblem& problem, const FitSettings& settings);
+
+  std::size_t n_parameters() const { return problem_.parameters.size(); }
+  /// Without priors; known after the first evaluation.
+  std::size_t n_residuals() const { return n_residuals_; }
+  const FitProblem& problem() const { return problem_; }
+  bool is_log(std::size_t j) const { return problem_.parameters[j].log_scale; }
+  int evaluations() const { return evaluations_; }
+
+  Eigen::VectorXd first() const;
+  std::vector<double> natural(const Eigen::VectorXd& u) const;
+  double natural(std::size_t j, double u) const;
+  std::pair<double, double> bounds(std::size_t j) const;
+  /// -1 at the lower bound, 1 at the upper one, 0 between.
+  int side_of_bound(std::size_t j, double u) const;
+  double scale(std::size_t j) const { return scale_[j]; }  ///< parameter over scaled one; 1 on a logarithmic scale
+
+  /// Of the data, then of the priors.
+  std::optional<std::vector<double>> residuals(const Eigen::VectorXd& u) const;
+  std::optional<Eigen::MatrixXd> jacobian(const Eigen::VectorXd& u) const;
+
+ private:
+  std::optional<Eigen::MatrixXd> given_jacobian(const Eigen::VectorXd& u) const;
+  std::optional<Eigen::MatrixXd> differences(const Eigen::VectorXd& u) const;
+  std::optional<Eigen::VectorXd> difference(const Eigen::VectorXd& u, const std::vector<double>& here,
+                                            std::size_t j) const;
+  double scaled(std::size_t j, double parameter) const;
+
+  const FitProblem& problem_;
+  const FitSettings& settings_;
+  std::vector<double> scale_;
+  mutable std::atomic<std::size_t> n_residuals_{0};
+  mutable std::atomic<int> evaluations_{0};
+};
+
+}  // namespace pfdm

@@ -1,0 +1,154 @@
+// pfdm fit on cases of kind "endochronic", with data that the program made itself.
+
+#include "cases/program/case_file.h"
+#include "cases/program/endochronic_case.h"
+#include "postproc/csv_table.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+std::string cyclic_case(const std::string& kernel, const std::string& f_inf) {
+  return "kind = \"endochronic\"\ntitle = \"cycles\"\n[material]\nyoung_modulus = \"100 GPa\"\npoisson_ratio = 0.3\n" +
+         kernel + "[material.hardening]\nlaw = \"saturating\"\nf_inf = " + f_inf + R"x(
+b = 20.0
+
+[loading]
+[[loading.segments]]
+duration = "3 s"
+increments = 90
+control = { strain_xx = { expr = "0.005*sin(2*pi*t)", unit = "1" } }
+)x";
+}
+
+const std::string true_kernel = "kernel = [{ C = \"30 GPa\", alpha = 700 }, { C = \"4 GPa\", alpha = 60 }]\n";
+const std::string first_kernel_guess = R"(kernel = [
+  { C = "20 GPa", alpha = 1000 },
+  { C = "6 GPa", alpha = 40 },
+]
+)";
+
+const std::string fit_table = R"(
+[fit]
+method = "joint"
+estimate = ["kernel", "hardening"]
+[fit.bounds]
+f_inf = [0.5, 10]
+C_1 = ["1 GPa", "500 GPa"]
+[[fit.experiments]]
+name = "cycles 0.5 %"
+csv = "cycles.csv"
+strain = { strain_xx = { column = "strain_xx" } }
+stress = { stress_xx = { column = "stress_xx_Pa", unit = "Pa" } }
+)";
+
+/// A case to be fitted and the history of the true law in cycles.csv.
+class FitCase {
+ public:
+  explicit FitCase(const std::string& fit = fit_table) : directory(cyclic_case(true_kernel, "2.0")) {
+    if (run({"run", directory.path().string(), "--quiet"}).status != 0) throw std::logic_error("the true law fails");
+    directory.write("cycles.csv", "# synthetic\n" + content_of(directory.results() / "history.csv"));
+    std::filesystem::remove_all(directory.results());
+    directory.write("case.toml", cyclic_case(first_kernel_guess, "1.5") + fit);
+  }
+  TemporaryCase directory;
+};
+
+TEST(EndochronicFitCase, FindsTheLawAndWritesACaseThatRuns) {
+  const FitCase fit;
+  const Outcome outcome = run({"fit", fit.directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+  EXPECT_EQ(json["method"], "joint");
+  ASSERT_EQ(json["parameters"].size(), 6u);
+  EXPECT_EQ(json["parameters"][0]["name"], "C_1");
+  EXPECT_NEAR(json["parameters"][0]["estimate"].get<double>(), 30e9, 30e9 * 1e-5);
+  EXPECT_NEAR(json["parameters"][3]["estimate"].get<double>(), 60.0, 60.0 * 1e-5);
+  EXPECT_NEAR(json["parameters"][4]["estimate"].get<double>(), 2.0, 2e-5);
+  EXPECT_LT(json["experiments"][0]["relative_misfit"].get<double>(), 1e-7);
+  EXPECT_EQ(json["correlation"].size(), 6u);
+  EXPECT_GT(json["path"].size(), 3u);
+  const CsvTable curve = read_csv(fit.directory.results() / "fit_cycles_0_5__.csv");
+  EXPECT_EQ(curve.n_rows(), 91u);
+  EXPECT_EQ(curve.column("measured_stress_xx_Pa").size(), 91u);
+  EXPECT_NE(content_of(fit.directory.results() / "fit.log").find("f_inf"), std::string::npos);
+
+  const std::filesystem::path fitted = fit.directory.results() / "case.fitted.toml";
+  const EndochronicLaw law = read_endochronic_law(open_case(fitted).config.root().table("material"));
+  EXPECT_NEAR(law.kernel[0].alpha, 700.0, 700.0 * 1e-5);
+  EXPECT_EQ(run({"check", fitted.string()}).status, 0) << run({"check", fitted.string()}).err;
+  EXPECT_EQ(run({"run", fitted.string(), "--output", (fit.directory.path() / "again").string()}).status, 0);
+}
+
+TEST(EndochronicFitCase, EveryMethodRuns) {
+  for (const std::string method : {"kernel", "hardening", "staggered"}) {
+    const FitCase fit(replaced(fit_table, "\"joint\"", '"' + method + '"'));
+    const Outcome outcome = run({"fit", fit.directory.path().string()});
+    EXPECT_EQ(outcome.status, 0) << method << ": " << outcome.err;
+    const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+    EXPECT_EQ(json["method"], method);
+    EXPECT_EQ(json.contains("staggered_rounds"), method == "staggered");
+    EXPECT_EQ(std::filesystem::exists(fit.directory.results() / "transient_fit_cycles_0_5__.csv"), method != "kernel");
+  }
+}
+
+TEST(EndochronicFitCase, CasesWithoutAFitSayThatThereIsNone) {
+  const TemporaryCase directory(cyclic_case(true_kernel, "2.0"));
+  const Outcome outcome = run({"fit", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("\"fit\""), std::string::npos) << outcome.err;
+}
+
+struct BadFit {
+  const char* name;
+  const char* good;
+  const char* bad;
+  const char* message;
+};
+void PrintTo(const BadFit& input, std::ostream* stream) { *stream << input.name; }
+
+class BadFitCase : public testing::TestWithParam<BadFit> {};
+
+TEST_P(BadFitCase, IsRefusedWithOneMessage) {
+  const FitCase fit(replaced(fit_table, GetParam().good, GetParam().bad));
+  const Outcome outcome = run({"fit", fit.directory.path().string()});
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find(GetParam().message), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("case.toml:"), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(fit.directory.results()));
+}
+
+const BadFit bad_fits[] = {
+    {"unknown_method", "\"joint\"", "\"join\"", "no method of identification; did you mean \"joint\"?"},
+    {"unknown_part", "\"hardening\"]", "\"softening\"]", "\"softening\" is no part of the law that can be estimated"},
+    {"bound_of_no_parameter", "f_inf = [0.5, 10]", "f_0 = [0.5, 10]", "\"f_0\" is not estimated (there are: C_1"},
+    {"bounds_that_cross", "[0.5, 10]", "[10, 0.5]", "the lower bound must be below the upper one"},
+    {"terms", "method = \"joint\"", "method = \"joint\"\nterms = [3, 2]", "the first number of terms is larger"},
+    {"no_experiments", "[[fit.experiments]]", "[[fit.experiment]]", "did you mean \"experiments\"?"},
+    {"no_file", "\"cycles.csv\"", "\"circles.csv\"", "csv: cannot read"},
+    {"no_column", "column = \"stress_xx_Pa\"", "column = \"stress\"", "there is no column \"stress\""},
+    {"unit", "unit = \"Pa\"", "unit = \"mm\"", "a stress is due here"},
+    {"strain_as_stress", "stress = { stress_xx", "stress = { strain_xx", "a stress is due here; strains stand in"},
+    {"stress_as_strain", "strain = { strain_xx", "strain = { stress_xx", "a strain is due here; stresses stand in"},
+    {"stress_without_its_strain", "stress = { stress_xx", "stress = { stress_xy",
+     "stress_xy was measured, but its strain"},
+    {"noise_of_some",
+     "strain = { strain_xx = { column = \"strain_xx\" } }\nstress = { stress_xx = { column = \"stress_xx_Pa\", unit = "
+     "\"Pa\" } }",
+     "strain = { strain_xx = { column = \"strain_xx\" }, strain_xy = { column = \"strain_xy\" } }\nstress = { "
+     "stress_xx = "
+     "{ column = \"stress_xx_Pa\", noise = \"1 MPa\" }, stress_xy = { column = \"stress_xy_Pa\" } }",
+     "noise is given for 1 of 2 measured stresses"},
+};
+
+INSTANTIATE_TEST_SUITE_P(EndochronicProgram, BadFitCase, testing::ValuesIn(bad_fits),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+}  // namespace
+}  // namespace pfdm

@@ -1,0 +1,140 @@
+#include "solver/endochronic_identification.h"
+#include "tests/solver/synthetic_experiments.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pfdm {
+namespace {
+
+/// Off by up to a factor of two everywhere.
+EndochronicLaw first_guess() {
+  EndochronicLaw law = three_term_law();
+  law.kernel = {{40e9, 2000.0}, {25e9, 300.0}, {3e9, 50.0}};
+  law.hardening.with_path = saturating(2.0, 10.0);
+  return law;
+}
+
+void expect_parameters(const EndochronicLaw& found, const EndochronicLaw& truth, double f_inf, double b, double C,
+                       double alpha) {
+  ASSERT_EQ(found.kernel.size(), truth.kernel.size());
+  for (std::size_t r = 0; r < truth.kernel.size(); ++r) {
+    EXPECT_NEAR(found.kernel[r].C / truth.kernel[r].C, 1.0, C) << "term " << r + 1;
+    EXPECT_NEAR(found.kernel[r].alpha / truth.kernel[r].alpha, 1.0, alpha) << "term " << r + 1;
+  }
+  EXPECT_NEAR(found.hardening.with_path.p[0] / truth.hardening.with_path.p[0], 1.0, f_inf);
+  EXPECT_NEAR(found.hardening.with_path.p[1] / truth.hardening.with_path.p[1], 1.0, b);
+}
+
+TEST(EndochronicFit, JointWithoutNoiseFindsTheTruth) {
+  const EndochronicLaw truth = three_term_law();
+  const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(), {0}, 0.0, 1)};
+  const Identification found = identification_method("joint").identify(first_guess(), data, {});
+  std::printf("%d evaluations, rms %.3g Pa\n", found.fit.result.evaluations, rms_misfit(found.fit.law, data, {}));
+  expect_parameters(found.fit.law, truth, 1e-6, 1e-6, 1e-6, 1e-6);
+}
+
+TEST(EndochronicFit, JointWithNoiseOfAFifthOfAPercent) {
+  const EndochronicLaw truth = three_term_law();
+  const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(), {0}, 0.5e6, 2)};
+  const Identification found = identification_method("joint").identify(first_guess(), data, {});
+  expect_parameters(found.fit.law, truth, 0.01, 0.04, 0.03, 0.08);
+  const std::vector<MaterialExperiment> clean{measured(truth, eight_cycles(), {0}, 0.0, 1)};
+  const double curve = rms_misfit(found.fit.law, clean, {});
+  std::printf("curve off by %.3g Pa rms, noise 5e5 Pa\n", curve);
+  EXPECT_LT(curve, 0.5e6);
+  for (const FitEstimate& estimate : found.fit.result.estimates) {
+    EXPECT_GT(estimate.upper_95, estimate.value);
+    EXPECT_LT(estimate.lower_95, estimate.value);
+  }
+}
+
+TEST(EndochronicFit, FindsTheNumberOfTerms) {
+  const EndochronicLaw truth = three_term_law();
+  for (const double noise : {0.0, 0.5e6}) {
+    const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(331), {0}, noise, 3)};
+    const Identification found =
+        identification_method("joint").identify(first_guess(), data, {.least_terms = 1, .most_terms = 4});
+    EXPECT_EQ(found.fit.law.kernel.size(), 3u);
+    EXPECT_EQ(found.tried.size(), 4u);
+  }
+}
+
+TEST(EndochronicFit, KernelAloneAtGivenHardening) {
+  const EndochronicLaw truth = three_term_law();
+  const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(), {0}, 0.0, 1)};
+  EndochronicLaw start = first_guess();
+  start.hardening = truth.hardening;
+  expect_parameters(identification_method("kernel").identify(start, data, {}).fit.law, truth, 1e-15, 1e-15, 1e-6, 1e-6);
+}
+
+TEST(EndochronicFit, TransientGivesTheHardeningPointByPoint) {
+  const EndochronicLaw truth = three_term_law();
+  EndochronicLaw start = truth;
+  start.hardening.with_path = saturating(2.0, 10.0);
+  const MaterialExperiment data = measured(truth, eight_cycles(), {0}, 0.0, 1);
+  const std::vector<HardeningPoint> points = transient_hardening(start, data);
+  ASSERT_EQ(points.size(), 660u);
+  double largest = 0.0;
+  for (const HardeningPoint& p : points)
+    largest = std::max(largest, std::abs(p.f / truth.hardening(p.zeta, 0.0).f - 1.0));
+  std::printf("largest relative error of f: %.2g\n", largest);
+  EXPECT_LE(largest, 1e-6);
+  const Identification found = identification_method("hardening").identify(start, {data}, {});
+  EXPECT_NEAR(found.fit.law.hardening.with_path.p[0], 3.0, 1e-6);
+  EXPECT_NEAR(found.fit.law.hardening.with_path.p[1], 6.0, 1e-6);
+}
+
+TEST(EndochronicFit, SeveralExperimentsAtSeveralRates) {
+  EndochronicLaw truth = three_term_law();
+  truth.hardening.with_rate = logarithmic_rate(0.02, 1e-4);
+  std::vector<MaterialExperiment> data;
+  const Path axial = [](double t) { return 0.004 * std::sin(2.0 * std::numbers::pi * t); };
+  const Path shear = [](double t) { return 0.0035 * std::sin(2.0 * std::numbers::pi * t); };
+  const Path shear_later = [](double t) { return 0.0035 * (1.0 - std::cos(2.0 * std::numbers::pi * t)); };
+  const auto slowed = [](const Path& path, double factor) { return [=](double t) { return path(t / factor); }; };
+  data.push_back(measured(truth, tension_path(axial, 160, 4.0), {0}, 0.0, 1));
+  data.push_back(measured(truth, tension_path(slowed(axial, 1000.0), 160, 4000.0), {0}, 0.0, 1));
+  data.push_back(measured(truth, strain_paths({Path(), {}, {}, {}, {}, shear}, 160, 4.0), {5}, 0.0, 1));
+  data.push_back(measured(truth, strain_paths({axial, {}, {}, {}, {}, shear_later}, 160, 4.0), {0, 5}, 0.0, 1));
+  EndochronicLaw start = first_guess();
+  start.hardening.with_rate = logarithmic_rate(0.05, 1e-4);
+  const Identification found = identification_method("joint").identify(start, data, {.choice = {.rate = true}});
+  expect_parameters(found.fit.law, truth, 1e-6, 1e-6, 1e-6, 1e-6);
+  EXPECT_NEAR(found.fit.law.hardening.with_rate.p[0], 0.02, 1e-7);
+
+  // f at each increment, at both rates and under shear too, where the kernel is known.
+  EndochronicLaw no_rate = truth;
+  no_rate.hardening.with_rate = {&rate_factor("none"), {}};
+  for (const MaterialExperiment& experiment : data)
+    for (const HardeningPoint& p : transient_hardening(truth, experiment))
+      ASSERT_NEAR(p.f / truth.hardening(p.zeta, p.rate).f, 1.0, 1e-5);
+}
+
+TEST(EndochronicFit, StaggeredComesNearButJointIsBetter) {
+  const EndochronicLaw truth = three_term_law();
+  const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(331), {0}, 0.1e6, 4)};
+  const Identification staggered =
+      identification_method("staggered").identify(first_guess(), data, {.maximum_rounds = 8});
+  const Identification joint = identification_method("joint").identify(first_guess(), data, {});
+  const double s = rms_misfit(staggered.fit.law, data, {}), j = rms_misfit(joint.fit.law, data, {});
+  std::printf("rms misfit: staggered %.4g Pa after %zu rounds, joint %.4g Pa, at the beginning %.4g Pa\n", s,
+              staggered.rounds.size(), j, rms_misfit(first_guess(), data, {}));
+  EXPECT_LT(s, 0.1 * rms_misfit(first_guess(), data, {}));
+  EXPECT_LE(j, s * (1.0 + 1e-9));
+}
+
+TEST(EndochronicFit, TableOfHardening) {
+  EndochronicLaw truth = three_term_law();
+  truth.hardening.with_path = make_factor(hardening_law("table"), {0.0, 0.05, 0.3, 1.0, 1.5, 2.2});
+  const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(), {0}, 0.0, 1)};
+  EndochronicLaw start = truth;
+  start.hardening.with_path = make_factor(hardening_law("table"), {0.0, 0.05, 0.3, 1.0, 1.1, 1.3});
+  const Identification found = identification_method("joint").identify(start, data, {});
+  EXPECT_NEAR(found.fit.law.hardening.with_path.p[4], 1.5, 1e-6);
+  EXPECT_NEAR(found.fit.law.hardening.with_path.p[5], 2.2, 1e-5);
+  EXPECT_EQ(found.fit.law.hardening.with_path.p[3], 1.0);  // the gauge
+}
+
+}  // namespace
+}  // namespace pfdm

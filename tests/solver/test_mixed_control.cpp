@@ -1,0 +1,143 @@
+#include "solver/mixed_control.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/physics/endochronic_laws.h"
+#include "tests/solver/loadings.h"
+
+namespace pfdm {
+namespace {
+
+using Conditions = std::array<ControlCondition, 6>;
+
+Mandel values_of(const Conditions& conditions, const Mandel& stress, const Mandel& strain) {
+  Mandel values;
+  for (int k = 0; k < n_components; ++k) {
+    const ControlCondition& c = conditions[static_cast<std::size_t>(k)];
+    values[k] = c.on_stress.dot(stress) + c.on_strain.dot(strain);
+  }
+  return values;
+}
+
+/// Six of the twelve components at random; patterns that cannot determine a step are drawn again.
+Conditions random_pattern(RandomEndochronic& random, const EndochronicLaw& law) {
+  while (true) {
+    std::array<int, 12> order;
+    std::iota(order.begin(), order.end(), 0);
+    for (std::size_t i = 11; i > 0; --i)
+      std::swap(order[i], order[static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(i + 1)))]);
+    Conditions conditions;
+    for (std::size_t k = 0; k < 6; ++k) conditions[k] = order[k] < 6 ? on_strain(order[k]) : on_stress(order[k] - 6);
+    if (!dependent_conditions(law, conditions)) return conditions;
+  }
+}
+
+// The prescribed values are those of a response to a strain increment: a solution exists.
+TEST(EndochronicControl, RandomPatternsOfSixComponents) {
+  RandomEndochronic random;
+  const EndochronicLaw law = three_term_law();
+  int most = 0, total = 0, failures = 0;
+  double largest = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    EndochronicState state = virgin_state(law);
+    for (int j = 0; j < 3; ++j) state = update(law, state, 3e-3 * random.direction(), 1.0).state;
+    const Conditions conditions = random_pattern(random, law);
+    const double size = random.log_uniform(1e-6, 3e-3);
+    const EndochronicUpdate wanted = update(law, state, size * random.direction(), 1.0);
+    const Mandel before = values_of(conditions, stress(law, state), state.strain);
+    const Mandel after = values_of(conditions, wanted.stress, wanted.state.strain);
+    const ControlledStep step = controlled_step(law, state, conditions, after - before, 1.0);
+    failures += step.converged ? 0 : 1;
+    if (!step.converged) continue;
+    const Mandel found = values_of(conditions, step.update.stress, step.update.state.strain);
+    for (int k = 0; k < n_components; ++k) {
+      const double unit = conditions[static_cast<std::size_t>(k)].on_stress.isZero() ? 1.0 : law.elasticity.mu;
+      largest = std::max(largest, std::abs(found[k] - after[k]) / (unit * size));
+    }
+    most = std::max(most, step.iterations);
+    total += step.iterations;
+  }
+  std::printf("iterations: mean %.2f, most %d; largest error %.2g; failures %d\n", total / 1000.0, most, largest,
+              failures);
+  EXPECT_EQ(failures, 0);
+  EXPECT_LE(most, 8);
+  EXPECT_LE(largest, 1e-9);
+}
+
+TEST(EndochronicControl, StressAndStrainOfOneComponentWithAnotherFree) {
+  const EndochronicLaw law = three_term_law();
+  const Conditions conditions{on_strain(0), on_stress(0), on_stress(2), on_stress(3), on_stress(4), on_strain(5)};
+  const Mandel change{1e-3, 150e6, 0.0, 0.0, 0.0, 0.0};
+  const ControlledStep step = controlled_step(law, virgin_state(law), conditions, change, 1.0);
+  ASSERT_TRUE(step.converged);
+  EXPECT_NEAR(step.update.state.strain[0], 1e-3, 1e-14);
+  EXPECT_NEAR(step.update.stress[0], 150e6, 1e-3);
+  EXPECT_GT(std::abs(step.update.stress[1]), 1e6);  // what the free pair has to bear
+}
+
+TEST(EndochronicControl, TellsConditionsThatDependOnEachOther) {
+  const EndochronicLaw law = one_term_law();
+  Conditions conditions;
+  for (int k = 0; k < 6; ++k) conditions[static_cast<std::size_t>(k)] = on_strain(k);
+  EXPECT_FALSE(dependent_conditions(law, conditions));
+  conditions[5] = on_strain(0);
+  EXPECT_THAT(dependent_conditions(law, conditions).value_or(""), testing::HasSubstr("rank 5 of 6"));
+  conditions[5] = {};
+  EXPECT_THAT(dependent_conditions(law, conditions).value_or(""), testing::HasSubstr("condition 6 says nothing"));
+}
+
+TEST(EndochronicControl, LinearConditionBetweenIncrements) {
+  // Undrained: d eps_xx + d eps_yy + d eps_zz = 0, with d sigma_yy = d sigma_zz.
+  const EndochronicLaw law = three_term_law();
+  LoadSegment segment = tension_path([](double t) { return 0.01 * t; }, 50);
+  segment.conditions[1] = {{Mandel::Zero(), mandel_identity()}, Pace::increment, std::vector<double>(51, 0.0)};
+  segment.conditions[2] = {
+      {Mandel(Mandel::Unit(1) - Mandel::Unit(2)), Mandel::Zero()}, Pace::increment, std::vector<double>(51, 0.0)};
+  const HistoryResult result = run_history(law, {segment});
+  ASSERT_TRUE(result.converged) << result.failure;
+  const HistoryPoint& last = result.points.back();
+  EXPECT_NEAR(trace(last.state.strain), 0.0, 1e-12);
+  EXPECT_NEAR(last.stress[1], last.stress[2], 1e-3);
+  EXPECT_NEAR(trace(last.stress), 0.0, 1.0);  // no volume, no pressure
+  EXPECT_GT(last.stress[0], 1e8);
+}
+
+TEST(EndochronicControl, RampsStartWhereTheSegmentBefore) {
+  const EndochronicLaw law = three_term_law();
+  LoadSegment loading = tension_path([](double t) { return 0.01 * t; }, 20);
+  LoadSegment unloading = loading;
+  unloading.conditions[0] = {on_stress(0), Pace::ramp, {0.0}};
+  const HistoryResult result = run_history(law, {loading, unloading});
+  ASSERT_TRUE(result.converged) << result.failure;
+  const double peak = result.points[20].stress[0];
+  for (int i = 0; i <= 20; ++i)
+    EXPECT_NEAR(result.points[static_cast<std::size_t>(20 + i)].stress[0], peak * (1.0 - i / 20.0), 1e-9 * peak);
+  EXPECT_NEAR(result.points.back().time, 2.0, 1e-15);
+}
+
+TEST(EndochronicControl, StressBeyondSaturationIsReportedAsSuch) {
+  const EndochronicLaw law = one_term_law();  // tension saturates at 104.978 MPa
+  LoadSegment segment = tension_path([](double t) { return 200e6 * t; }, 10);
+  segment.conditions[0].condition = on_stress(0);
+  const HistoryResult result = run_history(law, {segment});
+  EXPECT_FALSE(result.converged);
+  EXPECT_THAT(result.failure, testing::HasSubstr("beyond the saturation surface"));
+  EXPECT_THAT(result.failure, testing::HasSubstr("t = 0.6 s"));
+  EXPECT_EQ(result.points.size(), 6u);  // 0, 20 ... 100 MPa
+}
+
+TEST(EndochronicControl, CutsPrescribedStrainsIntoSubsteps) {
+  const EndochronicLaw law = three_term_law();
+  const LoadSegment segment = tension_path([](double t) { return 0.01 * t; }, 5);
+  const HistoryResult coarse = run_history(law, {segment}, {.largest_increment = 1e-4 * (1.0 + 1e-9)});
+  const HistoryResult fine = run_history(law, {tension_path([](double t) { return 0.01 * t; }, 100)});
+  ASSERT_TRUE(coarse.converged && fine.converged);
+  EXPECT_EQ(coarse.points.back().substeps, 20);
+  EXPECT_NEAR(coarse.points.back().stress[0], fine.points.back().stress[0], 1e-9 * fine.points.back().stress[0]);
+}
+
+}  // namespace
+}  // namespace pfdm
