@@ -1,0 +1,227 @@
+#include "solver/mass_material_simulation.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pfdm {
+namespace {
+
+using Eigen::Index;
+
+constexpr int n_lanes = 4;  // models side by side in one vector register
+using Lane = Eigen::Array<double, n_lanes, 1>;
+
+/// Beyond this displacement [m] the mass has run away: samples are centimetres tall.
+constexpr double runaway = 10.0;
+
+/// One kernel state a real term, two a pair.
+struct LaneKernel {
+  Lane rate_real, rate_imaginary, weight_real, weight_imaginary;
+  bool pair = false;
+};
+
+struct LaneModel {
+  Lane mass_inverse, damping, exponent, velocity_inverse;
+  std::vector<Lane> stiffness;
+  std::vector<LaneKernel> kernel;
+  KernelForcing forcing = KernelForcing::none;
+  bool nonlinear_damping = false;
+  std::size_t n_states = 2;
+};
+
+template <class Get>
+Lane lanes(std::span<const MassMaterial> models, const Get& get) {
+  Lane lane;
+  for (int l = 0; l < n_lanes; ++l) lane[l] = get(models[std::min(static_cast<std::size_t>(l), models.size() - 1)]);
+  return lane;
+}
+
+LaneModel gather(std::span<const MassMaterial> models) {
+  using M = const MassMaterial&;
+  LaneModel m;
+  m.mass_inverse = lanes(models, [](M x) { return 1.0 / x.mass; });
+  m.damping = lanes(models, [](M x) { return x.damping; });
+  m.exponent = lanes(models, [](M x) { return x.damping_exponent; });
+  m.velocity_inverse = lanes(models, [](M x) { return 1.0 / x.reference_velocity; });
+  m.nonlinear_damping = (m.exponent != 0.0).any();
+  m.forcing = models.front().forcing;
+  for (std::size_t i = 0; i < models.front().stiffness.size(); ++i)
+    m.stiffness.push_back(lanes(models, [i](M x) { return x.stiffness[i]; }));
+  for (std::size_t i = 0; i < models.front().kernel.size(); ++i) {
+    LaneKernel k;
+    k.pair = models.front().kernel[i].is_pair();
+    k.rate_real = lanes(models, [i](M x) { return x.kernel[i].alpha.real(); });
+    k.rate_imaginary = lanes(models, [i](M x) { return x.kernel[i].alpha.imag(); });
+    const double share = k.pair ? 2.0 : 1.0;
+    k.weight_real = lanes(models, [=](M x) { return share * x.kernel[i].beta.real(); });
+    k.weight_imaginary = lanes(models, [=](M x) { return share * x.kernel[i].beta.imag(); });
+    m.n_states += k.pair ? 2 : 1;
+    m.kernel.push_back(k);
+  }
+  return m;
+}
+
+Lane power_of_speed(const LaneModel& m, const Lane& velocity) {
+  const Lane speed = (velocity * m.velocity_inverse).abs().max(1e-300);
+  return (m.exponent * speed.log()).exp();
+}
+
+/// Slopes of [z, z', kernel states] under the base acceleration y.
+void slopes(const LaneModel& m, const Lane* state, double y, Lane* slope) {
+  const Lane z = state[0];
+  const Lane velocity = state[1];
+  Lane stiffness = Lane::Zero();
+  for (std::size_t i = m.stiffness.size(); i-- > 0;) stiffness = (stiffness + m.stiffness[i]) * z;
+  const Lane shaped = m.nonlinear_damping ? Lane(velocity * power_of_speed(m, velocity)) : velocity;
+  Lane force = stiffness + m.damping * shaped;
+  Lane f = Lane::Zero();
+  switch (m.forcing) {
+    case KernelForcing::none: break;
+    case KernelForcing::displacement: f = z; break;
+    case KernelForcing::velocity: f = velocity; break;
+    case KernelForcing::stiffness: f = stiffness; break;
+    case KernelForcing::damping: f = shaped; break;
+  }
+  std::size_t s = 2;
+  for (const LaneKernel& k : m.kernel) {
+    const Lane real = state[s];
+    force += k.weight_real * real;
+    slope[s] = f - k.rate_real * real;
+    if (k.pair) {
+      const Lane imaginary = state[s + 1];
+      force -= k.weight_imaginary * imaginary;
+      slope[s] += k.rate_imaginary * imaginary;
+      slope[s + 1] = -k.rate_real * imaginary - k.rate_imaginary * real;
+      ++s;
+    }
+    ++s;
+  }
+  slope[0] = velocity;
+  slope[1] = -y - force * m.mass_inverse;
+}
+
+// Cooper and Verner, SIAM J. Numer. Anal. 9 (1972) 389: order 8 in 11 stages, whose abscissae are Lobatto points, so
+// that the base's acceleration is needed at three places within a step only.
+struct Tableau {
+  static constexpr std::size_t stages = 11;
+  double a[stages][stages] = {};
+  double b[stages] = {};
+  int node[stages] = {};  // which of the Lobatto points 0 ... 4
+};
+
+constexpr Tableau cooper_verner() {
+  constexpr double s = 4.58257569495584000659;  // sqrt 21
+  return {
+      .a = {{},
+            {1.0 / 2},
+            {1.0 / 4, 1.0 / 4},
+            {1.0 / 7, (-7 - 3 * s) / 98, (21 + 5 * s) / 49},
+            {(11 + s) / 84, 0, (18 + 4 * s) / 63, (21 - s) / 252},
+            {(5 + s) / 48, 0, (9 + s) / 36, (-231 + 14 * s) / 360, (63 - 7 * s) / 80},
+            {(10 - s) / 42, 0, (-432 + 92 * s) / 315, (633 - 145 * s) / 90, (-504 + 115 * s) / 70, (63 - 13 * s) / 35},
+            {1.0 / 14, 0, 0, 0, (14 - 3 * s) / 126, (13 - 3 * s) / 63, 1.0 / 9},
+            {1.0 / 32, 0, 0, 0, (91 - 21 * s) / 576, 11.0 / 72, (-385 - 75 * s) / 1152, (63 + 13 * s) / 128},
+            {1.0 / 14, 0, 0, 0, 1.0 / 9, (-733 - 147 * s) / 2205, (515 + 111 * s) / 504, (-51 - 11 * s) / 56,
+             (132 + 28 * s) / 245},
+            {0, 0, 0, 0, (-42 + 7 * s) / 18, (-18 + 28 * s) / 45, (-273 - 53 * s) / 72, (301 + 53 * s) / 72,
+             (28 - 28 * s) / 45, (49 - 7 * s) / 18}},
+      .b = {1.0 / 20, 0, 0, 0, 0, 0, 0, 49.0 / 180, 16.0 / 45, 49.0 / 180, 1.0 / 20},
+      .node = {0, 2, 2, 3, 3, 2, 1, 1, 2, 3, 4}};
+}
+
+class Stepper {
+ public:
+  explicit Stepper(const LaneModel& model)
+      : m_(model),
+        state_(model.n_states, Lane::Zero()),
+        stage_(model.n_states),
+        slope_(Tableau::stages * model.n_states) {}
+
+  /// y: base acceleration at the five Lobatto points of the step.
+  void step(const double* y, double h) {
+    static constexpr Tableau t = cooper_verner();
+    const std::size_t n = m_.n_states;
+    for (std::size_t i = 0; i < Tableau::stages; ++i) {
+      for (std::size_t d = 0; d < n; ++d) {
+        Lane sum = Lane::Zero();
+        for (std::size_t k = 0; k < i; ++k)
+          if (t.a[i][k] != 0.0) sum += t.a[i][k] * slope_[k * n + d];
+        stage_[d] = state_[d] + h * sum;
+      }
+      slopes(m_, stage_.data(), y[t.node[i]], &slope_[i * n]);
+    }
+    for (std::size_t d = 0; d < n; ++d) {
+      Lane sum = Lane::Zero();
+      for (std::size_t k = 0; k < Tableau::stages; ++k)
+        if (t.b[k] != 0.0) sum += t.b[k] * slope_[k * n + d];
+      state_[d] += h * sum;
+    }
+  }
+
+  Lane acceleration(double y) {
+    slopes(m_, state_.data(), y, slope_.data());
+    return slope_[1];
+  }
+  /// Of all models: one that runs away makes the others no slower, and is told at the end.
+  bool ran_away() const { return !(state_[0].abs() < runaway).any(); }
+  const Lane& displacement() const { return state_[0]; }
+
+ private:
+  const LaneModel& m_;
+  std::vector<Lane> state_;
+  std::vector<Lane> stage_;
+  std::vector<Lane> slope_;
+};
+
+void simulate_lanes(std::span<const MassMaterial> models, const BaseNodes& base, Eigen::Ref<Eigen::MatrixXd> result) {
+  const LaneModel model = gather(models);
+  Stepper stepper(model);
+  const double h = 1.0 / (base.rate * base.substeps);
+  const Index n = base.n_samples();
+  const auto n_models = static_cast<Index>(models.size());
+  const Index stride = 4 * base.substeps;
+  result.setConstant(std::numeric_limits<double>::quiet_NaN());
+  Lane valid = Lane::Ones();
+  for (Index i = 0; i < n; ++i) {
+    const double* y = base.values.data() + stride * i;
+    const Lane acceleration = stepper.acceleration(*y);
+    for (Index l = 0; l < n_models; ++l) result(i, l) = acceleration[l];
+    if (i + 1 == n || stepper.ran_away()) break;
+    for (int sub = 0; sub < base.substeps; ++sub) stepper.step(y + 4 * sub, h);
+    valid = (stepper.displacement().abs() < runaway).select(valid, 0.0);
+  }
+  for (Index l = 0; l < n_models; ++l)
+    if (valid[l] == 0.0) result.col(l).setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace
+
+int substeps_for(const MassMaterial& model, double rate) {
+  double fastest = std::sqrt(std::abs(model.stiffness.front()) / model.mass);
+  // Order 8: 0.7 rad a step keep the phase error below 1e-7; decaying states are also stable well beyond.
+  double n = fastest / (0.7 * rate);
+  for (const KernelTerm& term : model.kernel) n = std::max(n, std::abs(term.alpha) / (1.5 * rate));
+  return static_cast<int>(std::clamp(std::ceil(n), 1.0, 64.0));
+}
+
+Eigen::MatrixXd simulate_batch(std::span<const MassMaterial> models, const BaseNodes& base) {
+  assert(!models.empty());
+  Eigen::MatrixXd result(base.n_samples(), static_cast<Index>(models.size()));
+  for (std::size_t first = 0; first < models.size(); first += n_lanes) {
+    const std::size_t n = std::min<std::size_t>(n_lanes, models.size() - first);
+    simulate_lanes(models.subspan(first, n), base, result.middleCols(static_cast<Index>(first), static_cast<Index>(n)));
+  }
+  return result;
+}
+
+void add_noise(VibrationRecord& record, double decibel, std::uint64_t seed) {
+  const double factor = std::pow(10.0, -decibel / 20.0) / std::sqrt(static_cast<double>(record.n()));
+  record.base += factor * record.base.norm() * normal_numbers(record.n(), 2 * seed);
+  record.relative += factor * record.relative.norm() * normal_numbers(record.n(), 2 * seed + 1);
+}
+
+}  // namespace pfdm
