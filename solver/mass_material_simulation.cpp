@@ -1,18 +1,21 @@
 #include "solver/mass_material_simulation.h"
 
+#include "physics/error.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 namespace pfdm {
 namespace {
 
 using Eigen::Index;
 
-constexpr int n_lanes = 4;  // models side by side in one vector register
+// Models side by side: two vector registers of four, whose chains of operations overlap.
+constexpr int n_lanes = 8;
 using Lane = Eigen::Array<double, n_lanes, 1>;
 
 /// Beyond this displacement [m] the mass has run away: samples are centimetres tall.
@@ -133,56 +136,59 @@ constexpr Tableau cooper_verner() {
       .node = {0, 2, 2, 3, 3, 2, 1, 1, 2, 3, 4}};
 }
 
+/// N: number of states, known to the compiler, so that the sums over stages are written out without the zeros.
+template <std::size_t N>
 class Stepper {
  public:
-  explicit Stepper(const LaneModel& model)
-      : m_(model),
-        state_(model.n_states, Lane::Zero()),
-        stage_(model.n_states),
-        slope_(Tableau::stages * model.n_states) {}
+  explicit Stepper(const LaneModel& model) : m_(model) {
+    state_.fill(Lane::Zero());
+    for (auto& slope : slope_) slope.fill(Lane::Zero());
+  }
 
   /// y: base acceleration at the five Lobatto points of the step.
   void step(const double* y, double h) {
-    static constexpr Tableau t = cooper_verner();
-    const std::size_t n = m_.n_states;
-    for (std::size_t i = 0; i < Tableau::stages; ++i) {
-      for (std::size_t d = 0; d < n; ++d) {
-        Lane sum = Lane::Zero();
-        for (std::size_t k = 0; k < i; ++k)
-          if (t.a[i][k] != 0.0) sum += t.a[i][k] * slope_[k * n + d];
-        stage_[d] = state_[d] + h * sum;
-      }
-      slopes(m_, stage_.data(), y[t.node[i]], &slope_[i * n]);
-    }
-    for (std::size_t d = 0; d < n; ++d) {
-      Lane sum = Lane::Zero();
-      for (std::size_t k = 0; k < Tableau::stages; ++k)
-        if (t.b[k] != 0.0) sum += t.b[k] * slope_[k * n + d];
-      state_[d] += h * sum;
-    }
+    [&]<std::size_t... I>(std::index_sequence<I...>) { (stage<I>(y, h), ...); }
+    (std::make_index_sequence<n_stages>());
+    for (std::size_t d = 0; d < N; ++d) state_[d] += h * weighted_sum<n_stages>(tableau.b, d);
   }
 
   Lane acceleration(double y) {
-    slopes(m_, state_.data(), y, slope_.data());
-    return slope_[1];
+    slopes(m_, state_.data(), y, slope_[0].data());
+    return slope_[0][1];
   }
-  /// Of all models: one that runs away makes the others no slower, and is told at the end.
-  bool ran_away() const { return !(state_[0].abs() < runaway).any(); }
+  bool all_ran_away() const { return !(state_[0].abs() < runaway).any(); }
   const Lane& displacement() const { return state_[0]; }
 
  private:
+  static constexpr Tableau tableau = cooper_verner();
+  static constexpr std::size_t n_stages = Tableau::stages;
+
+  template <std::size_t I>
+  void stage(const double* y, double h) {
+    std::array<Lane, N> at;
+    for (std::size_t d = 0; d < N; ++d) at[d] = state_[d] + h * weighted_sum<I>(tableau.a[I], d);
+    slopes(m_, at.data(), y[tableau.node[I]], slope_[I].data());
+  }
+
+  template <std::size_t Count>
+  Lane weighted_sum(const double (&weights)[n_stages], std::size_t d) const {
+    Lane sum = Lane::Zero();
+#pragma GCC unroll 11
+    for (std::size_t k = 0; k < Count; ++k)
+      if (weights[k] != 0.0) sum += weights[k] * slope_[k][d];
+    return sum;
+  }
+
   const LaneModel& m_;
-  std::vector<Lane> state_;
-  std::vector<Lane> stage_;
-  std::vector<Lane> slope_;
+  std::array<Lane, N> state_;
+  std::array<std::array<Lane, N>, n_stages> slope_;
 };
 
-void simulate_lanes(std::span<const MassMaterial> models, const BaseNodes& base, Eigen::Ref<Eigen::MatrixXd> result) {
-  const LaneModel model = gather(models);
-  Stepper stepper(model);
+template <std::size_t N>
+void march(const LaneModel& model, Index n_models, const BaseNodes& base, Eigen::Ref<Eigen::MatrixXd> result) {
+  Stepper<N> stepper(model);
   const double h = 1.0 / (base.rate * base.substeps);
   const Index n = base.n_samples();
-  const auto n_models = static_cast<Index>(models.size());
   const Index stride = 4 * base.substeps;
   result.setConstant(std::numeric_limits<double>::quiet_NaN());
   Lane valid = Lane::Ones();
@@ -190,12 +196,30 @@ void simulate_lanes(std::span<const MassMaterial> models, const BaseNodes& base,
     const double* y = base.values.data() + stride * i;
     const Lane acceleration = stepper.acceleration(*y);
     for (Index l = 0; l < n_models; ++l) result(i, l) = acceleration[l];
-    if (i + 1 == n || stepper.ran_away()) break;
+    if (i + 1 == n || stepper.all_ran_away()) break;
     for (int sub = 0; sub < base.substeps; ++sub) stepper.step(y + 4 * sub, h);
     valid = (stepper.displacement().abs() < runaway).select(valid, 0.0);
   }
   for (Index l = 0; l < n_models; ++l)
     if (valid[l] == 0.0) result.col(l).setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Kernels of more states than the program has steppers for make do with that of the next size: states without slopes
+/// stay zero.
+void simulate_lanes(std::span<const MassMaterial> models, const BaseNodes& base, Eigen::Ref<Eigen::MatrixXd> result) {
+  const LaneModel model = gather(models);
+  const auto n_models = static_cast<Index>(models.size());
+  switch (model.n_states) {
+    case 2: return march<2>(model, n_models, base, result);
+    case 3: return march<3>(model, n_models, base, result);
+    case 4: return march<4>(model, n_models, base, result);
+    case 5: return march<5>(model, n_models, base, result);
+    case 6: return march<6>(model, n_models, base, result);
+    default: break;
+  }
+  if (model.n_states <= 12) return march<12>(model, n_models, base, result);
+  if (model.n_states > 44) throw InputError("a kernel of more than 42 states (a pair counts two) cannot be simulated");
+  march<44>(model, n_models, base, result);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include "solver/signals_fourier.h"
 
+#include <Eigen/QR>
+
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <complex>
@@ -26,6 +29,29 @@ VectorXcd padded_spectrum(const VectorXd& x, Index length) {
   VectorXd padded = VectorXd::Zero(length);
   padded.head(x.size()) = x;
   return fourier(padded);
+}
+
+/// Noise makes the phase tremble. Its course is taken out as a polynomial, because the filter takes signals as
+/// periodic.
+VectorXd smoothed_phase(const VectorXd& phase, double rate, double bandwidth) {
+  const Index n = phase.size();
+  const Index n_fit = std::min<Index>(n, 2000);
+  Eigen::MatrixXd powers(n_fit, 8);
+  VectorXd at(n_fit);
+  const auto place = [&](Index i) { return 2.0 * static_cast<double>(i) / static_cast<double>(n - 1) - 1.0; };
+  for (Index k = 0; k < n_fit; ++k) {
+    const Index i = (n - 1) * k / std::max<Index>(n_fit - 1, 1);
+    at[k] = phase[i];
+    for (Index p = 0; p < 8; ++p) powers(k, p) = std::pow(place(i), p);
+  }
+  const VectorXd c = powers.colPivHouseholderQr().solve(at);
+  VectorXd course(n);
+  for (Index i = 0; i < n; ++i) {
+    double sum = 0.0;
+    for (Index p = 8; p-- > 0;) sum = sum * place(i) + c[p];
+    course[i] = sum;
+  }
+  return course + filtered(phase - course, rate, {.low = 0.0, .high = bandwidth, .skirt = 0.5});
 }
 
 }  // namespace
@@ -85,6 +111,15 @@ Eigen::MatrixXcd harmonics(const VectorXd& x, double rate, const VectorXd& phase
     result.col(h - 1).imag() = filtered(-2.0 * x.array() * turned.sin(), rate, low_pass);
   }
   return result;
+}
+
+VectorXd tracked_sweep(const VectorXd& x, double rate, const PassBand& band, double bandwidth) {
+  const VectorXd phase = smoothed_phase(driving_phase(x, rate, band), rate, bandwidth);
+  const Eigen::MatrixXcd a = harmonics(x, rate, phase, 3, bandwidth);
+  VectorXd sum = VectorXd::Zero(x.size());
+  for (Index i = 0; i < x.size(); ++i)
+    for (Index h = 0; h < 3; ++h) sum[i] += (a(i, h) * std::polar(1.0, static_cast<double>(h + 1) * phase[i])).real();
+  return sum;
 }
 
 }  // namespace pfdm

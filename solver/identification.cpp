@@ -1,0 +1,104 @@
+#include "solver/identification.h"
+
+#include "physics/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace pfdm {
+namespace {
+
+/// Of long records the quarter with the most motion: near to the answer, where each step costs a quarter.
+std::vector<VibrationRecord> strongest_parts(std::span<const VibrationRecord> records) {
+  std::vector<VibrationRecord> parts;
+  for (const VibrationRecord& r : records) {
+    const Eigen::Index n = r.n() / 4;
+    if (n < 12000) {
+      parts.push_back(r);
+      continue;
+    }
+    Eigen::Index best = 0;
+    double most = 0.0;
+    for (Eigen::Index first = 0; first + n <= r.n(); first += n / 16)
+      if (const double motion = r.relative.segment(first, n).squaredNorm(); motion > most) {
+        most = motion;
+        best = first;
+      }
+    VibrationRecord part = r;
+    part.base = r.base.segment(best, n);
+    part.relative = r.relative.segment(best, n);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+/// One order of the kernel, from its regression on. None if no dissipative start or no bounded solution was found.
+std::optional<Identification> identify_order(std::span<const VibrationRecord> records, const ModelStructure& structure,
+                                             int order, const IdentificationSettings& settings) {
+  const std::vector<VibrationRecord> parts = strongest_parts(records);
+  auto start = regress_separable(parts, structure, order, settings);
+  if (!start) return std::nullopt;
+  Identification result;
+  IdentificationSettings no_intervals = settings;
+  no_intervals.replicates = 0;
+  const OutputErrorFit near = refine_output(parts, start->model, no_intervals);
+  if (near.record_misfit.empty()) return std::nullopt;
+  result.fit = refine_output(records, near.model, settings);
+  result.start = std::move(*start);
+  if (result.fit.record_misfit.empty()) return std::nullopt;
+  return result;
+}
+
+double mean_misfit(const OutputErrorFit& fit) {
+  double sum = 0.0;
+  for (const double m : fit.record_misfit) sum += m;
+  return sum / static_cast<double>(fit.record_misfit.size());
+}
+
+std::vector<int> orders_to_try(const ModelStructure& structure, const IdentificationSettings& settings) {
+  if (structure.forcing == KernelForcing::none) return {0};
+  if (settings.kernel_order) return {*settings.kernel_order};
+  if (structure.kernel_order && *structure.kernel_order <= settings.maximum_kernel_order)
+    return {*structure.kernel_order};
+  std::vector<int> orders;
+  for (int i = 0; i <= settings.maximum_kernel_order; ++i) orders.push_back(i);
+  return orders;
+}
+
+Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  double velocity = 0.0;
+  for (const VibrationRecord& r : records) {
+    low = std::min(low, r.band_low);
+    high = std::max(high, r.band_high);
+    velocity = std::max(velocity, peak_velocity(r));
+  }
+  return passivity(model, 2.0 * std::numbers::pi * low, 2.0 * std::numbers::pi * high, velocity);
+}
+
+}  // namespace
+
+Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
+                        const IdentificationSettings& settings) {
+  std::optional<Identification> best;
+  std::vector<OrderTrial> tried;
+  for (const int order : orders_to_try(structure, settings)) {
+    auto found = identify_order(records, structure, order, settings);
+    if (!found) continue;
+    tried.push_back({order, found->fit.bic, mean_misfit(found->fit)});
+    if (best && found->fit.bic >= best->fit.bic) break;  // one more term is not worth its two parameters
+    best = std::move(found);
+  }
+  if (!best)
+    throw ComputationError(
+        fmt::format("no parameters of model \"{}\" that dissipate energy follow the records", structure.name));
+  best->orders = std::move(tried);
+  best->passivity = passivity_in_band(best->fit.model, records);
+  return std::move(*best);
+}
+
+}  // namespace pfdm
