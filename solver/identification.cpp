@@ -11,42 +11,13 @@
 namespace pfdm {
 namespace {
 
-/// Of long records the quarter with the most motion: near to the answer, where each step costs a quarter.
-std::vector<VibrationRecord> strongest_parts(std::span<const VibrationRecord> records) {
-  std::vector<VibrationRecord> parts;
-  for (const VibrationRecord& r : records) {
-    const Eigen::Index n = r.n() / 4;
-    if (n < 12000) {
-      parts.push_back(r);
-      continue;
-    }
-    Eigen::Index best = 0;
-    double most = 0.0;
-    for (Eigen::Index first = 0; first + n <= r.n(); first += n / 16)
-      if (const double motion = r.relative.segment(first, n).squaredNorm(); motion > most) {
-        most = motion;
-        best = first;
-      }
-    VibrationRecord part = r;
-    part.base = r.base.segment(best, n);
-    part.relative = r.relative.segment(best, n);
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
 /// One order of the kernel, from its regression on. None if no dissipative start or no bounded solution was found.
 std::optional<Identification> identify_order(std::span<const VibrationRecord> records, const ModelStructure& structure,
                                              int order, const IdentificationSettings& settings) {
-  const std::vector<VibrationRecord> parts = strongest_parts(records);
-  auto start = regress_separable(parts, structure, order, settings);
+  auto start = regress_separable(records, structure, order, settings);
   if (!start) return std::nullopt;
   Identification result;
-  IdentificationSettings no_intervals = settings;
-  no_intervals.replicates = 0;
-  const OutputErrorFit near = refine_output(parts, start->model, no_intervals);
-  if (near.record_misfit.empty()) return std::nullopt;
-  result.fit = refine_output(records, near.model, settings);
+  result.fit = refine_output(records, start->model, settings);
   result.start = std::move(*start);
   if (result.fit.record_misfit.empty()) return std::nullopt;
   return result;
@@ -68,6 +39,8 @@ std::vector<int> orders_to_try(const ModelStructure& structure, const Identifica
   return orders;
 }
 
+}  // namespace
+
 Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records) {
   double low = std::numeric_limits<double>::infinity();
   double high = 0.0;
@@ -79,8 +52,6 @@ Passivity passivity_in_band(const MassMaterial& model, std::span<const Vibration
   }
   return passivity(model, 2.0 * std::numbers::pi * low, 2.0 * std::numbers::pi * high, velocity);
 }
-
-}  // namespace
 
 Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
                         const IdentificationSettings& settings) {

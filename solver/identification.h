@@ -88,6 +88,12 @@ Identification identify(std::span<const VibrationRecord> records, const ModelStr
 /// of the measured one, within the excited band and its harmonics.
 double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop);
 
+/// The values that a user asks for, units in their names; bounds equal to the value.
+std::vector<Estimate> named_values(const MassMaterial& model);
+
+/// Over the band that the records excite, at the largest velocity in them.
+Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records);
+
 /// What a record's velocity reaches where it is largest [m/s]; for complex stiffness and passivity at the test's level.
 double peak_velocity(const VibrationRecord& record);
 

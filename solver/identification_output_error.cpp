@@ -30,11 +30,11 @@ Conditioner output_condition(const VibrationRecord& r, double crop) {
 }
 
 /// The base's acceleration as what drives the model. Noise on it would come through the nonlinear terms as a bias. Of a
-/// sweep everything is kept that moves with the driving frequency or its harmonics, within +-10 Hz; the rest is noise.
+/// sweep everything is kept that moves with the driving frequency or its harmonics, within +-5 Hz; the rest is noise.
 /// Where the rest is no small part there is no sweep, and where it is next to nothing there is no noise: then the
 /// record is left as it is.
 VectorXd tracked_base(const VibrationRecord& r) {
-  const VectorXd tracked = tracked_sweep(r.base, r.rate, {.low = 0.8 * r.band_low, .high = 1.2 * r.band_high}, 10.0);
+  const VectorXd tracked = tracked_sweep(r.base, r.rate, {.low = 0.8 * r.band_low, .high = 1.2 * r.band_high}, 5.0);
   const Eigen::Index edge = r.n() / 20;
   const Eigen::Index n = r.n() - 2 * edge;
   const double rest = (tracked - r.base).segment(edge, n).norm() / r.base.segment(edge, n).norm();
@@ -94,24 +94,6 @@ class Coordinates {
   double log_low_;
   double log_high_;
 };
-
-/// The values that a user asks for, with units in their names.
-std::vector<Estimate> named_values(const MassMaterial& m) {
-  std::vector<Estimate> values;
-  const auto add = [&](std::string name, double value) { values.push_back({std::move(name), value, value, value}); };
-  for (std::size_t i = 0; i < m.stiffness.size(); ++i)
-    add(fmt::format("k{}_N_per_m{}", i + 1, i == 0 ? "" : std::to_string(i + 1)), m.stiffness[i]);
-  add("c_N_s_per_m", m.damping);
-  if (m.damping_exponent != 0.0) add("lambda", m.damping_exponent);
-  const char* unit = m.forcing == KernelForcing::displacement ? "N_per_m_s"
-                     : m.forcing == KernelForcing::stiffness  ? "per_s"
-                                                              : "N_per_m";
-  for (std::size_t i = 0; i < m.kernel.size(); ++i) {
-    add(fmt::format("alpha{}_per_s", i + 1), m.kernel[i].alpha.real());
-    add(fmt::format("beta{}_{}", i + 1, unit), m.kernel[i].beta.real());
-  }
-  return values;
-}
 
 /// All records: measured output, what drives, and where each one's residuals stand.
 class OutputError {
@@ -328,6 +310,23 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
     set_intervals(fit, error.coordinates(),
                   bootstrap(error, found.parameters, r, error.jacobian(found.parameters), settings), settings);
   return fit;
+}
+
+std::vector<Estimate> named_values(const MassMaterial& m) {
+  std::vector<Estimate> values;
+  const auto add = [&](std::string name, double value) { values.push_back({std::move(name), value, value, value}); };
+  for (std::size_t i = 0; i < m.stiffness.size(); ++i)
+    add(fmt::format("k{}_N_per_m{}", i + 1, i == 0 ? "" : std::to_string(i + 1)), m.stiffness[i]);
+  add("c_N_s_per_m", m.damping);
+  if (m.damping_exponent != 0.0) add("lambda", m.damping_exponent);
+  const char* unit = m.forcing == KernelForcing::displacement ? "N_per_m_s"
+                     : m.forcing == KernelForcing::stiffness  ? "per_s"
+                                                              : "N_per_m";
+  for (std::size_t i = 0; i < m.kernel.size(); ++i) {
+    add(fmt::format("alpha{}_per_s", i + 1), m.kernel[i].alpha.real());
+    add(fmt::format("beta{}_{}", i + 1, unit), m.kernel[i].beta.real());
+  }
+  return values;
 }
 
 double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop) {

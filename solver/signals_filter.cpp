@@ -116,9 +116,17 @@ Eigen::MatrixXcd harmonics(const VectorXd& x, double rate, const VectorXd& phase
 VectorXd tracked_sweep(const VectorXd& x, double rate, const PassBand& band, double bandwidth) {
   const VectorXd phase = smoothed_phase(driving_phase(x, rate, band), rate, bandwidth);
   const Eigen::MatrixXcd a = harmonics(x, rate, phase, 3, bandwidth);
-  VectorXd sum = VectorXd::Zero(x.size());
-  for (Index i = 0; i < x.size(); ++i)
-    for (Index h = 0; h < 3; ++h) sum[i] += (a(i, h) * std::polar(1.0, static_cast<double>(h + 1) * phase[i])).real();
+  const auto turned_forward = [&](Index h) -> VectorXd {
+    VectorXd part(x.size());
+    for (Index i = 0; i < x.size(); ++i)
+      part[i] = (a(i, h) * std::polar(1.0, static_cast<double>(h + 1) * phase[i])).real();
+    return part;
+  };
+  VectorXd sum = turned_forward(0);
+  // What noise alone would leave of the rest within the tracker's band; a harmonic that is no more is none.
+  const double noise = (x - sum).norm() * std::sqrt(2.5 * bandwidth / (0.5 * rate));
+  for (Index h = 1; h < 3; ++h)
+    if (const VectorXd part = turned_forward(h); part.norm() > 2.0 * noise) sum += part;
   return sum;
 }
 

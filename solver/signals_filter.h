@@ -36,8 +36,8 @@ Eigen::VectorXd driving_phase(const Eigen::VectorXd& x, double rate, const PassB
 Eigen::MatrixXcd harmonics(const Eigen::VectorXd& x, double rate, const Eigen::VectorXd& phase, int n,
                            double bandwidth);
 
-/// The sweep alone, without what noise does beside its frequency and two harmonics: the sum of their amplitudes, each
-/// within `bandwidth` [Hz], turned forward again.
+/// The sweep alone, without the noise beside its frequency: its amplitude within `bandwidth` [Hz], turned forward
+/// again; likewise of two harmonics, where they stand out of the noise.
 Eigen::VectorXd tracked_sweep(const Eigen::VectorXd& x, double rate, const PassBand& band, double bandwidth);
 
 }  // namespace pfdm

@@ -1,12 +1,14 @@
 #include "cases/program/kinds.h"
 
 #include "cases/program/fracture_program.h"
+#include "cases/program/mass_material_program.h"
 
 namespace pfdm {
 namespace {
 
 constexpr CaseKind table[] = {
     {"fracture", "phase-field fracture of a solid under load", read_fracture_program},
+    {"mass_material", "mass on a sample on a shaker: simulation and identification", read_mass_material_program},
 };
 
 }  // namespace
