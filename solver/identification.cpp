@@ -1,6 +1,7 @@
 #include "solver/identification.h"
 
 #include "physics/error.h"
+#include "solver/identification_stiffness.h"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,26 @@ std::vector<int> orders_to_try(const ModelStructure& structure, const Identifica
   return orders;
 }
 
+/// Linear in everything: the frequency response says all, and noise on it is known from the coherence.
+bool is_linear_viscoelastic(const ModelStructure& structure) {
+  return structure.stiffness_order == 1 && !structure.nonlinear_damping && structure.forcing == KernelForcing::velocity;
+}
+
+bool long_enough_for_spectra(std::span<const VibrationRecord> records) {
+  return std::ranges::all_of(records, [](const VibrationRecord& r) { return r.n() >= 16 * SegmentSettings{}.length; });
+}
+
+Identification identify_linear(std::span<const VibrationRecord> records, const IdentificationSettings& settings) {
+  StiffnessIdentification stiffness = identify_stiffness(records, settings);
+  Identification result;
+  result.start = {.model = stiffness.fit.model, .misfit = std::sqrt(stiffness.fit.chi2)};
+  result.orders = std::move(stiffness.orders);
+  result.fit = refine_output(records, result.start.model, settings);
+  if (result.fit.record_misfit.empty()) throw ComputationError("the fitted complex stiffness gives no bounded motion");
+  result.passivity = passivity_in_band(result.fit.model, records);
+  return result;
+}
+
 }  // namespace
 
 Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records) {
@@ -55,6 +76,7 @@ Passivity passivity_in_band(const MassMaterial& model, std::span<const Vibration
 
 Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
                         const IdentificationSettings& settings) {
+  if (is_linear_viscoelastic(structure) && long_enough_for_spectra(records)) return identify_linear(records, settings);
   std::optional<Identification> best;
   std::vector<OrderTrial> tried;
   for (const int order : orders_to_try(structure, settings)) {

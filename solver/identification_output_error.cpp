@@ -31,14 +31,14 @@ Conditioner output_condition(const VibrationRecord& r, double crop) {
 
 /// The base's acceleration as what drives the model. Noise on it would come through the nonlinear terms as a bias. Of a
 /// sweep everything is kept that moves with the driving frequency or its harmonics, within +-5 Hz; the rest is noise.
-/// Where the rest is no small part there is no sweep, and where it is next to nothing there is no noise: then the
-/// record is left as it is.
+/// Where the rest is no small part there is no sweep, and where it is next to nothing (below -60 dB) there is no
+/// noise: then the record is left as it is.
 VectorXd tracked_base(const VibrationRecord& r) {
   const VectorXd tracked = tracked_sweep(r.base, r.rate, {.low = 0.8 * r.band_low, .high = 1.2 * r.band_high}, 5.0);
   const Eigen::Index edge = r.n() / 20;
   const Eigen::Index n = r.n() - 2 * edge;
   const double rest = (tracked - r.base).segment(edge, n).norm() / r.base.segment(edge, n).norm();
-  return rest > 1e-4 && rest < 0.1 ? tracked : r.base;
+  return rest > 1e-3 && rest < 0.1 ? tracked : r.base;
 }
 
 /// Parameters of size one without bounds: logarithms of what must be positive (k1, c, |beta|), a sigmoid of what has

@@ -16,7 +16,27 @@ using Eigen::Index;
 
 // Models side by side: two vector registers of four, whose chains of operations overlap.
 constexpr int n_lanes = 8;
-using Lane = Eigen::Array<double, n_lanes, 1>;
+
+using Register = double __attribute__((vector_size(32)));
+
+/// One number of each model. Plain vector arithmetic, which the compiler keeps in registers.
+struct Lane {
+  Register a;
+  Register b;
+  double& operator[](int i) { return i < 4 ? reinterpret_cast<double*>(&a)[i] : reinterpret_cast<double*>(&b)[i - 4]; }
+  double operator[](int i) const {
+    return i < 4 ? reinterpret_cast<const double*>(&a)[i] : reinterpret_cast<const double*>(&b)[i - 4];
+  }
+  static Lane all(double x) { return {Register{x, x, x, x}, Register{x, x, x, x}}; }
+};
+inline Lane operator+(const Lane& x, const Lane& y) { return {x.a + y.a, x.b + y.b}; }
+inline Lane operator-(const Lane& x, const Lane& y) { return {x.a - y.a, x.b - y.b}; }
+inline Lane operator*(const Lane& x, const Lane& y) { return {x.a * y.a, x.b * y.b}; }
+inline Lane operator*(double x, const Lane& y) { return {x * y.a, x * y.b}; }
+inline Lane operator-(double x, const Lane& y) { return {x - y.a, x - y.b}; }
+inline Lane operator-(const Lane& x) { return {-x.a, -x.b}; }
+inline Lane& operator+=(Lane& x, const Lane& y) { return x = x + y; }
+inline Lane& operator-=(Lane& x, const Lane& y) { return x = x - y; }
 
 /// Beyond this displacement [m] the mass has run away: samples are centimetres tall.
 constexpr double runaway = 10.0;
@@ -33,6 +53,7 @@ struct LaneModel {
   std::vector<LaneKernel> kernel;
   KernelForcing forcing = KernelForcing::none;
   bool nonlinear_damping = false;
+  bool any_pair = false;
   std::size_t n_states = 2;
 };
 
@@ -50,7 +71,7 @@ LaneModel gather(std::span<const MassMaterial> models) {
   m.damping = lanes(models, [](M x) { return x.damping; });
   m.exponent = lanes(models, [](M x) { return x.damping_exponent; });
   m.velocity_inverse = lanes(models, [](M x) { return 1.0 / x.reference_velocity; });
-  m.nonlinear_damping = (m.exponent != 0.0).any();
+  m.nonlinear_damping = std::ranges::any_of(models, [](M x) { return x.damping_exponent != 0.0; });
   m.forcing = models.front().forcing;
   for (std::size_t i = 0; i < models.front().stiffness.size(); ++i)
     m.stiffness.push_back(lanes(models, [i](M x) { return x.stiffness[i]; }));
@@ -62,49 +83,83 @@ LaneModel gather(std::span<const MassMaterial> models) {
     const double share = k.pair ? 2.0 : 1.0;
     k.weight_real = lanes(models, [=](M x) { return share * x.kernel[i].beta.real(); });
     k.weight_imaginary = lanes(models, [=](M x) { return share * x.kernel[i].beta.imag(); });
+    m.any_pair = m.any_pair || k.pair;
     m.n_states += k.pair ? 2 : 1;
     m.kernel.push_back(k);
   }
   return m;
 }
 
-Lane power_of_speed(const LaneModel& m, const Lane& velocity) {
-  const Lane speed = (velocity * m.velocity_inverse).abs().max(1e-300);
-  return (m.exponent * speed.log()).exp();
+[[gnu::always_inline]] inline Lane power_of_speed(const LaneModel& m, const Lane& velocity) {
+  using Array = Eigen::Array<double, n_lanes, 1>;
+  const auto as_array = [](const Lane& lane) {
+    return Eigen::Map<const Array>(reinterpret_cast<const double*>(&lane));
+  };
+  const Array speed = (as_array(velocity) * as_array(m.velocity_inverse)).abs().max(1e-300);
+  const Array power = (as_array(m.exponent) * speed.log()).exp();
+  Lane result;
+  Eigen::Map<Array>(reinterpret_cast<double*>(&result)) = power;
+  return result;
 }
 
-/// Slopes of [z, z', kernel states] under the base acceleration y.
-void slopes(const LaneModel& m, const Lane* state, double y, Lane* slope) {
-  const Lane z = state[0];
-  const Lane velocity = state[1];
-  Lane stiffness = Lane::Zero();
+/// Forces of a state, and f.
+struct Forces {
+  Lane plain;    // k(z) + c(z')
+  Lane forcing;  // f
+};
+
+[[gnu::always_inline]] inline Forces forces(const LaneModel& m, const Lane& z, const Lane& velocity) {
+  Lane stiffness = Lane::all(0.0);
   for (std::size_t i = m.stiffness.size(); i-- > 0;) stiffness = (stiffness + m.stiffness[i]) * z;
-  const Lane shaped = m.nonlinear_damping ? Lane(velocity * power_of_speed(m, velocity)) : velocity;
-  Lane force = stiffness + m.damping * shaped;
-  Lane f = Lane::Zero();
+  const Lane shaped = m.nonlinear_damping ? velocity * power_of_speed(m, velocity) : velocity;
+  const Lane plain = stiffness + m.damping * shaped;
   switch (m.forcing) {
-    case KernelForcing::none: break;
-    case KernelForcing::displacement: f = z; break;
-    case KernelForcing::velocity: f = velocity; break;
-    case KernelForcing::stiffness: f = stiffness; break;
-    case KernelForcing::damping: f = shaped; break;
+    case KernelForcing::displacement: return {plain, z};
+    case KernelForcing::stiffness: return {plain, stiffness};
+    case KernelForcing::damping: return {plain, shaped};
+    case KernelForcing::none:
+    case KernelForcing::velocity: break;
+  }
+  return {plain, velocity};
+}
+
+/// Slopes of the kernel states, which follow z and z' in `state`; returns v. N: number of all states.
+template <std::size_t N>
+[[gnu::always_inline]] inline Lane kernel_slopes(const LaneModel& m, const std::array<Lane, N>& state, const Lane& f,
+                                                 std::array<Lane, N>& slope) {
+  Lane v = Lane::all(0.0);
+  if (!m.any_pair && m.kernel.size() == N - 2) {
+#pragma GCC unroll 4
+    for (std::size_t s = 2; s < N; ++s) {
+      const LaneKernel& k = m.kernel[s - 2];
+      v += k.weight_real * state[s];
+      slope[s] = f - k.rate_real * state[s];
+    }
+    return v;
   }
   std::size_t s = 2;
   for (const LaneKernel& k : m.kernel) {
-    const Lane real = state[s];
-    force += k.weight_real * real;
-    slope[s] = f - k.rate_real * real;
+    v += k.weight_real * state[s];
+    slope[s] = f - k.rate_real * state[s];
     if (k.pair) {
-      const Lane imaginary = state[s + 1];
-      force -= k.weight_imaginary * imaginary;
-      slope[s] += k.rate_imaginary * imaginary;
-      slope[s + 1] = -k.rate_real * imaginary - k.rate_imaginary * real;
+      v -= k.weight_imaginary * state[s + 1];
+      slope[s] += k.rate_imaginary * state[s + 1];
+      slope[s + 1] = -k.rate_real * state[s + 1] - k.rate_imaginary * state[s];
       ++s;
     }
     ++s;
   }
-  slope[0] = velocity;
-  slope[1] = -y - force * m.mass_inverse;
+  return v;
+}
+
+/// Slopes of [z, z', kernel states] under the base acceleration y.
+template <std::size_t N>
+[[gnu::always_inline]] inline void slopes(const LaneModel& m, const std::array<Lane, N>& state, double y,
+                                          std::array<Lane, N>& slope) {
+  const Forces force = forces(m, state[0], state[1]);
+  const Lane v = kernel_slopes(m, state, force.forcing, slope);
+  slope[0] = state[1];
+  slope[1] = -y - (force.plain + v) * m.mass_inverse;
 }
 
 // Cooper and Verner, SIAM J. Numer. Anal. 9 (1972) 389: order 8 in 11 stages, whose abscissae are Lobatto points, so
@@ -141,8 +196,8 @@ template <std::size_t N>
 class Stepper {
  public:
   explicit Stepper(const LaneModel& model) : m_(model) {
-    state_.fill(Lane::Zero());
-    for (auto& slope : slope_) slope.fill(Lane::Zero());
+    state_.fill(Lane::all(0.0));
+    for (auto& slope : slope_) slope.fill(Lane::all(0.0));
   }
 
   /// y: base acceleration at the five Lobatto points of the step.
@@ -153,10 +208,14 @@ class Stepper {
   }
 
   Lane acceleration(double y) {
-    slopes(m_, state_.data(), y, slope_[0].data());
+    slopes(m_, state_, y, slope_[0]);
     return slope_[0][1];
   }
-  bool all_ran_away() const { return !(state_[0].abs() < runaway).any(); }
+  bool all_ran_away() const {
+    for (int l = 0; l < n_lanes; ++l)
+      if (std::abs(state_[0][l]) < runaway) return false;
+    return true;
+  }
   const Lane& displacement() const { return state_[0]; }
 
  private:
@@ -167,12 +226,12 @@ class Stepper {
   void stage(const double* y, double h) {
     std::array<Lane, N> at;
     for (std::size_t d = 0; d < N; ++d) at[d] = state_[d] + h * weighted_sum<I>(tableau.a[I], d);
-    slopes(m_, at.data(), y[tableau.node[I]], slope_[I].data());
+    slopes(m_, at, y[tableau.node[I]], slope_[I]);
   }
 
   template <std::size_t Count>
   Lane weighted_sum(const double (&weights)[n_stages], std::size_t d) const {
-    Lane sum = Lane::Zero();
+    Lane sum = Lane::all(0.0);
 #pragma GCC unroll 11
     for (std::size_t k = 0; k < Count; ++k)
       if (weights[k] != 0.0) sum += weights[k] * slope_[k][d];
@@ -191,16 +250,17 @@ void march(const LaneModel& model, Index n_models, const BaseNodes& base, Eigen:
   const Index n = base.n_samples();
   const Index stride = 4 * base.substeps;
   result.setConstant(std::numeric_limits<double>::quiet_NaN());
-  Lane valid = Lane::Ones();
+  Lane valid = Lane::all(1.0);
   for (Index i = 0; i < n; ++i) {
     const double* y = base.values.data() + stride * i;
     const Lane acceleration = stepper.acceleration(*y);
-    for (Index l = 0; l < n_models; ++l) result(i, l) = acceleration[l];
+    for (int l = 0; l < n_models; ++l) result(i, l) = acceleration[l];
     if (i + 1 == n || stepper.all_ran_away()) break;
     for (int sub = 0; sub < base.substeps; ++sub) stepper.step(y + 4 * sub, h);
-    valid = (stepper.displacement().abs() < runaway).select(valid, 0.0);
+    for (int l = 0; l < n_models; ++l)
+      if (!(std::abs(stepper.displacement()[l]) < runaway)) valid[l] = 0.0;
   }
-  for (Index l = 0; l < n_models; ++l)
+  for (int l = 0; l < n_models; ++l)
     if (valid[l] == 0.0) result.col(l).setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
