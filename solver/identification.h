@@ -2,13 +2,13 @@
 // Identification of the mass-material model from vibration records: which parameters make the equation, or its
 // solution, meet what was measured. Methods:
 //
-//   regress_states    the report's continuous-time least squares (A4.2): terms of the equation of motion are columns of
-//                     a linear system; with one kernel term by its third-order equation
-//   regress_separable the same with any number of kernel terms: for given rates alpha their convolutions are columns
-//   too refine_output     output error: parameters such that the simulated response to the measured base acceleration
-//   is
-//                     the measured one, all records at once
-//   identify          the whole: separable start, output error, order of the kernel by BIC, intervals by bootstrap
+//   regress_states     the report's continuous-time least squares (A4.2): the terms of the equation of motion are the
+//                      columns of a linear system; with one kernel term by its third-order equation
+//   regress_ten_steps  the report's iteration for more terms (A4.3)
+//   regress_separable  any number of terms: for given rates alpha their convolutions are columns too
+//   refine_output      output error: the simulated response to the measured base acceleration is to be the measured
+//                      one, all records at once
+//   identify           the whole: separable start, output error, order of the kernel by BIC, intervals by bootstrap
 
 #include "physics/mass_material.h"
 #include "solver/vibration_record.h"
@@ -46,6 +46,12 @@ Regression regress_states(std::span<const VibrationRecord> records, const ModelS
 /// None if no choice of rates gives `kernel_order` terms that all dissipate.
 std::optional<Regression> regress_separable(std::span<const VibrationRecord> records, const ModelStructure& structure,
                                             int kernel_order, const IdentificationSettings& settings);
+
+/// The report's iteration for kernels of higher order (A4.3): Prony series of `prony_order` terms, cut to
+/// `kernel_order` by energy. Takes the first record alone. For comparison: it stops near where it starts.
+Regression regress_ten_steps(std::span<const VibrationRecord> records, const ModelStructure& structure,
+                             int kernel_order, const IdentificationSettings& settings, int prony_order = 40,
+                             int maximum_iterations = 100);
 
 struct Estimate {
   std::string name;  ///< "k1_N_per_m", "alpha1_per_s" ...

@@ -35,7 +35,7 @@ Conditioner output_condition(const VibrationRecord& r, double crop) {
 /// noise: then the record is left as it is.
 VectorXd tracked_base(const VibrationRecord& r) {
   const VectorXd tracked = tracked_sweep(r.base, r.rate, {.low = 0.8 * r.band_low, .high = 1.2 * r.band_high}, 5.0);
-  const Eigen::Index edge = r.n() / 20;
+  const Eigen::Index edge = r.n() / 4;  // the ends are not tracked well
   const Eigen::Index n = r.n() - 2 * edge;
   const double rest = (tracked - r.base).segment(edge, n).norm() / r.base.segment(edge, n).norm();
   return rest > 1e-3 && rest < 0.1 ? tracked : r.base;
@@ -325,6 +325,9 @@ std::vector<Estimate> named_values(const MassMaterial& m) {
   for (std::size_t i = 0; i < m.kernel.size(); ++i) {
     add(fmt::format("alpha{}_per_s", i + 1), m.kernel[i].alpha.real());
     add(fmt::format("beta{}_{}", i + 1, unit), m.kernel[i].beta.real());
+    if (!m.kernel[i].is_pair()) continue;
+    add(fmt::format("alpha{}_imaginary_per_s", i + 1), m.kernel[i].alpha.imag());
+    add(fmt::format("beta{}_imaginary_{}", i + 1, unit), m.kernel[i].beta.imag());
   }
   return values;
 }

@@ -140,6 +140,7 @@ constexpr ExcitationType excitations[] = {
 constexpr FitMethod methods[] = {
     {"output_error", "separable start, then the simulated response fitted to all records; order by BIC; intervals"},
     {"least_squares", "the report's continuous-time least squares (A4.2), M = 0 or 1"},
+    {"ten_step", "the report's iteration with a Prony series (A4.3), of the first record; for comparison"},
 };
 
 VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {

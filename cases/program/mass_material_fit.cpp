@@ -68,10 +68,9 @@ struct Found {
   VibrationFit report;
 };
 
-Found by_least_squares(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
-  require_low_order(c.fit, structure);
+/// What the regressions find: no intervals.
+Found without_intervals(const Regression& regression, const Records& records) {
   Found found;
-  const Regression regression = regress_states(records.fitted, structure, settings_of(c));
   found.model = regression.model;
   found.report.path = {regression.misfit};
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -81,6 +80,18 @@ Found by_least_squares(const Records& records, const ModelStructure& structure, 
   }
   found.report.passivity = passivity_in_band(found.model, records.fitted);
   return found;
+}
+
+Found by_ten_steps(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+  if (structure.forcing == KernelForcing::none)
+    throw InputError(fmt::format("[fit] \"ten_step\" finds kernels; model \"{}\" has none", structure.name));
+  const int order = c.fit.kernel_order.value_or(structure.kernel_order.value_or(2));
+  return without_intervals(regress_ten_steps(records.fitted, structure, order, settings_of(c)), records);
+}
+
+Found by_least_squares(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+  require_low_order(c.fit, structure);
+  return without_intervals(regress_states(records.fitted, structure, settings_of(c)), records);
 }
 
 Found by_output_error(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
@@ -149,8 +160,10 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   const ModelStructure& structure = model_structure(c.fit.structure);
   session.log.say(fmt::format("pfdm {}, case {}: {} of model {} from {} records", session.version, program.name,
                               c.fit.method, structure.name, records.fitted.size()));
-  Found found = c.fit.method == "least_squares" ? by_least_squares(records, structure, c)
-                                                : by_output_error(records, structure, c);
+  const auto method = c.fit.method == "least_squares" ? by_least_squares
+                      : c.fit.method == "ten_step"    ? by_ten_steps
+                                                      : by_output_error;
+  Found found = method(records, structure, c);
   VibrationFit& report = found.report;
   report.case_name = program.name;
   report.version = session.version;

@@ -46,7 +46,7 @@ inline MassMaterial truth(std::string_view name) {
 inline VibrationRecord sweep_record(const MassMaterial& model, double level, double duration, double from = 100.0,
                                     double to = 420.0, double rate = 6000.0) {
   const Excitation shaker =
-      swept_sine({.amplitude = level * g0, .from = from, .to = to, .duration = duration, .ramp = 0.02 * duration});
+      swept_sine({.amplitude = level * g0, .from = from, .to = to, .duration = duration, .ramp = 0.005 * duration});
   const int substeps = 2 * substeps_for(model, rate);
   const BaseNodes nodes = nodes_of(shaker, rate, substeps);
   VibrationRecord record;

@@ -2,6 +2,7 @@
 //
 //   identification_statistics order SEEDS        how often BIC finds the two kernel terms there are
 //   identification_statistics coverage TRIALS    how often the 95 % intervals hold the truth
+//   identification_statistics ten_steps SEEDS    complex stiffness by the report's iteration, beside ours
 //   identification_statistics models SECONDS DB  every model of Table A2: errors and CPU seconds, three levels
 
 #include "solver/identification_stiffness.h"
@@ -63,6 +64,27 @@ void order(int seeds) {
   }
 }
 
+void ten_steps(int seeds) {
+  MassMaterial t = truth("4b");
+  t.stiffness.resize(1);
+  IdentificationSettings settings;
+  settings.mass = t.mass;
+  settings.kernel_order = 2;
+  for (int seed = 1; seed <= seeds; ++seed)
+    for (const double decibel : {200.0, 60.0, 40.0, 30.0}) {
+      VibrationRecord record = random_record(t, static_cast<std::uint64_t>(seed));
+      add_noise(record, decibel, static_cast<std::uint64_t>(seed));
+      const auto error = [&](const MassMaterial& m) { return stiffness_error(m, t, 50.0, 800.0, 0.0); };
+      fmt::print("seed {} {} dB: complex stiffness by", seed, decibel);
+      for (const auto& [m1, m] : {std::pair(40, 10), std::pair(10, 4), std::pair(10, 2)})
+        fmt::print(
+            " ten steps {} to {} {:.2g},", m1, m,
+            error(regress_ten_steps(std::span(&record, 1), model_structure("linear_4b"), m, settings, m1).model));
+      fmt::print(" maximum likelihood {:.2g}\n", error(identify_stiffness(std::span(&record, 1), settings).fit.model));
+      std::fflush(stdout);
+    }
+}
+
 void coverage(int trials) {
   const MassMaterial t = truth("2");
   const std::vector<Estimate> expected = named_values(t);
@@ -115,9 +137,12 @@ int run(int n, char** words) {
   const std::string what = n > 1 ? words[1] : "";
   const double amount = n > 2 ? std::atof(words[2]) : 0.0;
   if (what == "order" && amount > 0.0) return order(static_cast<int>(amount)), 0;
+  if (what == "ten_steps" && amount > 0.0) return ten_steps(static_cast<int>(amount)), 0;
   if (what == "coverage" && amount > 0.0) return coverage(static_cast<int>(amount)), 0;
   if (what == "models" && amount > 0.0) return models(amount, n > 3 ? std::atof(words[3]) : 0.0), 0;
-  fmt::print(stderr, "usage: identification_statistics order SEEDS | coverage TRIALS | models SECONDS [DB]\n");
+  fmt::print(
+      stderr,
+      "usage: identification_statistics order SEEDS | ten_steps SEEDS | coverage TRIALS | models SECONDS [DB]\n");
   return 2;
 }
 
