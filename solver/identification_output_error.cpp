@@ -29,16 +29,32 @@ Conditioner output_condition(const VibrationRecord& r, double crop) {
   return {r.n(), r.rate, band, crop};
 }
 
+constexpr double tracking_width = 5.0;  // [Hz]
+
+/// How far a sample may rely on the tracker, whose filter needs signal on both sides: 0 at the ends of the record, 1
+/// from four of its time constants on.
+double reliance(Eigen::Index i, const VibrationRecord& r) {
+  const double distance = static_cast<double>(std::min(i, r.n() - 1 - i)) / r.rate * tracking_width;
+  const double part = std::clamp((distance - 1.0) / 3.0, 0.0, 1.0);
+  return part * part * (3.0 - 2.0 * part);
+}
+
 /// The base's acceleration as what drives the model. Noise on it would come through the nonlinear terms as a bias. Of a
-/// sweep everything is kept that moves with the driving frequency or its harmonics, within +-5 Hz; the rest is noise.
-/// Where the rest is no small part there is no sweep, and where it is next to nothing (below -60 dB) there is no
-/// noise: then the record is left as it is.
+/// sweep everything is kept that moves with the driving frequency or its harmonics, within the tracking width; the rest
+/// is noise. Where the rest is no small part there is no sweep, and where it is next to nothing (below -60 dB) there is
+/// no noise: then the record is left as it is.
 VectorXd tracked_base(const VibrationRecord& r) {
-  const VectorXd tracked = tracked_sweep(r.base, r.rate, {.low = 0.8 * r.band_low, .high = 1.2 * r.band_high}, 5.0);
+  const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
+  VectorXd tracked = tracked_sweep(r.base, r.rate, band, tracking_width);
   const Eigen::Index edge = r.n() / 4;  // the ends are not tracked well
   const Eigen::Index n = r.n() - 2 * edge;
   const double rest = (tracked - r.base).segment(edge, n).norm() / r.base.segment(edge, n).norm();
-  return rest > 1e-3 && rest < 0.1 ? tracked : r.base;
+  if (rest < 1e-3 || rest > 0.1) return r.base;
+  for (Eigen::Index i = 0; i < r.n(); ++i) {
+    const double weight = reliance(i, r);
+    tracked[i] = weight * tracked[i] + (1.0 - weight) * r.base[i];
+  }
+  return tracked;
 }
 
 /// Parameters of size one without bounds: logarithms of what must be positive (k1, c, |beta|), a sigmoid of what has
@@ -168,12 +184,14 @@ class OutputError {
     return result;
   }
 
-  /// First and last residual of blocks some periods long, within a record each.
+  /// First and last residual of blocks, within a record each, longer than what residuals have in common: some periods,
+  /// and what is left of the noise within the tracking width.
   std::vector<std::pair<Index, Index>> blocks() const {
     std::vector<std::pair<Index, Index>> result;
     for (const Output& out : outputs_) {
       const Index n = out.measured.size();
-      const Index count = std::clamp<Index>(n / 200, 1, 600);
+      const double length = std::max(200.0, 1.5 * out.condition.rate() / tracking_width);
+      const auto count = std::clamp<Index>(static_cast<Index>(static_cast<double>(n) / length), 1, 600);
       for (Index i = 0; i < count; ++i) result.emplace_back(out.first + n * i / count, out.first + n * (i + 1) / count);
     }
     return result;

@@ -50,15 +50,15 @@ void check_time(const RawRecord& r, Faults& faults) {
   const VectorXd dt = t.tail(t.size() - 1) - t.head(t.size() - 1);
   const double step = median(dt);
   for (Index i = 0; i < dt.size(); ++i) {
-    if (!(dt[i] > 0.0)) {
-      faults.push_back(
-          {"time_runs_backwards", fmt::format("the time goes from {} s to {} s at sample {}", t[i], t[i + 1], i + 1)});
-      return;
-    }
-    if (dt[i] > 1.5 * step) {
-      faults.push_back({"gap", fmt::format("{:.3g} s are missing after {} s", dt[i] - step, t[i])});
-      return;
-    }
+    if (dt[i] > 0.0) continue;
+    faults.push_back(
+        {"time_runs_backwards", fmt::format("the time goes from {} s to {} s at sample {}", t[i], t[i + 1], i + 1)});
+    return;
+  }
+  for (Index i = 0; i < dt.size(); ++i) {
+    if (dt[i] <= 1.5 * step) continue;
+    faults.push_back({"gap", fmt::format("{:.3g} s are missing after {} s", dt[i] - step, t[i])});
+    return;
   }
   // Times are printed with few digits: what counts is how far samples stray from an even grid.
   const auto n = static_cast<double>(t.size() - 1);

@@ -88,7 +88,7 @@ void ten_steps(int seeds) {
 void coverage(int trials) {
   const MassMaterial t = truth("2");
   const std::vector<Estimate> expected = named_values(t);
-  const std::vector<VibrationRecord> clean{sweep_record(t, 10.0, 4.0, 150.0, 400.0, 3000.0)};
+  const std::vector<VibrationRecord> clean{sweep_record(t, 10.0, 12.0, 150.0, 400.0, 3000.0)};
   IdentificationSettings settings;
   settings.mass = t.mass;
   settings.reference_velocity = t.reference_velocity;
