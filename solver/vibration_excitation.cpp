@@ -59,26 +59,40 @@ double ramp_factor(double t, double duration, double ramp) {
 /// below 1e-8 for signals that have at least 32 points in their shortest period.
 class TabledSignal {
  public:
-  TabledSignal(VectorXd samples, double rate) : samples_(std::move(samples)), rate_(rate) {}
+  TabledSignal(const VectorXd& samples, double rate) : n_(samples.size()), rate_(rate), padded_(samples.size() + 8) {
+    for (Index i = 0; i < padded_.size(); ++i) padded_[i] = samples[(i - before + n_) % n_];
+  }
+
   double operator()(double t) const {
     const double x = t * rate_;
-    const auto i = static_cast<Index>(std::floor(x));
-    const double s = x - static_cast<double>(i);
-    double sum = 0.0;
-    for (Index k = -3; k <= 4; ++k) {
-      const double value = periodic(i + k);
-      double weight = 1.0;
-      for (Index l = -3; l <= 4; ++l)
-        if (l != k) weight *= (s - static_cast<double>(l)) / static_cast<double>(k - l);
-      sum += weight * value;
+    const double floor = std::floor(x);
+    const double s = x - floor;
+    // Products of s - k over all points but one, from the left and from the right.
+    std::array<double, 8> weight{};
+    double left = 1.0;
+    for (std::size_t k = 0; k < 8; ++k) {
+      weight[k] = left * inverse_products[k];
+      left *= s + before - static_cast<double>(k);
     }
+    double right = 1.0;
+    for (std::size_t k = 8; k-- > 0;) {
+      weight[k] *= right;
+      right *= s + before - static_cast<double>(k);
+    }
+    const Index i = ((static_cast<Index>(floor) % n_) + n_) % n_;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 8; ++k) sum += weight[k] * padded_[i + static_cast<Index>(k)];
     return sum;
   }
 
  private:
-  double periodic(Index i) const { return samples_[((i % samples_.size()) + samples_.size()) % samples_.size()]; }
-  VectorXd samples_;
+  static constexpr int before = 3;  // points before the place
+  /// 1 over the product of k - l over l != k, k = 0 ... 7.
+  static constexpr std::array<double, 8> inverse_products{-1.0 / 5040, 1.0 / 720, -1.0 / 240, 1.0 / 144,
+                                                          -1.0 / 144,  1.0 / 240, -1.0 / 720, 1.0 / 5040};
+  Index n_;
   double rate_;
+  VectorXd padded_;
 };
 
 constexpr std::array<double, 4> lobatto() {
@@ -149,7 +163,7 @@ Excitation sampled_excitation(const VectorXd& samples, double rate, double band_
   for (Index k = 0; k < finer; ++k)
     fine(Eigen::seqN(k, samples.size(), finer)) =
         shifted_samples(samples, static_cast<double>(k) / static_cast<double>(finer));
-  const auto signal = std::make_shared<TabledSignal>(std::move(fine), rate * static_cast<double>(finer));
+  const auto signal = std::make_shared<TabledSignal>(fine, rate * static_cast<double>(finer));
   return {.duration = static_cast<double>(samples.size() - 1) / rate,
           .band_low = band_low,
           .band_high = band_high,
