@@ -2,6 +2,7 @@
 
 #include "cases/program/endochronic_program.h"
 #include "cases/program/fracture_program.h"
+#include "cases/program/mass_material_program.h"
 
 namespace pfdm {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 constexpr CaseKind table[] = {
     {"endochronic", "one material point of endochronic plasticity under mixed control", read_endochronic_program},
     {"fracture", "phase-field fracture of a solid under load", read_fracture_program},
+    {"mass_material", "mass on a sample on a shaker: simulation and identification", read_mass_material_program},
 };
 
 }  // namespace

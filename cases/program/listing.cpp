@@ -3,11 +3,13 @@
 #include "cases/program/boundary_reader.h"
 #include "cases/program/case_file.h"
 #include "cases/program/kinds.h"
+#include "cases/program/mass_material_case.h"
 #include "cases/program/mesh_recipe.h"
 #include "physics/crack_geometry.h"
 #include "physics/degradation.h"
 #include "physics/energy_split.h"
 #include "physics/hardening.h"
+#include "physics/mass_material.h"
 #include "solver/endochronic_identification.h"
 
 #include <fmt/format.h>
@@ -55,6 +57,9 @@ void list_laws(std::ostream& out) {
   list_table(out, "identification of the endochronic law ([fit] method)", identification_methods());
   list_table(out, "boundary conditions ([[boundary]] type)", boundary_types());
   list_table(out, "displacement fields (displacement = { field = ... })", displacement_fields());
+  list_table(out, "mass-material models ([model] structure)", model_structures());
+  list_table(out, "excitations ([[test]] excitation.type)", excitation_types());
+  list_table(out, "identification ([fit] method)", fit_methods());
 }
 
 }  // namespace pfdm

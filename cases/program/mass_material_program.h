@@ -1,0 +1,10 @@
+#pragma once
+// A case of kind "mass_material" as a program: what check, run and fit do with it.
+
+#include "cases/program/kinds.h"
+
+namespace pfdm {
+
+RunnableCase read_mass_material_program(const CaseFile& file);
+
+}  // namespace pfdm

@@ -1,0 +1,133 @@
+#include "postproc/signal_table.h"
+
+#include "physics/error.h"
+#include "postproc/atomic_file.h"
+#include "postproc/text_file.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <limits>
+#include <optional>
+
+namespace pfdm {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::vector<std::string_view> cells(std::string_view line) {
+  std::vector<std::string_view> result;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    result.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return result;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+std::optional<double> number(std::string_view cell) {
+  if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return parse_double(cell);
+}
+
+class CsvReader {
+ public:
+  explicit CsvReader(const std::filesystem::path& path) : path_(path), content_(read_file(path)), rest_(content_) {}
+
+  SignalTable read() {
+    while (next_line()) take(line_);
+    if (n_rows_ < 2) throw InputError(fmt::format("{}: a row of names and a row of units are due", path_.string()));
+    SignalTable table{.remark = remark_, .columns = {}};
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      table.columns.push_back(
+          {names_[i], units_[i], Eigen::Map<Eigen::VectorXd>(values_[i].data(), std::ssize(values_[i]))});
+    return table;
+  }
+
+ private:
+  bool next_line() {
+    if (rest_.empty()) return false;
+    const std::size_t end = rest_.find('\n');
+    line_ = trimmed(rest_.substr(0, end));
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    ++line_number_;
+    return true;
+  }
+
+  void take(std::string_view line) {
+    if (line.empty()) return;
+    if (line.front() == '#') {
+      remark_ += (remark_.empty() ? "" : "\n") + std::string(trimmed(line.substr(1)));
+      return;
+    }
+    const auto row = cells(line);
+    if (n_rows_ > 0 && row.size() != names_.size())
+      throw error(fmt::format("{} cells in a table of {} columns", row.size(), names_.size()));
+    if (n_rows_ == 0) names_.assign(row.begin(), row.end());
+    if (n_rows_ == 1) units_.assign(row.begin(), row.end());
+    values_.resize(row.size());
+    for (std::size_t i = 0; n_rows_ >= 2 && i < row.size(); ++i) {
+      const auto value = number(row[i]);
+      if (!value) throw error(fmt::format("\"{}\" is no number", row[i]));
+      values_[i].push_back(*value);
+    }
+    if (n_rows_ == 1 && parse_double(row.front()))
+      throw error("numbers stand where the row of units is due, as in \"s,m/s^2,m/s^2\"");
+    ++n_rows_;
+  }
+
+  InputError error(const std::string& message) const {
+    return InputError(fmt::format("{}, line {}: {}", path_.string(), line_number_, message));
+  }
+
+  const std::filesystem::path& path_;
+  std::string content_;
+  std::string_view rest_;
+  std::string_view line_;
+  std::size_t line_number_ = 0;
+  std::size_t n_rows_ = 0;
+  std::string remark_;
+  std::vector<std::string> names_;
+  std::vector<std::string> units_;
+  std::vector<std::vector<double>> values_;
+};
+
+std::string remark_lines(const std::string& remark) {
+  std::string lines;
+  std::string_view rest = remark;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('\n');
+    lines += fmt::format("# {}\n", rest.substr(0, end));
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  }
+  return lines;
+}
+
+}  // namespace
+
+SignalTable read_signals_csv(const std::filesystem::path& path) { return CsvReader(path).read(); }
+
+void write_signals_csv(const std::filesystem::path& path, const SignalTable& table) {
+  std::string text = remark_lines(table.remark);
+  const std::size_t n = table.columns.size();
+  const auto end_of = [n](std::size_t i) { return i + 1 < n ? ',' : '\n'; };
+  for (std::size_t i = 0; i < n; ++i) text += table.columns[i].name + end_of(i);
+  for (std::size_t i = 0; i < n; ++i) text += table.columns[i].unit + end_of(i);
+  for (Eigen::Index row = 0; n > 0 && row < table.columns.front().values.size(); ++row)
+    for (std::size_t i = 0; i < n; ++i)
+      fmt::format_to(std::back_inserter(text), "{}{}", table.columns[i].values[row], end_of(i));
+  write_file(path, text);
+}
+
+SignalTable read_signals(const std::filesystem::path& path) {
+  if (path.extension() == ".csv") return read_signals_csv(path);
+  if (path.extension() == ".mat") return read_signals_mat(path);
+  throw InputError(fmt::format("{}: records are read from .csv and .mat files", path.string()));
+}
+
+}  // namespace pfdm

@@ -1,0 +1,86 @@
+#include "postproc/vibration_results.h"
+
+#include "postproc/atomic_file.h"
+#include "postproc/summary.h"
+
+#include <nlohmann/json.hpp>
+
+#include <numbers>
+
+namespace pfdm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const std::vector<NamedFigures>& tests) {
+  Json list = Json::array();
+  for (const NamedFigures& test : tests) {
+    Json entry = {{"name", test.name}};
+    for (const auto& [name, value] : test.figures) entry[name] = value;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json to_json(const std::vector<Estimate>& estimates) {
+  Json list = Json::array();
+  for (const Estimate& e : estimates)
+    list.push_back({{"name", e.name}, {"value", e.value}, {"lower", e.lower}, {"upper", e.upper}});
+  return list;
+}
+
+Json to_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (const auto& row : matrix.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return rows;
+}
+
+Json to_json(const std::vector<OrderTrial>& orders) {
+  Json list = Json::array();
+  for (const OrderTrial& trial : orders)
+    list.push_back({{"kernel_order", trial.kernel_order}, {"bic", trial.bic}, {"misfit", trial.misfit}});
+  return list;
+}
+
+Json to_json(const std::vector<ModulusRow>& rows) {
+  Json list = Json::array();
+  for (const ModulusRow& row : rows)
+    list.push_back(
+        {{"frequency_Hz", row.frequency}, {"storage_modulus_Pa", row.storage}, {"loss_modulus_Pa", row.loss}});
+  return list;
+}
+
+}  // namespace
+
+void write_vibration_summary(const std::filesystem::path& path, const VibrationSummary& s) {
+  Json json = {{"case", s.case_name},          {"status", s.status},
+               {"version", s.version},         {"case_hash", s.case_hash},
+               {"threads", s.threads},         {"wall_seconds", s.wall_seconds},
+               {"cpu_seconds", cpu_seconds()}, {"peak_memory_bytes", peak_memory()}};
+  for (const auto& [name, value] : s.figures) json[name] = value;
+  json["tests"] = to_json(s.tests);
+  write_file(path, json.dump(2) + "\n");
+}
+
+void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& fit) {
+  Json json = {{"case", fit.case_name},
+               {"version", fit.version},
+               {"case_hash", fit.case_hash},
+               {"method", fit.method},
+               {"structure", fit.structure},
+               {"converged", fit.converged},
+               {"confidence", fit.confidence},
+               {"estimates", to_json(fit.estimates)},
+               {"correlation", to_json(fit.correlation)},
+               {"passive", fit.passivity.passive},
+               {"least_damping_N_s_per_m", fit.passivity.least_damping},
+               {"least_damping_at_Hz", fit.passivity.worst_omega / (2.0 * std::numbers::pi)},
+               {"kernel_orders_tried", to_json(fit.orders)},
+               {"path_of_misfit", fit.path},
+               {"tests", to_json(fit.tests)},
+               {"youngs_modulus", to_json(fit.modulus)},
+               {"wall_seconds", fit.wall_seconds}};
+  write_file(path, json.dump(2) + "\n");
+}
+
+}  // namespace pfdm

@@ -1,0 +1,57 @@
+#pragma once
+// summary.json and fit.json of the mass-material model. SI units, units in the names. Files are written whole or not at
+// all; numbers that are not finite become null.
+
+#include "solver/identification.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct NamedFigures {
+  std::string name;                       ///< of a test
+  std::map<std::string, double> figures;  ///< with the unit in the name
+};
+
+struct VibrationSummary {
+  std::string case_name;
+  std::string status;
+  std::string version;
+  std::string case_hash;
+  int threads = 0;
+  double wall_seconds = 0.0;
+  std::map<std::string, double> figures;  ///< of the whole case
+  std::vector<NamedFigures> tests;
+};
+void write_vibration_summary(const std::filesystem::path& path, const VibrationSummary& summary);
+
+/// Young's modulus of the sample at a frequency: K L/A.
+struct ModulusRow {
+  double frequency = 0.0;  ///< [Hz]
+  double storage = 0.0;    ///< E' [Pa]
+  double loss = 0.0;       ///< E'' [Pa]
+};
+
+struct VibrationFit {
+  std::string case_name;
+  std::string version;
+  std::string case_hash;
+  std::string method;
+  std::string structure;
+  double confidence = 0.95;
+  double wall_seconds = 0.0;
+  std::vector<Estimate> estimates;  ///< lower = upper = NaN where the method gives no intervals
+  Eigen::MatrixXd correlation;
+  std::vector<double> path;
+  std::vector<OrderTrial> orders;
+  bool converged = true;
+  Passivity passivity;
+  std::vector<NamedFigures> tests;
+  std::vector<ModulusRow> modulus;
+};
+void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& fit);
+
+}  // namespace pfdm

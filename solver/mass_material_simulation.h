@@ -1,0 +1,40 @@
+#pragma once
+// The mass-material equation in time. Two ways that know nothing of each other, so that one can test the other:
+// simulate() steps with error control and is what a run does; simulate_batch() takes fixed steps, for several
+// neighbouring models at once, and is what an identification calls thousands of times.
+
+#include "physics/mass_material.h"
+#include "solver/vibration_excitation.h"
+#include "solver/vibration_record.h"
+
+#include <Eigen/Core>
+
+#include <span>
+
+namespace pfdm {
+
+/// Motion relative to the base at the samples; it starts at rest.
+struct Motion {
+  double rate = 0.0;             ///< [Hz]
+  Eigen::VectorXd base;          ///< y'' [m/s^2]
+  Eigen::VectorXd displacement;  ///< z [m]
+  Eigen::VectorXd velocity;      ///< z' [m/s]
+  Eigen::VectorXd acceleration;  ///< z'' [m/s^2]
+  bool bounded = true;           ///< false: the mass ran away, and the rest is NaN
+};
+
+/// Boost.Odeint's Runge-Kutta-Fehlberg 7(8) with relative error control of each step.
+Motion simulate(const MassMaterial& model, const Excitation& excitation, double rate, double tolerance = 1e-10);
+
+/// Steps of the size that the fixed-step scheme needs for its error to stay below about 1e-7 of the motion: fast
+/// kernel terms and a fast resonance need several per sample.
+int substeps_for(const MassMaterial& model, double rate);
+
+/// Relative accelerations [m/s^2], a column per model; the models must have the same terms and substeps. A model that
+/// runs away leaves NaN.
+Eigen::MatrixXd simulate_batch(std::span<const MassMaterial> models, const BaseNodes& base);
+
+/// Adds Gaussian noise, white up to half the rate, of `decibel` below each channel's own rms.
+void add_noise(VibrationRecord& record, double decibel, std::uint64_t seed);
+
+}  // namespace pfdm

@@ -1,0 +1,273 @@
+// Cases of kind mass_material from end to end: simulated, identified, and what is wrong with them said.
+
+#include "cases/program/case_file.h"
+#include "cases/program/kinds.h"
+#include "cases/program/mass_material_case.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string soft_case() {
+  return R"(kind = "mass_material"
+title = "a soft sample"
+
+[model]
+structure = "2"
+mass = "1.12 kg"
+stiffness = ["54 kN/m", "-1.0e6 N/m^2", "1.3e8 N/m^3"]
+damping = "40 N s/m"
+
+[sample]
+length = "76.2 mm"
+area = "45.6 cm^2"
+
+[sampling]
+rate = "1 kHz"
+signal_to_noise_dB = 80
+
+[[test]]
+name = "up"
+excitation = { type = "swept_sine", level = "2 g0", from = "10 Hz", to = "70 Hz", duration = "6 s" }
+
+[[test]]
+name = "down"
+predicted = true
+excitation = { type = "swept_sine", level = "1.5 g0", from = "70 Hz", to = "10 Hz", duration = "6 s", law = "logarithmic" }
+
+[fit]
+replicates = 50
+)";
+}
+
+json parsed(const fs::path& file) { return json::parse(content_of(file)); }
+
+TEST(MassMaterialProgram, SimulatesItsTests) {
+  const TemporaryCase directory(soft_case());
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const fs::path results = directory.results();
+  for (const char* file : {"up.csv", "down.csv", "up_harmonics.csv", "down_harmonics.csv", "summary.json", "run.log"})
+    EXPECT_TRUE(fs::exists(results / file)) << file;
+  const std::string record = content_of(results / "up.csv");
+  EXPECT_TRUE(record.starts_with("# synthetic: simulated, not measured"));
+  EXPECT_NE(record.find("\ntime,base_acceleration,relative_acceleration\ns,m/s^2,m/s^2\n"), std::string::npos);
+  EXPECT_EQ(std::count(record.begin(), record.end(), '\n'), 3 + 6001);
+  const json summary = parsed(results / "summary.json");
+  EXPECT_EQ(summary["status"], "complete");
+  EXPECT_NEAR(summary["tests"][0]["peak_base_acceleration_m_per_s2"].get<double>(), 2 * 9.80665, 0.01);
+  EXPECT_NEAR(summary["static_settling_point_m"].get<double>(), -1.12 * 9.80665 / 54e3, 2e-6);
+}
+
+TEST(MassMaterialProgram, SimulatesRandomMotionWithSpectra) {
+  const std::string random =
+      "type = \"random\", density = \"0.01 g0^2/Hz\", from = \"10 Hz\", to = \"200 Hz\", seed = 3, ";
+  const std::string text =
+      replaced(soft_case(), "type = \"swept_sine\", level = \"2 g0\", from = \"10 Hz\", to = \"70 Hz\", ", random);
+  const TemporaryCase directory(text);
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(content_of(directory.results() / "up_spectra.csv").find("coherence") != std::string::npos);
+}
+
+TEST(MassMaterialProgram, FindsItsOwnParametersAgain) {
+  const TemporaryCase directory(soft_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json fit = parsed(directory.results() / "fit.json");
+  const double expected[] = {54e3, -1.0e6, 1.3e8};
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(fit["estimates"][i]["value"].get<double>(), expected[i], 0.02 * std::abs(expected[i])) << i;
+  EXPECT_NEAR(fit["estimates"][5]["value"].get<double>(), 40.0, 0.02);
+  EXPECT_EQ(fit["estimates"][5]["name"], "c_N_s_per_m");
+  EXPECT_LT(fit["estimates"][5]["lower"].get<double>(), fit["estimates"][5]["value"].get<double>());
+  EXPECT_EQ(fit["tests"][1]["name"], "down");
+  EXPECT_EQ(fit["tests"][1]["fitted"], 0.0);
+  EXPECT_LT(fit["tests"][1]["relative_misfit"].get<double>(), 1e-3);
+  EXPECT_TRUE(fit["passive"].get<bool>());
+  EXPECT_EQ(fit["correlation"].size(), 6u);
+  // E = k1 L/A, and E'' = omega c L/A.
+  const json& modulus = fit["youngs_modulus"][0];
+  EXPECT_NEAR(modulus["frequency_Hz"].get<double>(), 10.0, 1e-6);
+  EXPECT_NEAR(modulus["storage_modulus_Pa"].get<double>(), 54e3 * 0.0762 / 45.6e-4, 1e3);
+  EXPECT_NEAR(modulus["loss_modulus_Pa"].get<double>(), 62.8319 * 40 * 0.0762 / 45.6e-4, 50.0);
+}
+
+TEST(MassMaterialProgram, WritesACaseWithWhatItFound) {
+  const TemporaryCase directory(soft_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  ASSERT_EQ(run({"fit", directory.path().string()}).status, 0);
+  const fs::path fitted = directory.results() / "case.fitted.toml";
+  const Outcome outcome = run({"check", fitted.string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const auto c = read_mass_material_case(open_case(fitted).config.root(), directory.path());
+  EXPECT_NEAR(c.model.damping, 40.0, 0.02);
+  EXPECT_EQ(c.model.stiffness.size(), 5u);
+  EXPECT_EQ(c.tests.size(), 2u);
+}
+
+TEST(MassMaterialProgram, FittedTextKeepsEveryTerm) {
+  MassMaterial m{.mass = 1.5,
+                 .stiffness = {1e6, -2e9},
+                 .damping = 0.1,
+                 .damping_exponent = 1.25,
+                 .reference_velocity = 0.3,
+                 .forcing = KernelForcing::damping,
+                 .kernel = {{400.0, 1.0 / 3.0}, {{20.0, 7.0}, {-1.0, 2.0}}}};
+  const TemporaryCase directory(with_model(soft_case(), "6", m));
+  const auto c = read_mass_material_case(open_case(directory.path()).config.root(), directory.path());
+  EXPECT_EQ(c.structure, "6");
+  EXPECT_EQ(c.model.mass, m.mass);
+  EXPECT_EQ(c.model.stiffness, m.stiffness);
+  EXPECT_EQ(c.model.damping_exponent, m.damping_exponent);
+  ASSERT_EQ(c.model.kernel.size(), 2u);
+  EXPECT_EQ(c.model.kernel[0].beta, m.kernel[0].beta);
+  EXPECT_EQ(c.model.kernel[1].alpha, m.kernel[1].alpha);
+  EXPECT_EQ(c.model.kernel[1].beta, m.kernel[1].beta);
+}
+
+TEST(MassMaterialProgram, OffersTheReportsLeastSquares) {
+  const TemporaryCase directory(soft_case() + "method = \"least_squares\"\n");
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json fit = parsed(directory.results() / "fit.json");
+  EXPECT_EQ(fit["method"], "least_squares");
+  EXPECT_NEAR(fit["estimates"][0]["value"].get<double>(), 54e3, 0.05 * 54e3);
+  EXPECT_TRUE(fit["estimates"][0]["lower"].is_null());
+}
+
+TEST(MassMaterialProgram, FitsARecordFromAFile) {
+  const TemporaryCase directory(soft_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  fs::create_directories(directory.path() / "data");
+  fs::copy_file(directory.results() / "up.csv", directory.path() / "data/a.csv");
+  const std::string text = replaced(
+      soft_case(),
+      "excitation = { type = \"swept_sine\", level = \"2 g0\", from = \"10 Hz\", to = \"70 Hz\", duration = \"6 s\" }",
+      "record = { file = \"data/a.csv\", from = \"10 Hz\", to = \"70 Hz\" }");
+  directory.write("case.toml", text);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NEAR(parsed(directory.results() / "fit.json")["estimates"][5]["value"].get<double>(), 40.0, 0.02);
+  // A bad one is refused by file and name of the fault.
+  std::string spoilt = content_of(directory.path() / "data/a.csv");
+  const std::size_t line = spoilt.find("\n3,");
+  spoilt.erase(line, spoilt.find("\n3.1,") - line);
+  directory.write("data/a.csv", spoilt);
+  const Outcome refused = run({"fit", directory.path().string()});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("a.csv: gap: 0.1 s are missing"), std::string::npos) << refused.err;
+}
+
+TEST(MassMaterialProgram, ShakesWithAMeasuredBase) {
+  const TemporaryCase directory(soft_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  fs::copy_file(directory.results() / "up.csv", directory.path() / "base.csv");
+  const std::string text = replaced(
+      soft_case(), "type = \"swept_sine\", level = \"2 g0\", from = \"10 Hz\", to = \"70 Hz\", duration = \"6 s\"",
+      "type = \"measured\", file = \"base.csv\", from = \"10 Hz\", to = \"70 Hz\"");
+  directory.write("case.toml", text);
+  const fs::path again = directory.path() / "again";
+  const Outcome outcome = run({"run", directory.path().string(), "--output", again.string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const double first = parsed(directory.results() / "summary.json")["tests"][0]["peak_relative_displacement_m"];
+  const double second = parsed(again / "summary.json")["tests"][0]["peak_relative_displacement_m"];
+  EXPECT_NEAR(second, first, 1e-3 * first);
+}
+
+TEST(MassMaterialProgram, EndsWithStatusOneWhereTheMassRunsAway) {
+  const TemporaryCase directory(replaced(soft_case(), "\"1.3e8 N/m^3\"", "\"-1e11 N/m^3\""));
+  const Outcome outcome = run({"run", directory.path().string()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("test up: the mass runs away"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(directory.results() / "summary.json"));
+}
+
+TEST(MassMaterialProgram, HasNoMesh) {
+  const TemporaryCase directory(soft_case());
+  EXPECT_EQ(run({"mesh", directory.path().string()}).status, 2);
+}
+
+TEST(MassMaterialProgram, ListsItsLaws) {
+  const Outcome laws = run({"list", "--laws"});
+  for (const char* name : {"mass_material", "4a", "table4_7", "swept_sine", "random", "output_error"})
+    EXPECT_NE(laws.out.find(name), std::string::npos) << name;
+}
+
+struct BadInput {
+  const char* name;
+  const char* good;
+  const char* bad;
+  std::vector<std::string> message;
+};
+void PrintTo(const BadInput& input, std::ostream* stream) { *stream << input.name; }
+
+class BadMassMaterial : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadMassMaterial, IsRefusedWithOneMessage) {
+  const BadInput& input = GetParam();
+  const TemporaryCase directory(replaced(soft_case(), input.good, input.bad));
+  for (const char* command : {"check", "run"}) {
+    const Outcome outcome = run({command, directory.path().string()});
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    for (const std::string& part : input.message)
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is missing in " << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(directory.results()));
+  }
+}
+
+const BadInput bad_inputs[] = {
+    {"gram_for_gravity", "\"2 g0\"", "\"2 g\"", {"[test.excitation] level", "write g0 for multiples of gravity"}},
+    {"unknown_structure", "\"2\"", "\"8\"", {"[model] structure: \"8\" is no mass-material model"}},
+    {"stiffness_of_wrong_order", "\"-1.0e6 N/m^2\"", "\"-1.0e6 N/m^3\"", {"stiffness[1]", "stiffness of second order"}},
+    {"negative_stiffness", "\"54 kN/m\"", "\"-54 kN/m\"", {"stiffness[0]: k_1 must be positive"}},
+    {"exponent_without_term",
+     "damping = \"40 N s/m\"",
+     "damping = \"40 N s/m\"\ndamping_exponent = 1.8",
+     {"damping_exponent: model \"2\" has none"}},
+    {"kernel_without_term",
+     "damping = \"40 N s/m\"",
+     "damping = \"40 N s/m\"\nkernel = [{ alpha = \"1 s^-1\", beta = \"1 N/m\" }]",
+     {"model \"2\" has no kernel"}},
+    {"no_mass", "mass = \"1.12 kg\"\n", "", {"\"mass\" is missing"}},
+    {"unknown_excitation", "level = \"2 g0\"", "tpye = 1, level = \"2 g0\"", {"\"tpye\" is not known here"}},
+    {"sampled_too_slowly",
+     "\"1 kHz\"",
+     "\"150 Hz\"",
+     {"70 Hz are excited; 150 samples per second resolve up to 57 Hz"}},
+    {"two_tests_of_one_name", "name = \"down\"", "name = \"up\"", {"there are two tests \"up\""}},
+    {"name_that_is_no_file", "name = \"down\"", "name = \"a/b\"", {"a test's name is made of letters"}},
+    {"unknown_key_of_fit", "replicates", "replicate", {"[fit] \"replicate\"", "did you mean \"replicates\"?"}},
+};
+INSTANTIATE_TEST_SUITE_P(Program, BadMassMaterial, testing::ValuesIn(bad_inputs),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+TEST(BadMassMaterial, FitWithoutRecords) {
+  const TemporaryCase directory(soft_case());
+  const Outcome outcome = run({"fit", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("pfdm run simulates one"), std::string::npos) << outcome.err;
+}
+
+TEST(BadMassMaterial, ModelThatDoesNotCarry) {
+  const std::string text = replaced(replaced(soft_case(), "\"2\"", "\"4a\""), "damping = \"40 N s/m\"",
+                                    "damping = \"40 N s/m\"\nkernel = [{ alpha = \"1 s^-1\", beta = \"-9e4 N/m/s\" }]");
+  const TemporaryCase directory(text);
+  const Outcome outcome = run({"run", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("static stiffness"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace pfdm

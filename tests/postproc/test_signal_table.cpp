@@ -1,0 +1,102 @@
+#include "physics/error.h"
+#include "postproc/signal_table.h"
+#include "tests/postproc/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <matio.h>
+
+#include <cmath>
+#include <memory>
+
+namespace pfdm::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+SignalTable example() {
+  Eigen::VectorXd t(3);
+  t << 0.0, 1.0 / 3.0, 2.0 / 3.0;
+  return {.remark = "synthetic: made for a test\nsecond line",
+          .columns = {{"time", "s", t}, {"base_acceleration", "g0", t.array() * 1e-17 - 0.1}}};
+}
+
+TEST(SignalTable, CsvComesBackExactly) {
+  const TemporaryFolder folder;
+  write_signals_csv(folder / "a.csv", example());
+  const SignalTable back = read_signals(folder / "a.csv");
+  EXPECT_EQ(back.remark, example().remark);
+  ASSERT_EQ(back.columns.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back.columns[i].name, example().columns[i].name);
+    EXPECT_EQ(back.columns[i].unit, example().columns[i].unit);
+    EXPECT_EQ(back.columns[i].values, example().columns[i].values);
+  }
+  EXPECT_THAT(
+      content_of(folder / "a.csv"),
+      testing::StartsWith("# synthetic: made for a test\n# second line\ntime,base_acceleration\ns,g0\n0,-0.1\n"));
+  EXPECT_EQ(folder.n_entries(), 1u);
+}
+
+TEST(SignalTable, CsvTakesBlanksWindowsEndsAndEmptyCells) {
+  const TemporaryFolder folder;
+  put(folder / "a.csv", "# remark\r\n time , x\r\n s , m/s^2\r\n0, 1\r\n\r\n1,\r\n2,nan");
+  const SignalTable table = read_signals(folder / "a.csv");
+  ASSERT_EQ(table.columns.size(), 2u);
+  EXPECT_EQ(table.columns[1].unit, "m/s^2");
+  ASSERT_EQ(table.columns[1].values.size(), 3);
+  EXPECT_EQ(table.columns[1].values[0], 1.0);
+  EXPECT_TRUE(std::isnan(table.columns[1].values[1]));
+  EXPECT_TRUE(std::isnan(table.columns[1].values[2]));
+}
+
+TEST(SignalTable, NamesFileAndLineOfWhatIsNoTable) {
+  const TemporaryFolder folder;
+  const std::string head = "time,x\ns,m/s^2\n0,1\n";
+  const auto message = [&](const std::string& text) {
+    put(folder / "bad.csv", text);
+    return message_of<InputError>([&] { read_signals(folder / "bad.csv"); });
+  };
+  EXPECT_THAT(message(head + "1,2,3\n"), HasSubstr("bad.csv, line 4: 3 cells in a table of 2 columns"));
+  EXPECT_THAT(message(head + "1,two\n"), HasSubstr("bad.csv, line 4: \"two\" is no number"));
+  EXPECT_THAT(message("time,x\n0,1\n"), HasSubstr("row of units"));
+  EXPECT_THAT(message("time,x\n"), HasSubstr("row of units"));
+  EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "a.wav"); }), HasSubstr(".csv and .mat"));
+  EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "none.csv"); }), HasSubstr("none.csv"));
+}
+
+void add_vector(mat_t* file, const char* name, std::vector<double> values) {
+  std::size_t dims[] = {values.size(), 1};
+  const std::unique_ptr<matvar_t, decltype(&Mat_VarFree)> variable(
+      Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, values.data(), 0), &Mat_VarFree);
+  Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE);
+}
+
+void add_text(mat_t* file, const char* name, std::string text) {
+  std::size_t dims[] = {1, text.size()};
+  const std::unique_ptr<matvar_t, decltype(&Mat_VarFree)> variable(
+      Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UTF8, 2, dims, text.data(), 0), &Mat_VarFree);
+  Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE);
+}
+
+TEST(SignalTable, ReadsMatlabFiles) {
+  const TemporaryFolder folder;
+  {
+    const std::unique_ptr<mat_t, decltype(&Mat_Close)> file(
+        Mat_CreateVer((folder / "a.mat").c_str(), nullptr, MAT_FT_MAT5), &Mat_Close);
+    add_vector(file.get(), "base", {0.5, 0.25, -1.0});
+    add_text(file.get(), "base_unit", "g0");
+    add_vector(file.get(), "relative", {1.0, 2.0, 3.0});
+  }
+  const SignalTable table = read_signals(folder / "a.mat");
+  ASSERT_EQ(table.columns.size(), 2u);
+  EXPECT_EQ(table.columns[0].name, "base");
+  EXPECT_EQ(table.columns[0].unit, "g0");
+  EXPECT_EQ(table.columns[0].values, Eigen::Vector3d(0.5, 0.25, -1.0));
+  EXPECT_EQ(table.columns[1].unit, "");
+  put(folder / "bad.mat", "no such thing");
+  EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "bad.mat"); }), HasSubstr("bad.mat"));
+}
+
+}  // namespace
+}  // namespace pfdm::test

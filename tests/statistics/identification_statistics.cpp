@@ -1,0 +1,152 @@
+// Statistics of identification over many synthetic records. Too long for the ordinary suite; README.md has the results.
+//
+//   identification_statistics order SEEDS        how often BIC finds the two kernel terms there are
+//   identification_statistics coverage TRIALS    how often the 95 % intervals hold the truth
+//   identification_statistics ten_steps SEEDS    complex stiffness by the report's iteration, beside ours
+//   identification_statistics models SECONDS DB  every model of Table A2: errors and CPU seconds, three levels
+
+#include "solver/identification_stiffness.h"
+#include "solver/parallel.h"
+#include "tests/solver/mass_material_truth.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <thread>
+
+namespace pfdm {
+namespace {
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+VibrationRecord random_record(const MassMaterial& t, std::uint64_t seed) {
+  const Excitation shaker =
+      band_limited_random({.density = 0.05 * g0 * g0, .low = 10.0, .high = 1000.0, .duration = 100.0, .seed = seed});
+  const BaseNodes nodes = nodes_of(shaker, 6000.0, 1);
+  VibrationRecord r{.name = "synthetic random motion",
+                    .rate = 6000.0,
+                    .base = {},
+                    .relative = {},
+                    .band_low = 20.0,
+                    .band_high = 850.0};
+  r.relative = simulate_batch(std::span(&t, 1), nodes).col(0);
+  r.base = nodes.values(Eigen::seqN(0, nodes.n_samples(), 4));
+  return r;
+}
+
+void order(int seeds) {
+  MassMaterial t = truth("4b");
+  t.stiffness.resize(1);
+  IdentificationSettings settings;
+  settings.mass = t.mass;
+  const double levels[] = {60.0, 40.0, 30.0};
+  int right[3] = {};
+  double worst[3] = {};
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const VibrationRecord clean = random_record(t, static_cast<std::uint64_t>(seed));
+    for (int i = 0; i < 3; ++i) {
+      VibrationRecord noisy = clean;
+      add_noise(noisy, levels[i], static_cast<std::uint64_t>(seed));
+      const StiffnessIdentification found = identify_stiffness(std::span(&noisy, 1), settings);
+      right[i] += found.fit.model.kernel.size() == 2;
+      worst[i] = std::max(worst[i], stiffness_error(found.fit.model, t, 20.0, 850.0, 0.0));
+    }
+    fmt::print("{} seeds: right at 60, 40, 30 dB: {}, {}, {}; largest error of K {:.2g}, {:.2g}, {:.2g}\n", seed,
+               right[0], right[1], right[2], worst[0], worst[1], worst[2]);
+    std::fflush(stdout);
+  }
+}
+
+void ten_steps(int seeds) {
+  MassMaterial t = truth("4b");
+  t.stiffness.resize(1);
+  IdentificationSettings settings;
+  settings.mass = t.mass;
+  settings.kernel_order = 2;
+  for (int seed = 1; seed <= seeds; ++seed)
+    for (const double decibel : {200.0, 60.0, 40.0, 30.0}) {
+      VibrationRecord record = random_record(t, static_cast<std::uint64_t>(seed));
+      add_noise(record, decibel, static_cast<std::uint64_t>(seed));
+      const auto error = [&](const MassMaterial& m) { return stiffness_error(m, t, 50.0, 800.0, 0.0); };
+      fmt::print("seed {} {} dB: complex stiffness by", seed, decibel);
+      for (const auto& [m1, m] : {std::pair(40, 10), std::pair(10, 4), std::pair(10, 2)})
+        fmt::print(
+            " ten steps {} to {} {:.2g},", m1, m,
+            error(regress_ten_steps(std::span(&record, 1), model_structure("linear_4b"), m, settings, m1).model));
+      fmt::print(" maximum likelihood {:.2g}\n", error(identify_stiffness(std::span(&record, 1), settings).fit.model));
+      std::fflush(stdout);
+    }
+}
+
+void coverage(int trials) {
+  const MassMaterial t = truth("2");
+  const std::vector<Estimate> expected = named_values(t);
+  const std::vector<VibrationRecord> clean{sweep_record(t, 10.0, 12.0, 150.0, 400.0, 3000.0)};
+  IdentificationSettings settings;
+  settings.mass = t.mass;
+  settings.reference_velocity = t.reference_velocity;
+  std::vector<int> held(expected.size());
+  for (int trial = 1; trial <= trials; ++trial) {
+    std::vector<VibrationRecord> noisy = clean;
+    add_noise(noisy[0], 40.0, static_cast<std::uint64_t>(trial));
+    const Identification found = identify(noisy, model_structure("2"), settings);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      held[i] += found.fit.estimates[i].lower <= expected[i].value && expected[i].value <= found.fit.estimates[i].upper;
+    if (trial % 20 != 0 && trial != trials) continue;
+    fmt::print("{} trials:", trial);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      fmt::print(" {} {:.1f} %", expected[i].name, 100.0 * held[i] / trial);
+    fmt::print("\n");
+    std::fflush(stdout);
+  }
+}
+
+void models(double duration, double decibel) {
+  const double all_cpu = cpu_seconds();
+  const double all_wall = wall_seconds();
+  for (const char* name : {"1", "2", "3", "4a", "4b", "5", "6", "7"}) {
+    const MassMaterial t = truth(name);
+    std::vector<VibrationRecord> records;
+    for (const double level : {5.0, 7.5, 10.0}) {
+      records.push_back(sweep_record(t, level, duration));
+      if (decibel > 0.0) add_noise(records.back(), decibel, records.size());
+    }
+    IdentificationSettings settings;
+    settings.mass = t.mass;
+    settings.reference_velocity = t.reference_velocity;
+    settings.kernel_order = static_cast<int>(t.kernel.size());
+    const double cpu = cpu_seconds();
+    const Identification found = identify(records, model_structure(name), settings);
+    fmt::print("model {:<3} largest error {:.2e} (regression alone {:.2e}), complex stiffness {:.2e}, {:.1f} CPU s\n",
+               name, largest_error(found.fit.model, t), largest_error(found.start.model, t),
+               stiffness_error(found.fit.model, t, 100.0, 420.0, 0.2), cpu_seconds() - cpu);
+    std::fflush(stdout);
+  }
+  fmt::print("all: {:.1f} CPU s, {:.1f} s\n", cpu_seconds() - all_cpu, wall_seconds() - all_wall);
+}
+
+int run(int n, char** words) {
+  set_threads(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  const std::string what = n > 1 ? words[1] : "";
+  const double amount = n > 2 ? std::atof(words[2]) : 0.0;
+  if (what == "order" && amount > 0.0) return order(static_cast<int>(amount)), 0;
+  if (what == "ten_steps" && amount > 0.0) return ten_steps(static_cast<int>(amount)), 0;
+  if (what == "coverage" && amount > 0.0) return coverage(static_cast<int>(amount)), 0;
+  if (what == "models" && amount > 0.0) return models(amount, n > 3 ? std::atof(words[3]) : 0.0), 0;
+  fmt::print(
+      stderr,
+      "usage: identification_statistics order SEEDS | ten_steps SEEDS | coverage TRIALS | models SECONDS [DB]\n");
+  return 2;
+}
+
+}  // namespace
+}  // namespace pfdm
+
+int main(int n, char** words) { return pfdm::run(n, words); }
