@@ -104,7 +104,7 @@ double kernel_forcing(const MassMaterial& model, double z, double velocity) {
 
 double kernel_value(const MassMaterial& model, double t) {
   double sum = 0.0;
-  for (const KernelTerm& term : model.kernel)
+  for (const HereditaryTerm& term : model.kernel)
     sum += (term.is_pair() ? 2.0 : 1.0) * (term.beta * std::exp(-term.alpha * t)).real();
   return sum;
 }
@@ -112,7 +112,7 @@ double kernel_value(const MassMaterial& model, double t) {
 std::complex<double> kernel_response(const MassMaterial& model, double omega) {
   const std::complex<double> s(0.0, omega);
   std::complex<double> sum = 0.0;
-  for (const KernelTerm& term : model.kernel) {
+  for (const HereditaryTerm& term : model.kernel) {
     sum += term.beta / (s + term.alpha);
     if (term.is_pair()) sum += std::conj(term.beta) / (s + std::conj(term.alpha));
   }
@@ -166,7 +166,7 @@ Passivity passivity(const MassMaterial& model, double omega_low, double omega_hi
   Passivity result{.passive = static_stiffness(model) > 0.0,
                    .worst_omega = omega_low,
                    .least_damping = std::numeric_limits<double>::infinity()};
-  for (const KernelTerm& term : model.kernel) result.passive = result.passive && term.alpha.real() > 0.0;
+  for (const HereditaryTerm& term : model.kernel) result.passive = result.passive && term.alpha.real() > 0.0;
   for (int i = 0; i < n; ++i) {
     const double omega = omega_low * std::pow(omega_high / omega_low, static_cast<double>(i) / (n - 1));
     const double damping = complex_stiffness(model, omega, velocity).imag() / omega;

@@ -22,7 +22,7 @@ namespace pfdm {
 enum class KernelForcing { none, displacement, velocity, stiffness, damping };
 
 /// beta exp(-alpha t); with Im(alpha) != 0 the term stands for itself and its conjugate.
-struct KernelTerm {
+struct HereditaryTerm {
   std::complex<double> alpha;  ///< [1/s]
   std::complex<double> beta;   ///< [N/m] for f = z' and z'|z'/V|^lambda, [N/m/s] for f = z, [1/s] for f = k(z)
   bool is_pair() const { return alpha.imag() != 0.0; }
@@ -35,7 +35,7 @@ struct MassMaterial {
   double damping_exponent = 0.0;    ///< lambda [-]
   double reference_velocity = 1.0;  ///< V [m/s]
   KernelForcing forcing = KernelForcing::none;
-  std::vector<KernelTerm> kernel{};
+  std::vector<HereditaryTerm> kernel{};
 };
 
 double stiffness_force(const MassMaterial& model, double z);                    ///< k(z) [N]

@@ -11,14 +11,14 @@ namespace {
 using Experiments = std::vector<MaterialExperiment>;
 
 LawFit fit_chosen(const EndochronicLaw& law, const FitChoice& choice, const Experiments& experiments,
-                  const IdentificationSettings& settings) {
+                  const EndochronicIdentificationSettings& settings) {
   return fit_law(law, choice, experiments, settings.limits, settings.fit, settings.control);
 }
 
 /// Fits every wanted number of terms; the least Bayesian information decides.
-Identification select(const EndochronicLaw& law, const FitChoice& choice, const Experiments& experiments,
-                      const IdentificationSettings& settings) {
-  Identification best;
+EndochronicIdentification select(const EndochronicLaw& law, const FitChoice& choice, const Experiments& experiments,
+                                 const EndochronicIdentificationSettings& settings) {
+  EndochronicIdentification best;
   if (settings.least_terms == 0) {
     best.fit = fit_chosen(law, choice, experiments, settings);
     return best;
@@ -50,13 +50,13 @@ Identification select(const EndochronicLaw& law, const FitChoice& choice, const 
   return best;
 }
 
-Identification identify_joint(const EndochronicLaw& law, const Experiments& experiments,
-                              const IdentificationSettings& settings) {
+EndochronicIdentification identify_joint(const EndochronicLaw& law, const Experiments& experiments,
+                                         const EndochronicIdentificationSettings& settings) {
   return select(law, settings.choice, experiments, settings);
 }
 
-Identification identify_kernel(const EndochronicLaw& law, const Experiments& experiments,
-                               const IdentificationSettings& settings) {
+EndochronicIdentification identify_kernel(const EndochronicLaw& law, const Experiments& experiments,
+                                          const EndochronicIdentificationSettings& settings) {
   return select(law, {.kernel = true, .hardening = false, .rate = false, .young_modulus = false}, experiments,
                 settings);
 }
@@ -73,7 +73,7 @@ double rms_weight(const std::vector<std::vector<HardeningPoint>>& transients) {
 /// that is not yet right the points lie on another level than f(0) = 1: the level is estimated too, and alpha divided
 /// by it, which is the same material (gauge).
 LawFit fit_hardening(const EndochronicLaw& law, const std::vector<std::vector<HardeningPoint>>& transients,
-                     const IdentificationSettings& settings) {
+                     const EndochronicIdentificationSettings& settings) {
   const FitChoice choice{.kernel = false, .hardening = true, .rate = settings.choice.rate, .young_modulus = false};
   const double scale = rms_weight(transients);
   LawFit fitted{.law = law, .choice = choice, .parameters = fit_parameters(law, choice), .result = {}};
@@ -103,17 +103,17 @@ std::vector<std::vector<HardeningPoint>> transients_of(const EndochronicLaw& law
   return transients;
 }
 
-Identification identify_hardening(const EndochronicLaw& law, const Experiments& experiments,
-                                  const IdentificationSettings& settings) {
-  Identification result;
+EndochronicIdentification identify_hardening(const EndochronicLaw& law, const Experiments& experiments,
+                                             const EndochronicIdentificationSettings& settings) {
+  EndochronicIdentification result;
   result.transients = transients_of(law, experiments);
   result.fit = fit_hardening(law, result.transients, settings);
   return result;
 }
 
-Identification identify_staggered(const EndochronicLaw& start, const Experiments& experiments,
-                                  const IdentificationSettings& settings) {
-  Identification result;
+EndochronicIdentification identify_staggered(const EndochronicLaw& start, const Experiments& experiments,
+                                             const EndochronicIdentificationSettings& settings) {
+  EndochronicIdentification result;
   EndochronicLaw law = start;
   if (settings.least_terms > 0) law.kernel = first_kernel(law, experiments, settings.least_terms);
   double last = std::numeric_limits<double>::infinity();

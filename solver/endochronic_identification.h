@@ -8,7 +8,7 @@
 
 namespace pfdm {
 
-struct IdentificationSettings {
+struct EndochronicIdentificationSettings {
   /// The stresses are exact to rounding, so that short one-sided differences do.
   FitSettings fit{.maximum_iterations = 60, .tolerance = 1e-9, .differences = Differences::forward, .step = 1e-7};
   ControlSettings control{};
@@ -34,7 +34,7 @@ struct StaggeredRound {
   double rms_after_kernel = 0.0;     ///< [Pa]
 };
 
-struct Identification {
+struct EndochronicIdentification {
   LawFit fit;
   std::vector<TriedKernel> tried;
   std::vector<StaggeredRound> rounds;
@@ -44,8 +44,8 @@ struct Identification {
 struct IdentificationMethod {
   std::string_view name;
   std::string_view description;
-  Identification (*identify)(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
-                             const IdentificationSettings& settings);
+  EndochronicIdentification (*identify)(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                                        const EndochronicIdentificationSettings& settings);
 };
 std::span<const IdentificationMethod> identification_methods();
 /// Throws InputError naming those there are.

@@ -71,7 +71,7 @@ class Coordinates {
       x.push_back(m.stiffness[i] * std::pow(displacement_, i) / m.stiffness[0]);
     x.push_back(std::log(std::max(m.damping, 1e-4 * std::sqrt(m.stiffness[0] * m.mass))));
     if (free_exponent()) x.push_back(inverse_sigmoid(m.damping_exponent / most_exponent));
-    for (const KernelTerm& term : m.kernel) {
+    for (const HereditaryTerm& term : m.kernel) {
       x.push_back(std::log(std::abs(term.beta.real())));
       x.push_back(inverse_sigmoid((std::log(term.alpha.real()) - log_low_) / (log_high_ - log_low_)));
     }
@@ -87,7 +87,7 @@ class Coordinates {
     m.damping = std::exp(x[at++]);
     if (free_exponent()) m.damping_exponent = most_exponent * sigmoid(x[at++]);
     const double sign = dissipative_sign(m.forcing);
-    for (KernelTerm& term : m.kernel) {
+    for (HereditaryTerm& term : m.kernel) {
       term.beta = sign * std::exp(x[at++]);
       term.alpha = std::exp(log_low_ + (log_high_ - log_low_) * sigmoid(x[at++]));
     }
@@ -291,7 +291,7 @@ void set_intervals(OutputErrorFit& fit, const Coordinates& coordinates, const Ma
 
 /// The fastest term first would be as good: a convention, so that estimates can be compared.
 void sort_terms(MassMaterial& m) {
-  std::ranges::sort(m.kernel, {}, [](const KernelTerm& term) { return term.alpha.real(); });
+  std::ranges::sort(m.kernel, {}, [](const HereditaryTerm& term) { return term.alpha.real(); });
 }
 
 }  // namespace

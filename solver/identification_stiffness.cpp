@@ -48,7 +48,7 @@ MassMaterial model_of(const VectorXd& x, double mass) {
                  .damping = std::exp(x[1]),
                  .forcing = x.size() > 2 ? KernelForcing::velocity : KernelForcing::none};
   for (Index i = 2; i + 1 < x.size(); i += 2) m.kernel.push_back({std::exp(x[i]), std::exp(x[i + 1])});
-  std::ranges::sort(m.kernel, {}, [](const KernelTerm& term) { return term.alpha.real(); });
+  std::ranges::sort(m.kernel, {}, [](const HereditaryTerm& term) { return term.alpha.real(); });
   return m;
 }
 

@@ -98,7 +98,7 @@ VectorXcd prony_poles(const VectorXcd& G, const VectorXd& angle, int order) {
 }
 
 /// Energy of a term between 0 and t2 (A15, A16), g = 2 Re[beta exp(-alpha t)] for a pair.
-double energy(const KernelTerm& term, double t2) {
+double energy(const HereditaryTerm& term, double t2) {
   const double a = term.alpha.real();
   const double part = (1.0 - std::exp(-2.0 * a * t2)) / (2.0 * a);
   if (!term.is_pair()) return std::norm(term.beta) * part;
@@ -107,7 +107,7 @@ double energy(const KernelTerm& term, double t2) {
 }
 
 /// Steps 6 to 8: the kernel of v on f.
-std::vector<KernelTerm> reduced_kernel(const Signals& s, const VectorXd& v, int order, int prony_order) {
+std::vector<HereditaryTerm> reduced_kernel(const Signals& s, const VectorXd& v, int order, int prony_order) {
   const double rate = s.condition.rate();
   SegmentSettings segments;
   segments.length = std::min<Index>(2048, s.forcing.size());
@@ -120,7 +120,7 @@ std::vector<KernelTerm> reduced_kernel(const Signals& s, const VectorXd& v, int 
   const VectorXd angle = 2.0 * std::numbers::pi / rate * spectra_fv.frequency(bins);
   // Stable poles only, one of each pair; then their weights, linear, in continuous time (the sum over samples would
   // count g(0) in full).
-  std::vector<KernelTerm> terms;
+  std::vector<HereditaryTerm> terms;
   for (const Complex pole : prony_poles(G, angle, prony_order)) {
     if (std::abs(pole) >= 1.0 || pole.imag() < 0.0 || (pole.imag() == 0.0 && pole.real() <= 0.0)) continue;
     terms.push_back({-std::log(pole) * rate, 0.0});
@@ -129,7 +129,7 @@ std::vector<KernelTerm> reduced_kernel(const Signals& s, const VectorXd& v, int 
   for (Index k = 0; k < G.size(); ++k)
     for (Index i = 0; i < std::ssize(terms); ++i) {
       const Complex jw(0.0, angle[k] * rate);
-      const KernelTerm& term = terms[static_cast<std::size_t>(i)];
+      const HereditaryTerm& term = terms[static_cast<std::size_t>(i)];
       const Complex one = 1.0 / (jw + term.alpha);
       const Complex other = term.is_pair() ? 1.0 / (jw + std::conj(term.alpha)) : Complex(0.0);
       basis(k, 2 * i) = one + other;
@@ -139,10 +139,10 @@ std::vector<KernelTerm> reduced_kernel(const Signals& s, const VectorXd& v, int 
   for (std::size_t i = 0; i < terms.size(); ++i)
     terms[i].beta = {beta[static_cast<Index>(2 * i)], terms[i].is_pair() ? beta[static_cast<Index>(2 * i) + 1] : 0.0};
   const double t2 = 0.02;
-  std::ranges::sort(terms, std::ranges::greater(), [&](const KernelTerm& term) { return energy(term, t2); });
-  std::vector<KernelTerm> kept;
+  std::ranges::sort(terms, std::ranges::greater(), [&](const HereditaryTerm& term) { return energy(term, t2); });
+  std::vector<HereditaryTerm> kept;
   int n = 0;
-  for (const KernelTerm& term : terms) {
+  for (const HereditaryTerm& term : terms) {
     const int states = term.is_pair() ? 2 : 1;
     if (n + states > order) continue;
     kept.push_back(term);
@@ -163,7 +163,7 @@ double largest_change(const VectorXd& now, const VectorXd& before) {
 
 VectorXd kernel_values(const MassMaterial& m) {
   std::vector<double> values;
-  for (const KernelTerm& term : m.kernel)
+  for (const HereditaryTerm& term : m.kernel)
     for (const double x : {term.alpha.real(), term.alpha.imag(), term.beta.real(), term.beta.imag()})
       values.push_back(x == 0.0 ? 1.0 : x);
   return Eigen::Map<VectorXd>(values.data(), std::ssize(values));
@@ -201,7 +201,7 @@ Regression regress_ten_steps(std::span<const VibrationRecord> records, const Mod
   m.damping = p[0];
   m.stiffness.assign(p.data() + 1, p.data() + p.size());
   if (structure.forcing == KernelForcing::stiffness)
-    for (KernelTerm& term : m.kernel) term.beta /= m.stiffness.front();
+    for (HereditaryTerm& term : m.kernel) term.beta /= m.stiffness.front();
   return result;
 }
 

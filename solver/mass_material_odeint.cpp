@@ -24,7 +24,7 @@ constexpr double runaway = 10.0;
 double hereditary_force(const MassMaterial& model, const State& state) {
   double v = 0.0;
   for (std::size_t i = 0; i < model.kernel.size(); ++i) {
-    const KernelTerm& term = model.kernel[i];
+    const HereditaryTerm& term = model.kernel[i];
     v += (term.is_pair() ? 2.0 : 1.0) * (term.beta * Complex(state[2 + 2 * i], state[3 + 2 * i])).real();
   }
   return v;

@@ -288,7 +288,7 @@ int substeps_for(const MassMaterial& model, double rate) {
   double fastest = std::sqrt(std::abs(model.stiffness.front()) / model.mass);
   // Order 8: 0.7 rad a step keep the phase error below 1e-7; decaying states are also stable well beyond.
   double n = fastest / (0.7 * rate);
-  for (const KernelTerm& term : model.kernel) n = std::max(n, std::abs(term.alpha) / (1.5 * rate));
+  for (const HereditaryTerm& term : model.kernel) n = std::max(n, std::abs(term.alpha) / (1.5 * rate));
   return static_cast<int>(std::clamp(std::ceil(n), 1.0, 64.0));
 }
 

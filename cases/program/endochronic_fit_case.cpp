@@ -75,7 +75,7 @@ FitChoice read_choice(const ConfigTable& fit, const EndochronicLaw& law) {
   return choice;
 }
 
-void read_terms(const ConfigTable& fit, IdentificationSettings& settings) {
+void read_terms(const ConfigTable& fit, EndochronicIdentificationSettings& settings) {
   if (!fit.has("terms")) return;
   const auto terms = fit.at("terms").list(2);
   settings.least_terms = static_cast<int>(terms[0].integer(terms_range));
@@ -89,7 +89,7 @@ double read_parameter_value(const ConfigValue& value) {
 }
 
 /// [fit.bounds] C_1 = ["1 GPa", "100 GPa"], f_inf = [1, 10] ...
-void read_bounds(const ConfigTable& fit, const EndochronicLaw& law, IdentificationSettings& settings) {
+void read_bounds(const ConfigTable& fit, const EndochronicLaw& law, EndochronicIdentificationSettings& settings) {
   if (!fit.has("bounds")) return;
   std::vector<std::string> names;
   EndochronicLaw longest = law;
@@ -124,7 +124,7 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
   EndochronicFit result;
   result.method = fit.has("method") ? &choose(fit.at("method"), identification_methods(), "method of identification")
                                     : &identification_method("joint");
-  IdentificationSettings& settings = result.settings;
+  EndochronicIdentificationSettings& settings = result.settings;
   settings.choice = read_choice(fit, law);
   settings.fit.starts = static_cast<int>(fit.integer("starts", starts_range, 1));
   settings.control.largest_increment =

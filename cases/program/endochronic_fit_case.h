@@ -11,7 +11,7 @@ namespace pfdm {
 
 struct EndochronicFit {
   const IdentificationMethod* method = nullptr;
-  IdentificationSettings settings;
+  EndochronicIdentificationSettings settings;
   std::vector<MaterialExperiment> experiments;
   std::vector<std::filesystem::path> data_files;
 };

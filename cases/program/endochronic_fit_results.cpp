@@ -90,7 +90,7 @@ std::string fitted_case(const CaseFile& file, const EndochronicLaw& law, const f
 }
 
 void write_fit_results(const fs::path& results, const CaseFile& file, const EndochronicFit& fit,
-                       const Identification& found, const FitRun& run) {
+                       const EndochronicIdentification& found, const FitRun& run) {
   for (const MaterialExperiment& experiment : fit.experiments)
     write_csv(results / file_name(experiment.name), curve(experiment, found.fit.law, fit.settings.control));
   for (std::size_t i = 0; i < found.transients.size(); ++i) {

@@ -15,7 +15,7 @@ struct FitRun {
 
 /// Throws ComputationError where a file cannot be written.
 void write_fit_results(const std::filesystem::path& results, const CaseFile& file, const EndochronicFit& fit,
-                       const Identification& found, const FitRun& run);
+                       const EndochronicIdentification& found, const FitRun& run);
 
 /// The text of the case with [material] replaced by `law` and paths of CSV files as seen from `folder`.
 std::string fitted_case(const CaseFile& file, const EndochronicLaw& law, const std::filesystem::path& folder);

@@ -128,7 +128,7 @@ void fit_case(const EndochronicProgram& program, Session& session) {
   log.say(
       fmt::format("method {}: {}; {} experiments", fit.method->name, fit.method->description, fit.experiments.size()));
   fit.settings.say = [&log](const std::string& message) { log.say(message); };
-  const Identification found = fit.method->identify(program.point.law, fit.experiments, fit.settings);
+  const EndochronicIdentification found = fit.method->identify(program.point.law, fit.experiments, fit.settings);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   write_fit_results(session.results, program.file, fit, found, {program.name, program.hash, session.version, seconds});
   say_estimates(found.fit, log);

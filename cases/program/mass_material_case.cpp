@@ -36,8 +36,8 @@ Dimension beta_dimension(KernelForcing forcing) {
   return stiffness_dimensions[0];
 }
 
-std::vector<KernelTerm> read_kernel(const ConfigTable& model, const ModelStructure& structure) {
-  std::vector<KernelTerm> kernel;
+std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStructure& structure) {
+  std::vector<HereditaryTerm> kernel;
   for (const ConfigTable& term : model.tables("kernel")) {
     if (structure.forcing == KernelForcing::none)
       throw term.error(fmt::format("model \"{}\" has no kernel", structure.name));

@@ -27,7 +27,7 @@ std::string model_text(std::string_view structure, const MassMaterial& m) {
   if (m.damping_exponent != 0.0)
     text += fmt::format("damping_exponent = {:.17g}\nreference_velocity = {}\n", m.damping_exponent,
                         quantity(m.reference_velocity, "m/s"));
-  for (const KernelTerm& term : m.kernel) {
+  for (const HereditaryTerm& term : m.kernel) {
     text += "\n[[model.kernel]]\n";
     text += fmt::format("alpha = {}\nbeta = {}\n", quantity(term.alpha.real(), "s^-1"),
                         quantity(term.beta.real(), beta_unit(m.forcing)));

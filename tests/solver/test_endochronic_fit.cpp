@@ -29,7 +29,7 @@ void expect_parameters(const EndochronicLaw& found, const EndochronicLaw& truth,
 TEST(EndochronicFit, JointWithoutNoiseFindsTheTruth) {
   const EndochronicLaw truth = three_term_law();
   const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(), {0}, 0.0, 1)};
-  const Identification found = identification_method("joint").identify(first_guess(), data, {});
+  const EndochronicIdentification found = identification_method("joint").identify(first_guess(), data, {});
   std::printf("%d evaluations, rms %.3g Pa\n", found.fit.result.evaluations, rms_misfit(found.fit.law, data, {}));
   expect_parameters(found.fit.law, truth, 1e-6, 1e-6, 1e-6, 1e-6);
 }
@@ -37,7 +37,7 @@ TEST(EndochronicFit, JointWithoutNoiseFindsTheTruth) {
 TEST(EndochronicFit, JointWithNoiseOfAFifthOfAPercent) {
   const EndochronicLaw truth = three_term_law();
   const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(), {0}, 0.5e6, 2)};
-  const Identification found = identification_method("joint").identify(first_guess(), data, {});
+  const EndochronicIdentification found = identification_method("joint").identify(first_guess(), data, {});
   expect_parameters(found.fit.law, truth, 0.01, 0.04, 0.03, 0.08);
   const std::vector<MaterialExperiment> clean{measured(truth, eight_cycles(), {0}, 0.0, 1)};
   const double curve = rms_misfit(found.fit.law, clean, {});
@@ -53,7 +53,7 @@ TEST(EndochronicFit, FindsTheNumberOfTerms) {
   const EndochronicLaw truth = three_term_law();
   for (const double noise : {0.0, 0.5e6}) {
     const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(331), {0}, noise, 3)};
-    const Identification found =
+    const EndochronicIdentification found =
         identification_method("joint").identify(first_guess(), data, {.least_terms = 1, .most_terms = 4});
     EXPECT_EQ(found.fit.law.kernel.size(), 3u);
     EXPECT_EQ(found.tried.size(), 4u);
@@ -80,7 +80,7 @@ TEST(EndochronicFit, TransientGivesTheHardeningPointByPoint) {
     largest = std::max(largest, std::abs(p.f / truth.hardening(p.zeta, 0.0).f - 1.0));
   std::printf("largest relative error of f: %.2g\n", largest);
   EXPECT_LE(largest, 1e-6);
-  const Identification found = identification_method("hardening").identify(start, {data}, {});
+  const EndochronicIdentification found = identification_method("hardening").identify(start, {data}, {});
   EXPECT_NEAR(found.fit.law.hardening.with_path.p[0], 3.0, 1e-6);
   EXPECT_NEAR(found.fit.law.hardening.with_path.p[1], 6.0, 1e-6);
 }
@@ -99,7 +99,8 @@ TEST(EndochronicFit, SeveralExperimentsAtSeveralRates) {
   data.push_back(measured(truth, strain_paths({axial, {}, {}, {}, {}, shear_later}, 160, 4.0), {0, 5}, 0.0, 1));
   EndochronicLaw start = first_guess();
   start.hardening.with_rate = logarithmic_rate(0.05, 1e-4);
-  const Identification found = identification_method("joint").identify(start, data, {.choice = {.rate = true}});
+  const EndochronicIdentification found =
+      identification_method("joint").identify(start, data, {.choice = {.rate = true}});
   expect_parameters(found.fit.law, truth, 1e-6, 1e-6, 1e-6, 1e-6);
   EXPECT_NEAR(found.fit.law.hardening.with_rate.p[0], 0.02, 1e-7);
 
@@ -114,9 +115,9 @@ TEST(EndochronicFit, SeveralExperimentsAtSeveralRates) {
 TEST(EndochronicFit, StaggeredComesNearButJointIsBetter) {
   const EndochronicLaw truth = three_term_law();
   const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(331), {0}, 0.1e6, 4)};
-  const Identification staggered =
+  const EndochronicIdentification staggered =
       identification_method("staggered").identify(first_guess(), data, {.maximum_rounds = 8});
-  const Identification joint = identification_method("joint").identify(first_guess(), data, {});
+  const EndochronicIdentification joint = identification_method("joint").identify(first_guess(), data, {});
   const double s = rms_misfit(staggered.fit.law, data, {}), j = rms_misfit(joint.fit.law, data, {});
   std::printf("rms misfit: staggered %.4g Pa after %zu rounds, joint %.4g Pa, at the beginning %.4g Pa\n", s,
               staggered.rounds.size(), j, rms_misfit(first_guess(), data, {}));
@@ -130,7 +131,7 @@ TEST(EndochronicFit, TableOfHardening) {
   const std::vector<MaterialExperiment> data{measured(truth, eight_cycles(), {0}, 0.0, 1)};
   EndochronicLaw start = truth;
   start.hardening.with_path = make_factor(hardening_law("table"), {0.0, 0.05, 0.3, 1.0, 1.1, 1.3});
-  const Identification found = identification_method("joint").identify(start, data, {});
+  const EndochronicIdentification found = identification_method("joint").identify(start, data, {});
   EXPECT_NEAR(found.fit.law.hardening.with_path.p[4], 1.5, 1e-6);
   EXPECT_NEAR(found.fit.law.hardening.with_path.p[5], 2.2, 1e-5);
   EXPECT_EQ(found.fit.law.hardening.with_path.p[3], 1.0);  // the gauge
