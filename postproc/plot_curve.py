@@ -5,7 +5,6 @@ Needs the Debian package python3-matplotlib.
 """
 
 import argparse
-import csv
 import pathlib
 
 import matplotlib
@@ -13,16 +12,9 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from columns import read_columns
+
 DIRECTIONS = "xyz"
-
-
-def read_curve(path):
-    """Columns of a curve by name, as lists of numbers."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    if not rows:
-        raise SystemExit(f"{path} has no rows")
-    return {name: [float(row[name]) for row in rows] for name in rows[0]}
 
 
 def pulled_direction(curve):
@@ -31,7 +23,7 @@ def pulled_direction(curve):
 
 
 def plot(axes, path, label, direction):
-    curve = read_curve(path)
+    curve = read_columns(path)
     force = curve[f"force_{direction or pulled_direction(curve)}_N"]
     displacement = [1e6 * u for u in curve["displacement_m"]]
     (line,) = axes.plot(displacement, force, lw=1.6, marker="o", ms=2.5, label=label)

@@ -8,7 +8,6 @@ Needs the Debian package python3-matplotlib.
 """
 
 import argparse
-import csv
 import pathlib
 
 import matplotlib
@@ -16,14 +15,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-
-def read_table(path):
-    """Columns by name, as lists of numbers; lines that begin with # are comments."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    if not rows:
-        raise SystemExit(f"{path} has no rows")
-    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+from columns import read_columns
 
 
 def most_strained(table):
@@ -34,7 +26,7 @@ def most_strained(table):
 
 
 def plot(axes, path, component):
-    table = read_table(path)
+    table = read_columns(path)
     component = component or most_strained(table)
     shear = component[0] != component[1]
     strain = [(200.0 if shear else 100.0) * e for e in table[f"strain_{component}"]]

@@ -6,7 +6,6 @@ python3-matplotlib.
 """
 
 import argparse
-import csv
 import pathlib
 
 import matplotlib
@@ -14,14 +13,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-
-def read_columns(path):
-    """Columns by name as lists of numbers; lines that begin with # are comments."""
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    if not rows:
-        raise SystemExit(f"{path} has no rows")
-    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+from columns import read_columns
 
 
 def interpolate(x, xs, ys):

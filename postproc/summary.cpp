@@ -13,9 +13,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+double left_over(const CurveRow& row) { return row.external_work - row.elastic_energy - row.fracture_energy; }
+
 double balance_error(const CurveRow& row) {
   if (!(row.external_work > 0.0)) return Headlines::none;
-  return std::abs(row.external_work - row.elastic_energy - row.fracture_energy) / row.external_work;
+  return std::abs(left_over(row)) / row.external_work;
 }
 
 double initial_stiffness(std::span<const CurveRow> rows, int component) {
@@ -32,6 +34,15 @@ double largest_balance_error(std::span<const CurveRow> rows) {
   return largest;
 }
 
+void find_release(std::span<const CurveRow> rows, Headlines& figures) {
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double released = left_over(rows[i]) - left_over(rows[i - 1]);
+    if (figures.released_energy >= released) continue;  // none is no number, which is never so
+    figures.released_energy = released;
+    figures.displacement_at_release = rows[i].displacement;
+  }
+}
+
 Json to_json(const Headlines& f) {
   return {{"peak_force_N", f.peak_force},
           {"displacement_at_peak_m", f.displacement_at_peak},
@@ -45,6 +56,8 @@ Json to_json(const Headlines& f) {
           {"external_work_J", f.external_work},
           {"energy_balance_error", f.energy_balance_error},
           {"max_energy_balance_error", f.max_energy_balance_error},
+          {"released_energy_J", f.released_energy},
+          {"displacement_at_release_m", f.displacement_at_release},
           {"max_damage", f.max_damage},
           {"damaged_volume_m3", f.damaged_volume}};
 }
@@ -102,6 +115,7 @@ Headlines headlines(std::span<const CurveRow> rows, int component) {
   figures.damaged_volume = last.damaged_volume;
   figures.energy_balance_error = balance_error(last);
   figures.max_energy_balance_error = largest_balance_error(rows);
+  find_release(rows, figures);
   return figures;
 }
 

@@ -28,6 +28,8 @@ struct Headlines {
   double max_damage = none;                ///< at the end [-]
   double damaged_volume = none;            ///< at the end [m^3]
   double energy_balance_error = none;      ///< |W - E_elastic - E_fracture| / W at the end [-]
+  double released_energy = none;           ///< the most that one step's work leaves over, as an unstable jump does [J]
+  double displacement_at_release = none;   ///< at the end of that step [m]
   double max_energy_balance_error = none;  ///< the largest over all rows with W > 0 [-]
 };
 

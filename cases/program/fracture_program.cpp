@@ -3,6 +3,7 @@
 #include "cases/program/fracture_case.h"
 #include "cases/program/fracture_results.h"
 #include "cases/program/progress.h"
+#include "cases/program/resolution.h"
 #include "mesh/quality.h"
 #include "postproc/folder_lock.h"
 #include "solver/fracture_run.h"
@@ -49,9 +50,11 @@ Mesh make_mesh(const FractureProgram& program, Log& log) {
   return mesh;
 }
 
-FractureRun make_run(const FractureProgram& program, const Mesh& mesh) {
+FractureRun make_run(const FractureProgram& program, const Mesh& mesh, Log& log) {
   const FractureCase& fracture = program.fracture;
-  return FractureRun(mesh, model_on(fracture, mesh), fracture.staggered, fracture.loading);
+  FractureModel model = model_on(fracture, mesh);
+  for (const std::string& warning : resolution_warnings(mesh, model, fracture.mesh.bands)) log.warn(warning);
+  return FractureRun(mesh, std::move(model), fracture.staggered, fracture.loading);
 }
 
 void say_regions(const Mesh& mesh, Log& log) {
@@ -75,7 +78,7 @@ void check(const FractureProgram& program, Session& session) {
   Log& log = session.log;
   const LoadingSettings& loading = program.fracture.loading;
   const Mesh mesh = make_mesh(program, log);
-  const FractureRun run = make_run(program, mesh);
+  const FractureRun run = make_run(program, mesh, log);
   log.say(fmt::format("{}: {}", program.name, program.fracture.title));
   log.say(fmt::format("cells {}", mesh.n_cells()));
   say_regions(mesh, log);
@@ -177,7 +180,7 @@ void run_case(const FractureProgram& program, Session& session) {
   RunTimes times;
   const Mesh mesh = make_mesh(program, session.log);
   times.mesh = times.whole.seconds();
-  FractureRun run = make_run(program, mesh);
+  FractureRun run = make_run(program, mesh, session.log);
   const FractureState initial = run.initial_state();
   const FolderLock lock(session.results);
   const auto last = state_to_go_on_from(program, initial, session);

@@ -2,6 +2,10 @@
 
 #include "cases/program/program.h"
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
 #include <unistd.h>
 
 #include <fstream>
@@ -96,6 +100,19 @@ Outcome run(const std::vector<std::string>& arguments) {
   std::ostringstream err;
   const int status = run_program(arguments, out, err);
   return {status, out.str(), err.str()};
+}
+
+void PrintTo(const BadInput& input, std::ostream* stream) { *stream << input.name; }
+
+void expect_refused(const TemporaryCase& directory, const BadInput& input) {
+  for (const char* command : {"check", "run"}) {
+    const Outcome outcome = run({command, directory.path().string()});
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    for (const std::string& part : input.message)
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is missing in " << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(directory.results()));
+  }
 }
 
 }  // namespace pfdm

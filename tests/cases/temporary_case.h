@@ -2,6 +2,7 @@
 // Case directories made for a test, and the program run on them in this process.
 
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -38,5 +39,17 @@ struct Outcome {
   std::string err;
 };
 Outcome run(const std::vector<std::string>& arguments);
+
+/// One thing wrong with a case that is otherwise good.
+struct BadInput {
+  const char* name;
+  const char* good;                  ///< what stands in the good case
+  const char* bad;                   ///< what stands there instead
+  std::vector<std::string> message;  ///< all of it has to be said
+};
+void PrintTo(const BadInput& input, std::ostream* stream);
+
+/// Both `check` and `run` must end with status 2 and one line that holds the input's message, and leave no results.
+void expect_refused(const TemporaryCase& directory, const BadInput& input);
 
 }  // namespace pfdm

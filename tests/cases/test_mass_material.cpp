@@ -204,27 +204,11 @@ TEST(MassMaterialProgram, ListsItsLaws) {
     EXPECT_NE(laws.out.find(name), std::string::npos) << name;
 }
 
-struct BadInput {
-  const char* name;
-  const char* good;
-  const char* bad;
-  std::vector<std::string> message;
-};
-void PrintTo(const BadInput& input, std::ostream* stream) { *stream << input.name; }
-
 class BadMassMaterial : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadMassMaterial, IsRefusedWithOneMessage) {
-  const BadInput& input = GetParam();
-  const TemporaryCase directory(replaced(soft_case(), input.good, input.bad));
-  for (const char* command : {"check", "run"}) {
-    const Outcome outcome = run({command, directory.path().string()});
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    for (const std::string& part : input.message)
-      EXPECT_NE(outcome.err.find(part), std::string::npos) << part << " is missing in " << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_FALSE(fs::exists(directory.results()));
-  }
+  const TemporaryCase directory(replaced(soft_case(), GetParam().good, GetParam().bad));
+  expect_refused(directory, GetParam());
 }
 
 const BadInput bad_inputs[] = {

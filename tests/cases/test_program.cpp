@@ -100,6 +100,15 @@ TEST(Program, GoesOnWithOtherSettingsOfTheSolver) {
   EXPECT_EQ(summary_in(directory.results())["status"], "complete");
 }
 
+TEST(Program, WarnsOfCellsThatAreTooThickForTheLength) {
+  const TemporaryCase fine(bar_case()), coarse(replaced(bar_case(), "\"4 mm\"", "\"0.6 mm\""));
+  EXPECT_EQ(run({"check", fine.path().string()}).out.find("would not be resolved"), std::string::npos);
+  const Outcome outcome = run({"check", coarse.path().string()});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_NE(outcome.out.find("region \"bar\": cells are up to 0.0005 m thick, ell is 0.0006 m"), std::string::npos)
+      << outcome.out;
+}
+
 TEST(Program, StartsAfreshWithoutRestart) {
   const TemporaryCase directory(bar_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);

@@ -34,6 +34,8 @@ TEST(Headlines, of_a_bar_that_breaks) {
   EXPECT_EQ(f.damaged_volume, 1e-12);
   EXPECT_NEAR(f.energy_balance_error, 0.1, 1e-12);
   EXPECT_NEAR(f.max_energy_balance_error, 0.25, 1e-12);
+  EXPECT_NEAR(f.released_energy, 1e-6, 1e-18);
+  EXPECT_EQ(f.displacement_at_release, 4e-6);
 }
 
 TEST(Headlines, in_compression_keep_the_sign_of_the_force) {
@@ -56,6 +58,7 @@ TEST(Headlines, of_no_curve_or_an_unloaded_one_are_not_numbers) {
   EXPECT_TRUE(std::isnan(f.initial_stiffness));
   EXPECT_TRUE(std::isnan(f.energy_balance_error));
   EXPECT_TRUE(std::isnan(f.max_energy_balance_error));
+  EXPECT_TRUE(std::isnan(f.released_energy));
 }
 
 TEST(Summary, has_units_in_its_names_and_null_for_what_is_not_a_number) {

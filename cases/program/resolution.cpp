@@ -1,0 +1,54 @@
+#include "cases/program/resolution.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr double cells_in_ell = 2.0;  // at least: the discrete toughness is then within 3 % (AT2) of Gc
+constexpr double long_tail = 2.0;  // half-width over ell at which a profile without end has fallen to 2 % of its energy
+
+// Extent of a cell across its largest face: of a prism layer its thickness, of a brick its shortest edge, of a
+// tetrahedron a third of its height.
+double thickness(const Mesh& mesh, Index cell) {
+  double largest = 0.0;
+  for (const Index f : mesh.faces_of_cell(cell)) largest = std::max(largest, mesh.face_area[f].norm());
+  return mesh.cell_volume[cell] / largest;
+}
+
+}  // namespace
+
+std::vector<std::string> resolution_warnings(const Mesh& mesh, const FractureModel& model,
+                                             std::span<const Band> bands) {
+  std::vector<double> thickest(model.regions.size(), 0.0);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    double& most = thickest[as_size(mesh.region[c])];
+    most = std::max(most, thickness(mesh, c));
+  }
+  std::vector<std::string> warnings;
+  for (std::size_t r = 0; r < model.regions.size(); ++r) {
+    const RegionModel& region = model.regions[r];
+    if (region.damageable && thickest[r] > region.ell / cells_in_ell)
+      warnings.push_back(fmt::format(
+          "region \"{}\": cells are up to {:.3g} m thick, ell is {:.3g} m: a crack in the thick ones would not "
+          "be resolved (at most ell/{:g})",
+          mesh.region_names[r], thickest[r], region.ell, cells_in_ell));
+  }
+  for (const Band& band : bands) {
+    const auto found = std::find(mesh.region_names.begin(), mesh.region_names.end(), band.region);
+    if (found == mesh.region_names.end()) continue;
+    const RegionModel& region = model.regions[as_size(static_cast<Index>(found - mesh.region_names.begin()))];
+    const double half = std::min(model.crack->support, long_tail) * region.ell;
+    if (region.damageable && band.width < 2.0 * half)
+      warnings.push_back(
+          fmt::format("region \"{}\" is {:.3g} m wide: the profile of a crack in it, {:.3g} m with this ell, reaches "
+                      "beyond it",
+                      band.region, band.width, 2.0 * half));
+  }
+  return warnings;
+}
+
+}  // namespace pfdm
