@@ -31,7 +31,7 @@ MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns)
       x_(as_size(unknowns.n_nodes())) {}
 
 void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
-  operator_.set_moduli(moduli, g, multigrid_ ? 1e-3 : 0.0);
+  operator_.set_moduli(moduli, g, multigrid_ ? 0.01 : 0.0);
   const bool moved = multigrid_ && parallel_max(g.size(), [&](Index c) {
                                      return std::max(g[c] / g_of_multigrid_[c], g_of_multigrid_[c] / g[c]);
                                    }) > 2.0;

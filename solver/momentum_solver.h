@@ -23,7 +23,7 @@ class MomentumSolver {
   MomentumSolver(const Mesh& mesh, const Unknowns& unknowns);
 
   /// New secant moduli. The multigrid is built again when some cell's stiffness factor g has moved by more than 2, the
-  /// weights of the gradients where it has moved by more than a thousandth.
+  /// weights of the gradients where it has moved by more than a hundredth.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
   /// Has the next set_moduli build all anew, so that what follows does not depend on what was before.
   void start_afresh() { multigrid_.reset(); }
