@@ -11,6 +11,8 @@ double largest_principal_value(const Tensor& a) {
   return Eigen::SelfAdjointEigenSolver<Tensor>().computeDirect(a, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
+IsotropicElasticity degrade_all(const IsotropicElasticity& c, double g, double) { return {g * c.lambda, g * c.mu}; }
+
 constexpr EnergySplit none{
     .name = "none",
     .description = "the whole elastic energy is degraded",
@@ -20,10 +22,7 @@ constexpr EnergySplit none{
           return SplitEnergy{energy_density(c, eps), 0.0};
         },
     .closure = [](const Tensor&) { return 0.0; },
-    .secant =
-        [](const IsotropicElasticity& c, double g, double) {
-          return IsotropicElasticity{g * c.lambda, g * c.mu};
-        },
+    .secant = degrade_all,
 };
 
 // Amor, Marigo, Maurini, J. Mech. Phys. Solids 57 (2009) 1209, eqs. 25-26: compression of the volume is kept.
@@ -61,10 +60,7 @@ constexpr EnergySplit rankine{
           return SplitEnergy{0.5 * tension * tension / c.young_modulus(), 0.0};
         },
     .closure = [](const Tensor&) { return 0.0; },
-    .secant =
-        [](const IsotropicElasticity& c, double g, double) {
-          return IsotropicElasticity{g * c.lambda, g * c.mu};
-        },
+    .secant = degrade_all,
 };
 
 constexpr EnergySplit table[] = {none, volumetric_deviatoric, rankine};

@@ -13,25 +13,8 @@
 namespace pfdm {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string_view::npos ? std::string_view{}
-                                         : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t comma = 0; comma != std::string_view::npos;) {
-    comma = line.find(',');
-    words.push_back(trimmed(line.substr(0, comma)));
-    if (comma != std::string_view::npos) line.remove_prefix(comma + 1);
-  }
-  return words;
-}
-
 void read_header(CsvTable& table, std::string_view line, const std::string& where) {
-  for (const std::string_view word : split(line)) {
+  for (const std::string_view word : split_at_commas(line)) {
     if (word.empty() || parse_double(word))
       throw InputError(
           fmt::format("{}: \"{}\" stands where the names of the columns are due, as in time_s,strain_xx", where, line));
@@ -42,7 +25,7 @@ void read_header(CsvTable& table, std::string_view line, const std::string& wher
 }
 
 void read_row(CsvTable& table, std::string_view line, const std::string& where) {
-  const auto words = split(line);
+  const auto words = split_at_commas(line);
   if (words.size() != table.names.size())
     throw InputError(fmt::format("{}: {} entries in a table of {} columns", where, words.size(), table.names.size()));
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -71,9 +54,7 @@ CsvTable read_csv(const std::filesystem::path& path) {
   std::string_view rest = content;
   CsvTable table;
   for (int line_number = 1; !rest.empty(); ++line_number) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = trimmed(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+    const std::string_view line = take_line(rest);
     const std::string where = fmt::format("{}, line {}", path.string(), line_number);
     if (line.empty()) continue;
     if (line.front() == '#')

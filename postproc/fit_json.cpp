@@ -1,8 +1,7 @@
 #include "postproc/fit_json.h"
 
 #include "postproc/atomic_file.h"
-
-#include <nlohmann/json.hpp>
+#include "postproc/json.h"
 
 namespace pfdm {
 namespace {
@@ -27,12 +26,6 @@ Json estimates(const FitReport& report) {
                     {"log_scale", p.log_scale}});
   }
   return list;
-}
-
-Json matrix(const Eigen::MatrixXd& m) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < m.rows(); ++i) rows.push_back(std::vector<double>(m.row(i).begin(), m.row(i).end()));
-  return rows;
 }
 
 Json path(const FitResult& result) {
@@ -70,7 +63,7 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
                {"parameters", estimates(report)},
                {"warnings", result.warnings},
                {"experiments", experiments(report)},
-               {"correlation", matrix(result.correlation)},
+               {"correlation", to_json(result.correlation)},
                {"start_rms_residual", result.start_rms},
                {"path", path(result)}};
   for (const TriedKernel& t : report.tried)

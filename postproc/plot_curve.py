@@ -7,12 +7,7 @@ Needs the Debian package python3-matplotlib.
 import argparse
 import pathlib
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
-from columns import read_columns
+from plotting import new_picture, read_columns, save_picture
 
 DIRECTIONS = "xyz"
 
@@ -43,16 +38,11 @@ def main():
     if len(labels) != len(arguments.curves):
         parser.error(f"{len(labels)} labels for {len(arguments.curves)} curves")
 
-    figure, axes = plt.subplots(figsize=(6.0, 4.0), constrained_layout=True)
+    figure, axes = new_picture()
     for path, label in zip(arguments.curves, labels):
         u, f = plot(axes, path, label, arguments.direction)
         print(f"{label}: peak {f:.6g} N at {u:.6g} um")
-    axes.set_xlabel("displacement [µm]")
-    axes.set_ylabel("force [N]")
-    axes.grid(alpha=0.3)
-    axes.legend(frameon=False)
-    figure.savefig(arguments.output, dpi=160)
-    print(arguments.output)
+    save_picture(figure, axes, "displacement [µm]", "force [N]", arguments.output)
 
 
 if __name__ == "__main__":

@@ -10,12 +10,7 @@ Needs the Debian package python3-matplotlib.
 import argparse
 import pathlib
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
-from columns import read_columns
+from plotting import new_picture, read_columns, save_picture
 
 
 def most_strained(table):
@@ -48,15 +43,10 @@ def main():
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("hysteresis.png"))
     arguments = parser.parse_args()
 
-    figure, axes = plt.subplots(figsize=(6.0, 4.5), constrained_layout=True)
+    figure, axes = new_picture(height=4.5)
     for path in arguments.histories:
         component, shear = plot(axes, path, arguments.component)
-    axes.set_xlabel(f"{'engineering shear' if shear else 'strain'} {component} [%]")
-    axes.set_ylabel(f"stress {component} [MPa]")
-    axes.grid(alpha=0.3)
-    axes.legend(frameon=False)
-    figure.savefig(arguments.output, dpi=160)
-    print(arguments.output)
+    save_picture(figure, axes, f"{'engineering shear' if shear else 'strain'} {component} [%]", f"stress {component} [MPa]", arguments.output)
 
 
 if __name__ == "__main__":

@@ -8,12 +8,7 @@ python3-matplotlib.
 import argparse
 import pathlib
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-
-from columns import read_columns
+from plotting import new_picture, read_columns, save_picture
 
 
 def interpolate(x, xs, ys):
@@ -42,16 +37,11 @@ def main():
     misfit = max(abs(t - interpolate(w, law["separation_m"], law["traction_Pa"])) for w, t in softening)
     print(f"largest difference {misfit:.4g} Pa, {100 * misfit / strength:.2g} % of the strength")
 
-    figure, axes = plt.subplots(figsize=(6.0, 4.0), constrained_layout=True)
+    figure, axes = new_picture()
     axes.plot([1e3 * w for w in law["separation_m"]], [1e-6 * t for t in law["traction_Pa"]], "k-", lw=1.2,
               label="closed form")
     axes.plot([1e3 * w for w, _ in softening], [1e-6 * t for _, t in softening], "o", ms=4, mfc="none", label="pfdm")
-    axes.set_xlabel("separation [mm]")
-    axes.set_ylabel("traction [MPa]")
-    axes.grid(alpha=0.3)
-    axes.legend(frameon=False)
-    figure.savefig(arguments.output, dpi=160)
-    print(arguments.output)
+    save_picture(figure, axes, "separation [mm]", "traction [MPa]", arguments.output)
 
 
 if __name__ == "__main__":

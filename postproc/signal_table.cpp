@@ -13,23 +13,6 @@
 namespace pfdm {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::vector<std::string_view> cells(std::string_view line) {
-  std::vector<std::string_view> result;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    result.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return result;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 std::optional<double> number(std::string_view cell) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   return parse_double(cell);
@@ -52,9 +35,7 @@ class CsvReader {
  private:
   bool next_line() {
     if (rest_.empty()) return false;
-    const std::size_t end = rest_.find('\n');
-    line_ = trimmed(rest_.substr(0, end));
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    line_ = take_line(rest_);
     ++line_number_;
     return true;
   }
@@ -65,7 +46,7 @@ class CsvReader {
       remark_ += (remark_.empty() ? "" : "\n") + std::string(trimmed(line.substr(1)));
       return;
     }
-    const auto row = cells(line);
+    const auto row = split_at_commas(line);
     if (n_rows_ > 0 && row.size() != names_.size())
       throw error(fmt::format("{} cells in a table of {} columns", row.size(), names_.size()));
     if (n_rows_ == 0) names_.assign(row.begin(), row.end());

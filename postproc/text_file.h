@@ -1,15 +1,23 @@
 #pragma once
-// Reading back the small text files that the program writes itself.
+// Reading text: files, lines, words, numbers.
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pfdm {
 
 /// Throws InputError that names the file and the reason.
 std::string read_file(const std::filesystem::path& path);
+
+/// Without the blanks at either end.
+std::string_view trimmed(std::string_view text);
+/// What stands between the commas of a line, trimmed; one entry more than there are commas.
+std::vector<std::string_view> split_at_commas(std::string_view line);
+/// Takes the first line off the front of `rest`; trimmed.
+std::string_view take_line(std::string_view& rest);
 
 /// The number that all of the text spells; empty if it spells none.
 std::optional<double> parse_double(std::string_view text);

@@ -1,9 +1,8 @@
 #include "postproc/vibration_results.h"
 
 #include "postproc/atomic_file.h"
+#include "postproc/json.h"
 #include "postproc/summary.h"
-
-#include <nlohmann/json.hpp>
 
 #include <numbers>
 
@@ -27,12 +26,6 @@ Json to_json(const std::vector<Estimate>& estimates) {
   for (const Estimate& e : estimates)
     list.push_back({{"name", e.name}, {"value", e.value}, {"lower", e.lower}, {"upper", e.upper}});
   return list;
-}
-
-Json to_json(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (const auto& row : matrix.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
-  return rows;
 }
 
 Json to_json(const std::vector<OrderTrial>& orders) {
@@ -71,7 +64,7 @@ void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& 
                {"converged", fit.converged},
                {"confidence", fit.confidence},
                {"estimates", to_json(fit.estimates)},
-               {"correlation", to_json(fit.correlation)},
+               {"correlation", pfdm::to_json(fit.correlation)},
                {"passive", fit.passivity.passive},
                {"least_damping_N_s_per_m", fit.passivity.least_damping},
                {"least_damping_at_Hz", fit.passivity.worst_omega / (2.0 * std::numbers::pi)},

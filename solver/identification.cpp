@@ -62,15 +62,18 @@ Identification identify_linear(std::span<const VibrationRecord> records, const I
 
 }  // namespace
 
-Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  double velocity = 0.0;
+ExcitedRange excited_range(std::span<const VibrationRecord> records) {
+  ExcitedRange range{.low = std::numeric_limits<double>::infinity(), .high = 0.0, .velocity = 0.0};
   for (const VibrationRecord& r : records) {
-    low = std::min(low, r.band_low);
-    high = std::max(high, r.band_high);
-    velocity = std::max(velocity, peak_velocity(r));
+    range.low = std::min(range.low, r.band_low);
+    range.high = std::max(range.high, r.band_high);
+    range.velocity = std::max(range.velocity, peak_velocity(r));
   }
+  return range;
+}
+
+Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records) {
+  const auto [low, high, velocity] = excited_range(records);
   return passivity(model, 2.0 * std::numbers::pi * low, 2.0 * std::numbers::pi * high, velocity);
 }
 

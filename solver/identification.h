@@ -97,6 +97,13 @@ double prediction_misfit(const MassMaterial& model, const VibrationRecord& recor
 /// The values that a user asks for, units in their names; bounds equal to the value.
 std::vector<Estimate> named_values(const MassMaterial& model);
 
+/// What records excite together.
+struct ExcitedRange {
+  double low, high;  ///< [Hz]
+  double velocity;   ///< the largest [m/s]
+};
+ExcitedRange excited_range(std::span<const VibrationRecord> records);
+
 /// Over the band that the records excite, at the largest velocity in them.
 Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records);
 

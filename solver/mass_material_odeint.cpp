@@ -18,9 +18,6 @@ using Eigen::Index;
 using Complex = std::complex<double>;
 using State = std::vector<double>;  // z, z', then real and imaginary part of each kernel term's convolution with f
 
-/// Beyond this displacement [m] the mass has run away: samples are centimetres tall.
-constexpr double runaway = 10.0;
-
 double hereditary_force(const MassMaterial& model, const State& state) {
   double v = 0.0;
   for (std::size_t i = 0; i < model.kernel.size(); ++i) {
@@ -86,7 +83,7 @@ class Marcher {
       const bool accepted = stepper_.try_step(equation_, state_, t_, tried) == ode::success;
       if (accepted && last) t_ = due;
       step_ = std::min(accepted && last ? std::max(step_, tried) : tried, longest_);
-      if (step_ < 1e-9 * longest_ || !(std::abs(state_[0]) < runaway)) return false;
+      if (step_ < 1e-9 * longest_ || !(std::abs(state_[0]) < runaway_displacement)) return false;
     }
     return true;
   }

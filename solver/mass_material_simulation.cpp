@@ -38,9 +38,6 @@ inline Lane operator-(const Lane& x) { return {-x.a, -x.b}; }
 inline Lane& operator+=(Lane& x, const Lane& y) { return x = x + y; }
 inline Lane& operator-=(Lane& x, const Lane& y) { return x = x - y; }
 
-/// Beyond this displacement [m] the mass has run away: samples are centimetres tall.
-constexpr double runaway = 10.0;
-
 /// One kernel state a real term, two a pair.
 struct LaneKernel {
   Lane rate_real, rate_imaginary, weight_real, weight_imaginary;
@@ -213,7 +210,7 @@ class Stepper {
   }
   bool all_ran_away() const {
     for (int l = 0; l < n_lanes; ++l)
-      if (std::abs(state_[0][l]) < runaway) return false;
+      if (std::abs(state_[0][l]) < runaway_displacement) return false;
     return true;
   }
   const Lane& displacement() const { return state_[0]; }
@@ -258,7 +255,7 @@ void march(const LaneModel& model, Index n_models, const BaseNodes& base, Eigen:
     if (i + 1 == n || stepper.all_ran_away()) break;
     for (int sub = 0; sub < base.substeps; ++sub) stepper.step(y + 4 * sub, h);
     for (int l = 0; l < n_models; ++l)
-      if (!(std::abs(stepper.displacement()[l]) < runaway)) valid[l] = 0.0;
+      if (!(std::abs(stepper.displacement()[l]) < runaway_displacement)) valid[l] = 0.0;
   }
   for (int l = 0; l < n_models; ++l)
     if (valid[l] == 0.0) result.col(l).setConstant(std::numeric_limits<double>::quiet_NaN());

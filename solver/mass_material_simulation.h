@@ -13,6 +13,9 @@
 
 namespace pfdm {
 
+/// Beyond this displacement [m] the mass has run away: samples are centimetres tall.
+constexpr double runaway_displacement = 10.0;
+
 /// Motion relative to the base at the samples; it starts at rest.
 struct Motion {
   double rate = 0.0;             ///< [Hz]

@@ -4,6 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <regex>
+#include <sstream>
+
 namespace pfdm {
 namespace {
 
@@ -15,6 +20,25 @@ std::uint64_t add_to_hash(std::uint64_t hash, std::string_view bytes) {
     hash *= 0x100000001b3ULL;
   }
   return hash;
+}
+
+// The table that a line opens, as in "material.hardening"; none if it opens none. A multi-line list also has lines that
+// begin with a bracket.
+std::optional<std::string> opened_table(const std::string& line) {
+  static const std::regex header(R"(^\s*\[\[?\s*([A-Za-z_.\s]*[A-Za-z_])\s*\]\]?\s*(#.*)?$)");
+  std::smatch match;
+  return std::regex_match(line, match, header) ? std::optional(match[1].str()) : std::nullopt;
+}
+
+std::string with_moved_path(const std::string& line, const std::filesystem::path& from,
+                            const std::filesystem::path& to) {
+  static const std::regex path(R"re((\b(csv|file)\s*=\s*")([^"]*)("))re");
+  std::smatch match;
+  if (!std::regex_search(line, match, path)) return line;
+  const auto absolute = std::filesystem::weakly_canonical(std::filesystem::absolute(from / match[3].str()));
+  const auto seen =
+      std::filesystem::relative(absolute, std::filesystem::weakly_canonical(std::filesystem::absolute(to)));
+  return match.prefix().str() + match[1].str() + seen.string() + match[4].str() + match.suffix().str();
 }
 
 }  // namespace
@@ -31,13 +55,35 @@ CaseFile open_case(const std::filesystem::path& where) {
   return {.directory = directory, .text = std::move(text), .config = std::move(config)};
 }
 
-std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files) {
+std::string case_name(const CaseFile& file) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory)).filename().string();
+}
+
+std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
+                      std::span<const std::string_view> left_out) {
   std::uint64_t hash = add_to_hash(0xcbf29ce484222325ULL, format_version);
   const TomlValue root = parse_toml(file.text, "case.toml");
   for (const auto& [key, value] : std::get<TomlTable>(root.value))
-    if (key != "title" && key != "solver" && key != "loading") hash = add_to_hash(hash, key + written(value));
+    if (key != "title" && std::ranges::count(left_out, key) == 0) hash = add_to_hash(hash, key + written(value));
   for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
   return fmt::format("{:016x}", hash);
+}
+
+std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,
+                       const std::filesystem::path& folder) {
+  std::istringstream lines(file.text);
+  std::string result;
+  bool within = false, written = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (const auto opened = opened_table(line))
+      within = *opened == table || opened->starts_with(std::string(table) + ".");
+    if (within && !written) {
+      result += text;
+      written = true;
+    }
+    if (!within) result += with_moved_path(line, file.directory, folder) + "\n";
+  }
+  return result;
 }
 
 }  // namespace pfdm

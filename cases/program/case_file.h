@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace pfdm {
 
@@ -19,8 +20,17 @@ struct CaseFile {
 /// `where` is a case directory or a .toml file in it. Throws InputError if there is none or it is no TOML.
 CaseFile open_case(const std::filesystem::path& where);
 
-/// Of what case.toml says and of the data files that it uses; 16 hexadecimal digits (FNV-1a). Left out is what a run
-/// may be gone on with after a change: the title, comments, [solver] and [loading].
-std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files);
+/// The name of its directory.
+std::string case_name(const CaseFile& file);
+
+/// Of what case.toml says, but for title and comments, and of the data files that it uses; 16 hexadecimal digits
+/// (FNV-1a). `left_out`: tables after a change of which a run may be gone on with.
+std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
+                      std::span<const std::string_view> left_out = {});
+
+/// case.toml with one of its tables, [table] and all below it, replaced by `text`, to stand in `folder`: the files that
+/// it names as `csv` or `file` are named from there.
+std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,
+                       const std::filesystem::path& folder);
 
 }  // namespace pfdm

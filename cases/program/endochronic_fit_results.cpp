@@ -7,9 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <regex>
-#include <sstream>
-
 namespace pfdm {
 namespace {
 
@@ -58,36 +55,7 @@ std::vector<ExperimentMisfit> misfits(const EndochronicFit& fit, const Endochron
   return result;
 }
 
-bool is_header(const std::string& line) { return std::regex_search(line, std::regex(R"(^\s*\[)")); }
-bool is_material(const std::string& line) { return std::regex_search(line, std::regex(R"(^\s*\[\[?\s*material\b)")); }
-
 }  // namespace
-
-std::string fitted_case(const CaseFile& file, const EndochronicLaw& law, const fs::path& folder) {
-  std::istringstream lines(file.text);
-  std::string result, line;
-  bool within = false, written = false;
-  const std::regex path(R"re((csv\s*=\s*")([^"]*)("))re");
-  while (std::getline(lines, line)) {
-    // A multi-line list in [material] also has lines that begin with a bracket; only table headers end one.
-    const bool header =
-        is_header(line) && std::regex_search(line, std::regex(R"(^\s*\[\[?[A-Za-z_.\s]+\]\]?\s*(#.*)?$)"));
-    if (header) within = is_material(line);
-    if (within && !written) {
-      result += "# estimated by pfdm fit\n" + to_toml(law) + "\n";
-      written = true;
-    }
-    if (within) continue;
-    std::smatch match;
-    if (std::regex_search(line, match, path)) {
-      const fs::path absolute = fs::weakly_canonical(fs::absolute(file.directory / match[2].str()));
-      const fs::path seen = fs::relative(absolute, fs::weakly_canonical(fs::absolute(folder)));
-      line = match.prefix().str() + match[1].str() + seen.string() + match[3].str() + match.suffix().str();
-    }
-    result += line + "\n";
-  }
-  return result;
-}
 
 void write_fit_results(const fs::path& results, const CaseFile& file, const EndochronicFit& fit,
                        const EndochronicIdentification& found, const FitRun& run) {
@@ -104,7 +72,8 @@ void write_fit_results(const fs::path& results, const CaseFile& file, const Endo
     table.add("weight_Pa", std::move(weight));
     write_csv(results / ("transient_" + file_name(fit.experiments[i].name)), table);
   }
-  write_file(results / "case.fitted.toml", fitted_case(file, found.fit.law, results));
+  write_file(results / "case.fitted.toml",
+             with_table(file, "material", "# estimated by pfdm fit\n" + to_toml(found.fit.law) + "\n", results));
   write_fit_json(results / "fit.json", {.case_name = run.case_name,
                                         .case_hash = run.case_hash,
                                         .version = run.version,

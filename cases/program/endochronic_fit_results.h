@@ -17,7 +17,4 @@ struct FitRun {
 void write_fit_results(const std::filesystem::path& results, const CaseFile& file, const EndochronicFit& fit,
                        const EndochronicIdentification& found, const FitRun& run);
 
-/// The text of the case with [material] replaced by `law` and paths of CSV files as seen from `folder`.
-std::string fitted_case(const CaseFile& file, const EndochronicLaw& law, const std::filesystem::path& folder);
-
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 
 #include "cases/program/endochronic_case.h"
 #include "cases/program/endochronic_fit_results.h"
+#include "cases/program/stopwatch.h"
 #include "postproc/folder_lock.h"
 #include "postproc/history_csv.h"
 #include "postproc/summary.h"
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <cmath>
 
 namespace pfdm {
@@ -90,7 +90,7 @@ void write_results(const EndochronicProgram& program, const HistoryResult& histo
 }
 
 void run_case(const EndochronicProgram& program, Session& session) {
-  const auto began = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Log& log = session.log;
   log.say(fmt::format("pfdm {}, case {}: {}", session.version, program.name, program.point.title));
   const FolderLock lock(session.results);
@@ -99,7 +99,7 @@ void run_case(const EndochronicProgram& program, Session& session) {
   say_law(program.point.law, log);
   const EndochronicLoading& loading = program.point.loading;
   const HistoryResult history = run_history(program.point.law, loading.segments, loading.settings);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const double seconds = watch.seconds();
   write_results(program, history, session, seconds);
   for (const auto& [name, value] : history_figures(program.point.law, history))
     log.say(fmt::format("  {} = {:.6g}", name, value));
@@ -119,7 +119,7 @@ void say_estimates(const LawFit& fit, Log& log) {
 }
 
 void fit_case(const EndochronicProgram& program, Session& session) {
-  const auto began = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Log& log = session.log;
   EndochronicFit fit = *program.point.fit;
   log.say(fmt::format("pfdm {}, fit of {}: {}", session.version, program.name, program.point.title));
@@ -129,7 +129,7 @@ void fit_case(const EndochronicProgram& program, Session& session) {
       fmt::format("method {}: {}; {} experiments", fit.method->name, fit.method->description, fit.experiments.size()));
   fit.settings.say = [&log](const std::string& message) { log.say(message); };
   const EndochronicIdentification found = fit.method->identify(program.point.law, fit.experiments, fit.settings);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const double seconds = watch.seconds();
   write_fit_results(session.results, program.file, fit, found, {program.name, program.hash, session.version, seconds});
   say_estimates(found.fit, log);
   log.say(fmt::format("rms misfit {:.6g} Pa of {:.6g} Pa rms stress; {} evaluations, {:.1f} s; {}",
@@ -145,7 +145,7 @@ RunnableCase read_endochronic_program(const CaseFile& file) {
   auto program =
       std::make_shared<EndochronicProgram>(EndochronicProgram{.file = file, .point = {}, .name = {}, .hash = {}});
   program->point = read_endochronic_case(file.config.root(), file.directory);
-  program->name = std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory)).filename().string();
+  program->name = case_name(file);
   std::vector<std::filesystem::path> data = program->point.loading.data_files;
   if (program->point.fit)
     data.insert(data.end(), program->point.fit->data_files.begin(), program->point.fit->data_files.end());

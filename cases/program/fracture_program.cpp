@@ -4,29 +4,24 @@
 #include "cases/program/fracture_results.h"
 #include "cases/program/progress.h"
 #include "cases/program/resolution.h"
+#include "cases/program/stopwatch.h"
 #include "mesh/quality.h"
 #include "postproc/folder_lock.h"
 #include "solver/fracture_run.h"
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <sstream>
 
 namespace pfdm {
 namespace {
 
+/// Tables that say how the load is stepped and the steps are solved, not what is loaded.
+constexpr std::string_view may_change_on_the_way[] = {"solver", "loading"};
+
 /// Thrown out of the load stepping when --max-steps is reached.
 struct EnoughSteps {};
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-};
 
 /// Where the wall-clock time of a run goes [s].
 struct RunTimes {
@@ -53,7 +48,7 @@ Mesh make_mesh(const FractureProgram& program, Log& log) {
 FractureRun make_run(const FractureProgram& program, const Mesh& mesh, Log& log) {
   const FractureCase& fracture = program.fracture;
   FractureModel model = model_on(fracture, mesh);
-  for (const std::string& warning : resolution_warnings(mesh, model, fracture.mesh.bands)) log.warn(warning);
+  for (const std::string& warning : resolution_warnings(mesh, model, fracture.materials.bands)) log.warn(warning);
   return FractureRun(mesh, std::move(model), fracture.staggered, fracture.loading);
 }
 
@@ -202,8 +197,8 @@ void run_case(const FractureProgram& program, Session& session) {
 RunnableCase read_fracture_program(const CaseFile& file) {
   auto program = std::make_shared<FractureProgram>();
   program->fracture = read_fracture_case(file.config.root(), file.directory);
-  program->name = std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory)).filename().string();
-  program->hash = case_hash(file, program->fracture.mesh.data_files);
+  program->name = case_name(file);
+  program->hash = case_hash(file, program->fracture.mesh.data_files, may_change_on_the_way);
   return {.title = program->fracture.title,
           .check = [program](Session& session) { check(*program, session); },
           .mesh = [program](Session& session) { mesh_only(*program, session); },

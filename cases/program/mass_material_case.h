@@ -65,8 +65,8 @@ struct MassMaterialCase {
 
 MassMaterialCase read_mass_material_case(const ConfigTable& root, const std::filesystem::path& case_directory);
 
-/// The case file's text with the found parameters in the place of its [model].
-std::string with_model(const std::string& case_text, std::string_view structure, const MassMaterial& model);
+/// [model] with these parameters, as TOML.
+std::string model_text(std::string_view structure, const MassMaterial& model);
 
 struct ExcitationType {
   std::string_view name;

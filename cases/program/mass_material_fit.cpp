@@ -1,6 +1,7 @@
 // fit_mass_material() of mass_material_jobs.h.
 
 #include "cases/program/mass_material_jobs.h"
+#include "cases/program/stopwatch.h"
 #include "postproc/atomic_file.h"
 #include "postproc/folder_lock.h"
 #include "postproc/vibration_results.h"
@@ -8,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -118,14 +118,7 @@ std::vector<NamedFigures> misfits(const MassMaterial& model, const Records& reco
 
 /// E' + j E'' = K L/A: the sample as a bar in uniaxial stress, whose own inertia counts as a third of its mass in m.
 std::vector<ModulusRow> youngs_modulus(const MassMaterial& model, const Records& records, const SampleSize& sample) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = 0.0;
-  double velocity = 0.0;
-  for (const VibrationRecord& r : records.fitted) {
-    low = std::min(low, r.band_low);
-    high = std::max(high, r.band_high);
-    velocity = std::max(velocity, peak_velocity(r));
-  }
+  const auto [low, high, velocity] = excited_range(records.fitted);
   std::vector<ModulusRow> rows;
   constexpr int n = 25;
   for (int i = 0; i < n; ++i) {
@@ -155,7 +148,7 @@ void say_found(const Found& found, Log& log) {
 
 void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   const MassMaterialCase& c = program.parsed;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Records records = read_records(c, session.results, session.log);
   const ModelStructure& structure = model_structure(c.fit.structure);
   session.log.say(fmt::format("pfdm {}, case {}: {} of model {} from {} records", session.version, program.name,
@@ -173,11 +166,12 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   report.confidence = c.fit.confidence;
   report.tests = misfits(found.model, records, c.fit.crop);
   if (c.sample) report.modulus = youngs_modulus(found.model, records, *c.sample);
-  report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.wall_seconds = watch.seconds();
   const FolderLock lock(session.results);
   session.log.open_file(session.results / "fit.log", false);
   write_vibration_fit(session.results / "fit.json", report);
-  write_file(session.results / "case.fitted.toml", with_model(program.text, structure.name, found.model));
+  write_file(session.results / "case.fitted.toml",
+             with_table(program.file, "model", model_text(structure.name, found.model), session.results));
   say_found(found, session.log);
   session.log.say(
       fmt::format("written to {} after {:.1f} s", (session.results / "fit.json").string(), report.wall_seconds));

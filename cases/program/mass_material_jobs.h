@@ -1,21 +1,20 @@
 #pragma once
 // What the jobs of a mass-material case share.
 
+#include "cases/program/case_file.h"
 #include "cases/program/mass_material_case.h"
 #include "cases/program/session.h"
 #include "cases/program/vibration_reader.h"
 
-#include <filesystem>
 #include <string>
 
 namespace pfdm {
 
 struct MassMaterialProgram {
+  CaseFile file;
   MassMaterialCase parsed;
   std::string name;
   std::string hash;
-  std::string text;  ///< of case.toml
-  std::filesystem::path directory;
 };
 
 /// Identifies the model from the records of the tests; writes fit.json and case.fitted.toml.

@@ -2,6 +2,7 @@
 
 #include "cases/program/mass_material_case.h"
 #include "cases/program/mass_material_jobs.h"
+#include "cases/program/stopwatch.h"
 #include "postproc/folder_lock.h"
 #include "postproc/signal_table.h"
 #include "postproc/vibration_results.h"
@@ -11,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -23,10 +23,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double gravity = 9.80665;  // [m/s^2]
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// What a run needs beyond what a fit does.
 void require_parameters(const MassMaterialCase& c) {
@@ -87,13 +83,13 @@ struct SimulatedTest {
 
 SimulatedTest simulate_test(const MassMaterialCase& c, std::size_t number) {
   const VibrationTest& test = c.tests[number];
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   SimulatedTest result;
   result.motion = simulate(c.model, *test.excitation, c.rate);
   if (!result.motion.bounded)
     throw ComputationError(
         fmt::format("test {}: the mass runs away: the restoring force does not hold it at this level", test.name));
-  result.seconds = seconds_since(start);
+  result.seconds = watch.seconds();
   result.record.name = test.name;
   result.record.rate = c.rate;
   result.record.base = result.motion.base;
@@ -209,7 +205,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
   require_parameters(c);
   if (session.restart)
     session.log.say("a simulation of vibration tests has nothing to go on from: it starts at the beginning");
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const FolderLock lock(session.results);
   session.log.open_file(session.results / "run.log", false);
   say_model(program, session.log);
@@ -227,7 +223,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
   summary.figures = {{"mass_kg", c.model.mass},
                      {"static_stiffness_N_per_m", static_stiffness(c.model)},
                      {"static_settling_point_m", z0 ? *z0 : std::nan("")}};
-  summary.wall_seconds = seconds_since(start);
+  summary.wall_seconds = watch.seconds();
   write_vibration_summary(session.results / "summary.json", summary);
   session.log.say(
       fmt::format("complete after {:.1f} s; results in {}", summary.wall_seconds, session.results.string()));
@@ -236,11 +232,10 @@ void run_case(const MassMaterialProgram& program, Session& session) {
 }  // namespace
 
 RunnableCase read_mass_material_program(const CaseFile& file) {
-  auto program = std::make_shared<MassMaterialProgram>();
+  auto program =
+      std::make_shared<MassMaterialProgram>(MassMaterialProgram{.file = file, .parsed = {}, .name = {}, .hash = {}});
   program->parsed = read_mass_material_case(file.config.root(), file.directory);
-  program->name = fs::weakly_canonical(fs::absolute(file.directory)).filename().string();
-  program->text = file.text;
-  program->directory = file.directory;
+  program->name = case_name(file);
   program->hash = case_hash(file, program->parsed.data_files);
   return {.title = program->parsed.title,
           .check = [program](Session& session) { check(*program, session); },

@@ -1,10 +1,8 @@
-// with_model() of mass_material_case.h.
+// model_text() of mass_material_case.h.
 
 #include "cases/program/mass_material_case.h"
 
 #include <fmt/format.h>
-
-#include <sstream>
 
 namespace pfdm {
 namespace {
@@ -15,6 +13,8 @@ std::string_view beta_unit(KernelForcing forcing) {
   if (forcing == KernelForcing::displacement) return "N/m/s";
   return forcing == KernelForcing::stiffness ? "s^-1" : "N/m";
 }
+
+}  // namespace
 
 std::string model_text(std::string_view structure, const MassMaterial& m) {
   std::string text = "[model]                            # found by pfdm fit\n";
@@ -36,29 +36,6 @@ std::string model_text(std::string_view structure, const MassMaterial& m) {
                           quantity(term.beta.imag(), beta_unit(m.forcing)));
   }
   return text + "\n";
-}
-
-bool opens_table(const std::string& line) { return line.starts_with("["); }
-bool opens_model(const std::string& line) {
-  return line.starts_with("[model]") || line.starts_with("[model.") || line.starts_with("[[model.");
-}
-
-}  // namespace
-
-std::string with_model(const std::string& case_text, std::string_view structure, const MassMaterial& model) {
-  std::istringstream lines(case_text);
-  std::string result;
-  bool within = false;
-  bool written = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (opens_table(line)) within = opens_model(line);
-    if (within && !written) {
-      result += model_text(structure, model);
-      written = true;
-    }
-    if (!within) result += line + "\n";
-  }
-  return result;
 }
 
 }  // namespace pfdm

@@ -128,6 +128,11 @@ RegionKeys read_region(const ConfigValue& where, const ConfigTable& table, const
   return entry;
 }
 
+RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& name) {
+  const auto found = std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.region == name; });
+  return found == regions.end() ? nullptr : &*found;
+}
+
 void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
                    std::vector<RegionOverride>& overrides, std::vector<RegionKeys>& regions) {
   table.quantity("young_modulus", dimension::stress, range::positive);
@@ -136,15 +141,10 @@ void read_material(Materials& materials, const std::string& name, const ConfigTa
   materials.by_name.push_back({name, from_young_poisson(*base.young_modulus, *base.poisson_ratio)});
   for (const ConfigValue& where : table.at("regions").list()) {
     const std::string region = where.string();
-    if (std::any_of(regions.begin(), regions.end(), [&](const RegionKeys& other) { return other.region == region; }))
+    if (find_region(regions, region) != nullptr)
       throw where.error(fmt::format("region \"{}\" already has a material", region));
     regions.push_back(read_region(where, table, base, overrides));
   }
-}
-
-const RegionKeys* find_region(const std::vector<RegionKeys>& regions, const std::string& name) {
-  const auto found = std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.region == name; });
-  return found == regions.end() ? nullptr : &*found;
 }
 
 BandNeighbour neighbour(const RegionKeys& region) {
@@ -155,10 +155,9 @@ BandNeighbour neighbour(const RegionKeys& region) {
 // Replaces the toughness of a band by the one with which a crack in it dissipates what was given.
 void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const MaterialDefaults& defaults,
                        std::vector<std::string>& remarks) {
-  const auto found =
-      std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.region == band.region; });
+  RegionKeys* const found = find_region(regions, band.region);
   const RegionKeys *one = find_region(regions, band.neighbours[0]), *other = find_region(regions, band.neighbours[1]);
-  if (found == regions.end() || one == nullptr || other == nullptr)
+  if (found == nullptr || one == nullptr || other == nullptr)
     throw InputError(fmt::format("the band \"{}\" lies between \"{}\" and \"{}\", and one of the three has no material",
                                  band.region, band.neighbours[0], band.neighbours[1]));
   MaterialKeys& keys = found->keys;
@@ -166,10 +165,10 @@ void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const
   const BandNeighbour left = neighbour(*one), right = neighbour(*other);
   if (!keys.damageable.value_or(true) || !keys.toughness || ell == 0.0 || left.Gc == 0.0 || right.Gc == 0.0) return;
   const double given = *keys.toughness;
-  const double apparent = apparent_toughness(*defaults.crack, given, band.width, ell, left, right);
   const std::string band_words = fmt::format("region \"{}\" ({:.4g} m wide, ell = {:.4g} m) between \"{}\" and \"{}\"",
                                              band.region, band.width, ell, band.neighbours[0], band.neighbours[1]);
   if (!defaults.corrects_toughness) {
+    const double apparent = apparent_toughness(*defaults.crack, given, band.width, ell, left, right);
     remarks.push_back(fmt::format("{}: toughness {:.6g} J/m^2 as given; a crack at its middle will dissipate {:.6g}",
                                   band_words, given, apparent));
     return;
@@ -198,10 +197,10 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
     if (!over.used)
       throw over.value.error(
           fmt::format("region \"{}\" has no material; name it in some material's regions", over.region));
-  std::vector<Band> bands = defaults.bands;
+  materials.bands = defaults.bands;
   for (const RegionOverride& over : overrides)
-    if (over.band) bands.push_back(*over.band);
-  for (const Band& band : bands) correct_toughness(band, regions, defaults, materials.remarks);
+    if (over.band) materials.bands.push_back(*over.band);
+  for (const Band& band : materials.bands) correct_toughness(band, regions, defaults, materials.remarks);
   for (const RegionKeys& entry : regions)
     materials.by_region.push_back(
         {entry.region, make_model(entry.keys, entry.region, defaults, entry.table), entry.where});

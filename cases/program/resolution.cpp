@@ -38,9 +38,7 @@ std::vector<std::string> resolution_warnings(const Mesh& mesh, const FractureMod
           mesh.region_names[r], thickest[r], region.ell, cells_in_ell));
   }
   for (const Band& band : bands) {
-    const auto found = std::find(mesh.region_names.begin(), mesh.region_names.end(), band.region);
-    if (found == mesh.region_names.end()) continue;
-    const RegionModel& region = model.regions[as_size(static_cast<Index>(found - mesh.region_names.begin()))];
+    const RegionModel& region = model.regions[as_size(mesh.region_index(band.region))];
     const double half = std::min(model.crack->support, long_tail) * region.ell;
     if (region.damageable && band.width < 2.0 * half)
       warnings.push_back(

@@ -1,5 +1,7 @@
 #include "cases/program/units.h"
 
+#include "postproc/text_file.h"
+
 #include "physics/error.h"
 
 #include <fmt/format.h>
@@ -49,13 +51,6 @@ std::string replace_word(std::string_view text, std::string_view word, std::stri
     }
   }
   return result;
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 /// Null if UDUNITS does not know it. To UDUNITS "g0" would be gram to the power of zero.

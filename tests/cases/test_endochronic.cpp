@@ -75,6 +75,15 @@ control = { strain_xx = { csv = "path.csv", column = "axial", unit = "percent", 
   EXPECT_NEAR(history.column("strain_xx")[2], -0.0025, 1e-15);
 }
 
+// What is loaded is what the results are of, however alike the material.
+TEST(EndochronicCase, HashTellsLoadingsApart) {
+  const TemporaryCase one(tension_case()), other(replaced(tension_case(), "\"1 %\"", "\"2 %\""));
+  const TemporaryCase titled(replaced(tension_case(), "title = ", "# a comment\ntitle = "));
+  const auto hash = [](const TemporaryCase& c) { return case_hash(open_case(c.path()), {}); };
+  EXPECT_NE(hash(one), hash(other));
+  EXPECT_EQ(hash(one), hash(titled));
+}
+
 TEST(EndochronicCase, MaterialIsWrittenAsItIsRead) {
   const TemporaryCase directory(tension_case());
   const auto read = [&] { return read_endochronic_law(open_case(directory.path()).config.root().table("material")); };

@@ -123,7 +123,8 @@ TEST(MassMaterialProgram, FittedTextKeepsEveryTerm) {
                  .reference_velocity = 0.3,
                  .forcing = KernelForcing::damping,
                  .kernel = {{400.0, 1.0 / 3.0}, {{20.0, 7.0}, {-1.0, 2.0}}}};
-  const TemporaryCase directory(with_model(soft_case(), "6", m));
+  const TemporaryCase directory(soft_case());
+  directory.write("case.toml", with_table(open_case(directory.path()), "model", model_text("6", m), directory.path()));
   const auto c = read_mass_material_case(open_case(directory.path()).config.root(), directory.path());
   EXPECT_EQ(c.structure, "6");
   EXPECT_EQ(c.model.mass, m.mass);
@@ -133,6 +134,13 @@ TEST(MassMaterialProgram, FittedTextKeepsEveryTerm) {
   EXPECT_EQ(c.model.kernel[0].beta, m.kernel[0].beta);
   EXPECT_EQ(c.model.kernel[1].alpha, m.kernel[1].alpha);
   EXPECT_EQ(c.model.kernel[1].beta, m.kernel[1].beta);
+}
+
+TEST(MassMaterialProgram, FittedTextNamesRecordsFromWhereItStands) {
+  const TemporaryCase directory("[model]\nmass = 1\n[[test]]\nrecord = { file = \"data/day1.csv\", time = \"t\" }\n");
+  const CaseFile file = open_case(directory.path());
+  EXPECT_EQ(with_table(file, "model", "[model]\nmass = 2\n", directory.results()),
+            "[model]\nmass = 2\n[[test]]\nrecord = { file = \"../data/day1.csv\", time = \"t\" }\n");
 }
 
 TEST(MassMaterialProgram, OffersTheReportsLeastSquares) {

@@ -109,6 +109,17 @@ TEST(Program, WarnsOfCellsThatAreTooThickForTheLength) {
       << outcome.out;
 }
 
+TEST(Program, WarnsOfABandThatIsNarrowerThanItsCracksProfile) {
+  const TemporaryCase directory(replaced(bar_case(), "toughness = \"80 J/m^2\"\n",
+                                         "toughness = \"80 J/m^2\"\nband = { width = \"0.8 mm\", between = [\"bar\", "
+                                         "\"bar\"] }\n"));
+  const Outcome outcome = run({"check", directory.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("region \"weak\" is 0.0008 m wide: the profile of a crack in it, 0.016 m"),
+            std::string::npos)
+      << outcome.out;
+}
+
 TEST(Program, StartsAfreshWithoutRestart) {
   const TemporaryCase directory(bar_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);

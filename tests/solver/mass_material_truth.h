@@ -85,4 +85,20 @@ inline double stiffness_error(const MassMaterial& found, const MassMaterial& t, 
   return error;
 }
 
+/// Random motion from 10 to 1000 Hz.
+inline VibrationRecord random_record(const MassMaterial& t, double duration, std::uint64_t seed) {
+  const Excitation shaker =
+      band_limited_random({.density = 0.05 * g0 * g0, .low = 10.0, .high = 1000.0, .duration = duration, .seed = seed});
+  const BaseNodes nodes = nodes_of(shaker, 6000.0, 1);
+  VibrationRecord r{.name = "synthetic random motion",
+                    .rate = 6000.0,
+                    .base = {},
+                    .relative = {},
+                    .band_low = 20.0,
+                    .band_high = 850.0};
+  r.relative = simulate_batch(std::span(&t, 1), nodes).col(0);
+  r.base = nodes.values(Eigen::seqN(0, nodes.n_samples(), 4));
+  return r;
+}
+
 }  // namespace pfdm

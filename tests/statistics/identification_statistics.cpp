@@ -26,21 +26,6 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-VibrationRecord random_record(const MassMaterial& t, std::uint64_t seed) {
-  const Excitation shaker =
-      band_limited_random({.density = 0.05 * g0 * g0, .low = 10.0, .high = 1000.0, .duration = 100.0, .seed = seed});
-  const BaseNodes nodes = nodes_of(shaker, 6000.0, 1);
-  VibrationRecord r{.name = "synthetic random motion",
-                    .rate = 6000.0,
-                    .base = {},
-                    .relative = {},
-                    .band_low = 20.0,
-                    .band_high = 850.0};
-  r.relative = simulate_batch(std::span(&t, 1), nodes).col(0);
-  r.base = nodes.values(Eigen::seqN(0, nodes.n_samples(), 4));
-  return r;
-}
-
 void order(int seeds) {
   MassMaterial t = truth("4b");
   t.stiffness.resize(1);
@@ -50,7 +35,7 @@ void order(int seeds) {
   int right[3] = {};
   double worst[3] = {};
   for (int seed = 1; seed <= seeds; ++seed) {
-    const VibrationRecord clean = random_record(t, static_cast<std::uint64_t>(seed));
+    const VibrationRecord clean = random_record(t, 100.0, static_cast<std::uint64_t>(seed));
     for (int i = 0; i < 3; ++i) {
       VibrationRecord noisy = clean;
       add_noise(noisy, levels[i], static_cast<std::uint64_t>(seed));
@@ -72,7 +57,7 @@ void ten_steps(int seeds) {
   settings.kernel_order = 2;
   for (int seed = 1; seed <= seeds; ++seed)
     for (const double decibel : {200.0, 60.0, 40.0, 30.0}) {
-      VibrationRecord record = random_record(t, static_cast<std::uint64_t>(seed));
+      VibrationRecord record = random_record(t, 100.0, static_cast<std::uint64_t>(seed));
       add_noise(record, decibel, static_cast<std::uint64_t>(seed));
       const auto error = [&](const MassMaterial& m) { return stiffness_error(m, t, 50.0, 800.0, 0.0); };
       fmt::print("seed {} {} dB: complex stiffness by", seed, decibel);
