@@ -122,12 +122,6 @@ void orient_outwards(std::vector<Polygon>& faces, const std::vector<Vector>& poi
     for (Polygon& face : faces) std::reverse(face.begin(), face.end());
 }
 
-void add_half_face(HalfFaces& halves, Index cell, std::span<const Index> points) {
-  halves.cell.push_back(cell);
-  halves.points.insert(halves.points.end(), points.begin(), points.end());
-  halves.offsets.push_back(static_cast<Index>(halves.points.size()));
-}
-
 void add_standard_cell(HalfFaces& halves, Index cell, CellShape shape, std::span<const Index> points) {
   if (static_cast<Index>(points.size()) != points_per_cell(shape))
     throw InputError(
@@ -136,7 +130,7 @@ void add_standard_cell(HalfFaces& halves, Index cell, CellShape shape, std::span
     std::array<Index, 4> face{};
     const std::size_t n = local[3] < 0 ? 3 : 4;
     for (std::size_t i = 0; i < n; ++i) face[i] = points[static_cast<std::size_t>(local[i])];
-    add_half_face(halves, cell, std::span(face).first(n));
+    halves.add(cell, std::span(face).first(n));
   }
 }
 
@@ -173,7 +167,7 @@ HalfFaces half_faces(const CellSoup& soup) {
     if (soup.shape[c] == CellShape::polyhedron) {
       std::vector<Polygon> faces = unpack_polyhedron(soup.polyhedron_faces[polyhedron++], c, soup.points.size());
       orient_outwards(faces, soup.points, c);
-      for (const Polygon& face : faces) add_half_face(halves, c, face);
+      for (const Polygon& face : faces) halves.add(c, face);
     } else {
       const Index first = soup.cell_offsets[c];
       const auto n = static_cast<std::size_t>(soup.cell_offsets[c + 1] - first);

@@ -14,6 +14,11 @@ struct HalfFaces {
   std::vector<Index> offsets{0};  ///< size() + 1 entries into points
   std::vector<Index> points;
 
+  void add(Index of_cell, std::span<const Index> of_face) {
+    cell.push_back(of_cell);
+    points.insert(points.end(), of_face.begin(), of_face.end());
+    offsets.push_back(static_cast<Index>(points.size()));
+  }
   Index size() const { return static_cast<Index>(cell.size()); }
   std::span<const Index> points_of(Index half_face) const {
     const Index first = offsets[half_face];
@@ -25,6 +30,15 @@ struct HalfFaces {
 struct FacePair {
   Index first;
   Index second;  ///< -1 on the boundary
+};
+
+/// All faces of a mesh and the patches of those on its boundary.
+struct FaceTable {
+  HalfFaces halves;
+  std::vector<FacePair> pairs;
+  std::vector<Index> patch;  ///< of each pair: entry into patch_names, -1 for interior faces
+  std::vector<std::string> patch_names;
+  std::vector<Index> apex;  ///< of each pair: point that the face's fan of triangles is about; empty: means of points
 };
 
 /// Throws InputError if a cell has the wrong number of points for its shape, or a polyhedron's faces do not close.

@@ -23,7 +23,7 @@ struct CellSums {
 // The part between a face and the reference point; sign -1 if the face's normal points into the cell.
 void add_face(CellSums& sums, const Mesh& mesh, Index face, const Vector& reference, double sign) {
   const auto ids = mesh.points_of_face(face);
-  const Vector middle = mean_point(mesh.points, ids) - reference;
+  const Vector middle = fan_middle(mesh, face) - reference;
   for_each_rim_edge(mesh.points, ids, [&](const Vector& p, const Vector& q) {
     const Vector a = p - reference;
     const Vector b = q - reference;
@@ -44,10 +44,7 @@ void compute_cell(Mesh& mesh, Index cell) {
   mesh.cell_centre[cell] = sums.volume > 0.0 ? Vector(reference + sums.moment / sums.volume) : reference;
 }
 
-}  // namespace
-
-FaceGeometry face_geometry(const std::vector<Vector>& points, std::span<const Index> face) {
-  const Vector middle = mean_point(points, face);
+FaceGeometry fan_geometry(const std::vector<Vector>& points, std::span<const Index> face, const Vector& middle) {
   Vector area = Vector::Zero();
   for_each_rim_edge(points, face,
                     [&](const Vector& p, const Vector& q) { area += 0.5 * (p - middle).cross(q - middle); });
@@ -62,6 +59,17 @@ FaceGeometry face_geometry(const std::vector<Vector>& points, std::span<const In
   return {area, middle + moment / size};
 }
 
+}  // namespace
+
+FaceGeometry face_geometry(const std::vector<Vector>& points, std::span<const Index> face) {
+  return fan_geometry(points, face, mean_point(points, face));
+}
+
+Vector fan_middle(const Mesh& mesh, Index face) {
+  if (mesh.face_apex.size() > 0) return mesh.points[mesh.face_apex[face]];
+  return mean_point(mesh.points, mesh.points_of_face(face));
+}
+
 void compute_geometry(Mesh& mesh) {
   const auto n_faces = static_cast<std::size_t>(mesh.n_faces());
   const auto n_cells = static_cast<std::size_t>(mesh.n_cells());
@@ -70,7 +78,7 @@ void compute_geometry(Mesh& mesh) {
   mesh.cell_centre = CellField<Vector>(n_cells, Vector::Zero());
   mesh.cell_volume = CellField<double>(n_cells);
   for (Index f = 0; f < mesh.n_faces(); ++f) {
-    const FaceGeometry geometry = face_geometry(mesh.points, mesh.points_of_face(f));
+    const FaceGeometry geometry = fan_geometry(mesh.points, mesh.points_of_face(f), fan_middle(mesh, f));
     mesh.face_area[f] = geometry.area;
     mesh.face_centre[f] = geometry.centre;
   }

@@ -1,6 +1,7 @@
 #pragma once
-// Areas, volumes and centres of polygons and polyhedra. A face is the fan of triangles about the mean of its points:
-// both its cells see the same surface, so volumes add up and every cell closes, planar faces or not.
+// Areas, volumes and centres of polygons and polyhedra. A face is the fan of triangles about its apex, which is the mean
+// of its points unless the mesh names a point: both its cells see the same surface, so volumes add up and every cell
+// closes, planar faces or not.
 
 #include "mesh/mesh.h"
 
@@ -12,6 +13,9 @@ struct FaceGeometry {
 };
 
 FaceGeometry face_geometry(const std::vector<Vector>& points, std::span<const Index> face);
+
+/// The middle of a face's fan of triangles [m].
+Vector fan_middle(const Mesh& mesh, Index face);
 
 /// Fills face_centre, face_area, cell_centre and cell_volume of a mesh whose tables are complete. Volumes and centroids
 /// are sums over the tetrahedra between the face triangles and the mean of the cell's face centres: exact for planar

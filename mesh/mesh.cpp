@@ -22,8 +22,7 @@ const std::string default_patch = "walls";
 void check_soup(const CellSoup& soup) {
   const std::size_t n = soup.shape.size();
   if (n == 0) throw InputError("the mesh has no cells");
-  const auto n_polyhedra = static_cast<std::size_t>(std::ranges::count(soup.shape, CellShape::polyhedron));
-  if (soup.cell_offsets.size() != n + 1 || soup.region.size() != n || soup.polyhedron_faces.size() != n_polyhedra)
+  if (soup.cell_offsets.size() != n + 1 || soup.region.size() != n)
     throw InputError("the lists of cells have different lengths");
   const auto in_range = [](const std::vector<Index>& list, std::size_t size) {
     return std::ranges::all_of(list, [size](Index i) { return i >= 0 && static_cast<std::size_t>(i) < size; });
@@ -54,26 +53,29 @@ void copy_cells(Mesh& mesh, const CellSoup& soup, const std::vector<Index>& orde
   }
 }
 
-// A face about to be placed: its half-face on the owner's side, and its rank among patches (interior -1).
+// A face about to be placed: its half-face on the owner's side, its rank among patches (interior -1), its apex (-1: the
+// mean of its points).
 struct PlacedFace {
-  Index owner, neighbour, half_face, patch;
+  Index owner, neighbour, half_face, patch, apex;
 };
 
-std::vector<PlacedFace> place_faces(const HalfFaces& halves, const std::vector<FacePair>& pairs,
-                                    const std::vector<Index>& order) {
+std::vector<PlacedFace> place_faces(const FaceTable& table, const std::vector<Index>& order) {
+  const HalfFaces& halves = table.halves;
   std::vector<Index> new_number(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) new_number[order[i]] = static_cast<Index>(i);
   std::vector<PlacedFace> faces;
-  faces.reserve(pairs.size());
-  for (const FacePair& pair : pairs) {
+  faces.reserve(table.pairs.size());
+  for (std::size_t i = 0; i < table.pairs.size(); ++i) {
+    const FacePair& pair = table.pairs[i];
+    const Index apex = table.apex.empty() ? -1 : table.apex[i];
     const Index a = new_number[halves.cell[pair.first]];
     const Index b = pair.second < 0 ? -1 : new_number[halves.cell[pair.second]];
     if (b < 0)
-      faces.push_back({a, -1, pair.first, 0});
+      faces.push_back({a, -1, pair.first, table.patch[i], apex});
     else if (a == b)
       throw InputError(fmt::format("cell {} has one face twice", halves.cell[pair.first]));
     else
-      faces.push_back({std::min(a, b), std::max(a, b), a < b ? pair.first : pair.second, -1});
+      faces.push_back({std::min(a, b), std::max(a, b), a < b ? pair.first : pair.second, -1, apex});
   }
   return faces;
 }
@@ -85,41 +87,39 @@ Index patch_slot(std::vector<std::string>& names, const std::string& name) {
   return static_cast<Index>(names.size() - 1);
 }
 
-// Gives each boundary face its patch and returns the names in order; rules of one name share a patch.
-std::vector<std::string> claim_boundary(std::vector<PlacedFace>& faces, const HalfFaces& halves,
-                                        const std::vector<Vector>& points, const std::vector<PatchRule>& rules) {
-  std::vector<std::string> names;
+// Gives each boundary face its patch; rules of one name share a patch.
+void claim_boundary(FaceTable& table, const std::vector<Vector>& points, const std::vector<PatchRule>& rules) {
   std::vector<Index> slot;
-  for (const PatchRule& rule : rules) slot.push_back(patch_slot(names, rule.name));
+  for (const PatchRule& rule : rules) slot.push_back(patch_slot(table.patch_names, rule.name));
   std::vector<bool> used(rules.size(), false);
-  for (PlacedFace& face : faces) {
-    if (face.neighbour >= 0) continue;
-    const auto ids = halves.points_of(face.half_face);
+  table.patch.assign(table.pairs.size(), -1);
+  for (std::size_t i = 0; i < table.pairs.size(); ++i) {
+    if (table.pairs[i].second >= 0) continue;
+    const auto ids = table.halves.points_of(table.pairs[i].first);
     const FaceGeometry geometry = face_geometry(points, ids);
     const Vector normal = geometry.area.normalized();
     std::size_t r = 0;
     while (r < rules.size() && !rules[r].holds(geometry.centre, normal, ids)) ++r;
     if (r < rules.size()) used[r] = true;
-    face.patch = r < rules.size() ? slot[r] : patch_slot(names, default_patch);
+    table.patch[i] = r < rules.size() ? slot[r] : patch_slot(table.patch_names, default_patch);
   }
   for (std::size_t r = 0; r < rules.size(); ++r)
     if (!used[r] && rules[r].required)
       throw InputError(fmt::format("no boundary face of the mesh belongs to patch \"{}\"", rules[r].name));
-  return names;
 }
 
-void store_faces(Mesh& mesh, std::vector<PlacedFace>& faces, const HalfFaces& halves,
-                 const std::vector<std::string>& patch_names) {
+void store_faces(Mesh& mesh, std::vector<PlacedFace>& faces, const FaceTable& table) {
   std::ranges::stable_sort(faces, [](const PlacedFace& a, const PlacedFace& b) {
     return std::tie(a.patch, a.owner, a.neighbour) < std::tie(b.patch, b.owner, b.neighbour);
   });
-  for (const std::string& name : patch_names) mesh.patches.push_back({name, 0, 0});
+  for (const std::string& name : table.patch_names) mesh.patches.push_back({name, 0, 0});
   mesh.face_offsets = {0};
   for (const PlacedFace& face : faces) {
     mesh.owner.values().push_back(face.owner);
     if (face.neighbour >= 0) mesh.neighbour.values().push_back(face.neighbour);
     if (face.patch >= 0) ++mesh.patches[face.patch].n_faces;
-    const auto ids = halves.points_of(face.half_face);
+    if (face.apex >= 0) mesh.face_apex.values().push_back(face.apex);
+    const auto ids = table.halves.points_of(face.half_face);
     mesh.face_points.insert(mesh.face_points.end(), ids.begin(), ids.end());
     mesh.face_offsets.push_back(static_cast<Index>(mesh.face_points.size()));
   }
@@ -188,15 +188,22 @@ void CellSoup::add_cell(CellShape cell_shape, std::span<const Index> ids, Index 
 
 Mesh assemble_mesh(CellSoup soup, const std::vector<PatchRule>& rules) {
   check_soup(soup);
-  const HalfFaces halves = half_faces(soup);
-  const std::vector<FacePair> pairs = pair_half_faces(halves, static_cast<Index>(soup.points.size()));
-  const std::vector<Index> order = order_for_locality(halves, pairs, static_cast<Index>(soup.shape.size()));
-  std::vector<PlacedFace> faces = place_faces(halves, pairs, order);
-  const std::vector<std::string> patch_names = claim_boundary(faces, halves, soup.points, rules);
+  if (static_cast<Index>(soup.polyhedron_faces.size()) != std::ranges::count(soup.shape, CellShape::polyhedron))
+    throw InputError("the lists of cells have different lengths");
+  FaceTable table;
+  table.halves = half_faces(soup);
+  table.pairs = pair_half_faces(table.halves, static_cast<Index>(soup.points.size()));
+  claim_boundary(table, soup.points, rules);
+  return assemble_mesh(std::move(soup), table);
+}
 
+Mesh assemble_mesh(CellSoup soup, const FaceTable& table) {
+  check_soup(soup);
+  const std::vector<Index> order = order_for_locality(table.halves, table.pairs, static_cast<Index>(soup.shape.size()));
+  std::vector<PlacedFace> faces = place_faces(table, order);
   Mesh mesh;
   copy_cells(mesh, soup, order);
-  store_faces(mesh, faces, halves, patch_names);
+  store_faces(mesh, faces, table);
   list_faces_of_cells(mesh);
   mesh.points = std::move(soup.points);
   mesh.region_names = std::move(soup.region_names);

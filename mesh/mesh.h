@@ -26,6 +26,7 @@ struct Mesh {
   std::vector<Vector> points;       ///< [m]
   std::vector<Index> face_offsets;  ///< n_faces + 1 entries into face_points
   std::vector<Index> face_points;   ///< counter-clockwise when seen from outside the owner
+  FaceField<Index> face_apex;       ///< point that a face's fan of triangles is about; empty: the mean of its points
   FaceField<Index> owner;           ///< n_faces entries
   FaceField<Index> neighbour;       ///< n_interior_faces entries
   std::vector<Patch> patches;       ///< in face order, together all boundary faces
@@ -94,5 +95,10 @@ struct PatchRule {
 /// the geometry. Throws InputError if a face has more than two cells, the boundary does not close, a cell has
 /// no positive volume, or a required rule holds for no face.
 Mesh assemble_mesh(CellSoup soup, const std::vector<PatchRule>& rules);
+
+struct FaceTable;  // mesh/cell_faces.h
+
+/// The same where the faces and their patches are known already: `polyhedron_faces` of the soup is not read.
+Mesh assemble_mesh(CellSoup soup, const FaceTable& table);
 
 }  // namespace pfdm

@@ -5,7 +5,8 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <tuple>
+
+#include "mesh/cell_edges.h"
 
 namespace pfdm {
 namespace {
@@ -29,25 +30,6 @@ FaceQuality face_quality(const Mesh& mesh, Index face) {
   const double a = mesh.cell_volume[p];
   const double b = mesh.cell_volume[n];
   return {angle_between(line, area), (to_face - pierced).norm() / line.norm(), std::max(a, b) / std::min(a, b)};
-}
-
-struct CellEdge {
-  Index low, high, face;
-};
-
-// Each edge of the cell twice in a row, once for each of its two faces.
-void list_edges(const Mesh& mesh, Index cell, std::vector<CellEdge>& edges) {
-  edges.clear();
-  for (const Index f : mesh.faces_of_cell(cell)) {
-    const auto ids = mesh.points_of_face(f);
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      const auto [low, high] = std::minmax(ids[i], ids[(i + 1) % ids.size()]);
-      edges.push_back({low, high, f});
-    }
-  }
-  std::ranges::sort(edges, [](const CellEdge& a, const CellEdge& b) {
-    return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
-  });
 }
 
 double dihedral_angle(const Mesh& mesh, Index cell, Index f, Index g) {
@@ -108,12 +90,12 @@ CellQuality cell_quality(const Mesh& mesh) {
     list_edges(mesh, c, edges);
     double shortest = std::numeric_limits<double>::infinity();
     double longest = 0.0;
-    for (std::size_t e = 0; e + 1 < edges.size(); e += 2) {
-      const double length = (mesh.points[edges[e].high] - mesh.points[edges[e].low]).norm();
+    for (const CellEdge& edge : edges) {
+      const double length = (mesh.points[edge.high] - mesh.points[edge.low]).norm();
       shortest = std::min(shortest, length);
       longest = std::max(longest, length);
       quality.min_dihedral_angle[c] =
-          std::min(quality.min_dihedral_angle[c], dihedral_angle(mesh, c, edges[e].face, edges[e + 1].face));
+          std::min(quality.min_dihedral_angle[c], dihedral_angle(mesh, c, edge.faces[0], edge.faces[1]));
     }
     quality.aspect_ratio[c] = longest / shortest;
   }

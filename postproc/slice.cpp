@@ -1,11 +1,12 @@
 #include "postproc/slice.h"
 
+#include "mesh/geometry.h"
 #include "physics/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace pfdm {
 namespace {
@@ -18,38 +19,44 @@ struct Plane {
   double distance(const Vector& x) const { return normal.dot(x - point); }
 };
 
-// Points where the outline of a face crosses the plane. Points on the plane count as above it, so that an edge in the
-// plane belongs to exactly one of the faces that meet in it.
-void append_crossings(const Mesh& mesh, Index face, const Plane& plane, double tolerance, std::vector<Vector>& ends) {
+// Twice the signed area, about a point of the plane, of the segments in which a face, a fan of triangles, crosses it.
+// Points on the plane count as above it, so that an edge in the plane belongs to exactly one of the faces that meet in
+// it.
+double swept_area(const Mesh& mesh, Index face, const Plane& plane, double tolerance, const Vector& origin) {
   const auto points = mesh.points_of_face(face);
+  const Vector middle = fan_middle(mesh, face);
+  double area = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector& a = mesh.points[as_size(points[i])];
-    const Vector& b = mesh.points[as_size(points[(i + 1) % points.size()])];
-    const double s = plane.distance(a), t = plane.distance(b);
-    if ((s < -tolerance) == (t < -tolerance)) continue;
-    ends.emplace_back(a + std::clamp(s / (s - t), 0.0, 1.0) * (b - a));
+    const std::array<Vector, 3> corners{mesh.points[as_size(points[i])],
+                                        mesh.points[as_size(points[(i + 1) % points.size()])], middle};
+    Vector up = origin, down = origin;  // where the triangle's outline passes to the plane's upper side, and back
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector &a = corners[k], &b = corners[(k + 1) % 3];
+      const double s = plane.distance(a), t = plane.distance(b);
+      if ((s < -tolerance) == (t < -tolerance)) continue;
+      (t < -tolerance ? down : up) = a + std::clamp(s / (s - t), 0.0, 1.0) * (b - a);
+    }
+    area += plane.normal.dot((up - origin).cross(down - origin));
   }
+  return area;
 }
 
-// The segments in which the faces of a convex cell cross the plane bound its section: the fan of triangles from their
-// mean is its area.
+// The segments bound the cell's section, whatever its shape.
 double section_area(const Mesh& mesh, Index cell, const Plane& plane, double tolerance) {
-  std::vector<Vector> ends;
-  for (const Index face : mesh.faces_of_cell(cell)) append_crossings(mesh, face, plane, tolerance, ends);
-  Vector centre = Vector::Zero();
-  for (const Vector& x : ends) centre += x / static_cast<double>(ends.size());
+  const Vector origin = mesh.cell_centre[cell] - plane.distance(mesh.cell_centre[cell]) * plane.normal;
   double area = 0.0;
-  for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
-    area += 0.5 * (ends[i] - centre).cross(ends[i + 1] - centre).norm();
-  return area;
+  for (const Index face : mesh.faces_of_cell(cell))
+    area += (mesh.owner[face] == cell ? 0.5 : -0.5) * swept_area(mesh, face, plane, tolerance, origin);
+  return std::abs(area);
 }
 
 double area_of_faces_in_plane(const Mesh& mesh, Index cell, const Plane& plane, double tolerance) {
   double area = 0.0;
   for (const Index face : mesh.faces_of_cell(cell)) {
-    const bool in_plane = std::ranges::all_of(mesh.points_of_face(face), [&](Index p) {
-      return std::abs(plane.distance(mesh.points[as_size(p)])) <= tolerance;
-    });
+    const auto is_on = [&](const Vector& x) { return std::abs(plane.distance(x)) <= tolerance; };
+    const bool in_plane = is_on(fan_middle(mesh, face)) && std::ranges::all_of(mesh.points_of_face(face), [&](Index p) {
+                            return is_on(mesh.points[as_size(p)]);
+                          });
     if (in_plane) area += (mesh.is_interior(face) ? 0.5 : 1.0) * mesh.face_area[face].norm();
   }
   return area;
@@ -57,11 +64,12 @@ double area_of_faces_in_plane(const Mesh& mesh, Index cell, const Plane& plane, 
 
 double cell_area(const Mesh& mesh, Index cell, const Plane& plane) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (const Index p : mesh.points_of_cell(cell)) {
-    const double s = plane.distance(mesh.points[as_size(p)]);
-    lowest = std::min(lowest, s);
-    highest = std::max(highest, s);
-  }
+  const auto reach = [&](const Vector& x) {
+    lowest = std::min(lowest, plane.distance(x));
+    highest = std::max(highest, plane.distance(x));
+  };
+  for (const Index p : mesh.points_of_cell(cell)) reach(mesh.points[as_size(p)]);
+  for (const Index face : mesh.faces_of_cell(cell)) reach(fan_middle(mesh, face));
   const double tolerance = on_plane * std::cbrt(mesh.cell_volume[cell]);
   if (lowest > tolerance || highest < -tolerance) return 0.0;
   if (lowest < -tolerance && highest > tolerance) return section_area(mesh, cell, plane, tolerance);

@@ -17,6 +17,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <array>
 
 namespace pfdm {
@@ -33,39 +34,42 @@ int vtk_cell_type(CellShape shape) {
   return VTK_EMPTY_CELL;
 }
 
-vtkSmartPointer<vtkPoints> make_points(const Mesh& mesh) {
-  auto points = vtkSmartPointer<vtkPoints>::New();
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.points.size()));
-  vtkIdType id = 0;
-  for (const Vector& x : mesh.points) points->SetPoint(id++, x.data());
-  return points;
-}
+// The points of the cells; those that only faces are fanned about are left out.
+struct GridPoints {
+  explicit GridPoints(const Mesh& mesh) : number(mesh.points.size(), -1) {
+    for (const Index p : mesh.cell_points) number[as_size(p)] = 0;
+    points->SetDataTypeToDouble();
+    for (std::size_t p = 0; p < number.size(); ++p)
+      if (number[p] == 0) number[p] = points->InsertNextPoint(mesh.points[p].data());
+  }
+  vtkIdType operator[](Index point) const { return number[as_size(point)]; }
+
+  vtkNew<vtkPoints> points;
+  std::vector<vtkIdType> number;
+};
 
 // [n_points, p..., n_points, p...] over the faces of a cell, each counter-clockwise when seen from outside the cell.
-std::vector<vtkIdType> face_stream(const Mesh& mesh, Index cell) {
+std::vector<vtkIdType> face_stream(const Mesh& mesh, const GridPoints& number, Index cell) {
   std::vector<vtkIdType> stream;
   for (const Index face : mesh.faces_of_cell(cell)) {
     const auto points = mesh.points_of_face(face);
     stream.push_back(static_cast<vtkIdType>(points.size()));
-    if (mesh.owner[face] == cell)
-      stream.insert(stream.end(), points.begin(), points.end());
-    else
-      stream.insert(stream.end(), points.rbegin(), points.rend());
+    for (const Index p : points) stream.push_back(number[p]);
+    if (mesh.owner[face] != cell) std::reverse(stream.end() - static_cast<std::ptrdiff_t>(points.size()), stream.end());
   }
   return stream;
 }
 
-void insert_cell(vtkUnstructuredGrid& grid, const Mesh& mesh, Index cell) {
-  const auto span = mesh.points_of_cell(cell);
-  const std::vector<vtkIdType> points(span.begin(), span.end());
+void insert_cell(vtkUnstructuredGrid& grid, const Mesh& mesh, const GridPoints& number, Index cell) {
+  std::vector<vtkIdType> points;
+  for (const Index p : mesh.points_of_cell(cell)) points.push_back(number[p]);
   const auto n_points = static_cast<vtkIdType>(points.size());
   const int type = vtk_cell_type(mesh.shape[cell]);
   if (type != VTK_POLYHEDRON) {
     grid.InsertNextCell(type, n_points, points.data());
     return;
   }
-  const std::vector<vtkIdType> faces = face_stream(mesh, cell);
+  const std::vector<vtkIdType> faces = face_stream(mesh, number, cell);
   const auto n_faces = static_cast<vtkIdType>(mesh.faces_of_cell(cell).size());
   grid.InsertNextCell(type, n_points, points.data(), n_faces, faces.data());
 }
@@ -177,9 +181,10 @@ struct VtuWriter::Grid {
 
 VtuWriter::VtuWriter(const Mesh& mesh) : grid_(std::make_unique<Grid>()) {
   vtkUnstructuredGrid& grid = *grid_->mesh;
-  grid.SetPoints(make_points(mesh));
+  const GridPoints points(mesh);
+  grid.SetPoints(points.points);
   grid.Allocate(mesh.n_cells());
-  for (Index cell = 0; cell < mesh.n_cells(); ++cell) insert_cell(grid, mesh, cell);
+  for (Index cell = 0; cell < mesh.n_cells(); ++cell) insert_cell(grid, mesh, points, cell);
   grid.GetFieldData()->AddArray(make_region_names(mesh));
 }
 

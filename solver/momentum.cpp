@@ -54,7 +54,8 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
                       .weight_n = 0.0,
                       .weight_t = 0.0,
                       .c_n = 0.0,
-                      .c_t = 0.0});
+                      .c_t = 0.0,
+                      .jump_n = 0.0});
   }
   const auto add_side = [&](Index node, Index f, Index cell, double sign) {
     sides_.push_back({.face = f,
@@ -91,6 +92,22 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
   }
 }
 
+// lambda_s + 2 mu.
+double MomentumOperator::jump_modulus(Index cell) const {
+  const IsotropicElasticity& c = moduli_[cell];
+  if (mesh_.shape[cell] != CellShape::polyhedron) return c.constrained_modulus();
+  return std::min(c.lambda, 1.5 * c.mu) + 2.0 * c.mu;
+}
+
+// Along the normal of the face between P and N, from what it is with the full lambda.
+double MomentumOperator::jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const {
+  if (mesh_.shape[P] != CellShape::polyhedron && mesh_.shape[N] != CellShape::polyhedron) return full;
+  const double mu_P = moduli_[P].mu, mu_N = moduli_[N].mu;
+  const double theta = std::pow((mu_P - mu_N) / (mu_P + mu_N), 2);
+  const double small = 1.0 / (h_P / jump_modulus(P) + h_N / jump_modulus(N));
+  return small + theta * (full - small);
+}
+
 void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                                   double part) {
   moduli_ = moduli;
@@ -105,11 +122,12 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
     link.weight_t = b_t / (a_t + b_t);
     link.c_n = a_n * link.weight_n;
     link.c_t = a_t * link.weight_t;
+    link.jump_n = jump_stiffness(link.P, link.N, h_P, h_N, link.c_n);
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     Side& side = sides_[as_size(i)];
     const double h = std::abs(side.d.dot(side.n));
-    side.a_n = moduli[side.cell].constrained_modulus() / h;
+    side.a_n = jump_modulus(side.cell) / h;
     side.a_t = moduli[side.cell].mu / h;
   });
 }
@@ -123,7 +141,7 @@ void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
     const Vector jump =
         u[as_size(link.N)] + gradients_[link.N] * link.d_N - u[as_size(link.P)] - gradients_[link.P] * link.d_P;
     forces_[as_size(i)] = link.area * (stress_N + scale(link.weight_n, link.weight_t, link.n, stress_P - stress_N) +
-                                       scale(link.c_n, link.c_t, link.n, jump));
+                                       scale(link.jump_n, link.c_t, link.n, jump));
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];
@@ -196,7 +214,8 @@ BlockTriplets MomentumOperator::compact_matrix() const {
   for (const Link& link : links_) {
     const double h_P = bounded(link.d_P, link.n), h_N = bounded(link.d_N, link.n);
     const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
-    const double along = 1.0 / (h_P / P.constrained_modulus() + h_N / N.constrained_modulus());
+    const double full = 1.0 / (h_P / P.constrained_modulus() + h_N / N.constrained_modulus());
+    const double along = jump_stiffness(link.P, link.N, h_P, h_N, full);
     const double across = 1.0 / (h_P / P.mu + h_N / N.mu);
     const Tensor c = link.area * scaling(along, across, link.n);
     matrix.diagonal[as_size(link.P)] += c;
@@ -205,7 +224,7 @@ BlockTriplets MomentumOperator::compact_matrix() const {
   }
   for (const Side& side : sides_) {
     const double h = bounded(side.d, side.n);
-    const Tensor a = (side.area / h) * scaling(moduli_[side.cell].constrained_modulus(), moduli_[side.cell].mu, side.n);
+    const Tensor a = (side.area / h) * scaling(jump_modulus(side.cell), moduli_[side.cell].mu, side.n);
     const Tensor& is_free = unknowns_.free_directions[as_size(side.node - unknowns_.n_cells)];
     matrix.diagonal[as_size(side.cell)] += a;
     matrix.diagonal[as_size(side.node)] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);

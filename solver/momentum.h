@@ -8,6 +8,11 @@
 // with G the least-squares gradients and d_P = x_f - x_P. On orthogonal cells the normal gradients cancel and the exact
 // series flux is left: a broken cell (g -> 0) disconnects its neighbours. Faces between elastic zones and on the
 // boundary carry u_f itself: each side has t_c = sigma_c n + a_c (u_f - u_c - G_c d_c).
+//
+// A polyhedron has about 14 faces against three unknowns: with a of the full lambda the jumps lock it as nu -> 0.5.
+// There c is that of lambda_s = min(lambda, 1.5 mu), blended back to the full one between cells of unlike damage:
+// c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = ((mu_P - mu_N)/(mu_P + mu_N))^2. The weights of sigma_P
+// and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge.
 
 #include "solver/block_matrix.h"
 #include "solver/gradient.h"
@@ -60,6 +65,7 @@ class MomentumOperator {
     Vector d_P, d_N;            // from the cell centres to the face centre
     double weight_n, weight_t;  // of sigma_P in the traction; those of sigma_N complete them to 1
     double c_n, c_t;            // [Pa/m]
+    double jump_n;              // c_n as the jump has it: smaller beside polyhedra [Pa/m]
   };
   // One side of a face that carries a node.
   struct Side {
@@ -85,6 +91,8 @@ class MomentumOperator {
     const IsotropicElasticity& c = moduli_[cell];
     return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
   }
+  double jump_modulus(Index cell) const;
+  double jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const;
   Vector face_displacement(const Link& link, const std::vector<Vector>& u) const;
   FaceField<Vector> face_displacements(const std::vector<Vector>& u) const;
   Vector seen_from(Index cell, Index face, const FaceField<Vector>& u_face, const std::vector<Vector>& u) const;

@@ -48,6 +48,7 @@ void list_cases(const std::filesystem::path& cases_directory, std::ostream& out)
 void list_laws(std::ostream& out) {
   list_table(out, "kinds of case (kind)", case_kinds());
   list_table(out, "mesh generators ([mesh] generator)", mesh_generators());
+  list_table(out, "cells ([mesh] cells)", cell_kinds());
   list_table(out, "crack geometric functions ([fracture] model)", crack_geometries());
   list_table(out, "degradation functions ([fracture] degradation)", degradations());
   list_table(out, "softening laws of the rational degradation ([fracture] softening)", softening_laws());

@@ -2,6 +2,7 @@
 
 #include "cases/program/amount.h"
 #include "mesh/box_hexes.h"
+#include "mesh/dual.h"
 #include "mesh/import_vtk.h"
 #include "mesh/particles_in_box.h"
 #include "postproc/text_file.h"
@@ -165,6 +166,14 @@ MeshRecipe read_vtk(const ConfigTable& table, const std::filesystem::path& case_
       .make = [settings] { return import_vtk(settings); }, .regions = {}, .patches = {}, .data_files = {settings.file}};
 }
 
+Mesh as_generated(Mesh mesh) { return mesh; }
+Mesh polyhedra(Mesh mesh) { return barycentric_dual(mesh); }
+
+constexpr CellKind cell_kind_table[] = {
+    {"as_generated", "the generator's own cells", as_generated},
+    {"polyhedra", "the barycentric dual of tetrahedra and prisms: a polyhedron for each of their vertices", polyhedra},
+};
+
 constexpr MeshGenerator table[] = {
     {"particles_in_box", "a box of tetrahedra with spheres in prism layers", read_particles_in_box},
     {"box_hexes", "a box of hexahedra, graded along each axis, with regions cut out of it", read_box_hexes},
@@ -174,11 +183,16 @@ constexpr MeshGenerator table[] = {
 }  // namespace
 
 std::span<const MeshGenerator> mesh_generators() { return table; }
+std::span<const CellKind> cell_kinds() { return cell_kind_table; }
 
 MeshRecipe read_mesh_recipe(const ConfigTable& settings, const std::filesystem::path& case_directory) {
   const MeshGenerator& generator = choose(settings.at("generator"), mesh_generators(), "mesh generator");
   MeshRecipe recipe = generator.read(settings, case_directory);
-  recipe.make = [make = recipe.make, settings] { return settings.in_context(make); };
+  const auto cells = settings.find("cells");
+  const CellKind& kind = cells ? choose(*cells, cell_kinds(), "kind of cells") : cell_kind_table[0];
+  recipe.make = [make = recipe.make, turn_into = kind.turn_into, settings] {
+    return settings.in_context([&] { return turn_into(make()); });
+  };
   return recipe;
 }
 

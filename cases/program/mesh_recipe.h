@@ -37,6 +37,14 @@ struct MeshGenerator {
 };
 std::span<const MeshGenerator> mesh_generators();
 
+/// What [mesh] cells makes of the generator's mesh.
+struct CellKind {
+  std::string_view name;
+  std::string_view description;
+  Mesh (*turn_into)(Mesh mesh);  ///< throws InputError for cells that cannot be turned
+};
+std::span<const CellKind> cell_kinds();
+
 /// Errors of the recipe's `make` name [mesh].
 MeshRecipe read_mesh_recipe(const ConfigTable& settings, const std::filesystem::path& case_directory);
 
