@@ -49,7 +49,7 @@ class DualBuilder {
     add_faces_of_edges();
     add_faces_of_vertices();
     add_cells();
-    return assemble_mesh(std::move(soup_), table_);
+    return assemble_from_faces(std::move(soup_), table_);
   }
 
  private:

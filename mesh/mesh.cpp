@@ -194,10 +194,10 @@ Mesh assemble_mesh(CellSoup soup, const std::vector<PatchRule>& rules) {
   table.halves = half_faces(soup);
   table.pairs = pair_half_faces(table.halves, static_cast<Index>(soup.points.size()));
   claim_boundary(table, soup.points, rules);
-  return assemble_mesh(std::move(soup), table);
+  return assemble_from_faces(std::move(soup), table);
 }
 
-Mesh assemble_mesh(CellSoup soup, const FaceTable& table) {
+Mesh assemble_from_faces(CellSoup soup, const FaceTable& table) {
   check_soup(soup);
   const std::vector<Index> order = order_for_locality(table.halves, table.pairs, static_cast<Index>(soup.shape.size()));
   std::vector<PlacedFace> faces = place_faces(table, order);

@@ -99,6 +99,6 @@ Mesh assemble_mesh(CellSoup soup, const std::vector<PatchRule>& rules);
 struct FaceTable;  // mesh/cell_faces.h
 
 /// The same where the faces and their patches are known already: `polyhedron_faces` of the soup is not read.
-Mesh assemble_mesh(CellSoup soup, const FaceTable& table);
+Mesh assemble_from_faces(CellSoup soup, const FaceTable& table);
 
 }  // namespace pfdm

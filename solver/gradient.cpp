@@ -69,6 +69,7 @@ std::vector<Vector> node_positions(const Mesh& mesh, const FaceField<Index>& nod
 Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
     : node_(node_positions(mesh, settings.node_of_face)),
       wide_(as_size(mesh.n_cells())),
+      polyhedron_(as_size(mesh.n_cells())),
       g_(as_size(mesh.n_cells()), 1.0),
       plane_normal_(settings.plane_normal) {
   const Neighbourhood neighbourhood(mesh, settings.zone, settings.node_of_face);
@@ -80,6 +81,7 @@ Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
     }
     const bool wide = mesh.shape[c] == CellShape::tetrahedron;
     wide_[as_size(c)] = wide;
+    polyhedron_[as_size(c)] = mesh.shape[c] == CellShape::polyhedron;
     constexpr int most_rings = 5;
     int n_rings = wide ? 2 : 1;
     std::vector<Index> samples = neighbourhood.around(c, n_rings);
@@ -107,6 +109,12 @@ bool Gradient::has_full_rank(Index cell, const std::vector<Index>& samples) cons
   return eigen.eigenvalues()[0] > 1e-3;
 }
 
+double Gradient::trust(Index cell, Index neighbour, const CellField<double>& g) const {
+  const double ratio = g[neighbour] / g[cell];
+  if (polyhedron_[as_size(cell)]) return std::min(ratio, 1.0 / ratio);
+  return std::min(1.0, ratio);
+}
+
 void Gradient::build(Index cell, const CellField<double>* g) {
   const Vector here = node_[as_size(cell)];
   Tensor moment = Tensor::Zero();
@@ -119,7 +127,7 @@ void Gradient::build(Index cell, const CellField<double>* g) {
     if (!wide_[as_size(cell)]) weight /= std::sqrt(length2);
     trace += weight * length2;
     constexpr double least = 1e-9;
-    if (j < n_cells()) weight *= (g != nullptr ? std::min(1.0, (*g)[j] / (*g)[cell]) : 1.0) + least;
+    if (j < n_cells()) weight *= (g != nullptr ? trust(cell, j, *g) : 1.0) + least;
     coefficient_[s] = weight * d;
     moment.noalias() += coefficient_[s] * d.transpose();
   }
@@ -140,7 +148,7 @@ void Gradient::update(const CellField<double>& g, double part) {
       const Index j = sample_[s];
       if (j >= n_cells()) continue;
       changed = changed || g_[j] != before[j];
-      flat = flat && g_[j] >= g_[c] && before[j] >= before[c];
+      flat = flat && trust(c, j, g_) == 1.0 && trust(c, j, before) == 1.0;
     }
     if (changed && !flat) build(c, &g_);
   });

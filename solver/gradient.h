@@ -4,7 +4,8 @@
 // Samples are neighbours of the same zone and the nodes on the cell's faces. Tetrahedra take two rings of face
 // neighbours with weight |d|^-2, all other cells one ring with |d|^-3: two rings on flat curved prisms falsify the
 // stress, one ring on tetrahedra does not converge. A neighbour's weight falls with min(1, g_j/g_P), so that a
-// broken cell does not bridge into a sound one.
+// broken cell does not bridge into a sound one; that of a polyhedron with min(g_P/g_j, g_j/g_P): its jump term, weaker
+// than the averaged tractions (momentum.h), does not cancel a wrong gradient of the broken cell either.
 
 #include "mesh/mesh.h"
 
@@ -48,6 +49,7 @@ class Gradient {
   std::size_t begin(Index cell) const { return offsets_[static_cast<std::size_t>(cell)]; }
   std::size_t end(Index cell) const { return offsets_[static_cast<std::size_t>(cell) + 1]; }
   void build(Index cell, const CellField<double>* g);
+  double trust(Index cell, Index neighbour, const CellField<double>& g) const;
   bool has_full_rank(Index cell, const std::vector<Index>& samples) const;
 
   std::vector<std::size_t> offsets_;
@@ -55,7 +57,8 @@ class Gradient {
   std::vector<Vector> coefficient_;  // [1/m]
   std::vector<Vector> node_;         // position of every node [m]
   std::vector<bool> wide_;           // two rings, |d|^-2
-  CellField<double> g_;              // that the coefficients were built for
+  std::vector<bool> polyhedron_;
+  CellField<double> g_;  // that the coefficients were built for
   Vector plane_normal_;
 };
 

@@ -1,3 +1,4 @@
+#include "mesh/dual.h"
 #include "physics/error.h"
 #include "postproc/slice.h"
 #include "tests/postproc/boxes.h"
@@ -31,7 +32,7 @@ Mesh tetrahedra(const Mesh& hexes) {
 CellField<double> broken(const Mesh& mesh) { return CellField<double>(as_size(mesh.n_cells()), 1.0); }
 
 TEST(DamagedArea, of_a_broken_box_is_its_section) {
-  for (const Mesh& mesh : {box(), tetrahedra(box())}) {
+  for (const Mesh& mesh : {box(), tetrahedra(box()), barycentric_dual(tetrahedra(box()))}) {
     const Vector inside(0.777, 1.234, 2.345);
     EXPECT_NEAR(damaged_area(mesh, broken(mesh), inside, x), 15.0, 1e-12);
     EXPECT_NEAR(damaged_area(mesh, broken(mesh), inside, y), 10.0, 1e-12);
@@ -42,15 +43,34 @@ TEST(DamagedArea, of_a_broken_box_is_its_section) {
 
 TEST(DamagedArea, of_a_hexagonal_section) {
   const Mesh cube = cube_mesh(1.0, 3);
-  for (const Mesh& mesh : {cube, tetrahedra(cube)})
+  for (const Mesh& mesh : {cube, tetrahedra(cube), barycentric_dual(tetrahedra(cube))})
     EXPECT_NEAR(damaged_area(mesh, broken(mesh), Vector(0.5, 0.5, 0.5), Vector(1, 1, 1)), 0.75 * std::sqrt(3.0), 1e-12);
 }
 
 TEST(DamagedArea, counts_planes_along_faces_once) {
-  for (const Mesh& mesh : {box(), tetrahedra(box())})
+  for (const Mesh& mesh : {box(), tetrahedra(box()), barycentric_dual(tetrahedra(box()))})
     for (const double height : {0.0, 2.0, 3.0, 5.0})
       for (const double sign : {-1.0, 1.0})
         EXPECT_NEAR(damaged_area(mesh, broken(mesh), Vector(0, 0, height), sign * z), 6.0, 1e-12) << height;
+}
+
+// The corner of a cube is one region, whose surface is not plane in the dual's faces.
+TEST(DamagedArea, of_a_region_is_that_of_the_dual) {
+  Mesh mesh = tetrahedra(box());
+  mesh.region_names = {"rest", "corner"};
+  for (Index c = 0; c < mesh.n_cells(); ++c) mesh.region[c] = mesh.cell_centre[c].sum() < 4.0 ? 1 : 0;
+  const Mesh dual = barycentric_dual(mesh);
+  const auto in_corner = [](const Mesh& of) {
+    CellField<double> damage(as_size(of.n_cells()));
+    for (Index c = 0; c < of.n_cells(); ++c) damage[c] = of.region[c];
+    return damage;
+  };
+  for (const Vector& normal : {x, z, Vector(1, 2, 3)}) {
+    const Vector point(0.31, 0.57, 0.83);
+    const double area = damaged_area(mesh, in_corner(mesh), point, normal);
+    EXPECT_GT(area, 1.0);
+    EXPECT_NEAR(damaged_area(dual, in_corner(dual), point, normal), area, 1e-12);
+  }
 }
 
 TEST(DamagedArea, shares_a_face_between_a_broken_and_a_sound_cell) {

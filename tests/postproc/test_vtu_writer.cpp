@@ -1,3 +1,5 @@
+#include "mesh/dual.h"
+#include "mesh/import_vtk.h"
 #include "physics/error.h"
 #include "postproc/frame.h"
 #include "postproc/vtu_writer.h"
@@ -158,6 +160,32 @@ TEST(VtuWriter, faces_of_polyhedra_are_closed_and_point_outwards) {
     volume += area.dot(point(0)) / 3.0;  // divergence theorem
   }
   EXPECT_NEAR(volume, mesh.cell_volume[polyhedron], 1e-14);
+}
+
+TEST(VtuWriter, a_dual_mesh_comes_back) {
+  const TemporaryFolder folder;
+  CellSoup soup;
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  soup.region_names = {"a", "b"};
+  soup.add_cell(CellShape::tetrahedron, std::vector<Index>{0, 1, 2, 3}, 0);
+  soup.add_cell(CellShape::tetrahedron, std::vector<Index>{1, 4, 2, 3}, 1);
+  const Mesh dual = barycentric_dual(assemble_mesh(std::move(soup), {}));
+  VtuWriter(dual).write(folder / "a.vtu", {{"material", &dual.region}}, 0.0);
+  const Mesh back = import_vtk({.file = folder / "a.vtu",
+                                .region_array = "",
+                                .region_names = {},
+                                .face_array = "",
+                                .face_sets = {},
+                                .patches = {}});
+  ASSERT_EQ(back.n_cells(), dual.n_cells());
+  EXPECT_EQ(back.n_faces(), dual.n_faces());
+  EXPECT_LT(read_back(folder / "a.vtu")->GetNumberOfPoints(), static_cast<Index>(dual.points.size()) + 1);
+  double volume = 0.0, exact = 0.0;
+  for (Index c = 0; c < dual.n_cells(); ++c) {
+    volume += back.cell_volume[c];
+    exact += dual.cell_volume[c];
+  }
+  EXPECT_NEAR(volume, exact, 1e-14);
 }
 
 TEST(VtuWriter, time_and_region_names_are_field_data) {

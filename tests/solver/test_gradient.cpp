@@ -2,6 +2,8 @@
 
 #include "solver/gradient.h"
 
+#include "mesh/dual.h"
+
 #include "physics/error.h"
 #include "tests/solver/solver_checks.h"
 
@@ -65,6 +67,14 @@ TEST(Gradient, ExactForLinearFieldsOnHexes) {
 
 TEST(Gradient, ExactForLinearFieldsOnTetrahedraAndPrisms) {
   const Mesh mesh = tetrahedra_and_prisms();
+  for (const CellField<Index>& zone : {one_zone(mesh), mesh.region}) {
+    expect_exact(mesh, zone, {});
+    expect_exact(mesh, zone, {random_damage(mesh.n_cells())});
+  }
+}
+
+TEST(Gradient, ExactForLinearFieldsOnPolyhedra) {
+  const Mesh mesh = barycentric_dual(tetrahedra_and_prisms());
   for (const CellField<Index>& zone : {one_zone(mesh), mesh.region}) {
     expect_exact(mesh, zone, {});
     expect_exact(mesh, zone, {random_damage(mesh.n_cells())});

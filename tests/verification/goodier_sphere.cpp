@@ -66,7 +66,7 @@ SphereErrors errors_of(const SphereCase& sphere, const Mesh& mesh) {
   const auto boundary = displacement_on_all(mesh, [&](const Vector& x) { return exact.displacement(x); });
   const auto solution = solve_elastic(mesh, elastic_model(by_region, boundary), {}, 1e-8);
   EXPECT_TRUE(solution->equilibrium.converged);
-  EXPECT_LE(reaction_imbalance(mesh, *solution), 1e-6);
+  EXPECT_LE(reaction_imbalance(mesh, *solution), 2e-6);
   const SphereErrors e = measure(mesh, matrix, *solution, exact);
   report_row(fmt::format("ratio {:.3g}, nu {}, {} cells", sphere.ratio, sphere.nu, e.cells),
              {{"u", e.displacement},
@@ -123,6 +123,29 @@ TEST(GoodierSphere, HoldsForOtherPoissonRatios) {
   const Mesh mesh = sphere_in_cube(9, 15, half_width, 0.33);
   EXPECT_LE(errors_of({.nu = 0.3}, mesh).pole, 1.0e-2);
   EXPECT_LE(errors_of({.nu = 0.49}, mesh).pole, 3.5e-2);
+}
+
+// The dual of 46,000 tetrahedra and prisms.
+class Polyhedra : public testing::Test {
+ protected:
+  static const Mesh& mesh() {
+    static const Mesh dual = barycentric_dual(sphere_in_cube(8, 20, half_width, 0.4));
+    return dual;
+  }
+};
+
+TEST_F(Polyhedra, MeetTheTargets) {
+  const SphereErrors e = errors_of({}, mesh());
+  EXPECT_NEAR(e.cells, 17400, 500);
+  EXPECT_LE(e.displacement, 1e-3);
+  EXPECT_LE(e.stress, 1.3e-2);  // half of it in the thin curved half cells on the sphere
+  EXPECT_LE(e.pole, 0.7e-2);
+}
+
+TEST_F(Polyhedra, HoldForNearlyIncompressibleMatrices) {
+  EXPECT_LE(errors_of({.nu = 0.3}, mesh()).pole, 0.7e-2);
+  EXPECT_LE(errors_of({.nu = 0.49}, mesh()).pole, 1e-2);
+  EXPECT_LE(errors_of({.nu = 0.499}, mesh()).pole, 2e-2);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace pfdm::verification {
 namespace {
 
 enum class Load { tension, shear };
-enum class Cells { hexes, wedges };
+enum class Cells { hexes, wedges, polyhedra };
 
 struct Layer {
   double thickness;
@@ -41,11 +41,12 @@ struct Laminate {
     return shift() / compliance;
   }
 
-  const Layer& layer_at(double z) const {
+  Index number_at(double z) const {
     std::size_t k = 0;
     for (double top = layers[0].thickness; z > top && k + 1 < layers.size(); top += layers[k].thickness) ++k;
-    return layers[k];
+    return static_cast<Index>(k);
   }
+  const Layer& layer_at(double z) const { return layers[as_size(number_at(z))]; }
 
   Vector displacement(const Vector& x) const {
     Vector u = Vector::Zero();
@@ -82,6 +83,11 @@ Mesh mesh_of(const Laminate& laminate, Cells cells) {
   for (const Layer& layer : laminate.layers)
     settings.axes[2].push_back({.length = layer.thickness, .n = layer.n_cells});
   Mesh mesh = cells == Cells::hexes ? make_box_hexes(settings) : extruded_triangles(5, levels_of(laminate));
+  if (cells == Cells::polyhedra) {
+    mesh.region_names.resize(laminate.layers.size());
+    for (Index c = 0; c < mesh.n_cells(); ++c) mesh.region[c] = laminate.number_at(mesh.cell_centre[c][2]);
+    mesh = barycentric_dual(mesh);
+  }
   mesh.region_names.resize(laminate.materials.size());
   for (Index c = 0; c < mesh.n_cells(); ++c) mesh.region[c] = laminate.layer_at(mesh.cell_centre[c][2]).material;
   return mesh;
@@ -149,12 +155,12 @@ LaminateErrors errors_of(const Laminate& laminate, Cells cells) {
 using LoadAndCells = std::tuple<Load, Cells>;
 
 std::string name_of(const LoadAndCells& p) {
-  return std::string(std::get<0>(p) == Load::tension ? "Tension" : "Shear") +
-         (std::get<1>(p) == Cells::hexes ? "Hexes" : "Wedges");
+  const char* cells[] = {"Hexes", "Wedges", "Polyhedra"};
+  return std::string(std::get<0>(p) == Load::tension ? "Tension" : "Shear") + cells[static_cast<int>(std::get<1>(p))];
 }
 
-const auto loads_and_cells =
-    testing::Combine(testing::Values(Load::tension, Load::shear), testing::Values(Cells::hexes, Cells::wedges));
+const auto loads_and_cells = testing::Combine(testing::Values(Load::tension, Load::shear),
+                                              testing::Values(Cells::hexes, Cells::wedges, Cells::polyhedra));
 
 class TwoMaterials : public testing::TestWithParam<LoadAndCells> {
  protected:
@@ -190,13 +196,30 @@ class BrokenLayer : public testing::TestWithParam<LoadAndCells> {
     EXPECT_LE(e.stress, 0.25);  // along the layers; without the g-weights of the gradients it is 1e4
     EXPECT_LE(e.displacement, 1e-4);
     EXPECT_LE(e.weakest_strain, 1e-3);
-    EXPECT_LE(e.sound_strain, 1e-3);
+    // Against 1e-6 of the broken strain: a polyhedron's jump term is not the two sides' in full (README.md).
+    EXPECT_LE(e.sound_strain, std::get<1>(GetParam()) == Cells::polyhedra ? 0.1 : 1e-3);
   }
 };
 
 TEST_P(BrokenLayer, OneCellThickTransmitsTheSeriesStress) { expect_series(1, 0.44); }
 TEST_P(BrokenLayer, ThreeCellsThickTransmitsTheSeriesStress) { expect_series(3, 0.44); }
 TEST_P(BrokenLayer, NearlyIncompressibleTransmitsTheSeriesStress) { expect_series(2, 0.49); }
+// Damage that rises and falls from layer to layer, as across a crack.
+TEST_P(BrokenLayer, OfGradedStiffnessTransmitsTheSeriesStress) {
+  std::vector<Layer> layers{{0.4, 4, 0}};
+  for (const double one_minus_d : {0.7, 0.5, 0.3, 0.2, 0.1, 0.0, 0.1, 0.2, 0.3, 0.5, 0.7})
+    layers.push_back({0.02, 1, 0, one_minus_d * one_minus_d + 1e-6});
+  layers.push_back({0.4, 4, 0});
+  for (const double nu : {0.44, 0.49}) {
+    const Laminate laminate{
+        .layers = layers, .materials = {from_young_poisson(75e6, nu)}, .load = std::get<0>(GetParam())};
+    const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
+    EXPECT_LE(e.transmitted, 1e-4);
+    EXPECT_LE(e.displacement, 1e-4);
+    EXPECT_LE(e.sound_strain, 0.05);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Laminate, BrokenLayer, loads_and_cells, [](const auto& test) { return name_of(test.param); });
 
 }  // namespace

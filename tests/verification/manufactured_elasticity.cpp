@@ -88,6 +88,16 @@ TEST_P(ManufacturedElasticity, ConvergesOnTetrahedra) {
 
 INSTANTIATE_TEST_SUITE_P(PoissonRatios, ManufacturedElasticity, testing::Values(0.3, 0.44, 0.49, 0.499));
 
+TEST_P(ManufacturedElasticity, ConvergesOnPolyhedra) {
+  std::vector<Errors> e;
+  for (const double size : {0.165, 0.1, 0.064}) e.push_back(errors_on(barycentric_dual(tetrahedra(size)), GetParam()));
+  const double order_u = observed_order(e[1].displacement, e[1].cells, e[2].displacement, e[2].cells);
+  const double order_stress = observed_order(e[1].stress, e[1].cells, e[2].stress, e[2].cells);
+  report_row("order between the finest two", {{"u", order_u}, {"stress", order_stress}});
+  EXPECT_GE(order_u, 1.8);
+  EXPECT_GE(order_stress, 0.9);
+}
+
 TEST(ManufacturedElasticity, TakesAtMostTwiceTheIterationsOf03At044) {
   const Mesh mesh = tetrahedra(0.064);
   EXPECT_LE(errors_on(mesh, 0.44).iterations, 2 * errors_on(mesh, 0.3).iterations);

@@ -99,6 +99,7 @@ struct NamedMesh {
 
 const std::vector<NamedMesh> meshes{
     {"TetrahedraAndPrisms", [] { return sphere_in_cube(2, 3, 2.0, 0.6); }},
+    {"Polyhedra", [] { return barycentric_dual(sphere_in_cube(2, 3, 2.0, 0.6)); }},
     {"GradedHexes", [] { return make_box_hexes(graded_box(6)); }},
     {"WarpedHexes", warped_hexes},
 };
@@ -162,6 +163,8 @@ TEST_P(RotatedTension, OfHexesByTraction) { pull(make_box_hexes(graded_box(6)), 
 TEST_P(RotatedTension, OfHexesByDisplacement) { pull(make_box_hexes(graded_box(6)), false); }
 TEST_P(RotatedTension, OfTetrahedraAndPrismsByTraction) { pull(sphere_in_cube(2, 3, 2.0, 0.6), true); }
 TEST_P(RotatedTension, OfTetrahedraAndPrismsByDisplacement) { pull(sphere_in_cube(2, 3, 2.0, 0.6), false); }
+TEST_P(RotatedTension, OfPolyhedraByTraction) { pull(barycentric_dual(sphere_in_cube(2, 3, 2.0, 0.6)), true); }
+TEST_P(RotatedTension, OfPolyhedraByDisplacement) { pull(barycentric_dual(sphere_in_cube(2, 3, 2.0, 0.6)), false); }
 
 INSTANTIATE_TEST_SUITE_P(PoissonRatios, RotatedTension, testing::Values(0.3, 0.44, 0.499));
 

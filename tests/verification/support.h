@@ -3,6 +3,7 @@
 // printing of what was measured.
 
 #include "mesh/box_hexes.h"
+#include "mesh/dual.h"
 #include "mesh/particles_in_box.h"
 #include "solver/momentum_solver.h"
 
