@@ -103,7 +103,7 @@ double MomentumOperator::jump_modulus(Index cell) const {
 double MomentumOperator::jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const {
   if (mesh_.shape[P] != CellShape::polyhedron && mesh_.shape[N] != CellShape::polyhedron) return full;
   const double mu_P = moduli_[P].mu, mu_N = moduli_[N].mu;
-  const double theta = std::pow((mu_P - mu_N) / (mu_P + mu_N), 2);
+  const double theta = 1.0 - std::min(mu_P, mu_N) / std::max(mu_P, mu_N);
   const double small = 1.0 / (h_P / jump_modulus(P) + h_N / jump_modulus(N));
   return small + theta * (full - small);
 }

@@ -11,8 +11,8 @@
 //
 // A polyhedron has about 14 faces against three unknowns: with a of the full lambda the jumps lock it as nu -> 0.5.
 // There c is that of lambda_s = min(lambda, 1.5 mu), blended back to the full one between cells of unlike damage:
-// c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = ((mu_P - mu_N)/(mu_P + mu_N))^2. The weights of sigma_P
-// and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge.
+// c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = 1 - min(mu_P, mu_N)/max(mu_P, mu_N). The weights of
+// sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge.
 
 #include "solver/block_matrix.h"
 #include "solver/gradient.h"

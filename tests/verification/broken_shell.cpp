@@ -167,7 +167,7 @@ TEST_P(BrokenShell, LoadsTheSphereAsInTheClosedForm) {
   const ShellErrors e = errors_of({n_broken, g, cells});
   EXPECT_LE(e.core_traction, 2.5e-2);
   EXPECT_LE(e.displacement, 1e-2);
-  EXPECT_LE(e.shell_strain, 2.5e-2);
+  EXPECT_LE(e.shell_strain, cells == Cells::polyhedra ? 3.5e-2 : 2.5e-2);
   EXPECT_LE(e.stress_beyond, 1.5e-2);
   EXPECT_LE(e.stress_within, 0.25);
 }
