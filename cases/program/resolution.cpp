@@ -12,11 +12,12 @@ constexpr double cells_in_ell = 2.0;  // at least: the discrete toughness is the
 constexpr double long_tail = 2.0;  // half-width over ell at which a profile without end has fallen to 2 % of its energy
 
 // Extent of a cell across its largest face: of a prism layer its thickness, of a brick its shortest edge, of a
-// tetrahedron a third of its height.
+// tetrahedron a third of its height; of a rounder polyhedron twice the distance of that face.
 double thickness(const Mesh& mesh, Index cell) {
-  double largest = 0.0;
-  for (const Index f : mesh.faces_of_cell(cell)) largest = std::max(largest, mesh.face_area[f].norm());
-  return mesh.cell_volume[cell] / largest;
+  const auto area = [&](Index f) { return mesh.face_area[f].norm(); };
+  const Index largest = std::ranges::max(mesh.faces_of_cell(cell), {}, area);
+  const Vector to_face = mesh.face_centre[largest] - mesh.cell_centre[cell];
+  return std::min(mesh.cell_volume[cell], 2.0 * std::abs(to_face.dot(mesh.face_area[largest]))) / area(largest);
 }
 
 }  // namespace

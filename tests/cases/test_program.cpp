@@ -35,8 +35,8 @@ TEST(Program, RunsACaseAndWritesItsResults) {
   EXPECT_NE(content_of(directory.results() / "run.log").find("step   10"), std::string::npos);
 }
 
-TEST(Program, GoesOnToTheSameCurveAsAnUnbrokenRun) {
-  const TemporaryCase directory(bar_case());
+void expect_the_same_curve_in_parts(const std::string& case_toml) {
+  const TemporaryCase directory(case_toml);
   const std::string place = directory.path().string();
   const fs::path whole = directory.path() / "whole";
   const fs::path broken = directory.path() / "broken";
@@ -50,6 +50,34 @@ TEST(Program, GoesOnToTheSameCurveAsAnUnbrokenRun) {
   EXPECT_EQ(content_of(broken / "fields.pvd"), content_of(whole / "fields.pvd"));
   EXPECT_EQ(content_of(broken / "checkpoint.bin"), content_of(whole / "checkpoint.bin"));
   EXPECT_EQ(summary_in(broken)["status"], "complete");
+}
+
+TEST(Program, GoesOnToTheSameCurveAsAnUnbrokenRun) { expect_the_same_curve_in_parts(bar_case()); }
+
+// A bar of about a hundred polyhedra that breaks.
+std::string bar_of_polyhedra() {
+  std::string text = bar_case();
+  const std::size_t begin = text.find("generator"), end = text.find("[materials.concrete]");
+  text.replace(begin, end - begin, R"(generator = "particles_in_box"
+cells = "polyhedra"
+size = ["10 mm", "2 mm", "2 mm"]
+size_far = "1.4 mm"
+region = "bar"
+
+)");
+  text = replaced(text, "regions = [\"bar\", \"weak\"]", "regions = [\"bar\"]");
+  text = replaced(text, "[regions.weak]\ntoughness = \"80 J/m^2\"\n", "");
+  return replaced(text, "type = \"plane\"", "type = \"symmetry\"");
+}
+
+TEST(Program, GoesOnWithPolyhedra) { expect_the_same_curve_in_parts(bar_of_polyhedra()); }
+
+TEST(Program, WritesPolyhedra) {
+  const TemporaryCase directory(bar_of_polyhedra());
+  const Outcome outcome = run({"mesh", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find(" polyhedra\n"), std::string::npos) << outcome.out;
+  EXPECT_TRUE(fs::exists(directory.results() / "mesh.vtu"));
 }
 
 TEST(Program, TakesRowsBeyondTheCheckpointAway) {
@@ -184,7 +212,7 @@ TEST(Program, ListsLawsAndCases) {
   const Outcome laws = run({"list", "--laws"});
   EXPECT_EQ(laws.status, 0);
   for (const char* name :
-       {"AT1", "AT2", "quadratic", "volumetric_deviatoric", "symmetry", "box_hexes", "vtk", "goodier"})
+       {"AT1", "AT2", "quadratic", "volumetric_deviatoric", "symmetry", "box_hexes", "polyhedra", "vtk", "goodier"})
     EXPECT_NE(laws.out.find(name), std::string::npos) << name;
   const Outcome cases = run({"list"});
   EXPECT_EQ(cases.status, 0);
