@@ -25,6 +25,16 @@ CellField<Tensor> closures(const Mesh& mesh) {
   return closure;
 }
 
+CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns) {
+  CellField<double> share(as_size(mesh.n_cells()), 1.0);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const IsotropicElasticity& sound = unknowns.sound[as_size(unknowns.zone[c])];
+    if (mesh.shape[c] == CellShape::polyhedron && sound.lambda > 1.5 * sound.mu)
+      share[c] = 1.5 * sound.mu / sound.lambda;
+  }
+  return share;
+}
+
 }  // namespace
 
 MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
@@ -35,6 +45,7 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
                        .plane_normal = unknowns.plane_normal,
                        .wanted = {}}),
       moduli_(as_size(mesh.n_cells())),
+      jump_share_(jump_shares(mesh, unknowns)),
       force_of_face_(as_size(mesh.n_faces()), -1),
       second_side_of_node_(unknowns.face_of_node.size(), -1),
       first_side_of_node_(unknowns.face_of_node.size(), -1),
@@ -96,7 +107,7 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
 double MomentumOperator::jump_modulus(Index cell) const {
   const IsotropicElasticity& c = moduli_[cell];
   if (mesh_.shape[cell] != CellShape::polyhedron) return c.constrained_modulus();
-  return std::min(c.lambda, 1.5 * c.mu) + 2.0 * c.mu;
+  return jump_share_[cell] * c.lambda + 2.0 * c.mu;
 }
 
 // Along the normal of the face between P and N, from what it is with the full lambda.

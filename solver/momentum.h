@@ -10,7 +10,8 @@
 // boundary carry u_f itself: each side has t_c = sigma_c n + a_c (u_f - u_c - G_c d_c).
 //
 // A polyhedron has about 14 faces against three unknowns: with a of the full lambda the jumps lock it as nu -> 0.5.
-// There c is that of lambda_s = min(lambda, 1.5 mu), blended back to the full one between cells of unlike damage:
+// There c is that of lambda_s = min(lambda, 1.5 mu) in the undamaged material, of the same share of lambda in a damaged
+// one (lambda >> mu where a crack is closed), blended back to the full one between cells of unlike damage:
 // c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = 1 - min(mu_P, mu_N)/max(mu_P, mu_N). The weights of
 // sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge.
 
@@ -101,6 +102,7 @@ class MomentumOperator {
   const Unknowns& unknowns_;
   Gradient gradient_;
   CellField<IsotropicElasticity> moduli_;
+  CellField<double> jump_share_;  // lambda_s over lambda; 1 but of polyhedra
   std::vector<Link> links_;
   std::vector<Side> sides_;
   std::vector<Index> force_of_face_;        // owner's side; -1 for plane patches

@@ -13,6 +13,7 @@
 namespace pfdm {
 namespace {
 
+// A zone has the number of the first region of its elasticity.
 CellField<Index> elastic_zones(const Mesh& mesh, const FractureModel& model) {
   std::vector<Index> zone_of_region;
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
@@ -92,6 +93,7 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
   Unknowns unknowns;
   unknowns.n_cells = mesh.n_cells();
   unknowns.zone = elastic_zones(mesh, model);
+  for (const RegionModel& region : model.regions) unknowns.sound.push_back(region.elasticity);
   unknowns.conditions = conditions_by_patch(mesh, model);
   unknowns.node_of_face = FaceField<Index>(static_cast<std::size_t>(mesh.n_faces()), -1);
   const auto add_node = [&](Index face, const Tensor& directions) {
