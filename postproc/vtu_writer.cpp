@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace pfdm {
 namespace {
@@ -34,10 +35,28 @@ int vtk_cell_type(CellShape shape) {
   return VTK_EMPTY_CELL;
 }
 
-// The points of the cells; those that only faces are fanned about are left out.
+// VTK cuts and measures a polyhedron whose faces are not plane wrongly or not at all: those with an apex go into the
+// file as the triangles about it that they are.
+bool goes_as_triangles(const Mesh& mesh, Index face) {
+  if (mesh.face_apex.size() == 0) return false;
+  const auto points = mesh.points_of_face(face);
+  const Vector& apex = mesh.points[as_size(mesh.face_apex[face])];
+  double area = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    area += 0.5 * (mesh.points[as_size(points[i])] - apex)
+                      .cross(mesh.points[as_size(points[(i + 1) % points.size()])] - apex)
+                      .norm();
+  return area > (1.0 + 1e-9) * mesh.face_area[face].norm();
+}
+
+// The points that the file needs: those of the cells and the apexes of triangles.
 struct GridPoints {
-  explicit GridPoints(const Mesh& mesh) : number(mesh.points.size(), -1) {
+  explicit GridPoints(const Mesh& mesh) : number(mesh.points.size(), -1), as_triangles(as_size(mesh.n_faces())) {
     for (const Index p : mesh.cell_points) number[as_size(p)] = 0;
+    for (Index f = 0; f < mesh.n_faces(); ++f) {
+      as_triangles[as_size(f)] = goes_as_triangles(mesh, f);
+      if (as_triangles[as_size(f)]) number[as_size(mesh.face_apex[f])] = 0;
+    }
     points->SetDataTypeToDouble();
     for (std::size_t p = 0; p < number.size(); ++p)
       if (number[p] == 0) number[p] = points->InsertNextPoint(mesh.points[p].data());
@@ -46,16 +65,35 @@ struct GridPoints {
 
   vtkNew<vtkPoints> points;
   std::vector<vtkIdType> number;
+  std::vector<bool> as_triangles;  // per face
 };
 
-// [n_points, p..., n_points, p...] over the faces of a cell, each counter-clockwise when seen from outside the cell.
-std::vector<vtkIdType> face_stream(const Mesh& mesh, const GridPoints& number, Index cell) {
-  std::vector<vtkIdType> stream;
+struct FaceStream {
+  vtkIdType n_faces = 0;
+  std::vector<vtkIdType> entries;  // [n_points, p..., n_points, p...]
+};
+
+// The faces of a cell, each counter-clockwise when seen from outside the cell.
+FaceStream face_stream(const Mesh& mesh, const GridPoints& number, Index cell) {
+  FaceStream stream;
+  std::vector<vtkIdType> rim;
   for (const Index face : mesh.faces_of_cell(cell)) {
-    const auto points = mesh.points_of_face(face);
-    stream.push_back(static_cast<vtkIdType>(points.size()));
-    for (const Index p : points) stream.push_back(number[p]);
-    if (mesh.owner[face] != cell) std::reverse(stream.end() - static_cast<std::ptrdiff_t>(points.size()), stream.end());
+    rim.clear();
+    for (const Index p : mesh.points_of_face(face)) rim.push_back(number[p]);
+    if (mesh.owner[face] != cell) std::ranges::reverse(rim);
+    const auto add = [&](std::span<const vtkIdType> points) {
+      stream.entries.push_back(static_cast<vtkIdType>(points.size()));
+      stream.entries.insert(stream.entries.end(), points.begin(), points.end());
+      ++stream.n_faces;
+    };
+    if (!number.as_triangles[as_size(face)]) {
+      add(rim);
+      continue;
+    }
+    const vtkIdType apex = number[mesh.face_apex[face]];
+    for (std::size_t i = 0; i < rim.size(); ++i)
+      if (const vtkIdType next = rim[(i + 1) % rim.size()]; rim[i] != apex && next != apex)
+        add(std::array{apex, rim[i], next});
   }
   return stream;
 }
@@ -69,9 +107,14 @@ void insert_cell(vtkUnstructuredGrid& grid, const Mesh& mesh, const GridPoints& 
     grid.InsertNextCell(type, n_points, points.data());
     return;
   }
-  const std::vector<vtkIdType> faces = face_stream(mesh, number, cell);
-  const auto n_faces = static_cast<vtkIdType>(mesh.faces_of_cell(cell).size());
-  grid.InsertNextCell(type, n_points, points.data(), n_faces, faces.data());
+  const FaceStream faces = face_stream(mesh, number, cell);
+  // The points are those of the cell's faces, apexes too.
+  std::vector<vtkIdType> all;
+  for (auto at = faces.entries.begin(); at != faces.entries.end(); at += *at + 1)
+    all.insert(all.end(), at + 1, at + 1 + *at);
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  grid.InsertNextCell(type, static_cast<vtkIdType>(all.size()), all.data(), faces.n_faces, faces.entries.data());
 }
 
 vtkSmartPointer<vtkStringArray> make_region_names(const Mesh& mesh) {

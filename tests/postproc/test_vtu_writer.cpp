@@ -178,14 +178,13 @@ TEST(VtuWriter, a_dual_mesh_comes_back) {
                                 .face_sets = {},
                                 .patches = {}});
   ASSERT_EQ(back.n_cells(), dual.n_cells());
-  EXPECT_EQ(back.n_faces(), dual.n_faces());
-  EXPECT_LT(read_back(folder / "a.vtu")->GetNumberOfPoints(), static_cast<Index>(dual.points.size()) + 1);
-  double volume = 0.0, exact = 0.0;
-  for (Index c = 0; c < dual.n_cells(); ++c) {
-    volume += back.cell_volume[c];
-    exact += dual.cell_volume[c];
-  }
-  EXPECT_NEAR(volume, exact, 1e-14);
+  EXPECT_LE(read_back(folder / "a.vtu")->GetNumberOfPoints(), static_cast<Index>(dual.points.size()));
+  // Faces that are not plane have become triangles, about the point that they were fans about.
+  EXPECT_GT(back.n_faces(), dual.n_faces());
+  std::vector<double> volumes = back.cell_volume.values(), exact = dual.cell_volume.values();
+  std::ranges::sort(volumes);
+  std::ranges::sort(exact);
+  for (std::size_t c = 0; c < exact.size(); ++c) EXPECT_NEAR(volumes[c], exact[c], 1e-14);
 }
 
 TEST(VtuWriter, time_and_region_names_are_field_data) {
