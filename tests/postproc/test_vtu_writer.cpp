@@ -166,9 +166,9 @@ TEST(VtuWriter, a_dual_mesh_comes_back) {
   const TemporaryFolder folder;
   CellSoup soup;
   soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
-  soup.region_names = {"a", "b"};
+  soup.region_names = {"a"};
   soup.add_cell(CellShape::tetrahedron, std::vector<Index>{0, 1, 2, 3}, 0);
-  soup.add_cell(CellShape::tetrahedron, std::vector<Index>{1, 4, 2, 3}, 1);
+  soup.add_cell(CellShape::tetrahedron, std::vector<Index>{1, 4, 2, 3}, 0);
   const Mesh dual = barycentric_dual(assemble_mesh(std::move(soup), {}));
   VtuWriter(dual).write(folder / "a.vtu", {{"material", &dual.region}}, 0.0);
   const Mesh back = import_vtk({.file = folder / "a.vtu",
