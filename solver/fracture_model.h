@@ -6,6 +6,7 @@
 #include "physics/energy_split.h"
 #include "solver/boundary_condition.h"
 
+#include <limits>
 #include <vector>
 
 namespace pfdm {
@@ -46,6 +47,9 @@ struct LoadingSettings {
   double minimum_increment = 1e-5;
   double maximum_increment = 0.05;
   std::vector<double> stops;  ///< values of t that a step must end on (frames)
+  /// Surface energy that a step may dissipate [J], in proportion less while the increment is below its maximum: a load
+  /// that would dissipate more is lowered, also below that of the step before, so that snap-back is followed.
+  double maximum_dissipation = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace pfdm

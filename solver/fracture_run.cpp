@@ -49,7 +49,33 @@ struct FractureRun::Parts {
         loading(std::move(l)),
         unknowns((require_complete(m, model), place_unknowns(m, model))),
         staggered(m, model, unknowns, settings),
-        maximum_iterations(settings.maximum_iterations) {}
+        maximum_iterations(settings.maximum_iterations) {
+    require_path(model);
+  }
+
+  // Path-following needs displacements that are proportional to the load, and a dissipation that only grows.
+  void require_path(const FractureModel& m) const {
+    if (!std::isfinite(loading.maximum_dissipation)) return;
+    if (m.irreversibility != Irreversibility::bounds)
+      throw InputError("a dissipation can be prescribed only with the irreversibility \"bounds\"");
+    for (const PatchCondition& on : unknowns.conditions) {
+      if (!on.condition.value) continue;
+      const Patch& patch = mesh.patches[as_size(on.patch)];
+      for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+        const Vector full = on.condition.value(mesh.face_centre[f], loading.end);
+        const Vector half = on.condition.value(mesh.face_centre[f], 0.5 * loading.end);
+        if ((full - 2.0 * half).norm() > 1e-9 * full.norm())
+          throw InputError(fmt::format(
+              "a dissipation can be prescribed only where boundary values are proportional to t; those of patch \"{}\" "
+              "are not",
+              patch.name));
+      }
+    }
+  }
+
+  double dissipation_of(double increment) const {
+    return loading.maximum_dissipation * std::min(1.0, increment / loading.maximum_increment);
+  }
 
   double next_stop(double load) const {
     double stop = loading.end;
@@ -133,10 +159,10 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
     FractureState trial = state;
     trial.step = state.step + 1;
     trial.load = state.load + state.increment > stop - load_rounding ? stop : state.load + state.increment;
-    const double increment = trial.load - state.load;
+    double increment = trial.load - state.load;
     if (state.load > 0.0)
       for (Vector& u : trial.displacement) u *= trial.load / state.load;
-    const StepOutcome outcome = parts.staggered.solve_step(state, trial, hooks);
+    const StepOutcome outcome = parts.staggered.solve_step(state, trial, hooks, parts.dissipation_of(state.increment));
     parts.krylov_iterations += outcome.krylov_iterations;
     parts.staggered_iterations += outcome.iterations;
     if (!outcome.converged) {
@@ -151,6 +177,7 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
                                  trial.load, state.increment));
       continue;
     }
+    increment = trial.load - state.load;
     trial.boundary_force = parts.boundary_forces(trial);
     trial.external_work = state.external_work + parts.work_increment(state, trial);
     trial.increment = parts.next_increment(state.increment, outcome.iterations);

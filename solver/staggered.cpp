@@ -2,8 +2,11 @@
 
 #include "solver/parallel.h"
 
+#include <boost/math/tools/toms748_solve.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace pfdm {
 namespace {
@@ -21,8 +24,13 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       momentum_(mesh, unknowns),
       damage_(mesh, model, unknowns.plane_normal) {}
 
-StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks) {
+StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                                  double most_dissipation) {
   StepOutcome outcome;
+  const bool path_is_followed = std::isfinite(most_dissipation);
+  PathLimit limit;
+  if (path_is_followed)
+    limit = {state.load, damage_.renewed_fracture_energy(start.damage) + most_dissipation, most_dissipation};
   Relaxation relaxation;
   closing_ = CellField<float>(as_size(mesh_.n_cells()), 0.0F);
   turns_ = CellField<Index>(as_size(mesh_.n_cells()), 0);
@@ -41,14 +49,18 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
     if (!std::isfinite(equilibrium.residual)) return outcome;
     const Energies energies = update_driving_energy(start, state, true);
     CellField<double> answer = state.damage;
-    const bool damage_solved = solve_damage(start, state, answer);
+    const double load = state.load;
+    const bool damage_solved =
+        path_is_followed ? follow_path(start, limit, state, answer) : solve_damage(start, state, answer);
+    const double load_scale = state.load / load;
     const double change = parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
-    const double energy = energies.elastic + damage_.fracture_energy(answer);
+    const double energy = load_scale * load_scale * energies.elastic + damage_.fracture_energy(answer);
     const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
     outcome.krylov_iterations += equilibrium.iterations;
-    settled = damage_solved && change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance;
+    settled = damage_solved && change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance &&
+              std::abs(load_scale - 1.0) < settings_.damage_tolerance;
     outcome.converged = settled && equilibrium.residual <= settings_.equilibrium_tolerance;
     if (outcome.converged)
       state.damage = answer;
@@ -114,18 +126,68 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   const auto lap = clock_.lap("driving_energy");
   CellMechanics mechanics =
       momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::strain_and_energy);
-  const bool history = model_.irreversibility == Irreversibility::history;
-  parallel_for(mesh_.n_cells(), [&](Index c) {
-    const RegionModel& region = model_.regions[as_size(mesh_.region[c])];
-    const double psi = model_.split->energy(region.elasticity, mechanics.strain[c]).psi_plus;
-    state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
-  });
+  strain_ = std::move(mechanics.strain);
+  drive(start, state, 1.0);
   Energies energies;
   energies.elastic = parallel_sum(mesh_.n_cells(), [&](Index c) { return mechanics.energy[c]; });
   if (settles)
     energies.unsettled =
-        parallel_sum(mesh_.n_cells(), [&](Index c) { return settle(state, c, mechanics.strain[c], state.closure[c]); });
+        parallel_sum(mesh_.n_cells(), [&](Index c) { return settle(state, c, strain_[c], state.closure[c]); });
   return energies;
+}
+
+// The driving energy of the last equilibrium's strain times `scale`.
+void Staggered::drive(const FractureState& start, FractureState& state, double scale) {
+  const bool history = model_.irreversibility == Irreversibility::history;
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    const RegionModel& region = model_.regions[as_size(mesh_.region[c])];
+    const double psi = model_.split->energy(region.elasticity, scale * strain_[c]).psi_plus;
+    state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
+  });
+}
+
+// Path-following: displacements at given damage are proportional to the load, so that the load at which the damage
+// equation answers with the surface energy wanted is the root of one rising function (dissipation as the control:
+// Gutierrez, Commun. Numer. Meth. Engng 20 (2004) 19; for phase fields Singh et al., Finite Elem. Anal. Des. 113
+// (2016) 14). Changes the load of the state, its displacement and driving energy, and d. The load is the greatest
+// allowed where that dissipates less.
+bool Staggered::follow_path(const FractureState& start, const PathLimit& limit, FractureState& state,
+                            CellField<double>& d) {
+  constexpr double precision = 1e-3;  // of the dissipation
+  constexpr std::uintmax_t most_tries = 60;
+  const double solved_load = state.load;
+  double load = solved_load;
+  bool damage_solved = false, reached = false;
+  const auto excess = [&](double tried) {
+    load = tried;
+    drive(start, state, load / solved_load);
+    damage_solved = solve_damage(start, state, d);
+    const double energy = damage_.fracture_energy(d) - limit.energy;
+    reached = std::abs(energy) <= precision * limit.step;
+    return reached ? 0.0 : energy;
+  };
+  double below = load, above = load;
+  double at_below = excess(load), at_above = at_below;
+  for (double factor = 1.004; at_above < 0.0 && above < limit.load; factor *= factor) {
+    below = above, at_below = at_above;
+    above = std::min(factor * above, limit.load);
+    at_above = excess(above);
+  }
+  for (double factor = 1.004; at_below > 0.0; factor *= factor) {
+    above = below, at_above = at_below;
+    below /= factor;
+    at_below = excess(below);
+  }
+  if (at_below < 0.0 && at_above > 0.0) {
+    const auto close_enough = [&](double a, double b) { return reached || b - a <= 1e-12 * b; };
+    std::uintmax_t tries = most_tries;
+    const auto [a, b] =
+        boost::math::tools::toms748_solve(excess, below, above, at_below, at_above, close_enough, tries);
+    if (!reached) excess(0.5 * (a + b));
+  }
+  for (Vector& u : state.displacement) u *= load / solved_load;
+  state.load = load;
+  return damage_solved;
 }
 
 bool Staggered::solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d) {

@@ -22,7 +22,10 @@ class Staggered {
   Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings);
 
   /// Brings `state`, whose load is the step's, to equilibrium. `start` is the state that damage may not fall below.
-  StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks);
+  /// Where the step would dissipate more than `most_dissipation` [J], the load is lowered until it does not: boundary
+  /// values must then be proportional to the load parameter, and damage be bounded by that of `start`.
+  StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                         double most_dissipation = std::numeric_limits<double>::infinity());
 
   MomentumSolver& momentum() { return momentum_; }
   const DamageEquation& damage_equation() const { return damage_; }
@@ -38,7 +41,14 @@ class Staggered {
   };
   /// May move the closure of the state to that of its strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
+  void drive(const FractureState& start, FractureState& state, double scale);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
+  struct PathLimit {
+    double load = 0.0;    // most load of the step
+    double energy = 0.0;  // surface energy that the step may end with [J], and
+    double step = 0.0;    // what it may dissipate [J]
+  };
+  bool follow_path(const FractureState& start, const PathLimit& limit, FractureState& state, CellField<double>& d);
   double settle(const FractureState& state, Index cell, const Tensor& strain, double& closure);
   double stiffness_factor(Index cell, double d) const;
 
@@ -48,6 +58,7 @@ class Staggered {
   MomentumSolver momentum_;
   DamageEquation damage_;
   StageClock clock_;
+  CellField<Tensor> strain_;  // of the last equilibrium
   CellField<float> closing_;  // per cell: last move of the closure, and
   CellField<Index> turns_;    // how often it has turned within the step
 };
