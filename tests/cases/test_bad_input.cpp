@@ -42,7 +42,8 @@ const BadInput bad_inputs[] = {
     {"dissipation_with_frames_at_loads",
      "maximum_increment = 0.1",
      "maximum_increment = 0.1\nmaximum_dissipation = \"2 uJ\"",
-     {"[output] frames_at: with loading.maximum_dissipation the load may pass a value more than once; say frames_every"}},
+     {"[output] frames_at: with loading.maximum_dissipation the load may pass a value more than once; say "
+      "frames_every"}},
     {"dissipation_that_is_no_energy",
      "maximum_increment = 0.1",
      "maximum_increment = 0.1\nmaximum_dissipation = \"2 um\"",
