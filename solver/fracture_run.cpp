@@ -121,6 +121,7 @@ FractureState FractureRun::initial_state() const {
   state.damage = CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
+  if (parts_->model.split->secant == nullptr) state.tangent_strain = CellField<Tensor>(n);
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
   return state;
 }

@@ -2,6 +2,7 @@
 // Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
 // the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797).
 
+#include "solver/cell_stiffness.h"
 #include "solver/damage_equation.h"
 #include "solver/fracture_run.h"
 #include "solver/momentum_solver.h"
@@ -27,29 +28,26 @@ class Staggered {
   MomentumSolver& momentum() { return momentum_; }
   const DamageEquation& damage_equation() const { return damage_; }
   StageClock& clock() { return clock_; }
-  /// Sets the secant moduli of the state in the momentum balance.
+  /// Sets the stiffness of the state in the momentum balance.
   void degrade(const FractureState& state);
 
  private:
   Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
   struct Energies {
     double elastic = 0.0;    // [J]
-    double unsettled = 0.0;  // by which the closure that was used falsifies it [J]
+    double unsettled = 0.0;  // by which the stiffness that was used falsifies it [J]
   };
-  /// May move the closure of the state to that of its strain.
+  /// May have the stiffness follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
-  double settle(const FractureState& state, Index cell, const Tensor& strain, double& closure);
-  double stiffness_factor(Index cell, double d) const;
 
   const Mesh& mesh_;
   const FractureModel& model_;
   StaggeredSettings settings_;
   MomentumSolver momentum_;
+  CellStiffness stiffness_;
   DamageEquation damage_;
   StageClock clock_;
-  CellField<float> closing_;  // per cell: last move of the closure, and
-  CellField<Index> turns_;    // how often it has turned within the step
 };
 
 }  // namespace pfdm
