@@ -8,7 +8,8 @@
 namespace pfdm {
 namespace {
 
-constexpr float least_share = 1.0F / 16.0F, recovery = 1.5F;
+// Of a cell that swings; it recovers slowly, as the broken ones between two loose halves would swing again at once.
+constexpr float least_share = 1.0F / 256.0F, recovery = 1.05F;
 
 }  // namespace
 

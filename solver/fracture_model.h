@@ -6,6 +6,7 @@
 #include "physics/energy_split.h"
 #include "solver/boundary_condition.h"
 
+#include <limits>
 #include <vector>
 
 namespace pfdm {
@@ -45,7 +46,11 @@ struct LoadingSettings {
   double initial_increment = 0.05;  ///< of t
   double minimum_increment = 1e-5;
   double maximum_increment = 0.05;
-  std::vector<double> stops;  ///< values of t that a step must end on (frames)
+  /// Increments are chosen so that the damage of no cell grows by more than this within a step, down to the finest;
+  /// a step of the finest or less may break what it likes.
+  double damage_growth = std::numeric_limits<double>::infinity();
+  double finest_increment = 1e-3;  ///< of t
+  std::vector<double> stops;       ///< values of t that a step must end on (frames)
 };
 
 }  // namespace pfdm

@@ -22,7 +22,8 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       stiffness_(mesh, model),
       damage_(mesh, model, unknowns.plane_normal) {}
 
-StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks) {
+StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                                  double allowed_growth) {
   StepOutcome outcome;
   Relaxation relaxation;
   stiffness_.start_step();
@@ -54,8 +55,14 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
       state.damage = answer;
     else
       state.damage = relaxation.next(state.damage, answer, start.damage);
+    outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
+    outcome.grew_too_much = outcome.growth > allowed_growth;
     if (hooks.iterated)
       hooks.iterated({state.step, outcome.iterations, state.load, change, energy_change, equilibrium.iterations});
+    if (outcome.grew_too_much) {
+      outcome.converged = false;
+      return outcome;
+    }
   }
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);

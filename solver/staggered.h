@@ -9,10 +9,14 @@
 #include "solver/relaxation.h"
 #include "solver/stage_clock.h"
 
+#include <limits>
+
 namespace pfdm {
 
 struct StepOutcome {
   bool converged = false;
+  bool grew_too_much = false;  ///< given up, as the damage went beyond the growth allowed
+  double growth = 0.0;         ///< largest of d over a cell
   Index iterations = 0;
   Index krylov_iterations = 0;
   double elastic_energy = 0.0;  ///< [J]
@@ -23,7 +27,9 @@ class Staggered {
   Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings);
 
   /// Brings `state`, whose load is the step's, to equilibrium. `start` is the state that damage may not fall below.
-  StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks);
+  /// Gives up once some cell's damage has grown by more than `allowed_growth`.
+  StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                         double allowed_growth = std::numeric_limits<double>::infinity());
 
   MomentumSolver& momentum() { return momentum_; }
   const DamageEquation& damage_equation() const { return damage_; }
