@@ -22,18 +22,18 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       model_(model),
       settings_(settings),
       momentum_(mesh, unknowns),
+      stiffness_(mesh, model),
       damage_(mesh, model, unknowns.plane_normal) {}
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
-                                  double most_dissipation) {
+                                  const StepLimits& limits) {
   StepOutcome outcome;
-  const bool path_is_followed = std::isfinite(most_dissipation);
+  const bool path_is_followed = std::isfinite(limits.dissipation);
   PathLimit limit;
   if (path_is_followed)
-    limit = {state.load, damage_.renewed_fracture_energy(start.damage) + most_dissipation, most_dissipation};
+    limit = {state.load, damage_.renewed_fracture_energy(start.damage) + limits.dissipation, limits.dissipation};
   Relaxation relaxation;
-  closing_ = CellField<float>(as_size(mesh_.n_cells()), 0.0F);
-  turns_ = CellField<Index>(as_size(mesh_.n_cells()), 0);
+  stiffness_.start_step();
   momentum_.start_afresh();  // a run that is gone on with does the same
   double energy_before = 0.0;
   bool settled = false;
@@ -66,8 +66,14 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
       state.damage = answer;
     else
       state.damage = relaxation.next(state.damage, answer, start.damage);
+    outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
+    outcome.grew_too_much = outcome.growth > limits.growth;
     if (hooks.iterated)
       hooks.iterated({state.step, outcome.iterations, state.load, change, energy_change, equilibrium.iterations});
+    if (outcome.grew_too_much) {
+      outcome.converged = false;
+      return outcome;
+    }
   }
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);
@@ -79,47 +85,14 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   return outcome;
 }
 
-double Staggered::stiffness_factor(Index cell, double d) const {
-  if (!damage_.is_damageable(cell)) return 1.0;
-  return (1.0 - model_.residual_stiffness) *
-             model_.degradation->g(d, model_.regions[as_size(mesh_.region[cell])].rational) +
-         model_.residual_stiffness;
-}
-
 void Staggered::degrade(const FractureState& state) {
   const auto lap = clock_.lap("moduli_and_preconditioner");
-  CellField<double> g(as_size(mesh_.n_cells()));
-  CellField<IsotropicElasticity> moduli(as_size(mesh_.n_cells()));
-  parallel_for(mesh_.n_cells(), [&](Index c) {
-    g[c] = stiffness_factor(c, state.damage[c]);
-    moduli[c] = model_.split->secant(model_.regions[as_size(mesh_.region[c])].elasticity, g[c], state.closure[c]);
-  });
-  momentum_.set_moduli(moduli, g);
+  stiffness_.set(state, momentum_);
 }
 
 Equilibrium Staggered::solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance) {
   const auto lap = clock_.lap("momentum");
   return momentum_.solve(state.load, tolerance, state.displacement);
-}
-
-// The closure follows the strain with steps that shorten at each turn: at once, cells at the edge of a crack would open
-// and close in turn for ever. Returns the energy [J] by which the present closure is wrong.
-double Staggered::settle(const FractureState& state, Index cell, const Tensor& strain, double& closure) {
-  const double lag = model_.split->closure(strain) - closure;
-  if (lag == 0.0) return 0.0;
-  const IsotropicElasticity& elasticity = model_.regions[as_size(mesh_.region[cell])].elasticity;
-  const double g = stiffness_factor(cell, state.damage[cell]);
-  const double wrong = energy_density(model_.split->secant(elasticity, g, closure + lag), strain) -
-                       energy_density(model_.split->secant(elasticity, g, closure), strain);
-  if (lag * closing_[cell] < 0.0) ++turns_[cell];
-  closing_[cell] = static_cast<float>(lag);
-  // What is kept of the stiffness ranges from g to 1: over decades, so the steps are those of its logarithm.
-  const double step = 1.0 / (1.0 + turns_[cell]);
-  const double kept = g + closure * (1.0 - g), wanted = lag > 0.0 ? 1.0 : g;
-  const double next = std::pow(kept, 1.0 - step) * std::pow(wanted, step);
-  const bool there = std::abs(next / wanted - 1.0) < 1e-3 || g == 1.0;
-  closure = there ? closure + lag : (next - g) / (1.0 - g);
-  return mesh_.cell_volume[cell] * std::abs(wrong);
 }
 
 Staggered::Energies Staggered::update_driving_energy(const FractureState& start, FractureState& state, bool settles) {
@@ -130,9 +103,7 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   drive(start, state, 1.0);
   Energies energies;
   energies.elastic = parallel_sum(mesh_.n_cells(), [&](Index c) { return mechanics.energy[c]; });
-  if (settles)
-    energies.unsettled =
-        parallel_sum(mesh_.n_cells(), [&](Index c) { return settle(state, c, strain_[c], state.closure[c]); });
+  if (settles) energies.unsettled = stiffness_.follow(strain_, state);
   return energies;
 }
 

@@ -54,6 +54,8 @@ LoadingSettings read_loading(const ConfigTable& root) {
   if (loading.minimum_increment > loading.initial_increment || loading.initial_increment > loading.maximum_increment)
     throw table.error(fmt::format("the increments must not fall: minimum {}, initial {}, maximum {}",
                                   loading.minimum_increment, loading.initial_increment, loading.maximum_increment));
+  loading.damage_growth = table.number("damage_growth", above_zero_to_one, loading.damage_growth);
+  loading.finest_increment = table.number("finest_increment", range::positive, loading.finest_increment);
   if (table.has("maximum_dissipation"))
     loading.maximum_dissipation = table.quantity("maximum_dissipation", dimension::energy, range::positive);
   return loading;
