@@ -23,15 +23,26 @@ struct SubRegion {
   Vector upper = Vector::Zero();
 };
 
+/// A cut: a rectangle in a plane of the grid, between two corners [m] that agree along one axis, and whose edges lie on
+/// lines of the grid or outside of the box. Both its faces are the patch of its name; along its edges within the box,
+/// the crack front, the body holds together.
+struct Slit {
+  std::string name;
+  Vector lower = Vector::Zero();
+  Vector upper = Vector::Zero();
+};
+
 struct BoxHexesSettings {
   Vector origin = Vector::Zero();              ///< lower corner [m]
   std::array<std::vector<AxisBlock>, 3> axes;  ///< along x, y, z; each block begins where the one before it ends
   std::vector<SubRegion> regions;              ///< where they overlap, the later one wins
   std::string base_region = "body";            ///< all that no sub-region takes
+  std::vector<Slit> slits;                     ///< which do not meet each other
 };
 
-/// Patches xmin, xmax, ymin, ymax, zmin, zmax; region_names holds base_region (if any cell is left in it) and the
-/// sub-regions, each name once. Throws InputError for a block that is not positive or a region with no cell.
+/// Patches xmin, xmax, ymin, ymax, zmin, zmax and the slits'; region_names holds base_region (if any cell is left in
+/// it) and the sub-regions, each name once. Throws InputError for a block that is not positive, a region with no cell,
+/// and a slit that is not plane, not on the grid, on the box's surface, too narrow to open or that meets another.
 Mesh make_box_hexes(const BoxHexesSettings& settings);
 
 }  // namespace pfdm

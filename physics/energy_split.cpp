@@ -63,9 +63,77 @@ constexpr EnergySplit rankine{
     .secant = degrade_all,
 };
 
-constexpr EnergySplit table[] = {none, volumetric_deviatoric, rankine};
+// Splits that say what is kept: psi_minus = 1/2 kept stress : eps, as for any energy of second degree.
+template <PrincipalStress (*kept)(const IsotropicElasticity&, const Vector&)>
+SplitEnergy energy_less_kept(const IsotropicElasticity& c, const Tensor& eps) {
+  const Vector principal = principal_axes(eps).value;
+  const double psi_minus = 0.5 * kept(c, principal).stress.dot(principal);
+  return {std::max(energy_density(c, eps) - psi_minus, 0.0), psi_minus};
+}
+
+// Miehe, Hofacker, Welschinger, CMAME 199 (2010) 2765, eqs. 19-23: lambda/2 <-tr eps>^2 + mu sum <-eps_i>^2 is kept.
+PrincipalStress kept_by_spectral(const IsotropicElasticity& c, const Vector& eps) {
+  PrincipalStress kept;
+  if (eps.sum() < 0.0) kept.slope.setConstant(c.lambda);
+  for (Index i = 0; i < 3; ++i)
+    if (eps[i] < 0.0) kept.slope(i, i) += 2.0 * c.mu;
+  kept.stress = kept.slope * eps;
+  return kept;
+}
+
+constexpr EnergySplit spectral{
+    .name = "spectral",
+    .description = "positive principal strains and expansion are degraded (Miehe 2010)",
+    .variational = true,
+    .energy = energy_less_kept<kept_by_spectral>,
+    .kept = kept_by_spectral,
+};
+
+// Del Piero, Meccanica 24 (1989) 150; Freddi, Royer-Carfagni, J. Mech. Phys. Solids 58 (2010) 1154, sec. 3.3: what a
+// material that bears no tension stores. Crack strains open freely in the principal directions whose stress would be
+// tensile; from the smallest strain upwards none, one, two or all three directions stay under compression.
+PrincipalStress kept_by_no_tension(const IsotropicElasticity& c, const Vector& eps) {
+  const double E = c.young_modulus(), nu = c.poisson_ratio();
+  PrincipalStress kept;
+  if (eps[0] >= 0.0) return kept;
+  if (eps[1] + nu * eps[0] >= 0.0) {
+    kept.slope(0, 0) = E;
+  } else if ((1.0 - nu) * eps[2] + nu * (eps[0] + eps[1]) >= 0.0) {
+    kept.slope.topLeftCorner<2, 2>() << 1.0, nu, nu, 1.0;
+    kept.slope *= E / (1.0 - nu * nu);
+  } else {
+    kept.slope = Tensor::Constant(c.lambda) + 2.0 * c.mu * Tensor::Identity();
+  }
+  kept.stress = kept.slope * eps;
+  return kept;
+}
+
+constexpr EnergySplit no_tension{
+    .name = "no_tension",
+    .description = "a material without tensile strength is kept: masonry (Del Piero 1989, Freddi 2010)",
+    .variational = true,
+    .energy = energy_less_kept<kept_by_no_tension>,
+    .kept = kept_by_no_tension,
+};
+
+MandelMatrix stiffness(const IsotropicElasticity& c) {
+  return 3.0 * c.lambda * volumetric_projector() + 2.0 * c.mu * MandelMatrix::Identity();
+}
+
+constexpr EnergySplit table[] = {none, volumetric_deviatoric, spectral, no_tension, rankine};
 
 }  // namespace
+
+MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps) {
+  if (split.secant != nullptr) return stiffness(split.secant(c, g, split.closure(eps)));
+  if (g == 1.0) return stiffness(c);
+  const PrincipalAxes axes = principal_axes(eps);
+  return g * stiffness(c) + (1.0 - g) * tangent(axes, split.kept(c, axes.value));
+}
+
+Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps) {
+  return to_tensor(degraded_tangent(split, c, g, eps) * to_mandel(eps));
+}
 
 std::span<const EnergySplit> energy_splits() { return table; }
 

@@ -1,10 +1,13 @@
 #pragma once
 // Energy splits psi = psi_plus + psi_minus: only psi_plus is degraded by damage and drives it. (One that is not
-// variational has a driving energy psi_plus that is no part of the stored one.) A split here also gives the secant
-// moduli of the degraded material, isotropic for the splits below: with them sigma = stress(secant, eps) equals g
-// dpsi_plus/deps + dpsi_minus/deps.
+// variational has a driving energy psi_plus that is no part of the stored one.)
+//
+// Energies are of second degree in the strain, so the stress g dpsi_plus/deps + dpsi_minus/deps is the tangent times
+// the strain. Some splits have isotropic secant moduli besides: with them sigma = stress(secant, eps). The others say
+// what compression keeps, in principal strains.
 
 #include "physics/elasticity.h"
+#include "physics/principal.h"
 
 #include <span>
 #include <string_view>
@@ -21,12 +24,23 @@ struct EnergySplit {
   std::string_view description;
   bool variational;  ///< psi_plus + psi_minus is the elastic energy, and the stress its slope when degraded
   SplitEnergy (*energy)(const IsotropicElasticity&, const Tensor& eps);
-  /// 1 where the strain closes cracks, so that part of the stiffness is kept; 0 where it opens them.
-  double (*closure)(const Tensor& eps);
+  /// 1 where the strain closes cracks, so that part of the stiffness is kept; 0 where it opens them. Null without
+  /// isotropic secant moduli.
+  double (*closure)(const Tensor& eps) = nullptr;
   /// Secant moduli of the material degraded to g (residual stiffness included). With closure(eps) they give the stress
-  /// of the law; values between 0 and 1 occur while an iteration settles.
-  IsotropicElasticity (*secant)(const IsotropicElasticity&, double g, double closure);
+  /// of the law; values between 0 and 1 occur while an iteration settles. Null where there are no isotropic ones.
+  IsotropicElasticity (*secant)(const IsotropicElasticity&, double g, double closure) = nullptr;
+  /// dpsi_minus/deps in the principal directions of the strain, by its principal values in ascending order, and its
+  /// slope. Null with isotropic secant moduli.
+  PrincipalStress (*kept)(const IsotropicElasticity&, const Vector& principal_strain) = nullptr;
 };
+
+/// d sigma / d eps [Pa] of the material degraded to g at the strain eps, or in its direction: the length of eps has no
+/// influence. At eps = 0 cracks are open.
+MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
+
+/// sigma [Pa] of the material degraded to g.
+Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
 
 std::span<const EnergySplit> energy_splits();
 /// Throws InputError naming those there are.

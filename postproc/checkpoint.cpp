@@ -17,7 +17,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view magic = "PFDMCKPT";
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::size_t size_position = magic.size() + sizeof(format_version);
 constexpr std::size_t header_size = size_position + sizeof(std::uint64_t);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -94,9 +94,11 @@ class Reader {
 // The one list of what is in a state, for both directions; it does not compile any more when the state gets a member.
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
-  auto& [step, load, increment, displacement, damage, driving_energy, closure, boundary_force, external_work] = state;
+  auto& [step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, boundary_force,
+         external_work] = state;
   const auto each = [&](auto&... members) { (archive(members), ...); };
-  each(step, load, increment, displacement, damage, driving_energy, closure, boundary_force, external_work);
+  each(step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, boundary_force,
+       external_work);
 }
 
 template <class T>

@@ -313,4 +313,9 @@ double DamageEquation::fracture_energy(const CellField<double>& d) const {
   return local + gradient;
 }
 
+double DamageEquation::renewed_fracture_energy(const CellField<double>& d) {
+  renew_correction(d);
+  return fracture_energy(d);
+}
+
 }  // namespace pfdm

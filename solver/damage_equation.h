@@ -36,8 +36,9 @@ class DamageEquation {
   DamageSolution solve(const CellField<double>& psi_plus, const CellField<double>& lower, const Tolerance& tolerance,
                        CellField<double>& d);
 
-  /// Discrete surface energy [J].
+  /// Discrete surface energy [J], with the deferred flux of the last solution; renewed: with that of d.
   double fracture_energy(const CellField<double>& d) const;
+  double renewed_fracture_energy(const CellField<double>& d);
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
 
   /// Additional source per volume [J/m^3], for manufactured solutions.

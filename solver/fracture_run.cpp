@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pfdm {
 namespace {
@@ -16,6 +17,7 @@ constexpr Index easy_iterations = 12;  // a step that needs no more lets the inc
 constexpr double bearable_share =
     0.5;  // of the most iterations: a step that needs no more lets a cut increment recover
 constexpr double growth = 1.5, cut = 0.5;
+constexpr double growth_aim = 0.7;       // of the growth of damage that a step may bring
 constexpr double load_rounding = 1e-12;  // of the load parameter
 
 void require_complete(const Mesh& mesh, const FractureModel& model) {
@@ -49,7 +51,33 @@ struct FractureRun::Parts {
         loading(std::move(l)),
         unknowns((require_complete(m, model), place_unknowns(m, model))),
         staggered(m, model, unknowns, settings),
-        maximum_iterations(settings.maximum_iterations) {}
+        maximum_iterations(settings.maximum_iterations) {
+    require_path(model);
+  }
+
+  // Path-following needs displacements that are proportional to the load, and a dissipation that only grows.
+  void require_path(const FractureModel& m) const {
+    if (!std::isfinite(loading.maximum_dissipation)) return;
+    if (m.irreversibility != Irreversibility::bounds)
+      throw InputError("a dissipation can be prescribed only with the irreversibility \"bounds\"");
+    for (const PatchCondition& on : unknowns.conditions) {
+      if (!on.condition.value) continue;
+      const Patch& patch = mesh.patches[as_size(on.patch)];
+      for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+        const Vector full = on.condition.value(mesh.face_centre[f], loading.end);
+        const Vector half = on.condition.value(mesh.face_centre[f], 0.5 * loading.end);
+        if ((full - 2.0 * half).norm() > 1e-9 * full.norm())
+          throw InputError(fmt::format(
+              "a dissipation can be prescribed only where boundary values are proportional to t; those of patch \"{}\" "
+              "are not",
+              patch.name));
+      }
+    }
+  }
+
+  double dissipation_of(double increment) const {
+    return loading.maximum_dissipation * std::min(1.0, increment / loading.maximum_increment);
+  }
 
   double next_stop(double load) const {
     double stop = loading.end;
@@ -58,11 +86,22 @@ struct FractureRun::Parts {
     return stop;
   }
 
-  double next_increment(double increment, Index iterations) const {
+  double next_increment(double increment, const StepOutcome& outcome) const {
     const double grown = growth * increment;
-    if (iterations <= easy_iterations) return std::min(grown, loading.maximum_increment);
-    const bool bearable = double(iterations) <= bearable_share * double(maximum_iterations);
-    return bearable && increment < loading.initial_increment ? std::min(grown, loading.initial_increment) : increment;
+    double next = increment;
+    if (outcome.iterations <= easy_iterations)
+      next = std::min(grown, loading.maximum_increment);
+    else if (double(outcome.iterations) <= bearable_share * double(maximum_iterations) &&
+             increment < loading.initial_increment)
+      next = std::min(grown, loading.initial_increment);
+    // The next step shall let the damage grow by as much as is wished for, if it goes on as in this one.
+    const double wished = growth_aim * loading.damage_growth / std::max(outcome.growth, 1e-12) * increment;
+    return std::min(next, std::max(wished, loading.finest_increment));
+  }
+
+  double allowed_growth(double increment) const {
+    const bool may_jump = increment <= loading.finest_increment * (1.0 + load_rounding);
+    return may_jump ? std::numeric_limits<double>::infinity() : loading.damage_growth;
   }
 
   std::vector<Vector> boundary_forces(const FractureState& state) {
@@ -121,6 +160,7 @@ FractureState FractureRun::initial_state() const {
   state.damage = CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
+  if (parts_->model.split->secant == nullptr) state.tangent_strain = CellField<Tensor>(n);
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
   return state;
 }
@@ -133,12 +173,18 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
     FractureState trial = state;
     trial.step = state.step + 1;
     trial.load = state.load + state.increment > stop - load_rounding ? stop : state.load + state.increment;
-    const double increment = trial.load - state.load;
+    double increment = trial.load - state.load;
     if (state.load > 0.0)
       for (Vector& u : trial.displacement) u *= trial.load / state.load;
-    const StepOutcome outcome = parts.staggered.solve_step(state, trial, hooks);
+    const StepOutcome outcome = parts.staggered.solve_step(
+        state, trial, hooks,
+        {.growth = parts.allowed_growth(increment), .dissipation = parts.dissipation_of(state.increment)});
     parts.krylov_iterations += outcome.krylov_iterations;
     parts.staggered_iterations += outcome.iterations;
+    if (outcome.grew_too_much) {
+      state.increment = std::max(cut * increment, parts.loading.finest_increment);
+      continue;
+    }
     if (!outcome.converged) {
       state.increment = cut * increment;
       if (state.increment < parts.loading.minimum_increment)
@@ -151,9 +197,10 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
                                  trial.load, state.increment));
       continue;
     }
+    increment = trial.load - state.load;
     trial.boundary_force = parts.boundary_forces(trial);
     trial.external_work = state.external_work + parts.work_increment(state, trial);
-    trial.increment = parts.next_increment(state.increment, outcome.iterations);
+    trial.increment = parts.next_increment(state.increment, outcome);
     state = std::move(trial);
     if (hooks.step_done) hooks.step_done(state, parts.report(state, outcome, increment));
   }

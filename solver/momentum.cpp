@@ -12,6 +12,21 @@ Tensor scaling(double along, double across, const Vector& n) {
   return across * Tensor::Identity() + (along - across) * n * n.transpose();
 }
 
+// A cell whose centre lies almost in the plane of its face would be too stiff.
+double bounded_height(const Vector& d, const Vector& n) { return std::max(std::abs(d.dot(n)), 1e-3 * d.norm()); }
+
+// n.C.n [Pa]: what C makes of v (x) n, as a traction on n.
+Tensor acoustic_tensor(const MandelMatrix& C, const Vector& n) {
+  Eigen::Matrix<double, 6, 3> strain;
+  for (Index k = 0; k < 3; ++k) strain.col(k) = to_mandel(symmetric_part(Vector::Unit(k) * n.transpose()));
+  return strain.transpose() * C * strain;
+}
+
+// (h_P A_P^-1 + h_N A_N^-1)^-1
+Tensor in_series(const Tensor& A_P, double h_P, const Tensor& A_N, double h_N) {
+  return symmetric_part((h_P * A_P.inverse() + h_N * A_N.inverse()).inverse());
+}
+
 CellField<Tensor> closures(const Mesh& mesh) {
   CellField<Tensor> closure(as_size(mesh.n_cells()));
   parallel_for(mesh.n_cells(), [&](Index c) {
@@ -122,6 +137,7 @@ double MomentumOperator::jump_stiffness(Index P, Index N, double h_P, double h_N
 void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                                   double part) {
   moduli_ = moduli;
+  stiffness_ = {};
   gradient_.update(g, part);
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     Link& link = links_[as_size(i)];
@@ -143,6 +159,24 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
   });
 }
 
+void MomentumOperator::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part) {
+  stiffness_ = std::move(stiffness);
+  gradient_.update(g, part);
+  link_tensors_.resize(links_.size());
+  side_tensors_.resize(sides_.size());
+  parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
+    const Link& link = links_[as_size(i)];
+    const Tensor a = acoustic_tensor(stiffness_[link.P], link.n) / std::abs(link.d_P.dot(link.n));
+    const Tensor b = acoustic_tensor(stiffness_[link.N], link.n) / std::abs(link.d_N.dot(link.n));
+    const Tensor softness = (a + b).inverse(), weight = b * softness;
+    link_tensors_[as_size(i)] = {.weight = weight, .c = symmetric_part(weight * a), .softness = softness};
+  });
+  parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
+    const Side& side = sides_[as_size(i)];
+    side_tensors_[as_size(i)] = acoustic_tensor(stiffness_[side.cell], side.n) / std::abs(side.d.dot(side.n));
+  });
+}
+
 void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
   parallel_for(mesh_.n_cells(), [&](Index c) { gradients_[c] = gradient_.of(u.data(), c); });
   const auto n_links = static_cast<Index>(links_.size());
@@ -151,14 +185,12 @@ void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
     const Vector stress_P = normal_stress(link.P, link.n), stress_N = normal_stress(link.N, link.n);
     const Vector jump =
         u[as_size(link.N)] + gradients_[link.N] * link.d_N - u[as_size(link.P)] - gradients_[link.P] * link.d_P;
-    forces_[as_size(i)] = link.area * (stress_N + scale(link.weight_n, link.weight_t, link.n, stress_P - stress_N) +
-                                       scale(link.jump_n, link.c_t, link.n, jump));
+    forces_[as_size(i)] = link.area * (stress_N + weigh(as_size(i), stress_P - stress_N) + pull(as_size(i), jump));
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];
     const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - gradients_[side.cell] * side.d;
-    forces_[as_size(n_links + i)] =
-        side.area * (normal_stress(side.cell, side.n) + scale(side.a_n, side.a_t, side.n, gap));
+    forces_[as_size(n_links + i)] = side.area * (normal_stress(side.cell, side.n) + hold(as_size(i), gap));
   });
 }
 
@@ -217,25 +249,36 @@ void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
   keep_in_plane(u);
 }
 
+Tensor MomentumOperator::compact_link(const Link& link) const {
+  const double h_P = bounded_height(link.d_P, link.n), h_N = bounded_height(link.d_N, link.n);
+  if (!is_isotropic())
+    return link.area * in_series(acoustic_tensor(stiffness_[link.P], link.n), h_P,
+                                 acoustic_tensor(stiffness_[link.N], link.n), h_N);
+  const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
+  const double full = 1.0 / (h_P / P.constrained_modulus() + h_N / N.constrained_modulus());
+  const double along = jump_stiffness(link.P, link.N, h_P, h_N, full);
+  const double across = 1.0 / (h_P / P.mu + h_N / N.mu);
+  return link.area * scaling(along, across, link.n);
+}
+
+Tensor MomentumOperator::compact_side(const Side& side) const {
+  const double h = bounded_height(side.d, side.n);
+  if (!is_isotropic()) return (side.area / h) * acoustic_tensor(stiffness_[side.cell], side.n);
+  return (side.area / h) * scaling(jump_modulus(side.cell), moduli_[side.cell].mu, side.n);
+}
+
 BlockTriplets MomentumOperator::compact_matrix() const {
   BlockTriplets matrix;
   matrix.diagonal.assign(as_size(unknowns_.n_nodes()), Tensor::Zero());
   matrix.off_diagonal.reserve(links_.size() + sides_.size());
-  const auto bounded = [](const Vector& d, const Vector& n) { return std::max(std::abs(d.dot(n)), 1e-3 * d.norm()); };
   for (const Link& link : links_) {
-    const double h_P = bounded(link.d_P, link.n), h_N = bounded(link.d_N, link.n);
-    const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
-    const double full = 1.0 / (h_P / P.constrained_modulus() + h_N / N.constrained_modulus());
-    const double along = jump_stiffness(link.P, link.N, h_P, h_N, full);
-    const double across = 1.0 / (h_P / P.mu + h_N / N.mu);
-    const Tensor c = link.area * scaling(along, across, link.n);
+    const Tensor c = compact_link(link);
     matrix.diagonal[as_size(link.P)] += c;
     matrix.diagonal[as_size(link.N)] += c;
     matrix.off_diagonal.push_back({link.P, link.N, -c});
   }
   for (const Side& side : sides_) {
-    const double h = bounded(side.d, side.n);
-    const Tensor a = (side.area / h) * scaling(jump_modulus(side.cell), moduli_[side.cell].mu, side.n);
+    const Tensor a = compact_side(side);
     const Tensor& is_free = unknowns_.free_directions[as_size(side.node - unknowns_.n_cells)];
     matrix.diagonal[as_size(side.cell)] += a;
     matrix.diagonal[as_size(side.node)] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);

@@ -9,12 +9,16 @@
 // series flux is left: a broken cell (g -> 0) disconnects its neighbours. Faces between elastic zones and on the
 // boundary carry u_f itself: each side has t_c = sigma_c n + a_c (u_f - u_c - G_c d_c).
 //
+// Cells of any stiffness C do likewise with a = (n.C.n) / h, the acoustic tensor of the face's normal, in full 3x3.
+//
 // A polyhedron has about 14 faces against three unknowns: with a of the full lambda the jumps lock it as nu -> 0.5.
 // There c is that of lambda_s = min(lambda, 1.5 mu) in the undamaged material, of the same share of lambda in a damaged
 // one (lambda >> mu where a crack is closed), blended back to the full one between cells of unlike damage:
 // c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = 1 - min(mu_P, mu_N)/max(mu_P, mu_N). The weights of
-// sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge.
+// sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge. Polyhedra of any
+// stiffness C keep the full a.
 
+#include "physics/mandel.h"
 #include "solver/block_matrix.h"
 #include "solver/gradient.h"
 #include "solver/unknowns.h"
@@ -37,6 +41,8 @@ class MomentumOperator {
   /// Secant moduli of every cell, and the stiffness factors g that weigh the gradients; those follow only where g has
   /// moved by more than this part of itself.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0);
+  /// The same with any symmetric positive definite stiffness [Pa] in each cell.
+  void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
 
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
@@ -76,6 +82,12 @@ class MomentumOperator {
     Vector d;         // from the cell centre to the face centre
     double a_n, a_t;  // [Pa/m]
   };
+  // What weight_n, weight_t and c_n, c_t are of a link whose cells are not isotropic.
+  struct LinkTensors {
+    Tensor weight;    // of sigma_P n in the traction
+    Tensor c;         // [Pa/m]
+    Tensor softness;  // (a + b)^-1 [m/Pa]
+  };
   struct SignedForce {
     Index force;
     double sign;
@@ -87,14 +99,31 @@ class MomentumOperator {
   }
 
   void compute_forces(const std::vector<Vector>& u) const;
+  bool is_isotropic() const { return stiffness_.size() == 0; }
   Vector normal_stress(Index cell, const Vector& n) const {
     const Tensor& G = gradients_[cell];
+    if (!is_isotropic()) return to_tensor(stiffness_[cell] * to_mandel(symmetric_part(G))) * n;
     const IsotropicElasticity& c = moduli_[cell];
     return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
   }
   double jump_modulus(Index cell) const;
   double jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const;
-  Vector face_displacement(const Link& link, const std::vector<Vector>& u) const;
+  // The weight of P's side, c and (a + b)^-1 of link i, and a of side i, times v.
+  Vector weigh(std::size_t i, const Vector& v) const {
+    return is_isotropic() ? scale(links_[i].weight_n, links_[i].weight_t, links_[i].n, v) : link_tensors_[i].weight * v;
+  }
+  Vector pull(std::size_t i, const Vector& v) const {
+    return is_isotropic() ? scale(links_[i].jump_n, links_[i].c_t, links_[i].n, v) : link_tensors_[i].c * v;
+  }
+  Vector give(std::size_t i, const Vector& v) const;
+  Vector hold(std::size_t i, const Vector& v) const {
+    return is_isotropic() ? scale(sides_[i].a_n, sides_[i].a_t, sides_[i].n, v) : side_tensors_[i] * v;
+  }
+  Tensor compact_link(const Link& link) const;
+  Tensor compact_side(const Side& side) const;
+  // Stress [Pa] across the plane of a plane mesh, per unit of n (x) n.
+  double stress_across(Index cell, const Tensor& strain) const;
+  Vector face_displacement(std::size_t link, const std::vector<Vector>& u) const;
   FaceField<Vector> face_displacements(const std::vector<Vector>& u) const;
   Vector seen_from(Index cell, Index face, const FaceField<Vector>& u_face, const std::vector<Vector>& u) const;
 
@@ -102,9 +131,12 @@ class MomentumOperator {
   const Unknowns& unknowns_;
   Gradient gradient_;
   CellField<IsotropicElasticity> moduli_;
-  CellField<double> jump_share_;  // lambda_s over lambda; 1 but of polyhedra
+  CellField<double> jump_share_;       // lambda_s over lambda; 1 but of polyhedra
+  CellField<MandelMatrix> stiffness_;  // empty while all cells are isotropic, as are the tensors of the faces
   std::vector<Link> links_;
   std::vector<Side> sides_;
+  std::vector<LinkTensors> link_tensors_;
+  std::vector<Tensor> side_tensors_;        // a [Pa/m]
   std::vector<Index> force_of_face_;        // owner's side; -1 for plane patches
   std::vector<Index> second_side_of_node_;  // of interface nodes: the neighbour's side, else -1
   std::vector<Index> first_side_of_node_;

@@ -10,21 +10,37 @@
 
 namespace pfdm {
 
-// Equal tractions on both sides: (a + b) u_f = a (u_P + G_P d_P) + b (u_N + G_N d_N) + (sigma_N - sigma_P) n.
-Vector MomentumOperator::face_displacement(const Link& link, const std::vector<Vector>& u) const {
+// (a + b)^-1 v
+Vector MomentumOperator::give(std::size_t i, const Vector& v) const {
+  if (!is_isotropic()) return link_tensors_[i].softness * v;
+  const Link& link = links_[i];
+  const double sum_n = link.c_n / (link.weight_n * (1.0 - link.weight_n));
+  const double sum_t = link.c_t / (link.weight_t * (1.0 - link.weight_t));
+  return scale(1.0 / sum_n, 1.0 / sum_t, link.n, v);
+}
+
+// Equal tractions on both sides: (a + b) u_f = a (u_P + G_P d_P) + b (u_N + G_N d_N) + (sigma_N - sigma_P) n. In a
+// tensor, (a + b)^-1 b is the transpose of P's weight.
+Vector MomentumOperator::face_displacement(std::size_t i, const std::vector<Vector>& u) const {
+  const Link& link = links_[i];
   const Vector from_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
   const Vector from_N = u[as_size(link.N)] + gradients_[link.N] * link.d_N;
   const Vector stress_jump = normal_stress(link.N, link.n) - normal_stress(link.P, link.n);
-  const double sum_n = link.c_n / (link.weight_n * (1.0 - link.weight_n));
-  const double sum_t = link.c_t / (link.weight_t * (1.0 - link.weight_t));
-  return from_P + scale(link.weight_n, link.weight_t, link.n, from_N - from_P) +
-         scale(1.0 / sum_n, 1.0 / sum_t, link.n, stress_jump);
+  const Vector towards_N =
+      is_isotropic() ? weigh(i, from_N - from_P) : link_tensors_[i].weight.transpose() * (from_N - from_P);
+  return from_P + towards_N + give(i, stress_jump);
+}
+
+double MomentumOperator::stress_across(Index cell, const Tensor& strain) const {
+  if (is_isotropic()) return moduli_[cell].lambda * strain.trace();
+  const Vector& normal = unknowns_.plane_normal;
+  return normal.dot(to_tensor(stiffness_[cell] * to_mandel(strain)) * normal);
 }
 
 FaceField<Vector> MomentumOperator::face_displacements(const std::vector<Vector>& u) const {
   FaceField<Vector> u_face(as_size(mesh_.n_faces()), Vector::Zero());
   parallel_for(static_cast<Index>(links_.size()),
-               [&](Index i) { u_face[links_[as_size(i)].face] = face_displacement(links_[as_size(i)], u); });
+               [&](Index i) { u_face[links_[as_size(i)].face] = face_displacement(as_size(i), u); });
   for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k)
     u_face[unknowns_.face_of_node[k]] = u[as_size(unknowns_.n_cells) + k];
   return u_face;
@@ -65,7 +81,7 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
     if (!with_stress) return;
     const Vector& normal = unknowns_.plane_normal;
     result.stress[c] = symmetric_part((moment * closure_[c]) / volume) +
-                       moduli_[c].lambda * result.strain[c].trace() * normal * normal.transpose();
+                       stress_across(c, result.strain[c]) * normal * normal.transpose();
   });
   return result;
 }

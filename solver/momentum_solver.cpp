@@ -10,6 +10,9 @@
 namespace pfdm {
 namespace {
 
+// The part of itself by which g may move before the weights of the gradients follow.
+constexpr double gradient_lag = 0.01;
+
 std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<Index> position(as_size(unknowns.n_nodes()));
   Index next = 0;
@@ -31,12 +34,24 @@ MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns)
       x_(as_size(unknowns.n_nodes())) {}
 
 void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
-  operator_.set_moduli(moduli, g, multigrid_ ? 0.01 : 0.0);
-  const bool moved = multigrid_ && parallel_max(g.size(), [&](Index c) {
-                                     return std::max(g[c] / g_of_multigrid_[c], g_of_multigrid_[c] / g[c]);
+  operator_.set_moduli(moduli, g, multigrid_ ? gradient_lag : 0.0);
+  renew_preconditioner(g);
+}
+
+void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g) {
+  CellField<double> trace(as_size(stiffness.size()));
+  parallel_for(stiffness.size(), [&](Index c) { trace[c] = stiffness[c].trace(); });
+  operator_.set_stiffness(std::move(stiffness), g, multigrid_ ? gradient_lag : 0.0);
+  renew_preconditioner(trace);
+}
+
+void MomentumSolver::renew_preconditioner(const CellField<double>& measure) {
+  const CellField<double>& built = measure_of_multigrid_;
+  const bool moved = multigrid_ && parallel_max(measure.size(), [&](Index c) {
+                                     return std::max(measure[c] / built[c], built[c] / measure[c]);
                                    }) > 2.0;
   if (multigrid_ && !moved) return;
-  g_of_multigrid_ = g;
+  measure_of_multigrid_ = measure;
   build_preconditioner();
 }
 

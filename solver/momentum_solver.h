@@ -25,6 +25,8 @@ class MomentumSolver {
   /// New secant moduli. The multigrid is built again when some cell's stiffness factor g has moved by more than 2, the
   /// weights of the gradients where it has moved by more than a hundredth.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+  /// The same with any stiffness [Pa]; the multigrid follows its trace.
+  void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
   /// Has the next set_moduli build all anew, so that what follows does not depend on what was before.
   void start_afresh() { multigrid_.reset(); }
 
@@ -47,6 +49,7 @@ class MomentumSolver {
  private:
   void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
   void build_preconditioner();
+  void renew_preconditioner(const CellField<double>& measure);
   std::vector<Vector> load_vector(double t) const;
   double reference_norm(double t, const std::vector<Vector>& load);
 
@@ -55,7 +58,7 @@ class MomentumSolver {
   std::vector<Vector> body_force_;       // on the cells [N]; may be empty
   std::vector<Index> position_of_node_;  // multigrid row of each node: face nodes follow a cell of theirs
   std::optional<Multigrid> multigrid_;
-  CellField<double> g_of_multigrid_;
+  CellField<double> measure_of_multigrid_;  // of the cells' stiffness: any, as long as it is always the same
   std::vector<double> scale_;
   std::optional<double> reference_load_;  // load parameter that reference_ belongs to
   double reference_ = 0.0;

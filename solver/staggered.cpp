@@ -2,8 +2,11 @@
 
 #include "solver/parallel.h"
 
+#include <boost/math/tools/toms748_solve.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace pfdm {
 namespace {
@@ -19,13 +22,18 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       model_(model),
       settings_(settings),
       momentum_(mesh, unknowns),
+      stiffness_(mesh, model),
       damage_(mesh, model, unknowns.plane_normal) {}
 
-StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks) {
+StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                                  const StepLimits& limits) {
   StepOutcome outcome;
+  const bool path_is_followed = std::isfinite(limits.dissipation);
+  PathLimit limit;
+  if (path_is_followed)
+    limit = {state.load, damage_.renewed_fracture_energy(start.damage) + limits.dissipation, limits.dissipation};
   Relaxation relaxation;
-  closing_ = CellField<float>(as_size(mesh_.n_cells()), 0.0F);
-  turns_ = CellField<Index>(as_size(mesh_.n_cells()), 0);
+  stiffness_.start_step();
   momentum_.start_afresh();  // a run that is gone on with does the same
   double energy_before = 0.0;
   bool settled = false;
@@ -41,21 +49,31 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
     if (!std::isfinite(equilibrium.residual)) return outcome;
     const Energies energies = update_driving_energy(start, state, true);
     CellField<double> answer = state.damage;
-    const bool damage_solved = solve_damage(start, state, answer);
+    const double load = state.load;
+    const bool damage_solved =
+        path_is_followed ? follow_path(start, limit, state, answer) : solve_damage(start, state, answer);
+    const double load_scale = state.load / load;
     const double change = parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
-    const double energy = energies.elastic + damage_.fracture_energy(answer);
+    const double energy = load_scale * load_scale * energies.elastic + damage_.fracture_energy(answer);
     const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
     outcome.krylov_iterations += equilibrium.iterations;
-    settled = damage_solved && change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance;
+    settled = damage_solved && change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance &&
+              std::abs(load_scale - 1.0) < settings_.damage_tolerance;
     outcome.converged = settled && equilibrium.residual <= settings_.equilibrium_tolerance;
     if (outcome.converged)
       state.damage = answer;
     else
       state.damage = relaxation.next(state.damage, answer, start.damage);
+    outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
+    outcome.grew_too_much = outcome.growth > limits.growth;
     if (hooks.iterated)
       hooks.iterated({state.step, outcome.iterations, state.load, change, energy_change, equilibrium.iterations});
+    if (outcome.grew_too_much) {
+      outcome.converged = false;
+      return outcome;
+    }
   }
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);
@@ -67,22 +85,9 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   return outcome;
 }
 
-double Staggered::stiffness_factor(Index cell, double d) const {
-  if (!damage_.is_damageable(cell)) return 1.0;
-  return (1.0 - model_.residual_stiffness) *
-             model_.degradation->g(d, model_.regions[as_size(mesh_.region[cell])].rational) +
-         model_.residual_stiffness;
-}
-
 void Staggered::degrade(const FractureState& state) {
   const auto lap = clock_.lap("moduli_and_preconditioner");
-  CellField<double> g(as_size(mesh_.n_cells()));
-  CellField<IsotropicElasticity> moduli(as_size(mesh_.n_cells()));
-  parallel_for(mesh_.n_cells(), [&](Index c) {
-    g[c] = stiffness_factor(c, state.damage[c]);
-    moduli[c] = model_.split->secant(model_.regions[as_size(mesh_.region[c])].elasticity, g[c], state.closure[c]);
-  });
-  momentum_.set_moduli(moduli, g);
+  stiffness_.set(state, momentum_);
 }
 
 Equilibrium Staggered::solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance) {
@@ -90,42 +95,70 @@ Equilibrium Staggered::solve_momentum(FractureState& state, const MomentumSolver
   return momentum_.solve(state.load, tolerance, state.displacement);
 }
 
-// The closure follows the strain with steps that shorten at each turn: at once, cells at the edge of a crack would open
-// and close in turn for ever. Returns the energy [J] by which the present closure is wrong.
-double Staggered::settle(const FractureState& state, Index cell, const Tensor& strain, double& closure) {
-  const double lag = model_.split->closure(strain) - closure;
-  if (lag == 0.0) return 0.0;
-  const IsotropicElasticity& elasticity = model_.regions[as_size(mesh_.region[cell])].elasticity;
-  const double g = stiffness_factor(cell, state.damage[cell]);
-  const double wrong = energy_density(model_.split->secant(elasticity, g, closure + lag), strain) -
-                       energy_density(model_.split->secant(elasticity, g, closure), strain);
-  if (lag * closing_[cell] < 0.0) ++turns_[cell];
-  closing_[cell] = static_cast<float>(lag);
-  // What is kept of the stiffness ranges from g to 1: over decades, so the steps are those of its logarithm.
-  const double step = 1.0 / (1.0 + turns_[cell]);
-  const double kept = g + closure * (1.0 - g), wanted = lag > 0.0 ? 1.0 : g;
-  const double next = std::pow(kept, 1.0 - step) * std::pow(wanted, step);
-  const bool there = std::abs(next / wanted - 1.0) < 1e-3 || g == 1.0;
-  closure = there ? closure + lag : (next - g) / (1.0 - g);
-  return mesh_.cell_volume[cell] * std::abs(wrong);
-}
-
 Staggered::Energies Staggered::update_driving_energy(const FractureState& start, FractureState& state, bool settles) {
   const auto lap = clock_.lap("driving_energy");
   CellMechanics mechanics =
       momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::strain_and_energy);
+  strain_ = std::move(mechanics.strain);
+  drive(start, state, 1.0);
+  Energies energies;
+  energies.elastic = parallel_sum(mesh_.n_cells(), [&](Index c) { return mechanics.energy[c]; });
+  if (settles) energies.unsettled = stiffness_.follow(strain_, state);
+  return energies;
+}
+
+// The driving energy of the last equilibrium's strain times `scale`.
+void Staggered::drive(const FractureState& start, FractureState& state, double scale) {
   const bool history = model_.irreversibility == Irreversibility::history;
   parallel_for(mesh_.n_cells(), [&](Index c) {
     const RegionModel& region = model_.regions[as_size(mesh_.region[c])];
-    const double psi = model_.split->energy(region.elasticity, mechanics.strain[c]).psi_plus;
+    const double psi = model_.split->energy(region.elasticity, scale * strain_[c]).psi_plus;
     state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
   });
-  Energies energies;
-  energies.elastic = parallel_sum(mesh_.n_cells(), [&](Index c) { return mechanics.energy[c]; });
-  if (settles)
-    energies.unsettled =
-        parallel_sum(mesh_.n_cells(), [&](Index c) { return settle(state, c, mechanics.strain[c], state.closure[c]); });
-  return energies;
+}
+
+// Path-following: displacements at given damage are proportional to the load, so that the load at which the damage
+// equation answers with the surface energy wanted is the root of one rising function (dissipation as the control:
+// Gutierrez, Commun. Numer. Meth. Engng 20 (2004) 19; for phase fields Singh et al., Finite Elem. Anal. Des. 113
+// (2016) 14). Changes the load of the state, its displacement and driving energy, and d. The load is the greatest
+// allowed where that dissipates less.
+bool Staggered::follow_path(const FractureState& start, const PathLimit& limit, FractureState& state,
+                            CellField<double>& d) {
+  constexpr double precision = 1e-3;  // of the dissipation
+  constexpr std::uintmax_t most_tries = 60;
+  const double solved_load = state.load;
+  double load = solved_load;
+  bool damage_solved = false, reached = false;
+  const auto excess = [&](double tried) {
+    load = tried;
+    drive(start, state, load / solved_load);
+    damage_solved = solve_damage(start, state, d);
+    const double energy = damage_.fracture_energy(d) - limit.energy;
+    reached = std::abs(energy) <= precision * limit.step;
+    return reached ? 0.0 : energy;
+  };
+  double below = load, above = load;
+  double at_below = excess(load), at_above = at_below;
+  for (double factor = 1.004; at_above < 0.0 && above < limit.load; factor *= factor) {
+    below = above, at_below = at_above;
+    above = std::min(factor * above, limit.load);
+    at_above = excess(above);
+  }
+  for (double factor = 1.004; at_below > 0.0; factor *= factor) {
+    above = below, at_above = at_below;
+    below /= factor;
+    at_below = excess(below);
+  }
+  if (at_below < 0.0 && at_above > 0.0) {
+    const auto close_enough = [&](double a, double b) { return reached || b - a <= 1e-12 * b; };
+    std::uintmax_t tries = most_tries;
+    const auto [a, b] =
+        boost::math::tools::toms748_solve(excess, below, above, at_below, at_above, close_enough, tries);
+    if (!reached) excess(0.5 * (a + b));
+  }
+  for (Vector& u : state.displacement) u *= load / solved_load;
+  state.load = load;
+  return damage_solved;
 }
 
 bool Staggered::solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d) {

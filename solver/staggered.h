@@ -2,19 +2,30 @@
 // Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
 // the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797).
 
+#include "solver/cell_stiffness.h"
 #include "solver/damage_equation.h"
 #include "solver/fracture_run.h"
 #include "solver/momentum_solver.h"
 #include "solver/relaxation.h"
 #include "solver/stage_clock.h"
 
+#include <limits>
+
 namespace pfdm {
 
 struct StepOutcome {
   bool converged = false;
+  bool grew_too_much = false;  ///< given up, as the damage went beyond the growth allowed
+  double growth = 0.0;         ///< largest of d over a cell
   Index iterations = 0;
   Index krylov_iterations = 0;
   double elastic_energy = 0.0;  ///< [J]
+};
+
+/// What a step may do at most.
+struct StepLimits {
+  double growth = std::numeric_limits<double>::infinity();       ///< of d in a cell
+  double dissipation = std::numeric_limits<double>::infinity();  ///< [J]
 };
 
 class Staggered {
@@ -22,34 +33,43 @@ class Staggered {
   Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings);
 
   /// Brings `state`, whose load is the step's, to equilibrium. `start` is the state that damage may not fall below.
-  StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks);
+  /// Gives up once some cell's damage has grown by more than the limit. Where the step would dissipate more than its
+  /// limit, the load is lowered until it does not: boundary values must then be proportional to the load parameter, and
+  /// damage be bounded by that of `start`.
+  StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                         const StepLimits& limits = {});
 
   MomentumSolver& momentum() { return momentum_; }
   const DamageEquation& damage_equation() const { return damage_; }
   StageClock& clock() { return clock_; }
-  /// Sets the secant moduli of the state in the momentum balance.
+  /// Sets the stiffness of the state in the momentum balance.
   void degrade(const FractureState& state);
 
  private:
   Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
   struct Energies {
     double elastic = 0.0;    // [J]
-    double unsettled = 0.0;  // by which the closure that was used falsifies it [J]
+    double unsettled = 0.0;  // by which the stiffness that was used falsifies it [J]
   };
-  /// May move the closure of the state to that of its strain.
+  /// May have the stiffness follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
+  void drive(const FractureState& start, FractureState& state, double scale);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
-  double settle(const FractureState& state, Index cell, const Tensor& strain, double& closure);
-  double stiffness_factor(Index cell, double d) const;
+  struct PathLimit {
+    double load = 0.0;    // most load of the step
+    double energy = 0.0;  // surface energy that the step may end with [J], and
+    double step = 0.0;    // what it may dissipate [J]
+  };
+  bool follow_path(const FractureState& start, const PathLimit& limit, FractureState& state, CellField<double>& d);
 
   const Mesh& mesh_;
   const FractureModel& model_;
   StaggeredSettings settings_;
   MomentumSolver momentum_;
+  CellStiffness stiffness_;
   DamageEquation damage_;
   StageClock clock_;
-  CellField<float> closing_;  // per cell: last move of the closure, and
-  CellField<Index> turns_;    // how often it has turned within the step
+  CellField<Tensor> strain_;  // of the last equilibrium
 };
 
 }  // namespace pfdm

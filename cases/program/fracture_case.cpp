@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -53,6 +54,10 @@ LoadingSettings read_loading(const ConfigTable& root) {
   if (loading.minimum_increment > loading.initial_increment || loading.initial_increment > loading.maximum_increment)
     throw table.error(fmt::format("the increments must not fall: minimum {}, initial {}, maximum {}",
                                   loading.minimum_increment, loading.initial_increment, loading.maximum_increment));
+  loading.damage_growth = table.number("damage_growth", above_zero_to_one, loading.damage_growth);
+  loading.finest_increment = table.number("finest_increment", range::positive, loading.finest_increment);
+  if (table.has("maximum_dissipation"))
+    loading.maximum_dissipation = table.quantity("maximum_dissipation", dimension::energy, range::positive);
   return loading;
 }
 
@@ -107,6 +112,10 @@ std::vector<double> read_frames(const ConfigTable& output, const FractureCase& f
   std::vector<double> loads;
   const auto frames = output.find("frames_at");
   if (!frames) return loads;
+  if (std::isfinite(fracture.loading.maximum_dissipation))
+    throw frames->error(
+        "with loading.maximum_dissipation the load may pass a value more than once; say frames_every = 10, for every "
+        "tenth step");
   for (const ConfigValue& entry : frames->list()) {
     const double load = entry.is_string() ? load_at_displacement(entry, fracture) : entry.number();
     if (!(load > 0.0) || load > fracture.loading.end * (1.0 + 1e-12))

@@ -48,9 +48,17 @@ MeshRecipe read_box_hexes(const ConfigTable& table, const std::filesystem::path&
     settings.regions.push_back({.name = region.string("name"),
                                 .lower = read_point(region.at("lower")),
                                 .upper = read_point(region.at("upper"))});
+  std::vector<std::string> patches = box_sides;
+  for (const ConfigTable& slit : table.tables("slits")) {
+    settings.slits.push_back(
+        {.name = slit.string("name"), .lower = read_point(slit.at("lower")), .upper = read_point(slit.at("upper"))});
+    if (std::ranges::find(patches, settings.slits.back().name) != patches.end())
+      throw slit.at("name").error("another patch has this name already");
+    patches.push_back(settings.slits.back().name);
+  }
   return {.make = [settings] { return make_box_hexes(settings); },
           .regions = names_of_regions(settings),
-          .patches = box_sides,
+          .patches = patches,
           .data_files = {}};
 }
 

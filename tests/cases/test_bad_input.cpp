@@ -39,6 +39,15 @@ const BadInput bad_inputs[] = {
      "maximal_increment",
      {"case.toml:44: [loading] \"maximal_increment\" is not known here; did you mean \"maximum_increment\"? (allowed: ",
       "initial_increment"}},
+    {"dissipation_with_frames_at_loads",
+     "maximum_increment = 0.1",
+     "maximum_increment = 0.1\nmaximum_dissipation = \"2 uJ\"",
+     {"[output] frames_at: with loading.maximum_dissipation the load may pass a value more than once; say "
+      "frames_every"}},
+    {"dissipation_that_is_no_energy",
+     "maximum_increment = 0.1",
+     "maximum_increment = 0.1\nmaximum_dissipation = \"2 um\"",
+     {"[loading] maximum_dissipation: \"2 um\" is a length; an energy is due here"}},
     {"misspelt_key_in_a_list", "frames_at", "frames_of", {"[output] \"frames_of\"", "did you mean \"frames_at\"?"}},
     {"unknown_table", "[loading]", "[load]", {"\"load\" is not known here"}},
     {"patch_that_is_not_there",
@@ -157,6 +166,21 @@ TEST(BadInput, LengthThatTheStrengthDoesNotAllow) {
                        "of at most 0.00119"),
       std::string::npos)
       << outcome.err;
+}
+
+void expect_no_path(const std::string& good, const std::string& bad, const std::string& message) {
+  std::string text = replaced(bar_case(), "frames_at = [\"0.006 mm\"]", "");
+  text = replaced(text, "maximum_increment = 0.1", "maximum_increment = 0.1\nmaximum_dissipation = \"2 uJ\"");
+  const TemporaryCase directory(replaced(text, good, bad));
+  const Outcome outcome = run({"check", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+}
+
+TEST(BadInput, DissipationWhereItCannotBePrescribed) {
+  expect_no_path("\"0.015 mm\"", "{ expr = \"0.015*t^2\", unit = \"mm\" }", "those of patch \"xmax\" are not");
+  expect_no_path("split = \"none\"", "split = \"none\"\nirreversibility = \"history\"",
+                 "a dissipation can be prescribed only with the irreversibility \"bounds\"");
 }
 
 TEST(BadInput, CaseThatIsNotThere) {

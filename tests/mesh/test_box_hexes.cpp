@@ -64,6 +64,68 @@ TEST(BoxHexes, OrderKeepsNeighboursClose) {
   EXPECT_LT(bandwidth(make_box_hexes(settings)), 130);  // a layer has 64 cells
 }
 
+// 4 x 4 x 2 cells of unit size; a slit in the plane y = 2.
+BoxHexesSettings slit_block(const Vector& lower, const Vector& upper) {
+  BoxHexesSettings settings;
+  settings.axes = {{{{4.0, 4, 1.0}}, {{4.0, 4, 1.0}}, {{2.0, 2, 1.0}}}};
+  settings.slits = {{"notch", lower, upper}};
+  return settings;
+}
+
+TEST(BoxHexes, ASlitPartsTheCellsOnItsSides) {
+  const Mesh mesh = make_box_hexes(slit_block({-9.0, 2.0, -9.0}, {2.0, 2.0, 9.0}));
+  expect_sound(mesh);
+  const Patch& notch = mesh.patch("notch");
+  EXPECT_EQ(notch.n_faces, 8);
+  EXPECT_EQ(mesh.n_interior_faces(), 3 * 8 + 3 * 8 + 16 - 4);
+  EXPECT_NEAR(patch_area(mesh, "notch").norm(), 0.0, 1e-13);
+  EXPECT_EQ(mesh.points.size(), 75U + 6U);  // x = 0 and 1; the front x = 2 holds together
+  for (Index f = notch.first_face; f < notch.first_face + notch.n_faces; ++f) {
+    EXPECT_EQ(mesh.face_centre[f][1], 2.0);
+    EXPECT_LT(mesh.face_centre[f][0], 2.0);
+    EXPECT_GT(mesh.face_area[f][1] * (2.0 - mesh.cell_centre[mesh.owner[f]][1]), 0.0);
+  }
+}
+
+TEST(BoxHexes, ASlitWithinTheBoxHasAFrontAllAround) {
+  BoxHexesSettings settings = slit_block({1.0, 2.0, 0.0}, {3.0, 2.0, 2.0});
+  const Mesh through = make_box_hexes(settings);
+  EXPECT_EQ(through.patch("notch").n_faces, 8);
+  EXPECT_EQ(through.points.size(), 75U + 3U);
+  settings.axes[2] = {{6.0, 6, 1.0}};
+  settings.slits[0].lower[2] = 2.0;
+  settings.slits[0].upper[2] = 4.0;
+  const Mesh embedded = make_box_hexes(settings);
+  expect_sound(embedded);
+  EXPECT_EQ(embedded.patch("notch").n_faces, 8);
+  EXPECT_EQ(embedded.points.size(), 175U + 1U);
+}
+
+TEST(BoxHexes, SlitsOfTwoDirectionsStandBesideEachOther) {
+  BoxHexesSettings settings = slit_block({0.0, 1.0, 0.0}, {2.0, 1.0, 2.0});
+  settings.slits.push_back({"other", {3.0, 2.0, 0.0}, {3.0, 4.0, 2.0}});
+  const Mesh mesh = make_box_hexes(settings);
+  expect_sound(mesh);
+  EXPECT_EQ(mesh.patch("notch").n_faces, 8);
+  EXPECT_EQ(mesh.patch("other").n_faces, 8);
+}
+
+TEST(BoxHexes, BadSlitsAreRefused) {
+  const auto message = [](const Vector& lower, const Vector& upper) {
+    return message_of<InputError>([&] { make_box_hexes(slit_block(lower, upper)); });
+  };
+  EXPECT_THAT(message({0, 1.9, 0}, {2, 1.9, 2}), HasSubstr("y = 1.9 m is no plane of the grid"));
+  EXPECT_THAT(message({0, 2, 0}, {1.5, 2, 2}), HasSubstr("x = 1.5 m is no plane of the grid"));
+  EXPECT_THAT(message({0, 1, 0}, {2, 2, 2}), HasSubstr("exactly one axis"));
+  EXPECT_THAT(message({2, 2, 0}, {0, 2, 2}), HasSubstr("above its upper one along x"));
+  EXPECT_THAT(message({0, 0, 0}, {2, 0, 2}), HasSubstr("surface of the box"));
+  EXPECT_THAT(message({0, 9, 0}, {2, 9, 2}), HasSubstr("surface of the box"));
+  EXPECT_THAT(message({1, 2, 0}, {2, 2, 2}), HasSubstr("too narrow"));
+  BoxHexesSettings settings = slit_block({0, 2, 0}, {2, 2, 2});
+  settings.slits.push_back({"other", {2, 0, 0}, {2, 2, 2}});
+  EXPECT_THAT(message_of<InputError>([&] { make_box_hexes(settings); }), HasSubstr("\"other\" meets another"));
+}
+
 TEST(BoxHexes, BadInputIsRefused) {
   BoxHexesSettings settings = bar();
   settings.axes[1] = {{-2.0, 5, 1.0}};

@@ -25,6 +25,7 @@ FractureState awkward_state() {
   s.damage = CellField<double>(std::vector<double>{0.1, 0.2, std::nextafter(1.0, 0.0)});
   s.driving_energy = CellField<double>(std::vector<double>{1e300, 0.0, -0.0});
   s.closure = CellField<double>({1.0, 1.0 / 7.0, 0.0});
+  s.tangent_strain = CellField<Tensor>(std::vector<Tensor>(3, Tensor::Constant(1.0 / 3.0)));
   s.boundary_force = {Vector(1, 2, 3), Vector(4, 5, 6)};
   s.external_work = std::exp(1.0);
   return s;
@@ -46,6 +47,7 @@ TEST(Checkpoint, state_comes_back_bit_for_bit) {
   EXPECT_EQ(r.driving_energy, s.driving_energy);
   EXPECT_TRUE(std::signbit(r.driving_energy[2]));
   EXPECT_EQ(r.closure, s.closure);
+  EXPECT_EQ(r.tangent_strain, s.tangent_strain);
   EXPECT_EQ(r.boundary_force, s.boundary_force);
   EXPECT_TRUE(same_bits(r.external_work, s.external_work));
   EXPECT_EQ(folder.n_entries(), 1u);

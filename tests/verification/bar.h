@@ -65,6 +65,10 @@ class Bar {
   };
   std::vector<BarState> run(const std::vector<Leg>& legs) const;
 
+  /// To the end of the load, by steps that dissipate no more than `dissipation` times Gc on the bar's section: past
+  /// snap-back.
+  std::vector<BarState> follow(double end, double increment, double dissipation) const;
+
   /// The same without irreversibility, as the closed forms have it: every step may heal what the one before broke.
   std::vector<BarState> run_reversibly(const std::vector<Leg>& legs) const;
 
@@ -80,6 +84,7 @@ class Bar {
   static Mesh make_mesh(const BarSettings& settings);
   FractureModel make_model() const;
   BarState state_of(const FractureState& state, double force, double fracture_energy) const;
+  RunHooks recorder(std::vector<BarState>& states) const;
   StaggeredSettings staggered() const {
     return {
         .damage_tolerance = settings_.tolerance, .energy_tolerance = settings_.tolerance, .maximum_iterations = 20000};
@@ -155,17 +160,22 @@ inline BarState Bar::state_of(const FractureState& state, double force, double f
           .damage = state.damage};
 }
 
-inline std::vector<BarState> Bar::run(const std::vector<Leg>& legs) const {
-  std::vector<BarState> states;
+inline RunHooks Bar::recorder(std::vector<BarState>& states) const {
   const auto pulled = static_cast<std::size_t>(&mesh_.patch("xmax") - mesh_.patches.data());
   RunHooks hooks;
-  hooks.step_done = [&](const FractureState& state, const StepReport& report) {
+  hooks.step_done = [this, pulled, &states](const FractureState& state, const StepReport& report) {
     if (report.step == 0) return;
     states.push_back(state_of(state, report.reaction[pulled][0], report.fracture_energy));
     states.back().imbalance =
         (report.external_work - report.elastic_energy - report.fracture_energy) / report.external_work;
   };
   hooks.warned = [](const std::string& message) { ADD_FAILURE() << message; };
+  return hooks;
+}
+
+inline std::vector<BarState> Bar::run(const std::vector<Leg>& legs) const {
+  std::vector<BarState> states;
+  const RunHooks hooks = recorder(states);
   FractureState state;
   for (const auto& [end, n_steps] : legs) {
     const double increment = (end - state.load) / n_steps;
@@ -175,6 +185,18 @@ inline std::vector<BarState> Bar::run(const std::vector<Leg>& legs) const {
     state.increment = increment;
     state = leg.run(state, hooks);
   }
+  return states;
+}
+
+inline std::vector<BarState> Bar::follow(double end, double increment, double dissipation) const {
+  std::vector<BarState> states;
+  FractureRun run(mesh_, model_, staggered(),
+                  {.end = end,
+                   .initial_increment = increment,
+                   .maximum_increment = increment,
+                   .stops = {},
+                   .maximum_dissipation = dissipation * Gc * area()});
+  run.run(run.initial_state(), recorder(states));
   return states;
 }
 

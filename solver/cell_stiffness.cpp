@@ -1,0 +1,97 @@
+#include "solver/cell_stiffness.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+// Of a cell that swings; it recovers slowly, as the broken ones between two loose halves would swing again at once.
+constexpr float least_share = 1.0F / 256.0F, recovery = 1.05F;
+
+}  // namespace
+
+CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {}
+
+void CellStiffness::start_step() {
+  const auto n = as_size(mesh_.n_cells());
+  if (model_.split->secant != nullptr) {
+    closing_ = CellField<float>(n, 0.0F);
+    turns_ = CellField<Index>(n, 0);
+  } else {
+    move_ = CellField<Tensor>(n);
+    share_ = CellField<float>(n, 1.0F);
+  }
+}
+
+const IsotropicElasticity& CellStiffness::elasticity(Index cell) const {
+  return model_.regions[as_size(mesh_.region[cell])].elasticity;
+}
+
+double CellStiffness::factor(Index cell, double d) const {
+  const RegionModel& region = model_.regions[as_size(mesh_.region[cell])];
+  if (!region.damageable) return 1.0;
+  return (1.0 - model_.residual_stiffness) * model_.degradation->g(d, region.rational) + model_.residual_stiffness;
+}
+
+void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
+  const auto n = as_size(mesh_.n_cells());
+  CellField<double> g(n);
+  parallel_for(mesh_.n_cells(), [&](Index c) { g[c] = factor(c, state.damage[c]); });
+  if (model_.split->secant != nullptr) {
+    CellField<IsotropicElasticity> moduli(n);
+    parallel_for(mesh_.n_cells(),
+                 [&](Index c) { moduli[c] = model_.split->secant(elasticity(c), g[c], state.closure[c]); });
+    momentum.set_moduli(moduli, g);
+  } else {
+    CellField<MandelMatrix> stiffness(n);
+    parallel_for(mesh_.n_cells(), [&](Index c) {
+      stiffness[c] = degraded_tangent(*model_.split, elasticity(c), g[c], state.tangent_strain[c]);
+    });
+    momentum.set_stiffness(std::move(stiffness), g);
+  }
+}
+
+double CellStiffness::follow(const CellField<Tensor>& strain, FractureState& state) {
+  return parallel_sum(mesh_.n_cells(), [&](Index c) {
+    const double g = factor(c, state.damage[c]);
+    return model_.split->secant != nullptr ? follow_with_closure(c, strain[c], g, state.closure[c])
+                                           : follow_with_tangent(c, strain[c], g, state.tangent_strain[c]);
+  });
+}
+
+// The closure follows the strain with steps that shorten at each turn: at once, cells at the edge of a crack would open
+// and close in turn for ever.
+double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, double g, double& closure) {
+  const double lag = model_.split->closure(strain) - closure;
+  if (lag == 0.0) return 0.0;
+  const double wrong = energy_density(model_.split->secant(elasticity(cell), g, closure + lag), strain) -
+                       energy_density(model_.split->secant(elasticity(cell), g, closure), strain);
+  if (lag * closing_[cell] < 0.0) ++turns_[cell];
+  closing_[cell] = static_cast<float>(lag);
+  // What is kept of the stiffness ranges from g to 1: over decades, so the steps are those of its logarithm.
+  const double step = 1.0 / (1.0 + turns_[cell]);
+  const double kept = g + closure * (1.0 - g), wanted = lag > 0.0 ? 1.0 : g;
+  const double next = std::pow(kept, 1.0 - step) * std::pow(wanted, step);
+  const bool there = std::abs(next / wanted - 1.0) < 1e-3 || g == 1.0;
+  closure = there ? closure + lag : (next - g) / (1.0 - g);
+  return mesh_.cell_volume[cell] * std::abs(wrong);
+}
+
+// Newton's step, of which a cell whose strain swings takes the smaller a share the more often it turns.
+double CellStiffness::follow_with_tangent(Index cell, const Tensor& strain, double g, Tensor& tangent_strain) {
+  if (g == 1.0) return 0.0;
+  const Mandel eps = to_mandel(strain);
+  const double used = eps.dot(degraded_tangent(*model_.split, elasticity(cell), g, tangent_strain) * eps);
+  const double due = eps.dot(degraded_tangent(*model_.split, elasticity(cell), g, strain) * eps);
+  const Tensor move = strain - tangent_strain;
+  const bool turned = contract(move, move_[cell]) < 0.0;
+  share_[cell] = turned ? std::max(0.5F * share_[cell], least_share) : std::min(recovery * share_[cell], 1.0F);
+  move_[cell] = move;
+  tangent_strain += static_cast<double>(share_[cell]) * move;
+  return 0.5 * mesh_.cell_volume[cell] * std::abs(due - used);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,198 @@
+// Energy splits in the balance of momentum at given damage: plates in tension, compression and shear against the law of
+// one point, cracks that are pressed shut, and the full-tensor traction operator against the isotropic one.
+
+#include "solver/cell_stiffness.h"
+#include "tests/verification/support.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pfdm::verification {
+namespace {
+
+const IsotropicElasticity steel = from_young_poisson(210e9, 0.3);
+constexpr double residual_stiffness = 1e-6;
+
+Mesh plate(Index n, double thickness = 1.0) {
+  return make_box_hexes(
+      {.axes = {{{{1.0, n, 1.0}}, {{1.0, n, 1.0}}, {{thickness, 1, 1.0}}}}, .regions = {}, .slits = {}});
+}
+
+FractureModel damaged_model(const std::string& split, std::vector<BoundaryCondition> boundary) {
+  FractureModel model = elastic_model({steel}, std::move(boundary));
+  model.regions[0] = {.elasticity = steel, .Gc = 1.0, .ell = 1.0};
+  model.split = &energy_split(split);
+  model.residual_stiffness = residual_stiffness;
+  return model;
+}
+
+struct Equilibrated {
+  FractureState state;
+  CellMechanics cells;
+  std::vector<Vector> reaction;  // per patch [N]
+  Index iterations = 0;
+  double energy = 0.0;  // [J]
+};
+
+// Equilibrium at given damage: the stiffness follows the strain until it falsifies the energy by less than 1e-10.
+Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField<double> damage) {
+  const Unknowns unknowns = place_unknowns(mesh, model);
+  MomentumSolver solver(mesh, unknowns);
+  CellStiffness stiffness(mesh, model);
+  stiffness.start_step();
+  Equilibrated result;
+  const auto n = as_size(mesh.n_cells());
+  result.state.damage = std::move(damage);
+  result.state.closure = CellField<double>(n, 0.0);
+  result.state.tangent_strain = CellField<Tensor>(n);
+  result.state.displacement.assign(as_size(unknowns.n_nodes()), Vector::Zero());
+  for (double unsettled = 1.0; unsettled > 1e-10 && result.iterations < 50; ++result.iterations) {
+    stiffness.set(result.state, solver);
+    EXPECT_TRUE(solver.solve(1.0, {.ceiling = 1e-12, .floor = 1e-12}, result.state.displacement).converged);
+    result.cells = solver.balance().mechanics(result.state.displacement);
+    result.energy = 0.0;
+    for (const double energy : result.cells.energy) result.energy += energy;
+    unsettled = stiffness.follow(result.cells.strain, result.state) / result.energy;
+  }
+  EXPECT_LT(result.iterations, 50);
+  result.reaction.assign(mesh.patches.size(), Vector::Zero());
+  const std::vector<Vector> force = solver.balance().boundary_forces(result.state.displacement);
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+    for (Index f = 0; f < mesh.patches[p].n_faces; ++f)
+      result.reaction[p] += force[as_size(mesh.patches[p].first_face + f - mesh.n_interior_faces())];
+  return result;
+}
+
+const Vector& reaction(const Mesh& mesh, const Equilibrated& on, const std::string& patch) {
+  return on.reaction[static_cast<std::size_t>(&mesh.patch(patch) - mesh.patches.data())];
+}
+
+// A plate, and a single cell, under a homogeneous strain: stress and energy are those of the law, in tension,
+// compression and shear either way, and mixtures of them.
+TEST(EnergySplits, AHomogeneousPlateFollowsTheLaw) {
+  Tensor tension = Tensor::Zero(), shear = Tensor::Zero(), mixed = Tensor::Zero();
+  tension.diagonal() << 1e-3, -2e-4, 4e-4;
+  shear(0, 1) = shear(1, 0) = 1e-3;
+  mixed << 1e-3, 6e-4, -2e-4, 6e-4, -8e-4, 3e-4, -2e-4, 3e-4, -5e-4;
+  constexpr double d = 0.9, g = (1.0 - residual_stiffness) * (1.0 - d) * (1.0 - d) + residual_stiffness;
+  for (const EnergySplit& split : energy_splits()) {
+    if (!split.variational) continue;
+    SCOPED_TRACE(split.name);
+    for (const Index n : {1, 3})
+      for (const Tensor& strain : {tension, Tensor(-tension), shear, Tensor(-shear), mixed, Tensor(-mixed)}) {
+        const Mesh mesh = plate(n);
+        const FractureModel model = damaged_model(
+            std::string(split.name), displacement_on_all(mesh, [&](const Vector& x) -> Vector { return strain * x; }));
+        const Equilibrated on = equilibrium(mesh, model, CellField<double>(as_size(mesh.n_cells()), d));
+        const Tensor expected = degraded_stress(split, steel, g, strain);
+        const auto [plus, minus] = split.energy(steel, strain);
+        EXPECT_NEAR(on.energy, g * plus + minus, 1e-9 * (plus + minus));
+        for (Index c = 0; c < mesh.n_cells(); ++c)
+          EXPECT_LE((on.cells.stress[c] - expected).norm(), 1e-8 * stress(steel, strain).norm());
+      }
+  }
+}
+
+std::vector<BoundaryCondition> pressed(double displacement, double sideways = 0.0) {
+  const auto fixed = [](const Vector&) -> Vector { return Vector::Zero(); };
+  return {displacement_on("ymin", fixed), plane_on("zmin"), plane_on("zmax"),
+          displacement_on("ymax", [=](const Vector&) -> Vector {
+            return {sideways, displacement, 0.0};
+          })};
+}
+
+CellField<double> broken_row(const Mesh& mesh) {
+  CellField<double> damage(as_size(mesh.n_cells()), 0.0);
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (std::abs(mesh.cell_centre[c][1] - 0.5) < 0.01) damage[c] = 1.0;
+  return damage;
+}
+
+// A crack right through a plate in plane strain, pulled and pressed.
+void expect_recovery(const char* split, bool sides_may_move) {
+  SCOPED_TRACE(split);
+  const Mesh mesh = plate(15);
+  const auto force = [&](double displacement, bool broken) {
+    FractureModel model = damaged_model(split, pressed(displacement));
+    if (!sides_may_move)
+      for (const char* side : {"xmin", "xmax"}) model.boundary.push_back(symmetry_on(side));
+    const Equilibrated on =
+        equilibrium(mesh, model, broken ? broken_row(mesh) : CellField<double>(as_size(mesh.n_cells()), 0.0));
+    report_row(std::string(split) + (broken ? ", broken" : ", sound"),
+               {{"displacement", displacement},
+                {"force", reaction(mesh, on, "ymax")[1]},
+                {"iterations", static_cast<double>(on.iterations)}});
+    return reaction(mesh, on, "ymax")[1];
+  };
+  const double sound = force(1e-3, false);
+  EXPECT_LE(std::abs(force(1e-3, true)), 1e-4 * sound);
+  EXPECT_NEAR(force(-1e-3, true), -sound, 1e-4 * sound);
+  EXPECT_NEAR(force(-1e-3, false), -sound, 1e-9 * sound);
+}
+
+// Pulled, the plate parts; pressed shut, it is as stiff as a sound one.
+TEST(EnergySplits, AClosedCrackRecoversTheStiffness) {
+  expect_recovery("spectral", false);
+  expect_recovery("no_tension", false);
+  expect_recovery("no_tension", true);  // the spectral split loses what resists the expansion to the sides
+}
+
+// Sheared to one side and to the other: mirror images.
+TEST(EnergySplits, ShearDoesNotKnowLeftFromRight) {
+  const Mesh mesh = plate(15);
+  for (const char* split : {"volumetric_deviatoric", "spectral", "no_tension"}) {
+    SCOPED_TRACE(split);
+    const auto force = [&](double sideways) {
+      return reaction(mesh, equilibrium(mesh, damaged_model(split, pressed(-5e-4, sideways)), broken_row(mesh)),
+                      "ymax");
+    };
+    const Vector right = force(1e-3), left = force(-1e-3);
+    EXPECT_NEAR(right[0], -left[0], 1e-6 * right.norm());
+    EXPECT_NEAR(right[1], left[1], 1e-6 * right.norm());
+    EXPECT_GT(right[0], 0.0);
+  }
+}
+
+// Isotropic stiffness, of cells of any damage, as full tensors: the same forces, strains and stresses.
+TEST(EnergySplits, TheFullTensorOperatorContainsTheIsotropicOne) {
+  const Mesh mesh = rotated(extruded_triangles(5, {0.0, 0.2, 0.5, 1.0}), arbitrary_rotation());
+  const auto field = [](const Vector& x) -> Vector { return Vector(std::sin(x[1]), x[0] * x[2], std::cos(x[0])); };
+  const FractureModel model = elastic_model({steel}, displacement_on_all(mesh, field));
+  const Unknowns unknowns = place_unknowns(mesh, model);
+  MomentumOperator isotropic(mesh, unknowns), full(mesh, unknowns);
+  const auto n = as_size(mesh.n_cells());
+  CellField<IsotropicElasticity> moduli(n);
+  CellField<MandelMatrix> stiffness(n);
+  CellField<double> g(n);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    g[c] = std::pow(10.0, -6.0 * (c % 7) / 6.0);
+    moduli[c] = {g[c] * steel.lambda, g[c] * steel.mu};
+    stiffness[c] = degraded_tangent(energy_split("none"), steel, g[c], Tensor::Zero());
+  }
+  isotropic.set_moduli(moduli, g);
+  full.set_stiffness(stiffness, g);
+  std::vector<Vector> u(as_size(unknowns.n_nodes())), one(u.size()), other(u.size());
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    u[i] = field(k < unknowns.n_cells ? mesh.cell_centre[k]
+                                      : mesh.face_centre[unknowns.face_of_node[as_size(k - unknowns.n_cells)]]);
+  }
+  isotropic.apply(u, one);
+  full.apply(u, other);
+  double size = 0.0, difference = 0.0;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    size += one[i].squaredNorm(), difference += (one[i] - other[i]).squaredNorm();
+  EXPECT_LE(std::sqrt(difference / size), 1e-12);
+  const CellMechanics a = isotropic.mechanics(u), b = full.mechanics(u);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    EXPECT_LE((a.strain[c] - b.strain[c]).norm(), 1e-9 * a.strain[c].norm());
+    EXPECT_LE((a.stress[c] - b.stress[c]).norm(), 1e-9 * steel.mu);
+  }
+  const BlockTriplets p = isotropic.compact_matrix(), q = full.compact_matrix();
+  for (std::size_t i = 0; i < p.diagonal.size(); ++i)
+    EXPECT_LE((p.diagonal[i] - q.diagonal[i]).norm(), 1e-10 * p.diagonal[i].norm());
+}
+
+}  // namespace
+}  // namespace pfdm::verification
