@@ -165,7 +165,7 @@ TEST(VtuWriter, faces_of_polyhedra_are_closed_and_point_outwards) {
 TEST(VtuWriter, a_dual_mesh_comes_back) {
   const TemporaryFolder folder;
   CellSoup soup;
-  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  soup.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1.2, 1.1, 0.7}};
   soup.region_names = {"a"};
   soup.add_cell(CellShape::tetrahedron, std::vector<Index>{0, 1, 2, 3}, 0);
   soup.add_cell(CellShape::tetrahedron, std::vector<Index>{1, 4, 2, 3}, 0);
