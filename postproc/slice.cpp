@@ -32,30 +32,39 @@ void append_crossings(const Mesh& mesh, Index face, const Plane& plane, double t
 }
 
 // The segments in which the faces of a convex cell cross the plane bound its section: the fan of triangles from their
-// mean is its area.
-double section_area(const Mesh& mesh, Index cell, const Plane& plane, double tolerance) {
+// mean makes it up.
+Section section_through(const Mesh& mesh, Index cell, const Plane& plane, double tolerance) {
   std::vector<Vector> ends;
   for (const Index face : mesh.faces_of_cell(cell)) append_crossings(mesh, face, plane, tolerance, ends);
-  Vector centre = Vector::Zero();
-  for (const Vector& x : ends) centre += x / static_cast<double>(ends.size());
-  double area = 0.0;
-  for (std::size_t i = 0; i + 1 < ends.size(); i += 2)
-    area += 0.5 * (ends[i] - centre).cross(ends[i + 1] - centre).norm();
-  return area;
+  Vector mean = Vector::Zero();
+  for (const Vector& x : ends) mean += x / static_cast<double>(ends.size());
+  Section section;
+  for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
+    const double area = 0.5 * (ends[i] - mean).cross(ends[i + 1] - mean).norm();
+    section.area += area;
+    section.centre += area * (ends[i] + ends[i + 1] + mean) / 3.0;
+  }
+  section.centre = section.area > 0.0 ? Vector(section.centre / section.area) : mean;
+  return section;
 }
 
-double area_of_faces_in_plane(const Mesh& mesh, Index cell, const Plane& plane, double tolerance) {
-  double area = 0.0;
+Section faces_in_plane(const Mesh& mesh, Index cell, const Plane& plane, double tolerance) {
+  Section section;
   for (const Index face : mesh.faces_of_cell(cell)) {
     const bool in_plane = std::ranges::all_of(mesh.points_of_face(face), [&](Index p) {
       return std::abs(plane.distance(mesh.points[as_size(p)])) <= tolerance;
     });
-    if (in_plane) area += (mesh.is_interior(face) ? 0.5 : 1.0) * mesh.face_area[face].norm();
+    if (!in_plane) continue;
+    section.area += (mesh.is_interior(face) ? 0.5 : 1.0) * mesh.face_area[face].norm();
+    section.centre = mesh.face_centre[face];  // a convex cell has one such face
   }
-  return area;
+  return section;
 }
 
-double cell_area(const Mesh& mesh, Index cell, const Plane& plane) {
+}  // namespace
+
+Section section_of_cell(const Mesh& mesh, Index cell, const Vector& point, const Vector& normal) {
+  const Plane plane{point, normal};
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const Index p : mesh.points_of_cell(cell)) {
     const double s = plane.distance(mesh.points[as_size(p)]);
@@ -63,20 +72,18 @@ double cell_area(const Mesh& mesh, Index cell, const Plane& plane) {
     highest = std::max(highest, s);
   }
   const double tolerance = on_plane * std::cbrt(mesh.cell_volume[cell]);
-  if (lowest > tolerance || highest < -tolerance) return 0.0;
-  if (lowest < -tolerance && highest > tolerance) return section_area(mesh, cell, plane, tolerance);
-  return area_of_faces_in_plane(mesh, cell, plane, tolerance);
+  if (lowest > tolerance || highest < -tolerance) return {};
+  if (lowest < -tolerance && highest > tolerance) return section_through(mesh, cell, plane, tolerance);
+  return faces_in_plane(mesh, cell, plane, tolerance);
 }
-
-}  // namespace
 
 double damaged_area(const Mesh& mesh, const CellField<double>& damage, const Vector& point, const Vector& normal,
                     double threshold) {
   if (!(normal.norm() > 0.0)) throw InputError("the normal of a slice must not be zero");
-  const Plane plane{point, normal.normalized()};
+  const Vector unit = normal.normalized();
   double area = 0.0;
   for (Index cell = 0; cell < mesh.n_cells(); ++cell)
-    if (damage[cell] > threshold) area += cell_area(mesh, cell, plane);
+    if (damage[cell] > threshold) area += section_of_cell(mesh, cell, point, unit).area;
   return area;
 }
 
