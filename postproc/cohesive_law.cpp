@@ -8,7 +8,7 @@ namespace pfdm {
 namespace {
 
 constexpr double bin_width = std::numbers::pi / 12.0;
-constexpr double resolved = 1e-3;  // of the separation at the strength: smaller ones are rounding
+constexpr double resolved = 1e-3;  // part of the known separation below which a rise counts as rigid
 
 ColumnSample taken_off_bulk(ColumnSample sample, SurfaceKind kind) {
   if (kind == SurfaceKind::plane) sample.separation -= sample.bulk;
@@ -38,16 +38,23 @@ CohesiveLaw mean_of(const ColumnRecord& record, const std::vector<std::size_t>& 
 double tangential(const Vector& v) { return std::hypot(v[1], v[2]); }
 
 // Where the traction first reaches half the strength, by interpolation from the state before.
-double stiffness_at_half(const std::vector<ColumnSample>& states, double strength, double critical_separation) {
+double stiffness_at_half(const std::vector<ColumnSample>& states, double strength, double known) {
   for (std::size_t i = 1; i < states.size(); ++i) {
     const double T = states[i].traction[0], before = states[i - 1].traction[0];
     if (T < 0.5 * strength) continue;
     const double share = (0.5 * strength - before) / (T - before);
     const double separation =
         states[i - 1].separation[0] + share * (states[i].separation[0] - states[i - 1].separation[0]);
-    return separation > resolved * critical_separation ? 0.5 * strength / separation : CohesiveFigures::none;
+    return separation > resolved * known ? 0.5 * strength / separation : CohesiveFigures::none;
   }
   return CohesiveFigures::none;
+}
+
+// The largest before the jump, if there is one.
+double known_separation(const std::vector<ColumnSample>& states, std::optional<std::size_t> jump) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < jump.value_or(states.size()); ++i) largest = std::max(largest, states[i].separation[0]);
+  return largest;
 }
 
 struct Energies {
@@ -143,9 +150,9 @@ CohesiveFigures figures_of(const ColumnRecord& record, const CohesiveLaw& law) {
   figures.mixity_at_strength = std::atan2(tangential(strongest->traction), figures.strength);
   figures.final_separation =
       std::ranges::max(states, {}, [](const ColumnSample& s) { return s.separation[0]; }).separation[0];
-  figures.initial_stiffness = stiffness_at_half(states, figures.strength, figures.final_separation);
   for (std::size_t i = 1; i < states.size() && !figures.jump; ++i)
     if (falls_at_once(states[i - 1], states[i], figures.strength)) figures.jump = i;
+  figures.initial_stiffness = stiffness_at_half(states, figures.strength, known_separation(states, figures.jump));
   return figures;
 }
 

@@ -47,7 +47,7 @@ void write_cohesive_laws(const FractureCase& fracture, const std::string& name, 
                         .version = session.version,
                         .records = read_column_record(session.results, hash),
                         .results = {},
-                        .curve = read_curve_record(session.results),
+                        .curve = read_curve_record(session.results, hash),
                         .component = fracture.output.curve.component};
   for (const ColumnRecord& record : report.records) report.results.push_back(evaluate(record));
   write_cohesive_results(session.results, report);

@@ -1,7 +1,9 @@
 #include "cases/program/fracture_program.h"
 
+#include "cases/program/experiment_case.h"
 #include "cases/program/fracture_case.h"
 #include "cases/program/fracture_cohesive.h"
+#include "cases/program/fracture_comparison.h"
 #include "cases/program/fracture_results.h"
 #include "cases/program/progress.h"
 #include "cases/program/resolution.h"
@@ -18,8 +20,9 @@
 namespace pfdm {
 namespace {
 
-/// Tables that say how the load is stepped and the steps are solved, not what is loaded.
-constexpr std::string_view may_change_on_the_way[] = {"solver", "loading"};
+/// Tables that say how the load is stepped and the steps are solved, and what they are compared with; not what is
+/// loaded.
+constexpr std::string_view may_change_on_the_way[] = {"solver", "loading", "experiment"};
 
 /// Thrown out of the load stepping when --max-steps is reached.
 struct EnoughSteps {};
@@ -33,6 +36,7 @@ struct RunTimes {
 
 struct FractureProgram {
   FractureCase fracture;
+  std::optional<ExperimentSettings> experiment;
   std::string name;
   std::string hash;
 };
@@ -202,18 +206,25 @@ void cohesive(const FractureProgram& program, Session& session) {
   write_cohesive_laws(program.fracture, program.name, program.hash, session);
 }
 
+void compare(const FractureProgram& program, Session& session) {
+  if (!program.experiment) throw InputError(fmt::format("{}: it names no [experiment] to compare with", program.name));
+  compare_with_experiment(program.fracture, *program.experiment, program.name, program.hash, session);
+}
+
 }  // namespace
 
 RunnableCase read_fracture_program(const CaseFile& file) {
   auto program = std::make_shared<FractureProgram>();
   program->fracture = read_fracture_case(file.config.root(), file.directory);
+  program->experiment = read_experiment(file.config.root(), file.directory);
   program->name = case_name(file);
   program->hash = case_hash(file, program->fracture.mesh.data_files, may_change_on_the_way);
   return {.title = program->fracture.title,
           .check = [program](Session& session) { check(*program, session); },
           .mesh = [program](Session& session) { mesh_only(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
-          .cohesive = [program](Session& session) { cohesive(*program, session); }};
+          .cohesive = [program](Session& session) { cohesive(*program, session); },
+          .compare = [program](Session& session) { compare(*program, session); }};
 }
 
 }  // namespace pfdm

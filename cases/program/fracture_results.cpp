@@ -26,8 +26,9 @@ constexpr const char* columns_folder = "columns";
 /// Otherwise a run that dies early would leave an older run's files beside its own.
 void remove_earlier_run(const fs::path& directory) {
   std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
-  for (const char* file : {checkpoint_file, curve_file, frames_file, summary_file, "cohesive.json", "cohesive_law.csv",
-                           "cohesive_law_places.csv", "debonding.csv", "comparison.json", "comparison.csv"})
+  for (const char* file :
+       {checkpoint_file, curve_file, frames_file, summary_file, "cohesive.json", "cohesive_law.csv",
+        "cohesive_law_places.csv", "debonding.csv", "comparison.json", "comparison.csv", "comparison_debonding.csv"})
     fs::remove(directory / file, ignored);
   for (const auto& entry : fs::directory_iterator(directory / frames_folder, ignored)) {
     const std::string name = entry.path().filename().string();
@@ -47,6 +48,13 @@ fs::path prepared(const fs::path& directory, bool goes_on) {
 
 Index patch_number(const Mesh& mesh, const std::string& name) {
   return static_cast<Index>(&mesh.patch(name) - mesh.patches.data());
+}
+
+void require_results(const fs::path& results, const std::string& case_hash) {
+  const fs::path checkpoint = results / checkpoint_file;
+  if (!fs::exists(checkpoint) || !fs::exists(results / curve_file))
+    throw InputError(fmt::format("{}: there are no results; pfdm run makes them", results.string()));
+  read_checkpoint(checkpoint, case_hash);  // refuses another case's
 }
 
 bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
@@ -75,9 +83,13 @@ std::optional<FractureState> find_checkpoint(const fs::path& results, const std:
 
 bool is_complete(const fs::path& results) { return fs::exists(results / summary_file); }
 
+std::vector<CurveRow> read_curve_record(const fs::path& results, const std::string& case_hash) {
+  require_results(results, case_hash);
+  return read_curve(results / curve_file);
+}
+
 std::vector<ColumnRecord> read_column_record(const fs::path& results, const std::string& case_hash) {
-  if (!find_checkpoint(results, case_hash))
-    throw InputError(fmt::format("{}: there are no results; pfdm run makes them", results.string()));
+  require_results(results, case_hash);
   std::vector<ColumnRecord> records = read_columns(results / columns_folder);
   if (records.empty())
     throw InputError(
@@ -85,12 +97,6 @@ std::vector<ColumnRecord> read_column_record(const fs::path& results, const std:
                     "(particles with layers are recorded without)",
                     results.string()));
   return records;
-}
-
-std::vector<CurveRow> read_curve_record(const fs::path& results) {
-  if (!fs::exists(results / curve_file))
-    throw InputError(fmt::format("{}: there is no {}; pfdm run makes it", results.string(), curve_file));
-  return read_curve(results / curve_file);
 }
 
 FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureCase& fracture,

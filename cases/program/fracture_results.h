@@ -32,8 +32,8 @@ bool is_complete(const std::filesystem::path& results);
 /// case.
 std::vector<ColumnRecord> read_column_record(const std::filesystem::path& results, const std::string& case_hash);
 
-/// The force-displacement curve of a run. Throws InputError if there is none.
-std::vector<CurveRow> read_curve_record(const std::filesystem::path& results);
+/// The force-displacement curve of a run; throws likewise.
+std::vector<CurveRow> read_curve_record(const std::filesystem::path& results, const std::string& case_hash);
 
 class FractureResults {
  public:
