@@ -301,16 +301,31 @@ void DamageEquation::solve_linear(const std::vector<double>& diagonal, const Act
   }
 }
 
+double DamageEquation::local_energy(Index c, double d) const {
+  return mesh_.cell_volume[c] * density_[c] * model_.crack->alpha(d) + 0.5 * pinned_[c] * d * d;
+}
+
+double DamageEquation::gradient_energy(Index i, const CellField<double>& d) const {
+  const Link& link = links_[as_size(i)];
+  const double jump = d[link.N] - d[link.P];
+  return 0.5 * jump * (link.coefficient * jump + correction_[as_size(i)]);
+}
+
 double DamageEquation::fracture_energy(const CellField<double>& d) const {
-  const double local = parallel_sum(mesh_.n_cells(), [&](Index c) {
-    return mesh_.cell_volume[c] * density_[c] * model_.crack->alpha(d[c]) + 0.5 * pinned_[c] * d[c] * d[c];
-  });
-  const double gradient = parallel_sum(static_cast<Index>(links_.size()), [&](Index i) {
-    const Link& link = links_[as_size(i)];
-    const double jump = d[link.N] - d[link.P];
-    return 0.5 * jump * (link.coefficient * jump + correction_[as_size(i)]);
-  });
-  return local + gradient;
+  const double local = parallel_sum(mesh_.n_cells(), [&](Index c) { return local_energy(c, d[c]); });
+  return local + parallel_sum(static_cast<Index>(links_.size()), [&](Index i) { return gradient_energy(i, d); });
+}
+
+CellField<double> DamageEquation::fracture_energy_density(const CellField<double>& d) const {
+  CellField<double> energy(as_size(mesh_.n_cells()));
+  for (Index c = 0; c < mesh_.n_cells(); ++c) energy[c] = local_energy(c, d[c]);
+  for (Index i = 0; i < static_cast<Index>(links_.size()); ++i) {
+    const double half = 0.5 * gradient_energy(i, d);
+    energy[links_[as_size(i)].P] += half;
+    energy[links_[as_size(i)].N] += half;
+  }
+  for (Index c = 0; c < mesh_.n_cells(); ++c) energy[c] /= mesh_.cell_volume[c];
+  return energy;
 }
 
 double DamageEquation::renewed_fracture_energy(const CellField<double>& d) {

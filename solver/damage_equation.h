@@ -39,6 +39,8 @@ class DamageEquation {
   /// Discrete surface energy [J], with the deferred flux of the last solution; renewed: with that of d.
   double fracture_energy(const CellField<double>& d) const;
   double renewed_fracture_energy(const CellField<double>& d);
+  /// The same over each cell's volume, half of a face's to each of its cells [J/m^3].
+  CellField<double> fracture_energy_density(const CellField<double>& d) const;
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
 
   /// Additional source per volume [J/m^3], for manufactured solutions.
@@ -58,8 +60,10 @@ class DamageEquation {
   void build_rows();
   Gradient build_gradient(const Vector& plane_normal);
   void renew_correction(const CellField<double>& d);
-  double local_slope(Index cell, double d, double psi) const;      // of the local terms over the cell [J]
-  double local_curvature(Index cell, double d, double psi) const;  // its derivative [J]
+  double local_slope(Index cell, double d, double psi) const;            // of the local terms over the cell [J]
+  double local_curvature(Index cell, double d, double psi) const;        // its derivative [J]
+  double local_energy(Index cell, double d) const;                       // [J]
+  double gradient_energy(Index link, const CellField<double>& d) const;  // of one face [J]
   double residual(Index cell, const CellField<double>& d, double psi) const;
   void choose_active(const CellField<double>& psi_plus, const CellField<double>& lower,
                      const std::vector<double>& diagonal, CellField<double>& d, ActiveSet& active) const;

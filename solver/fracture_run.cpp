@@ -220,7 +220,9 @@ OutputFields FractureRun::output(const FractureState& state) const {
           .stress = mechanics.stress,
           .strain = mechanics.strain,
           .energy_density = density,
-          .driving_energy = state.driving_energy};
+          .driving_energy = state.driving_energy,
+          .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),
+          .traction = staggered.momentum().balance().tractions(state.displacement)};
 }
 
 Index FractureRun::n_unknowns() const { return 3 * parts_->unknowns.n_nodes(); }

@@ -61,6 +61,8 @@ class MomentumOperator {
   std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;  ///< per boundary face [N]
   /// Traction [Pa] on each interior face that carries a node, on its owner.
   std::vector<std::pair<Index, Vector>> interface_tractions(const std::vector<Vector>& u) const;
+  /// On every face along its normal [Pa]; zero on the faces of plane patches.
+  FaceField<Vector> tractions(const std::vector<Vector>& u) const;
   std::vector<Vector> patch_displacements(const std::vector<Vector>& u) const;  ///< per patch, area mean [m]
 
  private:

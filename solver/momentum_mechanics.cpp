@@ -105,6 +105,16 @@ std::vector<std::pair<Index, Vector>> MomentumOperator::interface_tractions(cons
   return tractions;
 }
 
+FaceField<Vector> MomentumOperator::tractions(const std::vector<Vector>& u) const {
+  compute_forces(u);
+  FaceField<Vector> traction(as_size(mesh_.n_faces()));
+  parallel_for(mesh_.n_faces(), [&](Index f) {
+    if (const Index force = force_of_face_[as_size(f)]; force >= 0)
+      traction[f] = forces_[as_size(force)] / mesh_.face_area[f].norm();
+  });
+  return traction;
+}
+
 std::vector<Vector> MomentumOperator::patch_displacements(const std::vector<Vector>& u) const {
   std::vector<Vector> mean(mesh_.patches.size(), Vector::Zero());
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {

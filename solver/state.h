@@ -38,7 +38,7 @@ struct StepReport {
   double increment = 0.0;  ///< of the load parameter
 };
 
-/// Cell fields for output at a converged state.
+/// Fields for output at a converged state.
 struct OutputFields {
   CellField<Vector> displacement;    ///< [m]
   CellField<double> damage;          ///< [-]
@@ -46,6 +46,10 @@ struct OutputFields {
   CellField<Tensor> strain;          ///< [-]
   CellField<double> energy_density;  ///< degraded elastic energy [J/m^3]
   CellField<double> driving_energy;  ///< [J/m^3]
+  /// Discrete surface energy over the cell's volume, half of a face's to each of its cells [J/m^3].
+  CellField<double> fracture_energy_density;
+  /// On each face along its normal, sigma n [Pa]; zero on the faces of plane patches, which carry none.
+  FaceField<Vector> traction;
 };
 
 }  // namespace pfdm

@@ -151,6 +151,7 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   fracture.loading = read_loading(root);
   fracture.staggered = read_solver(root);
   read_output(root, fracture);
+  fracture.cohesive = read_cohesive(root, fracture.materials.bands, Vector::Unit(fracture.output.curve.component));
   return fracture;
 }
 

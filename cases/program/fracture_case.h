@@ -2,6 +2,7 @@
 // Reads a case of kind "fracture": mesh, materials, boundary conditions, loading, output.
 
 #include "cases/program/boundary_reader.h"
+#include "cases/program/cohesive_case.h"
 #include "cases/program/materials.h"
 #include "cases/program/mesh_recipe.h"
 #include "solver/fracture_model.h"
@@ -33,6 +34,7 @@ struct FractureCase {
   StaggeredSettings staggered;
   LoadingSettings loading;
   FractureOutput output;
+  CohesiveSettings cohesive;
   std::optional<ConfigValue> curve_patch;  ///< in the file, for messages
 };
 

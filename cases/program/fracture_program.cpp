@@ -1,6 +1,9 @@
 #include "cases/program/fracture_program.h"
 
+#include "cases/program/experiment_case.h"
 #include "cases/program/fracture_case.h"
+#include "cases/program/fracture_cohesive.h"
+#include "cases/program/fracture_comparison.h"
 #include "cases/program/fracture_results.h"
 #include "cases/program/progress.h"
 #include "cases/program/resolution.h"
@@ -18,8 +21,9 @@
 namespace pfdm {
 namespace {
 
-/// Tables that say how the load is stepped and the steps are solved, not what is loaded.
-constexpr std::string_view may_change_on_the_way[] = {"solver", "loading"};
+/// Tables that say how the load is stepped and the steps are solved, and what they are compared with; not what is
+/// loaded.
+constexpr std::string_view may_change_on_the_way[] = {"solver", "loading", "experiment"};
 
 /// Thrown out of the load stepping when --max-steps is reached.
 struct EnoughSteps {};
@@ -33,6 +37,7 @@ struct RunTimes {
 
 struct FractureProgram {
   FractureCase fracture;
+  std::optional<ExperimentSettings> experiment;
   std::string name;
   std::string hash;
 };
@@ -79,6 +84,7 @@ void check(const FractureProgram& program, Session& session) {
   const LoadingSettings& loading = program.fracture.loading;
   const Mesh mesh = make_mesh(program, log);
   const FractureRun run = make_run(program, mesh, log);
+  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh);
   log.say(fmt::format("{}: {}", program.name, program.fracture.title));
   log.say(fmt::format("cells {}", mesh.n_cells()));
   say_regions(mesh, log);
@@ -86,6 +92,8 @@ void check(const FractureProgram& program, Session& session) {
   log.say(fmt::format("memory about {:.0f} MB", 1e-6 * estimated_memory(mesh)));
   log.say(fmt::format("steps {} or more, up to load {:g}", std::ceil(loading.end / loading.maximum_increment - 1e-9),
                       loading.end));
+  for (const ColumnSet& set : columns)
+    log.say(fmt::format("cohesive law of \"{}\" from {} columns", set.name, set.columns.size()));
   log.say(fmt::format("results go to {}", session.results.string()));
   log.say("the input is in order");
 }
@@ -182,6 +190,7 @@ void run_case(const FractureProgram& program, Session& session) {
   times.mesh = times.whole.seconds();
   FractureRun run = make_run(program, mesh, session.log);
   const FractureState initial = run.initial_state();
+  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh);
   const FolderLock lock(session.results);
   const auto last = state_to_go_on_from(program, initial, session);
   if (last && last->load >= program.fracture.loading.end && is_complete(session.results)) {
@@ -190,11 +199,21 @@ void run_case(const FractureProgram& program, Session& session) {
   }
   write_mesh(session.results, mesh);
   session.log.open_file(session.results / "run.log", last.has_value());
-  FractureResults results(session.results, mesh, program.fracture, program.hash, last);
+  FractureResults results(session.results, mesh, program.fracture, columns, program.hash, last);
   if (session.restart)
     session.log.say(last ? fmt::format("goes on after step {}, load {:.6g}", last->step, last->load)
                          : "there is no checkpoint to go on from: starts at the beginning");
   solve(run, last ? *last : initial, results, program, session, times);
+  if (!columns.empty()) write_cohesive_laws(program.fracture, program.name, program.hash, session);
+}
+
+void cohesive(const FractureProgram& program, Session& session) {
+  write_cohesive_laws(program.fracture, program.name, program.hash, session);
+}
+
+void compare(const FractureProgram& program, Session& session) {
+  if (!program.experiment) throw InputError(fmt::format("{}: it names no [experiment] to compare with", program.name));
+  compare_with_experiment(program.fracture, *program.experiment, program.name, program.hash, session);
 }
 
 }  // namespace
@@ -202,12 +221,15 @@ void run_case(const FractureProgram& program, Session& session) {
 RunnableCase read_fracture_program(const CaseFile& file) {
   auto program = std::make_shared<FractureProgram>();
   program->fracture = read_fracture_case(file.config.root(), file.directory);
+  program->experiment = read_experiment(file.config.root(), file.directory);
   program->name = case_name(file);
   program->hash = case_hash(file, program->fracture.mesh.data_files, may_change_on_the_way);
   return {.title = program->fracture.title,
           .check = [program](Session& session) { check(*program, session); },
           .mesh = [program](Session& session) { mesh_only(*program, session); },
-          .run = [program](Session& session) { run_case(*program, session); }};
+          .run = [program](Session& session) { run_case(*program, session); },
+          .cohesive = [program](Session& session) { cohesive(*program, session); },
+          .compare = [program](Session& session) { compare(*program, session); }};
 }
 
 }  // namespace pfdm

@@ -21,11 +21,14 @@ constexpr const char* curve_file = "force_displacement.csv";
 constexpr const char* frames_file = "fields.pvd";
 constexpr const char* summary_file = "summary.json";
 constexpr const char* frames_folder = "fields";
+constexpr const char* columns_folder = "columns";
 
 /// Otherwise a run that dies early would leave an older run's files beside its own.
 void remove_earlier_run(const fs::path& directory) {
   std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
-  for (const char* file : {checkpoint_file, curve_file, frames_file, summary_file})
+  for (const char* file :
+       {checkpoint_file, curve_file, frames_file, summary_file, "cohesive.json", "cohesive_law.csv",
+        "cohesive_law_places.csv", "debonding.csv", "comparison.json", "comparison.csv", "comparison_debonding.csv"})
     fs::remove(directory / file, ignored);
   for (const auto& entry : fs::directory_iterator(directory / frames_folder, ignored)) {
     const std::string name = entry.path().filename().string();
@@ -45,6 +48,13 @@ fs::path prepared(const fs::path& directory, bool goes_on) {
 
 Index patch_number(const Mesh& mesh, const std::string& name) {
   return static_cast<Index>(&mesh.patch(name) - mesh.patches.data());
+}
+
+void require_results(const fs::path& results, const std::string& case_hash) {
+  const fs::path checkpoint = results / checkpoint_file;
+  if (!fs::exists(checkpoint) || !fs::exists(results / curve_file))
+    throw InputError(fmt::format("{}: there are no results; pfdm run makes them", results.string()));
+  read_checkpoint(checkpoint, case_hash);  // refuses another case's
 }
 
 bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
@@ -73,17 +83,38 @@ std::optional<FractureState> find_checkpoint(const fs::path& results, const std:
 
 bool is_complete(const fs::path& results) { return fs::exists(results / summary_file); }
 
+std::vector<CurveRow> read_curve_record(const fs::path& results, const std::string& case_hash) {
+  require_results(results, case_hash);
+  return read_curve(results / curve_file);
+}
+
+std::vector<ColumnRecord> read_column_record(const fs::path& results, const std::string& case_hash) {
+  require_results(results, case_hash);
+  std::vector<ColumnRecord> records = read_columns(results / columns_folder);
+  if (records.empty())
+    throw InputError(
+        fmt::format("{}: the run recorded no columns: name the surfaces in [cohesive] of case.toml, and run it again "
+                    "(particles with layers are recorded without)",
+                    results.string()));
+  return records;
+}
+
 FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureCase& fracture,
-                                 std::string case_hash, const std::optional<FractureState>& last)
+                                 const std::vector<ColumnSet>& columns, std::string case_hash,
+                                 const std::optional<FractureState>& last)
     : directory_(prepared(directory, last.has_value())),
       mesh_(mesh),
       fracture_(fracture),
+      model_(model_on(fracture, mesh)),
       case_hash_(std::move(case_hash)),
       curve_patch_(patch_number(mesh, fracture.output.curve.patch)),
       curve_(last ? CurveFile(directory_ / curve_file, last->step) : CurveFile(directory_ / curve_file)),
       frames_(last ? PvdSeries(directory_ / frames_file, last->load) : PvdSeries(directory_ / frames_file)),
       writer_(mesh),
       damage_(as_size(mesh.n_cells()), 0.0) {
+  if (!columns.empty())
+    columns_.emplace(directory_ / columns_folder, columns, fracture.cohesive.axis,
+                     last ? std::optional(last->step) : std::nullopt);
   if (!last) return;
   last_step_ = last->step;
   last_load_ = last->load;
@@ -95,7 +126,12 @@ void FractureResults::step_done(const FractureState& state, const StepReport& re
   last_load_ = state.load;
   damage_ = state.damage;
   curve_.append(curve_row(report, curve_patch_, fracture_.output.curve.component));
-  if (frame_is_due(state)) write_frame(state.step, state.load, output());
+  const bool frame = frame_is_due(state);
+  if (frame || columns_) {
+    const OutputFields fields = output();
+    if (frame) write_frame(state.step, state.load, fields);
+    if (columns_) columns_->append(state.step, mesh_, model_, fields);
+  }
   write_checkpoint(directory_ / checkpoint_file, state, case_hash_);
 }
 

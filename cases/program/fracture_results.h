@@ -4,6 +4,7 @@
 
 #include "cases/program/fracture_case.h"
 #include "mesh/mesh.h"
+#include "postproc/column_record.h"
 #include "postproc/curve_csv.h"
 #include "postproc/pvd.h"
 #include "postproc/summary.h"
@@ -27,15 +28,23 @@ std::optional<FractureState> find_checkpoint(const std::filesystem::path& result
 /// Whether the directory holds the results of a run that came to its end.
 bool is_complete(const std::filesystem::path& results);
 
+/// What the columns of a run told. Throws InputError if there is no such record, or if the results belong to another
+/// case.
+std::vector<ColumnRecord> read_column_record(const std::filesystem::path& results, const std::string& case_hash);
+
+/// The force-displacement curve of a run; throws likewise.
+std::vector<CurveRow> read_curve_record(const std::filesystem::path& results, const std::string& case_hash);
+
 class FractureResults {
  public:
-  /// Replaces the files of an earlier run, or goes on after `last`. Keeps references to mesh and case.
+  /// Replaces the files of an earlier run, or goes on after `last`. Keeps references to mesh, case and columns.
   FractureResults(std::filesystem::path directory, const Mesh& mesh, const FractureCase& fracture,
-                  std::string case_hash, const std::optional<FractureState>& last);
+                  const std::vector<ColumnSet>& columns, std::string case_hash,
+                  const std::optional<FractureState>& last);
 
   using Output = std::function<OutputFields()>;
-  /// Appends the row, then writes the frame, if one is due, then the checkpoint: killed in between, a restart takes the
-  /// rows and frames beyond the checkpoint away and does them again.
+  /// Appends the row, then writes the frame, if one is due, and what the columns tell, then the checkpoint: killed in
+  /// between, a restart takes what is beyond the checkpoint away and does it again.
   void step_done(const FractureState& state, const StepReport& report, const Output& output);
   /// A frame of the last state, if it has none yet.
   void write_last_frame(const Output& output);
@@ -52,11 +61,13 @@ class FractureResults {
   std::filesystem::path directory_;
   const Mesh& mesh_;
   const FractureCase& fracture_;
+  FractureModel model_;
   std::string case_hash_;
   Index curve_patch_;
   CurveFile curve_;
   PvdSeries frames_;
   VtuWriter writer_;
+  std::optional<ColumnFiles> columns_;
   Index last_step_ = 0;
   double last_load_ = 0.0;
   CellField<double> damage_;

@@ -18,7 +18,9 @@ struct RunnableCase {
   std::function<void(Session&)> check{};  ///< says what would run
   std::function<void(Session&)> mesh{};   ///< meshes only
   std::function<void(Session&)> run{};
-  std::function<void(Session&)> fit{};  ///< estimates the parameters that the case names
+  std::function<void(Session&)> cohesive{};  ///< traction-separation laws from the results
+  std::function<void(Session&)> compare{};   ///< results against experiments
+  std::function<void(Session&)> fit{};       ///< estimates the parameters that the case names
 };
 
 struct CaseKind {

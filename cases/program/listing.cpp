@@ -10,6 +10,8 @@
 #include "physics/energy_split.h"
 #include "physics/hardening.h"
 #include "physics/mass_material.h"
+#include "physics/softening_law.h"
+#include "physics/traction_separation.h"
 #include "solver/endochronic_identification.h"
 
 #include <fmt/format.h>

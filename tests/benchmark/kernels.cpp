@@ -145,7 +145,9 @@ void frame_writing(benchmark::State& state) {
                       .stress = CellField<Tensor>(n),
                       .strain = CellField<Tensor>(n),
                       .energy_density = CellField<double>(n, 0.0),
-                      .driving_energy = CellField<double>(n, 0.0)};
+                      .driving_energy = CellField<double>(n, 0.0),
+                      .fracture_energy_density = CellField<double>(n, 0.0),
+                      .traction = {}};
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const Vector x = mesh.cell_centre[c];
     output.displacement[c] = x.array().sin();

@@ -200,7 +200,8 @@ TEST(BadInput, WrongUsage) {
 
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
-            "pfdm: there is no command \"rn\"; did you mean \"run\"? (there are: run, check, mesh, fit, list, test)\n");
+            "pfdm: there is no command \"rn\"; did you mean \"run\"? (there are: run, check, mesh, cohesive, "
+            "compare, fit, list, test)\n");
 }
 
 TEST(BadInput, JobThatTheKindOfCaseDoesNotHave) {

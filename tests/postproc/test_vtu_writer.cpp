@@ -252,7 +252,9 @@ TEST(Frame, has_the_names_of_the_interface) {
                             .stress = f.tensor,
                             .strain = f.tensor,
                             .energy_density = f.scalar,
-                            .driving_energy = f.scalar};
+                            .driving_energy = f.scalar,
+                            .fracture_energy_density = f.scalar,
+                            .traction = {}};
   VtuWriter(mesh).write(folder / "a.vtu", frame_fields(mesh, output), 0.0);
   const auto grid = read_back(folder / "a.vtu");
   for (const char* name : {"damage", "displacement", "stress", "strain", "material", "energy_density"})

@@ -63,7 +63,8 @@ class Bar {
     double end;
     Index n_steps;
   };
-  std::vector<BarState> run(const std::vector<Leg>& legs) const;
+  using Seen = std::function<void(const FractureRun&, const FractureState&)>;
+  std::vector<BarState> run(const std::vector<Leg>& legs, const Seen& seen = {}) const;
 
   /// To the end of the load, by steps that dissipate no more than `dissipation` times Gc on the bar's section: past
   /// snap-back.
@@ -71,6 +72,12 @@ class Bar {
 
   /// The same without irreversibility, as the closed forms have it: every step may heal what the one before broke.
   std::vector<BarState> run_reversibly(const std::vector<Leg>& legs) const;
+
+  /// Fields of a state that need not be one of a run.
+  OutputFields output(const FractureState& state) const {
+    return FractureRun(mesh_, model_, staggered(), {}).output(state);
+  }
+  FractureState sound_state() const { return FractureRun(mesh_, model_, staggered(), {}).initial_state(); }
 
   /// Cells along x, in one of the two rows.
   std::vector<Index> row() const;
@@ -173,14 +180,21 @@ inline RunHooks Bar::recorder(std::vector<BarState>& states) const {
   return hooks;
 }
 
-inline std::vector<BarState> Bar::run(const std::vector<Leg>& legs) const {
+inline std::vector<BarState> Bar::run(const std::vector<Leg>& legs, const Seen& seen) const {
   std::vector<BarState> states;
-  const RunHooks hooks = recorder(states);
+  const FractureRun* running = nullptr;
+  RunHooks hooks = recorder(states);
+  if (seen)
+    hooks.step_done = [&, record = hooks.step_done](const FractureState& state, const StepReport& report) {
+      record(state, report);
+      if (report.step > 0) seen(*running, state);
+    };
   FractureState state;
   for (const auto& [end, n_steps] : legs) {
     const double increment = (end - state.load) / n_steps;
     FractureRun leg(mesh_, model_, staggered(),
                     {.end = end, .initial_increment = increment, .maximum_increment = increment, .stops = {}});
+    running = &leg;
     if (state.step == 0) state = leg.initial_state();
     state.increment = increment;
     state = leg.run(state, hooks);
@@ -201,7 +215,7 @@ inline std::vector<BarState> Bar::follow(double end, double increment, double di
 }
 
 inline std::vector<BarState> Bar::run_reversibly(const std::vector<Leg>& legs) const {
-  const FractureState sound = FractureRun(mesh_, model_, staggered(), {}).initial_state();
+  const FractureState sound = sound_state();
   const Unknowns unknowns = place_unknowns(mesh_, model_);
   Staggered solver(mesh_, model_, unknowns, staggered());
   const Patch& pulled = mesh_.patch("xmax");
@@ -229,6 +243,32 @@ inline std::vector<Index> Bar::row() const {
   std::sort(cells.begin(), cells.end(),
             [&](Index a, Index b) { return mesh_.cell_centre[a][0] < mesh_.cell_centre[b][0]; });
   return cells;
+}
+
+/// A bar with a cohesive crack, half an Irwin length E Gc/ft^2 long whatever ell. The law's foot needs cells of a
+/// hundredth of ell where the bar breaks: the last cell still carries 0.13 h/ell of the strength when it should carry
+/// none, and the residual stiffness k of a cell as much as 2 k E Gc/(ft^2 h).
+inline BarSettings cohesive_bar(const std::string& softening, double irwin_lengths) {
+  return {.law = "Wu",
+          .softening = softening,
+          .irwin_lengths = irwin_lengths,
+          .cells_per_length = 5,
+          .refinement = 21,
+          .length = 0.5 * irwin_lengths,
+          .weak_cells = 147,
+          .weakness = 3e-3,
+          .tolerance = 1e-6,
+          .residual_stiffness = 1e-9};
+}
+
+/// Stress over strength that a cohesive phase field produces at a separation times strength / Gc.
+inline double produced_stress(const SofteningLaw& law, double separation) {
+  double low = 1e-12, high = 1.0 - 1e-9;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (pfczm_softening(law, 1.0, 1.0, middle).separation < separation ? low : high) = middle;
+  }
+  return pfczm_softening(law, 1.0, 1.0, low).stress;
 }
 
 /// The state with the largest stress.

@@ -6,36 +6,14 @@
 namespace pfdm::verification {
 namespace {
 
-// Stress over strength that the law produces at a separation times strength / Gc.
-double produced_stress(const SofteningLaw& law, double separation) {
-  double low = 1e-12, high = 1.0 - 1e-9;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (low + high);
-    (pfczm_softening(law, 1.0, 1.0, middle).separation < separation ? low : high) = middle;
-  }
-  return pfczm_softening(law, 1.0, 1.0, low).stress;
-}
-
 struct LawError {
   double largest = 0.0;  // of the stress, over the strength
   double lowest_stress = 1.0;
   double peak = 0.0;
 };
 
-// The bar is half an Irwin length E Gc/ft^2 long whatever ell. The law's foot needs cells of a hundredth of ell where
-// the bar breaks: the last cell still carries 0.13 h/ell of the strength when it should carry none, and the residual
-// stiffness k of a cell as much as 2 k E Gc/(ft^2 h).
 LawError law_error(const std::string& softening, double irwin_lengths) {
-  const Bar bar({.law = "Wu",
-                 .softening = softening,
-                 .irwin_lengths = irwin_lengths,
-                 .cells_per_length = 5,
-                 .refinement = 21,
-                 .length = 0.5 * irwin_lengths,
-                 .weak_cells = 147,
-                 .weakness = 3e-3,
-                 .tolerance = 1e-6,
-                 .residual_stiffness = 1e-9});
+  const Bar bar(cohesive_bar(softening, irwin_lengths));
   LawError error;
   for (const BarState& state : bar.run({{0.99, 1}, {1.05, 6}, {4.3, 50}})) {
     error.peak = std::max(error.peak, state.stress);

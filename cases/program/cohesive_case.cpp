@@ -1,0 +1,79 @@
+#include "cases/program/cohesive_case.h"
+
+#include "cases/program/amount.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+std::vector<Band> read_interfaces(const ConfigTable& table, std::span<const Band> bands) {
+  const auto interfaces = table.find("interfaces");
+  if (!interfaces) return {bands.begin(), bands.end()};
+  std::vector<std::string> names;
+  for (const Band& band : bands) names.push_back(band.region);
+  std::vector<Band> chosen;
+  for (const ConfigValue& entry : interfaces->list()) {
+    const std::string name = entry.one_of(names, "band between two regions ([mesh.layers] or [regions.NAME] band)");
+    chosen.push_back(*std::ranges::find(bands, name, &Band::region));
+  }
+  return chosen;
+}
+
+Vector read_direction(const ConfigValue& value) {
+  const std::vector<ConfigValue> entries = value.list(3);
+  const Vector direction(entries[0].number(), entries[1].number(), entries[2].number());
+  if (!(direction.norm() > 0.0)) throw value.error("a direction must not be zero");
+  return direction;
+}
+
+// Its name is that of a folder.
+std::string read_name(const ConfigValue& value) {
+  const std::string name = value.string();
+  const bool plain = std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+  if (name.empty() || !plain)
+    throw value.error(fmt::format("\"{}\" becomes the name of a folder: letters, digits, _ and - only", name));
+  return name;
+}
+
+CohesivePlane read_plane(const ConfigTable& table) {
+  return {.name = read_name(table.at("name")),
+          .point = read_point(table.at("point")),
+          .normal = read_direction(table.at("normal")),
+          .half_width = table.quantity("half_width", dimension::length, range::positive),
+          .where = table};
+}
+
+}  // namespace
+
+CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> bands, const Vector& axis) {
+  CohesiveSettings settings{.bands = {bands.begin(), bands.end()}, .planes = {}, .axis = axis};
+  if (!root.has("cohesive")) return settings;
+  const ConfigTable table = root.table("cohesive");
+  settings.bands = read_interfaces(table, bands);
+  for (const ConfigTable& plane : table.tables("planes")) {
+    settings.planes.push_back(read_plane(plane));
+    const std::string& name = settings.planes.back().name;
+    const bool taken = std::ranges::count(settings.planes, name, &CohesivePlane::name) > 1 ||
+                       std::ranges::count(settings.bands, name, &Band::region) > 0;
+    if (taken) throw plane.error(fmt::format("two surfaces are called \"{}\"", name));
+  }
+  return settings;
+}
+
+std::vector<ColumnSet> column_sets(const CohesiveSettings& settings, const Mesh& mesh) {
+  std::vector<ColumnSet> sets;
+  for (const Band& band : settings.bands)
+    for (ColumnSet& set : interface_columns(mesh, band.region, band.neighbours[1], settings.axis))
+      sets.push_back(std::move(set));
+  for (const CohesivePlane& plane : settings.planes)
+    plane.where.in_context([&] {
+      sets.push_back(plane_columns(mesh, plane.name, plane.point, plane.normal, plane.half_width, settings.axis));
+      return true;
+    });
+  return sets;
+}
+
+}  // namespace pfdm

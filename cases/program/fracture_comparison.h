@@ -1,0 +1,17 @@
+#pragma once
+// pfdm compare: the results of a fracture case against its experiments.
+
+#include "cases/program/experiment_case.h"
+#include "cases/program/fracture_case.h"
+#include "cases/program/session.h"
+
+#include <string>
+
+namespace pfdm {
+
+/// Reads the results in session.results, writes the comparison beside them and says its figures. Throws InputError
+/// where there are no results or nothing can be compared.
+void compare_with_experiment(const FractureCase& fracture, const ExperimentSettings& experiment,
+                             const std::string& name, const std::string& hash, Session& session);
+
+}  // namespace pfdm

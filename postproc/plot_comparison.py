@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+"""Plots a computed curve over the measured one: comparison.csv, or comparison_debonding.csv.
+
+The band is two standard deviations to either side, where they are known. Needs the Debian package python3-matplotlib.
+"""
+
+import argparse
+import math
+import pathlib
+
+from plotting import new_picture, read_columns, save_picture
+
+QUANTITIES = {"force_N": ("force [N]", 1.0), "angle_rad": ("debonding angle [degrees]", math.degrees(1.0))}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("comparison", type=pathlib.Path, help="comparison.csv or comparison_debonding.csv")
+    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("comparison.png"))
+    arguments = parser.parse_args()
+
+    table = read_columns(arguments.comparison)
+    quantity = next(q for q in QUANTITIES if f"model_{q}" in table)
+    label, factor = QUANTITIES[quantity]
+    displacement = [1e6 * u for u in table["displacement_m"]]
+    measured = [factor * y for y in table[f"measured_{quantity}"]]
+    figure, axes = new_picture()
+    if f"measured_deviation_{quantity}" in table:
+        deviation = [2.0 * factor * s for s in table[f"measured_deviation_{quantity}"]]
+        axes.fill_between(displacement, [y - s for y, s in zip(measured, deviation)],
+                          [y + s for y, s in zip(measured, deviation)], color="0.85", label="two standard deviations")
+    axes.plot(displacement, measured, "k-", lw=1.0, label="measured")
+    axes.plot(displacement, [factor * y for y in table[f"model_{quantity}"]], "-", lw=1.6, label="pfdm")
+    save_picture(figure, axes, "displacement [µm]", label, arguments.output)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,241 @@
+// pfdm cohesive and pfdm compare from end to end, on a bar that breaks.
+
+#include "postproc/csv_table.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* plane = R"(
+[cohesive]
+[[cohesive.planes]]
+name = "crack"
+point = ["10 mm", "0.5 mm", "0.5 mm"]
+normal = [1, 0, 0]
+half_width = "30 mm"
+)";
+
+std::string cohesive_case() { return bar_case() + plane; }
+
+std::string experiment(const std::string& range = "[\"1 um\", \"5 um\"]") {
+  return "\n[experiment]\nstiffness_between = " + range + R"(
+[[experiment.specimens]]
+name = "one"
+csv = "data/one.csv"
+displacement = { column = "u", unit = "um" }
+force = { column = "f", unit = "kN" }
+)";
+}
+
+nlohmann::json json_in(const fs::path& file) { return nlohmann::json::parse(content_of(file)); }
+
+/// What a run of the case made, in micrometres and kilonewtons, its forces times a factor.
+std::string measured(const fs::path& results, double factor) {
+  const CsvTable curve = read_csv(results / "force_displacement.csv");
+  std::string text = "# made by the test\nu,f\n";
+  for (std::size_t i = 0; i < curve.n_rows(); ++i)
+    text += std::to_string(1e6 * curve.column("displacement_m")[i]) + "," +
+            std::to_string(1e-3 * factor * curve.column("force_x_N")[i]) + "\n";
+  return text;
+}
+
+TEST(Cohesive, ExtractsTheLawOfAPlane) {
+  const TemporaryCase directory(cohesive_case());
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("cohesive law of \"crack\", 2 places"), std::string::npos) << outcome.out;
+  const CsvTable law = read_csv(directory.results() / "cohesive_law.csv");
+  const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
+  ASSERT_EQ(law.n_rows(), curve.n_rows());
+  // Plane strain across z alone: the columns take the whole bar, whose other elongation is elastic.
+  const double plane_modulus = 30e9 / (1.0 - 0.2 * 0.2);
+  const double constrained = 30e9 * 0.8 / (1.2 * 0.6);
+  for (std::size_t i = 0; i < law.n_rows(); ++i) {
+    const double traction = law.column("traction_Pa")[i];
+    EXPECT_NEAR(traction, curve.column("force_x_N")[i] / 1e-6, 1e-4 * 30e9 * 1e-3);
+    const double elastic = 0.02 * traction / constrained;
+    EXPECT_GE(law.column("separation_m")[i], -1e-9);
+    EXPECT_LE(law.column("separation_m")[i], curve.column("displacement_m")[i] - elastic + 1e-9);
+  }
+  EXPECT_GT(constrained, 0.9 * plane_modulus);
+  const nlohmann::json surface = json_in(directory.results() / "cohesive.json")["surfaces"][0];
+  EXPECT_EQ(surface["name"], "crack");
+  EXPECT_NEAR(surface["area_m2"].get<double>(), 1e-6, 1e-12);
+  EXPECT_GT(surface["laws"][0]["strength_Pa"].get<double>(), 1e6);
+  EXPECT_GT(surface["laws"][0]["surface_energy_J_per_m2"].get<double>(), 60.0);
+}
+
+TEST(Cohesive, TellsTheSameAfterARestart) {
+  const TemporaryCase directory(cohesive_case());
+  const std::string place = directory.path().string();
+  const fs::path whole = directory.path() / "whole", broken = directory.path() / "broken";
+  ASSERT_EQ(run({"run", place, "--output", whole.string()}).status, 0);
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--max-steps", "4"}).status, 0);
+  // As if killed between the columns and the checkpoint.
+  fs::copy_file(whole / "columns/crack/step_000009.csv", broken / "columns/crack/step_000009.csv");
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--restart", "--max-steps", "2"}).status, 0);
+  EXPECT_FALSE(fs::exists(broken / "columns/crack/step_000009.csv"));
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--restart"}).status, 0);
+  for (const char* file :
+       {"cohesive_law.csv", "cohesive_law_places.csv", "debonding.csv", "cohesive.json", "columns/crack/places.csv",
+        "columns/crack/step_000000.csv", "columns/crack/step_000010.csv"})
+    EXPECT_EQ(content_of(broken / file), content_of(whole / file)) << file;
+}
+
+TEST(Cohesive, CanBeExtractedAgain) {
+  const TemporaryCase directory(cohesive_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const std::string law = content_of(directory.results() / "cohesive_law.csv");
+  fs::remove(directory.results() / "cohesive_law.csv");
+  const Outcome outcome = run({"cohesive", directory.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(content_of(directory.results() / "cohesive_law.csv"), law);
+}
+
+TEST(Cohesive, RefusesWhatIsNotThere) {
+  const TemporaryCase directory(bar_case());
+  const auto expect = [&](const std::string& command, const std::string& message) {
+    const Outcome outcome = run({command, directory.path().string()});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  expect("cohesive", "there are no results; pfdm run makes them");
+  expect("compare", "names no [experiment]");
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  expect("cohesive", "the run recorded no columns: name the surfaces in [cohesive]");
+  directory.write("case.toml", cohesive_case());
+  expect("cohesive", "belongs to another case");
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  fs::remove(directory.results() / "columns/crack/step_000003.csv");
+  expect("cohesive", "step 3 is missing; run the case again");
+  directory.write("results/columns/crack/step_000003.csv", "nonsense\n");
+  expect("cohesive", "step_000003.csv");
+}
+
+class BadCohesive : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadCohesive, IsRefusedWithOneMessage) {
+  const TemporaryCase directory(replaced(cohesive_case(), GetParam().good, GetParam().bad));
+  expect_refused(directory, GetParam());
+}
+
+const BadInput bad_cohesive[] = {
+    {"plane_beside_the_body",
+     "[\"10 mm\", \"0.5 mm\"",
+     "[\"90 mm\", \"0.5 mm\"",
+     {"case.toml:51: [cohesive.planes]", "the plane \"crack\" misses the mesh"}},
+    {"normal_of_zero", "[1, 0, 0]", "[0, 0, 0]", {"[cohesive.planes] normal", "must not be zero"}},
+    {"no_half_width", "half_width = \"30 mm\"\n", "", {"\"half_width\" is missing"}},
+    {"half_width_without_unit", "\"30 mm\"", "30", {"30 has no unit"}},
+    {"name_that_is_no_folder", "name = \"crack\"", "name = \"../x\"", {"letters, digits, _ and - only"}},
+    {"interface_that_is_no_band",
+     "[cohesive]\n",
+     "[cohesive]\ninterfaces = [\"weak\"]\n",
+     {"interfaces[0]: \"weak\" is no band between two regions"}},
+    {"misspelt_key", "half_width", "half_with", {"did you mean \"half_width\"?"}},
+};
+INSTANTIATE_TEST_SUITE_P(Inputs, BadCohesive, testing::ValuesIn(bad_cohesive),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// ---- Comparison
+
+TEST(Compare, FindsNoDifferenceFromItself) {
+  const TemporaryCase directory(bar_case());
+  fs::create_directory(directory.path() / "data");
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  directory.write("data/one.csv", measured(directory.results(), 1.0));
+  directory.write("case.toml", bar_case() + experiment());  // after the run: its results stay valid
+  const Outcome outcome = run({"compare", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json force = json_in(directory.results() / "comparison.json")["force_displacement"];
+  EXPECT_LT(force["rms_difference_over_largest_measured"].get<double>(), 1e-4);
+  for (const char* figure : {"initial_stiffness", "peak_force", "displacement_at_peak", "work"})
+    EXPECT_NEAR(force["relative_difference"][figure].get<double>(), 0.0, 2e-4) << figure;
+  EXPECT_TRUE(force["share_within_two_standard_deviations"].is_null());
+  EXPECT_EQ(read_csv(directory.results() / "comparison.csv").n_rows(), 401u);
+}
+
+TEST(Compare, TakesTheBandFromSpecimensAndFromTheirDeviation) {
+  const TemporaryCase directory(bar_case());
+  fs::create_directory(directory.path() / "data");
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  directory.write("data/one.csv", measured(directory.results(), 1.1));
+  directory.write("data/two.csv", measured(directory.results(), 0.9));
+  std::string second = experiment();
+  second.erase(0, second.find("[[experiment"));
+  second = replaced(replaced(second, "\"one\"", "\"two\""), "data/one.csv", "data/two.csv");
+  directory.write("case.toml", bar_case() + experiment() + second);
+  ASSERT_EQ(run({"compare", directory.path().string()}).status, 0);
+  nlohmann::json force = json_in(directory.results() / "comparison.json")["force_displacement"];
+  EXPECT_NEAR(force["share_within_two_standard_deviations"].get<double>(), 1.0, 1e-12);
+  EXPECT_NEAR(force["relative_difference"]["peak_force"].get<double>(), 0.0, 1e-3);
+  EXPECT_EQ(force["specimens"].size(), 2u);
+
+  // 10 % off with a standard deviation of 1 %.
+  std::string with_deviation = "u,f,s\n0,0,0\n";
+  const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
+  for (std::size_t i = 1; i < curve.n_rows(); ++i) {
+    const double f = 1.1e-3 * curve.column("force_x_N")[i];
+    with_deviation += std::to_string(1e6 * curve.column("displacement_m")[i]) + "," + std::to_string(f) + "," +
+                      std::to_string(0.01 * f) + "\n";
+  }
+  directory.write("data/one.csv", with_deviation);
+  directory.write("case.toml", bar_case() + experiment() + "deviation = { column = \"s\", unit = \"kN\" }\n");
+  ASSERT_EQ(run({"compare", directory.path().string()}).status, 0);
+  force = json_in(directory.results() / "comparison.json")["force_displacement"];
+  EXPECT_LT(force["share_within_two_standard_deviations"].get<double>(), 0.2);
+  EXPECT_NEAR(force["relative_difference"]["initial_stiffness"].get<double>(), 1.0 / 1.1 - 1.0, 1e-3);
+}
+
+class BadExperiment : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadExperiment, IsRefusedWithOneMessage) {
+  const TemporaryCase directory(replaced(bar_case() + experiment(), GetParam().good, GetParam().bad));
+  fs::create_directory(directory.path() / "data");
+  directory.write("data/one.csv", "u,f,back\n0,0,0\n5,1,2\n10,1.5,1\n");
+  expect_refused(directory, GetParam());
+}
+
+const BadInput bad_experiments[] = {
+    {"file_that_is_not_there", "data/one.csv", "data/won.csv", {"case.toml:54: [experiment.specimens] csv", "won.csv"}},
+    {"column_that_is_not_there", "\"f\"", "\"g\"", {"there is no column \"g\" (there are: u, f, back)"}},
+    {"unit_of_another_dimension", "\"kN\"", "\"kPa\"", {"is a stress; a force is due"}},
+    {"displacements_that_fall", "column = \"u\"", "column = \"back\"", {"the displacements fall"}},
+    {"range_that_is_empty", "[\"1 um\", \"5 um\"]", "[\"5 um\", \"1 um\"]", {"must be the larger"}},
+    {"range_without_unit", "[\"1 um\", \"5 um\"]", "[1, 5]", {"has no unit"}},
+    {"misspelt_key", "stiffness_between", "stiffness_betwen", {"did you mean \"stiffness_between\"?"}},
+};
+INSTANTIATE_TEST_SUITE_P(Inputs, BadExperiment, testing::ValuesIn(bad_experiments),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Compare, RefusesWhatCannotBeCompared) {
+  const TemporaryCase directory(bar_case() + experiment());
+  fs::create_directory(directory.path() / "data");
+  directory.write("data/one.csv", "u,f\n0,0\n5,1\n");
+  const auto expect = [&](const std::string& message) {
+    const Outcome outcome = run({"compare", directory.path().string()});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  expect("there are no results; pfdm run makes them");
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  directory.write("data/one.csv", "u,f\n500,0\n600,1\n");
+  expect("no range is common");
+  directory.write("data/one.csv", "u,f\n5,0\n");
+  expect("less than two points");
+  directory.write("data/one.csv", "u,f\n0,0\n3,1\n");
+  expect("the stiffness is asked for between 1e-06 and 5e-06 m");
+}
+
+}  // namespace
+}  // namespace pfdm
