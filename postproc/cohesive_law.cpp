@@ -7,7 +7,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double bin_width = std::numbers::pi / 12.0;
+constexpr int n_bins = 12;
 constexpr double resolved = 1e-3;  // part of the known separation below which a rise counts as rigid
 
 ColumnSample taken_off_bulk(ColumnSample sample, SurfaceKind kind) {
@@ -114,16 +114,16 @@ CohesiveLaw law_at_place(const ColumnRecord& record, std::size_t place) {
 CohesiveLaw law_between(const ColumnRecord& record, double from, double to) {
   std::vector<std::size_t> places;
   for (std::size_t p = 0; p < record.places.size(); ++p)
-    if (record.places[p].polar_angle >= from && record.places[p].polar_angle < to) places.push_back(p);
+    if (const double angle = record.places[p].polar_angle; angle >= from && (angle < to || to == std::numbers::pi))
+      places.push_back(p);
   return mean_of(record, places, from, to);
 }
 
 std::vector<CohesiveLaw> averaged_laws(const ColumnRecord& record) {
-  const double beyond = 1e-9;  // the pole itself belongs to the last bin
-  if (record.kind == SurfaceKind::plane) return {law_between(record, 0.0, std::numbers::pi + beyond)};
+  if (record.kind == SurfaceKind::plane) return {law_between(record, 0.0, std::numbers::pi)};
   std::vector<CohesiveLaw> laws;
-  for (int bin = 0; bin < 12; ++bin) {
-    CohesiveLaw law = law_between(record, bin * bin_width, (bin + 1) * bin_width + (bin == 11 ? beyond : 0.0));
+  for (int bin = 0; bin < n_bins; ++bin) {
+    CohesiveLaw law = law_between(record, bin * std::numbers::pi / n_bins, (bin + 1) * std::numbers::pi / n_bins);
     if (!law.places.empty()) laws.push_back(std::move(law));
   }
   return laws;

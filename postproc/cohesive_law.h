@@ -24,7 +24,7 @@ struct CohesiveLaw {
 
 /// Of one place.
 CohesiveLaw law_at_place(const ColumnRecord& record, std::size_t place);
-/// Means weighted by area over polar angles [from, to) [rad]; without places if there are none.
+/// Means weighted by area over polar angles [from, to) [rad], pi itself included; without places if there are none.
 CohesiveLaw law_between(const ColumnRecord& record, double from, double to);
 /// Of an interface: in bins of 15 degrees, those without places left out. Of a plane: of all its places.
 std::vector<CohesiveLaw> averaged_laws(const ColumnRecord& record);

@@ -5,19 +5,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace pfdm {
 namespace {
 
+/// Those with an inner and an outer side: columns begin at the inner one.
+std::vector<Band> two_sided(std::span<const Band> bands) {
+  std::vector<Band> chosen;
+  std::ranges::copy_if(bands, std::back_inserter(chosen),
+                       [](const Band& band) { return band.neighbours[0] != band.neighbours[1]; });
+  return chosen;
+}
+
 std::vector<Band> read_interfaces(const ConfigTable& table, std::span<const Band> bands) {
   const auto interfaces = table.find("interfaces");
-  if (!interfaces) return {bands.begin(), bands.end()};
+  if (!interfaces) return two_sided(bands);
   std::vector<std::string> names;
   for (const Band& band : bands) names.push_back(band.region);
   std::vector<Band> chosen;
   for (const ConfigValue& entry : interfaces->list()) {
     const std::string name = entry.one_of(names, "band between two regions ([mesh.layers] or [regions.NAME] band)");
     chosen.push_back(*std::ranges::find(bands, name, &Band::region));
+    if (chosen.back().neighbours[0] == chosen.back().neighbours[1])
+      throw entry.error(
+          fmt::format("\"{}\" has \"{}\" on both sides, so that no column begins at it; sample it by one of "
+                      "[[cohesive.planes]]",
+                      name, chosen.back().neighbours[0]));
   }
   return chosen;
 }
@@ -49,7 +63,7 @@ CohesivePlane read_plane(const ConfigTable& table) {
 }  // namespace
 
 CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> bands, const Vector& axis) {
-  CohesiveSettings settings{.bands = {bands.begin(), bands.end()}, .planes = {}, .axis = axis};
+  CohesiveSettings settings{.bands = two_sided(bands), .planes = {}, .axis = axis};
   if (!root.has("cohesive")) return settings;
   const ConfigTable table = root.table("cohesive");
   settings.bands = read_interfaces(table, bands);

@@ -24,7 +24,7 @@ struct CohesiveSettings {
   Vector axis = Vector::UnitZ();  ///< of the load
 };
 
-/// All bands that there are, unless [cohesive] names some. `root` is the whole case file, `axis` the direction of the
+/// All bands between two different regions, unless [cohesive] names some. `root` is the whole case file, `axis` the direction of the
 /// curve's displacement. Throws InputError.
 CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> bands, const Vector& axis);
 

@@ -54,6 +54,7 @@ void list_laws(std::ostream& out) {
   list_table(out, "crack geometric functions ([fracture] model)", crack_geometries());
   list_table(out, "degradation functions ([fracture] degradation)", degradations());
   list_table(out, "softening laws of the rational degradation ([fracture] softening)", softening_laws());
+  list_table(out, "traction-separation laws that pfdm cohesive fits", traction_separation_laws());
   list_table(out, "energy splits ([fracture] split)", energy_splits());
   list_table(out, "hardening of the endochronic law ([material.hardening] law)", hardening_laws());
   list_table(out, "rate factors of the endochronic law ([material.rate] law)", rate_factors());

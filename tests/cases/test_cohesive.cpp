@@ -146,6 +146,17 @@ const BadInput bad_cohesive[] = {
 INSTANTIATE_TEST_SUITE_P(Inputs, BadCohesive, testing::ValuesIn(bad_cohesive),
                          [](const auto& test) { return std::string(test.param.name); });
 
+TEST(Cohesive, RefusesABandWithoutAnInnerSide) {
+  const std::string band = replaced(bar_case(), "toughness = \"80 J/m^2\"\n",
+                                    "toughness = \"80 J/m^2\"\nband = { width = \"0.8 mm\", between = [\"bar\", "
+                                    "\"bar\"] }\n");
+  EXPECT_EQ(run({"check", TemporaryCase(band).path().string()}).status, 0);
+  const Outcome outcome =
+      run({"check", TemporaryCase(band + "\n[cohesive]\ninterfaces = [\"weak\"]\n").path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("interfaces[0]: \"weak\" has \"bar\" on both sides"), std::string::npos) << outcome.err;
+}
+
 // ---- Comparison
 
 TEST(Compare, FindsNoDifferenceFromItself) {
