@@ -24,8 +24,8 @@ struct CohesiveSettings {
   Vector axis = Vector::UnitZ();  ///< of the load
 };
 
-/// All bands between two different regions, unless [cohesive] names some. `root` is the whole case file, `axis` the direction of the
-/// curve's displacement. Throws InputError.
+/// All bands between two different regions, unless [cohesive] names some. `root` is the whole case file, `axis` the
+/// direction of the curve's displacement. Throws InputError.
 CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> bands, const Vector& axis);
 
 /// Throws InputError, with file and line, for a surface that the mesh does not have.
