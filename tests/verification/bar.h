@@ -208,8 +208,8 @@ inline std::vector<BarState> Bar::follow(double end, double increment, double di
                   {.end = end,
                    .initial_increment = increment,
                    .maximum_increment = increment,
-                   .stops = {},
-                   .maximum_dissipation = dissipation * Gc * area()});
+                   .maximum_dissipation = dissipation * Gc * area(),
+                   .stops = {}});
   run.run(run.initial_state(), recorder(states));
   return states;
 }
