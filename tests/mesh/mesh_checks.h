@@ -35,6 +35,16 @@ inline Vector patch_area(const Mesh& mesh, const std::string& name) {
   return area;
 }
 
+inline void expect_same(const Mesh& a, const Mesh& b) {
+  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.face_points, b.face_points);
+  EXPECT_EQ(a.owner, b.owner);
+  EXPECT_EQ(a.neighbour, b.neighbour);
+  EXPECT_EQ(a.region, b.region);
+  EXPECT_EQ(a.cell_points, b.cell_points);
+  EXPECT_EQ(a.cell_volume, b.cell_volume);
+}
+
 inline Index bandwidth(const Mesh& mesh) {
   Index widest = 0;
   for (Index f = 0; f < mesh.n_interior_faces(); ++f) widest = std::max(widest, mesh.neighbour[f] - mesh.owner[f]);

@@ -159,11 +159,7 @@ TEST(Dual, PartsFacesOfOnePatchAtSharpEdges) {
 
 TEST(Dual, OfTheSameMeshIsTheSame) {
   const Mesh a = barycentric_dual(sphere_in_layers()), b = barycentric_dual(sphere_in_layers());
-  EXPECT_EQ(a.points, b.points);
-  EXPECT_EQ(a.face_points, b.face_points);
-  EXPECT_EQ(a.owner, b.owner);
-  EXPECT_EQ(a.neighbour, b.neighbour);
-  EXPECT_EQ(a.cell_points, b.cell_points);
+  expect_same(a, b);
 }
 
 TEST(Dual, IsMoreOrthogonalThanItsPrimal) {

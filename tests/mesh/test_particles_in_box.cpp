@@ -99,12 +99,7 @@ TEST(ParticlesInBox, SameInputSameMesh) {
   const Mesh a = make_particles_in_box(settings);
   make_particles_in_box(one_bead(3, 0));  // leaves nothing behind
   const Mesh b = make_particles_in_box(settings);
-  EXPECT_EQ(a.points, b.points);
-  EXPECT_EQ(a.face_points, b.face_points);
-  EXPECT_EQ(a.owner, b.owner);
-  EXPECT_EQ(a.neighbour, b.neighbour);
-  EXPECT_EQ(a.region, b.region);
-  EXPECT_EQ(a.cell_volume, b.cell_volume);
+  expect_same(a, b);
 }
 
 TEST(ParticlesInBox, UnitOfLengthDoesNotMatter) {
