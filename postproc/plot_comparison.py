@@ -1,16 +1,27 @@
 #!/usr/bin/env python3
 """Plots a computed curve over the measured one: comparison.csv, or comparison_debonding.csv.
 
-The band is two standard deviations to either side, where they are known. Needs the Debian package python3-matplotlib.
+The specimens' names are those of comparison.json beside it. The band is two standard deviations to either side, where they are known. Needs the Debian package python3-matplotlib.
 """
 
 import argparse
+import json
 import math
 import pathlib
 
 from plotting import new_picture, read_columns, save_picture
 
 QUANTITIES = {"force_N": ("force [N]", 1.0), "angle_rad": ("debonding angle [degrees]", math.degrees(1.0))}
+PARTS = {"force_N": "force_displacement", "angle_rad": "debonding_angle"}
+
+
+def name_of_measured(comparison, quantity):
+    """The specimen's name as the case gives it, or that it is a mean of several."""
+    whole = json.loads((comparison.parent / "comparison.json").read_text(encoding="utf-8"))
+    specimens = whole[PARTS[quantity]]["specimens"]
+    if len(specimens) > 1:
+        return f"mean of {len(specimens)} specimens"
+    return specimens[0] if isinstance(specimens[0], str) else specimens[0]["name"]
 
 
 def main():
@@ -29,7 +40,7 @@ def main():
         deviation = [2.0 * factor * s for s in table[f"measured_deviation_{quantity}"]]
         axes.fill_between(displacement, [y - s for y, s in zip(measured, deviation)],
                           [y + s for y, s in zip(measured, deviation)], color="0.85", label="two standard deviations")
-    axes.plot(displacement, measured, "k-", lw=1.0, label="measured")
+    axes.plot(displacement, measured, "k-", lw=1.0, label=name_of_measured(arguments.comparison, quantity))
     axes.plot(displacement, [factor * y for y in table[f"model_{quantity}"]], "-", lw=1.6, label="pfdm")
     save_picture(figure, axes, "displacement [µm]", label, arguments.output)
 
