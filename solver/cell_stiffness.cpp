@@ -55,18 +55,19 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
 }
 
 double CellStiffness::follow(const CellField<Tensor>& strain, FractureState& state) {
+  const bool isotropic = model_.split->secant != nullptr;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    const double g = factor(c, state.damage[c]);
-    return model_.split->secant != nullptr ? follow_with_closure(c, strain[c], g, state.closure[c])
-                                           : follow_with_tangent(c, strain[c], g, state.tangent_strain[c]);
+    return isotropic ? follow_with_closure(c, strain[c], state.damage[c], state.closure[c])
+                     : follow_with_tangent(c, strain[c], state.damage[c], state.tangent_strain[c]);
   });
 }
 
 // The closure follows the strain with steps that shorten at each turn: at once, cells at the edge of a crack would open
 // and close in turn for ever.
-double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, double g, double& closure) {
+double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, double d, double& closure) {
   const double lag = model_.split->closure(strain) - closure;
   if (lag == 0.0) return 0.0;
+  const double g = factor(cell, d);
   const double wrong = energy_density(model_.split->secant(elasticity(cell), g, closure + lag), strain) -
                        energy_density(model_.split->secant(elasticity(cell), g, closure), strain);
   if (lag * closing_[cell] < 0.0) ++turns_[cell];
@@ -81,7 +82,8 @@ double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, doub
 }
 
 // Newton's step, of which a cell whose strain swings takes the smaller a share the more often it turns.
-double CellStiffness::follow_with_tangent(Index cell, const Tensor& strain, double g, Tensor& tangent_strain) {
+double CellStiffness::follow_with_tangent(Index cell, const Tensor& strain, double d, Tensor& tangent_strain) {
+  const double g = factor(cell, d);
   if (g == 1.0) return 0.0;
   const Mandel eps = to_mandel(strain);
   const double used = eps.dot(degraded_tangent(*model_.split, elasticity(cell), g, tangent_strain) * eps);

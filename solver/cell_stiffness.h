@@ -24,8 +24,8 @@ class CellStiffness {
  private:
   double factor(Index cell, double d) const;  // g, the residual stiffness included
   const IsotropicElasticity& elasticity(Index cell) const;
-  double follow_with_closure(Index cell, const Tensor& strain, double g, double& closure);
-  double follow_with_tangent(Index cell, const Tensor& strain, double g, Tensor& tangent_strain);
+  double follow_with_closure(Index cell, const Tensor& strain, double d, double& closure);
+  double follow_with_tangent(Index cell, const Tensor& strain, double d, Tensor& tangent_strain);
 
   const Mesh& mesh_;
   const FractureModel& model_;
