@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "mesh/cell_edges.h"
 #include "mesh/cell_faces.h"
+#include "mesh/disjoint_sets.h"
 #include "physics/error.h"
 
 namespace pfdm {
@@ -66,28 +66,21 @@ class DualBuilder {
 
   // A dual cell is a set of corners of primal cells that are connected through faces within the region.
   void number_dual_cells() {
-    std::vector<std::size_t> parent(primal_.cell_points.size());
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto root = [&](std::size_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    DisjointSets corners(primal_.cell_points.size());
     for (Index f = 0; f < primal_.n_interior_faces(); ++f) {
       if (!is_within_region(f)) continue;
-      for (const Index p : primal_.points_of_face(f)) {
-        const auto [low, high] =
-            std::minmax({root(corner(primal_.owner[f], p)), root(corner(primal_.neighbour[f], p))});
-        parent[high] = low;
-      }
+      for (const Index p : primal_.points_of_face(f))
+        corners.join(corner(primal_.owner[f], p), corner(primal_.neighbour[f], p));
     }
-    dual_of_corner_.resize(parent.size());
+    dual_of_corner_.resize(primal_.cell_points.size());
     for (Index c = 0; c < primal_.n_cells(); ++c)
       for (auto i = as_size(primal_.cell_offsets[as_size(c)]); i < as_size(primal_.cell_offsets[as_size(c) + 1]); ++i) {
-        if (parent[i] == i) {
+        const std::size_t least = corners.least_with(i);
+        if (least == i) {
           dual_of_corner_[i] = static_cast<Index>(region_of_dual_.size());
           region_of_dual_.push_back(primal_.region[c]);
         } else {
-          dual_of_corner_[i] = dual_of_corner_[root(i)];
+          dual_of_corner_[i] = dual_of_corner_[least];
         }
       }
   }

@@ -1,7 +1,7 @@
 #pragma once
-// Areas, volumes and centres of polygons and polyhedra. A face is the fan of triangles about its apex, which is the mean
-// of its points unless the mesh names a point: both its cells see the same surface, so volumes add up and every cell
-// closes, planar faces or not.
+// Areas, volumes and centres of polygons and polyhedra. A face is the fan of triangles about its apex, which is the
+// mean of its points unless the mesh names a point: both its cells see the same surface, so volumes add up and every
+// cell closes, planar faces or not.
 
 #include "mesh/mesh.h"
 

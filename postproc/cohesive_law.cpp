@@ -157,8 +157,7 @@ CohesiveFigures figures_of(const ColumnRecord& record, const CohesiveLaw& law) {
 }
 
 std::vector<Debonding> debonding_of(const ColumnRecord& record) {
-  double whole = 0.0;
-  for (const Place& place : record.places) whole += place.area;
+  const double whole = record.area();
   std::vector<Debonding> history;
   for (const std::vector<ColumnSample>& step : record.steps) {
     double plus = 0.0, minus = 0.0;

@@ -1,5 +1,6 @@
 #include "postproc/cohesive_results.h"
 
+#include "physics/angle.h"
 #include "physics/error.h"
 #include "postproc/atomic_file.h"
 #include "postproc/csv_table.h"
@@ -7,14 +8,10 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 namespace pfdm {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// Columns of a table of laws; the first of `numbers` tell which law it is.
 class LawTable {
@@ -98,12 +95,10 @@ Json to_json(const CohesiveReport& report) {
   Json json = {{"case", report.case_name}, {"version", report.version}, {"case_hash", report.case_hash}};
   for (std::size_t r = 0; r < report.records.size(); ++r) {
     const ColumnRecord& record = report.records[r];
-    double area = 0.0;
-    for (const Place& place : record.places) area += place.area;
     Json surface = {{"name", record.name},
-                    {"kind", record.kind == SurfaceKind::plane ? "plane" : "interface"},
+                    {"kind", name_of(record.kind)},
                     {"places", record.places.size()},
-                    {"area_m2", area},
+                    {"area_m2", record.area()},
                     {"debonded_area_m2", debonding_of(record).back().area}};
     for (const CohesiveResult& result : report.results[r]) surface["laws"].push_back(to_json(result));
     json["surfaces"].push_back(surface);

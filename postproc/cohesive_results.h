@@ -36,6 +36,9 @@ struct CohesiveReport {
   int component = 2;                                 ///< of the curve's force
 };
 
+inline constexpr const char* cohesive_files[] = {"cohesive_law.csv", "cohesive_law_places.csv", "cohesive.json",
+                                                 "debonding.csv"};
+
 /// Each written whole or not at all. Throws InputError if the curve has not the steps of the records, ComputationError
 /// if a file cannot be written.
 void write_cohesive_results(const std::filesystem::path& results, const CohesiveReport& report);

@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 constexpr const char* places_file = "places.csv";
 constexpr std::string_view components[] = {"n", "1", "2"};
 
-std::string_view name_of(SurfaceKind kind) { return kind == SurfaceKind::plane ? "plane" : "interface"; }
-
 // The one list of what a row holds, for both directions: visit(name, number) for each.
 template <class Sample, class Visit>
 void visit_sample(Sample& sample, const Visit& visit) {
@@ -103,6 +101,21 @@ ColumnRecord read_record(const fs::path& folder) {
 }
 
 }  // namespace
+
+double ColumnRecord::area() const {
+  double sum = 0.0;
+  for (const Place& place : places) sum += place.area;
+  return sum;
+}
+
+void remove_columns(const fs::path& folder) {
+  remove_steps_beyond(folder, -1);
+  std::error_code ignored;
+  std::vector<fs::path> sets;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) sets.push_back(entry.path());
+  for (const fs::path& set : sets)
+    if (fs::remove(set / places_file, ignored)) fs::remove(set, ignored);  // unless there is something else in it
+}
 
 ColumnFiles::ColumnFiles(fs::path folder, const std::vector<ColumnSet>& sets, const Vector& axis,
                          std::optional<Index> last_step)

@@ -24,8 +24,10 @@ struct ColumnRecord {
   std::string name;
   SurfaceKind kind = SurfaceKind::interface;
   std::vector<Place> places;
-  std::vector<std::vector<ColumnSample>>
-      steps;  ///< one for each load step from 0 on, each with an entry for each place
+  /// One for each load step from 0 on, each with an entry for each place.
+  std::vector<std::vector<ColumnSample>> steps;
+
+  double area() const;  ///< of the whole surface [m^2]
 };
 
 /// The writing side.
@@ -42,6 +44,9 @@ class ColumnFiles {
   std::filesystem::path folder_;
   const std::vector<ColumnSet>& sets_;
 };
+
+/// Removes the records of an earlier run from `folder`, of surfaces that are no longer sampled as well.
+void remove_columns(const std::filesystem::path& folder);
 
 /// The records of all sets in `folder`, by name; none if there is no such folder. Throws InputError that names the file
 /// for what is not such a record, and for a record with a step missing.

@@ -1,5 +1,6 @@
 #include "postproc/columns.h"
 
+#include "mesh/disjoint_sets.h"
 #include "physics/error.h"
 #include "postproc/slice.h"
 #include "solver/parallel.h"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace pfdm {
 namespace {
@@ -32,22 +32,14 @@ std::array<Vector, 2> tangents_of(const Vector& normal, const Vector& axis) {
 // Numbers of the connected parts to which faces belong, faces that share a point being connected; in order of their
 // first faces.
 std::vector<Index> connected_parts(const Mesh& mesh, const std::vector<Index>& faces) {
-  std::vector<std::size_t> leader(faces.size());
-  std::iota(leader.begin(), leader.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (leader[i] != i) i = leader[i] = leader[leader[i]];
-    return i;
-  };
+  DisjointSets sets(faces.size());
   std::map<Index, std::size_t> first_at_point;
   for (std::size_t i = 0; i < faces.size(); ++i)
-    for (const Index p : mesh.points_of_face(faces[i])) {
-      const std::size_t a = find(first_at_point.try_emplace(p, i).first->second), b = find(i);
-      leader[std::max(a, b)] = std::min(a, b);
-    }
+    for (const Index p : mesh.points_of_face(faces[i])) sets.join(first_at_point.try_emplace(p, i).first->second, i);
   std::map<std::size_t, Index> number;
   std::vector<Index> parts;
   for (std::size_t i = 0; i < faces.size(); ++i)
-    parts.push_back(number.try_emplace(find(i), static_cast<Index>(number.size())).first->second);
+    parts.push_back(number.try_emplace(sets.least_with(i), static_cast<Index>(number.size())).first->second);
   return parts;
 }
 
@@ -169,6 +161,8 @@ ColumnSample sample(const Mesh& mesh, const FractureModel& model, const OutputFi
 }
 
 }  // namespace
+
+std::string_view name_of(SurfaceKind kind) { return kind == SurfaceKind::plane ? "plane" : "interface"; }
 
 double polar_angle(const Vector& normal, const Vector& axis) {
   return std::acos(std::clamp(normal.dot(axis), -1.0, 1.0));

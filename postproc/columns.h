@@ -14,6 +14,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pfdm {
@@ -31,6 +32,8 @@ enum class SurfaceKind {
   interface,  ///< between a band of cells and a particle; the columns run through the band
   plane       ///< a cut; the columns run through it. What strain they have in excess at both ends is the bulk's
 };
+
+std::string_view name_of(SurfaceKind kind);
 
 struct ColumnSet {
   std::string name;

@@ -1,5 +1,6 @@
 #include "postproc/comparison_results.h"
 
+#include "physics/angle.h"
 #include "physics/error.h"
 #include "postproc/atomic_file.h"
 #include "postproc/csv_table.h"
@@ -7,14 +8,10 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 namespace pfdm {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 SampledCurve mean_curve(const ComparedCurves& curves) { return {.name = "mean", .x = curves.x, .y = curves.measured}; }
 

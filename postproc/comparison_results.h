@@ -43,6 +43,8 @@ struct ComparisonReport {
   std::optional<AngleComparison> angle;
 };
 
+inline constexpr const char* comparison_files[] = {"comparison.json", "comparison.csv", "comparison_debonding.csv"};
+
 /// Each written whole or not at all. Throws ComputationError.
 void write_comparison(const std::filesystem::path& results, const ComparisonReport& report);
 

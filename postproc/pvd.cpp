@@ -26,9 +26,9 @@ std::optional<Frame> parse_row(std::string_view line) {
   const std::size_t middle = line.find(row_middle);
   if (!line.starts_with(row_start) || !line.ends_with(row_end) || middle == std::string_view::npos) return std::nullopt;
   const std::size_t file = middle + row_middle.size();
-  const auto load = parse_double(line.substr(row_start.size(), middle - row_start.size()));
-  if (!load || file + row_end.size() >= line.size()) return std::nullopt;
-  return Frame{*load, std::string(line.substr(file, line.size() - row_end.size() - file))};
+  const auto time = parse_double(line.substr(row_start.size(), middle - row_start.size()));
+  if (!time || file + row_end.size() >= line.size()) return std::nullopt;
+  return Frame{*time, std::string(line.substr(file, line.size() - row_end.size() - file))};
 }
 
 }  // namespace
@@ -52,21 +52,22 @@ std::vector<Frame> read_pvd(const std::filesystem::path& path) {
 
 PvdSeries::PvdSeries(std::filesystem::path path) : path_(std::move(path)) { write(); }
 
-PvdSeries::PvdSeries(std::filesystem::path path, double last_load) : path_(std::move(path)) {
+PvdSeries::PvdSeries(std::filesystem::path path, const std::function<bool(const Frame&)>& keeps)
+    : path_(std::move(path)) {
   if (std::filesystem::exists(path_)) frames_ = read_pvd(path_);
-  std::erase_if(frames_, [=](const Frame& frame) { return frame.load > last_load; });
+  std::erase_if(frames_, std::not_fn(keeps));
   write();
 }
 
-void PvdSeries::add(double load, const std::string& file) {
-  frames_.push_back({load, file});
+void PvdSeries::add(double time, const std::string& file) {
+  frames_.push_back({time, file});
   write();
 }
 
 void PvdSeries::write() const {
   std::string content(head);
   for (const Frame& frame : frames_)
-    content += fmt::format("{}{}{}{}{}\n", row_start, frame.load, row_middle, frame.file, row_end);
+    content += fmt::format("{}{}{}{}{}\n", row_start, frame.time, row_middle, frame.file, row_end);
   write_file(path_, content + std::string(foot));
 }
 

@@ -1,14 +1,15 @@
 #pragma once
-// fields.pvd: the list of frames, in order of load, that ParaView opens as one animation.
+// fields.pvd: the list of frames, in order of time, that ParaView opens as one animation.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace pfdm {
 
 struct Frame {
-  double load = 0.0;  ///< load parameter [-], or time [s]
+  double time = 0.0;  ///< what ParaView takes for it: the load parameter, or another number that rises
   std::string file;   ///< relative to the .pvd
   friend bool operator==(const Frame&, const Frame&) = default;
 };
@@ -21,11 +22,11 @@ class PvdSeries {
  public:
   /// Starts a list without frames. Throws ComputationError if the file cannot be written, as add() does.
   explicit PvdSeries(std::filesystem::path path);
-  /// Goes on from a list on the disk, of which the frames up to `last_load` are kept; without a file, from none.
+  /// Goes on from a list on the disk, of which the frames that `keeps` says are kept; without a file, from none.
   /// Throws InputError likewise to read_pvd.
-  PvdSeries(std::filesystem::path path, double last_load);
+  PvdSeries(std::filesystem::path path, const std::function<bool(const Frame&)>& keeps);
 
-  void add(double load, const std::string& file);
+  void add(double time, const std::string& file);
   const std::vector<Frame>& frames() const { return frames_; }
 
  private:

@@ -12,8 +12,8 @@ struct Section {
 };
 
 /// Of the plane through `point` [m] with the given unit normal. Exact for the surface of triangles that faces
-/// are (mesh/geometry.h). Where the plane follows faces, each of the two cells has half of their common face, and the one
-/// cell at the boundary all of it.
+/// are (mesh/geometry.h). Where the plane follows faces, each of the two cells has half of their common face, and the
+/// one cell at the boundary all of it.
 Section section_of_cell(const Mesh& mesh, Index cell, const Vector& point, const Vector& normal);
 
 /// Area [m^2] of the plane through `point` [m] with the given `normal` (any length) inside cells with

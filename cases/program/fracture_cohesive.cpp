@@ -1,16 +1,13 @@
 #include "cases/program/fracture_cohesive.h"
 
 #include "cases/program/fracture_results.h"
+#include "physics/angle.h"
 #include "postproc/cohesive_results.h"
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 namespace pfdm {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 std::string outcome_of(const CohesiveResult& result) {
   const CohesiveFigures& f = result.figures;

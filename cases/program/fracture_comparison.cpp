@@ -1,12 +1,11 @@
 #include "cases/program/fracture_comparison.h"
 
 #include "cases/program/fracture_results.h"
+#include "physics/angle.h"
 #include "postproc/cohesive_law.h"
 #include "postproc/comparison_results.h"
 
 #include <fmt/format.h>
-
-#include <numbers>
 
 namespace pfdm {
 namespace {
@@ -64,7 +63,6 @@ void say(const ForceComparison& force, Log& log) {
 }
 
 void say(const AngleComparison& angle, Log& log) {
-  constexpr double degree = std::numbers::pi / 180.0;
   const auto onset = [](const std::optional<double>& at) { return at ? fmt::format("{:.4g} m", *at) : "never"; };
   log.say(
       fmt::format("debonding angle: difference rms {:.3g} degrees, at most {:.3g} at {:.4g} m; begins at {}, measured "

@@ -3,6 +3,8 @@
 #include "mesh/quality.h"
 #include "postproc/atomic_file.h"
 #include "postproc/checkpoint.h"
+#include "postproc/cohesive_results.h"
+#include "postproc/comparison_results.h"
 #include "postproc/frame.h"
 #include "postproc/slice.h"
 
@@ -23,13 +25,17 @@ constexpr const char* summary_file = "summary.json";
 constexpr const char* frames_folder = "fields";
 constexpr const char* columns_folder = "columns";
 
+/// Of a step, relative to the results; in the order of the steps, so are the names.
+std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", frames_folder, step); }
+
 /// Otherwise a run that dies early would leave an older run's files beside its own.
 void remove_earlier_run(const fs::path& directory) {
   std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
-  for (const char* file :
-       {checkpoint_file, curve_file, frames_file, summary_file, "cohesive.json", "cohesive_law.csv",
-        "cohesive_law_places.csv", "debonding.csv", "comparison.json", "comparison.csv", "comparison_debonding.csv"})
+  for (const char* file : {checkpoint_file, curve_file, frames_file, summary_file})
     fs::remove(directory / file, ignored);
+  for (const char* file : cohesive_files) fs::remove(directory / file, ignored);
+  for (const char* file : comparison_files) fs::remove(directory / file, ignored);
+  remove_columns(directory / columns_folder);
   for (const auto& entry : fs::directory_iterator(directory / frames_folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);
@@ -109,7 +115,9 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
       case_hash_(std::move(case_hash)),
       curve_patch_(patch_number(mesh, fracture.output.curve.patch)),
       curve_(last ? CurveFile(directory_ / curve_file, last->step) : CurveFile(directory_ / curve_file)),
-      frames_(last ? PvdSeries(directory_ / frames_file, last->load) : PvdSeries(directory_ / frames_file)),
+      frames_(last ? PvdSeries(directory_ / frames_file,
+                               [last](const Frame& frame) { return frame.file <= frame_file(last->step); })
+                   : PvdSeries(directory_ / frames_file)),
       writer_(mesh),
       damage_(as_size(mesh.n_cells()), 0.0) {
   if (!columns.empty())
@@ -143,14 +151,17 @@ bool FractureResults::frame_is_due(const FractureState& state) const {
 }
 
 void FractureResults::write_frame(Index step, double load, const OutputFields& output) {
-  const std::string file = fmt::format("{}/step_{:06}.vtu", frames_folder, step);
-  writer_.write(directory_ / file, frame_fields(mesh_, output), load);
-  frames_.add(load, file);
+  // A followed load falls back, and ParaView wants times that rise: they are the steps then.
+  const bool load_rises = std::isinf(fracture_.loading.maximum_dissipation) &&
+                          (frames_.frames().empty() || frames_.frames().back().time < load);
+  const double time = load_rises ? load : static_cast<double>(step);
+  writer_.write(directory_ / frame_file(step), frame_fields(mesh_, output), time);
+  frames_.add(time, frame_file(step));
 }
 
 void FractureResults::write_last_frame(const Output& output) {
   const auto& frames = frames_.frames();
-  if (frames.empty() || !same_load(frames.back().load, last_load_)) write_frame(last_step_, last_load_, output());
+  if (frames.empty() || frames.back().file != frame_file(last_step_)) write_frame(last_step_, last_load_, output());
 }
 
 std::map<std::string, double> FractureResults::damaged_areas() const {

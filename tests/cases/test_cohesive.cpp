@@ -90,6 +90,18 @@ TEST(Cohesive, TellsTheSameAfterARestart) {
     EXPECT_EQ(content_of(broken / file), content_of(whole / file)) << file;
 }
 
+TEST(Cohesive, ForgetsSurfacesOfAnEarlierRun) {
+  const TemporaryCase directory(cohesive_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  directory.write("case.toml", replaced(cohesive_case(), "\"crack\"", "\"middle\""));
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json surfaces = json_in(directory.results() / "cohesive.json")["surfaces"];
+  ASSERT_EQ(surfaces.size(), 1u);
+  EXPECT_EQ(surfaces[0]["name"], "middle");
+  EXPECT_FALSE(fs::exists(directory.results() / "columns" / "crack"));
+}
+
 TEST(Cohesive, CanBeExtractedAgain) {
   const TemporaryCase directory(cohesive_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);

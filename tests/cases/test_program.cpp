@@ -1,5 +1,7 @@
 // The program from end to end, on a bar that breaks.
 
+#include "postproc/csv_table.h"
+#include "postproc/pvd.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>
@@ -37,17 +39,17 @@ TEST(Program, RunsACaseAndWritesItsResults) {
 
 /// The bar breaks in steps of a twentieth of what its crack takes: past snap-back.
 std::string followed_bar_case() {
-  const std::string text = replaced(bar_case(), "frames_at = [\"0.006 mm\"]", "frames_every = 5");
+  const std::string text = replaced(bar_case(), "frames_at = [\"0.006 mm\"]", "frames_every = 2");
   return replaced(text, "maximum_increment = 0.1", "maximum_increment = 0.1\nmaximum_dissipation = \"4 uJ\"");
 }
 
-void expect_to_go_on_to_the_same_curve(const std::string& text) {
+void expect_to_go_on_to_the_same_curve(const std::string& text, const std::string& first_steps = "4") {
   const TemporaryCase directory(text);
   const std::string place = directory.path().string();
   const fs::path whole = directory.path() / "whole";
   const fs::path broken = directory.path() / "broken";
   ASSERT_EQ(run({"run", place, "--output", whole.string()}).status, 0);
-  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--max-steps", "4"}).status, 0);
+  ASSERT_EQ(run({"run", place, "--output", broken.string(), "--max-steps", first_steps}).status, 0);
   EXPECT_EQ(summary_in(broken)["status"], "stopped by --max-steps");
   EXPECT_NE(content_of(broken / "force_displacement.csv"), content_of(whole / "force_displacement.csv"));
   ASSERT_EQ(run({"run", place, "--output", broken.string(), "--restart", "--max-steps", "3"}).status, 0);
@@ -60,7 +62,20 @@ void expect_to_go_on_to_the_same_curve(const std::string& text) {
 
 TEST(Program, GoesOnToTheSameCurveAsAnUnbrokenRun) { expect_to_go_on_to_the_same_curve(bar_case()); }
 
-TEST(Program, GoesOnAlongTheSamePathAsAnUnbrokenRun) { expect_to_go_on_to_the_same_curve(followed_bar_case()); }
+TEST(Program, GoesOnAlongTheSamePathAsAnUnbrokenRun) {
+  expect_to_go_on_to_the_same_curve(followed_bar_case());
+  expect_to_go_on_to_the_same_curve(followed_bar_case(), "18");  // from beyond the snap-back
+}
+
+TEST(Program, GivesFramesTimesThatRiseWhereTheLoadFallsBack) {
+  const TemporaryCase directory(followed_bar_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const std::vector<double> loads = read_csv(directory.results() / "force_displacement.csv").column("load");
+  EXPECT_FALSE(std::ranges::is_sorted(loads));
+  const std::vector<Frame> frames = read_pvd(directory.results() / "fields.pvd");
+  EXPECT_GT(frames.size(), loads.size() / 2);
+  EXPECT_TRUE(std::ranges::is_sorted(frames, std::ranges::less{}, &Frame::time));
+}
 
 // A bar of about a hundred polyhedra that breaks.
 std::string bar_of_polyhedra() {
