@@ -120,7 +120,7 @@ Vector traction_on_normal(const Mesh& mesh, const OutputFields& output, const Co
 
 CellExcess excess_of(const Mesh& mesh, const FractureModel& model, const OutputFields& output, const Column& column,
                      const LineSegment& segment) {
-  const IsotropicElasticity& sound = model.regions[as_size(mesh.region[segment.cell])].elasticity;
+  const IsotropicElasticity& sound = model.in_cell(mesh, segment.cell).elasticity;
   const Tensor& strain = output.strain[segment.cell];
   const Vector on_normal = components(column, strain * column.normal);
   const double lateral = strain.trace() - on_normal[0];

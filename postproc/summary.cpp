@@ -13,11 +13,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double left_over(const CurveRow& row) { return row.external_work - row.elastic_energy - row.fracture_energy; }
+// Of the work that was done since the start, where there may be damage already.
+double left_over(const CurveRow& start, const CurveRow& row) {
+  return row.external_work - row.elastic_energy - (row.fracture_energy - start.fracture_energy);
+}
 
-double balance_error(const CurveRow& row) {
+double balance_error(const CurveRow& start, const CurveRow& row) {
   if (!(row.external_work > 0.0)) return Headlines::none;
-  return std::abs(left_over(row)) / row.external_work;
+  return std::abs(left_over(start, row)) / row.external_work;
 }
 
 double initial_stiffness(std::span<const CurveRow> rows, int component) {
@@ -30,13 +33,13 @@ double initial_stiffness(std::span<const CurveRow> rows, int component) {
 
 double largest_balance_error(std::span<const CurveRow> rows) {
   double largest = Headlines::none;
-  for (const CurveRow& row : rows) largest = std::fmax(largest, balance_error(row));
+  for (const CurveRow& row : rows) largest = std::fmax(largest, balance_error(rows.front(), row));
   return largest;
 }
 
 void find_release(std::span<const CurveRow> rows, Headlines& figures) {
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double released = left_over(rows[i]) - left_over(rows[i - 1]);
+    const double released = left_over(rows.front(), rows[i]) - left_over(rows.front(), rows[i - 1]);
     if (figures.released_energy >= released) continue;  // none is no number, which is never so
     figures.released_energy = released;
     figures.displacement_at_release = rows[i].displacement;
@@ -113,7 +116,7 @@ Headlines headlines(std::span<const CurveRow> rows, int component) {
   figures.external_work = last.external_work;
   figures.max_damage = last.max_damage;
   figures.damaged_volume = last.damaged_volume;
-  figures.energy_balance_error = balance_error(last);
+  figures.energy_balance_error = balance_error(rows.front(), last);
   figures.max_energy_balance_error = largest_balance_error(rows);
   find_release(rows, figures);
   return figures;

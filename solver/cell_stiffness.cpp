@@ -27,11 +27,11 @@ void CellStiffness::start_step() {
 }
 
 const IsotropicElasticity& CellStiffness::elasticity(Index cell) const {
-  return model_.regions[as_size(mesh_.region[cell])].elasticity;
+  return model_.in_cell(mesh_, cell).elasticity;
 }
 
 double CellStiffness::factor(Index cell, double d) const {
-  const RegionModel& region = model_.regions[as_size(mesh_.region[cell])];
+  const RegionModel& region = model_.in_cell(mesh_, cell);
   if (!region.damageable) return 1.0;
   return (1.0 - model_.residual_stiffness) * model_.degradation->g(d, region.rational) + model_.residual_stiffness;
 }

@@ -42,7 +42,7 @@ DamageEquation::DamageEquation(const Mesh& mesh, const FractureModel& model, con
 
 void DamageEquation::build_links() {
   for (Index c = 0; c < mesh_.n_cells(); ++c) {
-    const RegionModel& region = model_.regions[as_size(mesh_.region[c])];
+    const RegionModel& region = model_.in_cell(mesh_, c);
     damageable_[c] = region.damageable ? 1 : 0;
     density_[c] = region.damageable ? region.Gc / (model_.crack->c0 * region.ell) : 0.0;
     conductance_[c] = region.damageable ? 2.0 * region.Gc * region.ell / model_.crack->c0 : 0.0;
@@ -146,7 +146,7 @@ void DamageEquation::renew_correction(const CellField<double>& d) {
 }
 
 double DamageEquation::local_slope(Index cell, double d, double psi) const {
-  const RationalCoefficients& rational = model_.regions[as_size(mesh_.region[cell])].rational;
+  const RationalCoefficients& rational = model_.in_cell(mesh_, cell).rational;
   const double slope = density_[cell] * model_.crack->alpha_prime(d) +
                        (1.0 - model_.residual_stiffness) * model_.degradation->g_prime(d, rational) * psi;
   const double source = source_.size() > 0 ? source_[cell] : 0.0;
@@ -154,7 +154,7 @@ double DamageEquation::local_slope(Index cell, double d, double psi) const {
 }
 
 double DamageEquation::local_curvature(Index cell, double d, double psi) const {
-  const RationalCoefficients& rational = model_.regions[as_size(mesh_.region[cell])].rational;
+  const RationalCoefficients& rational = model_.in_cell(mesh_, cell).rational;
   return mesh_.cell_volume[cell] *
          (density_[cell] * model_.crack->alpha_second(d) +
           (1.0 - model_.residual_stiffness) * model_.degradation->g_second(d, rational) * psi);

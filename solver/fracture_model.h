@@ -1,6 +1,7 @@
 #pragma once
 // Everything that a fracture run is given besides its mesh: materials by region, boundary conditions, settings.
 
+#include "mesh/mesh.h"
 #include "physics/crack_geometry.h"
 #include "physics/degradation.h"
 #include "physics/energy_split.h"
@@ -25,13 +26,21 @@ enum class Irreversibility {
 };
 
 struct FractureModel {
-  std::vector<RegionModel> regions;  ///< one per region of the mesh
+  /// One per region of the mesh; of a region that varies, an example. Regions whose elasticities are equal here share
+  /// an elastic zone.
+  std::vector<RegionModel> regions;
+  CellField<RegionModel> cells{};  ///< one per cell where a region varies from cell to cell; else empty
   const CrackGeometry* crack = nullptr;
   const Degradation* degradation = nullptr;
   const EnergySplit* split = nullptr;
   Irreversibility irreversibility = Irreversibility::bounds;
   double residual_stiffness = 1e-6;         ///< k of g_k = (1 - k) g + k
   std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
+  CellField<double> initial_damage{};       ///< at load 0, between 0 and 1 [-]; empty: none
+
+  const RegionModel& in_cell(const Mesh& mesh, Index cell) const {
+    return cells.size() > 0 ? cells[cell] : regions[as_size(mesh.region[cell])];
+  }
 };
 
 struct StaggeredSettings {

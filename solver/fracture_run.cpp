@@ -127,7 +127,9 @@ struct FractureRun::Parts {
     r.reaction = sum_by_patch(state.boundary_force);
     r.patch_displacement = staggered.momentum().balance().patch_displacements(state.displacement);
     r.elastic_energy = outcome.elastic_energy;
-    r.fracture_energy = staggered.damage_equation().fracture_energy(state.damage);
+    DamageEquation& equation = staggered.damage_equation();
+    r.fracture_energy =
+        state.step == 0 ? equation.renewed_fracture_energy(state.damage) : equation.fracture_energy(state.damage);
     r.external_work = state.external_work;
     r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return state.damage[c]; });
     r.damaged_volume =
@@ -157,7 +159,7 @@ FractureState FractureRun::initial_state() const {
   FractureState state;
   state.increment = parts_->loading.initial_increment;
   state.displacement.assign(as_size(parts_->unknowns.n_nodes()), Vector::Zero());
-  state.damage = CellField<double>(n, 0.0);
+  state.damage = parts_->model.initial_damage.size() > 0 ? parts_->model.initial_damage : CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
   if (parts_->model.split->secant == nullptr) state.tangent_strain = CellField<Tensor>(n);

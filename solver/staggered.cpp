@@ -111,8 +111,7 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
 void Staggered::drive(const FractureState& start, FractureState& state, double scale) {
   const bool history = model_.irreversibility == Irreversibility::history;
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    const RegionModel& region = model_.regions[as_size(mesh_.region[c])];
-    const double psi = model_.split->energy(region.elasticity, scale * strain_[c]).psi_plus;
+    const double psi = model_.split->energy(model_.in_cell(mesh_, c).elasticity, scale * strain_[c]).psi_plus;
     state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
   });
 }

@@ -40,6 +40,7 @@ class Staggered {
                          const StepLimits& limits = {});
 
   MomentumSolver& momentum() { return momentum_; }
+  DamageEquation& damage_equation() { return damage_; }
   const DamageEquation& damage_equation() const { return damage_; }
   StageClock& clock() { return clock_; }
   /// Sets the stiffness of the state in the momentum balance.

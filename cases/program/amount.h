@@ -1,11 +1,12 @@
 #pragma once
-// Prescribed values, plain or as an expression with its unit, and points.
+// Prescribed values and material parameters, plain or as an expression with its unit, and points.
 
 #include "cases/program/config.h"
 #include "physics/tensor.h"
 
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace pfdm {
 
@@ -19,6 +20,17 @@ struct Amount {
 
 /// "800 um", reached linearly at t = 1, or { expr = "0.1*t", unit = "um" }, used as it stands.
 Amount read_amount(const ConfigValue& value, const Dimension& due);
+
+/// A value that may depend on the place: of a material, or at the beginning.
+struct Parameter {
+  /// SI value at x [m]. Throws InputError, with the place in the file, where it is out of range.
+  std::function<double(const Vector& x)> at;
+  bool varies = false;
+  std::string text{};  ///< what the file says; equal texts are equal functions
+};
+
+/// "75 MPa" or { expr = "75 + 1e4*x", unit = "MPa" }; of a plain number 0.3 or { expr = "0.3 + 20*x" }.
+Parameter read_parameter(const ConfigValue& value, const Dimension& due, const Range& allowed);
 
 /// Three lengths [m].
 Vector read_point(const ConfigValue& value, const Range& allowed = range::any);

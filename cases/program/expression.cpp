@@ -51,4 +51,9 @@ double Expression::operator()(const Vector& x, double t) const {
   return value;
 }
 
+bool Expression::uses_load() const {
+  const std::lock_guard lock(parsed_->one_at_a_time);
+  return parsed_->parser.GetUsedVar().contains("t");
+}
+
 }  // namespace pfdm

@@ -16,6 +16,7 @@ class Expression {
   explicit Expression(const std::string& text);
   /// Throws InputError if the value is not finite.
   double operator()(const Vector& x, double t) const;
+  bool uses_load() const;  ///< whether t occurs in it
 
  private:
   struct Parsed;

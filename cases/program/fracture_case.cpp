@@ -1,7 +1,5 @@
 #include "cases/program/fracture_case.h"
 
-#include "cases/program/amount.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -137,6 +135,22 @@ void read_output(const ConfigTable& root, FractureCase& fracture) {
   if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
 }
 
+/// Where nothing can be damaged there is none.
+CellField<double> damage_at_the_start(const Parameter& initial, const FractureModel& model, const Mesh& mesh) {
+  CellField<double> damage(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    damage[c] = model.in_cell(mesh, c).damageable ? initial.at(mesh.cell_centre[c]) : 0.0;
+  return damage;
+}
+
+std::optional<Parameter> read_initial_damage(const ConfigTable& root, const FractureModel& model) {
+  if (!root.has("initial")) return std::nullopt;
+  const ConfigValue damage = root.table("initial").at("damage");
+  if (model.irreversibility != Irreversibility::bounds)
+    throw damage.error("this needs the irreversibility \"bounds\": the driving energy that led to it is not known");
+  return read_parameter(damage, dimension::number, range::fraction);
+}
+
 }  // namespace
 
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
@@ -148,6 +162,7 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   fracture.materials = read_materials(root, defaults);
   fracture.boundary = read_boundary(root, fracture.materials);
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
+  fracture.initial_damage = read_initial_damage(root, fracture.model);
   fracture.loading = read_loading(root);
   fracture.staggered = read_solver(root);
   read_output(root, fracture);
@@ -160,7 +175,8 @@ FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
   for (const Patch& patch : mesh.patches) patches.push_back(patch.name);
   check_names(fracture, mesh.region_names, patches);
   FractureModel model = fracture.model;
-  model.regions = models_of_regions(fracture.materials, mesh.region_names);
+  place_materials(fracture.materials, mesh, model);
+  if (fracture.initial_damage) model.initial_damage = damage_at_the_start(*fracture.initial_damage, model, mesh);
   return model;
 }
 

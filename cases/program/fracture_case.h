@@ -1,6 +1,7 @@
 #pragma once
 // Reads a case of kind "fracture": mesh, materials, boundary conditions, loading, output.
 
+#include "cases/program/amount.h"
 #include "cases/program/boundary_reader.h"
 #include "cases/program/cohesive_case.h"
 #include "cases/program/materials.h"
@@ -30,7 +31,8 @@ struct FractureCase {
   MeshRecipe mesh;
   Materials materials;
   std::vector<BoundarySettings> boundary;
-  FractureModel model;  ///< its regions are filled in by model_on()
+  FractureModel model;  ///< what depends on the mesh is filled in by model_on()
+  std::optional<Parameter> initial_damage;
   StaggeredSettings staggered;
   LoadingSettings loading;
   FractureOutput output;
@@ -41,8 +43,9 @@ struct FractureCase {
 /// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory);
 
-/// The model with one entry per region of the mesh. Throws InputError, with file and line, for patches and regions
-/// that the mesh does not have and for regions without a material.
+/// The model with its materials and initial damage on the mesh. Throws InputError, with file and line, for patches and
+/// regions that the mesh does not have, for regions without a material and for parameters that are out of range in a
+/// cell.
 FractureModel model_on(const FractureCase& fracture, const Mesh& mesh);
 
 }  // namespace pfdm

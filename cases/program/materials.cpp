@@ -1,11 +1,13 @@
 #include "cases/program/materials.h"
 
+#include "cases/program/amount.h"
 #include "physics/interface_toughness.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace pfdm {
@@ -15,22 +17,32 @@ constexpr Range poisson_range{-1.0, 0.5, true, "between -1 and 0.5"};
 
 /// What a material or a region's override may say.
 struct MaterialKeys {
-  std::optional<double> young_modulus, poisson_ratio, toughness, strength, length;
+  std::optional<Parameter> young_modulus, poisson_ratio, toughness, strength, length;
   std::optional<bool> damageable;
+
+  bool varies() const {
+    return std::ranges::any_of(std::array{&young_modulus, &poisson_ratio, &toughness, &strength, &length},
+                               [](const auto* parameter) { return *parameter && (*parameter)->varies; });
+  }
 };
 
-std::optional<double> find_quantity(const ConfigTable& table, std::string_view key, const Dimension& due) {
+std::optional<double> value_at(const std::optional<Parameter>& parameter, const Vector& x) {
+  return parameter ? std::optional(parameter->at(x)) : std::nullopt;
+}
+
+std::optional<Parameter> find_parameter(const ConfigTable& table, std::string_view key, const Dimension& due,
+                                        const Range& allowed = range::positive) {
   const auto value = table.find(key);
-  return value ? std::optional(value->quantity(due, range::positive)) : std::nullopt;
+  return value ? std::optional(read_parameter(*value, due, allowed)) : std::nullopt;
 }
 
 MaterialKeys read_keys(const ConfigTable& table) {
   MaterialKeys keys;
-  keys.young_modulus = find_quantity(table, "young_modulus", dimension::stress);
-  if (const auto value = table.find("poisson_ratio")) keys.poisson_ratio = value->number(poisson_range);
-  keys.toughness = find_quantity(table, "toughness", dimension::toughness);
-  keys.strength = find_quantity(table, "strength", dimension::stress);
-  keys.length = find_quantity(table, "length", dimension::length);
+  keys.young_modulus = find_parameter(table, "young_modulus", dimension::stress);
+  keys.poisson_ratio = find_parameter(table, "poisson_ratio", dimension::number, poisson_range);
+  keys.toughness = find_parameter(table, "toughness", dimension::toughness);
+  keys.strength = find_parameter(table, "strength", dimension::stress);
+  keys.length = find_parameter(table, "length", dimension::length);
   if (const auto value = table.find("damageable")) keys.damageable = value->boolean();
   return keys;
 }
@@ -46,29 +58,29 @@ MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by) {
 }
 
 // Strength and toughness make the coefficients of the degradation.
-RationalCoefficients make_coefficients(const MaterialKeys& keys, const RegionModel& model, const std::string& region,
-                                       const SofteningLaw& law, const ConfigTable& table) {
-  if (!keys.strength)
+RationalCoefficients make_coefficients(std::optional<double> strength, const RegionModel& model,
+                                       const std::string& region, const SofteningLaw& law, const ConfigTable& table) {
+  if (!strength)
     throw table.error(
         fmt::format("region \"{}\" can be damaged but has no strength (ft), which the softening law "
                     "\"{}\" needs; give strength, as in \"{}\", or damageable = false",
                     region, law.name, dimension::stress.example));
-  const double E = model.elasticity.young_modulus(), longest = longest_length(law, E, model.Gc, *keys.strength);
+  const double E = model.elasticity.young_modulus(), longest = longest_length(law, E, model.Gc, *strength);
   if (model.ell > longest)
     throw table.error(
         fmt::format("region \"{}\": the length (ell) is {:.4g} m; with this strength and toughness the "
                     "\"{}\" law needs one of at most {:.4g} m",
                     region, model.ell, law.name, longest));
-  return rational_coefficients(law, E, model.Gc, *keys.strength, model.ell);
+  return rational_coefficients(law, E, model.Gc, *strength, model.ell);
 }
 
 RegionModel make_model(const MaterialKeys& keys, const std::string& region, const MaterialDefaults& defaults,
-                       const ConfigTable& table) {
+                       const ConfigTable& table, const Vector& x) {
   RegionModel model;
-  model.elasticity = from_young_poisson(*keys.young_modulus, *keys.poisson_ratio);
+  model.elasticity = from_young_poisson(keys.young_modulus->at(x), keys.poisson_ratio->at(x));
   model.damageable = keys.damageable.value_or(true);
-  model.Gc = keys.toughness.value_or(0.0);
-  model.ell = keys.length.value_or(defaults.ell.value_or(0.0));
+  model.Gc = value_at(keys.toughness, x).value_or(0.0);
+  model.ell = value_at(keys.length, x).value_or(defaults.ell.value_or(0.0));
   if (!model.damageable) return model;
   if (!keys.toughness)
     throw table.error(
@@ -81,7 +93,7 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, cons
                     "here, as in \"10 um\"",
                     region));
   if (defaults.softening != nullptr)
-    model.rational = make_coefficients(keys, model, region, *defaults.softening, table);
+    model.rational = make_coefficients(value_at(keys.strength, x), model, region, *defaults.softening, table);
   return model;
 }
 
@@ -135,10 +147,13 @@ RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& nam
 
 void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
                    std::vector<RegionOverride>& overrides, std::vector<RegionKeys>& regions) {
-  table.quantity("young_modulus", dimension::stress, range::positive);
-  table.number("poisson_ratio", poisson_range);
+  table.at("young_modulus"), table.at("poisson_ratio");
   const MaterialKeys base = read_keys(table);
-  materials.by_name.push_back({name, from_young_poisson(*base.young_modulus, *base.poisson_ratio)});
+  const bool varies = base.young_modulus->varies || base.poisson_ratio->varies;
+  const Vector anywhere = Vector::Zero();
+  materials.by_name.push_back({name, varies ? std::nullopt
+                                            : std::optional(from_young_poisson(base.young_modulus->at(anywhere),
+                                                                               base.poisson_ratio->at(anywhere)))});
   for (const ConfigValue& where : table.at("regions").list()) {
     const std::string region = where.string();
     if (find_region(regions, region) != nullptr)
@@ -147,9 +162,46 @@ void read_material(Materials& materials, const std::string& name, const ConfigTa
   }
 }
 
-BandNeighbour neighbour(const RegionKeys& region) {
-  if (!region.keys.damageable.value_or(true)) return {std::numeric_limits<double>::infinity()};
-  return {region.keys.toughness.value_or(0.0)};
+BandNeighbour neighbour(const MaterialKeys& keys, const Vector& x) {
+  if (!keys.damageable.value_or(true)) return {std::numeric_limits<double>::infinity()};
+  return {value_at(keys.toughness, x).value_or(0.0)};
+}
+
+// A band with what it needs to know of its neighbours.
+struct BandToughness {
+  const CrackGeometry* crack;
+  double width;
+  Parameter given, ell;
+  MaterialKeys one, other;
+
+  bool varies() const {
+    const auto does = [](const MaterialKeys& keys) { return keys.toughness && keys.toughness->varies; };
+    return given.varies || ell.varies || does(one) || does(other);
+  }
+  double corrected(const Vector& x) const {
+    return band_toughness(*crack, given.at(x), width, ell.at(x), neighbour(one, x), neighbour(other, x));
+  }
+  double apparent(const Vector& x) const {
+    return apparent_toughness(*crack, given.at(x), width, ell.at(x), neighbour(one, x), neighbour(other, x));
+  }
+};
+
+bool lacks_toughness(const MaterialKeys& keys) { return keys.damageable.value_or(true) && !keys.toughness; }
+
+std::string describe(const Band& band, const BandToughness& toughness, bool corrects) {
+  const std::string between = fmt::format("between \"{}\" and \"{}\"", band.neighbours[0], band.neighbours[1]);
+  const Vector anywhere = Vector::Zero();
+  if (toughness.varies())
+    return fmt::format("region \"{}\" ({:.4g} m wide) {}: toughness varies, {}", band.region, band.width, between,
+                       corrects ? "corrected in each cell for its neighbours" : "as given");
+  const std::string words = fmt::format("region \"{}\" ({:.4g} m wide, ell = {:.4g} m) {}", band.region, band.width,
+                                        toughness.ell.at(anywhere), between);
+  const double given = toughness.given.at(anywhere);
+  if (!corrects)
+    return fmt::format("{}: toughness {:.6g} J/m^2 as given; a crack at its middle will dissipate {:.6g}", words, given,
+                       toughness.apparent(anywhere));
+  return fmt::format("{}: toughness {:.6g} J/m^2, so that a crack at its middle dissipates the {:.6g} given", words,
+                     toughness.corrected(anywhere), given);
 }
 
 // Replaces the toughness of a band by the one with which a crack in it dissipates what was given.
@@ -161,21 +213,14 @@ void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const
     throw InputError(fmt::format("the band \"{}\" lies between \"{}\" and \"{}\", and one of the three has no material",
                                  band.region, band.neighbours[0], band.neighbours[1]));
   MaterialKeys& keys = found->keys;
-  const double ell = keys.length.value_or(defaults.ell.value_or(0.0));
-  const BandNeighbour left = neighbour(*one), right = neighbour(*other);
-  if (!keys.damageable.value_or(true) || !keys.toughness || ell == 0.0 || left.Gc == 0.0 || right.Gc == 0.0) return;
-  const double given = *keys.toughness;
-  const std::string band_words = fmt::format("region \"{}\" ({:.4g} m wide, ell = {:.4g} m) between \"{}\" and \"{}\"",
-                                             band.region, band.width, ell, band.neighbours[0], band.neighbours[1]);
-  if (!defaults.corrects_toughness) {
-    const double apparent = apparent_toughness(*defaults.crack, given, band.width, ell, left, right);
-    remarks.push_back(fmt::format("{}: toughness {:.6g} J/m^2 as given; a crack at its middle will dissipate {:.6g}",
-                                  band_words, given, apparent));
-    return;
-  }
-  keys.toughness = band_toughness(*defaults.crack, given, band.width, ell, left, right);
-  remarks.push_back(fmt::format("{}: toughness {:.6g} J/m^2, so that a crack at its middle dissipates the {:.6g} given",
-                                band_words, *keys.toughness, given));
+  if (!keys.damageable.value_or(true) || !keys.toughness || !(keys.length || defaults.ell)) return;
+  if (lacks_toughness(one->keys) || lacks_toughness(other->keys)) return;
+  const Parameter ell = keys.length ? *keys.length : Parameter{.at = [l = *defaults.ell](const Vector&) { return l; }};
+  const BandToughness toughness{defaults.crack, band.width, *keys.toughness, ell, one->keys, other->keys};
+  remarks.push_back(describe(band, toughness, defaults.corrects_toughness));
+  if (!defaults.corrects_toughness) return;
+  keys.toughness->varies = toughness.varies();
+  keys.toughness->at = [toughness](const Vector& x) { return toughness.corrected(x); };
 }
 
 }  // namespace
@@ -184,7 +229,10 @@ const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const 
   std::vector<std::string> names;
   for (const NamedElasticity& material : by_name) names.push_back(material.material);
   const std::string wanted = name.one_of(names, "material");
-  return std::find_if(by_name.begin(), by_name.end(), [&](const auto& m) { return m.material == wanted; })->elasticity;
+  const auto found = std::ranges::find(by_name, wanted, &NamedElasticity::material);
+  if (!found->elasticity)
+    throw name.error(fmt::format("the elasticity of material \"{}\" varies; one that does not is due here", wanted));
+  return *found->elasticity;
 }
 
 Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults) {
@@ -201,26 +249,54 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
   for (const RegionOverride& over : overrides)
     if (over.band) materials.bands.push_back(*over.band);
   for (const Band& band : materials.bands) correct_toughness(band, regions, defaults, materials.remarks);
-  for (const RegionKeys& entry : regions)
+  for (const RegionKeys& entry : regions) {
+    const auto at = [entry, defaults](const Vector& x) {
+      return make_model(entry.keys, entry.region, defaults, entry.table, x);
+    };
+    const bool varies = entry.keys.varies();
+    if (!varies) at(Vector::Zero());  // what is wrong with it is wrong everywhere
     materials.by_region.push_back(
-        {entry.region, make_model(entry.keys, entry.region, defaults, entry.table), entry.where});
+        {.region = entry.region,
+         .where = entry.where,
+         .at = at,
+         .varies = varies,
+         .elastic_law = entry.keys.young_modulus->text + " | " + entry.keys.poisson_ratio->text});
+  }
   return materials;
 }
 
-std::vector<RegionModel> models_of_regions(const Materials& materials, std::span<const std::string> regions) {
+namespace {
+
+const RegionMaterial& material_of(const Materials& materials, const std::string& region) {
   const auto& given = materials.by_region;
-  for (const RegionMaterial& entry : given) entry.where.one_of(regions, "region of the mesh");
-  std::vector<RegionModel> models;
-  for (const std::string& region : regions) {
-    const auto found = std::find_if(given.begin(), given.end(), [&](const auto& m) { return m.region == region; });
-    if (found == given.end())
-      throw InputError(
-          fmt::format("{}: region \"{}\" of the mesh has no material; name it in the regions of one of "
-                      "[materials.*]",
-                      given.empty() ? "case.toml" : given.front().where.file(), region));
-    models.push_back(found->model);
+  const auto found = std::ranges::find(given, region, &RegionMaterial::region);
+  if (found == given.end())
+    throw InputError(
+        fmt::format("{}: region \"{}\" of the mesh has no material; name it in the regions of one of "
+                    "[materials.*]",
+                    given.empty() ? "case.toml" : given.front().where.file(), region));
+  return *found;
+}
+
+}  // namespace
+
+void place_materials(const Materials& materials, const Mesh& mesh, FractureModel& model) {
+  for (const RegionMaterial& entry : materials.by_region) entry.where.one_of(mesh.region_names, "region of the mesh");
+  std::vector<const RegionMaterial*> of_region;
+  for (const std::string& region : mesh.region_names) of_region.push_back(&material_of(materials, region));
+  std::vector<Vector> example(of_region.size(), Vector::Zero());
+  for (Index c = mesh.n_cells() - 1; c >= 0; --c) example[as_size(mesh.region[c])] = mesh.cell_centre[c];
+  for (std::size_t r = 0; r < of_region.size(); ++r) {
+    model.regions.push_back(of_region[r]->at(example[r]));
+    // Regions of one law share an elastic zone: the example of the first one serves them all.
+    const auto same = std::ranges::find_if(
+        of_region, [&](const RegionMaterial* other) { return other->elastic_law == of_region[r]->elastic_law; });
+    model.regions[r].elasticity = model.regions[static_cast<std::size_t>(same - of_region.begin())].elasticity;
   }
-  return models;
+  if (std::ranges::none_of(of_region, &RegionMaterial::varies)) return;
+  model.cells = CellField<RegionModel>(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    model.cells[c] = of_region[as_size(mesh.region[c])]->at(mesh.cell_centre[c]);
 }
 
 }  // namespace pfdm

@@ -5,7 +5,8 @@
 #include "cases/program/mesh_recipe.h"
 #include "solver/fracture_model.h"
 
-#include <span>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,15 @@ namespace pfdm {
 
 struct RegionMaterial {
   std::string region;
-  RegionModel model;
-  ConfigValue where;  ///< where the region was given its material
+  ConfigValue where;                               ///< where the region was given its material
+  std::function<RegionModel(const Vector& x)> at;  ///< at x [m]; throws InputError where a parameter is out of range
+  bool varies = false;                             ///< from place to place
+  std::string elastic_law;                         ///< equal texts are equal elasticities
 };
 
 struct NamedElasticity {
   std::string material;
-  IsotropicElasticity elasticity;
+  std::optional<IsotropicElasticity> elasticity;  ///< none where it varies
 };
 
 struct Materials {
@@ -28,7 +31,7 @@ struct Materials {
   std::vector<Band> bands;           ///< the mesh generator's and those that [regions.*] tell of
   std::vector<std::string> remarks;  ///< what was made of the numbers given, to be said in the log
 
-  /// The elasticity of the material that `name` holds; throws InputError naming those there are.
+  /// The elasticity of the material that `name` holds; throws InputError naming those there are, or if it varies.
   const IsotropicElasticity& elasticity(const ConfigValue& name) const;
 };
 
@@ -44,8 +47,8 @@ struct MaterialDefaults {
 /// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file.
 Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults);
 
-/// One model per region of the mesh, in its order. Throws InputError for a region without a material and for a material
-/// whose region is not in the mesh.
-std::vector<RegionModel> models_of_regions(const Materials& materials, std::span<const std::string> regions);
+/// Gives the model its regions, and its cells where a material varies. Throws InputError for a region without a
+/// material, a material whose region is not in the mesh, and a parameter that is out of range in a cell.
+void place_materials(const Materials& materials, const Mesh& mesh, FractureModel& model);
 
 }  // namespace pfdm

@@ -24,19 +24,24 @@ double thickness(const Mesh& mesh, Index cell) {
 
 std::vector<std::string> resolution_warnings(const Mesh& mesh, const FractureModel& model,
                                              std::span<const Band> bands) {
-  std::vector<double> thickest(model.regions.size(), 0.0);
+  // Of each region the cell that is the thickest for its ell.
+  struct Thickest {
+    double thickness = 0.0, ell = 1.0;
+  };
+  std::vector<Thickest> thickest(model.regions.size());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    double& most = thickest[as_size(mesh.region[c])];
-    most = std::max(most, thickness(mesh, c));
+    const RegionModel& region = model.in_cell(mesh, c);
+    if (!region.damageable) continue;
+    Thickest& most = thickest[as_size(mesh.region[c])];
+    if (const double h = thickness(mesh, c); h / region.ell > most.thickness / most.ell) most = {h, region.ell};
   }
   std::vector<std::string> warnings;
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
-    const RegionModel& region = model.regions[r];
-    if (region.damageable && thickest[r] > region.ell / cells_in_ell)
+    if (thickest[r].thickness > thickest[r].ell / cells_in_ell)
       warnings.push_back(fmt::format(
           "region \"{}\": cells are up to {:.3g} m thick, ell is {:.3g} m: a crack in the thick ones would not "
           "be resolved (at most ell/{:g})",
-          mesh.region_names[r], thickest[r], region.ell, cells_in_ell));
+          mesh.region_names[r], thickest[r].thickness, thickest[r].ell, cells_in_ell));
   }
   for (const Band& band : bands) {
     const RegionModel& region = model.regions[as_size(mesh.region_index(band.region))];
