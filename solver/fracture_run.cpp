@@ -219,6 +219,7 @@ OutputFields FractureRun::output(const FractureState& state) const {
           .damage = state.damage,
           .stress = mechanics.stress,
           .strain = mechanics.strain,
+          .gradient = mechanics.gradient,
           .energy_density = density,
           .driving_energy = state.driving_energy,
           .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),

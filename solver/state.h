@@ -44,6 +44,7 @@ struct OutputFields {
   CellField<double> damage;          ///< [-]
   CellField<Tensor> stress;          ///< [Pa]
   CellField<Tensor> strain;          ///< [-]
+  CellField<Tensor> gradient{};      ///< of the displacement, du_i/dx_j [-]
   CellField<double> energy_density;  ///< degraded elastic energy [J/m^3]
   CellField<double> driving_energy;  ///< [J/m^3]
   /// Discrete surface energy over the cell's volume, half of a face's to each of its cells [J/m^3].

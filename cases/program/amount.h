@@ -1,5 +1,5 @@
 #pragma once
-// Prescribed values, plain or as an expression with its unit, and points.
+// Prescribed values, plain or as an expression with its unit; points, directions, names of files.
 
 #include "cases/program/config.h"
 #include "physics/tensor.h"
@@ -19,6 +19,12 @@ struct Amount {
 
 /// "800 um", reached linearly at t = 1, or { expr = "0.1*t", unit = "um" }, used as it stands.
 Amount read_amount(const ConfigValue& value, const Dimension& due);
+
+/// Three numbers that are not all zero.
+Vector read_direction(const ConfigValue& value);
+
+/// A name that a folder, file or column can have; `use` says of which, as in "a folder".
+std::string read_plain_name(const ConfigValue& value, std::string_view use);
 
 /// Three lengths [m].
 Vector read_point(const ConfigValue& value, const Range& allowed = range::any);

@@ -135,6 +135,7 @@ void read_output(const ConfigTable& root, FractureCase& fracture) {
   fracture.loading.stops = read_frames(output, fracture);
   fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", count, 0));
   if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
+  fracture.output.tips = read_energy_release(output);
 }
 
 }  // namespace
