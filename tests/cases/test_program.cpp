@@ -81,6 +81,26 @@ outer = "1 mm"
 )";
 }
 
+/// The bar with a viscosity that takes part in its energy account.
+std::string viscous_bar_case() {
+  return replaced(replaced(bar_case(), "length = \"4 mm\"", "length = \"4 mm\"\nviscosity = \"5 kPa s\""),
+                  "maximum_increment = 0.1", "maximum_increment = 0.1\nduration = \"1 s\"");
+}
+
+TEST(Program, AccountsForViscousDissipation) {
+  expect_to_go_on_to_the_same_curve(viscous_bar_case());
+  const TemporaryCase directory(viscous_bar_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  EXPECT_GT(summary_in(directory.results())["viscous_dissipation_J"].get<double>(), 0.0);
+  const std::string dissipated = replaced(viscous_bar_case(), "duration", "maximum_dissipation = \"4 uJ\"\nduration");
+  const TemporaryCase refused(replaced(dissipated, "frames_at = [\"0.006 mm\"]", ""));
+  const Outcome outcome = run({"run", refused.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("maximum_dissipation: it cannot be prescribed together with fracture.viscosity"),
+            std::string::npos)
+      << outcome.err;
+}
+
 TEST(Program, WritesEnergyReleaseRatesAtEveryStep) {
   const TemporaryCase directory(measured_bar_case());
   const Outcome outcome = run({"run", directory.path().string()});
