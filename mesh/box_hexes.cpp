@@ -80,9 +80,13 @@ Index region_slot(std::vector<std::string>& names, const std::string& name) {
   return static_cast<Index>(names.size() - 1);
 }
 
+bool lies_in(const SubRegion& region, const Vector& x) {
+  return (x.array() >= region.lower.array()).all() && (x.array() <= region.upper.array()).all();
+}
+
 const std::string& region_at(const BoxHexesSettings& settings, const Vector& x) {
   for (auto r = settings.regions.rbegin(); r != settings.regions.rend(); ++r)
-    if ((x.array() >= r->lower.array()).all() && (x.array() <= r->upper.array()).all()) return r->name;
+    if (lies_in(*r, x)) return r->name;
   return settings.base_region;
 }
 
@@ -93,12 +97,22 @@ void for_each_cell(const BoxGrid& grid, Function&& function) {
       for (Index i = 0; i < grid.n_cells(0); ++i) function(i, j, k);
 }
 
+// The cells that no hole takes.
+template <class Function>
+void for_each_cell_left(const BoxHexesSettings& settings, const BoxGrid& grid, Function&& function) {
+  for_each_cell(grid, [&](Index i, Index j, Index k) {
+    const Vector centre = grid.centre(i, j, k);
+    if (std::ranges::none_of(settings.holes, [&](const SubRegion& hole) { return lies_in(hole, centre); }))
+      function(i, j, k);
+  });
+}
+
 // Region names in the settings' order, so that their numbers do not depend on where the cells lie.
 std::vector<std::string> names_in_use(const BoxHexesSettings& settings, const BoxGrid& grid) {
   std::vector<std::string> candidates{settings.base_region};
   for (const SubRegion& region : settings.regions) region_slot(candidates, region.name);
   std::vector<bool> used(candidates.size(), false);
-  for_each_cell(grid, [&](Index i, Index j, Index k) {
+  for_each_cell_left(settings, grid, [&](Index i, Index j, Index k) {
     used[static_cast<std::size_t>(region_slot(candidates, region_at(settings, grid.centre(i, j, k))))] = true;
   });
   std::vector<std::string> names;
@@ -214,13 +228,46 @@ class SlitPoints {
   std::map<Index, Copy> copies_;
 };
 
-// Both faces of a slit.
-PatchRule slit_patch(const Slit& slit, const Vector& box_size) {
-  const Vector rounding = Vector::Constant(1e-9 * box_size.norm());
-  const Vector lower = slit.lower - rounding, upper = slit.upper + rounding;
-  return {slit.name, [lower, upper](const Vector& centre, const Vector&, std::span<const Index>) {
-            return (centre.array() >= lower.array()).all() && (centre.array() <= upper.array()).all();
-          }};
+// The surface that a hole leaves: the faces on the hull of the cells that it takes.
+PatchRule hole_patch(const SubRegion& hole, const BoxGrid& grid, double rounding) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Vector lower = Vector::Constant(none), upper = Vector::Constant(-none);
+  for_each_cell(grid, [&](Index i, Index j, Index k) {
+    if (!lies_in(hole, grid.centre(i, j, k))) return;
+    lower = lower.cwiseMin(grid.node(i, j, k));
+    upper = upper.cwiseMax(grid.node(i + 1, j + 1, k + 1));
+  });
+  if (!(lower.x() < upper.x()))
+    throw InputError(fmt::format("hole \"{}\" of the box contains no cell's centre", hole.name));
+  return patch_within(hole.name, lower, upper, rounding);
+}
+
+std::vector<PatchRule> patches_of(const BoxHexesSettings& settings, const BoxGrid& grid) {
+  const double rounding = 1e-9 * (grid.upper() - grid.lower()).norm();
+  std::vector<PatchRule> patches;
+  for (const SurfacePart& part : settings.patches)
+    patches.push_back(patch_within(part.name, part.lower, part.upper, rounding));
+  for (const SubRegion& hole : settings.holes) patches.push_back(hole_patch(hole, grid, rounding));
+  for (PatchRule& side : box_patches(grid.lower(), grid.upper())) {
+    side.required = settings.holes.empty() && settings.patches.empty();
+    patches.push_back(std::move(side));
+  }
+  for (const Slit& slit : settings.slits) patches.push_back(patch_within(slit.name, slit.lower, slit.upper, rounding));
+  return patches;
+}
+
+// Points that no cell has go.
+void drop_unused_points(CellSoup& soup) {
+  std::vector<Index> number(soup.points.size(), -1);
+  for (const Index p : soup.cell_points) number[as_size(p)] = 0;
+  Index n_used = 0;
+  for (std::size_t p = 0; p < number.size(); ++p) {
+    if (number[p] < 0) continue;
+    soup.points[as_size(n_used)] = soup.points[p];
+    number[p] = n_used++;
+  }
+  soup.points.resize(as_size(n_used));
+  for (Index& p : soup.cell_points) p = number[as_size(p)];
 }
 
 }  // namespace
@@ -233,7 +280,7 @@ Mesh make_box_hexes(const BoxHexesSettings& settings) {
       for (Index i = 0; i <= grid.n_cells(0); ++i) soup.points.push_back(grid.node(i, j, k));
   soup.region_names = names_in_use(settings, grid);
   const SlitPoints slits(settings, grid, soup.points);
-  for_each_cell(grid, [&](Index i, Index j, Index k) {
+  for_each_cell_left(settings, grid, [&](Index i, Index j, Index k) {
     const Index region = region_slot(soup.region_names, region_at(settings, grid.centre(i, j, k)));
     std::array<Index, 8> corners;
     std::ranges::transform(grid.corners(i, j, k), corners.begin(), [&](const Position& p) {
@@ -241,9 +288,8 @@ Mesh make_box_hexes(const BoxHexesSettings& settings) {
     });
     soup.add_cell(CellShape::hexahedron, corners, region);
   });
-  std::vector<PatchRule> patches = box_patches(grid.lower(), grid.upper());
-  for (const Slit& slit : settings.slits) patches.push_back(slit_patch(slit, grid.upper() - grid.lower()));
-  return assemble_mesh(std::move(soup), patches);
+  if (!settings.holes.empty()) drop_unused_points(soup);
+  return assemble_mesh(std::move(soup), patches_of(settings, grid));
 }
 
 }  // namespace pfdm

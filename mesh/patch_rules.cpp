@@ -16,6 +16,13 @@ PatchRule plane_patch(std::string name, int axis, double value, double tolerance
           }};
 }
 
+PatchRule patch_within(std::string name, const Vector& lower, const Vector& upper, double tolerance) {
+  const Vector least = lower.array() - tolerance, most = upper.array() + tolerance;
+  return {std::move(name), [least, most](const Vector& centre, const Vector&, std::span<const Index>) {
+            return (centre.array() >= least.array()).all() && (centre.array() <= most.array()).all();
+          }};
+}
+
 std::vector<PatchRule> box_patches(const Vector& lower, const Vector& upper) {
   const double tolerance = 1e-6 * (upper - lower).norm();
   std::vector<PatchRule> rules;

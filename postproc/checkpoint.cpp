@@ -17,7 +17,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view magic = "PFDMCKPT";
-constexpr std::uint32_t format_version = 2;
+constexpr std::uint32_t format_version = 3;
 constexpr std::size_t size_position = magic.size() + sizeof(format_version);
 constexpr std::size_t header_size = size_position + sizeof(std::uint64_t);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -95,10 +95,10 @@ class Reader {
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
   auto& [step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, boundary_force,
-         external_work] = state;
+         external_work, viscous_dissipation] = state;
   const auto each = [&](auto&... members) { (archive(members), ...); };
   each(step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, boundary_force,
-       external_work);
+       external_work, viscous_dissipation);
 }
 
 template <class T>

@@ -13,13 +13,13 @@
 namespace pfdm {
 namespace {
 
-constexpr std::size_t n_columns = 12;
+constexpr std::size_t n_columns = 13;
 
 // Shortest digits that give the same number back.
 std::string to_line(const CurveRow& r) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, r.load, r.displacement, r.force.x(), r.force.y(),
-                     r.force.z(), r.elastic_energy, r.fracture_energy, r.external_work, r.max_damage, r.damaged_volume,
-                     r.staggered_iterations);
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, r.load, r.displacement, r.force.x(),
+                     r.force.y(), r.force.z(), r.elastic_energy, r.fracture_energy, r.external_work, r.max_damage,
+                     r.damaged_volume, r.staggered_iterations, r.viscous_dissipation);
 }
 
 std::optional<std::array<std::string_view, n_columns>> split(std::string_view line) {
@@ -37,15 +37,15 @@ std::optional<CurveRow> parse_row(std::string_view line) {
   const auto columns = split(line);
   if (!columns) return std::nullopt;
   const auto step = parse_int(columns->front());
-  const auto iterations = parse_int(columns->back());
+  const auto iterations = parse_int((*columns)[n_columns - 2]);
   std::array<double, n_columns> v{};
-  for (std::size_t i = 1; i + 1 < n_columns; ++i) {
+  for (std::size_t i = 1; i < n_columns; ++i) {
     const auto number = parse_double((*columns)[i]);
     if (!number) return std::nullopt;
     v[i] = *number;
   }
   if (!step || !iterations) return std::nullopt;
-  return CurveRow{*step, v[1], v[2], Vector(v[3], v[4], v[5]), v[6], v[7], v[8], v[9], v[10], *iterations};
+  return CurveRow{*step, v[1], v[2], Vector(v[3], v[4], v[5]), v[6], v[7], v[8], v[9], v[10], *iterations, v[12]};
 }
 
 }  // namespace
@@ -62,6 +62,7 @@ CurveRow curve_row(const StepReport& report, Index patch, int component) {
   row.max_damage = report.max_damage;
   row.damaged_volume = report.damaged_volume;
   row.staggered_iterations = report.staggered_iterations;
+  row.viscous_dissipation = report.viscous_dissipation;
   return row;
 }
 

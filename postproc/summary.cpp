@@ -15,7 +15,8 @@ using Json = nlohmann::ordered_json;
 
 // Of the work that was done since the start, where there may be damage already.
 double left_over(const CurveRow& start, const CurveRow& row) {
-  return row.external_work - row.elastic_energy - (row.fracture_energy - start.fracture_energy);
+  return row.external_work - row.elastic_energy - (row.fracture_energy - start.fracture_energy) -
+         row.viscous_dissipation;
 }
 
 double balance_error(const CurveRow& start, const CurveRow& row) {
@@ -57,6 +58,7 @@ Json to_json(const Headlines& f) {
           {"final_elastic_energy_J", f.final_elastic_energy},
           {"final_fracture_energy_J", f.final_fracture_energy},
           {"external_work_J", f.external_work},
+          {"viscous_dissipation_J", f.viscous_dissipation},
           {"energy_balance_error", f.energy_balance_error},
           {"max_energy_balance_error", f.max_energy_balance_error},
           {"released_energy_J", f.released_energy},
@@ -114,6 +116,7 @@ Headlines headlines(std::span<const CurveRow> rows, int component) {
   figures.final_elastic_energy = last.elastic_energy;
   figures.final_fracture_energy = last.fracture_energy;
   figures.external_work = last.external_work;
+  figures.viscous_dissipation = last.viscous_dissipation;
   figures.max_damage = last.max_damage;
   figures.damaged_volume = last.damaged_volume;
   figures.energy_balance_error = balance_error(rows.front(), last);

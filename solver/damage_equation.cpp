@@ -150,14 +150,28 @@ double DamageEquation::local_slope(Index cell, double d, double psi) const {
   const double slope = density_[cell] * model_.crack->alpha_prime(d) +
                        (1.0 - model_.residual_stiffness) * model_.degradation->g_prime(d, rational) * psi;
   const double source = source_.size() > 0 ? source_[cell] : 0.0;
-  return mesh_.cell_volume[cell] * (slope - source);
+  const double resistance = resistance_ > 0.0 ? resistance_ * (d - from_[cell]) : 0.0;
+  return mesh_.cell_volume[cell] * (slope + resistance - source);
 }
 
 double DamageEquation::local_curvature(Index cell, double d, double psi) const {
   const RationalCoefficients& rational = model_.in_cell(mesh_, cell).rational;
   return mesh_.cell_volume[cell] *
-         (density_[cell] * model_.crack->alpha_second(d) +
+         (density_[cell] * model_.crack->alpha_second(d) + resistance_ +
           (1.0 - model_.residual_stiffness) * model_.degradation->g_second(d, rational) * psi);
+}
+
+void DamageEquation::resist_change(double resistance, const CellField<double>& from) {
+  resistance_ = resistance;
+  from_ = from;
+}
+
+double DamageEquation::viscous_dissipation(const CellField<double>& d) const {
+  if (!(resistance_ > 0.0)) return 0.0;
+  return parallel_sum(mesh_.n_cells(), [&](Index c) {
+    const double change = d[c] - from_[c];
+    return mesh_.cell_volume[c] * resistance_ * change * change;
+  });
 }
 
 double DamageEquation::times_off_diagonal(Index cell, const double* x) const {

@@ -3,10 +3,11 @@
 //
 //   (Gc/(c0 ell)) alpha'(d) + (1 - k) g'(d) psi_plus - div((2 Gc ell/c0) grad d) = 0,  lower <= d <= 1,
 //
-// no flux through the boundary, d = 0 in regions that cannot be damaged. Two-point fluxes, in series where Gc or ell
-// jumps, with a deferred correction by two-ring gradients for faces that are not orthogonal to their centre line. The
-// correction is limited to the range of the damage around the face; a limiter at half of the two-point flux takes the
-// order on tetrahedra from 2 to 0.8. Bounds by a primal-dual active set
+// no flux through the boundary, d = 0 in regions that cannot be damaged. With a viscosity eta (Ginzburg-Landau; Miehe,
+// Welschinger, Hofacker, Int. J. Numer. Meth. Engng 83 (2010) 1273) the left side has eta (d - d_n)/dt as well.
+// Two-point fluxes, in series where Gc or ell jumps, with a deferred correction by two-ring gradients for faces that
+// are not orthogonal to their centre line. The correction is limited to the range of the damage around the face; a
+// limiter at half of the two-point flux takes the order on tetrahedra from 2 to 0.8. Bounds by a primal-dual active set
 // (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13 (2002) 865), linear systems by conjugate gradients.
 
 #include "solver/fracture_model.h"
@@ -41,6 +42,10 @@ class DamageEquation {
   double renewed_fracture_energy(const CellField<double>& d);
   /// The same over each cell's volume, half of a face's to each of its cells [J/m^3].
   CellField<double> fracture_energy_density(const CellField<double>& d) const;
+  /// From now on a change of the damage from `from` is resisted by so much [J/m^3], eta over the time step.
+  void resist_change(double resistance, const CellField<double>& from);
+  /// What that takes to get to d [J]: int eta (d - d_n)^2/dt dV.
+  double viscous_dissipation(const CellField<double>& d) const;
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
 
   /// Additional source per volume [J/m^3], for manufactured solutions.
@@ -95,6 +100,8 @@ class DamageEquation {
   std::vector<Vector> gradients_;
   std::vector<double> range_;  // of damage over each cell and its neighbours
   CellField<double> source_;
+  double resistance_ = 0.0;     // [J/m^3]
+  CellField<double> from_;      // empty without resistance
   std::vector<double> pivots_;  // of the incomplete factorisation, inverted; zero in active rows
 };
 

@@ -35,6 +35,7 @@ struct FractureModel {
   const EnergySplit* split = nullptr;
   Irreversibility irreversibility = Irreversibility::bounds;
   double residual_stiffness = 1e-6;         ///< k of g_k = (1 - k) g + k
+  double viscosity = 0.0;                   ///< eta of the damage equation [Pa s]; 0: rate-independent
   std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
   CellField<double> initial_damage{};       ///< at load 0, between 0 and 1 [-]; empty: none
 
@@ -62,6 +63,7 @@ struct LoadingSettings {
   /// Surface energy that a step may dissipate [J], in proportion less while the increment is below its maximum: a load
   /// that would dissipate more is lowered, also below that of the step before, so that snap-back is followed.
   double maximum_dissipation = std::numeric_limits<double>::infinity();
+  double duration = 0.0;      ///< time in which the load parameter grows by 1 [s]; needed by a viscosity
   std::vector<double> stops;  ///< values of t that a step must end on (frames)
 };
 

@@ -55,9 +55,14 @@ struct FractureRun::Parts {
     require_path(model);
   }
 
-  // Path-following needs displacements that are proportional to the load, and a dissipation that only grows.
+  // Path-following needs displacements that are proportional to the load, and a dissipation that only grows; a load
+  // that falls back has no time.
   void require_path(const FractureModel& m) const {
+    if (m.viscosity > 0.0 && !(loading.duration > 0.0))
+      throw InputError("a viscosity needs the time that the load takes (loading.duration)");
     if (!std::isfinite(loading.maximum_dissipation)) return;
+    if (m.viscosity > 0.0)
+      throw InputError("a dissipation can be prescribed only without viscosity: a load that falls back takes no time");
     if (m.irreversibility != Irreversibility::bounds)
       throw InputError("a dissipation can be prescribed only with the irreversibility \"bounds\"");
     for (const PatchCondition& on : unknowns.conditions) {
@@ -131,6 +136,7 @@ struct FractureRun::Parts {
     r.fracture_energy =
         state.step == 0 ? equation.renewed_fracture_energy(state.damage) : equation.fracture_energy(state.damage);
     r.external_work = state.external_work;
+    r.viscous_dissipation = state.viscous_dissipation;
     r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return state.damage[c]; });
     r.damaged_volume =
         parallel_sum(mesh.n_cells(), [&](Index c) { return state.damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
@@ -178,9 +184,10 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
     double increment = trial.load - state.load;
     if (state.load > 0.0)
       for (Vector& u : trial.displacement) u *= trial.load / state.load;
-    const StepOutcome outcome = parts.staggered.solve_step(
-        state, trial, hooks,
-        {.growth = parts.allowed_growth(increment), .dissipation = parts.dissipation_of(state.increment)});
+    const StepOutcome outcome = parts.staggered.solve_step(state, trial, hooks,
+                                                           {.growth = parts.allowed_growth(increment),
+                                                            .dissipation = parts.dissipation_of(state.increment),
+                                                            .duration = increment * parts.loading.duration});
     parts.krylov_iterations += outcome.krylov_iterations;
     parts.staggered_iterations += outcome.iterations;
     if (outcome.grew_too_much) {
@@ -202,6 +209,7 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
     increment = trial.load - state.load;
     trial.boundary_force = parts.boundary_forces(trial);
     trial.external_work = state.external_work + parts.work_increment(state, trial);
+    trial.viscous_dissipation = state.viscous_dissipation + outcome.viscous_dissipation;
     trial.increment = parts.next_increment(state.increment, outcome);
     state = std::move(trial);
     if (hooks.step_done) hooks.step_done(state, parts.report(state, outcome, increment));
@@ -221,6 +229,7 @@ OutputFields FractureRun::output(const FractureState& state) const {
           .damage = state.damage,
           .stress = mechanics.stress,
           .strain = mechanics.strain,
+          .gradient = mechanics.gradient,
           .energy_density = density,
           .driving_energy = state.driving_energy,
           .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),

@@ -29,9 +29,10 @@ namespace pfdm {
 
 /// What a displacement means in the cells.
 struct CellMechanics {
-  CellField<Tensor> strain;  ///< from the two-sided face displacements (Green-Gauss) [-]
-  CellField<Tensor> stress;  ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]; empty if it was not wanted
-  CellField<double> energy;  ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
+  CellField<Tensor> strain;    ///< from the two-sided face displacements (Green-Gauss) [-]
+  CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if it was not wanted
+  CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]; empty if it was not wanted
+  CellField<double> energy;    ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
 };
 
 class MomentumOperator {

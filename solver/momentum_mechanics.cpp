@@ -59,8 +59,10 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
   compute_forces(u);
   const FaceField<Vector> u_face = face_displacements(u);
   const auto n = as_size(mesh_.n_cells());
-  CellMechanics result{
-      .strain = CellField<Tensor>(n), .stress = CellField<Tensor>(with_stress ? n : 0), .energy = CellField<double>(n)};
+  CellMechanics result{.strain = CellField<Tensor>(n),
+                       .gradient = CellField<Tensor>(with_stress ? n : 0),
+                       .stress = CellField<Tensor>(with_stress ? n : 0),
+                       .energy = CellField<double>(n)};
   parallel_for(mesh_.n_cells(), [&](Index c) {
     const double volume = mesh_.cell_volume[c];
     Tensor gradient = Tensor::Zero(), moment = Tensor::Zero();
@@ -76,9 +78,11 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
       work += 0.5 * force.dot(rise);
       ++k;
     }
-    result.strain[c] = symmetric_part(gradient * closure_[c].transpose() / volume);
+    gradient = gradient * closure_[c].transpose() / volume;
+    result.strain[c] = symmetric_part(gradient);
     result.energy[c] = work;
     if (!with_stress) return;
+    result.gradient[c] = gradient;
     const Vector& normal = unknowns_.plane_normal;
     result.stress[c] = symmetric_part((moment * closure_[c]) / volume) +
                        stress_across(c, result.strain[c]) * normal * normal.transpose();

@@ -33,6 +33,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   if (path_is_followed)
     limit = {state.load, damage_.renewed_fracture_energy(start.damage) + limits.dissipation, limits.dissipation};
   Relaxation relaxation;
+  if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / limits.duration, start.damage);
   stiffness_.start_step();
   momentum_.start_afresh();  // a run that is gone on with does the same
   double energy_before = 0.0;
@@ -82,6 +83,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   outcome.krylov_iterations += equilibrium.iterations;
   outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
   outcome.elastic_energy = update_driving_energy(start, state, false).elastic;
+  outcome.viscous_dissipation = damage_.viscous_dissipation(state.damage);
   return outcome;
 }
 

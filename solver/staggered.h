@@ -19,13 +19,15 @@ struct StepOutcome {
   double growth = 0.0;         ///< largest of d over a cell
   Index iterations = 0;
   Index krylov_iterations = 0;
-  double elastic_energy = 0.0;  ///< [J]
+  double elastic_energy = 0.0;       ///< [J]
+  double viscous_dissipation = 0.0;  ///< of the step [J]
 };
 
-/// What a step may do at most.
+/// What a step may do at most, and how long it takes.
 struct StepLimits {
   double growth = std::numeric_limits<double>::infinity();       ///< of d in a cell
   double dissipation = std::numeric_limits<double>::infinity();  ///< [J]
+  double duration = 0.0;                                         ///< of the step [s]; for models with a viscosity
 };
 
 class Staggered {

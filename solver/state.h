@@ -20,6 +20,7 @@ struct FractureState {
   CellField<Tensor> tangent_strain;
   std::vector<Vector> boundary_force;  ///< on each boundary face [N], in the mesh's face order
   double external_work = 0.0;          ///< [J]
+  double viscous_dissipation = 0.0;    ///< by the viscosity of the damage equation [J]
 };
 
 /// One row of the force-displacement curve.
@@ -31,6 +32,7 @@ struct StepReport {
   double elastic_energy = 0.0;             ///< [J]
   double fracture_energy = 0.0;            ///< [J]
   double external_work = 0.0;              ///< [J]
+  double viscous_dissipation = 0.0;        ///< [J]
   double max_damage = 0.0;                 ///< [-]
   double damaged_volume = 0.0;             ///< volume with d > 0.5 [m^3]
   Index staggered_iterations = 0;
@@ -44,6 +46,7 @@ struct OutputFields {
   CellField<double> damage;          ///< [-]
   CellField<Tensor> stress;          ///< [Pa]
   CellField<Tensor> strain;          ///< [-]
+  CellField<Tensor> gradient{};      ///< of the displacement, du_i/dx_j [-]
   CellField<double> energy_density;  ///< degraded elastic energy [J/m^3]
   CellField<double> driving_energy;  ///< [J/m^3]
   /// Discrete surface energy over the cell's volume, half of a face's to each of its cells [J/m^3].

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace pfdm {
 namespace {
 
@@ -63,6 +66,21 @@ Vector read_point(const ConfigValue& value, const Range& allowed) {
   for (Eigen::Index i = 0; i < 3; ++i)
     point[i] = entries[static_cast<std::size_t>(i)].quantity(dimension::length, allowed);
   return point;
+}
+
+Vector read_direction(const ConfigValue& value) {
+  const std::vector<ConfigValue> entries = value.list(3);
+  const Vector direction(entries[0].number(), entries[1].number(), entries[2].number());
+  if (!(direction.norm() > 0.0)) throw value.error("a direction must not be zero");
+  return direction;
+}
+
+std::string read_plain_name(const ConfigValue& value, std::string_view use) {
+  const std::string name = value.string();
+  const bool plain = std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+  if (name.empty() || !plain)
+    throw value.error(fmt::format("\"{}\" becomes the name of {}: letters, digits, _ and - only", name, use));
+  return name;
 }
 
 }  // namespace pfdm

@@ -1,5 +1,6 @@
 #pragma once
-// Prescribed values and material parameters, plain or as an expression with its unit, and points.
+// Prescribed values and material parameters, plain or as an expression with its unit; points, directions, names of
+// files.
 
 #include "cases/program/config.h"
 #include "physics/tensor.h"
@@ -31,6 +32,12 @@ struct Parameter {
 
 /// "75 MPa" or { expr = "75 + 1e4*x", unit = "MPa" }; of a plain number 0.3 or { expr = "0.3 + 20*x" }.
 Parameter read_parameter(const ConfigValue& value, const Dimension& due, const Range& allowed);
+
+/// Three numbers that are not all zero.
+Vector read_direction(const ConfigValue& value);
+
+/// A name that a folder, file or column can have; `use` says of which, as in "a folder".
+std::string read_plain_name(const ConfigValue& value, std::string_view use);
 
 /// Three lengths [m].
 Vector read_point(const ConfigValue& value, const Range& allowed = range::any);

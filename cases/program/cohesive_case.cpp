@@ -36,24 +36,8 @@ std::vector<Band> read_interfaces(const ConfigTable& table, std::span<const Band
   return chosen;
 }
 
-Vector read_direction(const ConfigValue& value) {
-  const std::vector<ConfigValue> entries = value.list(3);
-  const Vector direction(entries[0].number(), entries[1].number(), entries[2].number());
-  if (!(direction.norm() > 0.0)) throw value.error("a direction must not be zero");
-  return direction;
-}
-
-// Its name is that of a folder.
-std::string read_name(const ConfigValue& value) {
-  const std::string name = value.string();
-  const bool plain = std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
-  if (name.empty() || !plain)
-    throw value.error(fmt::format("\"{}\" becomes the name of a folder: letters, digits, _ and - only", name));
-  return name;
-}
-
 CohesivePlane read_plane(const ConfigTable& table) {
-  return {.name = read_name(table.at("name")),
+  return {.name = read_plain_name(table.at("name"), "a folder"),
           .point = read_point(table.at("point")),
           .normal = read_direction(table.at("normal")),
           .half_width = table.quantity("half_width", dimension::length, range::positive),

@@ -29,6 +29,7 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   if (irreversibility && irreversibility->one_of(ways, "way of irreversibility") == "history")
     model.irreversibility = Irreversibility::history;
   model.residual_stiffness = table.number("residual_stiffness", above_zero_to_one, model.residual_stiffness);
+  if (table.has("viscosity")) model.viscosity = table.quantity("viscosity", dimension::viscosity, range::not_negative);
   MaterialDefaults defaults;
   defaults.crack = model.crack;
   const std::string toughnesses[] = {"corrected", "as_given"};
@@ -40,9 +41,22 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   return defaults;
 }
 
-LoadingSettings read_loading(const ConfigTable& root) {
+void read_time(const ConfigTable& table, const FractureModel& model, LoadingSettings& loading) {
+  loading.duration = table.quantity("duration", dimension::time, range::positive, 0.0);
+  if (!(model.viscosity > 0.0)) return;
+  if (!table.has("duration"))
+    throw table.error("fracture.viscosity needs the time in which the load parameter grows by 1: duration = \"1 s\"");
+  if (table.has("maximum_dissipation"))
+    throw table.at("maximum_dissipation")
+        .error("it cannot be prescribed together with fracture.viscosity: a load that falls back takes no time");
+}
+
+LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model) {
   LoadingSettings loading;
-  if (!root.has("loading")) return loading;
+  if (!root.has("loading")) {
+    if (model.viscosity > 0.0) throw root.error("fracture.viscosity needs the table [loading] with a duration");
+    return loading;
+  }
   const ConfigTable table = root.table("loading");
   loading.end = table.number("end", range::positive, loading.end);
   loading.initial_increment = table.number("initial_increment", range::positive, loading.initial_increment);
@@ -56,6 +70,7 @@ LoadingSettings read_loading(const ConfigTable& root) {
   loading.finest_increment = table.number("finest_increment", range::positive, loading.finest_increment);
   if (table.has("maximum_dissipation"))
     loading.maximum_dissipation = table.quantity("maximum_dissipation", dimension::energy, range::positive);
+  read_time(table, model, loading);
   return loading;
 }
 
@@ -133,6 +148,7 @@ void read_output(const ConfigTable& root, FractureCase& fracture) {
   fracture.loading.stops = read_frames(output, fracture);
   fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", count, 0));
   if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
+  fracture.output.tips = read_energy_release(output);
 }
 
 /// Where nothing can be damaged there is none.
@@ -163,7 +179,7 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   fracture.boundary = read_boundary(root, fracture.materials);
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
   fracture.initial_damage = read_initial_damage(root, fracture.model);
-  fracture.loading = read_loading(root);
+  fracture.loading = read_loading(root, fracture.model);
   fracture.staggered = read_solver(root);
   read_output(root, fracture);
   fracture.cohesive = read_cohesive(root, fracture.materials.bands, Vector::Unit(fracture.output.curve.component));

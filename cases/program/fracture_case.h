@@ -4,6 +4,7 @@
 #include "cases/program/amount.h"
 #include "cases/program/boundary_reader.h"
 #include "cases/program/cohesive_case.h"
+#include "cases/program/energy_release_case.h"
 #include "cases/program/materials.h"
 #include "cases/program/mesh_recipe.h"
 #include "solver/fracture_model.h"
@@ -24,6 +25,7 @@ struct FractureOutput {
   CurveSettings curve;
   Index frames_every = 0;                ///< steps; 0 = only LoadingSettings::stops and the last step
   std::optional<Vector> slices_through;  ///< [m]
+  std::vector<TipRegion> tips;           ///< around which the energy release rate is measured
 };
 
 struct FractureCase {

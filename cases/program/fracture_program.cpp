@@ -146,7 +146,8 @@ std::string advance(FractureRun& run, FractureState& state, FractureResults& res
   hooks.warned = [&](const std::string& message) { session.log.warn(message); };
   hooks.step_done = [&](const FractureState& now, const StepReport& report) {
     const Stopwatch watch;
-    results.step_done(now, report, [&] { return run.output(now); });
+    for (const std::string& warning : results.step_done(now, report, [&] { return run.output(now); }))
+      session.log.warn(warning);
     times.results += watch.seconds();
     state = now;
     progress.step_done(report, results.last_row().displacement, results.last_row().force[component]);

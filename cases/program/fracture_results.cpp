@@ -24,6 +24,9 @@ constexpr const char* frames_file = "fields.pvd";
 constexpr const char* summary_file = "summary.json";
 constexpr const char* frames_folder = "fields";
 constexpr const char* columns_folder = "columns";
+constexpr const char* energy_release_file = "energy_release_rate.csv";
+
+constexpr double bearable_damaged_share = 0.05;  // of the integrand of an energy release rate
 
 /// Of a step, relative to the results; in the order of the steps, so are the names.
 std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", frames_folder, step); }
@@ -31,7 +34,7 @@ std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", fra
 /// Otherwise a run that dies early would leave an older run's files beside its own.
 void remove_earlier_run(const fs::path& directory) {
   std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
-  for (const char* file : {checkpoint_file, curve_file, frames_file, summary_file})
+  for (const char* file : {checkpoint_file, curve_file, frames_file, summary_file, energy_release_file})
     fs::remove(directory / file, ignored);
   for (const char* file : cohesive_files) fs::remove(directory / file, ignored);
   for (const char* file : comparison_files) fs::remove(directory / file, ignored);
@@ -61,6 +64,14 @@ void require_results(const fs::path& results, const std::string& case_hash) {
   if (!fs::exists(checkpoint) || !fs::exists(results / curve_file))
     throw InputError(fmt::format("{}: there are no results; pfdm run makes them", results.string()));
   read_checkpoint(checkpoint, case_hash);  // refuses another case's
+}
+
+std::vector<std::string> energy_release_columns(const std::vector<TipRegion>& regions) {
+  std::vector<std::string> names{"step", "load"};
+  for (const TipRegion& region : regions)
+    for (const char* what : {"tip_x_m", "tip_y_m", "tip_z_m", "G_J_per_m2", "damaged_share"})
+      names.push_back(fmt::format("{}_{}", region.name, what));
+  return names;
 }
 
 bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
@@ -123,24 +134,56 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
   if (!columns.empty())
     columns_.emplace(directory_ / columns_folder, columns, fracture.cohesive.axis,
                      last ? std::optional(last->step) : std::nullopt);
+  if (const auto& tips = fracture.output.tips; !tips.empty())
+    energy_release_.emplace(directory_ / energy_release_file, energy_release_columns(tips),
+                            last ? std::optional(last->step) : std::nullopt);
+  warned_of_tip_.assign(fracture.output.tips.size(), false);
   if (!last) return;
   last_step_ = last->step;
   last_load_ = last->load;
   damage_ = last->damage;
 }
 
-void FractureResults::step_done(const FractureState& state, const StepReport& report, const Output& output) {
+std::vector<std::string> FractureResults::step_done(const FractureState& state, const StepReport& report,
+                                                    const Output& output) {
+  std::vector<std::string> warnings;
   last_step_ = state.step;
   last_load_ = state.load;
   damage_ = state.damage;
   curve_.append(curve_row(report, curve_patch_, fracture_.output.curve.component));
   const bool frame = frame_is_due(state);
-  if (frame || columns_) {
+  if (frame || columns_ || energy_release_) {
     const OutputFields fields = output();
     if (frame) write_frame(state.step, state.load, fields);
     if (columns_) columns_->append(state.step, mesh_, model_, fields);
+    if (energy_release_) add_energy_release(state, fields, warnings);
   }
   write_checkpoint(directory_ / checkpoint_file, state, case_hash_);
+  return warnings;
+}
+
+void FractureResults::add_energy_release(const FractureState& state, const OutputFields& output,
+                                         std::vector<std::string>& warnings) {
+  std::vector<double> row{static_cast<double>(state.step), state.load};
+  for (std::size_t i = 0; i < fracture_.output.tips.size(); ++i) {
+    const TipRegion& region = fracture_.output.tips[i];
+    const EnergyRelease release = energy_release_rate(mesh_, output, region);
+    row.insert(row.end(), {release.tip.x(), release.tip.y(), release.tip.z(), release.G, release.damaged_share});
+    if (warned_of_tip_[i]) continue;
+    warned_of_tip_[i] = true;
+    if (std::isnan(release.G))
+      warnings.push_back(fmt::format(
+          "energy release rate \"{}\": around ({:.4g}, {:.4g}, {:.4g}) m the ring reaches beyond the body; no value",
+          region.name, release.tip.x(), release.tip.y(), release.tip.z()));
+    else if (release.damaged_share > bearable_damaged_share)
+      warnings.push_back(fmt::format(
+          "energy release rate \"{}\": {:.0f} % of it comes from damaged cells (d > 0.1); it is that of the far field "
+          "only where the ring between inner and outer lies in sound material",
+          region.name, 100.0 * release.damaged_share));
+    else
+      warned_of_tip_[i] = false;
+  }
+  energy_release_->append(std::move(row));
 }
 
 bool FractureResults::frame_is_due(const FractureState& state) const {
@@ -172,12 +215,22 @@ std::map<std::string, double> FractureResults::damaged_areas() const {
           {"damaged_area_xy_m2", damaged_area(mesh_, damage_, *through, Vector::UnitZ())}};
 }
 
+std::map<std::string, double> FractureResults::last_energy_release() const {
+  std::map<std::string, double> figures;
+  if (!energy_release_ || energy_release_->rows().empty()) return figures;
+  const std::vector<std::string>& names = energy_release_->names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i].ends_with("_G_J_per_m2")) figures["final_" + names[i]] = energy_release_->rows().back()[i];
+  return figures;
+}
+
 void FractureResults::write_summary(RunSummary summary) const {
   summary.case_hash = case_hash_;
   summary.cells = mesh_.n_cells();
   summary.steps = last_step_;
   summary.figures = headlines(curve_.rows(), fracture_.output.curve.component);
   summary.other_figures = damaged_areas();
+  summary.other_figures.merge(last_energy_release());
   pfdm::write_summary(directory_ / summary_file, summary);
 }
 

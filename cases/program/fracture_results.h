@@ -7,6 +7,7 @@
 #include "postproc/column_record.h"
 #include "postproc/curve_csv.h"
 #include "postproc/pvd.h"
+#include "postproc/step_table.h"
 #include "postproc/summary.h"
 #include "postproc/vtu_writer.h"
 #include "solver/state.h"
@@ -43,9 +44,10 @@ class FractureResults {
                   const std::optional<FractureState>& last);
 
   using Output = std::function<OutputFields()>;
-  /// Appends the row, then writes the frame, if one is due, and what the columns tell, then the checkpoint: killed in
-  /// between, a restart takes what is beyond the checkpoint away and does it again.
-  void step_done(const FractureState& state, const StepReport& report, const Output& output);
+  /// Appends the row, then writes the frame, if one is due, what the columns tell and the energy release rates, then
+  /// the checkpoint: killed in between, a restart takes what is beyond the checkpoint away and does it again. Returns
+  /// what the user should be warned of.
+  std::vector<std::string> step_done(const FractureState& state, const StepReport& report, const Output& output);
   /// A frame of the last state, if it has none yet.
   void write_last_frame(const Output& output);
   /// Fills in what the curve and the last damage tell.
@@ -56,7 +58,9 @@ class FractureResults {
  private:
   bool frame_is_due(const FractureState& state) const;
   void write_frame(Index step, double load, const OutputFields& output);
+  void add_energy_release(const FractureState& state, const OutputFields& output, std::vector<std::string>& warnings);
   std::map<std::string, double> damaged_areas() const;
+  std::map<std::string, double> last_energy_release() const;
 
   std::filesystem::path directory_;
   const Mesh& mesh_;
@@ -68,6 +72,8 @@ class FractureResults {
   PvdSeries frames_;
   VtuWriter writer_;
   std::optional<ColumnFiles> columns_;
+  std::optional<StepTable> energy_release_;
+  std::vector<bool> warned_of_tip_;  // region by region
   Index last_step_ = 0;
   double last_load_ = 0.0;
   CellField<double> damage_;

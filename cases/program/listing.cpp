@@ -12,6 +12,7 @@
 #include "physics/mass_material.h"
 #include "physics/softening_law.h"
 #include "physics/traction_separation.h"
+#include "postproc/energy_release_rate.h"
 #include "solver/endochronic_identification.h"
 
 #include <fmt/format.h>
@@ -61,6 +62,7 @@ void list_laws(std::ostream& out) {
   list_table(out, "identification of the endochronic law ([fit] method)", identification_methods());
   list_table(out, "boundary conditions ([[boundary]] type)", boundary_types());
   list_table(out, "displacement fields (displacement = { field = ... })", displacement_fields());
+  list_table(out, "energy release rate of a crack ([[output.energy_release_rate]] shape)", region_shapes());
   list_table(out, "mass-material models ([model] structure)", model_structures());
   list_table(out, "excitations ([[test]] excitation.type)", excitation_types());
   list_table(out, "identification ([fit] method)", fit_methods());

@@ -39,23 +39,34 @@ std::vector<std::string> names_of_regions(const BoxHexesSettings& settings) {
   return names;
 }
 
+// Something with a name between two corners.
+template <class NamedBox>
+NamedBox read_box(const ConfigTable& table) {
+  return {.name = table.string("name"), .lower = read_point(table.at("lower")), .upper = read_point(table.at("upper"))};
+}
+
+// The same where the name is that of a patch, which joins the others.
+template <class NamedBox>
+NamedBox read_patch_box(const ConfigTable& table, std::vector<std::string>& patches) {
+  NamedBox box = read_box<NamedBox>(table);
+  if (std::ranges::find(patches, box.name) != patches.end())
+    throw table.at("name").error("another patch has this name already");
+  patches.push_back(box.name);
+  return box;
+}
+
 MeshRecipe read_box_hexes(const ConfigTable& table, const std::filesystem::path&) {
   BoxHexesSettings settings;
   if (const auto origin = table.find("origin")) settings.origin = read_point(*origin);
   settings.axes = {read_axis(table.at("x")), read_axis(table.at("y")), read_axis(table.at("z"))};
   settings.base_region = table.string("region", settings.base_region);
-  for (const ConfigTable& region : table.tables("regions"))
-    settings.regions.push_back({.name = region.string("name"),
-                                .lower = read_point(region.at("lower")),
-                                .upper = read_point(region.at("upper"))});
+  for (const ConfigTable& region : table.tables("regions")) settings.regions.push_back(read_box<SubRegion>(region));
   std::vector<std::string> patches = box_sides;
-  for (const ConfigTable& slit : table.tables("slits")) {
-    settings.slits.push_back(
-        {.name = slit.string("name"), .lower = read_point(slit.at("lower")), .upper = read_point(slit.at("upper"))});
-    if (std::ranges::find(patches, settings.slits.back().name) != patches.end())
-      throw slit.at("name").error("another patch has this name already");
-    patches.push_back(settings.slits.back().name);
-  }
+  for (const ConfigTable& slit : table.tables("slits")) settings.slits.push_back(read_patch_box<Slit>(slit, patches));
+  for (const ConfigTable& hole : table.tables("holes"))
+    settings.holes.push_back(read_patch_box<SubRegion>(hole, patches));
+  for (const ConfigTable& part : table.tables("patches"))
+    settings.patches.push_back(read_patch_box<SurfacePart>(part, patches));
   return {.make = [settings] { return make_box_hexes(settings); },
           .regions = names_of_regions(settings),
           .patches = patches,
@@ -184,7 +195,7 @@ constexpr CellKind cell_kind_table[] = {
 
 constexpr MeshGenerator table[] = {
     {"particles_in_box", "a box of tetrahedra with spheres in prism layers", read_particles_in_box},
-    {"box_hexes", "a box of hexahedra, graded along each axis, with regions cut out of it", read_box_hexes},
+    {"box_hexes", "a box of hexahedra, graded along each axis, with regions, slits and holes", read_box_hexes},
     {"vtk", "a mesh from a .vtu or legacy .vtk file", read_vtk},
 };
 

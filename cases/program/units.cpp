@@ -17,12 +17,12 @@ namespace pfdm {
 namespace {
 
 constexpr const Dimension* named_dimensions[] = {
-    &dimension::length,   &dimension::area,         &dimension::volume,
-    &dimension::mass,     &dimension::time,         &dimension::frequency,
-    &dimension::velocity, &dimension::acceleration, &dimension::acceleration_density,
-    &dimension::density,  &dimension::force,        &dimension::energy,
-    &dimension::stress,   &dimension::toughness,    &dimension::temperature,
-    &dimension::number};
+    &dimension::length,    &dimension::area,         &dimension::volume,
+    &dimension::mass,      &dimension::time,         &dimension::frequency,
+    &dimension::velocity,  &dimension::acceleration, &dimension::acceleration_density,
+    &dimension::density,   &dimension::force,        &dimension::energy,
+    &dimension::stress,    &dimension::toughness,    &dimension::temperature,
+    &dimension::viscosity, &dimension::number};
 
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 

@@ -28,6 +28,7 @@ inline constexpr Dimension density{"density", "kg/m^3", "1030 kg/m^3"};
 inline constexpr Dimension force{"force", "N", "10 N"};
 inline constexpr Dimension energy{"energy", "J", "1 mJ"};
 inline constexpr Dimension stress{"stress", "Pa", "75 MPa"};
+inline constexpr Dimension viscosity{"viscosity", "Pa s", "1 kPa s"};
 inline constexpr Dimension toughness{"energy per area", "J/m^2", "10 J/m^2"};
 inline constexpr Dimension temperature{"temperature", "K", "20 degC"};
 inline constexpr Dimension angle{"angle", "radian", "30 degree"};

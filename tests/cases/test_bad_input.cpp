@@ -68,6 +68,14 @@ const BadInput bad_inputs[] = {
      "maximum_increment = 0.1",
      "maximum_increment = 0.1\nmaximum_dissipation = \"2 um\"",
      {"[loading] maximum_dissipation: \"2 um\" is a length; an energy is due here"}},
+    {"viscosity_without_time",
+     "length = \"4 mm\"",
+     "length = \"4 mm\"\nviscosity = \"1 kPa s\"",
+     {"[loading] fracture.viscosity needs the time in which the load parameter grows by 1"}},
+    {"viscosity_that_is_no_viscosity",
+     "length = \"4 mm\"",
+     "length = \"4 mm\"\nviscosity = \"1 s\"",
+     {"[fracture] viscosity: \"1 s\" is a time; a viscosity is due here, as in \"1 kPa s\""}},
     {"misspelt_key_in_a_list", "frames_at", "frames_of", {"[output] \"frames_of\"", "did you mean \"frames_at\"?"}},
     {"unknown_table", "[loading]", "[load]", {"\"load\" is not known here"}},
     {"patch_that_is_not_there",
@@ -105,6 +113,39 @@ const BadInput bad_inputs[] = {
     {"no_cells", "cells = 21", "cells = 0", {"cells: 0 must be at least 1"}},
     {"poisson_ratio_of_a_half", "poisson_ratio = 0.2", "poisson_ratio = 0.5", {"0.5 must be between -1 and 0.5"}},
     {"region_with_no_cell", "\"9.6 mm\", \"-1 mm\"", "\"10.39 mm\", \"-1 mm\"", {"case.toml:4: [mesh]", "weak"}},
+    {"hole_with_no_cell",
+     "[[mesh.regions]]",
+     "[[mesh.holes]]\nname = \"gap\"\nlower = [\"1 mm\", \"0 mm\", \"0 mm\"]\nupper = [\"1.1 mm\", \"1 mm\", \"1 "
+     "mm\"]\n"
+     "[[mesh.regions]]",
+     {"case.toml:4: [mesh]", "hole \"gap\" of the box contains no cell's centre"}},
+    {"patch_with_no_face",
+     "[[mesh.regions]]",
+     "[[mesh.patches]]\nname = \"pin\"\nlower = [\"1 mm\", \"2 mm\", \"0 mm\"]\nupper = [\"2 mm\", \"2 mm\", \"1 "
+     "mm\"]\n"
+     "[[mesh.regions]]",
+     {"case.toml:4: [mesh]", "no boundary face of the mesh belongs to patch \"pin\""}},
+    {"patch_with_the_name_of_a_side",
+     "[[mesh.regions]]",
+     "[[mesh.patches]]\nname = \"xmin\"\nlower = [\"1 mm\", \"0 mm\", \"0 mm\"]\nupper = [\"2 mm\", \"0 mm\", \"1 "
+     "mm\"]\n"
+     "[[mesh.regions]]",
+     {"another patch has this name already"}},
+    {"ring_without_width",
+     "frames_at = [\"0.006 mm\"]",
+     "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"1 mm\", \"0 mm\", \"0 mm\"]\ndirection = [1, 0, 0]\n"
+     "inner = \"2 mm\"\nouter = \"1 mm\"",
+     {"outer: it must be larger than inner"}},
+    {"front_along_the_growth",
+     "frames_at = [\"0.006 mm\"]",
+     "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"1 mm\", \"0 mm\", \"0 mm\"]\ndirection = [0, 1, 1]\n"
+     "inner = \"1 mm\"\nouter = \"2 mm\"",
+     {"must be at a right angle to direction"}},
+    {"threshold_of_a_fixed_tip",
+     "frames_at = [\"0.006 mm\"]",
+     "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"1 mm\", \"0 mm\", \"0 mm\"]\ndirection = [1, 0, 0]\n"
+     "inner = \"1 mm\"\nouter = \"2 mm\"\ntip_damage = 0.5",
+     {"this belongs to tip = \"foremost\""}},
     {"unknown_generator", "\"box_hexes\"", "\"box_hexe\"", {"no mesh generator; did you mean \"box_hexes\"?"}},
     {"polyhedra_of_hexahedra",
      "\"box_hexes\"",

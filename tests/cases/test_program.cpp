@@ -57,10 +57,67 @@ void expect_to_go_on_to_the_same_curve(const std::string& text, const std::strin
   EXPECT_EQ(content_of(broken / "force_displacement.csv"), content_of(whole / "force_displacement.csv"));
   EXPECT_EQ(content_of(broken / "fields.pvd"), content_of(whole / "fields.pvd"));
   EXPECT_EQ(content_of(broken / "checkpoint.bin"), content_of(whole / "checkpoint.bin"));
+  EXPECT_EQ(content_of(broken / "energy_release_rate.csv"), content_of(whole / "energy_release_rate.csv"));
   EXPECT_EQ(summary_in(broken)["status"], "complete");
 }
 
 TEST(Program, GoesOnToTheSameCurveAsAnUnbrokenRun) { expect_to_go_on_to_the_same_curve(bar_case()); }
+
+/// The bar with an energy release rate measured around its middle, which breaks, and one beyond its end.
+std::string measured_bar_case() {
+  return bar_case() + R"([[output.energy_release_rate]]
+name = "middle"
+point = ["10 mm", "0.5 mm", "0.5 mm"]
+direction = [0, 1, 0]
+tip = "foremost"
+inner = "0.1 mm"
+outer = "0.4 mm"
+[[output.energy_release_rate]]
+name = "end"
+point = ["20 mm", "0.5 mm", "0.5 mm"]
+direction = [1, 0, 0]
+inner = "0.1 mm"
+outer = "1 mm"
+)";
+}
+
+/// The bar with a viscosity that takes part in its energy account.
+std::string viscous_bar_case() {
+  return replaced(replaced(bar_case(), "length = \"4 mm\"", "length = \"4 mm\"\nviscosity = \"5 kPa s\""),
+                  "maximum_increment = 0.1", "maximum_increment = 0.1\nduration = \"1 s\"");
+}
+
+TEST(Program, AccountsForViscousDissipation) {
+  expect_to_go_on_to_the_same_curve(viscous_bar_case());
+  const TemporaryCase directory(viscous_bar_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  EXPECT_GT(summary_in(directory.results())["viscous_dissipation_J"].get<double>(), 0.0);
+  const std::string dissipated = replaced(viscous_bar_case(), "duration", "maximum_dissipation = \"4 uJ\"\nduration");
+  const TemporaryCase refused(replaced(dissipated, "frames_at = [\"0.006 mm\"]", ""));
+  const Outcome outcome = run({"run", refused.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("maximum_dissipation: it cannot be prescribed together with fracture.viscosity"),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST(Program, WritesEnergyReleaseRatesAtEveryStep) {
+  const TemporaryCase directory(measured_bar_case());
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string table = content_of(directory.results() / "energy_release_rate.csv");
+  EXPECT_EQ(table.substr(0, table.find('\n')),
+            "step,load,middle_tip_x_m,middle_tip_y_m,middle_tip_z_m,middle_G_J_per_m2,middle_damaged_share,"
+            "end_tip_x_m,end_tip_y_m,end_tip_z_m,end_G_J_per_m2,end_damaged_share");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 12);
+  EXPECT_NE(table.find(",nan,"), std::string::npos);
+  EXPECT_NE(outcome.out.find("energy release rate \"end\""), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("energy release rate \"middle\""), std::string::npos) << outcome.out;
+  const nlohmann::json summary = summary_in(directory.results());
+  EXPECT_TRUE(summary["final_middle_G_J_per_m2"].is_number());
+  EXPECT_TRUE(summary["final_end_G_J_per_m2"].is_null());
+  expect_to_go_on_to_the_same_curve(measured_bar_case());
+}
 
 TEST(Program, GoesOnAlongTheSamePathAsAnUnbrokenRun) {
   expect_to_go_on_to_the_same_curve(followed_bar_case());

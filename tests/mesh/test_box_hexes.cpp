@@ -126,6 +126,53 @@ TEST(BoxHexes, BadSlitsAreRefused) {
   EXPECT_THAT(message_of<InputError>([&] { make_box_hexes(settings); }), HasSubstr("\"other\" meets another"));
 }
 
+TEST(BoxHexes, AHoleLeavesItsCellsOutAndIsAPatch) {
+  BoxHexesSettings settings = slit_block({0, 1, 0}, {1, 1, 2});
+  settings.slits.clear();
+  settings.holes = {{"corner", {-9, -9, -9}, {2, 2, 9}}};  // an L
+  const Mesh mesh = make_box_hexes(settings);
+  expect_sound(mesh);
+  EXPECT_EQ(mesh.n_cells(), 32 - 8);
+  EXPECT_EQ(mesh.patch("corner").n_faces, 8);
+  EXPECT_NEAR((patch_area(mesh, "corner") - Vector(-4.0, -4.0, 0.0)).norm(), 0.0, 1e-13);
+  EXPECT_EQ(mesh.patch("xmin").n_faces, 4);
+  EXPECT_EQ(mesh.patch("zmin").n_faces, 12);
+  EXPECT_EQ(mesh.points.size(), 75U - 3U * 4U);
+}
+
+TEST(BoxHexes, AHoleWithinTheBoxMeetsASlit) {
+  BoxHexesSettings settings = slit_block({0, 2, 0}, {2, 2, 2});
+  settings.holes = {{"hole", {2, 1, 0}, {3, 3, 2}}};
+  const Mesh mesh = make_box_hexes(settings);
+  expect_sound(mesh);
+  EXPECT_EQ(mesh.patch("hole").n_faces, 2 * 6);
+  EXPECT_EQ(mesh.patch("notch").n_faces, 8);
+  EXPECT_NEAR(patch_area(mesh, "hole").norm(), 0.0, 1e-13);
+}
+
+TEST(BoxHexes, PartsOfASideArePatches) {
+  BoxHexesSettings settings = slit_block({0, 2, 0}, {2, 2, 2});
+  settings.patches = {{"support", {0, 0, -9}, {1, 0, 9}}, {"loaded", {3, 4, 0}, {4, 4, 1}}};
+  const Mesh mesh = make_box_hexes(settings);
+  expect_sound(mesh);
+  EXPECT_EQ(mesh.patch("support").n_faces, 2);
+  EXPECT_EQ(mesh.patch("loaded").n_faces, 1);
+  EXPECT_EQ(mesh.patch("ymin").n_faces, 6);
+  EXPECT_EQ(mesh.patch("ymax").n_faces, 7);
+  EXPECT_NEAR((patch_area(mesh, "support") - Vector(0.0, -2.0, 0.0)).norm(), 0.0, 1e-13);
+}
+
+TEST(BoxHexes, BadHolesAndPatchesAreRefused) {
+  BoxHexesSettings settings = slit_block({0, 2, 0}, {2, 2, 2});
+  settings.holes = {{"hole", {1.6, 1, 0}, {1.9, 2, 2}}};
+  EXPECT_THAT(message_of<InputError>([&] { make_box_hexes(settings); }), HasSubstr("hole \"hole\""));
+  settings.holes = {{"hole", {-9, -9, -9}, {9, 9, 9}}};
+  EXPECT_THAT(message_of<InputError>([&] { make_box_hexes(settings); }), HasSubstr("no cells"));
+  settings.holes.clear();
+  settings.patches = {{"support", {1, 0.6, 0.4}, {3, 1.6, 1.6}}};
+  EXPECT_THAT(message_of<InputError>([&] { make_box_hexes(settings); }), HasSubstr("patch \"support\""));
+}
+
 TEST(BoxHexes, BadInputIsRefused) {
   BoxHexesSettings settings = bar();
   settings.axes[1] = {{-2.0, 5, 1.0}};

@@ -28,6 +28,7 @@ FractureState awkward_state() {
   s.tangent_strain = CellField<Tensor>(std::vector<Tensor>(3, Tensor::Constant(1.0 / 3.0)));
   s.boundary_force = {Vector(1, 2, 3), Vector(4, 5, 6)};
   s.external_work = std::exp(1.0);
+  s.viscous_dissipation = std::exp(-1.0);
   return s;
 }
 
@@ -50,6 +51,7 @@ TEST(Checkpoint, state_comes_back_bit_for_bit) {
   EXPECT_EQ(r.tangent_strain, s.tangent_strain);
   EXPECT_EQ(r.boundary_force, s.boundary_force);
   EXPECT_TRUE(same_bits(r.external_work, s.external_work));
+  EXPECT_TRUE(same_bits(r.viscous_dissipation, s.viscous_dissipation));
   EXPECT_EQ(folder.n_entries(), 1u);
 }
 
@@ -96,7 +98,7 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
   other[8] = 9;
-  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 2"));
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 3"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
   EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));

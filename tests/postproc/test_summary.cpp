@@ -38,6 +38,14 @@ TEST(Headlines, of_a_bar_that_breaks) {
   EXPECT_EQ(f.displacement_at_release, 4e-6);
 }
 
+TEST(Headlines, count_viscous_dissipation_in_the_balance) {
+  std::vector<CurveRow> rows = broken_bar();
+  rows.back().viscous_dissipation = 0.75e-6;
+  const Headlines f = headlines(rows, 1);
+  EXPECT_EQ(f.viscous_dissipation, 0.75e-6);
+  EXPECT_NEAR(f.energy_balance_error, 0.025, 1e-12);
+}
+
 TEST(Headlines, in_compression_keep_the_sign_of_the_force) {
   std::vector<CurveRow> rows = broken_bar();
   for (CurveRow& row : rows) {

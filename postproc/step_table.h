@@ -1,0 +1,34 @@
+#pragma once
+// A CSV file with a row of numbers for each load step, which is on the disk, whole, after each.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "physics/tensor.h"
+
+namespace pfdm {
+
+class StepTable {
+ public:
+  /// `names` are those of all columns, the first being the step's. Starts a table without rows, or goes on from the one
+  /// on the disk, of which the rows up to `last_step` are kept. Throws ComputationError if the file cannot be written,
+  /// as append() does; InputError that names file and line for what is not such a table.
+  StepTable(std::filesystem::path path, std::vector<std::string> names, std::optional<Index> last_step);
+
+  /// One number for each column; those that are not finite are written as nan.
+  void append(std::vector<double> row);
+  const std::vector<std::vector<double>>& rows() const { return rows_; }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  void read(Index last_step);
+  void write() const;
+
+  std::filesystem::path path_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<double>> rows_;
+};
+
+}  // namespace pfdm
