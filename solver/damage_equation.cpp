@@ -12,6 +12,7 @@ namespace {
 
 constexpr Index factor_block = 8192;       // rows that one incomplete factorisation couples
 constexpr double linear_reduction = 5e-4;  // of the residual, by each linear solve
+constexpr double least_diagonal = 0.1;     // of the sum of a row's coefficients
 
 // Cells whose damage gradient may look at each other: those with equal conductance, so that no kink lies between.
 CellField<Index> smooth_zones(const Mesh& mesh, const FractureModel& model) {
@@ -200,8 +201,10 @@ DamageSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
     parallel_for(n, [&](Index c) { active[as_size(c)] = is_damageable(c) ? 0 : 1; });
     for (Index change = 0; change < most_changes; ++change) {
       parallel_for(n, [&](Index c) {
-        diagonal[as_size(c)] =
-            pinned_[c] + total_[as_size(c)] + local_curvature(c, std::clamp(d[c], 0.0, 1.0), psi_plus[c]);
+        // Where alpha is concave (Wu), cells much wider than ell would have a negative diagonal, and sound ones break.
+        const double links = pinned_[c] + total_[as_size(c)];
+        const double stiffness = links + local_curvature(c, std::clamp(d[c], 0.0, 1.0), psi_plus[c]);
+        diagonal[as_size(c)] = links > 0.0 ? std::max(stiffness, least_diagonal * links) : stiffness;
       });
       choose_active(psi_plus, lower, diagonal, d, active);
       parallel_for(n, [&](Index c) {

@@ -5,6 +5,7 @@
 #include "mesh/dual.h"
 #include "mesh/import_vtk.h"
 #include "mesh/particles_in_box.h"
+#include "mesh/patch_rules.h"
 #include "postproc/text_file.h"
 
 #include <fmt/format.h>
@@ -158,11 +159,16 @@ std::map<Index, std::string> read_numbered_names(const ConfigTable& table, std::
   return names;
 }
 
-PatchRule read_plane_patch(const ConfigTable& patch, double scale) {
-  const std::vector<std::string> axes{"x", "y", "z"};
-  const int axis = patch.at("axis").one_of(axes, "axis")[0] - 'x';
+// Of faces in a plane, or between two corners.
+PatchRule read_patch(const ConfigTable& patch, double scale) {
   // A ten-thousandth of the file's unit: more than the rounding of coordinates in single precision.
   const double tolerance = patch.quantity("tolerance", dimension::length, range::positive, 1e-4 * scale);
+  if (patch.has("lower") || patch.has("upper")) {
+    const auto box = read_box<SurfacePart>(patch);
+    return patch_within(box.name, box.lower, box.upper, tolerance);
+  }
+  const std::vector<std::string> axes{"x", "y", "z"};
+  const int axis = patch.at("axis").one_of(axes, "axis")[0] - 'x';
   return plane_patch(patch.string("name"), axis, patch.quantity("at", dimension::length), tolerance);
 }
 
@@ -180,7 +186,7 @@ MeshRecipe read_vtk(const ConfigTable& table, const std::filesystem::path& case_
   settings.face_sets = read_numbered_names(table, "face_sets");
   settings.merge_tolerance = table.quantity("merge_tolerance", dimension::length, range::not_negative, 0.0);
   for (const ConfigTable& patch : table.tables("patches"))
-    settings.patches.push_back(read_plane_patch(patch, settings.scale));
+    settings.patches.push_back(read_patch(patch, settings.scale));
   return {
       .make = [settings] { return import_vtk(settings); }, .regions = {}, .patches = {}, .data_files = {settings.file}};
 }

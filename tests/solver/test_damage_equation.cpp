@@ -67,6 +67,17 @@ TEST(DamageEquation, HomogeneousResponseOfAt1HasAThreshold) {
   }
 }
 
+TEST(DamageEquation, SoundCellsWiderThanTheirLengthStaySound) {
+  const Mesh mesh = row(9, 20.0 * ell);
+  FractureModel model = model_of(mesh, "Wu");
+  model.degradation = &degradation("rational");
+  model.regions.front().rational = rational_coefficients(softening_law("linear"), 30e9, Gc, 30e6, ell);
+  DamageEquation equation(mesh, model, Vector::Zero());
+  CellField<double> d = uniform(mesh, 0.0);
+  EXPECT_TRUE(equation.solve(uniform(mesh, 0.0), uniform(mesh, 0.0), {}, d).converged);
+  for (const double value : d) EXPECT_EQ(value, 0.0);
+}
+
 // Driving energy from nothing to a thousand times what breaks a cell, and bounds anywhere.
 CellField<double> random_driving_energy(const Mesh& mesh) {
   RandomNumbers random;
