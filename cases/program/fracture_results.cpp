@@ -19,11 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* checkpoint_file = "checkpoint.bin";
-constexpr const char* curve_file = "force_displacement.csv";
 constexpr const char* frames_file = "fields.pvd";
-constexpr const char* summary_file = "summary.json";
 constexpr const char* frames_folder = "fields";
 constexpr const char* columns_folder = "columns";
+
+constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of those that leave figures only
 
 /// Of a step, relative to the results; in the order of the steps, so are the names.
 std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", frames_folder, step); }
@@ -133,7 +133,12 @@ void FractureResults::step_done(const FractureState& state, const StepReport& re
   last_step_ = state.step;
   last_load_ = state.load;
   damage_ = state.damage;
-  curve_.append(curve_row(report, curve_patch_, fracture_.output.curve.component));
+  curve_.add(curve_row(report, curve_patch_, fracture_.output.curve.component));
+  if (may_wait()) {
+    waits_ = true;
+    return;
+  }
+  curve_.write();
   const bool frame = frame_is_due(state);
   if (frame || columns_) {
     const OutputFields fields = output();
@@ -141,9 +146,24 @@ void FractureResults::step_done(const FractureState& state, const StepReport& re
     if (columns_) columns_->append(state.step, mesh_, model_, fields);
   }
   write_checkpoint(directory_ / checkpoint_file, state, case_hash_);
+  since_written_ = {};
+  waits_ = false;
+}
+
+/// Many short runs would spend more time on flushing to the disk than on computing.
+bool FractureResults::may_wait() const {
+  return fracture_.output.figures_only && since_written_.seconds() < seconds_at_stake;
+}
+
+void FractureResults::write_what_waits(const FractureState& state) {
+  if (!waits_) return;
+  curve_.write();
+  write_checkpoint(directory_ / checkpoint_file, state, case_hash_);
+  waits_ = false;
 }
 
 bool FractureResults::frame_is_due(const FractureState& state) const {
+  if (fracture_.output.figures_only) return false;
   const auto& stops = fracture_.loading.stops;
   const Index every = fracture_.output.frames_every;
   return std::ranges::any_of(stops, [&](double stop) { return same_load(stop, state.load); }) ||
@@ -161,6 +181,7 @@ void FractureResults::write_frame(Index step, double load, const OutputFields& o
 
 void FractureResults::write_last_frame(const Output& output) {
   const auto& frames = frames_.frames();
+  if (fracture_.output.figures_only) return;
   if (frames.empty() || frames.back().file != frame_file(last_step_)) write_frame(last_step_, last_load_, output());
 }
 

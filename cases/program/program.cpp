@@ -79,6 +79,7 @@ void do_case(const Commands& commands, const Options& options, std::ostream& out
       .results = options.output.empty() ? file.directory / "results" : std::filesystem::path(options.output),
       .restart = options.restart,
       .max_steps = options.max_steps > 0 ? std::optional(options.max_steps) : std::nullopt,
+      .until = std::nullopt,
       .threads = options.threads,
       .version = PFDM_VERSION,
       .log = log};
