@@ -1,6 +1,7 @@
 #include "cases/program/case_parameter.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace pfdm {
 namespace {
@@ -58,6 +59,13 @@ CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file) 
 
 double read_parameter_value(const ConfigValue& value, const CaseParameter& parameter) {
   return parameter.unit.empty() ? value.number() : value.quantity(parameter.dimension);
+}
+
+std::string shown(std::span<const CaseParameter> parameters, std::span<const double> values) {
+  std::vector<std::string> texts;
+  for (std::size_t j = 0; j < values.size(); ++j)
+    texts.push_back(fmt::format("{} = {}", parameters[j].short_name(), parameters[j].shown(values[j])));
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 CaseFile with_values(const CaseFile& file, std::span<const CaseParameter> parameters, std::span<const double> values) {

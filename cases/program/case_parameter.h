@@ -34,6 +34,9 @@ CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file);
 /// A value of the parameter as it stands in the case, a quantity or a bare number [SI].
 double read_parameter_value(const ConfigValue& value, const CaseParameter& parameter);
 
+/// "glass.young_modulus = 70 GPa, ..."
+std::string shown(std::span<const CaseParameter> parameters, std::span<const double> values);
+
 /// The case with other values [SI], rounded to eight digits: two sets of values that differ by rounding are one case.
 CaseFile with_values(const CaseFile& file, std::span<const CaseParameter> parameters, std::span<const double> values);
 

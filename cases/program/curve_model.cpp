@@ -1,19 +1,9 @@
 #include "cases/program/curve_model.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 namespace pfdm {
 
-std::string CurveModel::shown(const std::vector<double>& values) const {
-  std::vector<std::string> texts;
-  for (std::size_t j = 0; j < values.size(); ++j)
-    texts.push_back(fmt::format("{} = {}", parameters_[j].short_name(), parameters_[j].shown(values[j])));
-  return fmt::format("{}", fmt::join(texts, ", "));
-}
-
 CaseVariant CurveModel::variant(const std::vector<double>& values) const {
-  return {with_values(file_, parameters_, values), shown(values)};
+  return {with_values(file_, parameters_, values), pfdm::shown(parameters_, values)};
 }
 
 std::optional<SampledCurve> CurveModel::respond(const std::vector<double>& values, std::optional<double> until) {

@@ -26,8 +26,7 @@ class CurveModel {
   /// Runs what respond() will be asked for, side by side.
   void prepare(const std::vector<std::vector<double>>& points, std::optional<double> until);
 
-  /// "materials.glass.young_modulus = 70 GPa, ..."
-  std::string shown(const std::vector<double>& values) const;
+  std::string shown(const std::vector<double>& values) const { return pfdm::shown(parameters_, values); }
 
  private:
   CaseVariant variant(const std::vector<double>& values) const;
