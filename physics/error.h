@@ -15,4 +15,9 @@ struct ComputationError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A model that has no answer at these parameters, as far as it was followed. Whoever tries parameters survives it.
+struct NoConvergence : ComputationError {
+  using ComputationError::ComputationError;
+};
+
 }  // namespace pfdm

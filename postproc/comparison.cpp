@@ -72,6 +72,22 @@ double slope_of(const SampledCurve& curve, double from, double to) {
 
 double SampledCurve::at(double where) const { return interpolated(x, y, where); }
 
+SampledCurve driven_curve(const SampledCurve& followed) {
+  SampledCurve driven{.name = followed.name, .x = {}, .y = {}};
+  for (std::size_t i = 0; i < followed.x.size(); ++i) {
+    const double x = followed.x[i], y = followed.y[i];
+    if (!driven.x.empty() && x < driven.x.back()) continue;
+    if (i > 0 && followed.x[i - 1] < driven.x.back()) {  // it comes back from a fall
+      const double last = driven.x.back(), share = (last - followed.x[i - 1]) / (x - followed.x[i - 1]);
+      driven.x.push_back(last);
+      driven.y.push_back(followed.y[i - 1] + share * (y - followed.y[i - 1]));
+    }
+    driven.x.push_back(x);
+    driven.y.push_back(y);
+  }
+  return driven;
+}
+
 ComparedCurves compare_curves(const SampledCurve& model, const std::vector<SampledCurve>& specimens) {
   if (specimens.empty()) throw InputError("there is no measured curve to compare with");
   require_curve(model);

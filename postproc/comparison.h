@@ -17,6 +17,10 @@ struct SampledCurve {
   double at(double x) const;
 };
 
+/// The curve of a test that is driven by its displacement: where the computed one falls back (path-following), the
+/// force drops at the largest displacement so far to the branch that goes on from there.
+SampledCurve driven_curve(const SampledCurve& followed);
+
 /// At points evenly spaced over the common range.
 struct ComparedCurves {
   std::vector<double> x;

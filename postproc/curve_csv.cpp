@@ -97,7 +97,7 @@ CurveFile::CurveFile(std::filesystem::path path, Index last_step) : path_(std::m
 }
 
 void CurveFile::append(const CurveRow& row) {
-  rows_.push_back(row);
+  add(row);
   write();
 }
 

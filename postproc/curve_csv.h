@@ -25,6 +25,7 @@ struct CurveRow {
   friend bool operator==(const CurveRow&, const CurveRow&) = default;
 };
 
+inline constexpr const char* curve_file = "force_displacement.csv";
 constexpr std::string_view curve_header =
     "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,external_work_J,"
     "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J";
@@ -46,11 +47,12 @@ class CurveFile {
   CurveFile(std::filesystem::path path, Index last_step);
 
   void append(const CurveRow& row);
+  /// Likewise in two steps: the file has the row after write().
+  void add(const CurveRow& row) { rows_.push_back(row); }
+  void write() const;
   const std::vector<CurveRow>& rows() const { return rows_; }
 
  private:
-  void write() const;
-
   std::filesystem::path path_;
   std::vector<CurveRow> rows_;
 };

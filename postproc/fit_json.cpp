@@ -3,16 +3,18 @@
 #include "postproc/atomic_file.h"
 #include "postproc/json.h"
 
+#include <fmt/format.h>
+
 namespace pfdm {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json estimates(const FitReport& report) {
+Json estimates(const std::vector<FitParameter>& parameters, const FitResult& result) {
   Json list = Json::array();
-  for (std::size_t j = 0; j < report.parameters.size(); ++j) {
-    const FitParameter& p = report.parameters[j];
-    const FitEstimate& e = report.result.estimates[j];
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const FitParameter& p = parameters[j];
+    const FitEstimate& e = result.estimates[j];
     list.push_back({{"name", p.name},
                     {"unit", p.unit},
                     {"estimate", e.value},
@@ -39,9 +41,9 @@ Json experiments(const FitReport& report) {
   for (const ExperimentMisfit& e : report.experiments)
     list.push_back({{"name", e.name},
                     {"data", e.n_data},
-                    {"rms_misfit_Pa", e.rms},
-                    {"rms_stress_Pa", e.rms_stress},
-                    {"relative_misfit", e.rms / e.rms_stress},
+                    {fmt::format("rms_misfit_{}", e.unit), e.rms},
+                    {fmt::format("rms_{}_{}", e.quantity, e.unit), e.rms_measured},
+                    {"relative_misfit", e.rms / e.rms_measured},
                     {"curve", e.curve}});
   return list;
 }
@@ -60,7 +62,7 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
                {"evaluations", result.evaluations},
                {"residuals", result.residuals.size()},
                {"rms_residual", result.rms},
-               {"parameters", estimates(report)},
+               {"parameters", estimates(report.parameters, result)},
                {"warnings", result.warnings},
                {"experiments", experiments(report)},
                {"correlation", to_json(result.correlation)},
@@ -72,6 +74,20 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
   for (const StaggeredRound& r : report.rounds)
     json["staggered_rounds"].push_back(
         {{"rms_misfit_after_hardening_Pa", r.rms_after_hardening}, {"rms_misfit_after_kernel_Pa", r.rms_after_kernel}});
+  for (const FitStageReport& s : report.stages)
+    json["earlier_stages"].push_back({{"name", s.name},
+                                      {"from_m", s.from},
+                                      {"to_m", s.to},
+                                      {"converged", s.result.converged},
+                                      {"message", s.result.message},
+                                      {"residuals", s.result.residuals.size()},
+                                      {"rms_residual", s.result.rms},
+                                      {"parameters", estimates(s.parameters, s.result)},
+                                      {"correlation", to_json(s.result.correlation)},
+                                      {"path", path(s.result)}});
+  if (report.runs)
+    json["runs"] = {
+        {"made", report.runs->made}, {"reused", report.runs->reused}, {"not_converged", report.runs->failed}};
   write_file(file, json.dump(2) + "\n");
 }
 

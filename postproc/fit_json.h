@@ -4,6 +4,7 @@
 #include "solver/endochronic_identification.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,24 @@ namespace pfdm {
 struct ExperimentMisfit {
   std::string name;
   std::size_t n_data = 0;
-  double rms = 0.0;         ///< of model less measurement [Pa]
-  double rms_stress = 0.0;  ///< of the measurement [Pa]
-  std::string curve;        ///< file
+  double rms = 0.0;                 ///< of model less measurement [unit]
+  double rms_measured = 0.0;        ///< [unit]
+  std::string curve;                ///< file
+  std::string quantity = "stress";  ///< that was measured
+  std::string unit = "Pa";
+};
+
+/// A part of a fit, with some of the parameters and of the data.
+struct FitStageReport {
+  std::string name;
+  double from = 0.0, to = 0.0;  ///< displacements [m]
+  std::vector<FitParameter> parameters;
+  FitResult result;
+};
+
+/// How many runs of the model a fit took.
+struct RunCounts {
+  int made = 0, reused = 0, failed = 0;
 };
 
 struct FitReport {
@@ -28,6 +44,8 @@ struct FitReport {
   std::vector<ExperimentMisfit> experiments;
   std::vector<TriedKernel> tried;
   std::vector<StaggeredRound> rounds;
+  std::vector<FitStageReport> stages;  ///< those before the last, which is `result`
+  std::optional<RunCounts> runs;
 };
 
 /// Written whole or not at all; numbers that are not finite become null. Throws ComputationError.

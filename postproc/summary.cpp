@@ -1,7 +1,10 @@
 #include "postproc/summary.h"
 
+#include "physics/error.h"
 #include "postproc/atomic_file.h"
+#include "postproc/text_file.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
@@ -127,6 +130,18 @@ Headlines headlines(std::span<const CurveRow> rows, int component) {
 
 void write_summary(const std::filesystem::path& path, const RunSummary& summary) {
   write_file(path, to_json(summary).dump(2) + "\n");
+}
+
+std::optional<ReadSummary> read_summary(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  const Json json = Json::parse(read_file(path), nullptr, false);
+  if (!json.is_object() || !json.contains("status") || !json["status"].is_string())
+    throw InputError(fmt::format("{} is no summary of a run", path.string()));
+  ReadSummary summary{.status = json["status"].get<std::string>(), .numbers = {}};
+  for (const auto& [name, value] : json.items())
+    if (value.is_number() || value.is_null())
+      summary.numbers.emplace_back(name, value.is_null() ? Headlines::none : value.get<double>());
+  return summary;
 }
 
 double peak_memory() { return 1024.0 * static_cast<double>(usage().ru_maxrss); }  // Linux counts in KiB

@@ -9,6 +9,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 
@@ -60,6 +62,17 @@ struct RunSummary {
 /// Written whole or not at all; numbers that are not finite become null. Throws ComputationError if the file cannot be
 /// written.
 void write_summary(const std::filesystem::path& path, const RunSummary& summary);
+
+inline constexpr const char* summary_file = "summary.json";
+
+/// What a summary.json says.
+struct ReadSummary {
+  std::string status;
+  std::vector<std::pair<std::string, double>> numbers;  ///< in their order, by name; NaN where it has null
+};
+
+/// Nothing if there is no such file. Throws InputError for a file that is no summary.
+std::optional<ReadSummary> read_summary(const std::filesystem::path& path);
 
 /// The most memory that this process has had so far [byte].
 double peak_memory();

@@ -56,17 +56,23 @@ class Cost : public ceres::CostFunction {
 
 class Recorder : public ceres::IterationCallback {
  public:
-  Recorder(const ScaledModel& model, const Eigen::VectorXd& u, std::vector<FitIteration>& path)
-      : model_(model), u_(u), path_(path) {}
+  Recorder(const ScaledModel& model, const Eigen::VectorXd& u, const FitSettings& settings,
+           std::vector<FitIteration>& path)
+      : model_(model), u_(u), settings_(settings), path_(path) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    if (summary.step_is_successful || summary.iteration == 0)
+    if (summary.step_is_successful || summary.iteration == 0) {
       path_.push_back({std::sqrt(2.0 * summary.cost / static_cast<double>(model_.n_residuals())), model_.natural(u_)});
-    return ceres::SOLVER_CONTINUE;
+      if (settings_.iterated) settings_.iterated(path_.back());
+    }
+    const bool was_tried = summary.iteration > 0 && summary.step_is_valid;
+    return was_tried && summary.step_norm < settings_.least_step ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                                 : ceres::SOLVER_CONTINUE;
   }
 
  private:
   const ScaledModel& model_;
   const Eigen::VectorXd& u_;
+  const FitSettings& settings_;
   std::vector<FitIteration>& path_;
 };
 
@@ -81,7 +87,8 @@ struct Attempt {
 ceres::Solver::Options options_of(const FitSettings& settings) {
   ceres::Solver::Options options;
   options.max_num_iterations = settings.maximum_iterations;
-  options.function_tolerance = 1e-16;
+  options.function_tolerance = settings.cost_tolerance;
+  options.initial_trust_region_radius = settings.trust_radius;
   options.parameter_tolerance = settings.tolerance;
   options.gradient_tolerance = 1e-18;
   options.linear_solver_type = ceres::DENSE_QR;
@@ -126,12 +133,14 @@ Attempt minimise(const ScaledModel& model, const Eigen::VectorXd& u, const std::
     if (held[j]) problem.SetParameterBlockConstant(blocks[j]);
   }
   ceres::Solver::Options options = options_of(settings);
-  Recorder recorder(model, attempt.u, attempt.path);
+  Recorder recorder(model, attempt.u, settings, attempt.path);
   options.callbacks.push_back(&recorder);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  attempt.converged = summary.termination_type == ceres::CONVERGENCE;
-  attempt.message = summary.message;
+  attempt.converged = summary.termination_type == ceres::CONVERGENCE || summary.termination_type == ceres::USER_SUCCESS;
+  attempt.message = summary.termination_type == ceres::USER_SUCCESS
+                        ? fmt::format("the last step was shorter than {:g}", settings.least_step)
+                        : summary.message;
   if (summary.IsSolutionUsable()) attempt.cost = summary.final_cost;
   return attempt;
 }
@@ -208,7 +217,9 @@ FitResult fit(const FitProblem& problem, const FitSettings& settings) {
   ScaledModel model(problem, settings);
   FitResult result;
   Attempt best;
-  for (const Eigen::VectorXd& start : starting_points(model, settings)) {
+  const std::vector<Eigen::VectorXd> starts = starting_points(model, settings);
+  model.prepare(starts);
+  for (const Eigen::VectorXd& start : starts) {
     Attempt attempt = minimise(model, start, settings);
     result.start_rms.push_back(
         std::sqrt(2.0 * attempt.cost / static_cast<double>(std::max<std::size_t>(1, model.n_residuals()))));

@@ -41,21 +41,32 @@ struct FitProblem {
   std::vector<FitParameter> parameters;
   Residuals residuals;
   ResidualJacobian jacobian = {};  ///< by differences if there is none
+  /// Told the points at which `residuals` will be asked for next, so that a model can compute them side by side.
+  std::function<void(const std::vector<std::vector<double>>& points)> prepare = {};
   /// The residuals are divided by the standard deviation of their noise. Otherwise that is estimated from their rms.
   /// Priors need it.
   bool noise_is_known = false;
 };
 
+struct FitIteration {
+  double rms = 0.0;  ///< of the residuals
+  std::vector<double> parameters;
+};
+
 struct FitSettings {
   int maximum_iterations = 100;
-  double tolerance = 1e-12;  ///< relative change of the parameters
+  double tolerance = 1e-12;       ///< relative change of the parameters
+  double cost_tolerance = 1e-16;  ///< relative change of the sum of squares
+  double least_step = 0.0;        ///< in scaled parameters: a shorter step ends the fit
+  double trust_radius = 1e4;      ///< of the first step; small for models whose failures are expensive
   Differences differences = Differences::central;
   double step = 6e-6;        ///< of the differences, in parameters over their first guess (or of the logarithm)
-  bool side_by_side = true;  ///< evaluations on all threads; not for models that use threads themselves
+  bool side_by_side = true;  ///< evaluations on all threads; not for models that use threads or processes themselves
   int starts = 1;            ///< more than one: the others at random within the bounds
   double spread = 1.0;  ///< of random starts about the first guess, factor exp(+-spread), where there are no bounds
   std::uint64_t seed = 1;
   double robust_scale = 0.0;  ///< residuals well above count less (Huber); 0: least squares
+  std::function<void(const FitIteration&)> iterated = {};  ///< after every step that was taken
 };
 
 struct FitEstimate {
@@ -63,11 +74,6 @@ struct FitEstimate {
   double standard_error = 0.0;  ///< infinite if the data cannot see the parameter
   double lower_95 = 0.0, upper_95 = 0.0;
   bool at_bound = false;
-};
-
-struct FitIteration {
-  double rms = 0.0;  ///< of the residuals
-  std::vector<double> parameters;
 };
 
 struct FitResult {

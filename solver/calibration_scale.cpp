@@ -94,20 +94,31 @@ std::optional<Eigen::MatrixXd> ScaledModel::given_jacobian(const Eigen::VectorXd
   return J;
 }
 
+void ScaledModel::prepare(const std::vector<Eigen::VectorXd>& points) const {
+  if (!problem_.prepare) return;
+  std::vector<std::vector<double>> parameters;
+  for (const Eigen::VectorXd& u : points) parameters.push_back(natural(u));
+  problem_.prepare(parameters);
+}
+
+std::optional<Eigen::VectorXd> ScaledModel::moved(const Eigen::VectorXd& u, std::size_t j, double sign) const {
+  Eigen::VectorXd result = u;
+  double& entry = result[static_cast<Eigen::Index>(j)];
+  entry += sign * step_of(entry);
+  const auto [lower, upper] = bounds(j);
+  return entry > upper || entry < lower ? std::nullopt : std::optional(result);
+}
+
 /// Central where both sides can be evaluated, else to the side that can.
 std::optional<Eigen::VectorXd> ScaledModel::difference(const Eigen::VectorXd& u, const std::vector<double>& here,
                                                        std::size_t j) const {
-  const auto J = static_cast<Eigen::Index>(j);
-  const double h = settings_.step * std::max(1.0, std::abs(u[J]));
-  const auto [lower, upper] = bounds(j);
-  const auto side = [&](double change) -> std::optional<std::vector<double>> {
-    if (u[J] + change > upper || u[J] + change < lower) return std::nullopt;
-    Eigen::VectorXd moved = u;
-    moved[J] += change;
-    return residuals(moved);
+  const double h = step_of(u[static_cast<Eigen::Index>(j)]);
+  const auto side = [&](double sign) {
+    const auto there = moved(u, j, sign);
+    return there ? residuals(*there) : std::nullopt;
   };
-  const auto above = side(h);
-  const auto below = above && settings_.differences == Differences::forward ? std::nullopt : side(-h);
+  const auto above = side(1.0);
+  const auto below = above && settings_.differences == Differences::forward ? std::nullopt : side(-1.0);
   if (!above && !below) return std::nullopt;
   const auto as_vector = [](const std::vector<double>& v) {
     return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()));
@@ -117,6 +128,14 @@ std::optional<Eigen::VectorXd> ScaledModel::difference(const Eigen::VectorXd& u,
 }
 
 std::optional<Eigen::MatrixXd> ScaledModel::differences(const Eigen::VectorXd& u) const {
+  std::vector<Eigen::VectorXd> points{u};
+  for (std::size_t j = 0; j < n_parameters(); ++j) {
+    const auto above = moved(u, j, 1.0);
+    const auto below = above && settings_.differences == Differences::forward ? std::nullopt : moved(u, j, -1.0);
+    for (const auto& point : {above, below})
+      if (point) points.push_back(*point);
+  }
+  prepare(points);
   const auto here = residuals(u);
   if (!here) return std::nullopt;
   std::vector<std::optional<Eigen::VectorXd>> columns(n_parameters());

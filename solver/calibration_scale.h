@@ -3,7 +3,9 @@
 
 #include "solver/calibration.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <utility>
 
 namespace pfdm {
@@ -30,10 +32,15 @@ class ScaledModel {
   /// Of the data, then of the priors.
   std::optional<std::vector<double>> residuals(const Eigen::VectorXd& u) const;
   std::optional<Eigen::MatrixXd> jacobian(const Eigen::VectorXd& u) const;
+  /// Tells the model that these points are asked for next.
+  void prepare(const std::vector<Eigen::VectorXd>& points) const;
 
  private:
   std::optional<Eigen::MatrixXd> given_jacobian(const Eigen::VectorXd& u) const;
   std::optional<Eigen::MatrixXd> differences(const Eigen::VectorXd& u) const;
+  /// Where parameter j is moved by `sign` steps; nothing beyond its bounds.
+  std::optional<Eigen::VectorXd> moved(const Eigen::VectorXd& u, std::size_t j, double sign) const;
+  double step_of(double u) const { return settings_.step * std::max(1.0, std::abs(u)); }
   std::optional<Eigen::VectorXd> difference(const Eigen::VectorXd& u, const std::vector<double>& here,
                                             std::size_t j) const;
   double scaled(std::size_t j, double parameter) const;

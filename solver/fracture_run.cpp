@@ -197,7 +197,7 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
     if (!outcome.converged) {
       state.increment = cut * increment;
       if (state.increment < parts.loading.minimum_increment)
-        throw ComputationError(fmt::format(
+        throw NoConvergence(fmt::format(
             "step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load): more iterations "
             "(solver.maximum_iterations) or a smaller loading.minimum_increment may help",
             trial.step, trial.load, parts.loading.minimum_increment));

@@ -13,6 +13,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view format_version = "pfdm case 2";
+constexpr std::uint64_t hash_of_nothing = 0xcbf29ce484222325ULL;
 
 std::uint64_t add_to_hash(std::uint64_t hash, std::string_view bytes) {
   for (const char byte : bytes) {
@@ -61,12 +62,32 @@ std::string case_name(const CaseFile& file) {
 
 std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
                       std::span<const std::string_view> left_out) {
-  std::uint64_t hash = add_to_hash(0xcbf29ce484222325ULL, format_version);
+  std::uint64_t hash = add_to_hash(hash_of_nothing, format_version);
   const TomlValue root = parse_toml(file.text, "case.toml");
   for (const auto& [key, value] : std::get<TomlTable>(root.value))
     if (key != "title" && std::ranges::count(left_out, key) == 0) hash = add_to_hash(hash, key + written(value));
   for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
   return fmt::format("{:016x}", hash);
+}
+
+CaseFile with_text(const CaseFile& file, std::string text) {
+  Config config(text, (file.directory / "case.toml").string());
+  return {.directory = file.directory, .text = std::move(text), .config = std::move(config)};
+}
+
+std::string table_hash(const CaseFile& file, std::string_view table,
+                       std::span<const std::filesystem::path> data_files) {
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  std::uint64_t hash = add_to_hash(hash_of_nothing, written(value_at(root, table)));
+  for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
+  return fmt::format("{:016x}", hash);
+}
+
+std::string moved(const CaseFile& file, const std::filesystem::path& folder) {
+  std::istringstream lines(file.text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) result += with_moved_path(line, file.directory, folder) + "\n";
+  return result;
 }
 
 std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,

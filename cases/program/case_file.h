@@ -28,6 +28,15 @@ std::string case_name(const CaseFile& file);
 std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
                       std::span<const std::string_view> left_out = {});
 
+/// The same case with another text; its paths still start at the directory.
+CaseFile with_text(const CaseFile& file, std::string text);
+
+/// Of what one table says, and of data files, likewise.
+std::string table_hash(const CaseFile& file, std::string_view table, std::span<const std::filesystem::path> data_files);
+
+/// case.toml, to stand in `folder`: the files that it names as `csv` or `file` are named from there.
+std::string moved(const CaseFile& file, const std::filesystem::path& folder);
+
 /// case.toml with one of its tables, [table] and all below it, replaced by `text`, to stand in `folder`: the files that
 /// it names as `csv` or `file` are named from there.
 std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,

@@ -49,8 +49,11 @@ std::vector<ExperimentMisfit> misfits(const EndochronicFit& fit, const Endochron
   for (const MaterialExperiment& experiment : fit.experiments) {
     std::size_t n = 0;
     for (const auto& channel : experiment.channels) n += channel.stress.size();
-    result.push_back({experiment.name, n, rms_misfit(law, experiment, fit.settings.control), rms_stress({experiment}),
-                      file_name(experiment.name)});
+    result.push_back({.name = experiment.name,
+                      .n_data = n,
+                      .rms = rms_misfit(law, experiment, fit.settings.control),
+                      .rms_measured = rms_stress({experiment}),
+                      .curve = file_name(experiment.name)});
   }
   return result;
 }
@@ -83,7 +86,9 @@ void write_fit_results(const fs::path& results, const CaseFile& file, const Endo
                                         .result = found.fit.result,
                                         .experiments = misfits(fit, found.fit.law),
                                         .tried = found.tried,
-                                        .rounds = found.rounds});
+                                        .rounds = found.rounds,
+                                        .stages = {},
+                                        .runs = std::nullopt});
 }
 
 }  // namespace pfdm

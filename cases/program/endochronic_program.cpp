@@ -106,7 +106,7 @@ void run_case(const EndochronicProgram& program, Session& session) {
   log.say(fmt::format("{} after {} of {} increments and {:.2f} s; results in {}",
                       history.converged ? "complete" : "failed", history.points.size() - 1, n_increments(loading),
                       seconds, session.results.string()));
-  if (!history.converged) throw ComputationError(fmt::format("case {}: {}", program.name, history.failure));
+  if (!history.converged) throw NoConvergence(fmt::format("case {}: {}", program.name, history.failure));
 }
 
 void say_estimates(const LawFit& fit, Log& log) {
@@ -152,7 +152,8 @@ RunnableCase read_endochronic_program(const CaseFile& file) {
   program->hash = case_hash(file, data);
   RunnableCase runnable{.title = program->point.title,
                         .check = [program](Session& session) { check(*program, session); },
-                        .run = [program](Session& session) { run_case(*program, session); }};
+                        .run = [program](Session& session) { run_case(*program, session); },
+                        .data_files = program->point.loading.data_files};
   if (program->point.fit) runnable.fit = [program](Session& session) { fit_case(*program, session); };
   return runnable;
 }

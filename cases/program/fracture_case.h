@@ -23,6 +23,7 @@ struct CurveSettings {
 
 struct FractureOutput {
   CurveSettings curve;
+  bool figures_only = false;             ///< no frames, and nothing on the disk for the first seconds
   Index frames_every = 0;                ///< steps; 0 = only LoadingSettings::stops and the last step
   std::optional<Vector> slices_through;  ///< [m]
   std::vector<TipRegion> tips;           ///< around which the energy release rate is measured

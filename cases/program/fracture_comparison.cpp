@@ -10,15 +10,6 @@
 namespace pfdm {
 namespace {
 
-SampledCurve force_curve(const std::vector<CurveRow>& rows, int component) {
-  SampledCurve curve{.name = "computed", .x = {}, .y = {}};
-  for (const CurveRow& row : rows) {
-    curve.x.push_back(row.displacement);
-    curve.y.push_back(row.force[component]);
-  }
-  return curve;
-}
-
 const ColumnRecord& record_of(const std::vector<ColumnRecord>& records, const MeasuredAngle& angle,
                               const ConfigTable& where) {
   if (angle.surface.empty()) return records.front();
@@ -73,12 +64,21 @@ void say(const AngleComparison& angle, Log& log) {
 
 }  // namespace
 
+SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component) {
+  SampledCurve curve{.name = "computed", .x = {}, .y = {}};
+  for (const CurveRow& row : rows) {
+    curve.x.push_back(row.displacement);
+    curve.y.push_back(row.force[component]);
+  }
+  return driven_curve(curve);
+}
+
 void compare_with_experiment(const FractureCase& fracture, const ExperimentSettings& experiment,
                              const std::string& name, const std::string& hash, Session& session) {
   const std::vector<CurveRow> rows = read_curve_record(session.results, hash);
   ComparisonReport report{.case_name = name, .case_hash = hash, .version = session.version, .force = {}, .angle = {}};
   report.force = experiment.where.in_context([&] {
-    return compare_forces(force_curve(rows, fracture.output.curve.component), experiment.specimens,
+    return compare_forces(computed_curve(rows, fracture.output.curve.component), experiment.specimens,
                           experiment.stiffness_from, experiment.stiffness_to);
   });
   if (!experiment.angles.empty()) {

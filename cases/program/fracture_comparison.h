@@ -4,10 +4,15 @@
 #include "cases/program/experiment_case.h"
 #include "cases/program/fracture_case.h"
 #include "cases/program/session.h"
+#include "postproc/curve_csv.h"
 
 #include <string>
+#include <vector>
 
 namespace pfdm {
+
+/// Force over displacement as a test that is driven by its displacement would show it.
+SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component);
 
 /// Reads the results in session.results, writes the comparison beside them and says its figures. Throws InputError
 /// where there are no results or nothing can be compared.

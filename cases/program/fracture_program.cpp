@@ -1,5 +1,6 @@
 #include "cases/program/fracture_program.h"
 
+#include "cases/program/curve_fit.h"
 #include "cases/program/experiment_case.h"
 #include "cases/program/fracture_case.h"
 #include "cases/program/fracture_cohesive.h"
@@ -23,10 +24,12 @@ namespace {
 
 /// Tables that say how the load is stepped and the steps are solved, and what they are compared with; not what is
 /// loaded.
-constexpr std::string_view may_change_on_the_way[] = {"solver", "loading", "experiment"};
+constexpr std::string_view may_change_on_the_way[] = {"solver", "loading", "experiment", "fit", "sweep"};
 
-/// Thrown out of the load stepping when --max-steps is reached.
-struct EnoughSteps {};
+/// Thrown out of the load stepping when no more steps are wanted.
+struct EnoughSteps {
+  const char* why;
+};
 
 /// Where the wall-clock time of a run goes [s].
 struct RunTimes {
@@ -36,10 +39,13 @@ struct RunTimes {
 };
 
 struct FractureProgram {
-  FractureCase fracture;
-  std::optional<ExperimentSettings> experiment;
-  std::string name;
-  std::string hash;
+  CaseFile file;
+  FractureCase fracture{};
+  std::optional<ExperimentSettings> experiment{};
+  std::optional<CurveFitSettings> fit{};
+  std::string name{};
+  std::string hash{};
+  std::string mesh_hash{};  ///< of what decides the mesh
 };
 
 Mesh make_mesh(const FractureProgram& program, Log& log) {
@@ -79,6 +85,14 @@ double estimated_memory(const Mesh& mesh) {
   return (polyhedra ? 3.1e3 : 1.9e3) * mesh.n_faces() + 40e6;
 }
 
+void check_fit(const FractureProgram& program, Log& log) {
+  require_start_within_bounds(*program.fit);
+  for (const CurveFitParameter& parameter : program.fit->parameters)
+    log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
+                        parameter.in_case.shown(parameter.in_fit.lower),
+                        parameter.in_case.shown(parameter.in_fit.upper)));
+}
+
 void check(const FractureProgram& program, Session& session) {
   Log& log = session.log;
   const LoadingSettings& loading = program.fracture.loading;
@@ -92,6 +106,7 @@ void check(const FractureProgram& program, Session& session) {
   log.say(fmt::format("memory about {:.0f} MB", 1e-6 * estimated_memory(mesh)));
   log.say(fmt::format("steps {} or more, up to load {:g}", std::ceil(loading.end / loading.maximum_increment - 1e-9),
                       loading.end));
+  if (program.fit) check_fit(program, log);
   for (const ColumnSet& set : columns)
     log.say(fmt::format("cohesive law of \"{}\" from {} columns", set.name, set.columns.size()));
   log.say(fmt::format("results go to {}", session.results.string()));
@@ -151,19 +166,22 @@ std::string advance(FractureRun& run, FractureState& state, FractureResults& res
     times.results += watch.seconds();
     state = now;
     progress.step_done(report, results.last_row().displacement, results.last_row().force[component]);
-    if (session.max_steps && now.step - first_step >= *session.max_steps) throw EnoughSteps();
+    if (session.max_steps && now.step - first_step >= *session.max_steps) throw EnoughSteps{"stopped by --max-steps"};
+    if (session.until && results.last_row().displacement >= *session.until && now.load < program.fracture.loading.end)
+      throw EnoughSteps{"stopped where enough is known"};
   };
   try {
     run.run(state, hooks);
     return "complete";
-  } catch (const EnoughSteps&) {
-    return "stopped by --max-steps";
+  } catch (const EnoughSteps& enough) {
+    return enough.why;
   }
 }
 
 void solve(FractureRun& run, FractureState state, FractureResults& results, const FractureProgram& program,
            Session& session, RunTimes& times) {
   const auto finish = [&](const std::string& status) {
+    results.write_what_waits(state);
     RunSummary summary = summary_of(program, session, run, times);
     summary.status = status;
     results.write_summary(summary);
@@ -183,11 +201,26 @@ void solve(FractureRun& run, FractureState state, FractureResults& results, cons
   }
 }
 
-void run_case(const FractureProgram& program, Session& session) {
+/// Made, or found where several runs share it.
+const Mesh& find_mesh(const FractureProgram& program, MeshStore& meshes, Log& log) {
+  return meshes.get(program.mesh_hash, [&] { return make_mesh(program, log); });
+}
+
+void prepare(const FractureProgram& program, Session& session) {
+  if (session.meshes) find_mesh(program, *session.meshes, session.log);
+}
+
+void run_case(FractureProgram program, Session& session) {
+  if (session.figures_only) {
+    program.fracture.output.figures_only = true;
+    program.fracture.output.tips.clear();
+    program.fracture.cohesive = {};
+  }
   session.log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, program.fracture.title,
                               session.threads));
   RunTimes times;
-  const Mesh mesh = make_mesh(program, session.log);
+  MeshStore own_mesh;
+  const Mesh& mesh = find_mesh(program, session.meshes ? *session.meshes : own_mesh, session.log);
   times.mesh = times.whole.seconds();
   FractureRun run = make_run(program, mesh, session.log);
   const FractureState initial = run.initial_state();
@@ -198,7 +231,7 @@ void run_case(const FractureProgram& program, Session& session) {
     session.log.say(fmt::format("the run in {} is complete already", session.results.string()));
     return;
   }
-  write_mesh(session.results, mesh);
+  if (!session.figures_only) write_mesh(session.results, mesh);
   session.log.open_file(session.results / "run.log", last.has_value());
   FractureResults results(session.results, mesh, program.fracture, columns, program.hash, last);
   if (session.restart)
@@ -217,20 +250,37 @@ void compare(const FractureProgram& program, Session& session) {
   compare_with_experiment(program.fracture, *program.experiment, program.name, program.hash, session);
 }
 
+void fit(const FractureProgram& program, Session& session) {
+  if (!program.experiment)
+    throw InputError(fmt::format("{}: it names no [experiment] that the curve could be fitted to", program.name));
+  const auto read = [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
+    return computed_curve(read_curve(results / curve_file), component);
+  };
+  fit_curve({program.file, *program.fit, program.experiment->specimens, read, program.name, program.hash,
+             program.fracture.title},
+            session);
+}
+
 }  // namespace
 
 RunnableCase read_fracture_program(const CaseFile& file) {
-  auto program = std::make_shared<FractureProgram>();
+  auto program = std::make_shared<FractureProgram>(FractureProgram{.file = file});
   program->fracture = read_fracture_case(file.config.root(), file.directory);
   program->experiment = read_experiment(file.config.root(), file.directory);
+  program->fit = read_curve_fit(file);
   program->name = case_name(file);
   program->hash = case_hash(file, program->fracture.mesh.data_files, may_change_on_the_way);
-  return {.title = program->fracture.title,
-          .check = [program](Session& session) { check(*program, session); },
-          .mesh = [program](Session& session) { mesh_only(*program, session); },
-          .run = [program](Session& session) { run_case(*program, session); },
-          .cohesive = [program](Session& session) { cohesive(*program, session); },
-          .compare = [program](Session& session) { compare(*program, session); }};
+  program->mesh_hash = table_hash(file, "mesh", program->fracture.mesh.data_files);
+  RunnableCase runnable{.title = program->fracture.title,
+                        .check = [program](Session& session) { check(*program, session); },
+                        .mesh = [program](Session& session) { mesh_only(*program, session); },
+                        .run = [program](Session& session) { run_case(*program, session); },
+                        .cohesive = [program](Session& session) { cohesive(*program, session); },
+                        .compare = [program](Session& session) { compare(*program, session); },
+                        .prepare = [program](Session& session) { prepare(*program, session); },
+                        .data_files = program->fracture.mesh.data_files};
+  if (program->fit) runnable.fit = [program](Session& session) { fit(*program, session); };
+  return runnable;
 }
 
 }  // namespace pfdm

@@ -19,14 +19,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* checkpoint_file = "checkpoint.bin";
-constexpr const char* curve_file = "force_displacement.csv";
 constexpr const char* frames_file = "fields.pvd";
-constexpr const char* summary_file = "summary.json";
 constexpr const char* frames_folder = "fields";
 constexpr const char* columns_folder = "columns";
 constexpr const char* energy_release_file = "energy_release_rate.csv";
 
 constexpr double bearable_damaged_share = 0.05;  // of the integrand of an energy release rate
+
+constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of those that leave figures only
 
 /// Of a step, relative to the results; in the order of the steps, so are the names.
 std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", frames_folder, step); }
@@ -150,7 +150,12 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
   last_step_ = state.step;
   last_load_ = state.load;
   damage_ = state.damage;
-  curve_.append(curve_row(report, curve_patch_, fracture_.output.curve.component));
+  curve_.add(curve_row(report, curve_patch_, fracture_.output.curve.component));
+  if (may_wait()) {
+    waits_ = true;
+    return warnings;
+  }
+  curve_.write();
   const bool frame = frame_is_due(state);
   if (frame || columns_ || energy_release_) {
     const OutputFields fields = output();
@@ -159,6 +164,8 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
     if (energy_release_) add_energy_release(state, fields, warnings);
   }
   write_checkpoint(directory_ / checkpoint_file, state, case_hash_);
+  since_written_ = {};
+  waits_ = false;
   return warnings;
 }
 
@@ -186,7 +193,20 @@ void FractureResults::add_energy_release(const FractureState& state, const Outpu
   energy_release_->append(std::move(row));
 }
 
+/// Many short runs would spend more time on flushing to the disk than on computing.
+bool FractureResults::may_wait() const {
+  return fracture_.output.figures_only && since_written_.seconds() < seconds_at_stake;
+}
+
+void FractureResults::write_what_waits(const FractureState& state) {
+  if (!waits_) return;
+  curve_.write();
+  write_checkpoint(directory_ / checkpoint_file, state, case_hash_);
+  waits_ = false;
+}
+
 bool FractureResults::frame_is_due(const FractureState& state) const {
+  if (fracture_.output.figures_only) return false;
   const auto& stops = fracture_.loading.stops;
   const Index every = fracture_.output.frames_every;
   return std::ranges::any_of(stops, [&](double stop) { return same_load(stop, state.load); }) ||
@@ -204,6 +224,7 @@ void FractureResults::write_frame(Index step, double load, const OutputFields& o
 
 void FractureResults::write_last_frame(const Output& output) {
   const auto& frames = frames_.frames();
+  if (fracture_.output.figures_only) return;
   if (frames.empty() || frames.back().file != frame_file(last_step_)) write_frame(last_step_, last_load_, output());
 }
 

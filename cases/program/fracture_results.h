@@ -3,6 +3,7 @@
 // all functions throw ComputationError where they cannot be written.
 
 #include "cases/program/fracture_case.h"
+#include "cases/program/stopwatch.h"
 #include "mesh/mesh.h"
 #include "postproc/column_record.h"
 #include "postproc/curve_csv.h"
@@ -48,6 +49,8 @@ class FractureResults {
   /// the checkpoint: killed in between, a restart takes what is beyond the checkpoint away and does it again. Returns
   /// what the user should be warned of.
   std::vector<std::string> step_done(const FractureState& state, const StepReport& report, const Output& output);
+  /// The curve and the checkpoint of the last state, if step_done() has left them to later.
+  void write_what_waits(const FractureState& state);
   /// A frame of the last state, if it has none yet.
   void write_last_frame(const Output& output);
   /// Fills in what the curve and the last damage tell.
@@ -57,6 +60,7 @@ class FractureResults {
 
  private:
   bool frame_is_due(const FractureState& state) const;
+  bool may_wait() const;
   void write_frame(Index step, double load, const OutputFields& output);
   void add_energy_release(const FractureState& state, const OutputFields& output, std::vector<std::string>& warnings);
   std::map<std::string, double> damaged_areas() const;
@@ -77,6 +81,8 @@ class FractureResults {
   Index last_step_ = 0;
   double last_load_ = 0.0;
   CellField<double> damage_;
+  Stopwatch since_written_;
+  bool waits_ = false;  // curve and checkpoint, for a later step
 };
 
 }  // namespace pfdm

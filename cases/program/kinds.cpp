@@ -3,6 +3,7 @@
 #include "cases/program/endochronic_program.h"
 #include "cases/program/fracture_program.h"
 #include "cases/program/mass_material_program.h"
+#include "cases/program/sweep.h"
 
 namespace pfdm {
 namespace {
@@ -20,6 +21,8 @@ std::span<const CaseKind> case_kinds() { return table; }
 RunnableCase read_case(const CaseFile& file) {
   const CaseKind& kind = choose(file.config.root().at("kind"), case_kinds(), "kind of case");
   RunnableCase runnable = kind.read(file);
+  if (const auto settings = read_sweep(file))
+    runnable.sweep = [file, settings](Session& session) { run_sweep(file, *settings, session); };
   file.config.reject_unknown_keys();
   return runnable;
 }

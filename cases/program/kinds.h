@@ -5,10 +5,12 @@
 #include "cases/program/case_file.h"
 #include "cases/program/session.h"
 
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pfdm {
 
@@ -18,9 +20,12 @@ struct RunnableCase {
   std::function<void(Session&)> check{};  ///< says what would run
   std::function<void(Session&)> mesh{};   ///< meshes only
   std::function<void(Session&)> run{};
-  std::function<void(Session&)> cohesive{};  ///< traction-separation laws from the results
-  std::function<void(Session&)> compare{};   ///< results against experiments
-  std::function<void(Session&)> fit{};       ///< estimates the parameters that the case names
+  std::function<void(Session&)> cohesive{};         ///< traction-separation laws from the results
+  std::function<void(Session&)> compare{};          ///< results against experiments
+  std::function<void(Session&)> fit{};              ///< estimates the parameters that the case names
+  std::function<void(Session&)> sweep{};            ///< runs with the sets of values that the case names
+  std::function<void(Session&)> prepare{};          ///< makes what runs with other values share, as the mesh
+  std::vector<std::filesystem::path> data_files{};  ///< that decide the results of `run` besides case.toml
 };
 
 struct CaseKind {

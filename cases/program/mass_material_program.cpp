@@ -240,7 +240,8 @@ RunnableCase read_mass_material_program(const CaseFile& file) {
   return {.title = program->parsed.title,
           .check = [program](Session& session) { check(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
-          .fit = [program](Session& session) { fit_mass_material(*program, session); }};
+          .fit = [program](Session& session) { fit_mass_material(*program, session); },
+          .data_files = program->parsed.data_files};
 }
 
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 // What the command line asked for, and where to say things.
 
 #include "cases/program/log.h"
+#include "cases/program/mesh_store.h"
 #include "physics/tensor.h"
 
 #include <filesystem>
@@ -14,9 +15,12 @@ struct Session {
   std::filesystem::path results;   ///< directory
   bool restart = false;            ///< go on from the last complete output
   std::optional<Index> max_steps;  ///< stop after so many steps of this run
+  std::optional<double> until;     ///< stop after the step that brings the curve's displacement here [m]
   int threads = 1;
   std::string version;
   Log& log;
+  bool figures_only = false;    ///< of many runs: summary and curves, no fields
+  MeshStore* meshes = nullptr;  ///< where meshes are kept that several runs share
 };
 
 }  // namespace pfdm

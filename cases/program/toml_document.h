@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -17,8 +18,16 @@ using TomlTable = std::vector<std::pair<std::string, TomlValue>>;
 struct TomlValue {
   std::variant<std::string, bool, std::int64_t, double, TomlArray, TomlTable> value;
   int line = 0;      ///< where the value stands
+  int column = 0;    ///< likewise, in characters; the first is 1
   int key_line = 0;  ///< where its key stands, or the same
 };
+
+/// The value that a path leads to, as in "materials.glass.young_modulus" or "mesh.particles[0].diameter". Throws
+/// InputError that says where the path ends and what there is.
+const TomlValue& value_at(const TomlValue& root, std::string_view path);
+
+/// `text` with the text or number at `path` written anew as `value`, a piece of TOML; all else stays, comments too.
+std::string with_value(const std::string& text, std::string_view path, const std::string& value);
 
 /// `shown_as` is the file's name in messages. Throws InputError with the line of what TOML does not allow.
 TomlValue parse_toml(const std::string& text, const std::string& shown_as);

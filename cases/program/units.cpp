@@ -124,6 +124,21 @@ double unit_in_si(std::string_view unit, const Dimension& due) {
   return to_si(1.0, trimmed(unit), unit, due) - to_si(0.0, trimmed(unit), unit, due);
 }
 
+const Dimension& dimension_of(std::string_view text) {
+  const std::string_view spelled = unit_of(text);
+  const Unit unit = parse_unit(spelled);
+  if (!unit) throw InputError(fmt::format("\"{}\": the unit \"{}\" is not known", text, spelled));
+  for (const Dimension* known : named_dimensions)
+    if (same_dimension(unit.get(), parse_unit(known->si_unit).get())) return *known;
+  throw InputError(fmt::format("\"{}\" is {}, which nothing here is", text, describe(unit.get())));
+}
+
+std::string_view unit_of(std::string_view text) {
+  const auto parts = split_number(trimmed(text));
+  if (!parts || parts->second.empty()) throw InputError(fmt::format("\"{}\" is no quantity with a unit", text));
+  return parts->second;
+}
+
 std::string with_article(std::string_view noun) {
   const bool vowel = !noun.empty() && std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
   return fmt::format("{} {}", vowel ? "an" : "a", noun);

@@ -41,6 +41,12 @@ double parse_quantity(std::string_view text, const Dimension& due);
 /// How many due.si_unit one `unit` is; for expressions that carry their unit beside them. Throws like parse_quantity.
 double unit_in_si(std::string_view unit, const Dimension& due);
 
+/// Which of the dimensions above the text's quantity has; of several alike the first. Throws InputError for what is no
+/// quantity, or is of none of them.
+const Dimension& dimension_of(std::string_view text);
+/// The unit of a quantity as it is written: "MPa".
+std::string_view unit_of(std::string_view text);
+
 /// "a length", "an energy".
 std::string with_article(std::string_view noun);
 

@@ -1,0 +1,151 @@
+#include "cases/program/case_runs.h"
+
+#include "cases/program/kinds.h"
+#include "postproc/atomic_file.h"
+#include "postproc/summary.h"
+#include "postproc/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <sstream>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* failure_file = "failure.txt";
+enum RunStatus { run_went_well = 0, run_did_not_converge = 1, run_broke_off = 2 };
+
+/// Tables that a run does not look at, or whose files it does not write here.
+constexpr std::string_view without_influence[] = {"cohesive", "experiment", "fit", "sweep"};
+
+/// Nothing if there is no run in the folder, or none that has come as far as is asked for. One that has, and failed
+/// later, is as good as any.
+std::optional<DoneRun> done_run_in(const fs::path& folder, std::optional<double> until) {
+  const auto summary = read_summary(folder / summary_file);
+  if (summary && summary->status == "complete") return DoneRun{folder, {}};
+  if (summary && until)
+    for (const auto& [name, value] : summary->numbers)
+      if (name == "final_displacement_m" && value >= *until) return DoneRun{folder, {}};
+  if (!fs::exists(folder / failure_file)) return std::nullopt;
+  return DoneRun{folder, std::string(trimmed(read_file(folder / failure_file)))};
+}
+
+}  // namespace
+
+std::string CaseRuns::Wanted::known_as() const { return until ? fmt::format("{} until {}", key, *until) : key; }
+
+CaseRuns::CaseRuns(fs::path folder, const Session& session) : folder_(std::move(folder)), session_(session) {
+  session_.meshes = &meshes_;
+}
+
+std::string CaseRuns::key_of(const CaseVariant& variant) {
+  const std::vector<fs::path> data = read_case(variant.file).data_files;
+  return fmt::format("{}_{}", case_hash(variant.file, data, without_influence), session_.version);
+}
+
+std::vector<DoneRun> CaseRuns::run(const std::vector<CaseVariant>& variants, std::optional<double> until) {
+  std::vector<Wanted> all, missing;
+  for (const CaseVariant& variant : variants) {
+    all.push_back({variant.shown, &variant, until, {}});
+    Wanted& wanted = all.back();
+    try {
+      wanted.key = key_of(variant);
+      wanted.folder = folder_ / wanted.key;
+    } catch (const InputError& error) {  // values that the case's own rules exclude
+      if (!known_.contains(wanted.known_as()))
+        session_.log.warn(fmt::format("there is no case with {}: {}", variant.shown, error.what()));
+      remember(wanted, {{}, error.what()});
+      continue;
+    }
+    const bool asked_for = std::ranges::any_of(missing, [&](const Wanted& other) { return other.key == wanted.key; });
+    if (!asked_for && !find(wanted)) missing.push_back(wanted);
+  }
+  if (!missing.empty()) make(missing);
+  std::vector<DoneRun> results;
+  for (const Wanted& wanted : all) results.push_back(known_.at(wanted.known_as()));
+  return results;
+}
+
+void CaseRuns::remember(const Wanted& wanted, const DoneRun& done) {
+  known_[wanted.known_as()] = done;
+  if (!done.went_well()) failed_.insert(wanted.key);
+}
+
+bool CaseRuns::find(const Wanted& wanted) {
+  if (known_.contains(wanted.known_as())) return true;
+  const auto done = done_run_in(wanted.folder, wanted.until);
+  if (!done) return false;
+  remember(wanted, *done);
+  if (!made_.contains(wanted.key) && reused_.insert(wanted.key).second)
+    session_.log.step(
+        fmt::format("  there already: {}{}", wanted.variant->shown, done->went_well() ? "" : ", did not converge"));
+  return true;
+}
+
+void CaseRuns::make(const std::vector<Wanted>& missing) {
+  const RunnableCase first = read_case(missing.front().variant->file);
+  if (first.prepare) first.prepare(session_);
+  std::vector<Job> jobs;
+  for (const Wanted& wanted : missing)
+    jobs.push_back({.work = [this, &wanted](int threads) { return do_run(wanted, threads); },
+                    .ended = [this, &wanted](const JobEnd& end) { ended(wanted, end); }});
+  run_side_by_side(jobs, session_.threads);
+}
+
+/// In a process of its own.
+int CaseRuns::do_run(const Wanted& wanted, int threads) {
+  std::ostringstream unseen;
+  Log log(unseen, false, true);
+  Session session{.results = wanted.folder,
+                  .restart = true,
+                  .max_steps = std::nullopt,
+                  .until = wanted.until,
+                  .threads = threads,
+                  .version = session_.version,
+                  .log = log,
+                  .figures_only = true,
+                  .meshes = &meshes_};
+  const auto give_up = [&](const std::exception& failure) {
+    write_file(wanted.folder / failure_file, std::string(failure.what()) + "\n");
+    return run_did_not_converge;
+  };
+  try {
+    make_folder(wanted.folder);
+    write_file(wanted.folder / "case.toml", moved(wanted.variant->file, wanted.folder));
+    read_case(wanted.variant->file).run(session);
+    return run_went_well;
+  } catch (const NoConvergence& failure) {
+    return give_up(failure);
+  } catch (const InputError& failure) {
+    return give_up(failure);
+  } catch (const std::exception& failure) {
+    log.say(fmt::format("failed: {}", failure.what()));
+    return run_broke_off;
+  }
+}
+
+void CaseRuns::ended(const Wanted& wanted, const JobEnd& end) {
+  if (end.signal != 0)
+    throw ComputationError(fmt::format("the run in {} was killed by signal {}{}; what was run so far is kept",
+                                       wanted.folder.string(), end.signal,
+                                       end.signal == SIGKILL ? " (is there enough memory?)" : ""));
+  const bool is_an_answer = end.status == run_went_well || end.status == run_did_not_converge;
+  const auto done = is_an_answer ? done_run_in(wanted.folder, wanted.until) : std::nullopt;
+  if (!done)
+    throw ComputationError(fmt::format("the run in {} broke off; its run.log says why; what was run so far is kept",
+                                       wanted.folder.string()));
+  remember(wanted, *done);
+  const bool went_on = !made_.insert(wanted.key).second;
+  reused_.erase(wanted.key);
+  if (done->went_well())
+    session_.log.step(
+        fmt::format("  {}: {}", went_on ? "gone on with" : fmt::format("run {}", n_made()), wanted.variant->shown));
+  else
+    session_.log.warn(fmt::format("run {} did not converge: {}: {}", n_made(), wanted.variant->shown, done->failure));
+}
+
+}  // namespace pfdm

@@ -1,0 +1,101 @@
+#include "cases/program/side_by_side.h"
+
+#include "physics/error.h"
+#include "solver/parallel.h"
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <map>
+#include <system_error>
+
+namespace pfdm {
+namespace {
+
+constexpr int threw = 101;  // exit status of a job that did not return
+
+[[noreturn]] void do_job(const Job& job, int threads, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(threw);  // it died before it could be asked to tell
+  int status = threw;
+  try {
+    set_threads(threads);
+    status = job.work(threads);
+  } catch (...) {
+  }
+  ::_exit(status);  // without the destructors and buffers of the process that this one was copied from
+}
+
+/// The processes that run now; killed with the object.
+class Running {
+ public:
+  Running() = default;
+  ~Running() {
+    for (const auto& [pid, process] : processes_) ::kill(pid, SIGKILL);
+    for (const auto& [pid, process] : processes_) ::waitpid(pid, nullptr, 0);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  bool empty() const { return processes_.empty(); }
+  int threads() const {
+    int sum = 0;
+    for (const auto& [pid, process] : processes_) sum += process.threads;
+    return sum;
+  }
+
+  void start(const Job& job, int threads) {
+    const pid_t parent = ::getpid();
+    const pid_t pid = ::fork();
+    if (pid < 0)
+      throw ComputationError(fmt::format("no process can be started: {}", std::generic_category().message(errno)));
+    if (pid == 0) do_job(job, threads, parent);
+    processes_[pid] = {&job, threads};
+  }
+
+  /// Waits until one of them ends.
+  void wait() {
+    siginfo_t info{};
+    while (::waitid(P_ALL, 0, &info, WEXITED | WNOWAIT) != 0)
+      if (errno != EINTR) throw ComputationError("a process that was started is gone");
+    int status = 0;
+    ::waitpid(info.si_pid, &status, 0);
+    const auto found = processes_.find(info.si_pid);
+    if (found == processes_.end()) return;
+    const Job& job = *found->second.job;
+    processes_.erase(found);
+    JobEnd end;
+    end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    end.status = WIFEXITED(status) && WEXITSTATUS(status) < threw ? WEXITSTATUS(status) : -1;
+    job.ended(end);
+  }
+
+ private:
+  struct Process {
+    const Job* job;
+    int threads;
+  };
+  std::map<pid_t, Process> processes_;
+};
+
+}  // namespace
+
+void run_side_by_side(const std::vector<Job>& jobs, int cores) {
+  set_threads(1);  // a process is copied without the threads of its pool
+  Running running;
+  for (std::size_t next = 0; next < jobs.size() || !running.empty();) {
+    const int free = cores - running.threads();
+    const auto waiting = static_cast<int>(jobs.size() - next);
+    if (waiting > 0 && free > 0)
+      running.start(jobs[next++], std::max(1, free / waiting));
+    else
+      running.wait();
+  }
+}
+
+}  // namespace pfdm

@@ -1,0 +1,13 @@
+#pragma once
+// pfdm sweep: runs of a case of any kind with many sets of values, and one table of what came out.
+
+#include "cases/program/session.h"
+#include "cases/program/sweep_case.h"
+
+namespace pfdm {
+
+/// Writes sweep.csv to session.results, the runs to runs/ there, which a fit uses as well. Killed at any moment it goes
+/// on at the next call with the runs that it left.
+void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& session);
+
+}  // namespace pfdm

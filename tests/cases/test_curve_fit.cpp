@@ -1,0 +1,333 @@
+// pfdm fit on cases whose runs leave a curve, with data that the tests make.
+
+#include "postproc/atomic_file.h"
+#include "postproc/csv_table.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <random>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::json fit_in(const fs::path& results) { return nlohmann::json::parse(content_of(results / "fit.json")); }
+
+const nlohmann::json& parameter(const nlohmann::json& fit, const std::string& name) {
+  for (const auto& entry : fit["parameters"])
+    if (entry["name"] == name) return entry;
+  throw std::logic_error("no parameter " + name);
+}
+
+double estimate(const nlohmann::json& fit, const std::string& name) { return parameter(fit, name)["estimate"]; }
+
+constexpr const char* modulus = "materials.concrete.young_modulus";
+constexpr const char* toughness = "materials.concrete.toughness";
+
+// ---- A bar that breaks at once; its data are a run of its own
+
+const std::string bar_fit = R"(
+[experiment]
+stiffness_between = ["1 um", "5 um"]
+[[experiment.specimens]]
+name = "one"
+csv = "data.csv"
+displacement = { column = "displacement_m" }
+force = { column = "force_N" }
+
+[fit]
+[[fit.parameters]]
+key = "materials.concrete.young_modulus"
+bounds = ["10 GPa", "90 GPa"]
+[[fit.parameters]]
+key = ["materials.concrete.toughness", "regions.weak.toughness"]
+bounds = ["20 J/m^2", "500 J/m^2"]
+)";
+
+/// The case with [fit], and in data.csv what a run of the bar with 33 GPa and 110 J/m^2 gives.
+class BarFit {
+ public:
+  explicit BarFit(const std::string& fit = bar_fit, const std::string& bar = marked_bar())
+      : directory(
+            replaced(replaced(replaced(bar, "30 GPa", "33 GPa"), "100 J/m^2", "110 J/m^2"), "80 J/m^2", "88 J/m^2")) {
+    if (run({"run", path(), "--quiet"}).status != 0) throw std::logic_error("the bar's run fails");
+    const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
+    CsvTable data;
+    data.comments = {"made by the test"};
+    data.add("displacement_m", curve.column("displacement_m"));
+    data.add("force_N", curve.column("force_x_N"));
+    write_csv(directory.path() / "data.csv", data);
+    fs::remove_all(directory.results());
+    directory.write("case.toml", bar + fit);
+  }
+  std::string path() const { return directory.path().string(); }
+
+  static std::string marked_bar() {
+    return replaced(bar_case(), "young_modulus = \"30 GPa\"", "young_modulus = \"30 GPa\"  # of a cube");
+  }
+
+  TemporaryCase directory;
+};
+
+TEST(CurveFit, FindsTheValuesThatMadeACurve) {
+  const BarFit fit;
+  const Outcome outcome = run({"fit", fit.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = fit_in(fit.directory.results());
+  EXPECT_NEAR(estimate(json, modulus), 33e9, 1e-3 * 33e9);
+  EXPECT_NEAR(estimate(json, toughness), 110.0, 1.0);
+  EXPECT_TRUE(json["converged"].get<bool>());
+  EXPECT_EQ(json["correlation"].size(), 2u);
+  EXPECT_GT(json["path"].size(), 1u);
+  EXPECT_LT(json["experiments"][0]["relative_misfit"].get<double>(), 2e-2);
+  EXPECT_GT(json["experiments"][0]["rms_force_N"].get<double>(), 0.0);
+  EXPECT_EQ(json["runs"]["reused"], 0);
+  const CsvTable curve = read_csv(fit.directory.results() / "fit_curve.csv");
+  for (const char* column : {"displacement_m", "measured_force_N", "first_force_N", "model_force_N"})
+    EXPECT_EQ(curve.column(column).size(), 401u);
+  for (const char* part : {"runs made", "95 % between", "correlation of"})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " is missing in " << outcome.out;
+}
+
+TEST(CurveFit, WritesACaseThatRunsToTheFittedCurve) {
+  const BarFit fit;
+  ASSERT_EQ(run({"fit", fit.path()}).status, 0);
+  const fs::path fitted = fit.directory.results() / "case.fitted.toml";
+  const std::string text = content_of(fitted);
+  EXPECT_NE(text.find(" GPa\"  # of a cube"), std::string::npos) << text;
+  EXPECT_EQ(run({"check", fitted.string()}).status, 0) << run({"check", fitted.string()}).err;
+  const fs::path again = fit.directory.path() / "again";
+  ASSERT_EQ(run({"run", fitted.string(), "--output", again.string()}).status, 0);
+  const std::string curve = content_of(again / "force_displacement.csv");
+  const auto runs = fs::directory_iterator(fit.directory.results() / "runs");
+  EXPECT_TRUE(std::any_of(begin(runs), end(runs), [&](const auto& entry) {
+    return content_of(entry.path() / "force_displacement.csv") == curve;
+  }));
+}
+
+/// All that a fit found, but for the time it took and the runs it found there.
+nlohmann::json findings(const fs::path& results) {
+  auto json = fit_in(results);
+  json.erase("wall_seconds");
+  json.erase("runs");
+  return json;
+}
+
+TEST(CurveFit, ReusesRunsAndDoesNotDependOnThreads) {
+  const BarFit fit;
+  ASSERT_EQ(run({"fit", fit.path(), "--threads", "1"}).status, 0);
+  const auto first = findings(fit.directory.results());
+  const int made = fit_in(fit.directory.results())["runs"]["made"];
+  ASSERT_EQ(run({"fit", fit.path()}).status, 0);
+  EXPECT_EQ(findings(fit.directory.results()), first);
+  EXPECT_EQ(fit_in(fit.directory.results())["runs"]["made"], 0);
+  EXPECT_EQ(fit_in(fit.directory.results())["runs"]["reused"], made);
+  const fs::path other = fit.directory.path() / "other";
+  ASSERT_EQ(run({"fit", fit.path(), "--threads", "3", "--output", other.string()}).status, 0);
+  EXPECT_EQ(findings(other), first);
+}
+
+/// When the runs of a folder were last at work, of those that are complete.
+std::map<std::string, fs::file_time_type> complete_runs(const fs::path& results) {
+  std::map<std::string, fs::file_time_type> times;
+  if (!fs::exists(results / "runs")) return times;
+  for (const auto& entry : fs::directory_iterator(results / "runs"))
+    if (content_of(entry.path() / "summary.json").find("\"complete\"") != std::string::npos)
+      times[entry.path().filename()] = fs::last_write_time(entry.path() / "checkpoint.bin");
+  return times;
+}
+
+TEST(CurveFit, GoesOnAfterAKillToTheSameResult) {
+  const BarFit whole;
+  ASSERT_EQ(run({"fit", whole.path()}).status, 0);
+  const auto expected = findings(whole.directory.results());
+  const int made = fit_in(whole.directory.results())["runs"]["made"];
+  const double seconds = fit_in(whole.directory.results())["wall_seconds"];
+  std::mt19937 engine(7);
+  for (int i = 0; i < 3; ++i) {
+    const fs::path results = whole.directory.path() / ("killed_" + std::to_string(i));
+    const pid_t pid = fork();
+    if (pid == 0) _exit(run({"fit", whole.path(), "--output", results.string()}).status);
+    usleep(static_cast<useconds_t>(1e6 * seconds * std::uniform_real_distribution<double>(0.1, 0.9)(engine)));
+    kill(pid, SIGKILL);
+    waitpid(pid, nullptr, 0);
+    usleep(50000);  // its runs die with it
+    const auto before = complete_runs(results);
+    ASSERT_EQ(run({"fit", whole.path(), "--output", results.string()}).status, 0);
+    EXPECT_EQ(findings(results), expected);
+    const auto after = complete_runs(results);
+    for (const auto& [name, time] : before) EXPECT_EQ(after.at(name), time) << name << " was run again";
+    const auto runs = fit_in(results)["runs"];
+    EXPECT_EQ(runs["made"].get<int>() + runs["reused"].get<int>(), made);
+  }
+}
+
+TEST(CurveFit, GoesOnInTheSecondStageWithTheRunsOfTheFirst) {
+  const BarFit fit(bar_fit + R"(
+[[fit.stages]]
+name = "elastic"
+parameters = ["materials.concrete.young_modulus"]
+between = ["0 um", "6 um"]
+[[fit.stages]]
+name = "whole"
+parameters = ["materials.concrete.toughness"]
+)");
+  const Outcome outcome = run({"fit", fit.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = fit_in(fit.directory.results());
+  EXPECT_EQ(json["earlier_stages"][0]["name"], "elastic");
+  EXPECT_NEAR(estimate(json, modulus), 33e9, 1e-4 * 33e9);
+  EXPECT_NEAR(estimate(json, toughness), 110.0, 1.0);
+  EXPECT_NE(json["warnings"].dump().find("is as stage \\\"elastic\\\" found it"), std::string::npos);
+  EXPECT_NE(outcome.out.find("gone on with"), std::string::npos) << outcome.out;
+}
+
+/// One parameter alone.
+std::string fit_of(const std::string& key, const std::string& bounds, const std::string& settings = "") {
+  return bar_fit.substr(0, bar_fit.find("[fit]")) + "[fit]\n" + settings + "[[fit.parameters]]\nkey = \"" + key +
+         "\"\nbounds = " + bounds + "\n";
+}
+
+TEST(CurveFit, SurvivesRunsThatDoNotConverge) {
+  // Up to about 35 GPa the bar holds; it cannot break in the few iterations allowed.
+  std::string tough = replaced(BarFit::marked_bar(), "\"80 J/m^2\"", "\"200 J/m^2\"");
+  tough = replaced(tough, "\"100 J/m^2\"", "\"250 J/m^2\"");
+  tough = replaced(tough, "initial_increment", "minimum_increment = 0.05\ninitial_increment");
+  const std::string fit = fit_of(modulus, "[\"10 GPa\", \"90 GPa\"]", "starts = 4\n");
+  const TemporaryCase directory(tough + fit + "[solver]\nmaximum_iterations = 4\n");
+  std::string data = "displacement_m,force_N\n";
+  for (int i = 0; i < 10; ++i) data += std::to_string(i) + "e-6," + std::to_string(33e9 * 5e-5 * i * 1e-6) + "\n";
+  directory.write("data.csv", data);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("did not converge: concrete.young_modulus"), std::string::npos) << outcome.out;
+  const auto json = fit_in(directory.results());
+  EXPECT_GT(json["runs"]["not_converged"].get<int>(), 0);
+  // The bar is held on all sides: it is stiffer by (1 - nu)/((1 + nu)(1 - 2 nu)) = 1/0.9.
+  EXPECT_NEAR(estimate(json, modulus), 0.9 * 33e9, 1e-3 * 33e9);
+}
+
+TEST(CurveFit, LeavesValuesOutThatMakeNoCase) {
+  // At a strength 1 % higher the length would be too long for the softening law; the bar does not come near it.
+  std::string bar = replaced(BarFit::marked_bar(), "model = \"AT1\"", "model = \"Wu\"\ndegradation = \"rational\"");
+  bar = replaced(bar, "poisson_ratio = 0.2\n", "poisson_ratio = 0.2\nstrength = \"19.3 MPa\"\n");
+  bar = replaced(replaced(bar, "0.015 mm", "0.006 mm"), "frames_at = [\"0.006 mm\"]", "");
+  const BarFit fit(fit_of("materials.concrete.strength", "[\"5 MPa\", \"50 MPa\"]"), bar);
+  const Outcome outcome = run({"fit", fit.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("there is no case with concrete.strength"), std::string::npos) << outcome.out;
+  EXPECT_NE(fit_in(fit.directory.results())["warnings"].dump().find("the data cannot see"), std::string::npos);
+}
+
+// ---- Strength, toughness and modulus of a bar with a cohesive crack, from a closed form with noise
+
+constexpr double area = 8e-6, length = 0.2;
+
+/// Force at an elongation: linear softening [N].
+double cohesive_bar(double u, double E, double ft, double Gc) {
+  const double wc = 2.0 * Gc / ft, at_peak = ft * length / E;
+  if (u <= at_peak) return area * E * u / length;
+  return area * std::max(0.0, (wc - u) / (wc / ft - length / E));
+}
+
+std::string noisy_curve(double E, double ft, double Gc, unsigned seed) {
+  const double deviation = 0.02 * area * ft;
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> noise(0.0, deviation);
+  std::string text = "# SYNTHETIC: closed form with noise\ndisplacement_um,force_N,force_deviation_N\n";
+  for (int i = 0; i <= 72; ++i)
+    text += std::to_string(i) + "," + std::to_string(cohesive_bar(1e-6 * i, E, ft, Gc) + noise(engine)) + "," +
+            std::to_string(deviation) + "\n";
+  return text;
+}
+
+TEST(CurveFit, FindsStrengthAndToughnessOfACohesiveCrack) {
+  // The shipped case, coarser.
+  std::string text = content_of(fs::path(PFDM_CASES_DIR) / "bar_fit/case.toml");
+  text = replaced(text, "cells = 161", "cells = 81");
+  text = replaced(text, "maximum_increment = 0.01 ", "maximum_increment = 0.0125 ");
+  text = replaced(text, "step = 0.02", "differences = \"forward\"\nstep = 0.02");
+  const TemporaryCase directory(text);
+  fs::create_directory(directory.path() / "data");
+  directory.write("data/synthetic_force_displacement.csv", noisy_curve(32e9, 2.8e6, 110.0, 1));
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = fit_in(directory.results());
+  const std::map<std::string, std::pair<double, double>> truth{
+      {modulus, {32e9, 0.01}}, {"materials.concrete.strength", {2.8e6, 0.05}}, {toughness, {110.0, 0.1}}};
+  for (const auto& [name, value] : truth) {
+    const auto& found = parameter(json, name);
+    EXPECT_NEAR(found["estimate"].get<double>(), value.first, value.first * value.second) << name;
+    EXPECT_LT(found["lower_95"].get<double>(), value.first) << name;
+    EXPECT_GT(found["upper_95"].get<double>(), value.first) << name;
+  }
+}
+
+// ---- What is wrong with [fit]
+
+class BadCurveFit : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadCurveFit, IsRefusedWithOneMessage) {
+  const TemporaryCase directory(replaced(bar_case() + bar_fit, GetParam().good, GetParam().bad));
+  directory.write("data.csv", "displacement_m,force_N\n0,0\n1e-5,1\n");
+  expect_refused(directory, GetParam());
+}
+
+const BadInput bad_fits[] = {
+    {"key_that_is_not_there",
+     "\"materials.concrete.young_modulus\"",
+     "\"materials.concrete.young_modulos\"",
+     {"[fit.parameters] key: [materials.concrete] has no \"young_modulos\" (there are: regions, young_modulus"}},
+    {"key_of_a_table",
+     "\"materials.concrete.young_modulus\"",
+     "\"materials.concrete\"",
+     {"neither a quantity nor a number"}},
+    {"key_of_a_word", "\"materials.concrete.young_modulus\"", "\"fracture.model\"", {"is no quantity with a unit"}},
+    {"key_named_twice",
+     "key = [\"materials.concrete.toughness\",",
+     "key = [\"materials.concrete.young_modulus\",",
+     {"key[1]: this is an energy per area, \"materials.concrete.young_modulus\" is a stress"}},
+    {"bounds_without_unit", "[\"10 GPa\", \"90 GPa\"]", "[10, 90]", {"bounds[0]: 10 has no unit; a stress is due"}},
+    {"bounds_that_fall", "[\"10 GPa\", \"90 GPa\"]", "[\"90 GPa\", \"10 GPa\"]", {"must be below the upper one"}},
+    {"misspelt_key", "bounds = [\"10", "bound = [\"10", {"did you mean \"bounds\"?"}},
+    {"step_of_zero", "[fit]\n", "[fit]\nstep = 0.0\n", {"[fit] step: 0 must be above 0 and below 0.5"}},
+    {"stage_of_nothing",
+     "[fit]\n",
+     "[fit]\nstages = [{ name = \"a\", parameters = [] }]\n",
+     {"a stage without parameters has nothing to estimate"}},
+    {"parameter_in_no_stage",
+     "[fit]\n",
+     "[fit]\nstages = [{ name = \"a\", parameters = [\"materials.concrete.young_modulus\"] }]\n",
+     {"no stage estimates \"materials.concrete.toughness\""}},
+};
+INSTANTIATE_TEST_SUITE_P(Inputs, BadCurveFit, testing::ValuesIn(bad_fits),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(CurveFit, RefusesWhatCannotBeFitted) {
+  const auto expect = [](const std::string& good, const std::string& bad, const std::string& message) {
+    const TemporaryCase directory(replaced(bar_case() + bar_fit, good, bad));
+    directory.write("data.csv", "displacement_m,force_N,s\n0,0,0\n1e-5,1,0\n");
+    const Outcome outcome = run({"fit", directory.path().string()});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  expect("[\"10 GPa\", \"90 GPa\"]", "[\"40 GPa\", \"90 GPa\"]",
+         "the case's own value, 30 GPa, from which the fit starts, is not within");
+  expect("force = { column = \"force_N\" }", "force = { column = \"force_N\" }\ndeviation = { column = \"s\" }",
+         "the standard deviation of \"one\" at 0 (SI) is zero");
+  expect("bounds = [\"10 GPa\"", "prior = { mean = \"30 GPa\", deviation = \"1 GPa\" }\nbounds = [\"10 GPa\"",
+         "a prior can be weighed against the data only if the noise of the data is known");
+}
+
+}  // namespace
+}  // namespace pfdm

@@ -1,0 +1,63 @@
+#include "physics/error.h"
+#include "postproc/curve_misfit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+SampledCurve curve(std::vector<double> x, std::vector<double> y, std::vector<double> deviation = {}) {
+  return {.name = "one", .x = std::move(x), .y = std::move(y), .deviation = std::move(deviation)};
+}
+
+TEST(CurveMisfit, ComparesPointByPoint) {
+  const SampledCurve a = curve({0, 1, 2, 3}, {0, 1, 2, 5}, {1, 0.5, 0.5, 1});
+  const SampledCurve b = curve({1.5}, {2.0}, {0.25});
+  const MeasuredPoints points = points_between({a, b}, 0.5, 2.5);
+  ASSERT_EQ(points.points.size(), 3u);
+  EXPECT_TRUE(points.noise_is_known);
+  const SampledCurve model = curve({0, 4}, {0, 8});
+  const auto residuals = residuals_of(model, points);
+  ASSERT_TRUE(residuals);
+  EXPECT_EQ(*residuals, (std::vector<double>{2.0, 4.0, 4.0}));
+  EXPECT_DOUBLE_EQ(rms_difference(model, points, 1), 1.0);
+  EXPECT_FALSE(residuals_of(curve({0, 1.8}, {0, 1}), points));
+}
+
+TEST(CurveMisfit, WeighsByTheRmsWhereTheNoiseIsNotKnown) {
+  const MeasuredPoints points = points_between({curve({0, 1}, {3, 4}), curve({0, 1}, {3, 4}, {1, 1})}, -1.0, 2.0);
+  EXPECT_FALSE(points.noise_is_known);
+  EXPECT_DOUBLE_EQ(points.rms, std::sqrt(12.5));
+  EXPECT_DOUBLE_EQ(residuals_of(curve({0, 1}, {4, 4}), points)->front(), 1.0 / std::sqrt(12.5));
+}
+
+TEST(CurveMisfit, RefusesWhatHasNoWeight) {
+  EXPECT_THROW(points_between({curve({0, 1}, {0, 1}, {0, 1})}, 0, 1), InputError);
+  EXPECT_THROW(points_between({curve({0, 1}, {0, 1})}, 2, 3), InputError);
+}
+
+TEST(CurveMisfit, TellsCorrelatedResidualsFromNoise) {
+  std::vector<double> x, wave, alternating;
+  for (int i = 0; i < 200; ++i) {
+    x.push_back(i);
+    wave.push_back(std::sin(0.05 * i));
+    alternating.push_back(i % 2 == 0 ? 1.0 : -1.0);
+  }
+  const MeasuredPoints points = points_between({curve(x, wave)}, 0, 200);
+  EXPECT_GT(neighbour_correlation(wave, points), 0.95);
+  EXPECT_LT(neighbour_correlation(alternating, points), -0.95);
+}
+
+TEST(DrivenCurve, DropsWhereTheComputedOneFallsBack) {
+  const SampledCurve driven = driven_curve(curve({0, 2, 1, 3, 4}, {0, 4, 1, 2, 3}));
+  EXPECT_EQ(driven.x, (std::vector<double>{0, 2, 2, 3, 4}));
+  EXPECT_EQ(driven.y, (std::vector<double>{0, 4, 1.5, 2, 3}));
+  EXPECT_DOUBLE_EQ(driven.at(2.5), 1.75);
+  const SampledCurve forwards = curve({0, 1, 1, 2}, {0, 1, 0, 1});
+  EXPECT_EQ(driven_curve(forwards).y, forwards.y);
+}
+
+}  // namespace
+}  // namespace pfdm
