@@ -60,6 +60,10 @@ struct RunSummary {
 /// written.
 void write_summary(const std::filesystem::path& path, const RunSummary& summary);
 
+/// What write_summary() wrote; all figures are in other_figures. Throws InputError that names the file for what is no
+/// summary.
+RunSummary read_summary(const std::filesystem::path& path);
+
 /// The most memory that this process has had so far [byte].
 double peak_memory();
 /// Processor time of all threads of this process so far [s].

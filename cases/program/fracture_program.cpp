@@ -4,8 +4,10 @@
 #include "cases/program/fracture_case.h"
 #include "cases/program/fracture_cohesive.h"
 #include "cases/program/fracture_comparison.h"
+#include "cases/program/fracture_report.h"
 #include "cases/program/fracture_results.h"
 #include "cases/program/progress.h"
+#include "cases/program/report_parts.h"
 #include "cases/program/resolution.h"
 #include "cases/program/stopwatch.h"
 #include "mesh/quality.h"
@@ -216,6 +218,11 @@ void compare(const FractureProgram& program, Session& session) {
   compare_with_experiment(program.fracture, *program.experiment, program.name, program.hash, session);
 }
 
+void report(const FractureProgram& program, Session& session) {
+  write_report(fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
+               session);
+}
+
 }  // namespace
 
 RunnableCase read_fracture_program(const CaseFile& file) {
@@ -229,7 +236,8 @@ RunnableCase read_fracture_program(const CaseFile& file) {
           .mesh = [program](Session& session) { mesh_only(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
           .cohesive = [program](Session& session) { cohesive(*program, session); },
-          .compare = [program](Session& session) { compare(*program, session); }};
+          .compare = [program](Session& session) { compare(*program, session); },
+          .report = [program](Session& session) { report(*program, session); }};
 }
 
 }  // namespace pfdm

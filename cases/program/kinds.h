@@ -21,6 +21,7 @@ struct RunnableCase {
   std::function<void(Session&)> cohesive{};  ///< traction-separation laws from the results
   std::function<void(Session&)> compare{};   ///< results against experiments
   std::function<void(Session&)> fit{};       ///< estimates the parameters that the case names
+  std::function<void(Session&)> report{};    ///< pictures and plots on one page
 };
 
 struct CaseKind {
