@@ -6,10 +6,7 @@
 #include <vtkDataArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIncrementalOctreePointLocator.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -24,63 +21,22 @@
 #include <limits>
 #include <optional>
 
+#include "mesh/vtk_messages.h"
 #include "physics/error.h"
 
 namespace pfdm {
 namespace {
 
-// Takes what VTK would print on standard error.
-class MessageCatcher : public vtkOutputWindow {
- public:
-  static MessageCatcher* New();
-  vtkTypeMacro(MessageCatcher, vtkOutputWindow) void DisplayText(const char* text) override { text_ += text; }
-  void DisplayWarningText(const char*) override {}  // a file of a later version, say, may still be read
-
-  /// The first message, without "ERROR: In <file>, line <n>" above it and the reader's address before it.
-  std::string first_message() const {
-    std::string line = text_.substr(std::min(text_.find('\n'), text_.size() - 1) + 1);
-    line.resize(std::min(line.find('\n'), line.size()));
-    const std::size_t address = line.starts_with("vtk") ? line.find("): ") : std::string::npos;
-    return address == std::string::npos ? line : line.substr(address + 3);
-  }
-  bool empty() const { return text_.empty(); }
-
- private:
-  std::string text_;
-};
-vtkStandardNewMacro(MessageCatcher)
-
-    // Puts the catcher in place of VTK's output, and stops its log, for as long as it lives.
-    class CatchMessages {
- public:
-  CatchMessages() : window_(vtkOutputWindow::GetInstance()), log_(vtkLogger::GetCurrentVerbosityCutoff()) {
-    vtkOutputWindow::SetInstance(catcher_);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  }
-  ~CatchMessages() {
-    vtkOutputWindow::SetInstance(window_);
-    vtkLogger::SetStderrVerbosity(log_);
-  }
-  CatchMessages(const CatchMessages&) = delete;
-  CatchMessages& operator=(const CatchMessages&) = delete;
-  const MessageCatcher& messages() const { return *catcher_.Get(); }
-
- private:
-  vtkSmartPointer<vtkOutputWindow> window_;
-  vtkLogger::Verbosity log_;
-  vtkNew<MessageCatcher> catcher_;
-};
-
 template <class Reader>
 vtkSmartPointer<vtkUnstructuredGrid> read_with(const std::filesystem::path& path) {
-  const CatchMessages caught;
+  const CaughtVtkMessages caught;
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
   vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
-  if (!caught.messages().empty() || !grid)
-    throw InputError(fmt::format("cannot read the mesh {}: {}", path.string(),
-                                 caught.messages().empty() ? "it holds no grid" : caught.messages().first_message()));
+  if (!caught.none() || !grid)
+    throw InputError(
+        fmt::format("cannot read the mesh {}: {}", path.string(), caught.none() ? "it holds no grid" : caught.first()));
   return grid;
 }
 

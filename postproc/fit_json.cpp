@@ -1,7 +1,11 @@
 #include "postproc/fit_json.h"
 
+#include "physics/error.h"
 #include "postproc/atomic_file.h"
 #include "postproc/json.h"
+#include "postproc/text_file.h"
+
+#include <fmt/format.h>
 
 #include <fmt/format.h>
 
@@ -48,6 +52,17 @@ Json experiments(const FitReport& report) {
   return list;
 }
 
+void read_estimates(const Json& list, FitReport& report) {
+  for (const Json& p : list) {
+    report.parameters.push_back({.name = p.at("name"), .unit = p.at("unit"), .first = number_of(p.at("first_guess"))});
+    report.result.estimates.push_back({.value = number_of(p.at("estimate")),
+                                       .standard_error = number_of(p.at("standard_error")),
+                                       .lower_95 = number_of(p.at("lower_95")),
+                                       .upper_95 = number_of(p.at("upper_95")),
+                                       .at_bound = p.at("at_bound")});
+  }
+}
+
 }  // namespace
 
 void write_fit_json(const std::filesystem::path& file, const FitReport& report) {
@@ -89,6 +104,30 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
     json["runs"] = {
         {"made", report.runs->made}, {"reused", report.runs->reused}, {"not_converged", report.runs->failed}};
   write_file(file, json.dump(2) + "\n");
+}
+
+FitReport read_fit_json(const std::filesystem::path& path) {
+  FitReport report;
+  try {
+    const Json json = Json::parse(read_file(path));
+    report.case_name = json.at("case");
+    report.case_hash = json.at("case_hash");
+    report.version = json.at("version");
+    report.method = json.at("method");
+    report.wall_seconds = json.at("wall_seconds");
+    report.result.converged = json.at("converged");
+    report.result.message = json.at("message");
+    read_estimates(json.at("parameters"), report);
+    for (const Json& e : json.at("experiments"))
+      report.experiments.push_back({.name = e.at("name"),
+                                    .n_data = e.at("data"),
+                                    .rms = number_of(e.at("rms_misfit_Pa")),
+                                    .rms_stress = number_of(e.at("rms_stress_Pa")),
+                                    .curve = e.at("curve")});
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: this is no fit: {}", path.string(), error.what()));
+  }
+  return report;
 }
 
 }  // namespace pfdm

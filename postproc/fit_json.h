@@ -51,4 +51,8 @@ struct FitReport {
 /// Written whole or not at all; numbers that are not finite become null. Throws ComputationError.
 void write_fit_json(const std::filesystem::path& path, const FitReport& report);
 
+/// What write_fit_json() wrote: names, units, estimates with their intervals, misfits, method and time. Throws
+/// InputError that names the file for what is no such fit.
+FitReport read_fit_json(const std::filesystem::path& path);
+
 }  // namespace pfdm

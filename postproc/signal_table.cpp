@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -106,9 +107,13 @@ void write_signals_csv(const std::filesystem::path& path, const SignalTable& tab
 }
 
 SignalTable read_signals(const std::filesystem::path& path) {
-  if (path.extension() == ".csv") return read_signals_csv(path);
-  if (path.extension() == ".mat") return read_signals_mat(path);
-  throw InputError(fmt::format("{}: records are read from .csv and .mat files", path.string()));
+  using Reader = SignalTable (*)(const std::filesystem::path&);
+  constexpr std::pair<std::string_view, Reader> readers[] = {{".csv", read_signals_csv}, {".mat", read_signals_mat},
+                                                             {".uff", read_signals_uff}, {".unv", read_signals_uff},
+                                                             {".h5", read_signals_hdf5}, {".hdf5", read_signals_hdf5}};
+  for (const auto& [extension, read] : readers)
+    if (path.extension() == extension) return read(path);
+  throw InputError(fmt::format("{}: records are read from .csv, .mat, .uff, .unv, .h5 and .hdf5 files", path.string()));
 }
 
 }  // namespace pfdm

@@ -1,6 +1,6 @@
 #pragma once
 // Measured or simulated signals as columns with names and units, and the files that hold them: CSV with a row of units,
-// MATLAB's .mat.
+// MATLAB's .mat, universal files (dataset 58), HDF5.
 
 #include <Eigen/Core>
 
@@ -33,7 +33,16 @@ void write_signals_csv(const std::filesystem::path& path, const SignalTable& tab
 /// variable NAME_unit gives the unit of NAME. The only reader that knows matio.
 SignalTable read_signals_mat(const std::filesystem::path& path);
 
-/// By the file's extension. Throws InputError for one that is not known.
+/// The functions of type 1 (time response) in the datasets 58 and 58b of a universal file, all over the same times: a
+/// column "time", then one for each, called by its first ID line; where these do not differ by node and direction, as
+/// "12+Z", or by the ordinate's label; or function_1, function_2 ...
+SignalTable read_signals_uff(const std::filesystem::path& path);
+
+/// Every real numeric vector of an HDF5 file, called by its path, as "run_1/base"; the text attribute "unit" or "units"
+/// gives its unit, that of the file's root called "remark" its remark. The only reader that knows HDF5.
+SignalTable read_signals_hdf5(const std::filesystem::path& path);
+
+/// By the file's extension: .csv, .mat, .uff and .unv, .h5 and .hdf5. Throws InputError for another.
 SignalTable read_signals(const std::filesystem::path& path);
 
 }  // namespace pfdm

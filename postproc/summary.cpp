@@ -2,11 +2,11 @@
 
 #include "physics/error.h"
 #include "postproc/atomic_file.h"
+#include "postproc/json.h"
 #include "postproc/text_file.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -142,6 +142,34 @@ std::optional<ReadSummary> read_summary(const std::filesystem::path& path) {
     if (value.is_number() || value.is_null())
       summary.numbers.emplace_back(name, value.is_null() ? Headlines::none : value.get<double>());
   return summary;
+}
+
+RunSummary read_run_summary(const std::filesystem::path& path) {
+  RunSummary s;
+  try {
+    const Json json = Json::parse(read_file(path));
+    s.case_name = json.at("case");
+    s.status = json.at("status");
+    s.version = json.at("version");
+    s.case_hash = json.at("case_hash");
+    s.threads = json.at("threads");
+    s.cells = json.at("cells");
+    s.unknowns = json.at("unknowns");
+    s.steps = json.at("steps");
+    s.staggered_iterations = json.at("staggered_iterations");
+    s.krylov_iterations = json.at("krylov_iterations");
+    s.wall_seconds = json.at("wall_seconds");
+    s.cpu_seconds = json.at("cpu_seconds");
+    s.wall_seconds_by_stage = json.at("wall_seconds_by_stage");
+    s.cpu_seconds_by_stage = json.at("cpu_seconds_by_stage");
+    s.peak_memory = json.at("peak_memory_bytes");
+    const Json known = to_json(s);
+    for (const auto& [name, value] : json.items())
+      if (!known.contains(name) && (value.is_number() || value.is_null())) s.other_figures[name] = number_of(value);
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: this is no summary of a run: {}", path.string(), error.what()));
+  }
+  return s;
 }
 
 double peak_memory() { return 1024.0 * static_cast<double>(usage().ru_maxrss); }  // Linux counts in KiB

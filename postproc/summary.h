@@ -74,6 +74,10 @@ struct ReadSummary {
 /// Nothing if there is no such file. Throws InputError for a file that is no summary.
 std::optional<ReadSummary> read_summary(const std::filesystem::path& path);
 
+/// What write_summary() wrote; all figures are in other_figures. Throws InputError that names the file for what is no
+/// summary.
+RunSummary read_run_summary(const std::filesystem::path& path);
+
 /// The most memory that this process has had so far [byte].
 double peak_memory();
 /// Processor time of all threads of this process so far [s].

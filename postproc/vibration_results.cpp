@@ -1,8 +1,12 @@
 #include "postproc/vibration_results.h"
 
+#include "physics/error.h"
 #include "postproc/atomic_file.h"
 #include "postproc/json.h"
 #include "postproc/summary.h"
+#include "postproc/text_file.h"
+
+#include <fmt/format.h>
 
 #include <numbers>
 
@@ -74,6 +78,35 @@ void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& 
                {"youngs_modulus", to_json(fit.modulus)},
                {"wall_seconds", fit.wall_seconds}};
   write_file(path, json.dump(2) + "\n");
+}
+
+VibrationFit read_vibration_fit(const std::filesystem::path& path) {
+  VibrationFit fit;
+  try {
+    const Json json = Json::parse(read_file(path));
+    fit.case_name = json.at("case");
+    fit.version = json.at("version");
+    fit.case_hash = json.at("case_hash");
+    fit.method = json.at("method");
+    fit.structure = json.at("structure");
+    fit.converged = json.at("converged");
+    fit.confidence = json.at("confidence");
+    fit.wall_seconds = json.at("wall_seconds");
+    for (const Json& e : json.at("estimates"))
+      fit.estimates.push_back(
+          {e.at("name"), number_of(e.at("value")), number_of(e.at("lower")), number_of(e.at("upper"))});
+    for (const Json& test : json.at("tests")) {
+      fit.tests.push_back({.name = test.at("name"), .figures = {}});
+      for (const auto& [name, value] : test.items())
+        if (!value.is_string()) fit.tests.back().figures[name] = number_of(value);
+    }
+    for (const Json& row : json.at("youngs_modulus"))
+      fit.modulus.push_back({number_of(row.at("frequency_Hz")), number_of(row.at("storage_modulus_Pa")),
+                             number_of(row.at("loss_modulus_Pa"))});
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: this is no fit: {}", path.string(), error.what()));
+  }
+  return fit;
 }
 
 }  // namespace pfdm

@@ -54,4 +54,8 @@ struct VibrationFit {
 };
 void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& fit);
 
+/// What write_vibration_fit() wrote: method, structure, estimates, tests and modulus. Throws InputError that names the
+/// file for what is no such fit.
+VibrationFit read_vibration_fit(const std::filesystem::path& path);
+
 }  // namespace pfdm

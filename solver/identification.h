@@ -90,6 +90,9 @@ struct Identification {
 Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
                         const IdentificationSettings& settings);
 
+/// The model's answer z'' to the record's base acceleration, from rest [m/s^2]; NaN where it runs away.
+Eigen::VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record);
+
 /// Relative misfit of the model's response to the record's base acceleration: norm of the difference of z'' over that
 /// of the measured one, within the excited band and its harmonics.
 double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop);

@@ -328,10 +328,14 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   return fit;
 }
 
+VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record) {
+  const BaseNodes base = nodes_of(record.base, record.rate, substeps_for(model, record.rate));
+  return simulate_batch(std::span(&model, 1), base).col(0);
+}
+
 double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop) {
   const Conditioner condition = output_condition(record, crop);
-  const BaseNodes base = nodes_of(record.base, record.rate, substeps_for(model, record.rate));
-  const VectorXd z = simulate_batch(std::span(&model, 1), base).col(0);
+  const VectorXd z = predicted_response(model, record);
   if (!z.allFinite()) return std::numeric_limits<double>::infinity();
   const VectorXd measured = condition(record.relative);
   return (condition(z) - measured).norm() / measured.norm();

@@ -14,6 +14,7 @@ struct VibrationRecord {
   Eigen::VectorXd relative;  ///< z'' = x'' - y'' [m/s^2]
   double band_low = 0.0;     ///< what the base excites [Hz]
   double band_high = 0.0;    ///< [Hz]
+  std::string remark{};      ///< what its file says about itself
   Eigen::Index n() const { return base.size(); }
   double duration() const { return static_cast<double>(base.size()) / rate; }  ///< [s]
 };

@@ -2,6 +2,8 @@
 
 #include "cases/program/endochronic_case.h"
 #include "cases/program/endochronic_fit_results.h"
+#include "cases/program/endochronic_report.h"
+#include "cases/program/report_parts.h"
 #include "cases/program/stopwatch.h"
 #include "postproc/folder_lock.h"
 #include "postproc/history_csv.h"
@@ -150,10 +152,14 @@ RunnableCase read_endochronic_program(const CaseFile& file) {
   if (program->point.fit)
     data.insert(data.end(), program->point.fit->data_files.begin(), program->point.fit->data_files.end());
   program->hash = case_hash(file, data);
-  RunnableCase runnable{.title = program->point.title,
-                        .check = [program](Session& session) { check(*program, session); },
-                        .run = [program](Session& session) { run_case(*program, session); },
-                        .data_files = program->point.loading.data_files};
+  RunnableCase runnable{
+      .title = program->point.title,
+      .check = [program](Session& session) { check(*program, session); },
+      .run = [program](Session& session) { run_case(*program, session); },
+      .report =
+          [program](Session& session) {
+            write_report(endochronic_page(program->point, program->name, program->hash, session.results), session);
+          }};
   if (program->point.fit) runnable.fit = [program](Session& session) { fit_case(*program, session); };
   return runnable;
 }

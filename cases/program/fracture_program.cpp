@@ -5,8 +5,10 @@
 #include "cases/program/fracture_case.h"
 #include "cases/program/fracture_cohesive.h"
 #include "cases/program/fracture_comparison.h"
+#include "cases/program/fracture_report.h"
 #include "cases/program/fracture_results.h"
 #include "cases/program/progress.h"
+#include "cases/program/report_parts.h"
 #include "cases/program/resolution.h"
 #include "cases/program/stopwatch.h"
 #include "mesh/quality.h"
@@ -261,6 +263,11 @@ void fit(const FractureProgram& program, Session& session) {
             session);
 }
 
+void report(const FractureProgram& program, Session& session) {
+  write_report(fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
+               session);
+}
+
 }  // namespace
 
 RunnableCase read_fracture_program(const CaseFile& file) {
@@ -277,6 +284,7 @@ RunnableCase read_fracture_program(const CaseFile& file) {
                         .run = [program](Session& session) { run_case(*program, session); },
                         .cohesive = [program](Session& session) { cohesive(*program, session); },
                         .compare = [program](Session& session) { compare(*program, session); },
+                        .report = [program](Session& session) { report(*program, session); },
                         .prepare = [program](Session& session) { prepare(*program, session); },
                         .data_files = program->fracture.mesh.data_files};
   if (program->fit) runnable.fit = [program](Session& session) { fit(*program, session); };

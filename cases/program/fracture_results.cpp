@@ -7,6 +7,7 @@
 #include "postproc/comparison_results.h"
 #include "postproc/frame.h"
 #include "postproc/slice.h"
+#include "postproc/text_file.h"
 
 #include <fmt/format.h>
 
@@ -114,6 +115,25 @@ std::vector<ColumnRecord> read_column_record(const fs::path& results, const std:
                     "(particles with layers are recorded without)",
                     results.string()));
   return records;
+}
+
+std::vector<ColumnRecord> find_column_record(const fs::path& results) { return read_columns(results / columns_folder); }
+
+std::optional<RunSummary> find_summary(const fs::path& results) {
+  if (!fs::exists(results / summary_file)) return std::nullopt;
+  return read_run_summary(results / summary_file);
+}
+
+std::vector<StoredStep> stored_steps(const fs::path& results) {
+  if (!fs::exists(results / frames_file)) return {};
+  std::vector<StoredStep> steps;
+  for (const Frame& frame : read_pvd(results / frames_file)) {
+    const std::string name = fs::path(frame.file).stem().string();
+    const auto step = parse_int(std::string_view(name).substr(std::min(name.find('_') + 1, name.size())));
+    if (!step) throw InputError(fmt::format("{}: \"{}\" is no frame of ours", (results / frames_file).string(), name));
+    steps.push_back({*step, results / frame.file});
+  }
+  return steps;
 }
 
 FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureCase& fracture,

@@ -37,6 +37,19 @@ std::vector<ColumnRecord> read_column_record(const std::filesystem::path& result
 /// The force-displacement curve of a run; throws likewise.
 std::vector<CurveRow> read_curve_record(const std::filesystem::path& results, const std::string& case_hash);
 
+/// The record of the columns, or nothing; for a look at results that are known to belong to the case.
+std::vector<ColumnRecord> find_column_record(const std::filesystem::path& results);
+
+/// What the run said of itself when it ended; none while it has not.
+std::optional<RunSummary> find_summary(const std::filesystem::path& results);
+
+struct StoredStep {
+  Index step = 0;
+  std::filesystem::path file;  ///< .vtu
+};
+/// The frames, in the order of their steps; none if there is no list of them.
+std::vector<StoredStep> stored_steps(const std::filesystem::path& results);
+
 class FractureResults {
  public:
   /// Replaces the files of an earlier run, or goes on after `last`. Keeps references to mesh, case and columns.

@@ -23,16 +23,6 @@ struct Records {
   std::vector<VibrationRecord> predicted;
 };
 
-VibrationRecord record_of(const VibrationTest& test, const fs::path& results, Log& log) {
-  if (test.record) return read_record(test, *test.record, log);
-  RecordFile simulated;
-  simulated.file = results / (test.name + ".csv");
-  if (!fs::exists(simulated.file))
-    throw test.where->error(
-        fmt::format("the test names no record, and there is no {}; pfdm run simulates one", simulated.file.string()));
-  return read_record(test, simulated, log);
-}
-
 Records read_records(const MassMaterialCase& c, const fs::path& results, Log& log) {
   Records records;
   for (const VibrationTest& test : c.tests)
@@ -145,6 +135,16 @@ void say_found(const Found& found, Log& log) {
 }
 
 }  // namespace
+
+VibrationRecord record_of(const VibrationTest& test, const fs::path& results, Log& log) {
+  if (test.record) return read_record(test, *test.record, log);
+  RecordFile simulated;
+  simulated.file = results / (test.name + ".csv");
+  if (!fs::exists(simulated.file))
+    throw test.where->error(
+        fmt::format("the test names no record, and there is no {}; pfdm run simulates one", simulated.file.string()));
+  return read_record(test, simulated, log);
+}
 
 void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   const MassMaterialCase& c = program.parsed;

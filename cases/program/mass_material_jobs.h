@@ -17,6 +17,9 @@ struct MassMaterialProgram {
   std::string hash;
 };
 
+/// What a test recorded, or what `run` left of it in the results. Throws InputError.
+VibrationRecord record_of(const VibrationTest& test, const std::filesystem::path& results, Log& log);
+
 /// Identifies the model from the records of the tests; writes fit.json and case.fitted.toml.
 void fit_mass_material(const MassMaterialProgram& program, Session& session);
 

@@ -2,6 +2,8 @@
 
 #include "cases/program/mass_material_case.h"
 #include "cases/program/mass_material_jobs.h"
+#include "cases/program/mass_material_report.h"
+#include "cases/program/report_parts.h"
 #include "cases/program/stopwatch.h"
 #include "postproc/folder_lock.h"
 #include "postproc/signal_table.h"
@@ -241,6 +243,8 @@ RunnableCase read_mass_material_program(const CaseFile& file) {
           .check = [program](Session& session) { check(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
           .fit = [program](Session& session) { fit_mass_material(*program, session); },
+          .report = [program](Session& session) { write_report(mass_material_page(*program, session), session); },
+
           .data_files = program->parsed.data_files};
 }
 

@@ -36,6 +36,7 @@ struct Commands {
   CLI::App* compare = app.add_subcommand("compare", "Compare the results with the experiments that a case names");
   CLI::App* fit = app.add_subcommand("fit", "Estimate the parameters that a case names from its experiment");
   CLI::App* sweep = app.add_subcommand("sweep", "Run a case with the sets of values that it names");
+  CLI::App* report = app.add_subcommand("report", "Draw pictures and plots of the results on one page");
   CLI::App* list = app.add_subcommand("list", "List the cases that ship, a line each");
   CLI::App* test = app.add_subcommand("test", "Run the project's tests (through the launcher, ./pfdm test)");
 };
@@ -44,15 +45,15 @@ void describe_options(Commands& commands, Options& options) {
   commands.app.require_subcommand(1);
   commands.app.set_version_flag("--version", "pfdm " PFDM_VERSION);
   for (CLI::App* command : {commands.run, commands.check, commands.mesh, commands.cohesive, commands.compare,
-                            commands.fit, commands.sweep}) {
+                            commands.fit, commands.sweep, commands.report}) {
     command->add_option("CASE", options.case_directory, "the case directory")->required();
     command->add_option("--threads", options.threads, "number of threads (default: all cores)")
         ->check(CLI::Range(1, 4096))
         ->type_name("N");
     command->add_flag("--quiet", options.quiet, "say nothing but errors");
   }
-  for (CLI::App* command :
-       {commands.run, commands.mesh, commands.cohesive, commands.compare, commands.fit, commands.sweep})
+  for (CLI::App* command : {commands.run, commands.mesh, commands.cohesive, commands.compare, commands.fit,
+                            commands.sweep, commands.report})
     command->add_option("--output", options.output, "results directory (default: CASE/results)")->type_name("DIR");
   commands.run->add_flag("--restart", options.restart, "go on from the last complete output");
   commands.run->add_option("--max-steps", options.max_steps, "stop after N load steps; --restart goes on from there")
@@ -89,7 +90,7 @@ void do_case(const Commands& commands, const Options& options, std::ostream& out
        {std::pair(commands.run, &runnable.run), std::pair(commands.check, &runnable.check),
         std::pair(commands.mesh, &runnable.mesh), std::pair(commands.cohesive, &runnable.cohesive),
         std::pair(commands.compare, &runnable.compare), std::pair(commands.fit, &runnable.fit),
-        std::pair(commands.sweep, &runnable.sweep)}) {
+        std::pair(commands.sweep, &runnable.sweep), std::pair(commands.report, &runnable.report)}) {
     if (!command->parsed()) continue;
     if (!*job)
       throw InputError(fmt::format("{}: this kind of case has no \"{}\"", options.case_directory, command->get_name()));

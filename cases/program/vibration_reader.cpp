@@ -68,7 +68,8 @@ VibrationRecord read_record(const VibrationTest& test, const RecordFile& source,
                          .base = raw.base.array() - raw.base.mean(),
                          .relative = raw.relative.array() - raw.relative.mean(),
                          .band_low = test.band_low,
-                         .band_high = test.band_high};
+                         .band_high = test.band_high,
+                         .remark = table.remark};
   return record;
 }
 

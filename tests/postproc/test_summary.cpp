@@ -1,3 +1,4 @@
+#include "physics/error.h"
 #include "postproc/summary.h"
 #include "tests/postproc/temporary_folder.h"
 
@@ -101,6 +102,32 @@ TEST(Summary, measures_this_process) {
   std::vector<char> much(100'000'000, 'x');
   EXPECT_GE(peak_memory(), before + 0.5e8 * static_cast<double>(much.back() == 'x'));
   EXPECT_GT(cpu_seconds(), 0.0);
+}
+
+TEST(Summary, comes_back) {
+  const TemporaryFolder folder;
+  RunSummary summary;
+  summary.case_name = "bar";
+  summary.status = "complete";
+  summary.case_hash = "0123";
+  summary.cells = 7;
+  summary.wall_seconds = 1.5;
+  summary.wall_seconds_by_stage = {{"mesh", 0.5}, {"solve", 1.0}};
+  summary.figures = headlines(broken_bar(), 1);
+  summary.other_figures = {{"damaged_area_m2", 0.25}};
+  write_summary(folder / "summary.json", summary);
+  const RunSummary back = read_run_summary(folder / "summary.json");
+  EXPECT_EQ(back.case_name, "bar");
+  EXPECT_EQ(back.status, "complete");
+  EXPECT_EQ(back.case_hash, "0123");
+  EXPECT_EQ(back.cells, 7);
+  EXPECT_EQ(back.wall_seconds, 1.5);
+  EXPECT_EQ(back.wall_seconds_by_stage, summary.wall_seconds_by_stage);
+  EXPECT_EQ(back.other_figures.at("damaged_area_m2"), 0.25);
+  EXPECT_EQ(back.other_figures.at("peak_force_N"), 6.0);
+  EXPECT_EQ(back.other_figures.count("cells"), 0u);
+  put(folder / "bad.json", "{\"case\": 3}");
+  EXPECT_NE(message_of<InputError>([&] { read_run_summary(folder / "bad.json"); }).find("bad.json"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,73 @@
+#include "cases/program/report_parts.h"
+
+#include "physics/error.h"
+#include "postproc/page_drawing.h"
+#include "postproc/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+
+std::vector<double> in_unit(std::span<const double> values, const DisplayUnit& unit) {
+  std::vector<double> shown;
+  for (const double value : values) shown.push_back(unit.factor * value);
+  return shown;
+}
+
+DisplayUnit common_unit(std::span<const std::vector<double>> columns, std::string_view si_unit) {
+  double largest = 0.0;
+  for (const auto& column : columns)
+    for (const double value : column)
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return display_unit(largest, si_unit);
+}
+
+std::vector<PageRow> in_pairs(std::vector<PageBlock> blocks) {
+  std::vector<PageRow> rows;
+  for (PageBlock& block : blocks) {
+    if (rows.empty() || rows.back().blocks.size() == 2) rows.push_back({.blocks = {}});
+    const bool is_picture = std::holds_alternative<Picture>(block);
+    rows.back().blocks.push_back(std::move(block));
+    if (is_picture) rows.back().height = 1.25;
+  }
+  return rows;
+}
+
+std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t limit) {
+  if (!std::filesystem::exists(log)) return {};
+  const std::string content = read_file(log);
+  constexpr std::string_view mark = " warning: ";
+  std::vector<std::string> warnings;
+  for (std::string_view rest = content; !rest.empty();) {
+    const std::string_view line = take_line(rest);
+    const std::size_t at = line.find(mark);
+    if (at == std::string_view::npos) continue;
+    std::string warning(line.substr(at + mark.size()));
+    if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
+  }
+  if (warnings.empty()) return {};
+  const std::size_t n = warnings.size();
+  if (n > limit) {
+    warnings.resize(limit);
+    warnings.push_back(fmt::format("and {} more in {}", n - limit, log.filename().string()));
+  }
+  return {PageRow{.blocks = {TextBlock{.caption = "Warnings", .lines = std::move(warnings)}}}};
+}
+
+void require_case(const std::filesystem::path& file, const std::string& found, const std::string& due) {
+  if (found != due)
+    throw InputError(
+        fmt::format("{}: it belongs to another case, or to this one before it was changed (hash {}, due {})",
+                    file.string(), found, due));
+}
+
+void write_report(const ReportPage& page, Session& session) {
+  const std::filesystem::path folder = session.results / "report";
+  write_page(folder, page);
+  session.log.say(fmt::format("written to {} and report.png", (folder / "report.pdf").string()));
+}
+
+}  // namespace pfdm

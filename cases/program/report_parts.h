@@ -1,0 +1,34 @@
+#pragma once
+// What the pages of all kinds of case share.
+
+#include "cases/program/session.h"
+#include "postproc/display_unit.h"
+#include "postproc/report_page.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+/// Numbers in SI in the unit that they are shown in.
+std::vector<double> in_unit(std::span<const double> values, const DisplayUnit& unit);
+
+/// The unit that suits the largest of all the values.
+DisplayUnit common_unit(std::span<const std::vector<double>> columns, std::string_view si_unit);
+
+/// Two blocks to a row.
+std::vector<PageRow> in_pairs(std::vector<PageBlock> blocks);
+
+/// The warnings of a log, each once; nothing where there are none. At most `limit` are told.
+std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t limit = 6);
+
+/// Throws InputError if a file of the results has another case's hash than is due.
+void require_case(const std::filesystem::path& file, const std::string& found, const std::string& due);
+
+/// report/report.pdf and report/report.png in the session's results. Throws ComputationError.
+void write_report(const ReportPage& page, Session& session);
+
+}  // namespace pfdm
