@@ -45,6 +45,8 @@ Json experiments(const FitReport& report) {
   for (const ExperimentMisfit& e : report.experiments)
     list.push_back({{"name", e.name},
                     {"data", e.n_data},
+                    {"quantity", e.quantity},
+                    {"unit", e.unit},
                     {fmt::format("rms_misfit_{}", e.unit), e.rms},
                     {fmt::format("rms_{}_{}", e.quantity, e.unit), e.rms_measured},
                     {"relative_misfit", e.rms / e.rms_measured},
@@ -61,6 +63,17 @@ void read_estimates(const Json& list, FitReport& report) {
                                        .upper_95 = number_of(p.at("upper_95")),
                                        .at_bound = p.at("at_bound")});
   }
+}
+
+void read_experiment(const Json& e, FitReport& report) {
+  const std::string quantity = e.at("quantity"), unit = e.at("unit");
+  report.experiments.push_back({.name = e.at("name"),
+                                .n_data = e.at("data"),
+                                .rms = number_of(e.at(fmt::format("rms_misfit_{}", unit))),
+                                .rms_measured = number_of(e.at(fmt::format("rms_{}_{}", quantity, unit))),
+                                .curve = e.at("curve"),
+                                .quantity = quantity,
+                                .unit = unit});
 }
 
 }  // namespace
@@ -118,12 +131,7 @@ FitReport read_fit_json(const std::filesystem::path& path) {
     report.result.converged = json.at("converged");
     report.result.message = json.at("message");
     read_estimates(json.at("parameters"), report);
-    for (const Json& e : json.at("experiments"))
-      report.experiments.push_back({.name = e.at("name"),
-                                    .n_data = e.at("data"),
-                                    .rms = number_of(e.at("rms_misfit_Pa")),
-                                    .rms_stress = number_of(e.at("rms_stress_Pa")),
-                                    .curve = e.at("curve")});
+    for (const Json& e : json.at("experiments")) read_experiment(e, report);
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: this is no fit: {}", path.string(), error.what()));
   }

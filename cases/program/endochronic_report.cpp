@@ -257,7 +257,7 @@ Chart fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve) {
       components.size() == 1 && std::ranges::find(curve.names, "strain_" + components[0]) != curve.names.end();
   const std::vector<double> x = over_strain ? plotted_strain(curve, components[0]) : curve.column("time_s");
   Chart chart{.caption = fmt::format("Fit to \"{}\", rms misfit {:.2g} %", experiment.name,
-                                     100.0 * experiment.rms / experiment.rms_stress),
+                                     100.0 * experiment.rms / experiment.rms_measured),
               .x = {.title = over_strain ? strain_title(components[0]) : "time [s]"},
               .y = {.title = fmt::format("stress [{}]", unit.name)},
               .series = {}};
