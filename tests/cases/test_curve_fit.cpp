@@ -1,7 +1,8 @@
 // pfdm fit on cases whose runs leave a curve, with data that the tests make.
 
-#include "postproc/atomic_file.h"
+#include "physics/error.h"
 #include "postproc/csv_table.h"
+#include "postproc/folder_lock.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>
@@ -146,6 +147,17 @@ std::map<std::string, fs::file_time_type> complete_runs(const fs::path& results)
   return times;
 }
 
+void wait_until_free(const fs::path& results) {
+  for (int i = 0; i < 200; ++i) {
+    try {
+      const FolderLock lock(results);
+      return;
+    } catch (const InputError&) {
+      usleep(50000);
+    }
+  }
+}
+
 TEST(CurveFit, GoesOnAfterAKillToTheSameResult) {
   const BarFit whole;
   ASSERT_EQ(run({"fit", whole.path()}).status, 0);
@@ -160,7 +172,7 @@ TEST(CurveFit, GoesOnAfterAKillToTheSameResult) {
     usleep(static_cast<useconds_t>(1e6 * seconds * std::uniform_real_distribution<double>(0.1, 0.9)(engine)));
     kill(pid, SIGKILL);
     waitpid(pid, nullptr, 0);
-    usleep(50000);  // its runs die with it
+    wait_until_free(results);  // its runs die with it
     const auto before = complete_runs(results);
     ASSERT_EQ(run({"fit", whole.path(), "--output", results.string()}).status, 0);
     EXPECT_EQ(findings(results), expected);

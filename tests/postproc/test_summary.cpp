@@ -1,5 +1,8 @@
 #include "physics/error.h"
 #include "postproc/summary.h"
+
+#include "physics/error.h"
+#include "postproc/atomic_file.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -94,6 +97,29 @@ TEST(Summary, has_units_in_its_names_and_null_for_what_is_not_a_number) {
   EXPECT_EQ(json.at("energy_balance_error").get<double>(), s.figures->energy_balance_error);
   EXPECT_TRUE(json.at("initial_stiffness_N_per_m").is_null());
   EXPECT_EQ(json.at("debonded_area_m2"), 1e-9);
+}
+
+TEST(Summary, is_read_again) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(read_summary(folder / "summary.json"));
+  RunSummary s;
+  s.status = "complete";
+  s.cells = 42;
+  s.figures = headlines(broken_bar(), 1);
+  s.figures->initial_stiffness = Headlines::none;
+  write_summary(folder / "summary.json", s);
+  const auto summary = read_summary(folder / "summary.json");
+  ASSERT_TRUE(summary);
+  EXPECT_EQ(summary->status, "complete");
+  EXPECT_EQ(summary->numbers.front(), std::pair(std::string("threads"), 0.0));
+  for (const auto& [name, value] : summary->numbers) {
+    if (name == "cells") {
+      EXPECT_EQ(value, 42.0);
+    }
+    EXPECT_EQ(std::isnan(value), name == "initial_stiffness_N_per_m") << name;
+  }
+  write_file(folder / "summary.json", "{");
+  EXPECT_THROW(read_summary(folder / "summary.json"), InputError);
 }
 
 TEST(Summary, measures_this_process) {
