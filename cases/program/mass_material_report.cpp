@@ -123,6 +123,9 @@ Table model_table(const VibrationStory& story) {
     for (const Estimate& e : story.fit->estimates)
       table.rows.push_back({with_bracketed_unit(e.name), shown(e.value),
                             std::isfinite(e.lower) ? fmt::format("{} to {}", shown(e.lower), shown(e.upper)) : "-"});
+    if (story.fit->ogden)
+      for (const OgdenTerm& term : story.fit->ogden->terms)
+        table.rows.push_back({"Ogden: mu, alpha", shown(term.mu, "Pa"), shown(term.alpha)});
   } else if (story.model) {
     table.rows.push_back({"parameter", "value"});
     for (const Estimate& e : named_values(story.model->parameters))
