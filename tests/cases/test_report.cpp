@@ -269,6 +269,18 @@ TEST(Report, SaysWhatItHasNothingToDrawFrom) {
   }
 }
 
+TEST(Report, GoesWithTheRunThatItTellsOf) {
+  for (const std::string& text : {bar_case(), tension_case(), sweep_case()}) {
+    const TemporaryCase directory(text);
+    ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+    ASSERT_EQ(run({"report", directory.path().string()}).status, 0);
+    ASSERT_TRUE(fs::exists(directory.results() / "report" / "report.pdf"));
+    ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+    EXPECT_FALSE(fs::exists(directory.results() / "report" / "report.pdf"));
+    EXPECT_FALSE(fs::exists(directory.results() / "report" / "report.png"));
+  }
+}
+
 TEST(Report, RefusesResultsOfAnotherCase) {
   const TemporaryCase directory(tension_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
