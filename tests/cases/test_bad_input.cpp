@@ -215,7 +215,7 @@ TEST(BadInput, WrongUsage) {
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
             "pfdm: there is no command \"rn\"; did you mean \"run\"? (there are: run, check, mesh, cohesive, "
-            "compare, fit, list, test)\n");
+            "compare, fit, report, list, test)\n");
 }
 
 TEST(BadInput, JobThatTheKindOfCaseDoesNotHave) {
