@@ -47,6 +47,23 @@ Json to_json(const std::vector<ModulusRow>& rows) {
   return list;
 }
 
+Json to_json(const OgdenFit& fit) {
+  Json terms = Json::array();
+  for (const OgdenTerm& term : fit.terms) terms.push_back({{"mu_Pa", term.mu}, {"alpha", term.alpha}});
+  return {{"terms", terms},
+          {"shear_modulus_Pa", shear_modulus(fit.terms)},
+          {"largest_displacement_m", fit.largest_displacement},
+          {"relative_misfit", fit.relative_misfit}};
+}
+
+OgdenFit ogden_in(const Json& json) {
+  OgdenFit fit{.terms = {},
+               .largest_displacement = json.at("largest_displacement_m"),
+               .relative_misfit = json.at("relative_misfit")};
+  for (const Json& term : json.at("terms")) fit.terms.push_back({term.at("mu_Pa"), term.at("alpha")});
+  return fit;
+}
+
 }  // namespace
 
 void write_vibration_summary(const std::filesystem::path& path, const VibrationSummary& s) {
@@ -76,6 +93,7 @@ void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& 
                {"path_of_misfit", fit.path},
                {"tests", to_json(fit.tests)},
                {"youngs_modulus", to_json(fit.modulus)},
+               {"ogden", fit.ogden ? to_json(*fit.ogden) : Json()},
                {"wall_seconds", fit.wall_seconds}};
   write_file(path, json.dump(2) + "\n");
 }
@@ -103,6 +121,7 @@ VibrationFit read_vibration_fit(const std::filesystem::path& path) {
     for (const Json& row : json.at("youngs_modulus"))
       fit.modulus.push_back({number_of(row.at("frequency_Hz")), number_of(row.at("storage_modulus_Pa")),
                              number_of(row.at("loss_modulus_Pa"))});
+    if (json.contains("ogden") && !json.at("ogden").is_null()) fit.ogden = ogden_in(json.at("ogden"));
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}: this is no fit: {}", path.string(), error.what()));
   }

@@ -3,6 +3,7 @@
 // all; numbers that are not finite become null.
 
 #include "solver/identification.h"
+#include "solver/ogden_fit.h"
 
 #include <filesystem>
 #include <map>
@@ -51,11 +52,12 @@ struct VibrationFit {
   Passivity passivity;
   std::vector<NamedFigures> tests;
   std::vector<ModulusRow> modulus;
+  std::optional<OgdenFit> ogden;  ///< of the stiffness polynomial
 };
 void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& fit);
 
-/// What write_vibration_fit() wrote: method, structure, estimates, tests and modulus. Throws InputError that names the
-/// file for what is no such fit.
+/// What write_vibration_fit() wrote: method, structure, estimates, tests, modulus and Ogden's model. Throws InputError
+/// that names the file for what is no such fit.
 VibrationFit read_vibration_fit(const std::filesystem::path& path);
 
 }  // namespace pfdm

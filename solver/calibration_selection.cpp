@@ -21,8 +21,9 @@ Eigen::VectorXd solve_within(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
       part.conservativeResize(Eigen::NoChange, part.cols() + 1);
       part.col(part.cols() - 1) = A.col(j);
     }
-  const Eigen::VectorXd x = part.colPivHouseholderQr().solve(b);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(A.cols());
+  if (part.cols() == 0) return all;
+  const Eigen::VectorXd x = part.colPivHouseholderQr().solve(b);
   for (Eigen::Index j = 0, k = 0; j < A.cols(); ++j)
     if (free[static_cast<std::size_t>(j)]) all[j] = x[k++];
   return all;

@@ -44,7 +44,7 @@ Eigen::MatrixXd inverse_normal(const ScaledModel& model, const Eigen::MatrixXd& 
                                const std::vector<std::size_t>& visible, std::vector<bool>& undetermined,
                                FitResult& result) {
   const auto n = static_cast<Eigen::Index>(visible.size());
-  if (n == 0) return {};
+  if (n == 0) return Eigen::MatrixXd::Zero(0, 0);
   Eigen::MatrixXd A(J.rows(), n);
   for (Eigen::Index k = 0; k < n; ++k)
     A.col(k) = J.col(static_cast<Eigen::Index>(visible[static_cast<std::size_t>(k)]));

@@ -102,15 +102,20 @@ std::vector<Estimate> named_values(const MassMaterial& model);
 
 /// What records excite together.
 struct ExcitedRange {
-  double low, high;  ///< [Hz]
-  double velocity;   ///< the largest [m/s]
+  double low, high;     ///< [Hz]
+  double velocity;      ///< the largest [m/s]
+  double displacement;  ///< the largest [m]
 };
 ExcitedRange excited_range(std::span<const VibrationRecord> records);
 
 /// Over the band that the records excite, at the largest velocity in them.
 Passivity passivity_in_band(const MassMaterial& model, std::span<const VibrationRecord> records);
 
-/// What a record's velocity reaches where it is largest [m/s]; for complex stiffness and passivity at the test's level.
-double peak_velocity(const VibrationRecord& record);
+/// What a record's motion reaches away from its ends; for what depends on the test's level.
+struct PeakMotion {
+  double displacement = 0.0;  ///< [m]
+  double velocity = 0.0;      ///< [m/s]
+};
+PeakMotion peak_motion(const VibrationRecord& record);
 
 }  // namespace pfdm

@@ -1,4 +1,4 @@
-// named_values and peak_velocity of identification.h.
+// named_values and peak_motion of identification.h.
 
 #include "solver/identification.h"
 #include "solver/identification_conditioning.h"
@@ -27,10 +27,11 @@ std::vector<Estimate> named_values(const MassMaterial& m) {
   return values;
 }
 
-double peak_velocity(const VibrationRecord& record) {
-  const Eigen::VectorXd v = integrate_states(record).velocity;
-  const Eigen::Index edge = v.size() / 20;
-  return v.segment(edge, v.size() - 2 * edge).lpNorm<Eigen::Infinity>();
+PeakMotion peak_motion(const VibrationRecord& record) {
+  const States states = integrate_states(record);
+  const Eigen::Index n = states.velocity.size(), edge = n / 20;
+  const auto peak = [&](const Eigen::VectorXd& x) { return x.segment(edge, n - 2 * edge).lpNorm<Eigen::Infinity>(); };
+  return {.displacement = peak(states.displacement), .velocity = peak(states.velocity)};
 }
 
 }  // namespace pfdm

@@ -73,6 +73,7 @@ void check(const EndochronicProgram& program, Session& session) {
 void remove_earlier_run(const std::filesystem::path& results) {
   std::error_code ignored;
   for (const char* file : {"history.csv", "summary.json"}) std::filesystem::remove(results / file, ignored);
+  remove_report(results);
 }
 
 void write_results(const EndochronicProgram& program, const HistoryResult& history, Session& session, double seconds) {

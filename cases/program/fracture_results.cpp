@@ -1,5 +1,6 @@
 #include "cases/program/fracture_results.h"
 
+#include "cases/program/report_parts.h"
 #include "mesh/quality.h"
 #include "postproc/atomic_file.h"
 #include "postproc/checkpoint.h"
@@ -40,6 +41,7 @@ void remove_earlier_run(const fs::path& directory) {
   for (const char* file : cohesive_files) fs::remove(directory / file, ignored);
   for (const char* file : comparison_files) fs::remove(directory / file, ignored);
   remove_columns(directory / columns_folder);
+  remove_report(directory);
   for (const auto& entry : fs::directory_iterator(directory / frames_folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);

@@ -201,6 +201,10 @@ void read_fit(const ConfigTable& root, MassMaterialCase& c) {
   fit.replicates = static_cast<int>(table.integer("replicates", count, fit.replicates));
   fit.confidence = table.number("confidence", open_fraction, fit.confidence);
   fit.seed = static_cast<std::uint64_t>(table.integer("seed", count, 1));
+  if (const auto terms = table.find("ogden_terms")) {
+    fit.ogden_terms = static_cast<int>(terms->integer(Range{1.0, 3.0, false, "between 1 and 3"}));
+    if (!root.has("sample")) throw terms->error("Ogden's model needs the sample's length and area: [sample]");
+  }
 }
 
 void read_sampling(const ConfigTable& root, MassMaterialCase& c) {

@@ -47,6 +47,7 @@ struct MassMaterialFit {
   int replicates = 500;
   double confidence = 0.95;
   std::uint64_t seed = 1;
+  int ogden_terms = 0;  ///< of Ogden's model of the stiffness polynomial; 0: none
 };
 
 struct MassMaterialCase {

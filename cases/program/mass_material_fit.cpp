@@ -108,7 +108,7 @@ std::vector<NamedFigures> misfits(const MassMaterial& model, const Records& reco
 
 /// E' + j E'' = K L/A: the sample as a bar in uniaxial stress, whose own inertia counts as a third of its mass in m.
 std::vector<ModulusRow> youngs_modulus(const MassMaterial& model, const Records& records, const SampleSize& sample) {
-  const auto [low, high, velocity] = excited_range(records.fitted);
+  const auto [low, high, velocity, displacement] = excited_range(records.fitted);
   std::vector<ModulusRow> rows;
   constexpr int n = 25;
   for (int i = 0; i < n; ++i) {
@@ -119,6 +119,19 @@ std::vector<ModulusRow> youngs_modulus(const MassMaterial& model, const Records&
   return rows;
 }
 
+/// Of the stiffness polynomial, as far as the fitted records went.
+OgdenFit ogden_of(const MassMaterial& model, const Records& records, const MassMaterialCase& c) {
+  return fit_ogden(model.stiffness, c.sample->length, c.sample->area, excited_range(records.fitted).displacement,
+                   c.fit.ogden_terms);
+}
+
+void say_ogden(const OgdenFit& ogden, Log& log) {
+  log.say(fmt::format("Ogden's model of k(z) up to {:.4g} m: shear modulus {:.6g} Pa, misfit {:.3g} of the force",
+                      ogden.largest_displacement, shear_modulus(ogden.terms), ogden.relative_misfit));
+  for (const OgdenTerm& term : ogden.terms)
+    log.say(fmt::format("  mu {:>14.6g} Pa, alpha {:.6g}", term.mu, term.alpha));
+}
+
 void say_found(const Found& found, Log& log) {
   for (const Estimate& e : found.report.estimates)
     log.say(std::isfinite(e.lower)
@@ -127,6 +140,7 @@ void say_found(const Found& found, Log& log) {
   for (const NamedFigures& test : found.report.tests)
     log.say(fmt::format("  test {:<16} {} to {:.3g} of its motion", test.name,
                         test.figures.at("fitted") > 0.0 ? "met" : "predicted", test.figures.at("relative_misfit")));
+  if (found.report.ogden) say_ogden(*found.report.ogden, log);
   if (!found.report.passivity.passive)
     log.warn(fmt::format("the model gives energy to the shaker: damping {:.3g} N s/m at {:.4g} Hz",
                          found.report.passivity.least_damping,
@@ -166,6 +180,7 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   report.confidence = c.fit.confidence;
   report.tests = misfits(found.model, records, c.fit.crop);
   if (c.sample) report.modulus = youngs_modulus(found.model, records, *c.sample);
+  if (c.fit.ogden_terms > 0) report.ogden = ogden_of(found.model, records, c);
   report.wall_seconds = watch.seconds();
   const FolderLock lock(session.results);
   session.log.open_file(session.results / "fit.log", false);

@@ -175,6 +175,7 @@ NamedFigures figures_of(const SimulatedTest& t) {
 void remove_earlier_results(const MassMaterialCase& c, const fs::path& results) {
   std::error_code ignored;
   fs::remove(results / "summary.json", ignored);
+  remove_report(results);
   for (const VibrationTest& test : c.tests)
     for (const char* ending : {".csv", "_harmonics.csv", "_spectra.csv"})
       if (test.excitation) fs::remove(results / (test.name + ending), ignored);

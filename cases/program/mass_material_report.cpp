@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-constexpr double gravity = 9.80665;  // [m/s^2]
+constexpr double gravity = 9.80665;      // [m/s^2]
+constexpr double least_coherence = 0.2;  // for H1 to be shown
 
 struct Model {
   MassMaterial parameters;
@@ -123,6 +124,9 @@ Table model_table(const VibrationStory& story) {
     for (const Estimate& e : story.fit->estimates)
       table.rows.push_back({with_bracketed_unit(e.name), shown(e.value),
                             std::isfinite(e.lower) ? fmt::format("{} to {}", shown(e.lower), shown(e.upper)) : "-"});
+    if (story.fit->ogden)
+      for (const OgdenTerm& term : story.fit->ogden->terms)
+        table.rows.push_back({"Ogden: mu, alpha", shown(term.mu, "Pa"), shown(term.alpha)});
   } else if (story.model) {
     table.rows.push_back({"parameter", "value"});
     for (const Estimate& e : named_values(story.model->parameters))
@@ -204,6 +208,13 @@ double falling_phase(const std::complex<double>& H) {
   return phase > 90.0 ? phase - 360.0 : phase;
 }
 
+/// Interrupts H1 where the record's coherence says that it means nothing, as beyond the ends of a sweep.
+void blank_incoherent(BandSpectra& s, const std::vector<double>& coherence) {
+  for (std::size_t i = 0; i < coherence.size(); ++i)
+    if (!(coherence[i] >= least_coherence))
+      for (auto* values : {&s.magnitude, &s.lower, &s.upper, &s.phase}) (*values)[i] = std::nan("");
+}
+
 BandSpectra spectra_in_band(const VibrationRecord& record, const VectorXd& relative) {
   SegmentSettings segments;
   segments.length = std::min<Eigen::Index>(segments.length, record.n());
@@ -257,7 +268,7 @@ void add_model(Chart& chart, const VibrationStory& story, const std::optional<Ba
 }
 
 Chart magnitude_chart(const VibrationStory& story, const BandSpectra& s, const std::optional<BandSpectra>& model) {
-  Chart chart{.caption = "H1, base to relative acceleration: magnitude",
+  Chart chart{.caption = fmt::format("H1, base to relative acceleration, where coherence > {:g}", least_coherence),
               .x = frequency_axis(story.record()),
               .y = {.title = "magnitude [-]", .logarithmic = true},
               .series = {{.label = "95 % bounds",
@@ -304,9 +315,11 @@ std::string first_clause(const std::string& text) { return text.substr(0, text.f
 ReportPage mass_material_page(const MassMaterialProgram& program, Session& session) {
   const VibrationStory story = story_of(program, session);
   const VibrationRecord& record = story.record();
-  const BandSpectra measured = spectra_in_band(record, record.relative);
+  BandSpectra measured = spectra_in_band(record, record.relative);
   std::optional<BandSpectra> model;
   if (story.predicted && story.predicted->allFinite()) model = spectra_in_band(record, *story.predicted);
+  blank_incoherent(measured, measured.coherence);
+  if (model) blank_incoherent(*model, measured.coherence);
   const std::string says = record.remark.empty() ? "" : fmt::format(", record {}", first_clause(record.remark));
   ReportPage page{.title = fmt::format("{}: {}", program.name, program.parsed.title),
                   .subtitle = fmt::format("pfdm {}, case {}{}", session.version, program.hash, says),

@@ -64,6 +64,11 @@ void require_case(const std::filesystem::path& file, const std::string& found, c
                     file.string(), found, due));
 }
 
+void remove_report(const std::filesystem::path& results) {
+  std::error_code ignored;
+  for (const char* file : {"report.pdf", "report.png"}) std::filesystem::remove(results / "report" / file, ignored);
+}
+
 void write_report(const ReportPage& page, Session& session) {
   const std::filesystem::path folder = session.results / "report";
   write_page(folder, page);

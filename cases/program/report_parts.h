@@ -28,6 +28,9 @@ std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t 
 /// Throws InputError if a file of the results has another case's hash than is due.
 void require_case(const std::filesystem::path& file, const std::string& found, const std::string& due);
 
+/// What write_report() made of an earlier run.
+void remove_report(const std::filesystem::path& results);
+
 /// report/report.pdf and report/report.png in the session's results. Throws ComputationError.
 void write_report(const ReportPage& page, Session& session);
 

@@ -67,6 +67,26 @@ TEST(MassMaterialProgram, SimulatesItsTests) {
   EXPECT_NEAR(summary["static_settling_point_m"].get<double>(), -1.12 * 9.80665 / 54e3, 2e-6);
 }
 
+TEST(MassMaterialProgram, FitsOgdensModelToTheStiffness) {
+  const TemporaryCase directory(replaced(soft_case(), "replicates = 50", "replicates = 20\nogden_terms = 2"));
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Ogden's model of k(z)"), std::string::npos) << outcome.out;
+  const json ogden = parsed(directory.results() / "fit.json")["ogden"];
+  // Three times the shear modulus is Young's, k1 L/A.
+  EXPECT_NEAR(3.0 * ogden["shear_modulus_Pa"].get<double>(), 54e3 * 0.0762 / 45.6e-4, 0.01 * 54e3 * 0.0762 / 45.6e-4);
+  EXPECT_LT(ogden["relative_misfit"].get<double>(), 0.01);
+  EXPECT_GT(ogden["largest_displacement_m"].get<double>(), 1e-3);
+  EXPECT_LT(ogden["largest_displacement_m"].get<double>(), 0.02);
+  const std::string no_sample = replaced(replaced(soft_case(), "replicates = 50", "ogden_terms = 2"),
+                                         "[sample]\nlength = \"76.2 mm\"\narea = \"45.6 cm^2\"\n", "");
+  const TemporaryCase without(no_sample);
+  const Outcome refused = run({"check", without.path().string()});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("needs the sample's length and area"), std::string::npos) << refused.err;
+}
+
 TEST(MassMaterialProgram, SimulatesRandomMotionWithSpectra) {
   const std::string random =
       "type = \"random\", density = \"0.01 g0^2/Hz\", from = \"10 Hz\", to = \"200 Hz\", seed = 3, ";

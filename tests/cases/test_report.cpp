@@ -226,7 +226,7 @@ TEST(Report, TellsOfAVibrationTest) {
   EXPECT_THAT(page.subtitle, HasSubstr("synthetic"));
   EXPECT_EQ(row_of(block<Table>(page, "Sample and conditions"), "shown below"), "high");
   EXPECT_EQ(row_of(block<Table>(page, "Model 1"), "k1 [N/m]"), "54000");
-  const Chart magnitude = block<Chart>(page, "H1, base to relative acceleration: magnitude");
+  const Chart magnitude = block<Chart>(page, "H1, base to relative acceleration");
   ASSERT_EQ(magnitude.series.size(), 3u);
   EXPECT_EQ(magnitude.series[2].label, "model of the case");
   // |z''/y''| of a mass on spring and damper, m omega^2 / |k + i omega c - m omega^2|.
@@ -266,6 +266,18 @@ TEST(Report, SaysWhatItHasNothingToDrawFrom) {
     EXPECT_EQ(outcome.status, 2);
     EXPECT_THAT(outcome.err, HasSubstr("pfdm run"));
     EXPECT_FALSE(fs::exists(directory.results() / "report"));
+  }
+}
+
+TEST(Report, GoesWithTheRunThatItTellsOf) {
+  for (const std::string& text : {bar_case(), tension_case(), sweep_case()}) {
+    const TemporaryCase directory(text);
+    ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+    ASSERT_EQ(run({"report", directory.path().string()}).status, 0);
+    ASSERT_TRUE(fs::exists(directory.results() / "report" / "report.pdf"));
+    ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+    EXPECT_FALSE(fs::exists(directory.results() / "report" / "report.pdf"));
+    EXPECT_FALSE(fs::exists(directory.results() / "report" / "report.png"));
   }
 }
 

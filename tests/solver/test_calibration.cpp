@@ -268,6 +268,17 @@ TEST(Calibration, BayesianInformationFindsTheDegree) {
   EXPECT_EQ(std::ranges::min_element(information) - information.begin(), 2);
 }
 
+TEST(Calibration, EndsWhereNoParameterMatters) {
+  FitProblem problem;
+  problem.parameters = {{.name = "idle", .unit = "1", .first = 2.0}};
+  problem.residuals = [](std::span<const double>) { return std::optional(std::vector<double>{1.0, -1.0, 0.5}); };
+  const FitResult result = fit(problem);
+  EXPECT_EQ(result.estimates[0].value, 2.0);
+  EXPECT_TRUE(std::isinf(result.estimates[0].standard_error));
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings[0].find("cannot see idle"), std::string::npos);
+}
+
 TEST(Calibration, NonNegativeLeastSquares) {
   // Against all subsets of columns.
   std::mt19937 engine(6);
