@@ -87,7 +87,11 @@ Table figures_table(const FractureStory& story) {
 Table material_table(const FractureCase& fracture) {
   Table table{.caption = "Materials", .rows = {{"region", "E", "nu", "Gc [J/m²]", "ell"}}, .has_header = true};
   for (const RegionMaterial& material : fracture.materials.by_region) {
-    const RegionModel& m = material.model;
+    if (material.varies) {
+      table.rows.push_back({material.region, "varies", "from", "place", "to place"});
+      continue;
+    }
+    const RegionModel m = material.at(Vector::Zero());
     table.rows.push_back({material.region, shown(m.elasticity.young_modulus(), "Pa"),
                           shown(m.elasticity.poisson_ratio()), m.damageable ? shown(m.Gc) : "no damage",
                           m.damageable ? shown(m.ell, "m") : "-"});

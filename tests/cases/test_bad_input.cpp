@@ -276,7 +276,7 @@ TEST(BadInput, WrongUsage) {
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
             "pfdm: there is no command \"rn\"; did you mean \"run\"? (there are: run, check, mesh, cohesive, "
-             "compare, fit, sweep, report, list, test)\n");
+            "compare, fit, sweep, report, list, test)\n");
 }
 
 TEST(BadInput, JobThatTheKindOfCaseDoesNotHave) {
