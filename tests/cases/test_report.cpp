@@ -215,7 +215,8 @@ ReportPage page_of_sweep(const TemporaryCase& directory) {
   program.hash = case_hash(file, program.parsed.data_files);
   std::ostringstream said;
   Log log(said, false, true);
-  Session session{.results = directory.results(), .max_steps = std::nullopt, .version = "test", .log = log};
+  Session session{
+      .results = directory.results(), .max_steps = std::nullopt, .until = std::nullopt, .version = "test", .log = log};
   return mass_material_page(program, session);
 }
 
