@@ -115,8 +115,9 @@ std::string_view checked_payload(std::string_view bytes, const std::filesystem::
     throw InputError(fmt::format("{} is not a checkpoint, or one that was cut short", name));
   const auto version = value_at<std::uint32_t>(bytes, magic.size());
   if (version != format_version)
-    throw InputError(
-        fmt::format("the checkpoint {} has format {}; this program reads format {}", name, version, format_version));
+    throw InputError(fmt::format(
+        "the checkpoint {} has format {}; this program reads format {}: run the case again, without --restart", name,
+        version, format_version));
   const auto size = value_at<std::uint64_t>(bytes, size_position);
   if (bytes.size() != size)
     throw InputError(fmt::format("the checkpoint {} has {} bytes instead of {}: it was cut short or added to", name,
