@@ -96,11 +96,6 @@ CurveFile::CurveFile(std::filesystem::path path, Index last_step) : path_(std::m
   write();
 }
 
-void CurveFile::append(const CurveRow& row) {
-  add(row);
-  write();
-}
-
 void CurveFile::write() const {
   std::string content = fmt::format("{}\n", curve_header);
   for (const CurveRow& row : rows_) content += to_line(row);

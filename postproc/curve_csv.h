@@ -37,17 +37,16 @@ CurveRow curve_row(const StepReport& report, Index patch, int component);
 /// that names file and line for anything else that is not a row.
 std::vector<CurveRow> read_curve(const std::filesystem::path& path);
 
-/// A curve that is on the disk, whole, after each row.
+/// A curve that is on the disk, whole, after each write().
 class CurveFile {
  public:
-  /// Starts a curve without rows. Throws ComputationError if the file cannot be written, as append() does.
+  /// Starts a curve without rows. Throws ComputationError if the file cannot be written, as write() does.
   explicit CurveFile(std::filesystem::path path);
   /// Goes on from a curve on the disk, of which the rows up to `last_step` are kept; without a file, from none.
   /// Throws InputError likewise to read_curve.
   CurveFile(std::filesystem::path path, Index last_step);
 
-  void append(const CurveRow& row);
-  /// Likewise in two steps: the file has the row after write().
+  /// The file has the row after write().
   void add(const CurveRow& row) { rows_.push_back(row); }
   void write() const;
   const std::vector<CurveRow>& rows() const { return rows_; }

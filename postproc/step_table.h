@@ -1,12 +1,12 @@
 #pragma once
 // A CSV file with a row of numbers for each load step, which is on the disk, whole, after each.
 
+#include "physics/tensor.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "physics/tensor.h"
 
 namespace pfdm {
 

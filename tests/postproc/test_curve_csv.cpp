@@ -20,15 +20,20 @@ CurveRow awkward_row(Index step) {
           3e-17, 12 + step,  1e-3 * x};
 }
 
+void append(CurveFile& file, const CurveRow& row) {
+  file.add(row);
+  file.write();
+}
+
 void fill(const std::filesystem::path& path, Index n_rows) {
   CurveFile file(path);
-  for (Index step = 0; step < n_rows; ++step) file.append(awkward_row(step));
+  for (Index step = 0; step < n_rows; ++step) append(file, awkward_row(step));
 }
 
 TEST(CurveCsv, has_the_header_of_the_interface_and_a_row_per_step) {
   const TemporaryFolder folder;
   CurveFile file(folder / "c.csv");
-  file.append({1, 0.05, 1e-6, Vector(0.5, 0, -2), 1e-9, 2e-9, 3e-9, 0.25, 1e-12, 7, 4e-9});
+  append(file, {1, 0.05, 1e-6, Vector(0.5, 0, -2), 1e-9, 2e-9, 3e-9, 0.25, 1e-12, 7, 4e-9});
   EXPECT_EQ(content_of(folder / "c.csv"),
             "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,external_work_J,"
             "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J\n"
@@ -62,7 +67,7 @@ TEST(CurveCsv, a_restart_keeps_the_rows_up_to_its_step) {
   put(folder / "c.csv", content_of(folder / "c.csv") + "4,0.4,1e-");
   CurveFile file(folder / "c.csv", 1);
   EXPECT_THAT(read_curve(folder / "c.csv"), ElementsAre(awkward_row(0), awkward_row(1)));
-  file.append(awkward_row(2));
+  append(file, awkward_row(2));
   EXPECT_THAT(read_curve(folder / "c.csv"), ElementsAre(awkward_row(0), awkward_row(1), awkward_row(2)));
   EXPECT_EQ(read_curve(folder / "c.csv"), file.rows());
 }
@@ -72,7 +77,7 @@ TEST(CurveCsv, a_restarted_file_equals_an_unbroken_one) {
   fill(folder / "unbroken.csv", 6);
   fill(folder / "broken.csv", 5);
   CurveFile file(folder / "broken.csv", 2);
-  for (Index step = 3; step < 6; ++step) file.append(awkward_row(step));
+  for (Index step = 3; step < 6; ++step) append(file, awkward_row(step));
   EXPECT_EQ(content_of(folder / "broken.csv"), content_of(folder / "unbroken.csv"));
 }
 
