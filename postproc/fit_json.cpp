@@ -1,11 +1,7 @@
 #include "postproc/fit_json.h"
 
-#include "physics/error.h"
 #include "postproc/atomic_file.h"
 #include "postproc/json.h"
-#include "postproc/text_file.h"
-
-#include <fmt/format.h>
 
 #include <fmt/format.h>
 
@@ -120,9 +116,8 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
 }
 
 FitReport read_fit_json(const std::filesystem::path& path) {
-  FitReport report;
-  try {
-    const Json json = Json::parse(read_file(path));
+  return read_json(path, "fit", [](const Json& json) {
+    FitReport report;
     report.case_name = json.at("case");
     report.case_hash = json.at("case_hash");
     report.version = json.at("version");
@@ -132,10 +127,8 @@ FitReport read_fit_json(const std::filesystem::path& path) {
     report.result.message = json.at("message");
     read_estimates(json.at("parameters"), report);
     for (const Json& e : json.at("experiments")) read_experiment(e, report);
-  } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: this is no fit: {}", path.string(), error.what()));
-  }
-  return report;
+    return report;
+  });
 }
 
 }  // namespace pfdm

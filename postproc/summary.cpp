@@ -1,9 +1,7 @@
 #include "postproc/summary.h"
 
-#include "physics/error.h"
 #include "postproc/atomic_file.h"
 #include "postproc/json.h"
-#include "postproc/text_file.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -132,22 +130,24 @@ void write_summary(const std::filesystem::path& path, const RunSummary& summary)
   write_file(path, to_json(summary).dump(2) + "\n");
 }
 
+double ReadSummary::number(std::string_view name) const {
+  const auto found = std::ranges::find(numbers, name, &std::pair<std::string, double>::first);
+  return found != numbers.end() ? found->second : Headlines::none;
+}
+
 std::optional<ReadSummary> read_summary(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) return std::nullopt;
-  const Json json = Json::parse(read_file(path), nullptr, false);
-  if (!json.is_object() || !json.contains("status") || !json["status"].is_string())
-    throw InputError(fmt::format("{} is no summary of a run", path.string()));
-  ReadSummary summary{.status = json["status"].get<std::string>(), .numbers = {}};
-  for (const auto& [name, value] : json.items())
-    if (value.is_number() || value.is_null())
-      summary.numbers.emplace_back(name, value.is_null() ? Headlines::none : value.get<double>());
-  return summary;
+  return read_json(path, "summary of a run", [](const Json& json) {
+    ReadSummary summary{.status = json.at("status").get<std::string>(), .numbers = {}};
+    for (const auto& [name, value] : json.items())
+      if (value.is_number() || value.is_null()) summary.numbers.emplace_back(name, number_of(value));
+    return summary;
+  });
 }
 
 RunSummary read_run_summary(const std::filesystem::path& path) {
-  RunSummary s;
-  try {
-    const Json json = Json::parse(read_file(path));
+  return read_json(path, "summary of a run", [](const Json& json) {
+    RunSummary s;
     s.case_name = json.at("case");
     s.status = json.at("status");
     s.version = json.at("version");
@@ -166,10 +166,8 @@ RunSummary read_run_summary(const std::filesystem::path& path) {
     const Json known = to_json(s);
     for (const auto& [name, value] : json.items())
       if (!known.contains(name) && (value.is_number() || value.is_null())) s.other_figures[name] = number_of(value);
-  } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: this is no summary of a run: {}", path.string(), error.what()));
-  }
-  return s;
+    return s;
+  });
 }
 
 double peak_memory() { return 1024.0 * static_cast<double>(usage().ru_maxrss); }  // Linux counts in KiB

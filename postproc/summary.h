@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,7 @@ inline constexpr const char* summary_file = "summary.json";
 struct ReadSummary {
   std::string status;
   std::vector<std::pair<std::string, double>> numbers;  ///< in their order, by name; NaN where it has null
+  double number(std::string_view name) const;           ///< NaN if it has none of this name
 };
 
 /// Nothing if there is no such file. Throws InputError for a file that is no summary.

@@ -1,10 +1,8 @@
 #include "postproc/vibration_results.h"
 
-#include "physics/error.h"
 #include "postproc/atomic_file.h"
 #include "postproc/json.h"
 #include "postproc/summary.h"
-#include "postproc/text_file.h"
 
 #include <fmt/format.h>
 
@@ -99,9 +97,8 @@ void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& 
 }
 
 VibrationFit read_vibration_fit(const std::filesystem::path& path) {
-  VibrationFit fit;
-  try {
-    const Json json = Json::parse(read_file(path));
+  return read_json(path, "fit", [](const Json& json) {
+    VibrationFit fit;
     fit.case_name = json.at("case");
     fit.version = json.at("version");
     fit.case_hash = json.at("case_hash");
@@ -122,10 +119,8 @@ VibrationFit read_vibration_fit(const std::filesystem::path& path) {
       fit.modulus.push_back({number_of(row.at("frequency_Hz")), number_of(row.at("storage_modulus_Pa")),
                              number_of(row.at("loss_modulus_Pa"))});
     if (json.contains("ogden") && !json.at("ogden").is_null()) fit.ogden = ogden_in(json.at("ogden"));
-  } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: this is no fit: {}", path.string(), error.what()));
-  }
-  return fit;
+    return fit;
+  });
 }
 
 }  // namespace pfdm

@@ -27,9 +27,7 @@ constexpr std::string_view without_influence[] = {"cohesive", "experiment", "fit
 std::optional<DoneRun> done_run_in(const fs::path& folder, std::optional<double> until) {
   const auto summary = read_summary(folder / summary_file);
   if (summary && summary->status == "complete") return DoneRun{folder, {}};
-  if (summary && until)
-    for (const auto& [name, value] : summary->numbers)
-      if (name == "final_displacement_m" && value >= *until) return DoneRun{folder, {}};
+  if (summary && until && summary->number("final_displacement_m") >= *until) return DoneRun{folder, {}};
   if (!fs::exists(folder / failure_file)) return std::nullopt;
   return DoneRun{folder, std::string(trimmed(read_file(folder / failure_file)))};
 }

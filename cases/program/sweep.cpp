@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace pfdm {
 namespace {
@@ -39,13 +38,6 @@ std::vector<std::optional<ReadSummary>> summaries_of(const std::vector<DoneRun>&
   return summaries;
 }
 
-double figure(const std::optional<ReadSummary>& summary, const std::string& name) {
-  if (summary)
-    for (const auto& [other, value] : summary->numbers)
-      if (other == name) return value;
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& runs, const fs::path& results) {
   CsvTable table;
   const auto summaries = summaries_of(runs);
@@ -69,7 +61,7 @@ CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& run
   for (const auto& [name, ignored] : (*first)->numbers) {
     if (std::ranges::count(costs, name) > 0) continue;
     std::vector<double> values;
-    for (const auto& summary : summaries) values.push_back(figure(summary, name));
+    for (const auto& summary : summaries) values.push_back(summary ? summary->number(name) : Headlines::none);
     table.add(name, std::move(values));
   }
   return table;
