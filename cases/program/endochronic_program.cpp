@@ -72,7 +72,7 @@ void check(const EndochronicProgram& program, Session& session) {
 
 void remove_earlier_run(const std::filesystem::path& results) {
   std::error_code ignored;
-  for (const char* file : {"history.csv", "summary.json"}) std::filesystem::remove(results / file, ignored);
+  for (const char* file : {"history.csv", summary_file}) std::filesystem::remove(results / file, ignored);
   remove_report(results);
 }
 
@@ -89,7 +89,7 @@ void write_results(const EndochronicProgram& program, const HistoryResult& histo
   summary.cpu_seconds = cpu_seconds();
   summary.peak_memory = peak_memory();
   summary.other_figures = history_figures(program.point.law, history);
-  write_summary(session.results / "summary.json", summary);
+  write_summary(session.results / summary_file, summary);
 }
 
 void run_case(const EndochronicProgram& program, Session& session) {

@@ -26,19 +26,9 @@ struct StoredRun {
 };
 
 std::optional<StoredRun> find_run(const fs::path& results, const std::string& hash) {
-  const fs::path file = results / "summary.json";
-  if (!fs::exists(file)) return std::nullopt;
-  StoredRun run{.summary = read_run_summary(file), .history = read_csv(results / "history.csv")};
-  require_case(file, run.summary.case_hash, hash);
-  return run;
-}
-
-std::optional<FitReport> find_fit(const fs::path& results, const std::string& hash) {
-  const fs::path file = results / "fit.json";
-  if (!fs::exists(file)) return std::nullopt;
-  FitReport fit = read_fit_json(file);
-  require_case(file, fit.case_hash, hash);
-  return fit;
+  const auto summary = find_of_case(results / summary_file, hash, read_run_summary);
+  if (!summary) return std::nullopt;
+  return StoredRun{.summary = *summary, .history = read_csv(results / "history.csv")};
 }
 
 double largest(const std::vector<double>& values) {
@@ -169,11 +159,7 @@ Chart stress_chart(const std::string& caption, const CsvTable& history,
               .x = {.title = "time [s]"},
               .y = {.title = fmt::format("stress [{}]", unit.name)},
               .series = {}};
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    chart.series.push_back({.label = std::string(components[i]),
-                            .x = history.column("time_s"),
-                            .y = in_unit(columns[i], unit),
-                            .colour = static_cast<int>(i)});
+  add_series(chart, history.column("time_s"), columns, components, unit);
   return chart;
 }
 
@@ -186,12 +172,8 @@ Chart energy_chart(const CsvTable& history) {
               .x = {.title = "time [s]"},
               .y = {.title = fmt::format("energy [{}/m³]", unit.name)},
               .series = {}};
-  const char* names[] = {"work", "free energy", "dissipation"};
-  for (std::size_t i = 0; i < energies.size(); ++i)
-    chart.series.push_back({.label = names[i],
-                            .x = history.column("time_s"),
-                            .y = in_unit(energies[i], unit),
-                            .colour = static_cast<int>(i)});
+  constexpr std::string_view names[] = {"work", "free energy", "dissipation"};
+  add_series(chart, history.column("time_s"), energies, names, unit);
   return chart;
 }
 
@@ -291,7 +273,7 @@ std::vector<PageRow> fit_rows(const FitReport& fit, const fs::path& results) {
 ReportPage endochronic_page(const EndochronicCase& point, const std::string& name, const std::string& hash,
                             const fs::path& results) {
   const std::optional<StoredRun> run = find_run(results, hash);
-  const std::optional<FitReport> fit = find_fit(results, hash);
+  const auto fit = find_of_case(results / "fit.json", hash, read_fit_json);
   if (!run && !fit) throw InputError(fmt::format("{}: there are no results; pfdm run makes them", results.string()));
   ReportPage page{
       .title = fmt::format("{}: {}", name, point.title),

@@ -146,10 +146,8 @@ Chart energy_chart(const FractureStory& story) {
               .x = {.title = "load parameter t [-]"},
               .y = {.title = fmt::format("energy [{}]", unit.name)},
               .series = {}};
-  const char* names[] = {"work", "elastic", "surface"};
-  for (int i = 0; i < 3; ++i)
-    chart.series.push_back(
-        {.label = names[i], .x = load, .y = in_unit(energies[static_cast<std::size_t>(i)], unit), .colour = i});
+  constexpr std::string_view names[] = {"work", "elastic", "surface"};
+  add_series(chart, load, energies, names, unit);
   return chart;
 }
 

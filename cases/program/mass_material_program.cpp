@@ -7,6 +7,7 @@
 #include "cases/program/stopwatch.h"
 #include "postproc/folder_lock.h"
 #include "postproc/signal_table.h"
+#include "postproc/summary.h"
 #include "postproc/vibration_results.h"
 #include "solver/mass_material_simulation.h"
 #include "solver/signals_filter.h"
@@ -174,7 +175,7 @@ NamedFigures figures_of(const SimulatedTest& t) {
 
 void remove_earlier_results(const MassMaterialCase& c, const fs::path& results) {
   std::error_code ignored;
-  fs::remove(results / "summary.json", ignored);
+  fs::remove(results / summary_file, ignored);
   remove_report(results);
   for (const VibrationTest& test : c.tests)
     for (const char* ending : {".csv", "_harmonics.csv", "_spectra.csv"})
@@ -227,7 +228,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
                      {"static_stiffness_N_per_m", static_stiffness(c.model)},
                      {"static_settling_point_m", z0 ? *z0 : std::nan("")}};
   summary.wall_seconds = watch.seconds();
-  write_vibration_summary(session.results / "summary.json", summary);
+  write_vibration_summary(session.results / summary_file, summary);
   session.log.say(
       fmt::format("complete after {:.1f} s; results in {}", summary.wall_seconds, session.results.string()));
 }

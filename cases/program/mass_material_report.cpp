@@ -39,14 +39,6 @@ struct VibrationStory {
 
 double rms(const VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
 
-std::optional<VibrationFit> find_fit(const fs::path& results, const std::string& hash) {
-  const fs::path file = results / "fit.json";
-  if (!fs::exists(file)) return std::nullopt;
-  VibrationFit fit = read_vibration_fit(file);
-  require_case(file, fit.case_hash, hash);
-  return fit;
-}
-
 std::optional<Model> model_of(const MassMaterialCase& c, bool fitted, const fs::path& results) {
   if (fitted) {
     const CaseFile found = open_case(results / "case.fitted.toml");
@@ -57,7 +49,9 @@ std::optional<Model> model_of(const MassMaterialCase& c, bool fitted, const fs::
 }
 
 VibrationStory story_of(const MassMaterialProgram& program, Session& session) {
-  VibrationStory story{.program = program, .records = {}, .fit = find_fit(session.results, program.hash)};
+  VibrationStory story{.program = program,
+                       .records = {},
+                       .fit = find_of_case(session.results / "fit.json", program.hash, read_vibration_fit)};
   for (const VibrationTest& test : program.parsed.tests)
     story.records.push_back(record_of(test, session.results, session.log));
   const auto level = [](const VibrationRecord& r) { return rms(r.base); };

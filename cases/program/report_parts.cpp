@@ -25,6 +25,13 @@ DisplayUnit common_unit(std::span<const std::vector<double>> columns, std::strin
   return display_unit(largest, si_unit);
 }
 
+void add_series(Chart& chart, const std::vector<double>& x, std::span<const std::vector<double>> columns,
+                std::span<const std::string_view> names, const DisplayUnit& unit) {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    chart.series.push_back(
+        {.label = std::string(names[i]), .x = x, .y = in_unit(columns[i], unit), .colour = static_cast<int>(i)});
+}
+
 std::vector<PageRow> in_pairs(std::vector<PageBlock> blocks) {
   std::vector<PageRow> rows;
   for (PageBlock& block : blocks) {

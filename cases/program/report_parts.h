@@ -6,6 +6,7 @@
 #include "postproc/report_page.h"
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,10 @@ std::vector<double> in_unit(std::span<const double> values, const DisplayUnit& u
 /// The unit that suits the largest of all the values.
 DisplayUnit common_unit(std::span<const std::vector<double>> columns, std::string_view si_unit);
 
+/// Adds a series for each column over x, in the unit, in the colours in their order.
+void add_series(Chart& chart, const std::vector<double>& x, std::span<const std::vector<double>> columns,
+                std::span<const std::string_view> names, const DisplayUnit& unit);
+
 /// Two blocks to a row.
 std::vector<PageRow> in_pairs(std::vector<PageBlock> blocks);
 
@@ -27,6 +32,17 @@ std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t 
 
 /// Throws InputError if a file of the results has another case's hash than is due.
 void require_case(const std::filesystem::path& file, const std::string& found, const std::string& due);
+
+/// What `read` makes of a file of the results, which has a case_hash; nothing if there is no such file. Throws like
+/// require_case().
+template <class Read>
+auto find_of_case(const std::filesystem::path& file, const std::string& hash, const Read& read)
+    -> std::optional<decltype(read(file))> {
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  auto found = read(file);
+  require_case(file, found.case_hash, hash);
+  return found;
+}
 
 /// What write_report() made of an earlier run.
 void remove_report(const std::filesystem::path& results);
