@@ -236,6 +236,8 @@ OutputFields FractureRun::output(const FractureState& state) const {
           .traction = staggered.momentum().balance().tractions(state.displacement)};
 }
 
+const FractureModel& FractureRun::model() const { return parts_->model; }
+
 Index FractureRun::n_unknowns() const { return 3 * parts_->unknowns.n_nodes(); }
 
 std::map<std::string, double> FractureRun::cpu_seconds_by_stage() const { return parts_->staggered.clock().seconds(); }

@@ -41,6 +41,7 @@ class FractureRun {
   FractureState run(FractureState state, const RunHooks& hooks);
 
   OutputFields output(const FractureState& state) const;
+  const FractureModel& model() const;
   Index n_unknowns() const;  ///< of displacement
   std::map<std::string, double> cpu_seconds_by_stage() const;
   Index krylov_iterations() const;

@@ -10,6 +10,8 @@
 namespace pfdm {
 namespace {
 
+bool has_unit(const Dimension& due) { return due.name != dimension::number.name; }
+
 struct ExpressionInUnit {
   Expression expression;
   double factor;  // one unit in SI
@@ -18,7 +20,7 @@ struct ExpressionInUnit {
 ExpressionInUnit read_expression(const ConfigTable& table, const Dimension& due) {
   const ConfigValue text = table.at("expr");
   double factor = 1.0;
-  if (due.name != dimension::number.name || table.has("unit")) {
+  if (has_unit(due) || table.has("unit")) {
     const ConfigValue unit = table.at("unit");
     factor = unit.in_context([&] { return unit_in_si(unit.string(), due); });
   }
@@ -26,7 +28,7 @@ ExpressionInUnit read_expression(const ConfigTable& table, const Dimension& due)
 }
 
 double plain_value(const ConfigValue& value, const Dimension& due, const Range& allowed) {
-  return due.name == dimension::number.name ? value.number(allowed) : value.quantity(due, allowed);
+  return has_unit(due) ? value.quantity(due, allowed) : value.number(allowed);
 }
 
 }  // namespace
@@ -52,9 +54,9 @@ Parameter read_parameter(const ConfigValue& value, const Dimension& due, const R
   const auto at = [value, scaled, due, allowed](const Vector& x) {
     const double here = value.in_context([&] { return scaled.factor * scaled.expression(x, 0.0); });
     if (!allowed.holds(here))
-      throw value.error(fmt::format("{:.6g}{}{} at ({:.6g}, {:.6g}, {:.6g}) m must be {}", here,
-                                    due.si_unit == "1" ? "" : " ", due.si_unit == "1" ? "" : due.si_unit, x[0], x[1],
-                                    x[2], allowed.words));
+      throw value.error(fmt::format("{:.6g}{} at ({:.6g}, {:.6g}, {:.6g}) m must be {}", here,
+                                    has_unit(due) ? fmt::format(" {}", due.si_unit) : "", x[0], x[1], x[2],
+                                    allowed.words));
     return here;
   };
   return {.at = at, .varies = true, .text = fmt::format("{} * {}", scaled.factor, table.string("expr"))};

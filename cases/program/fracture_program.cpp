@@ -235,7 +235,7 @@ void run_case(FractureProgram program, Session& session) {
   }
   if (!session.figures_only) write_mesh(session.results, mesh);
   session.log.open_file(session.results / "run.log", last.has_value());
-  FractureResults results(session.results, mesh, program.fracture, columns, program.hash, last);
+  FractureResults results(session.results, mesh, run.model(), program.fracture, columns, program.hash, last);
   if (session.restart)
     session.log.say(last ? fmt::format("goes on after step {}, load {:.6g}", last->step, last->load)
                          : "there is no checkpoint to go on from: starts at the beginning");

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pfdm {
 namespace {
@@ -77,6 +78,19 @@ std::vector<std::string> energy_release_columns(const std::vector<TipRegion>& re
   return names;
 }
 
+std::optional<std::string> doubt_about(const EnergyRelease& release, const std::string& region) {
+  if (std::isnan(release.G))
+    return fmt::format(
+        "energy release rate \"{}\": around ({:.4g}, {:.4g}, {:.4g}) m the ring reaches beyond the body; no value",
+        region, release.tip.x(), release.tip.y(), release.tip.z());
+  if (release.damaged_share > bearable_damaged_share)
+    return fmt::format(
+        "energy release rate \"{}\": {:.0f} % of it comes from damaged cells (d > 0.1); it is that of the far field "
+        "only where the ring between inner and outer lies in sound material",
+        region, 100.0 * release.damaged_share);
+  return std::nullopt;
+}
+
 bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
 }  // namespace
@@ -138,13 +152,13 @@ std::vector<StoredStep> stored_steps(const fs::path& results) {
   return steps;
 }
 
-FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureCase& fracture,
-                                 const std::vector<ColumnSet>& columns, std::string case_hash,
-                                 const std::optional<FractureState>& last)
+FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureModel& model,
+                                 const FractureCase& fracture, const std::vector<ColumnSet>& columns,
+                                 std::string case_hash, const std::optional<FractureState>& last)
     : directory_(prepared(directory, last.has_value())),
       mesh_(mesh),
       fracture_(fracture),
-      model_(model_on(fracture, mesh)),
+      model_(model),
       case_hash_(std::move(case_hash)),
       curve_patch_(patch_number(mesh, fracture.output.curve.patch)),
       curve_(last ? CurveFile(directory_ / curve_file, last->step) : CurveFile(directory_ / curve_file)),
@@ -199,18 +213,9 @@ void FractureResults::add_energy_release(const FractureState& state, const Outpu
     const EnergyRelease release = energy_release_rate(mesh_, output, region);
     row.insert(row.end(), {release.tip.x(), release.tip.y(), release.tip.z(), release.G, release.damaged_share});
     if (warned_of_tip_[i]) continue;
-    warned_of_tip_[i] = true;
-    if (std::isnan(release.G))
-      warnings.push_back(fmt::format(
-          "energy release rate \"{}\": around ({:.4g}, {:.4g}, {:.4g}) m the ring reaches beyond the body; no value",
-          region.name, release.tip.x(), release.tip.y(), release.tip.z()));
-    else if (release.damaged_share > bearable_damaged_share)
-      warnings.push_back(fmt::format(
-          "energy release rate \"{}\": {:.0f} % of it comes from damaged cells (d > 0.1); it is that of the far field "
-          "only where the ring between inner and outer lies in sound material",
-          region.name, 100.0 * release.damaged_share));
-    else
-      warned_of_tip_[i] = false;
+    const std::optional<std::string> doubt = doubt_about(release, region.name);
+    if (doubt) warnings.push_back(*doubt);
+    warned_of_tip_[i] = doubt.has_value();
   }
   energy_release_->append(std::move(row));
 }

@@ -52,9 +52,9 @@ std::vector<StoredStep> stored_steps(const std::filesystem::path& results);
 
 class FractureResults {
  public:
-  /// Replaces the files of an earlier run, or goes on after `last`. Keeps references to mesh, case and columns.
-  FractureResults(std::filesystem::path directory, const Mesh& mesh, const FractureCase& fracture,
-                  const std::vector<ColumnSet>& columns, std::string case_hash,
+  /// Replaces the files of an earlier run, or goes on after `last`. Keeps references to mesh, model, case and columns.
+  FractureResults(std::filesystem::path directory, const Mesh& mesh, const FractureModel& model,
+                  const FractureCase& fracture, const std::vector<ColumnSet>& columns, std::string case_hash,
                   const std::optional<FractureState>& last);
 
   using Output = std::function<OutputFields()>;
@@ -82,7 +82,7 @@ class FractureResults {
   std::filesystem::path directory_;
   const Mesh& mesh_;
   const FractureCase& fracture_;
-  FractureModel model_;
+  const FractureModel& model_;
   std::string case_hash_;
   Index curve_patch_;
   CurveFile curve_;

@@ -67,6 +67,17 @@ frames_at = ["0.006 mm"]
 )";
 }
 
+std::string crack_plane() {
+  return R"(
+[cohesive]
+[[cohesive.planes]]
+name = "crack"
+point = ["10 mm", "0.5 mm", "0.5 mm"]
+normal = [1, 0, 0]
+half_width = "30 mm"
+)";
+}
+
 std::string replaced(std::string text, const std::string& old_text, const std::string& new_text) {
   const std::size_t place = text.find(old_text);
   if (place == std::string::npos || text.find(old_text, place + 1) != std::string::npos)

@@ -11,6 +11,9 @@ namespace pfdm {
 /// A small bar in tension of 10 steps, which breaks.
 std::string bar_case();
 
+/// [cohesive] with the plane in which that bar breaks, "crack".
+std::string crack_plane();
+
 /// `text` with its one occurrence of `old_text` replaced; throws if it does not occur exactly once.
 std::string replaced(std::string text, const std::string& old_text, const std::string& new_text);
 

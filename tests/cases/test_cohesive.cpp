@@ -14,16 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* plane = R"(
-[cohesive]
-[[cohesive.planes]]
-name = "crack"
-point = ["10 mm", "0.5 mm", "0.5 mm"]
-normal = [1, 0, 0]
-half_width = "30 mm"
-)";
-
-std::string cohesive_case() { return bar_case() + plane; }
+std::string cohesive_case() { return bar_case() + crack_plane(); }
 
 std::string experiment(const std::string& range = "[\"1 um\", \"5 um\"]") {
   return "\n[experiment]\nstiffness_between = " + range + R"(
