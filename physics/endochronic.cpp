@@ -209,12 +209,16 @@ Mandel stress(const EndochronicLaw& law, const EndochronicState& state) {
   return sigma;
 }
 
-double free_energy(const EndochronicLaw& law, const EndochronicState& state) {
-  const double volume = trace(state.strain);
-  double psi = 0.5 * law.elasticity.bulk_modulus() * volume * volume +
-               law.elasticity.mu * (deviator(state.strain) - state.plastic_strain).squaredNorm();
+double kernel_energy(const EndochronicLaw& law, const EndochronicState& state) {
+  double psi = 0.0;
   for (std::size_t r = 0; r < state.s.size(); ++r) psi += state.s[r].squaredNorm() / (4.0 * law.kernel[r].C);
   return psi;
+}
+
+double free_energy(const EndochronicLaw& law, const EndochronicState& state) {
+  const double volume = trace(state.strain);
+  return 0.5 * law.elasticity.bulk_modulus() * volume * volume +
+         law.elasticity.mu * (deviator(state.strain) - state.plastic_strain).squaredNorm() + kernel_energy(law, state);
 }
 
 double invariant_error(const EndochronicLaw& law, const EndochronicState& state) {

@@ -47,7 +47,10 @@ EndochronicState virgin_state(const EndochronicLaw& law);
 /// sigma [Pa]
 Mandel stress(const EndochronicLaw& law, const EndochronicState& state);
 
-/// Energy per volume that can still be had back: of elastic strain, and |s_r|^2 / (4 C_r) of each term [J/m^3].
+/// Energy per volume that the terms of the kernel store, |s_r|^2 / (4 C_r) each [J/m^3].
+double kernel_energy(const EndochronicLaw& law, const EndochronicState& state);
+
+/// Energy per volume that can still be had back: of elastic strain and of the kernel [J/m^3].
 double free_energy(const EndochronicLaw& law, const EndochronicState& state);
 
 /// |sum_r s_r - 2 mu (e - eps_p)|, which is zero but for rounding [Pa].

@@ -116,19 +116,15 @@ constexpr EnergySplit no_tension{
     .kept = kept_by_no_tension,
 };
 
-MandelMatrix stiffness(const IsotropicElasticity& c) {
-  return 3.0 * c.lambda * volumetric_projector() + 2.0 * c.mu * MandelMatrix::Identity();
-}
-
 constexpr EnergySplit table[] = {none, volumetric_deviatoric, spectral, no_tension, rankine};
 
 }  // namespace
 
 MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps) {
-  if (split.secant != nullptr) return stiffness(split.secant(c, g, split.closure(eps)));
-  if (g == 1.0) return stiffness(c);
+  if (split.secant != nullptr) return stiffness_matrix(split.secant(c, g, split.closure(eps)));
+  if (g == 1.0) return stiffness_matrix(c);
   const PrincipalAxes axes = principal_axes(eps);
-  return g * stiffness(c) + (1.0 - g) * tangent(axes, split.kept(c, axes.value));
+  return g * stiffness_matrix(c) + (1.0 - g) * tangent(axes, split.kept(c, axes.value));
 }
 
 Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps) {

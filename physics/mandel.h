@@ -47,4 +47,9 @@ inline MandelMatrix volumetric_projector() {
 
 inline MandelMatrix deviatoric_projector() { return MandelMatrix::Identity() - volumetric_projector(); }
 
+/// C of sigma = C eps [Pa].
+inline MandelMatrix stiffness_matrix(const IsotropicElasticity& c) {
+  return 3.0 * c.lambda * volumetric_projector() + 2.0 * c.mu * MandelMatrix::Identity();
+}
+
 }  // namespace pfdm

@@ -13,13 +13,13 @@
 namespace pfdm {
 namespace {
 
-constexpr std::size_t n_columns = 13;
+constexpr std::size_t n_columns = 14;
 
 // Shortest digits that give the same number back.
 std::string to_line(const CurveRow& r) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, r.load, r.displacement, r.force.x(),
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.step, r.load, r.displacement, r.force.x(),
                      r.force.y(), r.force.z(), r.elastic_energy, r.fracture_energy, r.external_work, r.max_damage,
-                     r.damaged_volume, r.staggered_iterations, r.viscous_dissipation);
+                     r.damaged_volume, r.staggered_iterations, r.viscous_dissipation, r.plastic_dissipation);
 }
 
 std::optional<std::array<std::string_view, n_columns>> split(std::string_view line) {
@@ -37,7 +37,7 @@ std::optional<CurveRow> parse_row(std::string_view line) {
   const auto columns = split(line);
   if (!columns) return std::nullopt;
   const auto step = parse_int(columns->front());
-  const auto iterations = parse_int((*columns)[n_columns - 2]);
+  const auto iterations = parse_int((*columns)[n_columns - 3]);
   std::array<double, n_columns> v{};
   for (std::size_t i = 1; i < n_columns; ++i) {
     const auto number = parse_double((*columns)[i]);
@@ -45,7 +45,8 @@ std::optional<CurveRow> parse_row(std::string_view line) {
     v[i] = *number;
   }
   if (!step || !iterations) return std::nullopt;
-  return CurveRow{*step, v[1], v[2], Vector(v[3], v[4], v[5]), v[6], v[7], v[8], v[9], v[10], *iterations, v[12]};
+  return CurveRow{*step,       v[1],  v[2], Vector(v[3], v[4], v[5]), v[6], v[7], v[8], v[9], v[10],
+                  *iterations, v[12], v[13]};
 }
 
 }  // namespace
@@ -63,6 +64,7 @@ CurveRow curve_row(const StepReport& report, Index patch, int component) {
   row.damaged_volume = report.damaged_volume;
   row.staggered_iterations = report.staggered_iterations;
   row.viscous_dissipation = report.viscous_dissipation;
+  row.plastic_dissipation = report.plastic_dissipation;
   return row;
 }
 

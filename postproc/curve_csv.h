@@ -22,13 +22,15 @@ struct CurveRow {
   double damaged_volume = 0.0;    ///< [m^3]
   Index staggered_iterations = 0;
   double viscous_dissipation = 0.0;  ///< [J]
+  double plastic_dissipation = 0.0;  ///< [J]
   friend bool operator==(const CurveRow&, const CurveRow&) = default;
 };
 
 inline constexpr const char* curve_file = "force_displacement.csv";
 constexpr std::string_view curve_header =
     "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,external_work_J,"
-    "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J";
+    "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J,"
+    "plastic_dissipation_J";
 
 /// Component 0, 1, 2 (x, y, z) of the displacement of the patch with this number in Mesh::patches.
 CurveRow curve_row(const StepReport& report, Index patch, int component);

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 // Of the work that was done since the start, where there may be damage already.
 double left_over(const CurveRow& start, const CurveRow& row) {
   return row.external_work - row.elastic_energy - (row.fracture_energy - start.fracture_energy) -
-         row.viscous_dissipation;
+         row.viscous_dissipation - row.plastic_dissipation;
 }
 
 double balance_error(const CurveRow& start, const CurveRow& row) {
@@ -60,6 +60,7 @@ Json to_json(const Headlines& f) {
           {"final_fracture_energy_J", f.final_fracture_energy},
           {"external_work_J", f.external_work},
           {"viscous_dissipation_J", f.viscous_dissipation},
+          {"plastic_dissipation_J", f.plastic_dissipation},
           {"energy_balance_error", f.energy_balance_error},
           {"max_energy_balance_error", f.max_energy_balance_error},
           {"released_energy_J", f.released_energy},
@@ -118,6 +119,7 @@ Headlines headlines(std::span<const CurveRow> rows, int component) {
   figures.final_fracture_energy = last.fracture_energy;
   figures.external_work = last.external_work;
   figures.viscous_dissipation = last.viscous_dissipation;
+  figures.plastic_dissipation = last.plastic_dissipation;
   figures.max_damage = last.max_damage;
   figures.damaged_volume = last.damaged_volume;
   figures.energy_balance_error = balance_error(rows.front(), last);

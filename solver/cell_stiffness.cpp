@@ -13,9 +13,11 @@ constexpr float least_share = 1.0F / 256.0F, recovery = 1.05F;
 
 }  // namespace
 
-CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {}
+CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model)
+    : mesh_(mesh), model_(model), endochronic_(mesh, model) {}
 
-void CellStiffness::start_step() {
+void CellStiffness::start_step(double duration) {
+  endochronic_.start_step(duration);
   const auto n = as_size(mesh_.n_cells());
   if (model_.split->secant != nullptr) {
     closing_ = CellField<float>(n, 0.0F);
@@ -45,6 +47,7 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
     parallel_for(mesh_.n_cells(),
                  [&](Index c) { moduli[c] = model_.split->secant(elasticity(c), g[c], state.closure[c]); });
     momentum.set_moduli(moduli, g);
+    if (endochronic_.any()) momentum.set_stress(linearised(state, g, moduli));
   } else {
     CellField<MandelMatrix> stiffness(n);
     parallel_for(mesh_.n_cells(), [&](Index c) {
@@ -52,6 +55,49 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
     });
     momentum.set_stiffness(std::move(stiffness), g);
   }
+}
+
+// What the split keeps beyond g times the stiffness is elastic.
+CellField<LinearStress> CellStiffness::linearised(const FractureState& state, const CellField<double>& g,
+                                                  const CellField<IsotropicElasticity>& moduli) const {
+  CellField<LinearStress> stress(as_size(mesh_.n_cells()));
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    stress[c].C = stiffness_matrix(moduli[c]);
+    if (!endochronic_.has(c)) return;
+    const LinearStress effective = endochronic_.linearised(c, state.endochronic[c]);
+    stress[c].C += g[c] * (effective.C - stiffness_matrix(elasticity(c)));
+    stress[c].initial = g[c] * effective.initial;
+  });
+  return stress;
+}
+
+double CellStiffness::integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) {
+  if (!endochronic_.any()) return 0.0;
+  return parallel_sum(mesh_.n_cells(), [&](Index c) {
+    if (!endochronic_.has(c)) return 0.0;
+    const double wrong =
+        endochronic_.advance(c, mechanics.reconstructed_strain[c], start.endochronic[c], state.endochronic[c]);
+    return factor(c, state.damage[c]) * wrong * mesh_.cell_volume[c];
+  });
+}
+
+double CellStiffness::driving_energy(Index cell, const Tensor& strain, const FractureState& state) const {
+  if (endochronic_.has(cell)) return endochronic_.driving_energy(cell, state.endochronic[cell]);
+  return model_.split->energy(elasticity(cell), strain).psi_plus;
+}
+
+double CellStiffness::stored_energy(Index cell, double elastic, const FractureState& state) const {
+  if (!endochronic_.has(cell)) return elastic;
+  const double g = factor(cell, state.damage[cell]);
+  return mesh_.cell_volume[cell] * endochronic_.stored_energy(cell, state.endochronic[cell], g);
+}
+
+double CellStiffness::plastic_dissipation(const FractureState& from, const FractureState& to) const {
+  if (!endochronic_.any()) return 0.0;
+  return parallel_sum(mesh_.n_cells(), [&](Index c) {
+    const double g = 0.5 * (factor(c, from.damage[c]) + factor(c, to.damage[c]));
+    return g * mesh_.cell_volume[c] * (to.endochronic[c].dissipation - from.endochronic[c].dissipation);
+  });
 }
 
 double CellStiffness::follow(const CellField<Tensor>& strain, FractureState& state) {

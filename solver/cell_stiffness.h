@@ -1,8 +1,10 @@
 #pragma once
 // The stiffness of damaged cells, which depends on the strain where the energy split keeps compression. Within the
 // momentum solve it is linear, taken at the last strain: secant moduli where the split has isotropic ones, else its
-// tangent, which is the secant as well (energies of second degree), so that the solves are Newton's steps.
+// tangent, which is the secant as well (energies of second degree), so that the solves are Newton's steps. Cells with a
+// history (endochronic) are linearised about it, with a stress of their own.
 
+#include "solver/endochronic_cells.h"
 #include "solver/fracture_model.h"
 #include "solver/momentum_solver.h"
 #include "solver/state.h"
@@ -13,22 +15,37 @@ class CellStiffness {
  public:
   CellStiffness(const Mesh& mesh, const FractureModel& model);
 
-  /// At the beginning of a load step: forgets in what manner the strains moved in the one before.
-  void start_step();
+  /// At the beginning of a load step, which takes `duration` [s]: forgets in what manner the strains moved in the one
+  /// before.
+  void start_step(double duration);
   /// Gives the momentum balance the stiffness that belongs to the damage, closure and tangent strain of the state.
   void set(const FractureState& state, MomentumSolver& momentum) const;
   /// Has the closure or the tangent strain of the state follow these strains. Returns the energy [J] by which the
   /// stiffness that was used falsifies them.
   double follow(const CellField<Tensor>& strain, FractureState& state);
+  /// Takes the cells with a history from `start` to these strains. Returns the energy [J] by which the stress that was
+  /// used falsifies them; NaN where a material's step cannot be solved.
+  double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state);
+
+  /// psi_plus [J/m^3] of a cell at this strain; with a history, at that of the state.
+  double driving_energy(Index cell, const Tensor& strain, const FractureState& state) const;
+  /// What a cell stores [J]: `elastic`, unless it has a history.
+  double stored_energy(Index cell, double elastic, const FractureState& state) const;
+  /// Heat [J] from one state to the other.
+  double plastic_dissipation(const FractureState& from, const FractureState& to) const;
+  const EndochronicCells& endochronic() const { return endochronic_; }
 
  private:
   double factor(Index cell, double d) const;  // g, the residual stiffness included
+  CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
+                                     const CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
   double follow_with_closure(Index cell, const Tensor& strain, double d, double& closure);
   double follow_with_tangent(Index cell, const Tensor& strain, double d, Tensor& tangent_strain);
 
   const Mesh& mesh_;
   const FractureModel& model_;
+  EndochronicCells endochronic_;
   CellField<float> closing_;  // per cell: last move of the closure, and
   CellField<Index> turns_;    // how often it has turned within the step
   CellField<Tensor> move_;    // last move of the tangent strain, and

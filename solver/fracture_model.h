@@ -4,10 +4,12 @@
 #include "mesh/mesh.h"
 #include "physics/crack_geometry.h"
 #include "physics/degradation.h"
+#include "physics/endochronic.h"
 #include "physics/energy_split.h"
 #include "solver/boundary_condition.h"
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace pfdm {
@@ -18,6 +20,8 @@ struct RegionModel {
   double ell = 0.0;                 ///< regularisation length [m]
   bool damageable = true;           ///< false pins d = 0 in the region
   RationalCoefficients rational{};  ///< for the degradations that need a strength
+  /// Of the undamaged material, with the same elasticity; null: linear elastic.
+  std::shared_ptr<const EndochronicLaw> endochronic{};
 };
 
 enum class Irreversibility {
@@ -63,7 +67,8 @@ struct LoadingSettings {
   /// Surface energy that a step may dissipate [J], in proportion less while the increment is below its maximum: a load
   /// that would dissipate more is lowered, also below that of the step before, so that snap-back is followed.
   double maximum_dissipation = std::numeric_limits<double>::infinity();
-  double duration = 0.0;      ///< time in which the load parameter grows by 1 [s]; needed by a viscosity
+  /// Time in which the load parameter grows by 1 [s]; needed by a viscosity and by materials that look at the rate.
+  double duration = 0.0;
   std::vector<double> stops;  ///< values of t that a step must end on (frames)
 };
 

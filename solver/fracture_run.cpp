@@ -34,6 +34,16 @@ void require_complete(const Mesh& mesh, const FractureModel& model) {
   }
 }
 
+void add_plasticity(const FractureState& state, OutputFields& fields) {
+  const auto n = as_size(state.endochronic.size());
+  fields.plastic_strain = CellField<Tensor>(n);
+  fields.plastic_path_length = CellField<double>(n);
+  for (Index c = 0; c < state.endochronic.size(); ++c) {
+    fields.plastic_strain[c] = to_tensor(state.endochronic[c].plastic_strain);
+    fields.plastic_path_length[c] = state.endochronic[c].zeta;
+  }
+}
+
 }  // namespace
 
 struct FractureRun::Parts {
@@ -60,6 +70,8 @@ struct FractureRun::Parts {
   void require_path(const FractureModel& m) const {
     if (m.viscosity > 0.0 && !(loading.duration > 0.0))
       throw InputError("a viscosity needs the time that the load takes (loading.duration)");
+    for (const RegionModel& region : m.regions)
+      if (region.endochronic) require_history(m, *region.endochronic);
     if (!std::isfinite(loading.maximum_dissipation)) return;
     if (m.viscosity > 0.0)
       throw InputError("a dissipation can be prescribed only without viscosity: a load that falls back takes no time");
@@ -79,6 +91,24 @@ struct FractureRun::Parts {
       }
     }
   }
+
+  void require_history(const FractureModel& m, const EndochronicLaw& law) const {
+    if (m.split->secant == nullptr)
+      throw InputError(fmt::format(
+          "the energy split \"{}\" cannot be combined with endochronic materials: it has no isotropic secant moduli",
+          m.split->name));
+    if (law.hardening.depends_on_rate() && !(loading.duration > 0.0))
+      throw InputError(
+          "an endochronic material with a rate factor needs the time that the load takes "
+          "(loading.duration)");
+    if (std::isfinite(loading.maximum_dissipation))
+      throw InputError(
+          "a dissipation can be prescribed only without endochronic materials, whose displacements are not "
+          "proportional to the load");
+  }
+
+  // At given damage and with boundary values that are, displacements are proportional to the load.
+  bool is_proportional() const { return !staggered.stiffness().endochronic().any(); }
 
   double dissipation_of(double increment) const {
     return loading.maximum_dissipation * std::min(1.0, increment / loading.maximum_increment);
@@ -137,6 +167,7 @@ struct FractureRun::Parts {
         state.step == 0 ? equation.renewed_fracture_energy(state.damage) : equation.fracture_energy(state.damage);
     r.external_work = state.external_work;
     r.viscous_dissipation = state.viscous_dissipation;
+    r.plastic_dissipation = state.plastic_dissipation;
     r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return state.damage[c]; });
     r.damaged_volume =
         parallel_sum(mesh.n_cells(), [&](Index c) { return state.damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
@@ -168,6 +199,7 @@ FractureState FractureRun::initial_state() const {
   state.damage = parts_->model.initial_damage.size() > 0 ? parts_->model.initial_damage : CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
+  state.endochronic = parts_->staggered.stiffness().endochronic().virgin_states();
   if (parts_->model.split->secant == nullptr) state.tangent_strain = CellField<Tensor>(n);
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
   return state;
@@ -182,7 +214,7 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
     trial.step = state.step + 1;
     trial.load = state.load + state.increment > stop - load_rounding ? stop : state.load + state.increment;
     double increment = trial.load - state.load;
-    if (state.load > 0.0)
+    if (state.load > 0.0 && parts.is_proportional())
       for (Vector& u : trial.displacement) u *= trial.load / state.load;
     const StepOutcome outcome = parts.staggered.solve_step(state, trial, hooks,
                                                            {.growth = parts.allowed_growth(increment),
@@ -210,6 +242,7 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
     trial.boundary_force = parts.boundary_forces(trial);
     trial.external_work = state.external_work + parts.work_increment(state, trial);
     trial.viscous_dissipation = state.viscous_dissipation + outcome.viscous_dissipation;
+    trial.plastic_dissipation = state.plastic_dissipation + outcome.plastic_dissipation;
     trial.increment = parts.next_increment(state.increment, outcome);
     state = std::move(trial);
     if (hooks.step_done) hooks.step_done(state, parts.report(state, outcome, increment));
@@ -223,17 +256,20 @@ OutputFields FractureRun::output(const FractureState& state) const {
   const CellMechanics mechanics = staggered.momentum().balance().mechanics(state.displacement);
   const Mesh& mesh = parts_->mesh;
   CellField<double> density(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) density[c] = mechanics.energy[c] / mesh.cell_volume[c];
-  return {.displacement = CellField<Vector>(
-              std::vector<Vector>(state.displacement.begin(), state.displacement.begin() + mesh.n_cells())),
-          .damage = state.damage,
-          .stress = mechanics.stress,
-          .strain = mechanics.strain,
-          .gradient = mechanics.gradient,
-          .energy_density = density,
-          .driving_energy = state.driving_energy,
-          .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),
-          .traction = staggered.momentum().balance().tractions(state.displacement)};
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    density[c] = staggered.stiffness().stored_energy(c, mechanics.energy[c], state) / mesh.cell_volume[c];
+  OutputFields fields{.displacement = CellField<Vector>(
+                          std::vector<Vector>(state.displacement.begin(), state.displacement.begin() + mesh.n_cells())),
+                      .damage = state.damage,
+                      .stress = mechanics.stress,
+                      .strain = mechanics.strain,
+                      .gradient = mechanics.gradient,
+                      .energy_density = density,
+                      .driving_energy = state.driving_energy,
+                      .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),
+                      .traction = staggered.momentum().balance().tractions(state.displacement)};
+  add_plasticity(state, fields);
+  return fields;
 }
 
 const FractureModel& FractureRun::model() const { return parts_->model; }

@@ -138,6 +138,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
                                   double part) {
   moduli_ = moduli;
   stiffness_ = {};
+  linear_stress_ = {};
   gradient_.update(g, part);
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     Link& link = links_[as_size(i)];
@@ -177,7 +178,7 @@ void MomentumOperator::set_stiffness(CellField<MandelMatrix> stiffness, const Ce
   });
 }
 
-void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
+void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const {
   parallel_for(mesh_.n_cells(), [&](Index c) { gradients_[c] = gradient_.of(u.data(), c); });
   const auto n_links = static_cast<Index>(links_.size());
   parallel_for(n_links, [&](Index i) {
@@ -194,8 +195,34 @@ void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
   });
 }
 
+void MomentumOperator::add_initial_forces() const {
+  if (!has_linear_stress()) return;
+  const auto traction = [&](Index cell, const Vector& n) -> Vector {
+    return to_tensor(linear_stress_[cell].initial) * n;
+  };
+  const auto n_links = static_cast<Index>(links_.size());
+  parallel_for(n_links, [&](Index i) {
+    const Link& link = links_[as_size(i)];
+    const Vector on_P = traction(link.P, link.n), on_N = traction(link.N, link.n);
+    forces_[as_size(i)] += link.area * (on_N + weigh(as_size(i), on_P - on_N));
+  });
+  parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
+    const Side& side = sides_[as_size(i)];
+    forces_[as_size(n_links + i)] += side.area * traction(side.cell, side.n);
+  });
+}
+
+void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
+  compute_linear_forces(u);
+  add_initial_forces();
+}
+
 void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& out) const {
-  compute_forces(u);
+  compute_linear_forces(u);
+  sum_forces(out);
+}
+
+void MomentumOperator::sum_forces(std::vector<Vector>& out) const {
   parallel_for(mesh_.n_cells(), [&](Index c) {
     Vector sum = Vector::Zero();
     for (std::size_t k = cell_offsets_[as_size(c)]; k < cell_offsets_[as_size(c) + 1]; ++k)
@@ -231,6 +258,7 @@ std::vector<Vector> MomentumOperator::load_vector(double t) const {
     }
   }
   keep_in_plane(load);
+  if (has_linear_stress()) take_away_initial_forces(load);
   return load;
 }
 
@@ -247,6 +275,14 @@ void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
     }
   }
   keep_in_plane(u);
+}
+
+void MomentumOperator::take_away_initial_forces(std::vector<Vector>& load) const {
+  std::vector<Vector> initial(load.size());
+  std::fill(forces_.begin(), forces_.end(), Vector::Zero());
+  add_initial_forces();
+  sum_forces(initial);
+  for (std::size_t i = 0; i < load.size(); ++i) load[i] -= initial[i];
 }
 
 Tensor MomentumOperator::compact_link(const Link& link) const {

@@ -11,6 +11,10 @@
 //
 // Cells of any stiffness C do likewise with a = (n.C.n) / h, the acoustic tensor of the face's normal, in full 3x3.
 //
+// A material with a history is linearised within each solve, sigma = C eps + sigma_0, for the stresses alone: a, b and
+// c stay those of its elastic moduli. What the solves converge to thus does not depend on C, which may turn with the
+// direction of the strain increment.
+//
 // A polyhedron has about 14 faces against three unknowns: with a of the full lambda the jumps lock it as nu -> 0.5.
 // There c is that of lambda_s = min(lambda, 1.5 mu) in the undamaged material, of the same share of lambda in a damaged
 // one (lambda >> mu where a crack is closed), blended back to the full one between cells of unlike damage:
@@ -18,7 +22,7 @@
 // sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge. Polyhedra of any
 // stiffness C keep the full a.
 
-#include "physics/mandel.h"
+#include "physics/linear_stress.h"
 #include "solver/block_matrix.h"
 #include "solver/gradient.h"
 #include "solver/unknowns.h"
@@ -33,6 +37,8 @@ struct CellMechanics {
   CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if it was not wanted
   CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]; empty if it was not wanted
   CellField<double> energy;    ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
+  /// By least squares, as it makes the stress that the faces see [-]; empty where none is linearised.
+  CellField<Tensor> reconstructed_strain{};
 };
 
 class MomentumOperator {
@@ -44,10 +50,13 @@ class MomentumOperator {
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0);
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
+  /// After set_moduli(), which takes it away: the stress of every cell in place of that of its moduli.
+  void set_stress(CellField<LinearStress> stress) { linear_stress_ = std::move(stress); }
 
-  /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node.
+  /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node. Initial
+  /// stresses have no part in it.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
-  /// Forces from prescribed tractions at the load parameter t, [N].
+  /// Forces from prescribed tractions at the load parameter t and from initial stresses, [N].
   std::vector<Vector> load_vector(double t) const;
   /// Writes the prescribed components of the boundary nodes at the load parameter t.
   void prescribe(double t, std::vector<Vector>& u) const;
@@ -101,11 +110,18 @@ class MomentumOperator {
     return across * v + ((along - across) * n.dot(v)) * n;
   }
 
+  // Of the displacements, those of the initial stresses, and both, into forces_.
+  void compute_linear_forces(const std::vector<Vector>& u) const;
+  void add_initial_forces() const;
   void compute_forces(const std::vector<Vector>& u) const;
+  void sum_forces(std::vector<Vector>& out) const;
+  void take_away_initial_forces(std::vector<Vector>& load) const;
+  bool has_linear_stress() const { return linear_stress_.size() > 0; }
   bool is_isotropic() const { return stiffness_.size() == 0; }
   Vector normal_stress(Index cell, const Vector& n) const {
     const Tensor& G = gradients_[cell];
     if (!is_isotropic()) return to_tensor(stiffness_[cell] * to_mandel(symmetric_part(G))) * n;
+    if (has_linear_stress()) return to_tensor(linear_stress_[cell].C * to_mandel(symmetric_part(G))) * n;
     const IsotropicElasticity& c = moduli_[cell];
     return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
   }
@@ -134,8 +150,9 @@ class MomentumOperator {
   const Unknowns& unknowns_;
   Gradient gradient_;
   CellField<IsotropicElasticity> moduli_;
-  CellField<double> jump_share_;       // lambda_s over lambda; 1 but of polyhedra
-  CellField<MandelMatrix> stiffness_;  // empty while all cells are isotropic, as are the tensors of the faces
+  CellField<double> jump_share_;           // lambda_s over lambda; 1 but of polyhedra
+  CellField<MandelMatrix> stiffness_;      // empty while all cells are isotropic, as are the tensors of the faces
+  CellField<LinearStress> linear_stress_;  // may be empty
   std::vector<Link> links_;
   std::vector<Side> sides_;
   std::vector<LinkTensors> link_tensors_;

@@ -25,16 +25,20 @@ Vector MomentumOperator::face_displacement(std::size_t i, const std::vector<Vect
   const Link& link = links_[i];
   const Vector from_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
   const Vector from_N = u[as_size(link.N)] + gradients_[link.N] * link.d_N;
-  const Vector stress_jump = normal_stress(link.N, link.n) - normal_stress(link.P, link.n);
+  Vector stress_jump = normal_stress(link.N, link.n) - normal_stress(link.P, link.n);
+  if (has_linear_stress())
+    stress_jump += to_tensor(linear_stress_[link.N].initial - linear_stress_[link.P].initial) * link.n;
   const Vector towards_N =
       is_isotropic() ? weigh(i, from_N - from_P) : link_tensors_[i].weight.transpose() * (from_N - from_P);
   return from_P + towards_N + give(i, stress_jump);
 }
 
 double MomentumOperator::stress_across(Index cell, const Tensor& strain) const {
-  if (is_isotropic()) return moduli_[cell].lambda * strain.trace();
+  if (is_isotropic() && !has_linear_stress()) return moduli_[cell].lambda * strain.trace();
   const Vector& normal = unknowns_.plane_normal;
-  return normal.dot(to_tensor(stiffness_[cell] * to_mandel(strain)) * normal);
+  const Mandel stress =
+      is_isotropic() ? linear_stress_[cell](to_mandel(strain)) : Mandel(stiffness_[cell] * to_mandel(strain));
+  return normal.dot(to_tensor(stress) * normal);
 }
 
 FaceField<Vector> MomentumOperator::face_displacements(const std::vector<Vector>& u) const {
@@ -87,6 +91,10 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
     result.stress[c] = symmetric_part((moment * closure_[c]) / volume) +
                        stress_across(c, result.strain[c]) * normal * normal.transpose();
   });
+  if (has_linear_stress()) {
+    result.reconstructed_strain = CellField<Tensor>(n);
+    parallel_for(mesh_.n_cells(), [&](Index c) { result.reconstructed_strain[c] = symmetric_part(gradients_[c]); });
+  }
   return result;
 }
 

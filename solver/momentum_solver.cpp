@@ -11,7 +11,7 @@ namespace pfdm {
 namespace {
 
 // The part of itself by which g may move before the weights of the gradients follow.
-constexpr double gradient_lag = 0.01;
+constexpr double bearable_lag = 0.01;
 
 std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<Index> position(as_size(unknowns.n_nodes()));
@@ -34,25 +34,39 @@ MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns)
       x_(as_size(unknowns.n_nodes())) {}
 
 void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
-  operator_.set_moduli(moduli, g, multigrid_ ? gradient_lag : 0.0);
-  renew_preconditioner(g);
+  if (starts_afresh_ && !(moduli == moduli_of_multigrid_)) multigrid_.reset();
+  operator_.set_moduli(moduli, g, gradient_lag());
+  if (renew_preconditioner(g)) moduli_of_multigrid_ = moduli;
+}
+
+void MomentumSolver::set_stress(CellField<LinearStress> stress) {
+  operator_.set_stress(std::move(stress));
+  reference_load_.reset();
 }
 
 void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g) {
   CellField<double> trace(as_size(stiffness.size()));
   parallel_for(stiffness.size(), [&](Index c) { trace[c] = stiffness[c].trace(); });
-  operator_.set_stiffness(std::move(stiffness), g, multigrid_ ? gradient_lag : 0.0);
-  renew_preconditioner(trace);
+  if (starts_afresh_) multigrid_.reset();
+  operator_.set_stiffness(std::move(stiffness), g, gradient_lag());
+  if (renew_preconditioner(trace)) moduli_of_multigrid_ = {};
 }
 
-void MomentumSolver::renew_preconditioner(const CellField<double>& measure) {
+double MomentumSolver::gradient_lag() {
+  const bool exact = std::exchange(starts_afresh_, false) || !multigrid_;
+  return exact ? 0.0 : bearable_lag;
+}
+
+// Whether it had to be.
+bool MomentumSolver::renew_preconditioner(const CellField<double>& measure) {
   const CellField<double>& built = measure_of_multigrid_;
   const bool moved = multigrid_ && parallel_max(measure.size(), [&](Index c) {
                                      return std::max(measure[c] / built[c], built[c] / measure[c]);
                                    }) > 2.0;
-  if (multigrid_ && !moved) return;
+  if (multigrid_ && !moved) return false;
   measure_of_multigrid_ = measure;
   build_preconditioner();
+  return true;
 }
 
 void MomentumSolver::build_preconditioner() {

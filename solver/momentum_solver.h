@@ -25,10 +25,13 @@ class MomentumSolver {
   /// New secant moduli. The multigrid is built again when some cell's stiffness factor g has moved by more than 2, the
   /// weights of the gradients where it has moved by more than a hundredth.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+  /// Stresses in place of those of the moduli that were just set (see MomentumOperator).
+  void set_stress(CellField<LinearStress> stress);
   /// The same with any stiffness [Pa]; the multigrid follows its trace.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
-  /// Has the next set_moduli build all anew, so that what follows does not depend on what was before.
-  void start_afresh() { multigrid_.reset(); }
+  /// Has the next set_moduli build all that would come out otherwise, so that what follows does not depend on what was
+  /// before.
+  void start_afresh() { starts_afresh_ = true; }
 
   /// Writes the prescribed values at t into u and solves to a residual of
   /// max(floor, min(ceiling, reduction x initial)).
@@ -49,7 +52,8 @@ class MomentumSolver {
  private:
   void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
   void build_preconditioner();
-  void renew_preconditioner(const CellField<double>& measure);
+  bool renew_preconditioner(const CellField<double>& measure);
+  double gradient_lag();
   std::vector<Vector> load_vector(double t) const;
   double reference_norm(double t, const std::vector<Vector>& load);
 
@@ -59,6 +63,8 @@ class MomentumSolver {
   std::vector<Index> position_of_node_;  // multigrid row of each node: face nodes follow a cell of theirs
   std::optional<Multigrid> multigrid_;
   CellField<double> measure_of_multigrid_;  // of the cells' stiffness: any, as long as it is always the same
+  CellField<IsotropicElasticity> moduli_of_multigrid_;  // empty if it is of any stiffness
+  bool starts_afresh_ = false;
   std::vector<double> scale_;
   std::optional<double> reference_load_;  // load parameter that reference_ belongs to
   double reference_ = 0.0;

@@ -34,7 +34,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
     limit = {state.load, damage_.renewed_fracture_energy(start.damage) + limits.dissipation, limits.dissipation};
   Relaxation relaxation;
   if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / limits.duration, start.damage);
-  stiffness_.start_step();
+  stiffness_.start_step(limits.duration);
   momentum_.start_afresh();  // a run that is gone on with does the same
   double energy_before = 0.0;
   bool settled = false;
@@ -49,13 +49,14 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
         state, {.reduction = 0.1, .ceiling = ceiling, .floor = floor, .most_iterations = inner_iterations});
     if (!std::isfinite(equilibrium.residual)) return outcome;
     const Energies energies = update_driving_energy(start, state, true);
+    if (!std::isfinite(energies.unsettled)) return outcome;
     CellField<double> answer = state.damage;
     const double load = state.load;
     const bool damage_solved =
         path_is_followed ? follow_path(start, limit, state, answer) : solve_damage(start, state, answer);
     const double load_scale = state.load / load;
     const double change = parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
-    const double energy = load_scale * load_scale * energies.elastic + damage_.fracture_energy(answer);
+    const double energy = load_scale * load_scale * energies.stored + damage_.fracture_energy(answer);
     const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
@@ -82,8 +83,9 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
       solve_momentum(state, {.reduction = 0.0, .ceiling = 3e-8, .floor = 3e-8, .most_iterations = last_iterations});
   outcome.krylov_iterations += equilibrium.iterations;
   outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
-  outcome.elastic_energy = update_driving_energy(start, state, false).elastic;
+  outcome.elastic_energy = update_driving_energy(start, state, false).stored;
   outcome.viscous_dissipation = damage_.viscous_dissipation(state.damage);
+  outcome.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
   return outcome;
 }
 
@@ -101,11 +103,12 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   const auto lap = clock_.lap("driving_energy");
   CellMechanics mechanics =
       momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::strain_and_energy);
+  Energies energies{.unsettled = stiffness_.integrate(mechanics, start, state)};
   strain_ = std::move(mechanics.strain);
   drive(start, state, 1.0);
-  Energies energies;
-  energies.elastic = parallel_sum(mesh_.n_cells(), [&](Index c) { return mechanics.energy[c]; });
-  if (settles) energies.unsettled = stiffness_.follow(strain_, state);
+  energies.stored =
+      parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics.energy[c], state); });
+  if (settles) energies.unsettled += stiffness_.follow(strain_, state);
   return energies;
 }
 
@@ -113,7 +116,7 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
 void Staggered::drive(const FractureState& start, FractureState& state, double scale) {
   const bool history = model_.irreversibility == Irreversibility::history;
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    const double psi = model_.split->energy(model_.in_cell(mesh_, c).elasticity, scale * strain_[c]).psi_plus;
+    const double psi = stiffness_.driving_energy(c, scale * strain_[c], state);
     state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
   });
 }

@@ -21,13 +21,14 @@ struct StepOutcome {
   Index krylov_iterations = 0;
   double elastic_energy = 0.0;       ///< [J]
   double viscous_dissipation = 0.0;  ///< of the step [J]
+  double plastic_dissipation = 0.0;  ///< of the step [J]
 };
 
 /// What a step may do at most, and how long it takes.
 struct StepLimits {
   double growth = std::numeric_limits<double>::infinity();       ///< of d in a cell
   double dissipation = std::numeric_limits<double>::infinity();  ///< [J]
-  double duration = 0.0;                                         ///< of the step [s]; for models with a viscosity
+  double duration = 0.0;                                         ///< of the step [s]; for models that look at the rate
 };
 
 class Staggered {
@@ -44,6 +45,7 @@ class Staggered {
   MomentumSolver& momentum() { return momentum_; }
   DamageEquation& damage_equation() { return damage_; }
   const DamageEquation& damage_equation() const { return damage_; }
+  const CellStiffness& stiffness() const { return stiffness_; }
   StageClock& clock() { return clock_; }
   /// Sets the stiffness of the state in the momentum balance.
   void degrade(const FractureState& state);
@@ -51,7 +53,7 @@ class Staggered {
  private:
   Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
   struct Energies {
-    double elastic = 0.0;    // [J]
+    double stored = 0.0;     // [J]
     double unsettled = 0.0;  // by which the stiffness that was used falsifies it [J]
   };
   /// May have the stiffness follow the strain.

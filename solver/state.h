@@ -2,6 +2,7 @@
 // The state of a fracture run is a value: it can be copied, written, and gone on from.
 
 #include "mesh/fields.h"
+#include "physics/endochronic.h"
 
 #include <vector>
 
@@ -18,9 +19,11 @@ struct FractureState {
   CellField<double> closure;         ///< of the energy split: 1 where cracks are closed, 0 where open
   /// Strain in whose direction the tangent stiffness is taken [-]; empty for splits with isotropic secant moduli.
   CellField<Tensor> tangent_strain;
-  std::vector<Vector> boundary_force;  ///< on each boundary face [N], in the mesh's face order
-  double external_work = 0.0;          ///< [J]
-  double viscous_dissipation = 0.0;    ///< by the viscosity of the damage equation [J]
+  CellField<EndochronicState> endochronic;  ///< of the effective material; empty without such cells
+  std::vector<Vector> boundary_force;       ///< on each boundary face [N], in the mesh's face order
+  double external_work = 0.0;               ///< [J]
+  double viscous_dissipation = 0.0;         ///< by the viscosity of the damage equation [J]
+  double plastic_dissipation = 0.0;         ///< by endochronic materials [J]
 };
 
 /// One row of the force-displacement curve.
@@ -33,6 +36,7 @@ struct StepReport {
   double fracture_energy = 0.0;            ///< [J]
   double external_work = 0.0;              ///< [J]
   double viscous_dissipation = 0.0;        ///< [J]
+  double plastic_dissipation = 0.0;        ///< [J]
   double max_damage = 0.0;                 ///< [-]
   double damaged_volume = 0.0;             ///< volume with d > 0.5 [m^3]
   Index staggered_iterations = 0;
@@ -51,6 +55,8 @@ struct OutputFields {
   CellField<double> driving_energy;  ///< [J/m^3]
   /// Discrete surface energy over the cell's volume, half of a face's to each of its cells [J/m^3].
   CellField<double> fracture_energy_density;
+  CellField<Tensor> plastic_strain{};       ///< [-]; empty without endochronic cells, as is
+  CellField<double> plastic_path_length{};  ///< zeta [-]
   /// On each face along its normal, sigma n [Pa]; zero on the faces of plane patches, which carry none.
   FaceField<Vector> traction;
 };

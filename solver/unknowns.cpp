@@ -13,12 +13,14 @@
 namespace pfdm {
 namespace {
 
-// A zone has the number of the first region of its elasticity.
+// A zone has the number of the first region of its law.
 CellField<Index> elastic_zones(const Mesh& mesh, const FractureModel& model) {
   std::vector<Index> zone_of_region;
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
     std::size_t same = 0;
-    while (!(model.regions[same].elasticity == model.regions[r].elasticity)) ++same;
+    while (!(model.regions[same].elasticity == model.regions[r].elasticity &&
+             model.regions[same].endochronic == model.regions[r].endochronic))
+      ++same;
     zone_of_region.push_back(static_cast<Index>(same));
   }
   CellField<Index> zone(static_cast<std::size_t>(mesh.n_cells()));

@@ -16,7 +16,7 @@ struct PatchCondition {
 };
 
 struct Unknowns {
-  CellField<Index> zone;                   ///< cells of equal elasticity share a zone
+  CellField<Index> zone;                   ///< cells of equal elasticity and equal endochronic law share a zone
   std::vector<IsotropicElasticity> sound;  ///< elasticity of each zone, undamaged
   FaceField<Index> node_of_face;           ///< -1 where a face carries no unknown
   std::vector<Index> face_of_node;         ///< entry k is the face of node n_cells + k

@@ -1,6 +1,7 @@
 #include "cases/program/fracture_case.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,14 @@ namespace {
 constexpr Range above_zero_to_one{std::numeric_limits<double>::min(), 1.0, false, "above 0 and at most 1"};
 constexpr Range at_least_one{1.0, 1e9, false, "at least 1"};
 constexpr Range count{0.0, 1e9, false, "zero or positive"};
+
+std::string unsuited_split(const FractureModel& model) {
+  std::vector<std::string_view> suited;
+  for (const EnergySplit& split : energy_splits())
+    if (split.secant != nullptr) suited.push_back(split.name);
+  return fmt::format("an endochronic material cannot be combined with the energy split \"{}\"; there are {}",
+                     model.split->name, fmt::join(suited, ", "));
+}
 
 template <class Law>
 const Law* find_law(const ConfigTable& table, std::string_view key, const Law& otherwise, std::span<const Law> laws,
@@ -39,6 +48,25 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   if (model.degradation->needs_strength)
     defaults.softening = find_law(table, "softening", softening_law("linear"), softening_laws(), "softening law");
   return defaults;
+}
+
+/// What endochronic materials ask of the split and of the loading.
+void check_histories(const FractureCase& fracture, const ConfigTable& root) {
+  for (const RegionMaterial& material : fracture.materials.by_region) {
+    if (!material.endochronic) continue;
+    if (fracture.model.split->secant == nullptr) throw material.where.error(unsuited_split(fracture.model));
+    if (material.endochronic->hardening.depends_on_rate() && !(fracture.loading.duration > 0.0))
+      throw material.where.error(
+          "the material's rate factor needs the time in which the load parameter grows by 1: duration = \"1 s\" in "
+          "[loading]");
+    if (std::isfinite(fracture.loading.maximum_dissipation))
+      throw root.table("loading")
+          .at("maximum_dissipation")
+          .error(
+              "it cannot be prescribed together with endochronic materials: their displacements are not proportional "
+              "to the "
+              "load");
+  }
 }
 
 void read_time(const ConfigTable& table, const FractureModel& model, LoadingSettings& loading) {
@@ -180,6 +208,7 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
   fracture.initial_damage = read_initial_damage(root, fracture.model);
   fracture.loading = read_loading(root, fracture.model);
+  check_histories(fracture, root);
   fracture.staggered = read_solver(root);
   read_output(root, fracture);
   fracture.cohesive = read_cohesive(root, fracture.materials.bands, Vector::Unit(fracture.output.curve.component));

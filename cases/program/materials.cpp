@@ -1,6 +1,7 @@
 #include "cases/program/materials.h"
 
 #include "cases/program/amount.h"
+#include "cases/program/endochronic_material.h"
 #include "physics/interface_toughness.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ constexpr Range poisson_range{-1.0, 0.5, true, "between -1 and 0.5"};
 struct MaterialKeys {
   std::optional<Parameter> young_modulus, poisson_ratio, toughness, strength, length;
   std::optional<bool> damageable;
+  std::shared_ptr<const EndochronicLaw> endochronic{};
 
   bool varies() const {
     return std::ranges::any_of(std::array{&young_modulus, &poisson_ratio, &toughness, &strength, &length},
@@ -78,6 +80,7 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, cons
                        const ConfigTable& table, const Vector& x) {
   RegionModel model;
   model.elasticity = from_young_poisson(keys.young_modulus->at(x), keys.poisson_ratio->at(x));
+  model.endochronic = keys.endochronic;
   model.damageable = keys.damageable.value_or(true);
   model.Gc = value_at(keys.toughness, x).value_or(0.0);
   model.ell = value_at(keys.length, x).value_or(defaults.ell.value_or(0.0));
@@ -129,11 +132,22 @@ struct RegionKeys {
   MaterialKeys keys;
 };
 
+// A history begins with the elasticity of its own table.
+void refuse_other_elasticity(const RegionOverride& over, const MaterialKeys& base) {
+  if (base.endochronic && (over.keys.young_modulus || over.keys.poisson_ratio))
+    throw over.value.error(
+        fmt::format("the material of region \"{}\" is endochronic, whose elasticity cannot be overridden; give it a "
+                    "material of its "
+                    "own",
+                    over.region));
+}
+
 RegionKeys read_region(const ConfigValue& where, const ConfigTable& table, const MaterialKeys& base,
                        std::vector<RegionOverride>& overrides) {
   RegionKeys entry{where.string(), where, table, base};
   for (RegionOverride& over : overrides)
     if (over.region == entry.region) {
+      refuse_other_elasticity(over, base);
       entry.keys = overridden(entry.keys, over.keys);
       over.used = true;
     }
@@ -148,7 +162,8 @@ RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& nam
 void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
                    std::vector<RegionOverride>& overrides, std::vector<RegionKeys>& regions) {
   table.at("young_modulus"), table.at("poisson_ratio");
-  const MaterialKeys base = read_keys(table);
+  MaterialKeys base = read_keys(table);
+  if (table.has("kernel")) base.endochronic = std::make_shared<const EndochronicLaw>(read_endochronic_law(table));
   const bool varies = base.young_modulus->varies || base.poisson_ratio->varies;
   const Vector anywhere = Vector::Zero();
   materials.by_name.push_back({name, varies ? std::nullopt
@@ -260,7 +275,9 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
          .where = entry.where,
          .at = at,
          .varies = varies,
-         .elastic_law = entry.keys.young_modulus->text + " | " + entry.keys.poisson_ratio->text});
+         .elastic_law = fmt::format("{} | {} | {}", entry.keys.young_modulus->text, entry.keys.poisson_ratio->text,
+                                    fmt::ptr(entry.keys.endochronic.get())),
+         .endochronic = entry.keys.endochronic});
   }
   return materials;
 }

@@ -6,6 +6,7 @@
 #include "solver/fracture_model.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,10 +15,11 @@ namespace pfdm {
 
 struct RegionMaterial {
   std::string region;
-  ConfigValue where;                               ///< where the region was given its material
-  std::function<RegionModel(const Vector& x)> at;  ///< at x [m]; throws InputError where a parameter is out of range
-  bool varies = false;                             ///< from place to place
-  std::string elastic_law;                         ///< equal texts are equal elasticities
+  ConfigValue where;                                  ///< where the region was given its material
+  std::function<RegionModel(const Vector& x)> at;     ///< at x [m]; throws InputError where a parameter is out of range
+  bool varies = false;                                ///< from place to place
+  std::string elastic_law;                            ///< equal texts are equal elasticities and histories
+  std::shared_ptr<const EndochronicLaw> endochronic;  ///< null: linear elastic
 };
 
 struct NamedElasticity {

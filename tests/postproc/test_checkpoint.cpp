@@ -26,9 +26,17 @@ FractureState awkward_state() {
   s.driving_energy = CellField<double>(std::vector<double>{1e300, 0.0, -0.0});
   s.closure = CellField<double>({1.0, 1.0 / 7.0, 0.0});
   s.tangent_strain = CellField<Tensor>(std::vector<Tensor>(3, Tensor::Constant(1.0 / 3.0)));
+  s.endochronic = CellField<EndochronicState>(3);
+  s.endochronic[1] = {.strain = Mandel::Constant(0.1),
+                      .plastic_strain = Mandel::Constant(1.0 / 3.0),
+                      .s = {Mandel::Constant(-0.0), Mandel::Constant(1e300)},
+                      .z = 0.7,
+                      .zeta = 0.8,
+                      .dissipation = std::nextafter(1.0, 0.0)};
   s.boundary_force = {Vector(1, 2, 3), Vector(4, 5, 6)};
   s.external_work = std::exp(1.0);
   s.viscous_dissipation = std::exp(-1.0);
+  s.plastic_dissipation = std::exp(-2.0);
   return s;
 }
 
@@ -49,9 +57,20 @@ TEST(Checkpoint, state_comes_back_bit_for_bit) {
   EXPECT_TRUE(std::signbit(r.driving_energy[2]));
   EXPECT_EQ(r.closure, s.closure);
   EXPECT_EQ(r.tangent_strain, s.tangent_strain);
+  ASSERT_EQ(r.endochronic.size(), 3);
+  EXPECT_TRUE(r.endochronic[0].s.empty());
+  const EndochronicState &history = r.endochronic[1], &due = s.endochronic[1];
+  EXPECT_EQ(history.strain, due.strain);
+  EXPECT_EQ(history.plastic_strain, due.plastic_strain);
+  EXPECT_EQ(history.s, due.s);
+  EXPECT_TRUE(std::signbit(history.s[0][0]));
+  EXPECT_EQ(history.z, due.z);
+  EXPECT_EQ(history.zeta, due.zeta);
+  EXPECT_TRUE(same_bits(history.dissipation, due.dissipation));
   EXPECT_EQ(r.boundary_force, s.boundary_force);
   EXPECT_TRUE(same_bits(r.external_work, s.external_work));
   EXPECT_TRUE(same_bits(r.viscous_dissipation, s.viscous_dissipation));
+  EXPECT_TRUE(same_bits(r.plastic_dissipation, s.plastic_dissipation));
   EXPECT_EQ(folder.n_entries(), 1u);
 }
 

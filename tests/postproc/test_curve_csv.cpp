@@ -16,8 +16,9 @@ using ::testing::IsEmpty;
 
 CurveRow awkward_row(Index step) {
   const double x = std::sin(1.0 + step) / 3.0;
-  return {step,  0.1 * step, 1e-9 * x, Vector(x, -1e5 * x, 1e-320), 1e-7 * x * x, 0.1, 1.0 / 3.0, 0.999999999999999,
-          3e-17, 12 + step,  1e-3 * x};
+  return {step,         0.1 * step, 1e-9 * x,  Vector(x, -1e5 * x, 1e-320),
+          1e-7 * x * x, 0.1,        1.0 / 3.0, 0.999999999999999,
+          3e-17,        12 + step,  1e-3 * x,  1e-4 * x};
 }
 
 void append(CurveFile& file, const CurveRow& row) {
@@ -33,11 +34,11 @@ void fill(const std::filesystem::path& path, Index n_rows) {
 TEST(CurveCsv, has_the_header_of_the_interface_and_a_row_per_step) {
   const TemporaryFolder folder;
   CurveFile file(folder / "c.csv");
-  append(file, {1, 0.05, 1e-6, Vector(0.5, 0, -2), 1e-9, 2e-9, 3e-9, 0.25, 1e-12, 7, 4e-9});
+  append(file, {1, 0.05, 1e-6, Vector(0.5, 0, -2), 1e-9, 2e-9, 3e-9, 0.25, 1e-12, 7, 4e-9, 5e-9});
   EXPECT_EQ(content_of(folder / "c.csv"),
             "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,external_work_J,"
-            "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J\n"
-            "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,4e-09\n");
+            "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J,plastic_dissipation_J\n"
+            "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,4e-09,5e-09\n");
   EXPECT_EQ(folder.n_entries(), 1u);
 }
 
@@ -52,7 +53,7 @@ TEST(CurveCsv, a_torn_last_line_is_left_out) {
   const TemporaryFolder folder;
   fill(folder / "c.csv", 2);
   const std::string whole = content_of(folder / "c.csv");
-  const std::string complete_number = "2,0.2,1,1,1,1,1,1,1,1,1,3,12";  // of 123, perhaps
+  const std::string complete_number = "2,0.2,1,1,1,1,1,1,1,1,1,3,1,12";  // of 123, perhaps
   for (const std::string torn : {"2", "2,0.1,3", complete_number.c_str()}) {
     put(folder / "torn.csv", whole + torn);
     EXPECT_THAT(read_curve(folder / "torn.csv"), ElementsAre(awkward_row(0), awkward_row(1))) << torn;
@@ -84,11 +85,11 @@ TEST(CurveCsv, a_restarted_file_equals_an_unbroken_one) {
 TEST(CurveCsv, names_file_and_line_of_what_is_not_a_row) {
   const TemporaryFolder folder;
   const std::string header = std::string(curve_header) + "\n";
-  const std::string good = "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0\n";
-  for (const std::string bad : {"1,2\n", "x,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0\n",
-                                "1,0.05,1e-06,0.5,0,-2 N,1e-09,2e-09,3e-09,0.25,1e-12,7,0\n",
-                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,8\n",
-                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7.5,0\n", "\n"}) {
+  const std::string good = "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0\n";
+  for (const std::string bad : {"1,2\n", "x,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0\n",
+                                "1,0.05,1e-06,0.5,0,-2 N,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0\n",
+                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,8\n",
+                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7.5,0,0\n", "\n"}) {
     put(folder / "bad.csv", header + good + bad + good);
     EXPECT_THAT(message_of<InputError>([&] { read_curve(folder / "bad.csv"); }), HasSubstr("bad.csv, line 3:")) << bad;
   }
@@ -110,7 +111,8 @@ TEST(CurveCsv, a_row_is_seen_from_one_patch_and_direction) {
   report.damaged_volume = 7;
   report.staggered_iterations = 9;
   report.viscous_dissipation = 8;
-  EXPECT_EQ(curve_row(report, 1, 2), (CurveRow{3, 0.3, 60, Vector(4, 5, 6), 1, 2, 3, 0.5, 7, 9, 8}));
+  report.plastic_dissipation = 10;
+  EXPECT_EQ(curve_row(report, 1, 2), (CurveRow{3, 0.3, 60, Vector(4, 5, 6), 1, 2, 3, 0.5, 7, 9, 8, 10}));
 }
 
 }  // namespace

@@ -42,11 +42,13 @@ TEST(Headlines, of_a_bar_that_breaks) {
   EXPECT_EQ(f.displacement_at_release, 4e-6);
 }
 
-TEST(Headlines, count_viscous_dissipation_in_the_balance) {
+TEST(Headlines, count_dissipation_in_the_balance) {
   std::vector<CurveRow> rows = broken_bar();
-  rows.back().viscous_dissipation = 0.75e-6;
+  rows.back().viscous_dissipation = 0.5e-6;
+  rows.back().plastic_dissipation = 0.25e-6;
   const Headlines f = headlines(rows, 1);
-  EXPECT_EQ(f.viscous_dissipation, 0.75e-6);
+  EXPECT_EQ(f.viscous_dissipation, 0.5e-6);
+  EXPECT_EQ(f.plastic_dissipation, 0.25e-6);
   EXPECT_NEAR(f.energy_balance_error, 0.025, 1e-12);
 }
 

@@ -1,0 +1,54 @@
+#pragma once
+// The cells of a mesh whose material is endochronic (physics/endochronic.h). Damage degrades their effective stress
+// sigma_0(eps, history), which knows nothing of it: sigma = g sigma_0, and what the energy split keeps of compression,
+// which is elastic, comes on top. Damage is driven by what the effective material stores, psi_plus of the elastic
+// strain and the energy of the kernel's terms; so work = stored energy + surface energy + g times the effective
+// material's heat.
+//
+// Within a load step each equilibrium is linear, with the stress linearised at the last strain eps_k by the consistent
+// tangent T: sigma_0 = sigma_0(eps_k) + T (eps - eps_k). The first of a step is elastic, as a load may turn back. The
+// strain is the one whose stress the faces see, reconstructed by least squares: with any other, what the solves
+// converge to would depend on T, which turns with the direction of the increment, and they would not converge.
+
+#include "mesh/mesh.h"
+#include "physics/linear_stress.h"
+#include "solver/fracture_model.h"
+#include "solver/state.h"
+
+namespace pfdm {
+
+class EndochronicCells {
+ public:
+  EndochronicCells(const Mesh& mesh, const FractureModel& model);
+
+  bool any() const { return any_; }
+  bool has(Index cell) const { return any_ && law_[cell] != nullptr; }
+
+  /// At the beginning of a load step, which takes `duration` [s].
+  void start_step(double duration);
+  /// Takes a cell from its state at the start of the step to this strain. Returns the energy density [J/m^3] by which
+  /// the linearised stress of before falsifies its energy; NaN if the material's step cannot be solved.
+  double advance(Index cell, const Tensor& strain, const EndochronicState& from, EndochronicState& to);
+  /// The undamaged stress about the cell's state.
+  LinearStress linearised(Index cell, const EndochronicState& state) const;
+
+  /// psi_plus [J/m^3]
+  double driving_energy(Index cell, const EndochronicState& state) const;
+  /// What a cell that is degraded to g stores [J/m^3].
+  double stored_energy(Index cell, const EndochronicState& state, double g) const;
+
+  /// Without endochronic cells it is empty.
+  CellField<EndochronicState> virgin_states() const;
+
+ private:
+  SplitEnergy elastic_energy(Index cell, const EndochronicState& state) const;
+
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  bool any_ = false;
+  double duration_ = 0.0;
+  CellField<const EndochronicLaw*> law_;  // null: elastic
+  CellField<MandelMatrix> tangent_;       // [Pa]; empty without endochronic cells
+};
+
+}  // namespace pfdm

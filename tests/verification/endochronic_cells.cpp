@@ -1,0 +1,293 @@
+// Endochronic cells in the field solver: uniform bodies against the material point, of which they know nothing; damaged
+// ones; the account of work, stored energy and heat; a plate with a hole under cyclic load.
+
+#include "mesh/geometry.h"
+#include "physics/error.h"
+#include "solver/fracture_run.h"
+#include "solver/mixed_control.h"
+#include "tests/verification/support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pfdm::verification {
+namespace {
+
+EndochronicLaw soft_metal(bool looks_at_rate = false) {
+  EndochronicLaw law{.elasticity = from_young_poisson(117e9, 0.34),
+                     .kernel = {{60e9, 3000.0}, {15e9, 500.0}, {2e9, 30.0}},
+                     .hardening = {}};
+  law.hardening.with_path = make_factor(hardening_law("saturating"), {3.0, 6.0, 1.0});
+  if (looks_at_rate) law.hardening.with_rate = make_factor(rate_factor("logarithmic"), {0.02, 1e-5});
+  return law;
+}
+
+FractureModel endochronic_model(const EndochronicLaw& law, std::vector<BoundaryCondition> boundary) {
+  FractureModel model = elastic_model({law.elasticity}, std::move(boundary));
+  model.regions[0].endochronic = std::make_shared<const EndochronicLaw>(law);
+  return model;
+}
+
+BoundaryCondition moved(const std::string& patch, std::array<bool, 3> components,
+                        std::function<Vector(const Vector&, double)> displacement) {
+  return {.patch = patch,
+          .kind = BoundaryCondition::Kind::components,
+          .displacement_prescribed = components,
+          .value = std::move(displacement)};
+}
+
+constexpr StaggeredSettings tight{.damage_tolerance = 1e-9, .energy_tolerance = 1e-14, .equilibrium_tolerance = 1e-13};
+
+LoadingSettings in_steps(Index n, double duration = 1.0) {
+  const double increment = 1.0 / double(n);
+  return {.initial_increment = increment, .maximum_increment = increment, .duration = duration, .stops = {}};
+}
+
+struct Step {
+  StepReport report;
+  OutputFields fields;
+};
+
+std::vector<Step> steps_of(const Mesh& mesh, const FractureModel& model, const LoadingSettings& loading,
+                           const StaggeredSettings& settings = tight) {
+  FractureRun run(mesh, model, settings, loading);
+  std::vector<Step> steps;
+  RunHooks hooks;
+  hooks.step_done = [&](const FractureState& state, const StepReport& report) {
+    if (report.step > 0) steps.push_back({report, run.output(state)});
+  };
+  run.run(run.initial_state(), hooks);
+  return steps;
+}
+
+// Two cycles of growing strain.
+double wave(double t) { return 0.01 * t * std::sin(4.0 * std::numbers::pi * t); }
+
+// In tension along x, free of stress on the sides.
+std::vector<EndochronicUpdate> point_in_tension(const EndochronicLaw& law, Index n, double duration) {
+  std::array<ControlCondition, 6> conditions;
+  conditions[0].on_strain = Mandel::Unit(0);
+  for (Index k = 1; k < 6; ++k) conditions[as_size(k)].on_stress = Mandel::Unit(k);
+  EndochronicState state = virgin_state(law);
+  std::vector<EndochronicUpdate> updates;
+  for (Index i = 1; i <= n; ++i) {
+    Mandel change = Mandel::Zero();
+    change[0] = wave(double(i) / double(n)) - wave(double(i - 1) / double(n));
+    const ControlledStep step = controlled_step(law, state, conditions, change, duration / double(n));
+    EXPECT_TRUE(step.converged);
+    state = step.update.state;
+    updates.push_back(step.update);
+  }
+  return updates;
+}
+
+// A unit cube pulled along x.
+FractureModel cube_in_tension(const EndochronicLaw& law) {
+  return endochronic_model(
+      law, {symmetry_on("xmin"), symmetry_on("ymin"), symmetry_on("zmin"),
+            moved("xmax", {true, false, false}, [](const Vector&, double t) { return Vector(wave(t), 0.0, 0.0); })});
+}
+
+// A single cell, whose faces are points, held along its axis.
+FractureModel cell_in_tension(const EndochronicLaw& law) {
+  const auto still = [](const Vector&, double) -> Vector { return Vector::Zero(); };
+  return endochronic_model(
+      law, {moved("xmin", {true, true, true}, still), moved("ymin", {false, false, true}, still),
+            moved("xmax", {true, true, true}, [](const Vector&, double t) { return Vector(wave(t), 0.0, 0.0); })});
+}
+
+Mesh cube(Index n) {
+  return make_box_hexes({.axes = {{{{1.0, n, 1.0}}, {{1.0, n, 1.0}}, {{1.0, n, 1.0}}}}, .regions = {}, .slits = {}});
+}
+
+struct Difference {
+  double stress = 0.0, strain = 0.0;  // largest over cells and steps, relative to the largest of all
+};
+
+Difference difference(const std::vector<Step>& steps, const std::vector<EndochronicUpdate>& point) {
+  Difference worst;
+  double stress = 0.0, strain = 0.0;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    const OutputFields& fields = steps[i].fields;
+    stress = std::max(stress, point[i].stress.norm());
+    strain = std::max(strain, point[i].state.strain.norm());
+    for (Index c = 0; c < fields.stress.size(); ++c) {
+      worst.stress = std::max(worst.stress, (to_mandel(fields.stress[c]) - point[i].stress).norm());
+      worst.strain = std::max(worst.strain, (to_mandel(fields.strain[c]) - point[i].state.strain).norm());
+    }
+  }
+  return {worst.stress / stress, worst.strain / strain};
+}
+
+Index most_iterations(const std::vector<Step>& steps) {
+  return std::ranges::max_element(steps, {}, [](const Step& s) { return s.report.staggered_iterations; })
+      ->report.staggered_iterations;
+}
+
+TEST(EndochronicCells, OneOfThemIsTheMaterialPoint) {
+  for (const bool looks_at_rate : {false, true}) {
+    const EndochronicLaw law = soft_metal(looks_at_rate);
+    const auto point = point_in_tension(law, 40, 100.0);
+    const auto steps = steps_of(cube(1), cell_in_tension(law), in_steps(40, 100.0));
+    ASSERT_EQ(steps.size(), point.size());
+    const Difference d = difference(steps, point);
+    report_row(looks_at_rate ? "with rate" : "without rate",
+               {{"stress", d.stress}, {"strain", d.strain}, {"iterations", double(most_iterations(steps))}});
+    EXPECT_LE(d.stress, 1e-10);
+    EXPECT_LE(d.strain, 1e-10);
+    EXPECT_LE(most_iterations(steps), 12);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const EndochronicState& state = point[i].state;
+      EXPECT_NEAR(steps[i].report.elastic_energy, free_energy(law, state), 1e-9 * free_energy(law, point.back().state));
+      EXPECT_NEAR(steps[i].report.plastic_dissipation, state.dissipation, 1e-9 * point.back().state.dissipation);
+      EXPECT_NEAR(steps[i].fields.plastic_path_length[0], state.zeta, 1e-10);
+    }
+  }
+}
+
+TEST(EndochronicCells, BodiesOfThemInUniformStressAreTheMaterialPoint) {
+  const EndochronicLaw law = soft_metal();
+  const auto point = point_in_tension(law, 12, 1.0);
+  const Mesh wedges = extruded_triangles(3, {0.0, 0.3, 1.0});
+  for (const Mesh& mesh : {cube(3), wedges, barycentric_dual(wedges)}) {
+    const auto steps = steps_of(mesh, cube_in_tension(law), in_steps(12));
+    const Difference d = difference(steps, point);
+    report_row(std::to_string(mesh.n_cells()) + " cells", {{"stress", d.stress}, {"strain", d.strain}});
+    EXPECT_LE(d.stress, 1e-9);
+    EXPECT_LE(d.strain, 1e-9);
+  }
+}
+
+// Confined on all sides, so that the strain is given: what damage leaves of the stress follows from the point's.
+TEST(EndochronicCells, DamageDegradesTheEffectiveStress) {
+  const EndochronicLaw law = soft_metal();
+  constexpr double d = 0.4, residual = 1e-6, g = (1.0 - residual) * (1.0 - d) * (1.0 - d) + residual;
+  const double K = law.elasticity.bulk_modulus();
+  for (const std::string split : {"none", "volumetric_deviatoric"}) {
+    const auto stretched = [](const Vector& x, double t) { return Vector(wave(t) * x[0], 0.0, 0.0); };
+    FractureModel model = endochronic_model(law, {});
+    for (const char* side : {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"})
+      model.boundary.push_back(moved(side, {true, true, true}, stretched));
+    model.split = &energy_split(split);
+    model.residual_stiffness = residual;
+    model.regions[0].damageable = true;
+    model.regions[0].Gc = 1e15, model.regions[0].ell = 1.0;
+    model.initial_damage = CellField<double>(1, d);
+    const auto steps = steps_of(cube(1), model, in_steps(20));
+    EndochronicState state = virgin_state(law);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const double strain = wave(double(i + 1) / 20.0);
+      const EndochronicUpdate point = update(law, state, strain * Mandel::Unit(0) - state.strain, 0.05);
+      state = point.state;
+      const bool closed = split == "volumetric_deviatoric" && strain < 0.0;
+      const Mandel due = g * point.stress + (closed ? (1.0 - g) * K * strain : 0.0) * mandel_identity();
+      EXPECT_LE((to_mandel(steps[i].fields.stress[0]) - due).norm(), 1e-9 * K * 0.01) << split << ", step " << i;
+      const double kept = closed ? 0.5 * K * strain * strain : 0.0;
+      EXPECT_NEAR(steps[i].fields.driving_energy[0], free_energy(law, state) - kept, 1e-9 * free_energy(law, state));
+      EXPECT_NEAR(steps[i].report.elastic_energy, g * (free_energy(law, state) - kept) + kept,
+                  1e-9 * free_energy(law, state));
+      EXPECT_NEAR(steps[i].report.plastic_dissipation, g * state.dissipation, 1e-9 * state.dissipation);
+    }
+  }
+}
+
+TEST(EndochronicCells, AreRefusedWhereTheyCannotBe) {
+  const Mesh mesh = cube(1);
+  FractureModel model = cell_in_tension(soft_metal(true));
+  EXPECT_NO_THROW(FractureRun(mesh, model, {}, in_steps(4)));
+  EXPECT_THROW(FractureRun(mesh, model, {}, in_steps(4, 0.0)), InputError);
+  LoadingSettings followed = in_steps(4);
+  followed.maximum_dissipation = 1.0;
+  EXPECT_THROW(FractureRun(mesh, model, {}, followed), InputError);
+  model.split = &energy_split("spectral");
+  EXPECT_THROW(FractureRun(mesh, model, {}, in_steps(4)), InputError);
+}
+
+// A quarter of a square plate with a round hole of a third of its width, the mesh of a box bent around it.
+Mesh plate_with_hole(Index n) {
+  constexpr double a = 1.0, b = 3.0, quarter = std::numbers::pi / 2.0;
+  Mesh mesh = make_box_hexes({.axes = {{{{1.0, n, 4.0}}, {{quarter, 2 * n, 1.0}}, {{0.2, 1, 1.0}}}},
+                              .regions = {},
+                              .slits = {},
+                              .patches = {{"top", Vector(1.0, 0.5 * quarter, 0.0), Vector(1.0, quarter, 1.0)}}});
+  for (Vector& x : mesh.points) {
+    const double s = x[0], angle = x[1];
+    const double across = std::max(std::cos(angle), std::sin(angle));
+    const double radius = (1.0 - s) * a + s * b / across;
+    x = Vector(radius * std::cos(angle), radius * std::sin(angle), x[2]);
+  }
+  compute_geometry(mesh);
+  return mesh;
+}
+
+struct Loop {
+  double peak = 0.0, reverse = 0.0, heat = 0.0, imbalance = 0.0;
+  Index most_iterations = 0;
+};
+
+// Stretched, pressed and stretched again by 0.3 %: the force on the top at the turns and the heat of it all.
+Loop cycle_plate(Index n, Index n_steps) {
+  const Mesh mesh = plate_with_hole(n);
+  const FractureModel model =
+      endochronic_model(soft_metal(), {symmetry_on("ymin"), symmetry_on("ymax"), plane_on("zmin"), plane_on("zmax"),
+                                       moved("top", {false, true, false}, [](const Vector&, double t) {
+                                         return Vector(0.0, 0.009 * std::sin(2.5 * std::numbers::pi * t), 0.0);
+                                       })});
+  const auto steps = steps_of(mesh, model, in_steps(n_steps),
+                              {.damage_tolerance = 1e-4, .energy_tolerance = 1e-7, .equilibrium_tolerance = 1e-7});
+  const auto top = static_cast<std::size_t>(&mesh.patch("top") - mesh.patches.data());
+  Loop loop;
+  for (const Step& step : steps) {
+    loop.peak = std::max(loop.peak, step.report.reaction[top][1]);
+    loop.reverse = std::min(loop.reverse, step.report.reaction[top][1]);
+  }
+  const StepReport& last = steps.back().report;
+  loop.heat = last.plastic_dissipation;
+  loop.imbalance = std::abs(last.external_work - last.elastic_energy - last.plastic_dissipation) / last.external_work;
+  loop.most_iterations = most_iterations(steps);
+  return loop;
+}
+
+void report(Index n, const Loop& l) {
+  report_row(std::to_string(n), {{"peak", l.peak},
+                                 {"reverse", l.reverse},
+                                 {"heat", l.heat},
+                                 {"imbalance", l.imbalance},
+                                 {"iterations", double(l.most_iterations)}});
+}
+
+TEST(EndochronicCells, APlateWithAHoleConvergesUnderCyclicLoad) {
+  std::vector<Loop> loops;
+  for (const Index n : {6, 12, 24, 48}) {
+    loops.push_back(cycle_plate(n, 40));
+    report(n, loops.back());
+    EXPECT_LE(loops.back().most_iterations, 8);
+  }
+  // What is left of the error on the finest mesh, had the last change been halved with each further one.
+  const auto expect_convergence = [&](double Loop::*value, double bound) {
+    const double before = std::abs(loops[2].*value - loops[1].*value),
+                 last = std::abs(loops[3].*value - loops[2].*value);
+    EXPECT_LT(last, 0.6 * before);
+    EXPECT_LT(last, bound * std::abs(loops[3].*value));
+  };
+  expect_convergence(&Loop::peak, 2e-3);
+  expect_convergence(&Loop::reverse, 2e-3);
+  expect_convergence(&Loop::heat, 2e-3);
+}
+
+TEST(EndochronicCells, WorkIsStoredOrHeatAndTheRestFallsWithTheIncrement) {
+  std::vector<double> imbalance;
+  for (const Index n_steps : {20, 40, 80, 160}) {
+    const Loop loop = cycle_plate(8, n_steps);
+    report(n_steps, loop);
+    imbalance.push_back(loop.imbalance);
+  }
+  for (std::size_t i = 1; i < imbalance.size(); ++i) EXPECT_GT(std::log2(imbalance[i - 1] / imbalance[i]), 1.6);
+  EXPECT_LT(imbalance.back(), 1e-3);
+}
+
+}  // namespace
+}  // namespace pfdm::verification
