@@ -86,10 +86,13 @@ double CellStiffness::driving_energy(Index cell, const Tensor& strain, const Fra
   return model_.split->energy(elasticity(cell), strain).psi_plus;
 }
 
-double CellStiffness::stored_energy(Index cell, double elastic, const FractureState& state) const {
-  if (!endochronic_.has(cell)) return elastic;
-  const double g = factor(cell, state.damage[cell]);
-  return mesh_.cell_volume[cell] * endochronic_.stored_energy(cell, state.endochronic[cell], g);
+// Half the work on the elastic strain, and the energy of the kernel.
+double CellStiffness::stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
+  if (!endochronic_.has(cell)) return mechanics.energy[cell];
+  const EndochronicState& history = state.endochronic[cell];
+  const double on_plastic_strain = 0.5 * to_mandel(mechanics.stress[cell]).dot(history.plastic_strain);
+  const double of_kernel = endochronic_.kernel_energy(cell, history, factor(cell, state.damage[cell]));
+  return mechanics.energy[cell] + mesh_.cell_volume[cell] * (of_kernel - on_plastic_strain);
 }
 
 double CellStiffness::plastic_dissipation(const FractureState& from, const FractureState& to) const {

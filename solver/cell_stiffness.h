@@ -29,8 +29,8 @@ class CellStiffness {
 
   /// psi_plus [J/m^3] of a cell at this strain; with a history, at that of the state.
   double driving_energy(Index cell, const Tensor& strain, const FractureState& state) const;
-  /// What a cell stores [J]: `elastic`, unless it has a history.
-  double stored_energy(Index cell, double elastic, const FractureState& state) const;
+  /// What a cell stores [J].
+  double stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   /// Heat [J] from one state to the other.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   const EndochronicCells& endochronic() const { return endochronic_; }

@@ -39,20 +39,12 @@ LinearStress EndochronicCells::linearised(Index cell, const EndochronicState& st
   return {T, stress(*law_[cell], state) - T * state.strain};
 }
 
-SplitEnergy EndochronicCells::elastic_energy(Index cell, const EndochronicState& state) const {
-  return model_.split->energy(law_[cell]->elasticity, to_tensor(state.strain - state.plastic_strain));
-}
-
 // The terms of the kernel are sheared, so that no split keeps their energy. A split that is not variational says itself
 // what drives.
 double EndochronicCells::driving_energy(Index cell, const EndochronicState& state) const {
-  const double psi_plus = elastic_energy(cell, state).psi_plus;
-  return model_.split->variational ? psi_plus + kernel_energy(*law_[cell], state) : psi_plus;
-}
-
-double EndochronicCells::stored_energy(Index cell, const EndochronicState& state, double g) const {
-  const double kept = elastic_energy(cell, state).psi_minus;
-  return g * (free_energy(*law_[cell], state) - kept) + kept;
+  const EndochronicLaw& law = *law_[cell];
+  const double psi = model_.split->energy(law.elasticity, to_tensor(state.strain - state.plastic_strain)).psi_plus;
+  return model_.split->variational ? psi + pfdm::kernel_energy(law, state) : psi;
 }
 
 CellField<EndochronicState> EndochronicCells::virgin_states() const {

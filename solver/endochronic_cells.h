@@ -34,15 +34,15 @@ class EndochronicCells {
 
   /// psi_plus [J/m^3]
   double driving_energy(Index cell, const EndochronicState& state) const;
-  /// What a cell that is degraded to g stores [J/m^3].
-  double stored_energy(Index cell, const EndochronicState& state, double g) const;
+  /// What the terms of the kernel store in a cell that is degraded to g [J/m^3].
+  double kernel_energy(Index cell, const EndochronicState& state, double g) const {
+    return g * pfdm::kernel_energy(*law_[cell], state);
+  }
 
   /// Without endochronic cells it is empty.
   CellField<EndochronicState> virgin_states() const;
 
  private:
-  SplitEnergy elastic_energy(Index cell, const EndochronicState& state) const;
-
   const Mesh& mesh_;
   const FractureModel& model_;
   bool any_ = false;

@@ -257,7 +257,7 @@ OutputFields FractureRun::output(const FractureState& state) const {
   const Mesh& mesh = parts_->mesh;
   CellField<double> density(as_size(mesh.n_cells()));
   for (Index c = 0; c < mesh.n_cells(); ++c)
-    density[c] = staggered.stiffness().stored_energy(c, mechanics.energy[c], state) / mesh.cell_volume[c];
+    density[c] = staggered.stiffness().stored_energy(c, mechanics, state) / mesh.cell_volume[c];
   OutputFields fields{.displacement = CellField<Vector>(
                           std::vector<Vector>(state.displacement.begin(), state.displacement.begin() + mesh.n_cells())),
                       .damage = state.damage,

@@ -59,12 +59,12 @@ Vector MomentumOperator::seen_from(Index cell, Index face, const FaceField<Vecto
 }
 
 CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted wanted) const {
-  const bool with_stress = wanted == Wanted::all;
+  const bool with_gradient = wanted == Wanted::all, with_stress = with_gradient || has_linear_stress();
   compute_forces(u);
   const FaceField<Vector> u_face = face_displacements(u);
   const auto n = as_size(mesh_.n_cells());
   CellMechanics result{.strain = CellField<Tensor>(n),
-                       .gradient = CellField<Tensor>(with_stress ? n : 0),
+                       .gradient = CellField<Tensor>(with_gradient ? n : 0),
                        .stress = CellField<Tensor>(with_stress ? n : 0),
                        .energy = CellField<double>(n)};
   parallel_for(mesh_.n_cells(), [&](Index c) {
@@ -85,8 +85,8 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
     gradient = gradient * closure_[c].transpose() / volume;
     result.strain[c] = symmetric_part(gradient);
     result.energy[c] = work;
+    if (with_gradient) result.gradient[c] = gradient;
     if (!with_stress) return;
-    result.gradient[c] = gradient;
     const Vector& normal = unknowns_.plane_normal;
     result.stress[c] = symmetric_part((moment * closure_[c]) / volume) +
                        stress_across(c, result.strain[c]) * normal * normal.transpose();
