@@ -40,7 +40,7 @@ Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField
   const Unknowns unknowns = place_unknowns(mesh, model);
   MomentumSolver solver(mesh, unknowns);
   CellStiffness stiffness(mesh, model);
-  stiffness.start_step();
+  stiffness.start_step(0.0);
   Equilibrated result;
   const auto n = as_size(mesh.n_cells());
   result.state.damage = std::move(damage);
