@@ -82,6 +82,13 @@ struct Shells {
   std::vector<Index> first;  // first point of the surface, of each layer's far side in turn
 };
 
+TriangleSurface turned_icosphere(Index n, double angle) {
+  TriangleSurface sphere = unit_icosphere(n);
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (Vector& x : sphere.points) x = Vector(c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]);
+  return sphere;
+}
+
 TriangleSurface placed(const TriangleSurface& unit, const Vector& centre, double radius) {
   TriangleSurface sphere = unit;
   for (Vector& x : sphere.points) x = centre + radius * x;
@@ -142,7 +149,7 @@ class Builder {
 
   void add_particle_surfaces(std::size_t i) {
     const Particle& p = settings_.particles[i];
-    Shells shells{unit_icosphere(subdivision_of(p)), {}};
+    Shells shells{turned_icosphere(subdivision_of(p), p.angle), {}};
     const std::string name = describe_particle(settings_, i);
     shells.first.push_back(add_surface(name, placed(shells.unit, p.centre, p.radius)));
     input_.seeds.push_back({p.centre, region(p.region)});

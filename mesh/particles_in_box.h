@@ -16,6 +16,9 @@ struct Particle {
   /// Its surface: either the edge length [m] or the subdivision n of an icosahedron (20 n^2 triangles); the other 0.
   double surface_size = 0.0;
   Index subdivision = 0;
+  /// By which that icosahedron is turned about z [radian]. It is alike on both sides of the planes x = 0 and y = 0, not
+  /// along x and y; turned by 45 degrees it is alike along these as well.
+  double angle = 0.0;
   std::string region = "bead";
   Index n_layers = 0;            ///< 0: the particle's surface itself is the interface
   double layer_thickness = 0.0;  ///< of all layers together [m]

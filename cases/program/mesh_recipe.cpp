@@ -95,6 +95,7 @@ Particle read_particle(const ConfigTable& table, const Layers& common_layers) {
     throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\"");
   particle.subdivision = static_cast<Index>(table.integer("subdivisions", cell_count, 0));
   particle.surface_size = table.quantity("surface_size", dimension::length, range::positive, 0.0);
+  particle.angle = table.quantity("angle", dimension::angle, range::any, particle.angle);
   const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : common_layers;
   particle.n_layers = layers.count;
   particle.layer_thickness = layers.count * layers.thickness;

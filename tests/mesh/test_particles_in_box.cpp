@@ -102,6 +102,30 @@ TEST(ParticlesInBox, SameInputSameMesh) {
   expect_same(a, b);
 }
 
+// How far the mesh's points on the bead are from those with x and y exchanged, at most [radius].
+double unlikeness_of_x_and_y(double angle) {
+  ParticlesInBoxSettings settings = one_bead(4, 2);
+  settings.particles[0].angle = angle;
+  const Mesh mesh = make_particles_in_box(settings);
+  const double radius = settings.particles[0].radius;
+  std::vector<Vector> on_bead;
+  for (const Vector& x : mesh.points)
+    if (std::abs(x.norm() - radius) < 1e-9 * radius) on_bead.push_back(x / radius);
+  EXPECT_EQ(on_bead.size(), 10u * 4u * 4u + 2u);
+  double worst = 0.0;
+  for (const Vector& x : on_bead) {
+    double nearest = 1.0;
+    for (const Vector& y : on_bead) nearest = std::min(nearest, (y - Vector(x[1], x[0], x[2])).norm());
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
+TEST(ParticlesInBox, ABeadTurnedBy45DegreesIsAlikeAlongXAndY) {
+  EXPECT_GT(unlikeness_of_x_and_y(0.0), 0.05);
+  EXPECT_LT(unlikeness_of_x_and_y(0.25 * std::numbers::pi), 1e-9);
+}
+
 TEST(ParticlesInBox, UnitOfLengthDoesNotMatter) {
   const Mesh small = make_particles_in_box(one_bead(4, 2));
   ParticlesInBoxSettings settings = one_bead(4, 2);
