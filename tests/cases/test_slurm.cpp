@@ -26,7 +26,7 @@ std::string sweep_of_bar(const std::string& slurm) {
 }
 
 /// Tasks wait until the test lets them go.
-const std::string held = "time = \"90 s\"\ncpus_per_task = 2\nmemory = \"1 MB\"\npartition = \"all\"\n" +
+const std::string held = "time = \"10 min\"\ncpus_per_task = 2\nmemory = \"1 MB\"\npartition = \"all\"\n" +
                          std::string("lines = [\"while ! test -e ../../go; do sleep 0.1; done\"]");
 
 /// The program itself: what runs the test is not what a task could start.
