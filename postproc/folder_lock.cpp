@@ -1,6 +1,5 @@
 #include "postproc/folder_lock.h"
 
-#include "physics/error.h"
 #include "postproc/atomic_file.h"
 
 #include <fcntl.h>
@@ -20,7 +19,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : descriptor_(-1) {
     throw ComputationError(fmt::format("cannot open {}: {}", folder.string(), std::generic_category().message(errno)));
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);
-  throw InputError(
+  throw FolderInUse(
       fmt::format("{}: another run is writing its results there; wait for it, stop it, or choose another "
                   "folder with --output",
                   folder.string()));

@@ -1,13 +1,20 @@
 #pragma once
 // Keeps two runs from writing into one folder of results.
 
+#include "physics/error.h"
+
 #include <filesystem>
 
 namespace pfdm {
 
+/// Another run holds the folder.
+struct FolderInUse : InputError {
+  using InputError::InputError;
+};
+
 class FolderLock {
  public:
-  /// Makes the folder if need be. Throws InputError if another run holds it, ComputationError if it cannot be made or
+  /// Makes the folder if need be. Throws FolderInUse if another run holds it, ComputationError if it cannot be made or
   /// opened. Where the file system knows no locks there is none. A killed run holds nothing.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();

@@ -91,6 +91,9 @@ ceres::Solver::Options options_of(const FitSettings& settings) {
   options.initial_trust_region_radius = settings.trust_radius;
   options.parameter_tolerance = settings.tolerance;
   options.gradient_tolerance = 1e-18;
+  // With bounds Ceres would search along a step that makes the sum of squares larger, by its gradient at each trial: a
+  // run of the model for each parameter and side. A smaller trust region costs one.
+  options.max_num_line_search_step_size_iterations = 0;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.update_state_every_iteration = true;

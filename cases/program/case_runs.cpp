@@ -2,6 +2,7 @@
 
 #include "cases/program/kinds.h"
 #include "postproc/atomic_file.h"
+#include "postproc/folder_lock.h"
 #include "postproc/summary.h"
 #include "postproc/text_file.h"
 
@@ -45,8 +46,9 @@ std::string CaseRuns::key_of(const CaseVariant& variant) {
   return fmt::format("{}_{}", case_hash(variant.file, data, without_influence), session_.version);
 }
 
-std::vector<DoneRun> CaseRuns::run(const std::vector<CaseVariant>& variants, std::optional<double> until) {
-  std::vector<Wanted> all, missing;
+/// A variant that cannot be is remembered so; its key is what is shown of it.
+std::vector<CaseRuns::Wanted> CaseRuns::wanted(const std::vector<CaseVariant>& variants, std::optional<double> until) {
+  std::vector<Wanted> all;
   for (const CaseVariant& variant : variants) {
     all.push_back({variant.shown, &variant, until, {}});
     Wanted& wanted = all.back();
@@ -57,15 +59,41 @@ std::vector<DoneRun> CaseRuns::run(const std::vector<CaseVariant>& variants, std
       if (!known_.contains(wanted.known_as()))
         session_.log.warn(fmt::format("there is no case with {}: {}", variant.shown, error.what()));
       remember(wanted, {{}, error.what()});
-      continue;
     }
+  }
+  return all;
+}
+
+std::vector<CaseRuns::Wanted> CaseRuns::not_there(const std::vector<Wanted>& all) {
+  std::vector<Wanted> missing;
+  for (const Wanted& wanted : all) {
     const bool asked_for = std::ranges::any_of(missing, [&](const Wanted& other) { return other.key == wanted.key; });
     if (!asked_for && !find(wanted)) missing.push_back(wanted);
   }
+  return missing;
+}
+
+std::vector<DoneRun> CaseRuns::run(const std::vector<CaseVariant>& variants, std::optional<double> until) {
+  const std::vector<Wanted> all = wanted(variants, until);
+  const std::vector<Wanted> missing = not_there(all);
   if (!missing.empty()) make(missing);
   std::vector<DoneRun> results;
   for (const Wanted& wanted : all) results.push_back(known_.at(wanted.known_as()));
   return results;
+}
+
+std::vector<MissingRun> CaseRuns::missing(const std::vector<CaseVariant>& variants) {
+  std::vector<MissingRun> result;
+  for (const Wanted& wanted : not_there(wanted(variants, std::nullopt))) result.push_back({wanted.key, wanted.variant});
+  return result;
+}
+
+void CaseRuns::run_here(const CaseVariant& variant, const std::string& key) {
+  if (key_of(variant) != key)
+    throw InputError(fmt::format(
+        "{}: the program or files that the case reads have changed since this run was prepared", variant.shown));
+  const Wanted wanted{key, &variant, std::nullopt, folder_ / key};
+  if (!find(wanted)) ended(wanted, {.status = do_run(wanted, session_.threads, session_.log), .signal = 0});
 }
 
 void CaseRuns::remember(const Wanted& wanted, const DoneRun& done) {
@@ -89,15 +117,18 @@ void CaseRuns::make(const std::vector<Wanted>& missing) {
   if (first.prepare) first.prepare(session_);
   std::vector<Job> jobs;
   for (const Wanted& wanted : missing)
-    jobs.push_back({.work = [this, &wanted](int threads) { return do_run(wanted, threads); },
+    jobs.push_back({.work =
+                        [this, &wanted](int threads) {
+                          std::ostringstream unseen;
+                          Log log(unseen, false, true);
+                          return do_run(wanted, threads, log);
+                        },
                     .ended = [this, &wanted](const JobEnd& end) { ended(wanted, end); }});
   run_side_by_side(jobs, session_.threads);
 }
 
 /// In a process of its own.
-int CaseRuns::do_run(const Wanted& wanted, int threads) {
-  std::ostringstream unseen;
-  Log log(unseen, false, true);
+int CaseRuns::do_run(const Wanted& wanted, int threads, Log& log) {
   Session session{.results = wanted.folder,
                   .restart = true,
                   .max_steps = std::nullopt,
@@ -118,6 +149,9 @@ int CaseRuns::do_run(const Wanted& wanted, int threads) {
     return run_went_well;
   } catch (const NoConvergence& failure) {
     return give_up(failure);
+  } catch (const FolderInUse& failure) {
+    log.say(fmt::format("failed: {}", failure.what()));
+    return run_broke_off;
   } catch (const InputError& failure) {
     return give_up(failure);
   } catch (const std::exception& failure) {

@@ -27,6 +27,12 @@ struct DoneRun {
   bool went_well() const { return failure.empty(); }
 };
 
+/// A run that is not there yet; the hash of all that decides its results names it.
+struct MissingRun {
+  std::string key;
+  const CaseVariant* variant;
+};
+
 class CaseRuns {
  public:
   /// `folder` will hold the runs' folders. Runs are side by side on `session.threads` cores.
@@ -38,6 +44,13 @@ class CaseRuns {
   /// where a later call goes on. Comes back in the order of the variants; the results do not depend on how many run at
   /// a time. Throws ComputationError if a run breaks off for another reason than that it does not converge.
   std::vector<DoneRun> run(const std::vector<CaseVariant>& variants, std::optional<double> until = std::nullopt);
+
+  /// What run() would have to run, each once; nothing is run.
+  std::vector<MissingRun> missing(const std::vector<CaseVariant>& variants);
+
+  /// One run that is not there yet, in this process, whose log tells of it. Throws InputError if `key` is not the
+  /// variant's.
+  void run_here(const CaseVariant& variant, const std::string& key);
 
   int n_made() const { return static_cast<int>(made_.size()); }      ///< runs that were done, or gone on with, here
   int n_reused() const { return static_cast<int>(reused_.size()); }  ///< that were there before
@@ -52,9 +65,11 @@ class CaseRuns {
     std::string known_as() const;
   };
   std::string key_of(const CaseVariant& variant);
+  std::vector<Wanted> wanted(const std::vector<CaseVariant>& variants, std::optional<double> until);
+  std::vector<Wanted> not_there(const std::vector<Wanted>& all);
   bool find(const Wanted& wanted);
   void make(const std::vector<Wanted>& missing);
-  int do_run(const Wanted& wanted, int threads);
+  int do_run(const Wanted& wanted, int threads, Log& log);
   void ended(const Wanted& wanted, const JobEnd& end);
   void remember(const Wanted& wanted, const DoneRun& done);
 

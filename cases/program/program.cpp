@@ -2,6 +2,7 @@
 
 #include "cases/program/kinds.h"
 #include "cases/program/listing.h"
+#include "cases/program/sweep_on_slurm.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
@@ -24,6 +25,8 @@ struct Options {
   bool restart = false;
   bool quiet = false;
   bool laws = false;
+  bool slurm = false;
+  std::optional<std::string> prepared;
 };
 
 struct Commands {
@@ -59,6 +62,11 @@ void describe_options(Commands& commands, Options& options) {
   commands.run->add_option("--max-steps", options.max_steps, "stop after N load steps; --restart goes on from there")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
+  commands.sweep->add_flag("--slurm", options.slurm, "hand the runs that are not there to Slurm, or collect them");
+  commands.sweep->add_option("--prepared", options.prepared, "make this one of the runs that --slurm has prepared")
+      ->type_name("RUN")
+      ->needs("--output")
+      ->group("");
   commands.list->add_flag("--laws", options.laws, "list laws, boundary conditions and generators instead");
 }
 
@@ -76,16 +84,18 @@ void require_known_command(const Commands& commands, const std::vector<std::stri
 void do_case(const Commands& commands, const Options& options, std::ostream& out, bool terminal) {
   set_threads(options.threads);
   Log log(out, terminal, options.quiet);
+  Session session{.results = options.output,
+                  .restart = options.restart,
+                  .max_steps = options.max_steps > 0 ? std::optional(options.max_steps) : std::nullopt,
+                  .until = std::nullopt,
+                  .threads = options.threads,
+                  .version = PFDM_VERSION,
+                  .log = log,
+                  .slurm = options.slurm};
+  if (options.prepared) return make_prepared_run(options.case_directory, *options.prepared, session);
   const CaseFile file = open_case(options.case_directory);
   const RunnableCase runnable = read_case(file);
-  Session session{
-      .results = options.output.empty() ? file.directory / "results" : std::filesystem::path(options.output),
-      .restart = options.restart,
-      .max_steps = options.max_steps > 0 ? std::optional(options.max_steps) : std::nullopt,
-      .until = std::nullopt,
-      .threads = options.threads,
-      .version = PFDM_VERSION,
-      .log = log};
+  if (session.results.empty()) session.results = file.directory / "results";
   for (const auto& [command, job] :
        {std::pair(commands.run, &runnable.run), std::pair(commands.check, &runnable.check),
         std::pair(commands.mesh, &runnable.mesh), std::pair(commands.cohesive, &runnable.cohesive),

@@ -19,6 +19,7 @@ struct Session {
   int threads = 1;
   std::string version;
   Log& log;
+  bool slurm = false;           ///< hand the runs of a sweep to Slurm
   bool figures_only = false;    ///< of many runs: summary and curves, no fields
   MeshStore* meshes = nullptr;  ///< where meshes are kept that several runs share
 };

@@ -2,6 +2,7 @@
 
 #include "cases/program/case_runs.h"
 #include "cases/program/stopwatch.h"
+#include "cases/program/sweep_on_slurm.h"
 #include "postproc/csv_table.h"
 #include "postproc/folder_lock.h"
 #include "postproc/summary.h"
@@ -71,6 +72,7 @@ CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& run
 
 void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& session) {
   const Stopwatch watch;
+  if (session.slurm) require_slurm();
   const FolderLock lock(session.results);
   session.log.say(fmt::format("pfdm {}, sweep of {}: {} runs; {} threads", session.version, case_name(file),
                               settings.points.size(), session.threads));
@@ -79,6 +81,9 @@ void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& ses
   std::vector<CaseVariant> variants;
   for (const std::vector<double>& point : settings.points)
     variants.push_back({with_values(file, settings.parameters, point), shown(settings.parameters, point)});
+  const std::vector<MissingRun> missing = runs.missing(variants);
+  if (!missing.empty() && session.slurm) return hand_to_slurm(file, settings.slurm, missing, session);
+  if (!missing.empty()) require_no_tasks_of(session);
   const std::vector<DoneRun> done = runs.run(variants);
   write_csv(session.results / "sweep.csv", table_of(settings, done, session.results));
   session.log.say(fmt::format("{} runs made, {} reused, {} of them did not converge; {:.1f} s; written to {}",

@@ -7,7 +7,8 @@
 namespace pfdm {
 
 /// Writes sweep.csv to session.results, the runs to runs/ there, which a fit uses as well. Killed at any moment it goes
-/// on at the next call with the runs that it left.
+/// on at the next call with the runs that it left. With session.slurm, runs that are not there are handed to Slurm
+/// instead, and the table is written by a later call that finds them.
 void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& session);
 
 }  // namespace pfdm

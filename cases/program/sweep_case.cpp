@@ -117,6 +117,7 @@ std::optional<SweepSettings> read_sweep(const CaseFile& file) {
   SweepSettings settings;
   const std::vector<ConfigTable> tables = sweep.tables("parameters");
   for (const ConfigTable& table : tables) settings.parameters.push_back(read_case_parameter(table.at("key"), file));
+  if (sweep.has("slurm")) settings.slurm = read_slurm(sweep.table("slurm"));
   if (tables.empty()) throw sweep.error("at least one [[sweep.parameters]] is due");
   const std::string methods[] = {"grid", "list", "latin_hypercube"};
   const std::string method = sweep.at("method").one_of(methods, "method of a sweep");

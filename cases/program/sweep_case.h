@@ -2,6 +2,7 @@
 // Reads [sweep] of a case of any kind: which values are changed, and which sets of values are run.
 
 #include "cases/program/case_parameter.h"
+#include "cases/program/slurm.h"
 
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,7 @@ namespace pfdm {
 struct SweepSettings {
   std::vector<CaseParameter> parameters;
   std::vector<std::vector<double>> points;  ///< a value of each parameter [SI]
+  SlurmSettings slurm;
 };
 
 /// Nothing if there is no [sweep]. Throws InputError that names file and line.
