@@ -109,9 +109,11 @@ void models(double duration, double decibel) {
     settings.kernel_order = static_cast<int>(t.kernel.size());
     const double cpu = cpu_seconds();
     const Identification found = identify(records, model_structure(name), settings);
-    fmt::print("model {:<3} largest error {:.2e} (regression alone {:.2e}), complex stiffness {:.2e}, {:.1f} CPU s\n",
-               name, largest_error(found.fit.model, t), largest_error(found.start.model, t),
-               stiffness_error(found.fit.model, t, 100.0, 420.0, 0.2), cpu_seconds() - cpu);
+    fmt::print(
+        "model {:<3} largest error {:.2e} (regression alone {:.2e}), complex stiffness {:.2e}, {} iterations, {:.1f} "
+        "CPU s\n",
+        name, largest_error(found.fit.model, t), largest_error(found.start.model, t),
+        stiffness_error(found.fit.model, t, 100.0, 420.0, 0.2), found.fit.path.size(), cpu_seconds() - cpu);
     std::fflush(stdout);
   }
   fmt::print("all: {:.1f} CPU s, {:.1f} s\n", cpu_seconds() - all_cpu, wall_seconds() - all_wall);
