@@ -117,13 +117,29 @@ Minimum minimise_fully(OutputError& error, const VectorXd& x0) {
           .converged = found.converged};
 }
 
+/// Where the record with the strongest response alone has its minimum: from a start that is far off it is the cheaper
+/// way. `start` if that does not bring all records nearer.
+VectorXd approached_by_one(const VibrationRecord& strongest, double crop, OutputError& all,
+                           const ParameterCoordinates& coordinates, const MassMaterial& start, const VectorXd& x0) {
+  constexpr double roughly = 1e-4;
+  const Responses one(std::span(&strongest, 1), crop);
+  const Drives drives = one.reduced_drives(start);
+  OutputError error(one, coordinates, drives);
+  const VectorXd x = minimise(error.problem(x0.size()), x0, roughly).parameters;
+  const double before = all.residuals(x0).squaredNorm(), after = all.residuals(x).squaredNorm();
+  return after < before ? x : x0;
+}
+
 /// First with as few samples as the compared band needs, then to the end with all of them.
-Minimum least_output_error(const Responses& responses, const ParameterCoordinates& coordinates,
-                           const MassMaterial& start) {
+Minimum least_output_error(std::span<const VibrationRecord> records, const Responses& responses,
+                           const ParameterCoordinates& coordinates, const MassMaterial& start, double crop) {
   constexpr double near = 1e-6;
   const Drives reduced = responses.reduced_drives(start);
   OutputError coarse(responses, coordinates, reduced);
-  const VectorXd x0 = bounded_start(coarse, coordinates, start);
+  VectorXd x0 = bounded_start(coarse, coordinates, start);
+  const auto strength = [](const VibrationRecord& r) { return r.relative.squaredNorm() / static_cast<double>(r.n()); };
+  if (records.size() > 1)
+    x0 = approached_by_one(*std::ranges::max_element(records, {}, strength), crop, coarse, coordinates, start, x0);
   const LeastSquaresResult approached = minimise(coarse.problem(x0.size()), x0, near);
   const VectorXd& x = approached.parameters;
   const Drives full = responses.full_drives(coordinates.model(x));
@@ -206,7 +222,7 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   sort_terms(sorted);
   const Responses responses(records, settings.crop);
   const ParameterCoordinates coordinates(sorted, excited_range(records));
-  const Minimum found = least_output_error(responses, coordinates, sorted);
+  const Minimum found = least_output_error(records, responses, coordinates, sorted, settings.crop);
 
   OutputErrorFit fit;
   fit.converged = found.converged;
