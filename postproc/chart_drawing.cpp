@@ -241,6 +241,9 @@ std::vector<Series> unbroken(const Series& series, const Chart& chart, const Cha
     pieces.back().y.push_back(y);
     if (band) pieces.back().upper.push_back(upper);
   }
+  // Between two gaps a single point makes no line.
+  const bool line = series.style == SeriesStyle::line || series.style == SeriesStyle::dashed;
+  if (line) std::erase_if(pieces, [](const Series& piece) { return piece.x.size() < 2; });
   return pieces;
 }
 

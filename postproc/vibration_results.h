@@ -2,7 +2,7 @@
 // summary.json and fit.json of the mass-material model. SI units, units in the names. Files are written whole or not at
 // all; numbers that are not finite become null.
 
-#include "solver/identification.h"
+#include "solver/identification_repeats.h"
 #include "solver/ogden_fit.h"
 
 #include <filesystem>
@@ -53,6 +53,7 @@ struct VibrationFit {
   std::vector<NamedFigures> tests;
   std::vector<ModulusRow> modulus;
   std::optional<OgdenFit> ogden;  ///< of the stiffness polynomial
+  std::optional<RepeatedIdentification> repeats;
 };
 void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& fit);
 

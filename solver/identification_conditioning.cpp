@@ -3,6 +3,7 @@
 #include "solver/signals_fourier.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -24,6 +25,7 @@ Conditioner::Conditioner(Index n, double rate, const PassBand& band, double crop
   }
   const double ratio = static_cast<double>(reduced_) / static_cast<double>(length_);
   rate_ = rate * ratio;
+  n_reduced_ = std::min(static_cast<Index>(std::floor(static_cast<double>(n - 1) * ratio)) + 1, reduced_);
   const double used = static_cast<double>(n) * ratio;
   first_ = static_cast<Index>(std::ceil(crop * used));
   n_kept_ = static_cast<Index>(std::floor((1.0 - crop) * used)) - first_;
@@ -35,13 +37,26 @@ VectorXcd Conditioner::spectrum(const Eigen::Ref<const VectorXd>& signal) const 
   return fourier(padded).head(gain_.size());
 }
 
-VectorXd Conditioner::samples(const VectorXcd& spectrum) const {
+VectorXd Conditioner::at_reduced_rate(const VectorXcd& spectrum) const {
   const double scale = static_cast<double>(reduced_) / static_cast<double>(length_);
-  const VectorXcd within = spectrum.cwiseProduct((scale * gain_).cast<std::complex<double>>());
-  return inverse_fourier(within, reduced_).segment(first_, n_kept_);
+  return inverse_fourier(scale * spectrum, reduced_);
 }
 
-VectorXd Conditioner::operator()(const Eigen::Ref<const VectorXd>& signal) const { return samples(spectrum(signal)); }
+VectorXd Conditioner::samples(const VectorXcd& spectrum) const {
+  return at_reduced_rate(spectrum.cwiseProduct(gain_)).segment(first_, n_kept_);
+}
+
+VectorXd Conditioner::reduced(const Eigen::Ref<const VectorXd>& signal) const {
+  return at_reduced_rate(spectrum(signal)).head(n_reduced_);
+}
+
+VectorXd Conditioner::operator()(const Eigen::Ref<const VectorXd>& signal) const {
+  if (signal.size() == n_) return samples(spectrum(signal));
+  assert(signal.size() == n_reduced_);
+  VectorXd padded = VectorXd::Zero(reduced_);
+  padded.head(n_reduced_) = signal;
+  return inverse_fourier(fourier(padded).cwiseProduct(gain_), reduced_).segment(first_, n_kept_);
+}
 
 States integrate_states(const VibrationRecord& record) {
   const PassBand band{.low = 0.5 * record.band_low, .high = std::min(6.0 * record.band_high, 0.4 * record.rate)};

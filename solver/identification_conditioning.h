@@ -19,23 +19,30 @@ class Conditioner {
   /// For signals of n samples; `crop` is the part cut off at either end.
   Conditioner(Eigen::Index n, double rate, const PassBand& band, double crop);
 
+  /// Of a signal at the record's rate or one that reduced() has brought to the lower rate.
   Eigen::VectorXd operator()(const Eigen::Ref<const Eigen::VectorXd>& signal) const;
   /// In two steps: the spectrum within the band, not yet filtered, which may be multiplied by a transfer function ...
   Eigen::VectorXcd spectrum(const Eigen::Ref<const Eigen::VectorXd>& signal) const;
   /// ... and from there to the samples.
   Eigen::VectorXd samples(const Eigen::VectorXcd& spectrum) const;
 
+  /// The whole signal at the lower rate that the band needs, not filtered otherwise.
+  Eigen::VectorXd reduced(const Eigen::Ref<const Eigen::VectorXd>& signal) const;
+
   const Eigen::VectorXd& omega() const { return omega_; }  ///< of the spectrum's entries [rad/s]
   Eigen::Index n_samples() const { return n_kept_; }
   double rate() const { return rate_; }  ///< of what comes out [Hz]
 
  private:
-  Eigen::Index n_;        // samples that come in
-  Eigen::Index length_;   // with zeros up to a fast length
-  Eigen::Index reduced_;  // length of the reduced signal
+  Eigen::Index n_;          // samples that come in
+  Eigen::Index length_;     // with zeros up to a fast length
+  Eigen::Index reduced_;    // length of the reduced signal
+  Eigen::Index n_reduced_;  // without the zeros
   Eigen::Index first_;
   Eigen::Index n_kept_;
   double rate_;
+  Eigen::VectorXd at_reduced_rate(const Eigen::VectorXcd& spectrum) const;
+
   Eigen::VectorXd gain_;
   Eigen::VectorXd omega_;
 };

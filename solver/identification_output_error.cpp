@@ -1,17 +1,17 @@
 // refine_output and prediction_misfit of identification.h.
 
 #include "solver/identification.h"
-#include "solver/identification_conditioning.h"
+#include "solver/identification_coordinates.h"
 #include "solver/identification_least_squares.h"
+#include "solver/identification_responses.h"
 #include "solver/mass_material_simulation.h"
-#include "solver/parallel.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 namespace pfdm {
@@ -21,226 +21,146 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What is compared: the excited band and three harmonics of it.
-Conditioner output_condition(const VibrationRecord& r, double crop) {
-  const PassBand band{.low = 0.5 * r.band_low, .high = std::min(3.0 * r.band_high, 0.38 * r.rate), .skirt = 0.2};
-  return {r.n(), r.rate, band, crop};
-}
-
-constexpr double tracking_width = 5.0;  // [Hz]
-
-/// How far a sample may rely on the tracker, whose filter needs signal on both sides: 0 at the ends of the record, 1
-/// from four of its time constants on.
-double reliance(Eigen::Index i, const VibrationRecord& r) {
-  const double distance = static_cast<double>(std::min(i, r.n() - 1 - i)) / r.rate * tracking_width;
-  const double part = std::clamp((distance - 1.0) / 3.0, 0.0, 1.0);
-  return part * part * (3.0 - 2.0 * part);
-}
-
-/// The base's acceleration as what drives the model. Noise on it would come through the nonlinear terms as a bias. Of a
-/// sweep everything is kept that moves with the driving frequency or its harmonics, within the tracking width; the rest
-/// is noise. Where the rest is no small part there is no sweep, and where it is next to nothing (below -60 dB) there is
-/// no noise: then the record is left as it is.
-VectorXd tracked_base(const VibrationRecord& r) {
-  const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
-  VectorXd tracked = tracked_sweep(r.base, r.rate, band, tracking_width);
-  const Eigen::Index edge = r.n() / 4;  // the ends are not tracked well
-  const Eigen::Index n = r.n() - 2 * edge;
-  const double rest = (tracked - r.base).segment(edge, n).norm() / r.base.segment(edge, n).norm();
-  if (rest < 1e-3 || rest > 0.1) return r.base;
-  for (Eigen::Index i = 0; i < r.n(); ++i) {
-    const double weight = reliance(i, r);
-    tracked[i] = weight * tracked[i] + (1.0 - weight) * r.base[i];
-  }
-  return tracked;
-}
-
-/// Parameters of size one without bounds: logarithms of what must be positive (k1, c, |beta|), a sigmoid of what has
-/// two bounds (lambda; the logarithm of alpha), k_i relative to k1 at the displacement that occurs.
-class Coordinates {
- public:
-  Coordinates(const MassMaterial& start, double displacement, double low, double high)
-      : terms_(start),
-        displacement_(displacement),
-        log_low_(std::log(2.0 * std::numbers::pi * low / 10.0)),
-        log_high_(std::log(2.0 * std::numbers::pi * high * 10.0)) {}
-
-  VectorXd from(const MassMaterial& m) const {
-    std::vector<double> x{std::log(m.stiffness[0])};
-    for (std::size_t i = 1; i < m.stiffness.size(); ++i)
-      x.push_back(m.stiffness[i] * std::pow(displacement_, i) / m.stiffness[0]);
-    x.push_back(std::log(std::max(m.damping, 1e-4 * std::sqrt(m.stiffness[0] * m.mass))));
-    if (free_exponent()) x.push_back(inverse_sigmoid(m.damping_exponent / most_exponent));
-    for (const HereditaryTerm& term : m.kernel) {
-      x.push_back(std::log(std::abs(term.beta.real())));
-      x.push_back(inverse_sigmoid((std::log(term.alpha.real()) - log_low_) / (log_high_ - log_low_)));
-    }
-    return Eigen::Map<const VectorXd>(x.data(), static_cast<Index>(x.size()));
-  }
-
-  MassMaterial model(const VectorXd& x) const {
-    MassMaterial m = terms_;
-    Index at = 0;
-    m.stiffness[0] = std::exp(x[at++]);
-    for (std::size_t i = 1; i < m.stiffness.size(); ++i)
-      m.stiffness[i] = x[at++] * m.stiffness[0] / std::pow(displacement_, i);
-    m.damping = std::exp(x[at++]);
-    if (free_exponent()) m.damping_exponent = most_exponent * sigmoid(x[at++]);
-    const double sign = dissipative_sign(m.forcing);
-    for (HereditaryTerm& term : m.kernel) {
-      term.beta = sign * std::exp(x[at++]);
-      term.alpha = std::exp(log_low_ + (log_high_ - log_low_) * sigmoid(x[at++]));
-    }
-    return m;
-  }
-
- private:
-  static constexpr double most_exponent = 4.0;
-  static double sigmoid(double x) { return 1.0 / (1.0 + std::exp(-x)); }
-  static double inverse_sigmoid(double y) {
-    const double inside = std::clamp(y, 1e-3, 1.0 - 1e-3);
-    return std::log(inside / (1.0 - inside));
-  }
-  bool free_exponent() const { return terms_.damping_exponent != 0.0; }
-
-  MassMaterial terms_;
-  double displacement_;
-  double log_low_;
-  double log_high_;
-};
-
-/// All records: measured output, what drives, and where each one's residuals stand.
+/// Residuals as a function of the coordinates. Remembers the last response: the Jacobian starts from it.
 class OutputError {
  public:
-  OutputError(std::span<const VibrationRecord> records, const MassMaterial& start, double crop)
-      : coordinates_(start, largest_displacement(records), lowest(records), highest(records)) {
-    int substeps = 1;
-    for (const VibrationRecord& r : records) substeps = std::max(substeps, substeps_for(start, r.rate));
-    for (const VibrationRecord& r : records) {
-      Output out{
-          .condition = output_condition(r, crop), .base = nodes_of(tracked_base(r), r.rate, substeps), .measured = {}};
-      out.measured = out.condition(r.relative);
-      out.weight = std::sqrt(static_cast<double>(out.measured.size())) / out.measured.norm();
-      out.first = n_residuals_;
-      n_residuals_ += out.measured.size();
-      outputs_.push_back(std::move(out));
-    }
-  }
+  OutputError(const Responses& responses, const ParameterCoordinates& coordinates, const Drives& drives)
+      : responses_(responses), coordinates_(coordinates), drives_(drives) {}
 
-  const Coordinates& coordinates() const { return coordinates_; }
-  Index n_residuals() const { return n_residuals_; }
+  VectorXd residuals(const VectorXd& x) { return responses_.residuals(response(x)); }
 
-  /// Weighted conditioned responses of the models, a column each; NaN where one runs away.
-  MatrixXd responses(const std::vector<MassMaterial>& models) const {
-    constexpr std::size_t together = 8;  // of the simulation
-    const std::size_t groups = (models.size() + together - 1) / together;
-    MatrixXd result(n_residuals_, static_cast<Index>(models.size()));
-    const auto n_tasks = static_cast<pfdm::Index>(groups * outputs_.size());
-    parallel_chunks(
-        n_tasks,
-        [&](pfdm::Index begin, pfdm::Index) {
-          const Output& out = outputs_[static_cast<std::size_t>(begin) / groups];
-          const std::size_t first = static_cast<std::size_t>(begin) % groups * together;
-          const std::span part = std::span(models).subspan(first, std::min(together, models.size() - first));
-          const MatrixXd z = simulate_batch(part, out.base);
-          for (Index k = 0; k < z.cols(); ++k) {
-            auto to = result.col(static_cast<Index>(first) + k).segment(out.first, out.measured.size());
-            if (z.col(k).allFinite())
-              to = out.weight * out.condition(z.col(k));
-            else
-              to.setConstant(std::numeric_limits<double>::quiet_NaN());
-          }
-        },
-        1);
-    return result;
-  }
-
-  VectorXd residuals(const VectorXd& response) const {
-    VectorXd r = response;
-    for (const Output& out : outputs_) r.segment(out.first, out.measured.size()) -= out.weight * out.measured;
-    return r;
-  }
-
-  MatrixXd jacobian(const VectorXd& x) const {
+  MatrixXd jacobian(const VectorXd& x) {
     constexpr double h = 1e-6;
-    std::vector<MassMaterial> models{coordinates_.model(x)};
-    for (Index k = 0; k < x.size(); ++k) {
-      VectorXd moved = x;
-      moved[k] += h;
-      models.push_back(coordinates_.model(moved));
-    }
-    const MatrixXd y = responses(models);
-    return (y.rightCols(x.size()).colwise() - y.col(0)) / h;
+    std::vector<MassMaterial> moved;
+    for (Index k = 0; k < x.size(); ++k) moved.push_back(coordinates_.model(x + h * VectorXd::Unit(x.size(), k)));
+    const MatrixXd y = responses_.simulated(moved, drives_);
+    return (y.colwise() - response(x)) / h;
   }
 
-  /// Norm of the residuals of each record over that of its measured output.
-  std::vector<double> misfits(const VectorXd& r) const {
-    std::vector<double> result;
-    for (const Output& out : outputs_)
-      result.push_back(r.segment(out.first, out.measured.size()).norm() /
-                       std::sqrt(static_cast<double>(out.measured.size())));
-    return result;
-  }
-
-  /// First and last residual of blocks, within a record each, longer than what residuals have in common: some periods,
-  /// and what is left of the noise within the tracking width.
-  std::vector<std::pair<Index, Index>> blocks() const {
-    std::vector<std::pair<Index, Index>> result;
-    for (const Output& out : outputs_) {
-      const Index n = out.measured.size();
-      const double length = std::max(200.0, 1.5 * out.condition.rate() / tracking_width);
-      const auto count = std::clamp<Index>(static_cast<Index>(static_cast<double>(n) / length), 1, 600);
-      for (Index i = 0; i < count; ++i) result.emplace_back(out.first + n * i / count, out.first + n * (i + 1) / count);
-    }
-    return result;
+  LeastSquaresProblem problem(Index n_parameters) {
+    return {.n_residuals = responses_.size(),
+            .n_parameters = n_parameters,
+            .residuals = [this](const VectorXd& x, VectorXd& r) { r = residuals(x); },
+            .jacobian = [this](const VectorXd& x, MatrixXd& J) { J = jacobian(x); }};
   }
 
  private:
-  struct Output {
-    Conditioner condition;
-    BaseNodes base;
-    VectorXd measured;
-    double weight = 1.0;
-    Index first = 0;
-  };
-
-  static double largest_displacement(std::span<const VibrationRecord> records) {
-    double z = 0.0;
-    for (const VibrationRecord& r : records) {
-      const VectorXd all = integrate_states(r).displacement;
-      const Index edge = all.size() / 20;
-      z = std::max(z, all.segment(edge, all.size() - 2 * edge).lpNorm<Eigen::Infinity>());
+  const VectorXd& response(const VectorXd& x) {
+    if (x.size() != at_.size() || x != at_) {
+      const MassMaterial model = coordinates_.model(x);
+      response_ = responses_.simulated(std::span(&model, 1), drives_).col(0);
+      at_ = x;
     }
-    return z;
-  }
-  static double lowest(std::span<const VibrationRecord> records) {
-    return std::ranges::min_element(records, {}, &VibrationRecord::band_low)->band_low;
-  }
-  static double highest(std::span<const VibrationRecord> records) {
-    return std::ranges::max_element(records, {}, &VibrationRecord::band_high)->band_high;
+    return response_;
   }
 
-  Coordinates coordinates_;
-  std::vector<Output> outputs_;
-  Index n_residuals_ = 0;
+  const Responses& responses_;
+  const ParameterCoordinates& coordinates_;
+  const Drives& drives_;
+  VectorXd at_;
+  VectorXd response_;
 };
 
 /// A regression may overshoot what holds the mass: softer in its nonlinear part, it starts from somewhere.
-VectorXd bounded_start(const OutputError& error, MassMaterial start) {
+VectorXd bounded_start(OutputError& error, const ParameterCoordinates& coordinates, MassMaterial start) {
   for (int i = 0; i < 8; ++i) {
-    const VectorXd x = error.coordinates().from(start);
-    if (error.responses({error.coordinates().model(x)}).allFinite()) return x;
+    const VectorXd x = coordinates.from(start);
+    if (error.residuals(x).allFinite()) return x;
     for (std::size_t k = 1; k < start.stiffness.size(); ++k) start.stiffness[k] *= i < 6 ? 0.5 : 0.0;
   }
-  return error.coordinates().from(start);
+  return coordinates.from(start);
+}
+
+/// Where the sum of squares is least, the residuals there, and the Jacobian there or nearby.
+struct Minimum {
+  VectorXd x;
+  VectorXd residuals;
+  MatrixXd jacobian;
+  std::vector<double> path;  // norms of the residuals
+  bool converged = false;
+};
+
+constexpr double tolerance = 1e-10;  // of the sum of squares and of the parameters
+
+/// Gauss-Newton steps with the Jacobian of a cheaper simulation near the minimum: one simulation a step. Not converged
+/// if they do not contract.
+Minimum follow_fixed_jacobian(OutputError& error, VectorXd x, MatrixXd jacobian) {
+  const VectorXd norms = jacobian.colwise().norm().cwiseMax(1e-300);
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(jacobian * norms.cwiseInverse().asDiagonal());
+  Minimum best{.x = x, .residuals = error.residuals(x), .jacobian = std::move(jacobian), .path = {}};
+  VectorXd r = best.residuals;
+  double last_step = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 12 && r.allFinite(); ++i) {
+    best.x = x;
+    best.residuals = r;
+    best.path.push_back(r.norm());
+    const VectorXd step = qr.solve(r);
+    const double gain = (best.jacobian * step.cwiseQuotient(norms)).norm();
+    if (gain * gain <= tolerance * r.squaredNorm()) {
+      best.converged = true;
+      break;
+    }
+    if (gain > 0.5 * last_step) break;
+    last_step = gain;
+    x -= step.cwiseQuotient(norms);
+    r = error.residuals(x);
+  }
+  return best;
+}
+
+Minimum minimise_fully(OutputError& error, const VectorXd& x0) {
+  const LeastSquaresResult found = minimise(error.problem(x0.size()), x0, tolerance);
+  return {.x = found.parameters,
+          .residuals = error.residuals(found.parameters),
+          .jacobian = error.jacobian(found.parameters),
+          .path = found.path,
+          .converged = found.converged};
+}
+
+/// Where the record with the strongest response alone has its minimum: from a start that is far off it is the cheaper
+/// way. `start` if that does not bring all records nearer.
+VectorXd approached_by_one(const VibrationRecord& strongest, double crop, OutputError& all,
+                           const ParameterCoordinates& coordinates, const MassMaterial& start, const VectorXd& x0) {
+  constexpr double roughly = 1e-4;
+  const Responses one(std::span(&strongest, 1), crop);
+  const Drives drives = one.reduced_drives(start);
+  OutputError error(one, coordinates, drives);
+  const VectorXd x = minimise(error.problem(x0.size()), x0, roughly).parameters;
+  const double before = all.residuals(x0).squaredNorm(), after = all.residuals(x).squaredNorm();
+  return after < before ? x : x0;
+}
+
+/// First with as few samples as the compared band needs, then to the end with all of them.
+Minimum least_output_error(std::span<const VibrationRecord> records, const Responses& responses,
+                           const ParameterCoordinates& coordinates, const MassMaterial& start, double crop) {
+  constexpr double near = 1e-6;
+  const Drives reduced = responses.reduced_drives(start);
+  OutputError coarse(responses, coordinates, reduced);
+  VectorXd x0 = bounded_start(coarse, coordinates, start);
+  const auto strength = [](const VibrationRecord& r) { return r.relative.squaredNorm() / static_cast<double>(r.n()); };
+  if (records.size() > 1)
+    x0 = approached_by_one(*std::ranges::max_element(records, {}, strength), crop, coarse, coordinates, start, x0);
+  const LeastSquaresResult approached = minimise(coarse.problem(x0.size()), x0, near);
+  const VectorXd& x = approached.parameters;
+  const Drives full = responses.full_drives(coordinates.model(x));
+  OutputError error(responses, coordinates, full);
+  Minimum found = follow_fixed_jacobian(error, x, coarse.jacobian(x));
+  std::vector<double> path = approached.path;
+  path.insert(path.end(), found.path.begin(), found.path.end());
+  if (!found.converged) {
+    found = minimise_fully(error, found.x);
+    path.insert(path.end(), found.path.begin(), found.path.end());
+  }
+  found.path = std::move(path);
+  return found;
 }
 
 /// Replicates of the parameters: blocks of residuals drawn with replacement, one Gauss-Newton step from the estimate
 /// for each draw. Blocks keep what neighbouring residuals have in common; white-noise intervals would be several times
 /// too narrow because the residuals are band-limited.
-MatrixXd bootstrap(const OutputError& error, const VectorXd& x, const VectorXd& r, const MatrixXd& J,
+MatrixXd bootstrap(const Responses& responses, const VectorXd& x, const VectorXd& r, const MatrixXd& J,
                    const IdentificationSettings& settings) {
-  const auto blocks = error.blocks();
+  const auto blocks = responses.blocks();
   const Index p = x.size();
   std::vector<MatrixXd> normal;
   std::vector<VectorXd> gradient;
@@ -266,7 +186,7 @@ MatrixXd bootstrap(const OutputError& error, const VectorXd& x, const VectorXd& 
 }
 
 /// Percentiles of the replicates of each value, and their correlations.
-void set_intervals(OutputErrorFit& fit, const Coordinates& coordinates, const MatrixXd& replicates,
+void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates, const MatrixXd& replicates,
                    const IdentificationSettings& settings) {
   const auto n = static_cast<Index>(fit.estimates.size());
   MatrixXd values(n, replicates.cols());
@@ -300,31 +220,21 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
                              const IdentificationSettings& settings) {
   MassMaterial sorted = start;
   sort_terms(sorted);
-  const OutputError error(records, sorted, settings.crop);
-  LeastSquaresProblem problem;
-  problem.n_residuals = error.n_residuals();
-  const VectorXd x0 = bounded_start(error, sorted);
-  problem.n_parameters = x0.size();
-  problem.residuals = [&](const VectorXd& x, VectorXd& r) {
-    r = error.residuals(error.responses({error.coordinates().model(x)}).col(0));
-  };
-  problem.jacobian = [&](const VectorXd& x, MatrixXd& J) { J = error.jacobian(x); };
-  const LeastSquaresResult found = minimise(problem, x0);
+  const Responses responses(records, settings.crop);
+  const ParameterCoordinates coordinates(sorted, excited_range(records));
+  const Minimum found = least_output_error(records, responses, coordinates, sorted, settings.crop);
 
   OutputErrorFit fit;
   fit.converged = found.converged;
-  fit.model = error.coordinates().model(found.parameters);
+  fit.model = coordinates.model(found.x);
   fit.estimates = named_values(fit.model);
-  const double n = static_cast<double>(error.n_residuals());
+  const double n = static_cast<double>(responses.size());
   for (const double norm : found.path) fit.path.push_back(norm / std::sqrt(n));
-  VectorXd r(error.n_residuals());
-  problem.residuals(found.parameters, r);
-  if (!r.allFinite()) return fit;
-  fit.record_misfit = error.misfits(r);
-  fit.bic = n * std::log(r.squaredNorm() / n) + static_cast<double>(x0.size()) * std::log(n);
+  if (!found.residuals.allFinite()) return fit;
+  fit.record_misfit = responses.misfits(found.residuals);
+  fit.bic = n * std::log(found.residuals.squaredNorm() / n) + static_cast<double>(found.x.size()) * std::log(n);
   if (settings.replicates > 1)
-    set_intervals(fit, error.coordinates(),
-                  bootstrap(error, found.parameters, r, error.jacobian(found.parameters), settings), settings);
+    set_intervals(fit, coordinates, bootstrap(responses, found.x, found.residuals, found.jacobian, settings), settings);
   return fit;
 }
 

@@ -3,6 +3,7 @@
 #include "solver/identification.h"
 #include "solver/identification_conditioning.h"
 #include "solver/identification_least_squares.h"
+#include "solver/parallel.h"
 
 #include <Eigen/QR>
 
@@ -84,14 +85,22 @@ struct System {
 using Columns = std::function<std::pair<std::vector<VectorXd>, VectorXd>(const Prepared&)>;
 
 System assemble(std::span<const Prepared> prepared, const Columns& columns) {
+  std::vector<std::pair<std::vector<VectorXd>, VectorXd>> parts(prepared.size());
+  parallel_chunks(
+      static_cast<pfdm::Index>(prepared.size()),
+      [&](pfdm::Index begin, pfdm::Index) {
+        parts[static_cast<std::size_t>(begin)] = columns(prepared[static_cast<std::size_t>(begin)]);
+      },
+      1);
   System s;
   Index n = 0;
   for (const Prepared& p : prepared) n += p.condition.n_samples();
   Index first = 0;
   s.q.resize(n);
-  for (const Prepared& p : prepared) {
-    const auto [a, q] = columns(p);
-    if (s.A.size() == 0) s.A.resize(n, static_cast<Index>(a.size()));
+  s.A.resize(n, static_cast<Index>(parts.front().first.size()));
+  for (std::size_t i = 0; i < prepared.size(); ++i) {
+    const Prepared& p = prepared[i];
+    const auto& [a, q] = parts[i];
     const Index m = p.condition.n_samples();
     for (std::size_t k = 0; k < a.size(); ++k) s.A.col(static_cast<Index>(k)).segment(first, m) = p.weight * a[k];
     s.q.segment(first, m) = p.weight * q;
@@ -102,8 +111,8 @@ System assemble(std::span<const Prepared> prepared, const Columns& columns) {
 
 double relative_misfit(const System& s, const VectorXd& p) { return (s.A * p - s.q).norm() / s.q.norm(); }
 
-/// Least of misfit(lambda) on [0, 4]: a grid, then golden sections about its best point.
-double best_exponent(const std::function<double(double)>& misfit) {
+/// Least of misfit(lambda) on [0, 4] within a tolerance: a grid, then golden sections about its best point.
+double best_exponent(const std::function<double(double)>& misfit, double tolerance) {
   constexpr double step = 0.4;
   double best = 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -115,13 +124,20 @@ double best_exponent(const std::function<double(double)>& misfit) {
   double a = std::max(best - step, 0.0);
   double b = best + step;
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  while (b - a > 1e-3) {
-    const double left = b - golden * (b - a);
-    const double right = a + golden * (b - a);
-    if (misfit(left) < misfit(right))
-      b = right;
-    else
-      a = left;
+  double left = b - golden * (b - a), right = a + golden * (b - a);
+  double at_left = misfit(left), at_right = misfit(right);
+  while (b - a > tolerance) {
+    if (at_left < at_right) {
+      b = std::exchange(right, left);
+      at_right = at_left;
+      left = b - golden * (b - a);
+      at_left = misfit(left);
+    } else {
+      a = std::exchange(left, right);
+      at_left = at_right;
+      right = a + golden * (b - a);
+      at_right = misfit(right);
+    }
   }
   return 0.5 * (a + b);
 }
@@ -318,7 +334,7 @@ Regression regress_states(std::span<const VibrationRecord> records, const ModelS
                   : plain_fit(prepared, structure, lambda, settings);
   };
   if (!structure.nonlinear_damping) return fit(0.0);
-  return fit(best_exponent([&](double lambda) { return fit(lambda).misfit; }));
+  return fit(best_exponent([&](double lambda) { return fit(lambda).misfit; }, 1e-3));
 }
 
 std::optional<Regression> regress_separable(std::span<const VibrationRecord> records, const ModelStructure& structure,
@@ -330,10 +346,11 @@ std::optional<Regression> regress_separable(std::span<const VibrationRecord> rec
     return choose_terms(reduced, rates, structure, kernel_order, lambda, settings);
   };
   if (!structure.nonlinear_damping) return fit(0.0);
+  // Where the output error starts; it need not be near.
   if (kernel_order == 0)
-    return fit(best_exponent([&](double l) { return plain_fit(prepared, structure, l, settings).misfit; }));
+    return fit(best_exponent([&](double l) { return plain_fit(prepared, structure, l, settings).misfit; }, 0.05));
   std::optional<Regression> best;
-  for (const double lambda : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {  // where the output error starts; it need not be near
+  for (const double lambda : {0.5, 1.0, 1.5, 2.0, 2.5, 3.0}) {
     auto tried = fit(lambda);
     if (tried && (!best || tried->misfit < best->misfit)) best = std::move(tried);
   }

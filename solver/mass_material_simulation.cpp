@@ -1,6 +1,7 @@
 #include "solver/mass_material_simulation.h"
 
 #include "physics/error.h"
+#include "solver/lane.h"
 
 #include <algorithm>
 #include <array>
@@ -13,30 +14,6 @@ namespace pfdm {
 namespace {
 
 using Eigen::Index;
-
-// Models side by side: two vector registers of four, whose chains of operations overlap.
-constexpr int n_lanes = 8;
-
-using Register = double __attribute__((vector_size(32)));
-
-/// One number of each model. Plain vector arithmetic, which the compiler keeps in registers.
-struct Lane {
-  Register a;
-  Register b;
-  double& operator[](int i) { return i < 4 ? reinterpret_cast<double*>(&a)[i] : reinterpret_cast<double*>(&b)[i - 4]; }
-  double operator[](int i) const {
-    return i < 4 ? reinterpret_cast<const double*>(&a)[i] : reinterpret_cast<const double*>(&b)[i - 4];
-  }
-  static Lane all(double x) { return {Register{x, x, x, x}, Register{x, x, x, x}}; }
-};
-inline Lane operator+(const Lane& x, const Lane& y) { return {x.a + y.a, x.b + y.b}; }
-inline Lane operator-(const Lane& x, const Lane& y) { return {x.a - y.a, x.b - y.b}; }
-inline Lane operator*(const Lane& x, const Lane& y) { return {x.a * y.a, x.b * y.b}; }
-inline Lane operator*(double x, const Lane& y) { return {x * y.a, x * y.b}; }
-inline Lane operator-(double x, const Lane& y) { return {x - y.a, x - y.b}; }
-inline Lane operator-(const Lane& x) { return {-x.a, -x.b}; }
-inline Lane& operator+=(Lane& x, const Lane& y) { return x = x + y; }
-inline Lane& operator-=(Lane& x, const Lane& y) { return x = x - y; }
 
 /// One kernel state a real term, two a pair.
 struct LaneKernel {
@@ -54,32 +31,35 @@ struct LaneModel {
   std::size_t n_states = 2;
 };
 
+/// A number of each run; lanes without a run repeat the last one.
 template <class Get>
-Lane lanes(std::span<const MassMaterial> models, const Get& get) {
+Lane lanes(std::span<const SimulationRun> runs, const Get& get) {
   Lane lane;
-  for (int l = 0; l < n_lanes; ++l) lane[l] = get(models[std::min(static_cast<std::size_t>(l), models.size() - 1)]);
+  for (int l = 0; l < n_lanes; ++l) lane[l] = get(*runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].model);
   return lane;
 }
 
-LaneModel gather(std::span<const MassMaterial> models) {
+LaneModel gather(std::span<const SimulationRun> runs) {
   using M = const MassMaterial&;
+  const MassMaterial& first = *runs.front().model;
   LaneModel m;
-  m.mass_inverse = lanes(models, [](M x) { return 1.0 / x.mass; });
-  m.damping = lanes(models, [](M x) { return x.damping; });
-  m.exponent = lanes(models, [](M x) { return x.damping_exponent; });
-  m.velocity_inverse = lanes(models, [](M x) { return 1.0 / x.reference_velocity; });
-  m.nonlinear_damping = std::ranges::any_of(models, [](M x) { return x.damping_exponent != 0.0; });
-  m.forcing = models.front().forcing;
-  for (std::size_t i = 0; i < models.front().stiffness.size(); ++i)
-    m.stiffness.push_back(lanes(models, [i](M x) { return x.stiffness[i]; }));
-  for (std::size_t i = 0; i < models.front().kernel.size(); ++i) {
+  m.mass_inverse = lanes(runs, [](M x) { return 1.0 / x.mass; });
+  m.damping = lanes(runs, [](M x) { return x.damping; });
+  m.exponent = lanes(runs, [](M x) { return x.damping_exponent; });
+  m.velocity_inverse = lanes(runs, [](M x) { return 1.0 / x.reference_velocity; });
+  m.nonlinear_damping =
+      std::ranges::any_of(runs, [](const SimulationRun& x) { return x.model->damping_exponent != 0.0; });
+  m.forcing = first.forcing;
+  for (std::size_t i = 0; i < first.stiffness.size(); ++i)
+    m.stiffness.push_back(lanes(runs, [i](M x) { return x.stiffness[i]; }));
+  for (std::size_t i = 0; i < first.kernel.size(); ++i) {
     LaneKernel k;
-    k.pair = models.front().kernel[i].is_pair();
-    k.rate_real = lanes(models, [i](M x) { return x.kernel[i].alpha.real(); });
-    k.rate_imaginary = lanes(models, [i](M x) { return x.kernel[i].alpha.imag(); });
+    k.pair = first.kernel[i].is_pair();
+    k.rate_real = lanes(runs, [i](M x) { return x.kernel[i].alpha.real(); });
+    k.rate_imaginary = lanes(runs, [i](M x) { return x.kernel[i].alpha.imag(); });
     const double share = k.pair ? 2.0 : 1.0;
-    k.weight_real = lanes(models, [=](M x) { return share * x.kernel[i].beta.real(); });
-    k.weight_imaginary = lanes(models, [=](M x) { return share * x.kernel[i].beta.imag(); });
+    k.weight_real = lanes(runs, [=](M x) { return share * x.kernel[i].beta.real(); });
+    k.weight_imaginary = lanes(runs, [=](M x) { return share * x.kernel[i].beta.imag(); });
     m.any_pair = m.any_pair || k.pair;
     m.n_states += k.pair ? 2 : 1;
     m.kernel.push_back(k);
@@ -88,15 +68,7 @@ LaneModel gather(std::span<const MassMaterial> models) {
 }
 
 [[gnu::always_inline]] inline Lane power_of_speed(const LaneModel& m, const Lane& velocity) {
-  using Array = Eigen::Array<double, n_lanes, 1>;
-  const auto as_array = [](const Lane& lane) {
-    return Eigen::Map<const Array>(reinterpret_cast<const double*>(&lane));
-  };
-  const Array speed = (as_array(velocity) * as_array(m.velocity_inverse)).abs().max(1e-300);
-  const Array power = (as_array(m.exponent) * speed.log()).exp();
-  Lane result;
-  Eigen::Map<Array>(reinterpret_cast<double*>(&result)) = power;
-  return result;
+  return power(absolute(velocity * m.velocity_inverse), m.exponent);
 }
 
 /// Forces of a state, and f.
@@ -151,12 +123,12 @@ template <std::size_t N>
 
 /// Slopes of [z, z', kernel states] under the base acceleration y.
 template <std::size_t N>
-[[gnu::always_inline]] inline void slopes(const LaneModel& m, const std::array<Lane, N>& state, double y,
+[[gnu::always_inline]] inline void slopes(const LaneModel& m, const std::array<Lane, N>& state, const Lane& y,
                                           std::array<Lane, N>& slope) {
   const Forces force = forces(m, state[0], state[1]);
   const Lane v = kernel_slopes(m, state, force.forcing, slope);
   slope[0] = state[1];
-  slope[1] = -y - (force.plain + v) * m.mass_inverse;
+  slope[1] = -(y + (force.plain + v) * m.mass_inverse);
 }
 
 // Cooper and Verner, SIAM J. Numer. Anal. 9 (1972) 389: order 8 in 11 stages, whose abscissae are Lobatto points, so
@@ -198,13 +170,13 @@ class Stepper {
   }
 
   /// y: base acceleration at the five Lobatto points of the step.
-  void step(const double* y, double h) {
+  void step(const Lane* y, const Lane& h) {
     [&]<std::size_t... I>(std::index_sequence<I...>) { (stage<I>(y, h), ...); }
     (std::make_index_sequence<n_stages>());
     for (std::size_t d = 0; d < N; ++d) state_[d] += h * weighted_sum<n_stages>(tableau.b, d);
   }
 
-  Lane acceleration(double y) {
+  Lane acceleration(const Lane& y) {
     slopes(m_, state_, y, slope_[0]);
     return slope_[0][1];
   }
@@ -220,7 +192,7 @@ class Stepper {
   static constexpr std::size_t n_stages = Tableau::stages;
 
   template <std::size_t I>
-  void stage(const double* y, double h) {
+  void stage(const Lane* y, const Lane& h) {
     std::array<Lane, N> at;
     for (std::size_t d = 0; d < N; ++d) at[d] = state_[d] + h * weighted_sum<I>(tableau.a[I], d);
     slopes(m_, at, y[tableau.node[I]], slope_[I]);
@@ -240,43 +212,81 @@ class Stepper {
   std::array<std::array<Lane, N>, n_stages> slope_;
 };
 
-template <std::size_t N>
-void march(const LaneModel& model, Index n_models, const BaseNodes& base, Eigen::Ref<Eigen::MatrixXd> result) {
-  Stepper<N> stepper(model);
-  const double h = 1.0 / (base.rate * base.substeps);
-  const Index n = base.n_samples();
-  const Index stride = 4 * base.substeps;
-  result.setConstant(std::numeric_limits<double>::quiet_NaN());
-  Lane valid = Lane::all(1.0);
-  for (Index i = 0; i < n; ++i) {
-    const double* y = base.values.data() + stride * i;
-    const Lane acceleration = stepper.acceleration(*y);
-    for (int l = 0; l < n_models; ++l) result(i, l) = acceleration[l];
-    if (i + 1 == n || stepper.all_ran_away()) break;
-    for (int sub = 0; sub < base.substeps; ++sub) stepper.step(y + 4 * sub, h);
-    for (int l = 0; l < n_models; ++l)
-      if (!(std::abs(stepper.displacement()[l]) < runaway_displacement)) valid[l] = 0.0;
+/// The base accelerations of the lanes, step by step. At the end of a record its last interval is repeated.
+class Drives {
+ public:
+  explicit Drives(std::span<const SimulationRun> runs) {
+    for (int l = 0; l < n_lanes; ++l) {
+      const Eigen::VectorXd& values = runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].base->values;
+      at_[static_cast<std::size_t>(l)] = values.data();
+      last_[static_cast<std::size_t>(l)] = values.data() + values.size() - 1;
+      y_[4][l] = values[0];
+    }
   }
-  for (int l = 0; l < n_models; ++l)
-    if (valid[l] == 0.0) result.col(l).setConstant(std::numeric_limits<double>::quiet_NaN());
+  const Lane& now() const { return y_[4]; }
+
+  /// At the five Lobatto points of the next step.
+  const Lane* next() {
+    y_[0] = y_[4];
+    for (int l = 0; l < n_lanes; ++l) {
+      const double*& at = at_[static_cast<std::size_t>(l)];
+      if (at != last_[static_cast<std::size_t>(l)]) at += 4;
+      for (int k = 1; k < 5; ++k) y_[static_cast<std::size_t>(k)][l] = at[k - 4];
+    }
+    return y_.data();
+  }
+
+ private:
+  std::array<const double*, n_lanes> at_{};
+  std::array<const double*, n_lanes> last_{};
+  std::array<Lane, 5> y_{};
+};
+
+template <std::size_t N>
+std::vector<Eigen::VectorXd> march(const LaneModel& model, std::span<const SimulationRun> runs) {
+  Stepper<N> stepper(model);
+  Drives drives(runs);
+  const int substeps = runs.front().base->substeps;
+  Lane h;
+  for (int l = 0; l < n_lanes; ++l)
+    h[l] = 1.0 / (runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].base->rate * substeps);
+  std::vector<Eigen::VectorXd> result;
+  Index n = 0;
+  for (const SimulationRun& run : runs) {
+    result.push_back(Eigen::VectorXd::Constant(run.base->n_samples(), std::numeric_limits<double>::quiet_NaN()));
+    n = std::max(n, run.base->n_samples());
+  }
+  std::array<bool, n_lanes> ran_away{};
+  for (Index i = 0; i < n; ++i) {
+    const Lane acceleration = stepper.acceleration(drives.now());
+    for (std::size_t l = 0; l < runs.size(); ++l) {
+      if (i >= result[l].size()) continue;
+      result[l][i] = acceleration[static_cast<int>(l)];
+      if (!(std::abs(stepper.displacement()[static_cast<int>(l)]) < runaway_displacement)) ran_away[l] = true;
+    }
+    if (i + 1 == n || stepper.all_ran_away()) break;
+    for (int sub = 0; sub < substeps; ++sub) stepper.step(drives.next(), h);
+  }
+  for (std::size_t l = 0; l < runs.size(); ++l)
+    if (ran_away[l]) result[l].setConstant(std::numeric_limits<double>::quiet_NaN());
+  return result;
 }
 
 /// Kernels of more states than the program has steppers for make do with that of the next size: states without slopes
 /// stay zero.
-void simulate_lanes(std::span<const MassMaterial> models, const BaseNodes& base, Eigen::Ref<Eigen::MatrixXd> result) {
-  const LaneModel model = gather(models);
-  const auto n_models = static_cast<Index>(models.size());
+std::vector<Eigen::VectorXd> simulate_lanes(std::span<const SimulationRun> runs) {
+  const LaneModel model = gather(runs);
   switch (model.n_states) {
-    case 2: return march<2>(model, n_models, base, result);
-    case 3: return march<3>(model, n_models, base, result);
-    case 4: return march<4>(model, n_models, base, result);
-    case 5: return march<5>(model, n_models, base, result);
-    case 6: return march<6>(model, n_models, base, result);
+    case 2: return march<2>(model, runs);
+    case 3: return march<3>(model, runs);
+    case 4: return march<4>(model, runs);
+    case 5: return march<5>(model, runs);
+    case 6: return march<6>(model, runs);
     default: break;
   }
-  if (model.n_states <= 12) return march<12>(model, n_models, base, result);
+  if (model.n_states <= 12) return march<12>(model, runs);
   if (model.n_states > 44) throw InputError("a kernel of more than 42 states (a pair counts two) cannot be simulated");
-  march<44>(model, n_models, base, result);
+  return march<44>(model, runs);
 }
 
 }  // namespace
@@ -289,13 +299,30 @@ int substeps_for(const MassMaterial& model, double rate) {
   return static_cast<int>(std::clamp(std::ceil(n), 1.0, 64.0));
 }
 
+std::vector<std::vector<SimulationRun>> simulation_groups(std::span<const SimulationRun> runs) {
+  const std::size_t n_groups = (runs.size() + n_lanes - 1) / n_lanes;
+  std::vector<std::vector<SimulationRun>> groups;
+  for (std::size_t g = 0; g < n_groups; ++g) {
+    const std::size_t first = g * runs.size() / n_groups;
+    const auto part = runs.subspan(first, (g + 1) * runs.size() / n_groups - first);
+    groups.emplace_back(part.begin(), part.end());
+  }
+  return groups;
+}
+
+std::vector<Eigen::VectorXd> simulate_group(std::span<const SimulationRun> runs) {
+  assert(!runs.empty() && runs.size() <= n_lanes);
+  return simulate_lanes(runs);
+}
+
 Eigen::MatrixXd simulate_batch(std::span<const MassMaterial> models, const BaseNodes& base) {
   assert(!models.empty());
+  std::vector<SimulationRun> runs;
+  for (const MassMaterial& m : models) runs.push_back({&m, &base});
   Eigen::MatrixXd result(base.n_samples(), static_cast<Index>(models.size()));
-  for (std::size_t first = 0; first < models.size(); first += n_lanes) {
-    const std::size_t n = std::min<std::size_t>(n_lanes, models.size() - first);
-    simulate_lanes(models.subspan(first, n), base, result.middleCols(static_cast<Index>(first), static_cast<Index>(n)));
-  }
+  Index column = 0;
+  for (const auto& group : simulation_groups(runs))
+    for (const Eigen::VectorXd& response : simulate_group(group)) result.col(column++) = response;
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <span>
+#include <vector>
 
 namespace pfdm {
 
@@ -33,8 +34,20 @@ Motion simulate(const MassMaterial& model, const Excitation& excitation, double 
 /// kernel terms and a fast resonance need several per sample.
 int substeps_for(const MassMaterial& model, double rate);
 
-/// Relative accelerations [m/s^2], a column per model; the models must have the same terms and substeps. A model that
-/// runs away leaves NaN.
+/// One model under one base acceleration; both outlive the simulation.
+struct SimulationRun {
+  const MassMaterial* model = nullptr;
+  const BaseNodes* base = nullptr;
+};
+
+/// Runs as they are best simulated together: side by side in vector registers. Their models must have the same terms,
+/// their bases the same substeps; rates and durations may differ.
+std::vector<std::vector<SimulationRun>> simulation_groups(std::span<const SimulationRun> runs);
+
+/// Relative accelerations [m/s^2] of the runs of a group. One that runs away is NaN.
+std::vector<Eigen::VectorXd> simulate_group(std::span<const SimulationRun> runs);
+
+/// The same of several models under one base acceleration, a column each.
 Eigen::MatrixXd simulate_batch(std::span<const MassMaterial> models, const BaseNodes& base);
 
 /// Adds Gaussian noise, white up to half the rate, of `decibel` below each channel's own rms.

@@ -171,6 +171,7 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
   if (!(test.band_low > 0.0 && test.band_high >= test.band_low))
     throw table.error("the excited band is not known: give the record's \"from\" and \"to\"");
   test.predicted = table.boolean("predicted", false);
+  if (table.has("schedule")) test.schedule = read_scheduled_run(table.table("schedule"));
   return test;
 }
 
@@ -205,6 +206,8 @@ void read_fit(const ConfigTable& root, MassMaterialCase& c) {
     fit.ogden_terms = static_cast<int>(terms->integer(Range{1.0, 3.0, false, "between 1 and 3"}));
     if (!root.has("sample")) throw terms->error("Ogden's model needs the sample's length and area: [sample]");
   }
+  fit.repeatability = table.boolean("repeatability", false);
+  if (fit.repeatability) require_schedule(c, table.at("repeatability"));
 }
 
 void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
@@ -222,6 +225,7 @@ MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path
   read_model(root, c);
   read_sampling(root, c);
   read_tests(root, case_directory, c);
+  c.changes = read_sample_changes(root);
   read_fit(root, c);
   if (root.has("sample")) {
     const ConfigTable table = root.table("sample");

@@ -2,6 +2,7 @@
 // Reads a case of kind "mass_material": the model, the vibration tests, what an identification is to do.
 
 #include "cases/program/config.h"
+#include "cases/program/mass_material_schedule.h"
 #include "physics/mass_material.h"
 #include "solver/vibration_excitation.h"
 
@@ -30,6 +31,7 @@ struct VibrationTest {
   double band_low = 0.0;                 ///< [Hz]
   double band_high = 0.0;                ///< [Hz]
   bool predicted = false;                ///< not fitted but predicted
+  std::optional<ScheduledRun> schedule;  ///< of repeated tests
   std::optional<ConfigValue> where;
 };
 
@@ -47,7 +49,8 @@ struct MassMaterialFit {
   int replicates = 500;
   double confidence = 0.95;
   std::uint64_t seed = 1;
-  int ogden_terms = 0;  ///< of Ogden's model of the stiffness polynomial; 0: none
+  int ogden_terms = 0;         ///< of Ogden's model of the stiffness polynomial; 0: none
+  bool repeatability = false;  ///< each record on its own as well, and how the parameters move over the schedule
 };
 
 struct MassMaterialCase {
@@ -60,6 +63,7 @@ struct MassMaterialCase {
   std::uint64_t noise_seed = 1;
   std::optional<SampleSize> sample;
   std::vector<VibrationTest> tests;
+  std::vector<SampleChange> changes;  ///< of the simulated sample over the schedule
   MassMaterialFit fit;
   std::vector<std::filesystem::path> data_files;
 };

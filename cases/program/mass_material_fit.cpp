@@ -132,6 +132,36 @@ void say_ogden(const OgdenFit& ogden, Log& log) {
     log.say(fmt::format("  mu {:>14.6g} Pa, alpha {:.6g}", term.mu, term.alpha));
 }
 
+/// In per cent of the mean.
+std::string with_interval(const Effect& e, double mean) {
+  const double percent = 100.0 / std::abs(mean);
+  return fmt::format("{} {:+.3g} % ({:+.3g} to {:+.3g})", e.name, percent * e.value, percent * e.lower_95,
+                     percent * e.upper_95);
+}
+
+void say_repeats(const RepeatedIdentification& repeats, Log& log) {
+  log.say(fmt::format("repeatability over {} records, each fitted on its own; in % of the mean, 95 % intervals:",
+                      repeats.records.size()));
+  for (const ParameterRepeatability& p : repeats.parameters) {
+    const Repeatability& r = p.statistics;
+    const double percent = 100.0 / std::abs(r.mean);
+    log.say(fmt::format("  {:<18} mean {:>12.6g}, between repeats {} (noise alone {:.3g} %), about the line {:.3g} %",
+                        p.name, r.mean,
+                        r.repeat_deviation ? fmt::format("{:.3g} %", percent * *r.repeat_deviation) : "-",
+                        percent * p.expected_deviation, percent * r.residual_deviation));
+    for (const Effect& e : r.effects) log.say(fmt::format("  {:<18}   {}", "", with_interval(e, r.mean)));
+  }
+  for (const RecordEstimates& r : repeats.records)
+    if (!r.converged) log.warn(fmt::format("test {}: its own fit did not come to its end", r.name));
+}
+
+RepeatedIdentification repeats_of(const Found& found, const Records& records, const MassMaterialCase& c) {
+  std::vector<ScheduledRun> schedule;
+  for (const VibrationTest& test : c.tests)
+    if (!test.predicted) schedule.push_back(*test.schedule);
+  return identify_each(records.fitted, schedule, found.model, settings_of(c));
+}
+
 void say_found(const Found& found, Log& log) {
   for (const Estimate& e : found.report.estimates)
     log.say(std::isfinite(e.lower)
@@ -141,6 +171,7 @@ void say_found(const Found& found, Log& log) {
     log.say(fmt::format("  test {:<16} {} to {:.3g} of its motion", test.name,
                         test.figures.at("fitted") > 0.0 ? "met" : "predicted", test.figures.at("relative_misfit")));
   if (found.report.ogden) say_ogden(*found.report.ogden, log);
+  if (found.report.repeats) say_repeats(*found.report.repeats, log);
   if (!found.report.passivity.passive)
     log.warn(fmt::format("the model gives energy to the shaker: damping {:.3g} N s/m at {:.4g} Hz",
                          found.report.passivity.least_damping,
@@ -181,6 +212,7 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   report.tests = misfits(found.model, records, c.fit.crop);
   if (c.sample) report.modulus = youngs_modulus(found.model, records, *c.sample);
   if (c.fit.ogden_terms > 0) report.ogden = ogden_of(found.model, records, c);
+  if (c.fit.repeatability) report.repeats = repeats_of(found, records, c);
   report.wall_seconds = watch.seconds();
   const FolderLock lock(session.results);
   session.log.open_file(session.results / "fit.log", false);

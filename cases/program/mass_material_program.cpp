@@ -88,7 +88,7 @@ SimulatedTest simulate_test(const MassMaterialCase& c, std::size_t number) {
   const VibrationTest& test = c.tests[number];
   const Stopwatch watch;
   SimulatedTest result;
-  result.motion = simulate(c.model, *test.excitation, c.rate);
+  result.motion = simulate(sample_of_test(c, number), *test.excitation, c.rate);
   if (!result.motion.bounded)
     throw ComputationError(
         fmt::format("test {}: the mass runs away: the restoring force does not hold it at this level", test.name));

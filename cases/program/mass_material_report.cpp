@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -301,6 +302,59 @@ Chart modulus_chart(const VibrationFit& fit) {
                  {.label = "loss", .x = f, .y = in_unit(loss, unit), .colour = 2}}};
 }
 
+std::string percent(double part, double mean) { return fmt::format("{:.2g} %", 100.0 * part / std::abs(mean)); }
+
+Table repeatability_table(const RepeatedIdentification& repeats) {
+  Table table{.caption = "Each record on its own, in % of the mean; slopes by least squares with 95 % intervals",
+              .rows = {{"parameter", "mean", "between repeats", "by noise"}},
+              .has_header = true};
+  for (const Effect& e : repeats.parameters.front().statistics.effects)
+    table.rows.front().push_back(e.name == "per_g0" ? "per g0" : e.name == "per_day" ? "per day" : "per run");
+  for (const ParameterRepeatability& p : repeats.parameters) {
+    const Repeatability& r = p.statistics;
+    table.rows.push_back({with_bracketed_unit(p.name), shown(r.mean),
+                          r.repeat_deviation ? percent(*r.repeat_deviation, r.mean) : "-",
+                          percent(p.expected_deviation, r.mean)});
+    for (const Effect& e : r.effects)
+      table.rows.back().push_back(fmt::format("{:+.2g} ± {:.1g} %", 100.0 * e.value / std::abs(r.mean),
+                                              50.0 * (e.upper_95 - e.lower_95) / std::abs(r.mean)));
+  }
+  return table;
+}
+
+/// One parameter of each record, in % off the mean, in the order of the tests; a series for each level.
+Chart repeats_chart(const RepeatedIdentification& repeats, std::size_t parameter) {
+  const ParameterRepeatability& p = repeats.parameters[parameter];
+  Chart chart{.caption = fmt::format("{} of each record", p.name.substr(0, p.name.find('_'))),
+              .x = {.title = "age of the sample [day], runs of a day side by side"},
+              .y = {.title = "off the mean [%]"},
+              .series = {}};
+  std::map<double, Series> levels;
+  for (const RecordEstimates& r : repeats.records) {
+    Series& series = levels[r.schedule.level];
+    series.label = fmt::format("{} g0", shown(r.schedule.level / gravity));
+    series.style = SeriesStyle::points;
+    series.x.push_back(static_cast<double>(r.schedule.day()) + 0.15 * r.schedule.run);
+    series.y.push_back(100.0 * (r.estimates[parameter].value / p.statistics.mean - 1.0));
+  }
+  int colour = 1;
+  for (auto& [level, series] : levels) {
+    series.colour = colour++;
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+/// k1 and c, which every structure has.
+void add_repeats(ReportPage& page, const RepeatedIdentification& repeats) {
+  page.rows.push_back({.blocks = {repeatability_table(repeats)}});
+  PageRow charts;
+  for (std::size_t i = 0; i < repeats.parameters.size(); ++i)
+    if (repeats.parameters[i].name.starts_with("k1_") || repeats.parameters[i].name.starts_with("c_"))
+      charts.blocks.emplace_back(repeats_chart(repeats, i));
+  page.rows.push_back(std::move(charts));
+}
+
 /// Of a remark: as far as the first semicolon or the end of the line.
 std::string first_clause(const std::string& text) { return text.substr(0, text.find_first_of(";\n")); }
 
@@ -325,6 +379,7 @@ ReportPage mass_material_page(const MassMaterialProgram& program, Session& sessi
   PageRow last{.blocks = {density_chart(record, measured), coherence_chart(record, measured)}};
   if (story.fit && !story.fit->modulus.empty()) last.blocks.emplace_back(modulus_chart(*story.fit));
   page.rows.push_back(std::move(last));
+  if (story.fit && story.fit->repeats) add_repeats(page, *story.fit->repeats);
   for (const char* log : {"run.log", "fit.log"})
     for (PageRow& row : warnings_row(session.results / log)) page.rows.push_back(std::move(row));
   return page;

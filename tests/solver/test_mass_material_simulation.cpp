@@ -1,3 +1,4 @@
+#include "solver/lane.h"
 #include "solver/mass_material_simulation.h"
 #include "solver/signals_spectra.h"
 
@@ -71,6 +72,38 @@ TEST(Simulation, TheTwoWaysAgreeForEveryForcing) {
       // |z'|^1.8 z' is not smooth where z' = 0; there a fixed step sees a kink.
       EXPECT_LT((batch - motion.acceleration).norm(), (lambda == 0.0 ? 1e-7 : 1e-5) * motion.acceleration.norm());
     }
+}
+
+TEST(Lanes, PowerIsThatOfTheLibrary) {
+  for (const double e : {0.0, 0.3, 1.0, 1.8, 4.0})
+    for (double x = 1e-8; x < 1e3; x *= 1.37) {
+      const Lane found = power(absolute(Lane::all(-x)), Lane::all(e));
+      EXPECT_NEAR(found[0], std::pow(x, e), 2e-14 * std::pow(x, e)) << x << " to the " << e;
+      EXPECT_EQ(found[7], found[0]);
+    }
+  const Lane zero = power(Lane::all(0.0), Lane::all(1.8));
+  EXPECT_GE(zero[3], 0.0);
+  EXPECT_LT(zero[3], 1e-200);
+}
+
+// Side by side with others, of other lengths and rates, a run is what it is alone.
+TEST(Simulation, RunsOfAGroupDoNotMix) {
+  const MassMaterial m = nonlinear(KernelForcing::damping, 1.8);
+  MassMaterial other = m;
+  other.damping *= 1.5;
+  const SweptSine sweep{.amplitude = 5 * g0, .from = 150, .to = 350, .duration = 0.4, .ramp = 0.1};
+  SweptSine shorter = sweep;
+  shorter.duration = 0.25;
+  const BaseNodes bases[] = {nodes_of(swept_sine(sweep), 6000.0, 1), nodes_of(swept_sine(shorter), 4500.0, 1)};
+  const SimulationRun runs[] = {{&m, &bases[0]}, {&m, &bases[1]}, {&other, &bases[1]}};
+  ASSERT_EQ(simulation_groups(runs).size(), 1u);
+  const auto together = simulate_group(runs);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VectorXd alone = simulate_group(std::span(&runs[i], 1)).front();
+    ASSERT_EQ(together[i].size(), runs[i].base->n_samples());
+    EXPECT_EQ((together[i] - alone).norm(), 0.0) << i;
+  }
+  EXPECT_GT((together[2] - together[1]).norm(), 1e-3 * together[1].norm());
 }
 
 TEST(Simulation, FixedStepsConvergeWithOrderEight) {

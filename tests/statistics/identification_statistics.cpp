@@ -3,7 +3,8 @@
 //   identification_statistics order SEEDS        how often BIC finds the two kernel terms there are
 //   identification_statistics coverage TRIALS    how often the 95 % intervals hold the truth
 //   identification_statistics ten_steps SEEDS    complex stiffness by the report's iteration, beside ours
-//   identification_statistics models SECONDS DB  every model of Table A2: errors and CPU seconds, three levels
+//   identification_statistics models SECONDS DB [THREADS NAME ...]
+//                                                models of Table A2, all or these: errors and CPU seconds, three levels
 
 #include "solver/identification_stiffness.h"
 #include "solver/parallel.h"
@@ -93,10 +94,10 @@ void coverage(int trials) {
   }
 }
 
-void models(double duration, double decibel) {
+void models(double duration, double decibel, const std::vector<std::string>& names) {
   const double all_cpu = cpu_seconds();
   const double all_wall = wall_seconds();
-  for (const char* name : {"1", "2", "3", "4a", "4b", "5", "6", "7"}) {
+  for (const std::string& name : names) {
     const MassMaterial t = truth(name);
     std::vector<VibrationRecord> records;
     for (const double level : {5.0, 7.5, 10.0}) {
@@ -109,9 +110,11 @@ void models(double duration, double decibel) {
     settings.kernel_order = static_cast<int>(t.kernel.size());
     const double cpu = cpu_seconds();
     const Identification found = identify(records, model_structure(name), settings);
-    fmt::print("model {:<3} largest error {:.2e} (regression alone {:.2e}), complex stiffness {:.2e}, {:.1f} CPU s\n",
-               name, largest_error(found.fit.model, t), largest_error(found.start.model, t),
-               stiffness_error(found.fit.model, t, 100.0, 420.0, 0.2), cpu_seconds() - cpu);
+    fmt::print(
+        "model {:<3} largest error {:.2e} (regression alone {:.2e}), complex stiffness {:.2e}, {} iterations, {:.1f} "
+        "CPU s\n",
+        name, largest_error(found.fit.model, t), largest_error(found.start.model, t),
+        stiffness_error(found.fit.model, t, 100.0, 420.0, 0.2), found.fit.path.size(), cpu_seconds() - cpu);
     std::fflush(stdout);
   }
   fmt::print("all: {:.1f} CPU s, {:.1f} s\n", cpu_seconds() - all_cpu, wall_seconds() - all_wall);
@@ -121,13 +124,16 @@ int run(int n, char** words) {
   set_threads(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
   const std::string what = n > 1 ? words[1] : "";
   const double amount = n > 2 ? std::atof(words[2]) : 0.0;
+  std::vector<std::string> names{"1", "2", "3", "4a", "4b", "5", "6", "7"};
+  if (n > 4) set_threads(std::max(1, std::atoi(words[4])));
+  if (n > 5) names.assign(words + 5, words + n);
   if (what == "order" && amount > 0.0) return order(static_cast<int>(amount)), 0;
   if (what == "ten_steps" && amount > 0.0) return ten_steps(static_cast<int>(amount)), 0;
   if (what == "coverage" && amount > 0.0) return coverage(static_cast<int>(amount)), 0;
-  if (what == "models" && amount > 0.0) return models(amount, n > 3 ? std::atof(words[3]) : 0.0), 0;
-  fmt::print(
-      stderr,
-      "usage: identification_statistics order SEEDS | ten_steps SEEDS | coverage TRIALS | models SECONDS [DB]\n");
+  if (what == "models" && amount > 0.0) return models(amount, n > 3 ? std::atof(words[3]) : 0.0, names), 0;
+  fmt::print(stderr,
+             "usage: identification_statistics order SEEDS | ten_steps SEEDS | coverage TRIALS | models SECONDS [DB "
+             "[THREADS [NAME ...]]]\n");
   return 2;
 }
 
