@@ -3,14 +3,20 @@
 //   identification_statistics order SEEDS        how often BIC finds the two kernel terms there are
 //   identification_statistics coverage TRIALS    how often the 95 % intervals hold the truth
 //   identification_statistics ten_steps SEEDS    complex stiffness by the report's iteration, beside ours
+//   identification_statistics impulse TRIALS     an impulse response of four poles: ours, matrix pencil, Prony's series
 //   identification_statistics models SECONDS DB [THREADS NAME ...]
 //                                                models of Table A2, all or these: errors and CPU seconds, three levels
 
+#include "solver/identification_least_squares.h"
 #include "solver/identification_stiffness.h"
+#include "solver/impulse_response.h"
 #include "solver/parallel.h"
+#include "solver/vibration_excitation.h"
 #include "tests/solver/mass_material_truth.h"
 
 #include <fmt/format.h>
+
+#include <Eigen/Dense>
 
 #include <chrono>
 #include <cstdlib>
@@ -94,6 +100,90 @@ void coverage(int trials) {
   }
 }
 
+using Samples = Eigen::VectorXd;
+
+/// g(t) = sum of weight exp(-alpha t), of which the real part.
+Samples sampled(const std::vector<std::complex<double>>& alphas, const std::vector<std::complex<double>>& weights,
+                Eigen::Index n, double rate) {
+  Samples g = Samples::Zero(n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < alphas.size(); ++i)
+      g[k] += (weights[i] * std::exp(-alphas[i] * (static_cast<double>(k) / rate))).real();
+  return g;
+}
+
+/// Of the four poles the energy of which is largest, by linear prediction of the given order; weights of all decaying
+/// poles by least squares.
+Samples prony(const Samples& g, int order, double rate) {
+  const Eigen::Index n = g.size() - order;
+  Eigen::MatrixXd past(n, order);
+  for (int i = 0; i < order; ++i) past.col(i) = g.segment(order - 1 - i, n);
+  const Eigen::VectorXd a = solve_scaled(past, g.tail(n));
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
+  companion.row(0) = a.transpose();
+  companion.diagonal(-1).setOnes();
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(companion, false);
+  std::vector<std::complex<double>> alphas;
+  for (const std::complex<double> z : eigen.eigenvalues())
+    if (std::abs(z) < 1.0 && std::abs(z) > 1e-6 && z.imag() >= 0.0) alphas.push_back(-rate * std::log(z));
+  Eigen::MatrixXd basis(g.size(), 2 * std::ssize(alphas));
+  for (Eigen::Index i = 0; i < std::ssize(alphas); ++i)
+    for (Eigen::Index k = 0; k < g.size(); ++k) {
+      const std::complex<double> decay =
+          std::exp(-alphas[static_cast<std::size_t>(i)] * (static_cast<double>(k) / rate));
+      basis(k, 2 * i) = decay.real(), basis(k, 2 * i + 1) = -decay.imag();
+    }
+  const Eigen::VectorXd x = solve_scaled(basis, g);
+  std::vector<std::pair<double, std::size_t>> by_energy;
+  for (std::size_t i = 0; i < alphas.size(); ++i) {
+    const auto column = 2 * static_cast<Eigen::Index>(i);
+    by_energy.emplace_back(-(basis.middleCols(column, 2) * x.segment(column, 2)).squaredNorm(), i);
+  }
+  std::ranges::sort(by_energy);
+  Samples kept = Samples::Zero(g.size());
+  int poles = 0;
+  for (const auto& [energy, i] : by_energy) {
+    if (poles >= 4) break;
+    const auto column = 2 * static_cast<Eigen::Index>(i);
+    kept += basis.middleCols(column, 2) * x.segment(column, 2);
+    poles += alphas[i].imag() == 0.0 ? 1 : 2;
+  }
+  return kept;
+}
+
+void impulse(int trials) {
+  constexpr double rate = 6000.0;
+  constexpr Eigen::Index n = 1200;
+  const Samples clean = sampled({{30.0, 0.0}, {60.0, 900.0}, {250.0, 0.0}}, {1.0, {0.8, -0.6}, 0.6}, n, rate);
+  const auto error = [&](const Samples& g) { return (g - clean).norm() / clean.norm(); };
+  const auto of = [&](const ImpulseFit& fit) {
+    std::vector<std::complex<double>> alphas, weights;
+    for (const HereditaryTerm& term : fit.terms) {
+      alphas.push_back(term.alpha);
+      weights.push_back(term.is_pair() ? 2.0 * term.beta : term.beta);
+    }
+    return sampled(alphas, weights, n, rate);
+  };
+  for (const double decibel : {60.0, 40.0, 20.0}) {
+    double ours = 0.0, pencil = 0.0, prony_40 = 0.0, prony_250 = 0.0;
+    int right = 0;
+    for (int seed = 1; seed <= trials; ++seed) {
+      const double deviation = clean.norm() / std::sqrt(double(n)) * std::pow(10.0, -decibel / 20.0);
+      const Samples g = clean + deviation * normal_numbers(n, static_cast<std::uint64_t>(seed));
+      const ImpulseFit fit = fit_impulse_response(g, rate);
+      right += fit.order == 4;
+      ours += error(of(fit)) / trials;
+      pencil += error(of(matrix_pencil(g, rate))) / trials;
+      prony_40 += error(prony(g, 40, rate)) / trials;
+      prony_250 += error(prony(g, 250, rate)) / trials;
+    }
+    fmt::print(
+        "{} dB: order right {} of {}; error ours {:.2g}, matrix pencil {:.2g}, Prony M1 = 40 {:.2g}, 250 {:.2g}\n",
+        decibel, right, trials, ours, pencil, prony_40, prony_250);
+    std::fflush(stdout);
+  }
+}
+
 void models(double duration, double decibel, const std::vector<std::string>& names) {
   const double all_cpu = cpu_seconds();
   const double all_wall = wall_seconds();
@@ -130,9 +220,11 @@ int run(int n, char** words) {
   if (what == "order" && amount > 0.0) return order(static_cast<int>(amount)), 0;
   if (what == "ten_steps" && amount > 0.0) return ten_steps(static_cast<int>(amount)), 0;
   if (what == "coverage" && amount > 0.0) return coverage(static_cast<int>(amount)), 0;
+  if (what == "impulse" && amount > 0.0) return impulse(static_cast<int>(amount)), 0;
   if (what == "models" && amount > 0.0) return models(amount, n > 3 ? std::atof(words[3]) : 0.0, names), 0;
   fmt::print(stderr,
-             "usage: identification_statistics order SEEDS | ten_steps SEEDS | coverage TRIALS | models SECONDS [DB "
+             "usage: identification_statistics order SEEDS | ten_steps SEEDS | coverage TRIALS | impulse TRIALS | "
+             "models SECONDS [DB "
              "[THREADS [NAME ...]]]\n");
   return 2;
 }
