@@ -137,16 +137,22 @@ Chart force_chart(const FractureStory& story) {
 
 Chart energy_chart(const FractureStory& story) {
   const std::vector<double> load = column(story.curve, [](const CurveRow& row) { return row.load; });
-  const std::vector<std::vector<double>> energies{
+  std::vector<std::vector<double>> energies{
       column(story.curve, [](const CurveRow& row) { return row.external_work; }),
       column(story.curve, [](const CurveRow& row) { return row.elastic_energy; }),
       column(story.curve, [](const CurveRow& row) { return row.fracture_energy; })};
+  std::vector<std::string_view> names{"work", "elastic", "surface"};
+  const std::vector<double> heat =
+      column(story.curve, [](const CurveRow& row) { return row.viscous_dissipation + row.plastic_dissipation; });
+  if (heat.back() > 0.0) {
+    energies.push_back(heat);
+    names.push_back("heat");
+  }
   const DisplayUnit unit = common_unit(energies, "J");
   Chart chart{.caption = "Energies",
               .x = {.title = "load parameter t [-]"},
               .y = {.title = fmt::format("energy [{}]", unit.name)},
               .series = {}};
-  constexpr std::string_view names[] = {"work", "elastic", "surface"};
   add_series(chart, load, energies, names, unit);
   return chart;
 }
