@@ -1,7 +1,7 @@
 #include "solver/mass_material_simulation.h"
 
 #include "physics/error.h"
-#include "solver/lane.h"
+#include "solver/lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -17,13 +17,13 @@ using Eigen::Index;
 
 /// One kernel state a real term, two a pair.
 struct LaneKernel {
-  Lane rate_real, rate_imaginary, weight_real, weight_imaginary;
+  Lanes rate_real, rate_imaginary, weight_real, weight_imaginary;
   bool pair = false;
 };
 
 struct LaneModel {
-  Lane mass_inverse, damping, exponent, velocity_inverse;
-  std::vector<Lane> stiffness;
+  Lanes mass_inverse, damping, exponent, velocity_inverse;
+  std::vector<Lanes> stiffness;
   std::vector<LaneKernel> kernel;
   KernelForcing forcing = KernelForcing::none;
   bool nonlinear_damping = false;
@@ -33,8 +33,8 @@ struct LaneModel {
 
 /// A number of each run; lanes without a run repeat the last one.
 template <class Get>
-Lane lanes(std::span<const SimulationRun> runs, const Get& get) {
-  Lane lane;
+Lanes lanes(std::span<const SimulationRun> runs, const Get& get) {
+  Lanes lane;
   for (int l = 0; l < n_lanes; ++l) lane[l] = get(*runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].model);
   return lane;
 }
@@ -67,21 +67,21 @@ LaneModel gather(std::span<const SimulationRun> runs) {
   return m;
 }
 
-[[gnu::always_inline]] inline Lane power_of_speed(const LaneModel& m, const Lane& velocity) {
+[[gnu::always_inline]] inline Lanes power_of_speed(const LaneModel& m, const Lanes& velocity) {
   return power(absolute(velocity * m.velocity_inverse), m.exponent);
 }
 
 /// Forces of a state, and f.
 struct Forces {
-  Lane plain;    // k(z) + c(z')
-  Lane forcing;  // f
+  Lanes plain;    // k(z) + c(z')
+  Lanes forcing;  // f
 };
 
-[[gnu::always_inline]] inline Forces forces(const LaneModel& m, const Lane& z, const Lane& velocity) {
-  Lane stiffness = Lane::all(0.0);
+[[gnu::always_inline]] inline Forces forces(const LaneModel& m, const Lanes& z, const Lanes& velocity) {
+  Lanes stiffness = Lanes::all(0.0);
   for (std::size_t i = m.stiffness.size(); i-- > 0;) stiffness = (stiffness + m.stiffness[i]) * z;
-  const Lane shaped = m.nonlinear_damping ? velocity * power_of_speed(m, velocity) : velocity;
-  const Lane plain = stiffness + m.damping * shaped;
+  const Lanes shaped = m.nonlinear_damping ? velocity * power_of_speed(m, velocity) : velocity;
+  const Lanes plain = stiffness + m.damping * shaped;
   switch (m.forcing) {
     case KernelForcing::displacement: return {plain, z};
     case KernelForcing::stiffness: return {plain, stiffness};
@@ -94,9 +94,9 @@ struct Forces {
 
 /// Slopes of the kernel states, which follow z and z' in `state`; returns v. N: number of all states.
 template <std::size_t N>
-[[gnu::always_inline]] inline Lane kernel_slopes(const LaneModel& m, const std::array<Lane, N>& state, const Lane& f,
-                                                 std::array<Lane, N>& slope) {
-  Lane v = Lane::all(0.0);
+[[gnu::always_inline]] inline Lanes kernel_slopes(const LaneModel& m, const std::array<Lanes, N>& state, const Lanes& f,
+                                                  std::array<Lanes, N>& slope) {
+  Lanes v = Lanes::all(0.0);
   if (!m.any_pair && m.kernel.size() == N - 2) {
 #pragma GCC unroll 4
     for (std::size_t s = 2; s < N; ++s) {
@@ -123,10 +123,10 @@ template <std::size_t N>
 
 /// Slopes of [z, z', kernel states] under the base acceleration y.
 template <std::size_t N>
-[[gnu::always_inline]] inline void slopes(const LaneModel& m, const std::array<Lane, N>& state, const Lane& y,
-                                          std::array<Lane, N>& slope) {
+[[gnu::always_inline]] inline void slopes(const LaneModel& m, const std::array<Lanes, N>& state, const Lanes& y,
+                                          std::array<Lanes, N>& slope) {
   const Forces force = forces(m, state[0], state[1]);
-  const Lane v = kernel_slopes(m, state, force.forcing, slope);
+  const Lanes v = kernel_slopes(m, state, force.forcing, slope);
   slope[0] = state[1];
   slope[1] = -(y + (force.plain + v) * m.mass_inverse);
 }
@@ -165,18 +165,18 @@ template <std::size_t N>
 class Stepper {
  public:
   explicit Stepper(const LaneModel& model) : m_(model) {
-    state_.fill(Lane::all(0.0));
-    for (auto& slope : slope_) slope.fill(Lane::all(0.0));
+    state_.fill(Lanes::all(0.0));
+    for (auto& slope : slope_) slope.fill(Lanes::all(0.0));
   }
 
   /// y: base acceleration at the five Lobatto points of the step.
-  void step(const Lane* y, const Lane& h) {
+  void step(const Lanes* y, const Lanes& h) {
     [&]<std::size_t... I>(std::index_sequence<I...>) { (stage<I>(y, h), ...); }
     (std::make_index_sequence<n_stages>());
     for (std::size_t d = 0; d < N; ++d) state_[d] += h * weighted_sum<n_stages>(tableau.b, d);
   }
 
-  Lane acceleration(const Lane& y) {
+  Lanes acceleration(const Lanes& y) {
     slopes(m_, state_, y, slope_[0]);
     return slope_[0][1];
   }
@@ -185,22 +185,22 @@ class Stepper {
       if (std::abs(state_[0][l]) < runaway_displacement) return false;
     return true;
   }
-  const Lane& displacement() const { return state_[0]; }
+  const Lanes& displacement() const { return state_[0]; }
 
  private:
   static constexpr Tableau tableau = cooper_verner();
   static constexpr std::size_t n_stages = Tableau::stages;
 
   template <std::size_t I>
-  void stage(const Lane* y, const Lane& h) {
-    std::array<Lane, N> at;
+  void stage(const Lanes* y, const Lanes& h) {
+    std::array<Lanes, N> at;
     for (std::size_t d = 0; d < N; ++d) at[d] = state_[d] + h * weighted_sum<I>(tableau.a[I], d);
     slopes(m_, at, y[tableau.node[I]], slope_[I]);
   }
 
   template <std::size_t Count>
-  Lane weighted_sum(const double (&weights)[n_stages], std::size_t d) const {
-    Lane sum = Lane::all(0.0);
+  Lanes weighted_sum(const double (&weights)[n_stages], std::size_t d) const {
+    Lanes sum = Lanes::all(0.0);
 #pragma GCC unroll 11
     for (std::size_t k = 0; k < Count; ++k)
       if (weights[k] != 0.0) sum += weights[k] * slope_[k][d];
@@ -208,8 +208,8 @@ class Stepper {
   }
 
   const LaneModel& m_;
-  std::array<Lane, N> state_;
-  std::array<std::array<Lane, N>, n_stages> slope_;
+  std::array<Lanes, N> state_;
+  std::array<std::array<Lanes, N>, n_stages> slope_;
 };
 
 /// The base accelerations of the lanes, step by step. At the end of a record its last interval is repeated.
@@ -223,10 +223,10 @@ class Drives {
       y_[4][l] = values[0];
     }
   }
-  const Lane& now() const { return y_[4]; }
+  const Lanes& now() const { return y_[4]; }
 
   /// At the five Lobatto points of the next step.
-  const Lane* next() {
+  const Lanes* next() {
     y_[0] = y_[4];
     for (int l = 0; l < n_lanes; ++l) {
       const double*& at = at_[static_cast<std::size_t>(l)];
@@ -239,7 +239,7 @@ class Drives {
  private:
   std::array<const double*, n_lanes> at_{};
   std::array<const double*, n_lanes> last_{};
-  std::array<Lane, 5> y_{};
+  std::array<Lanes, 5> y_{};
 };
 
 template <std::size_t N>
@@ -247,7 +247,7 @@ std::vector<Eigen::VectorXd> march(const LaneModel& model, std::span<const Simul
   Stepper<N> stepper(model);
   Drives drives(runs);
   const int substeps = runs.front().base->substeps;
-  Lane h;
+  Lanes h;
   for (int l = 0; l < n_lanes; ++l)
     h[l] = 1.0 / (runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].base->rate * substeps);
   std::vector<Eigen::VectorXd> result;
@@ -258,7 +258,7 @@ std::vector<Eigen::VectorXd> march(const LaneModel& model, std::span<const Simul
   }
   std::array<bool, n_lanes> ran_away{};
   for (Index i = 0; i < n; ++i) {
-    const Lane acceleration = stepper.acceleration(drives.now());
+    const Lanes acceleration = stepper.acceleration(drives.now());
     for (std::size_t l = 0; l < runs.size(); ++l) {
       if (i >= result[l].size()) continue;
       result[l][i] = acceleration[static_cast<int>(l)];

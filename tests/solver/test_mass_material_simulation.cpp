@@ -1,4 +1,4 @@
-#include "solver/lane.h"
+#include "solver/lanes.h"
 #include "solver/mass_material_simulation.h"
 #include "solver/signals_spectra.h"
 
@@ -77,11 +77,11 @@ TEST(Simulation, TheTwoWaysAgreeForEveryForcing) {
 TEST(Lanes, PowerIsThatOfTheLibrary) {
   for (const double e : {0.0, 0.3, 1.0, 1.8, 4.0})
     for (double x = 1e-8; x < 1e3; x *= 1.37) {
-      const Lane found = power(absolute(Lane::all(-x)), Lane::all(e));
+      const Lanes found = power(absolute(Lanes::all(-x)), Lanes::all(e));
       EXPECT_NEAR(found[0], std::pow(x, e), 2e-14 * std::pow(x, e)) << x << " to the " << e;
       EXPECT_EQ(found[7], found[0]);
     }
-  const Lane zero = power(Lane::all(0.0), Lane::all(1.8));
+  const Lanes zero = power(Lanes::all(0.0), Lanes::all(1.8));
   EXPECT_GE(zero[3], 0.0);
   EXPECT_LT(zero[3], 1e-200);
 }

@@ -11,22 +11,22 @@ constexpr int n_lanes = 8;
 using Register = double __attribute__((vector_size(32)));
 using RegisterBits = std::int64_t __attribute__((vector_size(32)));
 
-struct Lane {
+struct Lanes {
   Register a;
   Register b;
   double& operator[](int i) { return i < 4 ? reinterpret_cast<double*>(&a)[i] : reinterpret_cast<double*>(&b)[i - 4]; }
   double operator[](int i) const {
     return i < 4 ? reinterpret_cast<const double*>(&a)[i] : reinterpret_cast<const double*>(&b)[i - 4];
   }
-  static Lane all(double x) { return {Register{x, x, x, x}, Register{x, x, x, x}}; }
+  static Lanes all(double x) { return {Register{x, x, x, x}, Register{x, x, x, x}}; }
 };
-inline Lane operator+(const Lane& x, const Lane& y) { return {x.a + y.a, x.b + y.b}; }
-inline Lane operator-(const Lane& x, const Lane& y) { return {x.a - y.a, x.b - y.b}; }
-inline Lane operator*(const Lane& x, const Lane& y) { return {x.a * y.a, x.b * y.b}; }
-inline Lane operator*(double x, const Lane& y) { return {x * y.a, x * y.b}; }
-inline Lane operator-(const Lane& x) { return {-x.a, -x.b}; }
-inline Lane& operator+=(Lane& x, const Lane& y) { return x = x + y; }
-inline Lane& operator-=(Lane& x, const Lane& y) { return x = x - y; }
+inline Lanes operator+(const Lanes& x, const Lanes& y) { return {x.a + y.a, x.b + y.b}; }
+inline Lanes operator-(const Lanes& x, const Lanes& y) { return {x.a - y.a, x.b - y.b}; }
+inline Lanes operator*(const Lanes& x, const Lanes& y) { return {x.a * y.a, x.b * y.b}; }
+inline Lanes operator*(double x, const Lanes& y) { return {x * y.a, x * y.b}; }
+inline Lanes operator-(const Lanes& x) { return {-x.a, -x.b}; }
+inline Lanes& operator+=(Lanes& x, const Lanes& y) { return x = x + y; }
+inline Lanes& operator-=(Lanes& x, const Lanes& y) { return x = x - y; }
 
 inline Register absolute(Register x) { return (Register)((RegisterBits)x & INT64_MAX); }
 
@@ -72,7 +72,7 @@ inline Register absolute(Register x) { return (Register)((RegisterBits)x & INT64
   return exponential * (Register)(((RegisterBits)shifted + 1023) << 52);
 }
 
-inline Lane absolute(const Lane& x) { return {absolute(x.a), absolute(x.b)}; }
-[[gnu::always_inline]] inline Lane power(const Lane& x, const Lane& e) { return {power(x.a, e.a), power(x.b, e.b)}; }
+inline Lanes absolute(const Lanes& x) { return {absolute(x.a), absolute(x.b)}; }
+[[gnu::always_inline]] inline Lanes power(const Lanes& x, const Lanes& e) { return {power(x.a, e.a), power(x.b, e.b)}; }
 
 }  // namespace pfdm
