@@ -101,13 +101,13 @@ Equilibrium Staggered::solve_momentum(FractureState& state, const MomentumSolver
 
 Staggered::Energies Staggered::update_driving_energy(const FractureState& start, FractureState& state, bool settles) {
   const auto lap = clock_.lap("driving_energy");
-  const CellMechanics mechanics =
+  CellMechanics mechanics =
       momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::strain_and_energy);
   Energies energies{.unsettled = stiffness_.integrate(mechanics, start, state)};
-  strain_ = mechanics.strain;
-  drive(start, state, 1.0);
   energies.stored =
       parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
+  strain_ = std::move(mechanics.strain);
+  drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_.follow(strain_, state);
   return energies;
 }
