@@ -40,8 +40,6 @@ MatrixXd basis_of(const std::vector<Complex>& alphas, Index n, double rate) {
   return basis;
 }
 
-VectorXd left_over(const VectorXd& g, const MatrixXd& basis) { return g - basis * solve_scaled(basis, g); }
-
 ImpulseFit with_weights(const VectorXd& g, double rate, const std::vector<Complex>& alphas, int order) {
   ImpulseFit fit{.terms = {}, .order = order, .misfit = 1.0};
   if (alphas.empty()) return fit;
@@ -79,6 +77,7 @@ std::vector<Complex> alphas_of(std::span<const double> parts, const std::vector<
 ImpulseFit refined(const VectorXd& g, double rate, const ImpulseFit& start) {
   std::vector<Complex> alphas;
   for (const HereditaryTerm& term : start.terms) alphas.push_back(term.alpha);
+  if (alphas.empty()) return start;
   FitProblem problem;
   const auto vary = [&](double part) {
     problem.parameters.push_back({.name = fmt::format("part {}", problem.parameters.size() + 1),
@@ -92,9 +91,9 @@ ImpulseFit refined(const VectorXd& g, double rate, const ImpulseFit& start) {
     vary(alpha.real());
     if (alpha.imag() != 0.0) vary(alpha.imag());
   }
-  if (alphas.empty()) return start;
   problem.residuals = [&](std::span<const double> p) -> std::optional<std::vector<double>> {
-    const VectorXd residual = left_over(g, basis_of(alphas_of(p, alphas), g.size(), rate));
+    const MatrixXd basis = basis_of(alphas_of(p, alphas), g.size(), rate);
+    const VectorXd residual = g - basis * solve_scaled(basis, g);
     return std::vector<double>(residual.begin(), residual.end());
   };
   const std::vector<double> found = fit(problem, {.maximum_iterations = 100, .side_by_side = false}).values();
@@ -109,41 +108,63 @@ double information(const ImpulseFit& fit, const VectorXd& g) {
                               rounding * g.norm() / std::sqrt(static_cast<double>(g.size())));
 }
 
+// The samples' Hankel matrix, whose right singular vectors are shifted by the poles.
+class Pencil {
+ public:
+  Pencil(const VectorXd& g, double rate, int order) : g_(g), rate_(rate) {
+    const Index n = g.size(), length = n / 3;
+    if (n < std::max(12, 3 * order))
+      throw InputError(
+          fmt::format("an impulse response of {} samples is too short; {} are the least", n, std::max(12, 3 * order)));
+    if (!g.allFinite() || !(g.norm() > 0.0))
+      throw InputError("an impulse response needs finite samples that are not all zero");
+    MatrixXd hankel(n - length, length + 1);
+    for (Index j = 0; j <= length; ++j) hankel.col(j) = g.segment(j, n - length);
+    svd_.compute(hankel, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  }
+
+  int order() const {
+    const auto columns = static_cast<double>(svd_.matrixV().rows());
+    return number_that_stand_out(svd_.singularValues(), columns / static_cast<double>(svd_.matrixU().rows()));
+  }
+
+  ImpulseFit fit(int order) const {
+    if (order == 0) return with_weights(g_, rate_, {}, 0);  // nothing but noise
+    const MatrixXd V = svd_.matrixV().leftCols(order);
+    const Index length = V.rows() - 1;
+    const MatrixXd shift = V.topRows(length).colPivHouseholderQr().solve(V.bottomRows(length));
+    const Eigen::EigenSolver<MatrixXd> eigen(shift, false);
+    std::vector<Complex> alphas;
+    for (const Complex z : eigen.eigenvalues()) {
+      const bool real = z.imag() == 0.0;
+      if (!(std::abs(z) < 1.0) || z.imag() < 0.0 || (real && z.real() <= 0.0)) continue;
+      // Either one of a pair will do.
+      alphas.emplace_back(-rate_ * std::log(std::abs(z)), real ? 0.0 : rate_ * std::arg(z));
+    }
+    std::ranges::sort(alphas, {}, [](const Complex& alpha) { return alpha.real(); });
+    return with_weights(g_, rate_, alphas, order);
+  }
+
+ private:
+  const VectorXd& g_;
+  double rate_;
+  Eigen::BDCSVD<MatrixXd> svd_;
+};
+
 }  // namespace
 
 ImpulseFit matrix_pencil(const VectorXd& g, double rate, int order) {
-  const Index n = g.size(), length = n / 3;
-  if (n < std::max(12, 3 * order))
-    throw InputError(
-        fmt::format("an impulse response of {} samples is too short; {} are the least", n, std::max(12, 3 * order)));
-  if (!g.allFinite() || !(g.norm() > 0.0))
-    throw InputError("an impulse response needs finite samples that are not all zero");
-  MatrixXd hankel(n - length, length + 1);
-  for (Index j = 0; j <= length; ++j) hankel.col(j) = g.segment(j, n - length);
-  const Eigen::BDCSVD<MatrixXd> svd(hankel, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  if (order == 0)
-    order =
-        number_that_stand_out(svd.singularValues(), static_cast<double>(length + 1) / static_cast<double>(n - length));
-  const MatrixXd V = svd.matrixV().leftCols(order);
-  const MatrixXd shift = V.topRows(length).colPivHouseholderQr().solve(V.bottomRows(length));
-  std::vector<Complex> alphas;
-  const Eigen::EigenSolver<MatrixXd> eigen(shift, false);
-  for (const Complex z : eigen.eigenvalues()) {
-    const bool real = z.imag() == 0.0;
-    if (!(std::abs(z) < 1.0) || z.imag() < 0.0 || (real && z.real() <= 0.0)) continue;
-    alphas.emplace_back(-rate * std::log(std::abs(z)),
-                        real ? 0.0 : rate * std::arg(z));  // either one of a pair will do
-  }
-  std::ranges::sort(alphas, {}, [](const Complex& alpha) { return alpha.real(); });
-  return with_weights(g, rate, alphas, order);
+  const Pencil pencil(g, rate, order);
+  return pencil.fit(order > 0 ? order : pencil.order());
 }
 
 ImpulseFit fit_impulse_response(const VectorXd& g, double rate, int order) {
-  ImpulseFit best = refined(g, rate, matrix_pencil(g, rate, order));
-  if (order > 0) return best;
+  const Pencil pencil(g, rate, order);
+  if (order > 0) return refined(g, rate, pencil.fit(order));
+  ImpulseFit best = refined(g, rate, pencil.fit(pencil.order()));
   // The noise of a Hankel matrix repeats along its diagonals: more singular values stand out than there are poles.
   for (int fewer = best.order - 1; fewer > 0; --fewer) {
-    const ImpulseFit candidate = refined(g, rate, matrix_pencil(g, rate, fewer));
+    const ImpulseFit candidate = refined(g, rate, pencil.fit(fewer));
     if (information(candidate, g) < information(best, g)) best = candidate;
   }
   return best;
