@@ -28,6 +28,8 @@ struct HereditaryTerm {
   bool is_pair() const { return alpha.imag() != 0.0; }
 };
 
+inline constexpr double standard_gravity = 9.80665;  ///< g0 [m/s^2]
+
 struct MassMaterial {
   double mass = 1.0;                ///< m [kg]
   std::vector<double> stiffness{};  ///< k_1 ... k_N [N/m^i]

@@ -1,5 +1,6 @@
 #include "solver/repeatability.h"
 
+#include "physics/mass_material.h"
 #include "solver/calibration_statistics.h"
 
 #include <Eigen/Core>
@@ -19,9 +20,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double g0 = 9.80665;   // [m/s^2]
-constexpr double day = 86400.0;  // [s]
-
 struct Column {
   std::string name;
   std::string what;
@@ -39,8 +37,8 @@ std::vector<Column> columns_of(std::span<const ScheduledRun> schedule) {
     if (values.lpNorm<Eigen::Infinity>() > 1e-9 * largest)
       columns.push_back({std::move(name), std::move(what), std::move(values)});
   };
-  add("per_g0", "level", [](const ScheduledRun& s) { return s.level / g0; });
-  add("per_day", "age", [](const ScheduledRun& s) { return s.age / day; });
+  add("per_g0", "level", [](const ScheduledRun& s) { return s.level_in_g0(); });
+  add("per_day", "age", [](const ScheduledRun& s) { return s.age_in_days(); });
   add("per_run", "run", [](const ScheduledRun& s) { return static_cast<double>(s.run); });
   return columns;
 }
@@ -67,7 +65,11 @@ void add_repeat_deviation(std::span<const ScheduledRun> schedule, std::span<cons
 
 }  // namespace
 
-long ScheduledRun::day() const { return std::lround(std::floor(age / pfdm::day + 1e-9)); }
+double ScheduledRun::level_in_g0() const { return level / standard_gravity; }
+
+double ScheduledRun::age_in_days() const { return age / 86400.0; }
+
+long ScheduledRun::day() const { return std::lround(std::floor(age_in_days() + 1e-9)); }
 
 std::optional<std::string> confounded(std::span<const ScheduledRun> schedule) {
   const std::vector<Column> columns = columns_of(schedule);

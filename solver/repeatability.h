@@ -14,6 +14,8 @@ struct ScheduledRun {
   double level = 0.0;  ///< [m/s^2]
   double age = 0.0;    ///< of the sample [s]
   int run = 1;         ///< number within its day
+  double level_in_g0() const;
+  double age_in_days() const;
   /// Tests of one whole day of age are of the same day.
   long day() const;
 };

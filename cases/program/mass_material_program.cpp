@@ -25,8 +25,6 @@ namespace fs = std::filesystem;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double gravity = 9.80665;  // [m/s^2]
-
 /// What a run needs beyond what a fit does.
 void require_parameters(const MassMaterialCase& c) {
   if (!c.has_parameters)
@@ -43,7 +41,7 @@ void say_model(const MassMaterialProgram& program, Log& log) {
   if (!c.has_parameters) return;
   const double f0 = std::sqrt(c.model.stiffness.front() / c.model.mass) / (2.0 * std::numbers::pi);
   log.say(fmt::format("resonance of mass and k1 at {:.4g} Hz", f0));
-  const auto z0 = static_settling_point(c.model, gravity);
+  const auto z0 = static_settling_point(c.model, standard_gravity);
   if (z0)
     log.say(
         fmt::format("settles by {:.4g} mm under its weight; the parameters are those about that point", -1e3 * *z0));
@@ -223,7 +221,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
                            .figures = {},
                            .tests = {}};
   run_tests(program, session, summary);
-  const auto z0 = static_settling_point(c.model, gravity);
+  const auto z0 = static_settling_point(c.model, standard_gravity);
   summary.figures = {{"mass_kg", c.model.mass},
                      {"static_stiffness_N_per_m", static_stiffness(c.model)},
                      {"static_settling_point_m", z0 ? *z0 : std::nan("")}};

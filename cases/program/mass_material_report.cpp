@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-constexpr double gravity = 9.80665;      // [m/s^2]
 constexpr double least_coherence = 0.2;  // for H1 to be shown
 
 struct Model {
@@ -92,8 +91,8 @@ Table tests_table(const VibrationStory& story) {
               .rows = {{"test", "base [g0]", "relative [g0]", "misfit"}},
               .has_header = true};
   for (const VibrationRecord& r : story.records)
-    table.rows.push_back(
-        {r.name, shown(rms(r.base) / gravity), shown(rms(r.relative) / gravity), misfit_of(story.fit, r.name)});
+    table.rows.push_back({r.name, shown(rms(r.base) / standard_gravity), shown(rms(r.relative) / standard_gravity),
+                          misfit_of(story.fit, r.name)});
   return table;
 }
 
@@ -141,8 +140,8 @@ Series hull(const std::string& label, const VectorXd& signal, double rate, int c
     const Eigen::Index from = i * n / bins, to = std::max((i + 1) * n / bins, from + 1);
     const auto part = signal.segment(from, to - from);
     series.x.push_back(0.5 * static_cast<double>(from + to - 1) / rate);
-    series.y.push_back(part.minCoeff() / gravity);
-    series.upper.push_back(part.maxCoeff() / gravity);
+    series.y.push_back(part.minCoeff() / standard_gravity);
+    series.upper.push_back(part.maxCoeff() / standard_gravity);
   }
   return series;
 }
@@ -165,7 +164,7 @@ Series part_of(const VectorXd& signal, double rate, Eigen::Index from, Eigen::In
   Series series{.label = std::move(label), .x = {}, .y = {}};
   for (Eigen::Index i = from; i < from + n; ++i) {
     series.x.push_back(static_cast<double>(i) / rate);
-    series.y.push_back(signal[i] / gravity);
+    series.y.push_back(signal[i] / standard_gravity);
   }
   return series;
 }
@@ -221,8 +220,8 @@ BandSpectra spectra_in_band(const VibrationRecord& record, const VectorXd& relat
   for (Eigen::Index i = 0; i < s.frequency.size(); ++i) {
     if (s.frequency[i] < record.band_low || s.frequency[i] > record.band_high) continue;
     result.frequency.push_back(s.frequency[i]);
-    result.base.push_back(s.Sxx[i] / (gravity * gravity));
-    result.relative.push_back(s.Syy[i] / (gravity * gravity));
+    result.base.push_back(s.Sxx[i] / (standard_gravity * standard_gravity));
+    result.relative.push_back(s.Syy[i] / (standard_gravity * standard_gravity));
     result.magnitude.push_back(std::abs(H[i]));
     result.lower.push_back(bounds.lower[i]);
     result.upper.push_back(bounds.upper[i]);
@@ -332,7 +331,7 @@ Chart repeats_chart(const RepeatedIdentification& repeats, std::size_t parameter
   std::map<double, Series> levels;
   for (const RecordEstimates& r : repeats.records) {
     Series& series = levels[r.schedule.level];
-    series.label = fmt::format("{} g0", shown(r.schedule.level / gravity));
+    series.label = fmt::format("{} g0", shown(r.schedule.level / standard_gravity));
     series.style = SeriesStyle::points;
     series.x.push_back(static_cast<double>(r.schedule.day()) + 0.15 * r.schedule.run);
     series.y.push_back(100.0 * (r.estimates[parameter].value / p.statistics.mean - 1.0));

@@ -11,15 +11,13 @@
 namespace pfdm {
 namespace {
 
-constexpr double g0 = 9.80665;   // [m/s^2]
-constexpr double day = 86400.0;  // [s]
 constexpr Range run_number{1.0, 1e6, false, "1 or more"};
 constexpr Range relative_slope{-1.0, 1.0, false, "between -1 and 1"};
 constexpr Range relative_scatter{0.0, 0.5, false, "between 0 and 0.5"};
 
 /// Level in g0, age in days, run.
 std::array<double, 3> coordinates_of(const ScheduledRun& s) {
-  return {s.level / g0, s.age / day, static_cast<double>(s.run)};
+  return {s.level_in_g0(), s.age_in_days(), static_cast<double>(s.run)};
 }
 
 /// Of the tests that have a schedule.
