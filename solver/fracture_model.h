@@ -63,6 +63,8 @@ struct LoadingSettings {
   /// Increments are chosen so that the damage of no cell grows by more than this within a step, down to the finest;
   /// a step of the finest or less may break what it likes.
   double damage_growth = std::numeric_limits<double>::infinity();
+  /// Likewise, so that no step's cracks release more of the energy, elastic at the step's load and fracture; relative.
+  double energy_release = std::numeric_limits<double>::infinity();
   double finest_increment = 1e-3;  ///< of t
   /// Surface energy that a step may dissipate [J], in proportion less while the increment is below its maximum: a load
   /// that would dissipate more is lowered, also below that of the step before, so that snap-back is followed.

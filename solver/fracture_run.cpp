@@ -17,7 +17,7 @@ constexpr Index easy_iterations = 12;  // a step that needs no more lets the inc
 constexpr double bearable_share =
     0.5;  // of the most iterations: a step that needs no more lets a cut increment recover
 constexpr double growth = 1.5, cut = 0.5;
-constexpr double growth_aim = 0.7;       // of the growth of damage that a step may bring
+constexpr double aim = 0.7;              // of what a step may break
 constexpr double load_rounding = 1e-12;  // of the load parameter
 
 void require_complete(const Mesh& mesh, const FractureModel& model) {
@@ -129,14 +129,17 @@ struct FractureRun::Parts {
     else if (double(outcome.iterations) <= bearable_share * double(maximum_iterations) &&
              increment < loading.initial_increment)
       next = std::min(grown, loading.initial_increment);
-    // The next step shall let the damage grow by as much as is wished for, if it goes on as in this one.
-    const double wished = growth_aim * loading.damage_growth / std::max(outcome.growth, 1e-12) * increment;
-    return std::min(next, std::max(wished, loading.finest_increment));
+    // The next step shall break as much as is wished for, if it goes on as in this one.
+    const double broken =
+        std::max({outcome.growth / loading.damage_growth, outcome.energy_release / loading.energy_release, 1e-12});
+    return std::min(next, std::max(aim / broken * increment, loading.finest_increment));
   }
 
-  double allowed_growth(double increment) const {
+  StepLimits limits_of(double increment, double planned_increment) const {
+    StepLimits limits{.dissipation = dissipation_of(planned_increment), .duration = increment * loading.duration};
     const bool may_jump = increment <= loading.finest_increment * (1.0 + load_rounding);
-    return may_jump ? std::numeric_limits<double>::infinity() : loading.damage_growth;
+    if (!may_jump) limits.growth = loading.damage_growth, limits.energy_release = loading.energy_release;
+    return limits;
   }
 
   std::vector<Vector> boundary_forces(const FractureState& state) {
@@ -216,13 +219,11 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
     double increment = trial.load - state.load;
     if (state.load > 0.0 && parts.is_proportional())
       for (Vector& u : trial.displacement) u *= trial.load / state.load;
-    const StepOutcome outcome = parts.staggered.solve_step(state, trial, hooks,
-                                                           {.growth = parts.allowed_growth(increment),
-                                                            .dissipation = parts.dissipation_of(state.increment),
-                                                            .duration = increment * parts.loading.duration});
+    const StepOutcome outcome =
+        parts.staggered.solve_step(state, trial, hooks, parts.limits_of(increment, state.increment));
     parts.krylov_iterations += outcome.krylov_iterations;
     parts.staggered_iterations += outcome.iterations;
-    if (outcome.grew_too_much) {
+    if (outcome.broke_too_much) {
       state.increment = std::max(cut * increment, parts.loading.finest_increment);
       continue;
     }

@@ -29,14 +29,14 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
                                   const StepLimits& limits) {
   StepOutcome outcome;
   const bool path_is_followed = std::isfinite(limits.dissipation);
+  const double fracture_energy = damage_.renewed_fracture_energy(start.damage);
   PathLimit limit;
-  if (path_is_followed)
-    limit = {state.load, damage_.renewed_fracture_energy(start.damage) + limits.dissipation, limits.dissipation};
+  if (path_is_followed) limit = {state.load, fracture_energy + limits.dissipation, limits.dissipation};
   Relaxation relaxation;
   if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / limits.duration, start.damage);
   stiffness_.start_step(limits.duration);
   momentum_.start_afresh();  // a run that is gone on with does the same
-  double energy_before = 0.0;
+  double energy_before = 0.0, stored_at_unit_load = 0.0;
   bool settled = false;
   while (outcome.iterations < settings_.maximum_iterations && !outcome.converged) {
     degrade(state);
@@ -50,6 +50,9 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
     if (!std::isfinite(equilibrium.residual)) return outcome;
     const Energies energies = update_driving_energy(start, state, true);
     if (!std::isfinite(energies.unsettled)) return outcome;
+    if (outcome.iterations == 0) stored_at_unit_load = energies.stored / (state.load * state.load);
+    const double undamaged = stored_at_unit_load * state.load * state.load;
+    outcome.energy_release = std::abs(energies.stored - undamaged) / (undamaged + fracture_energy);
     CellField<double> answer = state.damage;
     const double load = state.load;
     const bool damage_solved =
@@ -69,10 +72,10 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
     else
       state.damage = relaxation.next(state.damage, answer, start.damage);
     outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
-    outcome.grew_too_much = outcome.growth > limits.growth;
+    outcome.broke_too_much = outcome.growth > limits.growth || outcome.energy_release > limits.energy_release;
     if (hooks.iterated)
       hooks.iterated({state.step, outcome.iterations, state.load, change, energy_change, equilibrium.iterations});
-    if (outcome.grew_too_much) {
+    if (outcome.broke_too_much) {
       outcome.converged = false;
       return outcome;
     }

@@ -15,8 +15,9 @@ namespace pfdm {
 
 struct StepOutcome {
   bool converged = false;
-  bool grew_too_much = false;  ///< given up, as the damage went beyond the growth allowed
-  double growth = 0.0;         ///< largest of d over a cell
+  bool broke_too_much = false;  ///< given up, as the damage went beyond what is allowed
+  double growth = 0.0;          ///< largest of d over a cell
+  double energy_release = 0.0;  ///< change of elastic energy by damage, over elastic and fracture energy before it
   Index iterations = 0;
   Index krylov_iterations = 0;
   double elastic_energy = 0.0;       ///< [J]
@@ -26,9 +27,10 @@ struct StepOutcome {
 
 /// What a step may do at most, and how long it takes.
 struct StepLimits {
-  double growth = std::numeric_limits<double>::infinity();       ///< of d in a cell
-  double dissipation = std::numeric_limits<double>::infinity();  ///< [J]
-  double duration = 0.0;                                         ///< of the step [s]; for models that look at the rate
+  double growth = std::numeric_limits<double>::infinity();          ///< of d in a cell
+  double energy_release = std::numeric_limits<double>::infinity();  ///< relative
+  double dissipation = std::numeric_limits<double>::infinity();     ///< [J]
+  double duration = 0.0;  ///< of the step [s]; for models that look at the rate
 };
 
 class Staggered {
@@ -36,7 +38,7 @@ class Staggered {
   Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings);
 
   /// Brings `state`, whose load is the step's, to equilibrium. `start` is the state that damage may not fall below.
-  /// Gives up once some cell's damage has grown by more than the limit. Where the step would dissipate more than its
+  /// Gives up once damage has gone beyond a limit. Where the step would dissipate more than its
   /// limit, the load is lowered until it does not: boundary values must then be proportional to the load parameter, and
   /// damage be bounded by that of `start`.
   StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,

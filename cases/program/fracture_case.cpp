@@ -95,6 +95,7 @@ LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model
     throw table.error(fmt::format("the increments must not fall: minimum {}, initial {}, maximum {}",
                                   loading.minimum_increment, loading.initial_increment, loading.maximum_increment));
   loading.damage_growth = table.number("damage_growth", above_zero_to_one, loading.damage_growth);
+  loading.energy_release = table.number("energy_release", above_zero_to_one, loading.energy_release);
   loading.finest_increment = table.number("finest_increment", range::positive, loading.finest_increment);
   if (table.has("maximum_dissipation"))
     loading.maximum_dissipation = table.quantity("maximum_dissipation", dimension::energy, range::positive);

@@ -191,6 +191,10 @@ const BadInput bad_inputs[] = {
      "initial_increment = 0.1",
      "damage_growth = 1.5\ninitial_increment = 0.1",
      {"[loading] damage_growth: 1.5", "above 0 and at most 1"}},
+    {"no_energy_to_be_released",
+     "initial_increment = 0.1",
+     "energy_release = 0\ninitial_increment = 0.1",
+     {"[loading] energy_release: 0", "above 0 and at most 1"}},
     {"slit_off_the_grid",
      "[[mesh.regions]]",
      "[[mesh.slits]]\nname = \"notch\"\nlower = [\"0.0123 mm\", \"-9 mm\", \"-9 mm\"]\n"

@@ -70,6 +70,9 @@ class Bar {
   /// snap-back.
   std::vector<BarState> follow(double end, double increment, double dissipation) const;
 
+  /// To the end of the load, by steps that release no more than this share of the energy, down to the finest increment.
+  std::vector<BarState> resolve(double end, double increment, double energy_release, double finest) const;
+
   /// The same without irreversibility, as the closed forms have it: every step may heal what the one before broke.
   std::vector<BarState> run_reversibly(const std::vector<Leg>& legs) const;
 
@@ -92,6 +95,7 @@ class Bar {
   FractureModel make_model() const;
   BarState state_of(const FractureState& state, double force, double fracture_energy) const;
   RunHooks recorder(std::vector<BarState>& states) const;
+  std::vector<BarState> run_with(LoadingSettings loading) const;
   StaggeredSettings staggered() const {
     return {
         .damage_tolerance = settings_.tolerance, .energy_tolerance = settings_.tolerance, .maximum_iterations = 20000};
@@ -203,13 +207,25 @@ inline std::vector<BarState> Bar::run(const std::vector<Leg>& legs, const Seen& 
 }
 
 inline std::vector<BarState> Bar::follow(double end, double increment, double dissipation) const {
-  std::vector<BarState> states;
-  FractureRun run(mesh_, model_, staggered(),
-                  {.end = end,
+  return run_with({.end = end,
                    .initial_increment = increment,
                    .maximum_increment = increment,
                    .maximum_dissipation = dissipation * Gc * area(),
                    .stops = {}});
+}
+
+inline std::vector<BarState> Bar::resolve(double end, double increment, double energy_release, double finest) const {
+  return run_with({.end = end,
+                   .initial_increment = increment,
+                   .maximum_increment = increment,
+                   .energy_release = energy_release,
+                   .finest_increment = finest,
+                   .stops = {}});
+}
+
+inline std::vector<BarState> Bar::run_with(LoadingSettings loading) const {
+  std::vector<BarState> states;
+  FractureRun run(mesh_, model_, staggered(), std::move(loading));
   run.run(run.initial_state(), recorder(states));
   return states;
 }

@@ -130,6 +130,28 @@ TEST(DamagedBars, PathIsFollowedPastSnapBack) {
   EXPECT_LE(halved.imbalance, 0.6 * coarse.imbalance);
 }
 
+// ---- Limited release of energy: the load at which the same bar breaks in one jump, from increments of a tenth.
+
+TEST(DamagedBars, AJumpIsKnownToTheFinestIncrement) {
+  const double finest = 1e-3;
+  const Bar bar({.length = 20.0, .weakness = 0.005});
+  const std::vector<BarState> states = bar.resolve(1.2, 0.1, 0.05, finest), even = bar.run({{0.98, 1}, {1.0, 20}});
+  const auto jump = [](const std::vector<BarState>& all) {
+    return std::ranges::find_if(all, [](const BarState& state) { return state.largest_damage > 0.9; });
+  };
+  const auto after = jump(states), expected = jump(even);
+  ASSERT_TRUE(after != states.end() && after != states.begin() && expected != even.end());
+  const auto before = std::prev(after);
+  report_row("AT1 jump", {{"load before", before->load},
+                          {"after", after->load},
+                          {"with even increments", expected->load},
+                          {"steps", double(states.size())}});
+  EXPECT_LE(after->load - before->load, finest * (1.0 + 1e-9));
+  EXPECT_NEAR(after->load, expected->load, finest);
+  EXPECT_GT(before->stress, 0.99);
+  EXPECT_LE(states.size(), 40u);
+}
+
 // ---- Toughness: one cell breaks, and the discrete surface energy of literature.md 3.6 is dissipated.
 
 void expect_toughness(const BarState& broken, const Bar& bar, double expected, const std::string& label) {
