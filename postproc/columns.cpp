@@ -2,6 +2,7 @@
 
 #include "mesh/disjoint_sets.h"
 #include "physics/error.h"
+#include "physics/plane_stress.h"
 #include "postproc/slice.h"
 #include "solver/parallel.h"
 
@@ -120,10 +121,12 @@ Vector traction_on_normal(const Mesh& mesh, const OutputFields& output, const Co
 
 CellExcess excess_of(const Mesh& mesh, const FractureModel& model, const OutputFields& output, const Column& column,
                      const LineSegment& segment) {
-  const IsotropicElasticity& sound = model.in_cell(mesh, segment.cell).elasticity;
+  const IsotropicElasticity& elasticity = model.in_cell(mesh, segment.cell).elasticity;
+  const Vector& across = output.plane_stress_normal;  // in this direction sound material may contract
+  const IsotropicElasticity sound = across.isZero() ? elasticity : plane_stress(elasticity);
   const Tensor& strain = output.strain[segment.cell];
   const Vector on_normal = components(column, strain * column.normal);
-  const double lateral = strain.trace() - on_normal[0];
+  const double lateral = strain.trace() - on_normal[0] - across.dot(strain * across);
   CellExcess excess{.traction = components(column, traction_on_normal(mesh, output, column, segment))};
   const Vector& T = excess.traction;
   excess.strain = {on_normal[0] - (T[0] - sound.lambda * lateral) / sound.constrained_modulus(),

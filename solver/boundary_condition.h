@@ -11,9 +11,10 @@ namespace pfdm {
 
 struct BoundaryCondition {
   enum class Kind {
-    components,  ///< each Cartesian component is a displacement or a traction
-    symmetry,    ///< no normal displacement, no tangential traction
-    plane,       ///< front or back of a mesh one cell thick: plane strain, the cells carry no gradient across it
+    components,    ///< each Cartesian component is a displacement or a traction
+    symmetry,      ///< no normal displacement, no tangential traction
+    plane,         ///< front or back of a mesh one cell thick: plane strain, the cells carry no gradient across it
+    plane_stress,  ///< the same with no stress across it in place of no strain
   };
   std::string patch;
   Kind kind = Kind::components;
@@ -22,5 +23,11 @@ struct BoundaryCondition {
   /// Empty means zero everywhere.
   std::function<Vector(const Vector& x, double t)> value;
 };
+
+/// Faces of such patches carry no unknown.
+inline bool is_front_or_back(const BoundaryCondition& condition) {
+  using Kind = BoundaryCondition::Kind;
+  return condition.kind == Kind::plane || condition.kind == Kind::plane_stress;
+}
 
 }  // namespace pfdm

@@ -269,6 +269,7 @@ OutputFields FractureRun::output(const FractureState& state) const {
                       .driving_energy = state.driving_energy,
                       .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),
                       .traction = staggered.momentum().balance().tractions(state.displacement)};
+  if (parts_->unknowns.plane_stress) fields.plane_stress_normal = parts_->unknowns.plane_normal;
   add_plasticity(state, fields);
   return fields;
 }

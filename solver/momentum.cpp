@@ -137,12 +137,13 @@ double MomentumOperator::jump_stiffness(Index P, Index N, double h_P, double h_N
 void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                                   double part) {
   moduli_ = moduli;
+  condense(moduli_);
   stiffness_ = {};
   linear_stress_ = {};
   gradient_.update(g, part);
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     Link& link = links_[as_size(i)];
-    const IsotropicElasticity &P = moduli[link.P], &N = moduli[link.N];
+    const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
     const double h_P = std::abs(link.d_P.dot(link.n)), h_N = std::abs(link.d_N.dot(link.n));
     const double a_n = P.constrained_modulus() / h_P, b_n = N.constrained_modulus() / h_N;
     const double a_t = P.mu / h_P, b_t = N.mu / h_N;
@@ -156,11 +157,12 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
     Side& side = sides_[as_size(i)];
     const double h = std::abs(side.d.dot(side.n));
     side.a_n = jump_modulus(side.cell) / h;
-    side.a_t = moduli[side.cell].mu / h;
+    side.a_t = moduli_[side.cell].mu / h;
   });
 }
 
 void MomentumOperator::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part) {
+  condense(stiffness);
   stiffness_ = std::move(stiffness);
   gradient_.update(g, part);
   link_tensors_.resize(links_.size());
@@ -176,6 +178,11 @@ void MomentumOperator::set_stiffness(CellField<MandelMatrix> stiffness, const Ce
     const Side& side = sides_[as_size(i)];
     side_tensors_[as_size(i)] = acoustic_tensor(stiffness_[side.cell], side.n) / std::abs(side.d.dot(side.n));
   });
+}
+
+void MomentumOperator::set_stress(CellField<LinearStress> stress) {
+  condense(stress);
+  linear_stress_ = std::move(stress);
 }
 
 void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const {
@@ -265,7 +272,7 @@ std::vector<Vector> MomentumOperator::load_vector(double t) const {
 void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
   for (const PatchCondition& on : unknowns_.conditions) {
     const BoundaryCondition& condition = on.condition;
-    if (condition.kind == BoundaryCondition::Kind::plane) continue;
+    if (is_front_or_back(condition)) continue;
     const Patch& patch = mesh_.patches[as_size(on.patch)];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
       const Index node = unknowns_.node_of_face[f];

@@ -21,8 +21,11 @@
 // c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = 1 - min(mu_P, mu_N)/max(mu_P, mu_N). The weights of
 // sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge. Polyhedra of any
 // stiffness C keep the full a.
+//
+// In plane stress the cells' stiffness is what is left of it with no stress across the plate: in all above, C, lambda
+// and sigma_0 are those of physics/plane_stress.h. The strain across is added to what the displacements say.
 
-#include "physics/linear_stress.h"
+#include "physics/plane_stress.h"
 #include "solver/block_matrix.h"
 #include "solver/gradient.h"
 #include "solver/unknowns.h"
@@ -51,7 +54,7 @@ class MomentumOperator {
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
   /// After set_moduli(), which takes it away: the stress of every cell in place of that of its moduli.
-  void set_stress(CellField<LinearStress> stress) { linear_stress_ = std::move(stress); }
+  void set_stress(CellField<LinearStress> stress);
 
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node. Initial
   /// stresses have no part in it.
@@ -142,6 +145,12 @@ class MomentumOperator {
   Tensor compact_side(const Side& side) const;
   // Stress [Pa] across the plane of a plane mesh, per unit of n (x) n.
   double stress_across(Index cell, const Tensor& strain) const;
+  // Keeps what makes the strain across, and leaves the stiffness within the plate.
+  void condense(CellField<IsotropicElasticity>& moduli);
+  void condense(CellField<MandelMatrix>& stiffness);
+  void condense(CellField<LinearStress>& stress);
+  // In plane stress the strain across the plate is added; else the gradient stays as it is.
+  Tensor with_strain_across(Index cell, const Tensor& gradient) const;
   Vector face_displacement(std::size_t link, const std::vector<Vector>& u) const;
   FaceField<Vector> face_displacements(const std::vector<Vector>& u) const;
   Vector seen_from(Index cell, Index face, const FaceField<Vector>& u_face, const std::vector<Vector>& u) const;
@@ -153,6 +162,7 @@ class MomentumOperator {
   CellField<double> jump_share_;           // lambda_s over lambda; 1 but of polyhedra
   CellField<MandelMatrix> stiffness_;      // empty while all cells are isotropic, as are the tensors of the faces
   CellField<LinearStress> linear_stress_;  // may be empty
+  CellField<StrainAcross> strain_across_;  // empty but in plane stress
   std::vector<Link> links_;
   std::vector<Side> sides_;
   std::vector<LinkTensors> link_tensors_;

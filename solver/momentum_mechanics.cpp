@@ -1,4 +1,4 @@
-// What a displacement means: strain, stress and energy of the cells, reactions of the patches.
+// What a displacement means: strain, stress and energy of the cells, reactions of the patches; plane stress.
 //
 // The strain is that of the face displacements at which the two sides of each face agree (Green-Gauss). It is exact in
 // a laminate however broken a layer is, where the least-squares gradient, which reaches over the layer, is wrong by
@@ -33,7 +33,41 @@ Vector MomentumOperator::face_displacement(std::size_t i, const std::vector<Vect
   return from_P + towards_N + give(i, stress_jump);
 }
 
+void MomentumOperator::condense(CellField<IsotropicElasticity>& moduli) {
+  if (!unknowns_.plane_stress) return;
+  strain_across_ = CellField<StrainAcross>(as_size(moduli.size()));
+  parallel_for(moduli.size(), [&](Index c) {
+    strain_across_[c] =
+        strain_across({.C = stiffness_matrix(moduli[c]), .initial = Mandel::Zero()}, unknowns_.plane_normal);
+    moduli[c] = plane_stress(moduli[c]);
+  });
+}
+
+void MomentumOperator::condense(CellField<LinearStress>& stress) {
+  if (!unknowns_.plane_stress) return;
+  strain_across_ = CellField<StrainAcross>(as_size(stress.size()));
+  parallel_for(stress.size(), [&](Index c) {
+    strain_across_[c] = strain_across(stress[c], unknowns_.plane_normal);
+    stress[c] = plane_stress(stress[c], unknowns_.plane_normal);
+  });
+}
+
+void MomentumOperator::condense(CellField<MandelMatrix>& stiffness) {
+  if (!unknowns_.plane_stress) return;
+  CellField<LinearStress> stress(as_size(stiffness.size()));
+  parallel_for(stiffness.size(), [&](Index c) { stress[c].C = stiffness[c]; });
+  condense(stress);
+  parallel_for(stiffness.size(), [&](Index c) { stiffness[c] = stress[c].C; });
+}
+
+Tensor MomentumOperator::with_strain_across(Index cell, const Tensor& gradient) const {
+  if (!unknowns_.plane_stress) return gradient;
+  const Vector& n = unknowns_.plane_normal;
+  return gradient + strain_across_[cell](to_mandel(symmetric_part(gradient))) * n * n.transpose();
+}
+
 double MomentumOperator::stress_across(Index cell, const Tensor& strain) const {
+  if (unknowns_.plane_stress) return 0.0;
   if (is_isotropic() && !has_linear_stress()) return moduli_[cell].lambda * strain.trace();
   const Vector& normal = unknowns_.plane_normal;
   const Mandel stress =
@@ -82,7 +116,7 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
       work += 0.5 * force.dot(rise);
       ++k;
     }
-    gradient = gradient * closure_[c].transpose() / volume;
+    gradient = with_strain_across(c, gradient * closure_[c].transpose() / volume);
     result.strain[c] = symmetric_part(gradient);
     result.energy[c] = work;
     if (with_gradient) result.gradient[c] = gradient;
@@ -93,7 +127,9 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
   });
   if (has_linear_stress()) {
     result.reconstructed_strain = CellField<Tensor>(n);
-    parallel_for(mesh_.n_cells(), [&](Index c) { result.reconstructed_strain[c] = symmetric_part(gradients_[c]); });
+    parallel_for(mesh_.n_cells(), [&](Index c) {
+      result.reconstructed_strain[c] = symmetric_part(with_strain_across(c, gradients_[c]));
+    });
   }
   return result;
 }

@@ -57,8 +57,9 @@ struct OutputFields {
   CellField<double> fracture_energy_density;
   CellField<Tensor> plastic_strain{};       ///< [-]; empty without endochronic cells, as is
   CellField<double> plastic_path_length{};  ///< zeta [-]
-  /// On each face along its normal, sigma n [Pa]; zero on the faces of plane patches, which carry none.
+  /// On each face along its normal, sigma n [Pa]; zero on the front and back of a plate, which carry none.
   FaceField<Vector> traction;
+  Vector plane_stress_normal = Vector::Zero();  ///< of a plate in plane stress; else zero
 };
 
 }  // namespace pfdm

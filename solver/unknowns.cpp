@@ -52,6 +52,22 @@ Vector plane_patch_normal(const Mesh& mesh, const Patch& patch, std::string_view
   return normal;
 }
 
+void add_plane(const Mesh& mesh, const PatchCondition& on, Unknowns& unknowns) {
+  const Patch& patch = mesh.patches[as_size(on.patch)];
+  const Vector normal = plane_patch_normal(mesh, patch, "plane");
+  const bool is_first = unknowns.plane_normal.isZero();
+  if (!is_first && std::abs(normal.dot(unknowns.plane_normal)) < 1.0 - 1e-8)
+    throw InputError(fmt::format("plane patch \"{}\" is not parallel to the other plane patches", patch.name));
+  const bool plane_stress = on.condition.kind == BoundaryCondition::Kind::plane_stress;
+  if (!is_first && plane_stress != unknowns.plane_stress)
+    throw InputError(
+        fmt::format("patch \"{}\" is of type \"{}\" and another one of type \"{}\"; the front and the back of a plate "
+                    "are of one type: \"plane\" (plane strain) or \"plane_stress\"",
+                    patch.name, plane_stress ? "plane_stress" : "plane", plane_stress ? "plane" : "plane_stress"));
+  unknowns.plane_normal = normal;
+  unknowns.plane_stress = plane_stress;
+}
+
 Tensor free_directions(const BoundaryCondition& condition, const Vector& face_area) {
   if (condition.kind == BoundaryCondition::Kind::symmetry) {
     const Vector n = face_area.normalized();
@@ -107,11 +123,8 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
     if (unknowns.zone[mesh.owner[f]] != unknowns.zone[mesh.neighbour[f]]) add_node(f, Tensor::Identity());
   for (const PatchCondition& on : unknowns.conditions) {
     const Patch& patch = mesh.patches[static_cast<std::size_t>(on.patch)];
-    if (on.condition.kind == BoundaryCondition::Kind::plane) {
-      const Vector normal = plane_patch_normal(mesh, patch, "plane");
-      if (unknowns.plane_normal.norm() > 0.0 && std::abs(normal.dot(unknowns.plane_normal)) < 1.0 - 1e-8)
-        throw InputError(fmt::format("plane patch \"{}\" is not parallel to the other plane patches", patch.name));
-      unknowns.plane_normal = normal;
+    if (is_front_or_back(on.condition)) {
+      add_plane(mesh, on, unknowns);
       continue;
     }
     if (on.condition.kind == BoundaryCondition::Kind::symmetry) plane_patch_normal(mesh, patch, "symmetry");

@@ -23,13 +23,14 @@ struct Unknowns {
   std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free where nothing was said
   std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
   Vector plane_normal = Vector::Zero();    ///< of the plane patches; zero in three-dimensional meshes
+  bool plane_stress = false;               ///< across the plane patches; else plane strain
   Index n_cells = 0;
 
   Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }
 };
 
 /// Throws InputError for a condition on a patch that is not there, two conditions on one patch, a symmetry patch that
-/// is not plane, or a body that nothing holds against a rigid motion.
+/// is not plane, plane stress beside plane strain, or a body that nothing holds against a rigid motion.
 Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm

@@ -64,6 +64,22 @@ TEST(Cohesive, ExtractsTheLawOfAPlane) {
   EXPECT_GT(surface["laws"][0]["surface_energy_J_per_m2"].get<double>(), 60.0);
 }
 
+// In plane stress, held at two sides: its elastic elongation is that of E/(1 - nu^2), and the rest is the crack's,
+// however it contracts across the plate.
+TEST(Cohesive, ExtractsTheLawOfAPlaneInPlaneStress) {
+  const TemporaryCase directory(replaced(cohesive_case(), "type = \"plane\"", "type = \"plane_stress\""));
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable law = read_csv(directory.results() / "cohesive_law.csv");
+  const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
+  ASSERT_EQ(law.n_rows(), curve.n_rows());
+  for (std::size_t i = 0; i < law.n_rows(); ++i) {
+    const double elastic = 0.02 * law.column("traction_Pa")[i] * (1.0 - 0.2 * 0.2) / 30e9;
+    EXPECT_NEAR(law.column("separation_m")[i], curve.column("displacement_m")[i] - elastic, 1e-9);
+  }
+  EXPECT_GT(law.column("separation_m").back(), 10e-6);
+}
+
 TEST(Cohesive, TellsTheSameAfterARestart) {
   const TemporaryCase directory(cohesive_case());
   const std::string place = directory.path().string();

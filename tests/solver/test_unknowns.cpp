@@ -136,6 +136,19 @@ TEST(Unknowns, OneCellWideBarsBetweenSymmetriesAreRefused) {
       HasSubstr("rigid"));
 }
 
+TEST(Unknowns, PlatesAreInPlaneStrainOrInPlaneStress) {
+  const auto between = [](Kind front, Kind back) {
+    return std::vector{clamped("xmin"), of_kind("zmin", front), of_kind("zmax", back)};
+  };
+  const Mesh mesh = box(6, 2, 1);
+  EXPECT_FALSE(place_unknowns(mesh, model_of(mesh, between(Kind::plane, Kind::plane))).plane_stress);
+  const Unknowns unknowns = place_unknowns(mesh, model_of(mesh, between(Kind::plane_stress, Kind::plane_stress)));
+  EXPECT_TRUE(unknowns.plane_stress);
+  EXPECT_EQ(unknowns.node_of_face[mesh.patch("zmax").first_face], -1);
+  EXPECT_THAT(refusal(mesh, between(Kind::plane, Kind::plane_stress)),
+              AllOf(HasSubstr("\"zmax\""), HasSubstr("one type")));
+}
+
 // Plane strain is across one direction.
 TEST(Unknowns, PlanePatchesOfTwoDirectionsAreRefused) {
   EXPECT_THAT(refusal(box(10, 1, 1), {clamped("xmin"), of_kind("ymin", Kind::plane), of_kind("ymax", Kind::plane),

@@ -29,6 +29,9 @@ struct BarSettings {
   bool pinned_ends = true;
   double tolerance = 1e-4;  ///< of damage and energy
   double residual_stiffness = 1e-6;
+  double poisson_ratio = 0.0;
+  bool plane_stress = false;  ///< the bar may contract; else it is held at its sides
+  std::string split = "none";
 };
 
 /// What a load step left behind.
@@ -133,7 +136,7 @@ inline Mesh Bar::make_mesh(const BarSettings& settings) {
 inline FractureModel Bar::make_model() const {
   FractureModel model;
   for (const std::string& name : mesh_.region_names)
-    model.regions.push_back({.elasticity = from_young_poisson(E, 0.0),
+    model.regions.push_back({.elasticity = from_young_poisson(E, settings_.poisson_ratio),
                              .Gc = name == "weak" ? (1.0 - settings_.weakness) * Gc : Gc,
                              .ell = ell,
                              .damageable = name != "end"});
@@ -146,17 +149,16 @@ inline FractureModel Bar::make_model() const {
       model.regions[r].Gc = Gc;
       model.regions[r].rational = rational_coefficients(softening_law(settings_.softening), E, Gc, ft, ell);
     }
-  model.split = &energy_split("none");
+  model.split = &energy_split(settings_.split);
   BoundaryCondition pulled = displacement_on("xmax", {});
   pulled.value = [elongation = strength() / E * length()](const Vector&, double t) {
     return Vector(elongation * t, 0.0, 0.0);
   };
-  model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
-                    pulled,
-                    symmetry_on("ymin"),
-                    symmetry_on("ymax"),
-                    plane_on("zmin"),
-                    plane_on("zmax")};
+  pulled.displacement_prescribed = {true, false, false};
+  model.boundary = {symmetry_on("xmin"), pulled, symmetry_on("ymin")};
+  if (!settings_.plane_stress) model.boundary.push_back(symmetry_on("ymax"));
+  for (const char* side : {"zmin", "zmax"})
+    model.boundary.push_back(settings_.plane_stress ? plane_stress_on(side) : plane_on(side));
   return model;
 }
 

@@ -27,7 +27,7 @@ Mesh panel() {
 
 FractureModel concrete(const Mesh& mesh) {
   FractureModel model =
-      elastic_model({}, {plane_on("zmin"), plane_on("zmax"),
+      elastic_model({}, {plane_stress_on("zmin"), plane_stress_on("zmax"),
                          displacement_on("ymin", [](const Vector&) -> Vector { return Vector::Zero(); })});
   for (const std::string& name : mesh.region_names)
     model.regions.push_back({.elasticity = from_young_poisson(E, 0.18),

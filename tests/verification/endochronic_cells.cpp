@@ -161,6 +161,26 @@ TEST(EndochronicCells, BodiesOfThemInUniformStressAreTheMaterialPoint) {
   }
 }
 
+// One cell thick, with nothing to hold it across.
+TEST(EndochronicCells, APlateInPlaneStressIsTheMaterialPoint) {
+  const EndochronicLaw law = soft_metal();
+  const auto point = point_in_tension(law, 12, 1.0);
+  FractureModel model = endochronic_model(
+      law, {symmetry_on("xmin"), symmetry_on("ymin"), plane_stress_on("zmin"), plane_stress_on("zmax"),
+            moved("xmax", {true, false, false}, [](const Vector&, double t) { return Vector(wave(t), 0.0, 0.0); })});
+  const Mesh plate =
+      make_box_hexes({.axes = {{{{1.0, 3, 1.0}}, {{1.0, 3, 1.0}}, {{0.2, 1, 1.0}}}}, .regions = {}, .slits = {}});
+  for (const Mesh& mesh : {plate, extruded_triangles(3, {0.0, 0.3})}) {
+    const auto steps = steps_of(mesh, model, in_steps(12));
+    ASSERT_EQ(steps.size(), point.size());
+    const Difference d = difference(steps, point);
+    report_row(std::to_string(mesh.n_cells()) + " cells", {{"stress", d.stress}, {"strain", d.strain}});
+    EXPECT_LE(d.stress, 1e-9);
+    EXPECT_LE(d.strain, 1e-9);
+    EXPECT_LE(most_iterations(steps), 12);
+  }
+}
+
 // Confined on all sides, so that the strain is given: what damage leaves of the stress follows from the point's.
 TEST(EndochronicCells, DamageDegradesTheEffectiveStress) {
   const EndochronicLaw law = soft_metal();

@@ -168,39 +168,68 @@ TEST_P(RotatedTension, OfPolyhedraByDisplacement) { pull(barycentric_dual(sphere
 
 INSTANTIATE_TEST_SUITE_P(PoissonRatios, RotatedTension, testing::Values(0.3, 0.44, 0.499));
 
-// One cell thick: plane strain, in the plane of the coordinates and in a turned one.
-class PlaneStrain : public testing::TestWithParam<std::tuple<NamedMesh, bool>> {
+// One cell thick, in the plane of the coordinates and in a turned one.
+class OneCellThick : public testing::TestWithParam<std::tuple<NamedMesh, bool>> {
  protected:
   static Tensor rotation() { return std::get<1>(GetParam()) ? arbitrary_rotation() : Tensor(Tensor::Identity()); }
 
-  static LinearCase turned(Tensor in_plane_slope) {
+  static LinearCase turned(Tensor in_plane_slope, double across = 0.0) {
     in_plane_slope.row(2).setZero();
     in_plane_slope.col(2).setZero();
+    in_plane_slope(2, 2) = across;
     return {.slope = rotation() * in_plane_slope * rotation().transpose()};
   }
 
-  static void solve(LinearCase exact, const Masks& masks, const std::vector<std::string>& symmetric) {
+  // Displacements live half-way between front and back.
+  static void solve(LinearCase exact, BoundaryCondition (*front_and_back)(const std::string&), const Masks& masks,
+                    const std::vector<std::string>& symmetric) {
     const Mesh straight = std::get<0>(GetParam()).make();
-    exact.origin = rotation() * lowest_corner(straight);
+    const double middle = straight.cell_centre[0].z() - lowest_corner(straight).z();
+    exact.origin = rotation() * (lowest_corner(straight) + middle * Vector::UnitZ());
     const Mesh mesh = rotated(straight, rotation());
     auto boundary = exact_boundary(mesh, exact, masks);
-    for (const char* patch : {"zmin", "zmax"}) boundary.push_back(plane_on(patch));
+    for (const char* patch : {"zmin", "zmax"}) boundary.push_back(front_and_back(patch));
     for (const std::string& patch : symmetric) boundary.push_back(symmetry_on(patch));
     expect_exact(mesh, exact, boundary);
   }
 };
 
+class PlaneStrain : public OneCellThick {};
+class PlaneStress : public OneCellThick {
+ protected:
+  static constexpr double nu = 0.44;  // of LinearCase
+
+  static LinearCase general() {
+    return turned(general_slope, -nu / (1.0 - nu) * general_slope.topLeftCorner<2, 2>().trace());
+  }
+};
+
 TEST_P(PlaneStrain, ByDisplacement) {
-  solve(turned(general_slope), {{"xmin", all}, {"xmax", all}, {"ymin", all}, {"ymax", all}}, {});
+  solve(turned(general_slope), plane_on, {{"xmin", all}, {"xmax", all}, {"ymin", all}, {"ymax", all}}, {});
 }
 
 TEST_P(PlaneStrain, ByTraction) {
-  solve(turned(general_slope), {{"xmin", all}, {"xmax", none}, {"ymin", none}, {"ymax", none}}, {});
+  solve(turned(general_slope), plane_on, {{"xmin", all}, {"xmax", none}, {"ymin", none}, {"ymax", none}}, {});
 }
 
 TEST_P(PlaneStrain, BetweenSymmetryFaces) {
   const Tensor principal = 1e-3 * Vector(1.0, -0.6, 0.0).asDiagonal();
-  solve(turned(principal), {{"xmax", none}, {"ymax", none}}, {"xmin", "ymin"});
+  solve(turned(principal), plane_on, {{"xmax", none}, {"ymax", none}}, {"xmin", "ymin"});
+}
+
+TEST_P(PlaneStress, ByDisplacement) {
+  solve(general(), plane_stress_on, {{"xmin", all}, {"xmax", all}, {"ymin", all}, {"ymax", all}}, {});
+}
+
+TEST_P(PlaneStress, ByTraction) {
+  solve(general(), plane_stress_on, {{"xmin", all}, {"xmax", none}, {"ymin", none}, {"ymax", none}}, {});
+}
+
+// E times the strain, which contracts both ways by nu.
+TEST_P(PlaneStress, InUniaxialTension) {
+  const LinearCase tension = turned(1e-3 * Vector(1.0, -nu, 0.0).asDiagonal().toDenseMatrix(), -1e-3 * nu);
+  EXPECT_NEAR(tension.stress().norm(), 75e6 * 1e-3, 1e-6);
+  solve(tension, plane_stress_on, {{"xmax", none}, {"ymax", none}}, {"xmin", "ymin"});
 }
 
 const std::vector<NamedMesh> thin_meshes{
@@ -211,10 +240,12 @@ const std::vector<NamedMesh> thin_meshes{
      }},
 };
 
-INSTANTIATE_TEST_SUITE_P(OneCellThick, PlaneStrain, testing::Combine(testing::ValuesIn(thin_meshes), testing::Bool()),
-                         [](const auto& test) {
-                           return std::get<0>(test.param).name + (std::get<1>(test.param) ? "Turned" : "");
-                         });
+const auto on_thin_meshes = testing::Combine(testing::ValuesIn(thin_meshes), testing::Bool());
+const auto thin_name = [](const auto& test) {
+  return std::get<0>(test.param).name + (std::get<1>(test.param) ? "Turned" : "");
+};
+INSTANTIATE_TEST_SUITE_P(OneCellThick, PlaneStrain, on_thin_meshes, thin_name);
+INSTANTIATE_TEST_SUITE_P(OneCellThick, PlaneStress, on_thin_meshes, thin_name);
 
 }  // namespace
 }  // namespace pfdm::verification

@@ -32,6 +32,10 @@ BoundaryCondition symmetry_on(const std::string& patch) {
   return {.patch = patch, .kind = BoundaryCondition::Kind::symmetry, .value = {}};
 }
 
+BoundaryCondition plane_stress_on(const std::string& patch) {
+  return {.patch = patch, .kind = BoundaryCondition::Kind::plane_stress, .value = {}};
+}
+
 BoundaryCondition plane_on(const std::string& patch) {
   return {.patch = patch, .kind = BoundaryCondition::Kind::plane, .value = {}};
 }

@@ -19,6 +19,7 @@ BoundaryCondition displacement_on(const std::string& patch, DisplacementField u)
 BoundaryCondition traction_on(const std::string& patch, std::function<Vector(const Vector&)> traction);
 BoundaryCondition symmetry_on(const std::string& patch);
 BoundaryCondition plane_on(const std::string& patch);
+BoundaryCondition plane_stress_on(const std::string& patch);
 std::vector<BoundaryCondition> displacement_on_all(const Mesh& mesh, const DisplacementField& u);
 
 /// One elasticity per region, undamageable, no split.
