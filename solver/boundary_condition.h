@@ -11,9 +11,11 @@ namespace pfdm {
 
 struct BoundaryCondition {
   enum class Kind {
-    components,  ///< each Cartesian component is a displacement or a traction
-    symmetry,    ///< no normal displacement, no tangential traction
-    plane,       ///< front or back of a mesh one cell thick: plane strain, the cells carry no gradient across it
+    components,    ///< each Cartesian component is a displacement or a traction
+    symmetry,      ///< no normal displacement, no tangential traction
+    plane,         ///< front or back of a mesh one cell thick: plane strain, the cells carry no gradient across it
+    axisymmetric,  ///< front or back of a sector about the axis z, one cell wide: the cells stretch by u_r / r across
+                   ///< it
   };
   std::string patch;
   Kind kind = Kind::components;

@@ -26,6 +26,7 @@ constexpr BoundaryType type_table[] = {
     {"components", "each component is a displacement, a traction or free (the default)"},
     {"symmetry", "no normal displacement, no tangential traction"},
     {"plane", "front or back of a mesh one cell thick: plane strain"},
+    {"axisymmetric", "front or back of a sector about the axis z, one cell wide"},
     {"free", "no traction"},
 };
 
@@ -96,6 +97,7 @@ void read_condition(const ConfigTable& table, const Materials& materials, Bounda
       throw value->error(fmt::format("a patch of type \"{}\" has no prescribed value", type));
   if (type == "symmetry") settings.condition.kind = BoundaryCondition::Kind::symmetry;
   if (type == "plane") settings.condition.kind = BoundaryCondition::Kind::plane;
+  if (type == "axisymmetric") settings.condition.kind = BoundaryCondition::Kind::axisymmetric;
 }
 
 std::vector<ConfigValue> patches_of(const ConfigTable& table) {

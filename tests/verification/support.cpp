@@ -32,6 +32,10 @@ BoundaryCondition symmetry_on(const std::string& patch) {
   return {.patch = patch, .kind = BoundaryCondition::Kind::symmetry, .value = {}};
 }
 
+BoundaryCondition axisymmetric_on(const std::string& patch) {
+  return {.patch = patch, .kind = BoundaryCondition::Kind::axisymmetric, .value = {}};
+}
+
 BoundaryCondition plane_on(const std::string& patch) {
   return {.patch = patch, .kind = BoundaryCondition::Kind::plane, .value = {}};
 }
