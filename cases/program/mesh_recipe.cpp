@@ -16,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 namespace pfdm {
@@ -102,10 +103,13 @@ MeshRecipe read_sphere_sector(const ConfigTable& table, const std::filesystem::p
       .polar = read_axis(table.at("polar"), "angle", dimension::angle)};
   std::vector<std::string> regions;
   for (const Shell& shell : settings.shells) regions.push_back(shell.region);
-  // Whether there are the last two, the mesh tells.
+  std::vector<std::string> patches{"front", "back", "outer"};
+  if (settings.inner_radius > 0.0) patches.emplace_back("inner");
+  const auto add = [](double sum, const AxisBlock& block) { return sum + block.length; };
+  if (std::accumulate(settings.polar.begin(), settings.polar.end(), 0.0, add) < 3.0) patches.emplace_back("equator");
   return {.make = [settings] { return make_sphere_sector(settings); },
           .regions = regions,
-          .patches = {"front", "back", "outer", "inner", "equator"},
+          .patches = patches,
           .data_files = {}};
 }
 
