@@ -1,6 +1,10 @@
 #pragma once
 // A sector of concentric shells about the axis z, one cell wide in azimuth: what is axisymmetric about a sphere, at the
 // cost of a plane problem. Cells lie on spherical coordinates: hexahedra, on the axis wedges, at the centre pyramids.
+//
+// The centre of a cell lies farther out than that of its sides, by h^2/(12 r) of a cell h long along the radius. Where
+// that exceeds half of its width r dtheta the momentum balance loses its definiteness and is not solved: keep
+// h/r <= sqrt(6 dtheta), which the cells at a centre do not.
 
 #include <string>
 #include <vector>
