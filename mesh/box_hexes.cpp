@@ -13,30 +13,6 @@
 namespace pfdm {
 namespace {
 
-void append_block(std::vector<double>& nodes, const AxisBlock& block) {
-  const double start = nodes.back();
-  const double growth = block.n > 1 ? std::pow(block.ratio, 1.0 / (block.n - 1)) : 1.0;
-  std::vector<double> ends(static_cast<std::size_t>(block.n));
-  double sum = 0.0;
-  for (Index i = 0; i < block.n; ++i) ends[i] = (sum += std::pow(growth, i));
-  for (Index i = 0; i + 1 < block.n; ++i) nodes.push_back(start + block.length * ends[i] / sum);
-  nodes.push_back(start + block.length);
-}
-
-std::vector<double> axis_nodes(double origin, const std::vector<AxisBlock>& blocks, char letter) {
-  if (blocks.empty()) throw InputError(fmt::format("the box has no cells along {}", letter));
-  std::vector<double> nodes{origin};
-  for (const AxisBlock& block : blocks) {
-    if (!(block.length > 0.0) || block.n < 1 || !(block.ratio > 0.0) || !std::isfinite(block.length * block.ratio))
-      throw InputError(
-          fmt::format("the box along {}: a block of length {:g} m, {} cells and ratio {:g}; all three must be "
-                      "positive",
-                      letter, block.length, block.n, block.ratio));
-    append_block(nodes, block);
-  }
-  return nodes;
-}
-
 using Position = std::array<Index, 3>;  // of a node in the grid
 
 class BoxGrid {
@@ -44,7 +20,8 @@ class BoxGrid {
   explicit BoxGrid(const BoxHexesSettings& settings) {
     double cells = 1.0;
     for (std::size_t a = 0; a < 3; ++a) {
-      nodes_[a] = axis_nodes(settings.origin[static_cast<Index>(a)], settings.axes[a], static_cast<char>('x' + a));
+      nodes_[a] = axis_nodes(settings.origin[static_cast<Index>(a)], settings.axes[a],
+                             fmt::format("the box along {}", "xyz"[a]));
       cells *= static_cast<double>(nodes_[a].size());
     }
     if (cells * 24.0 > std::numeric_limits<Index>::max())

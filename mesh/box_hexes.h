@@ -5,16 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "mesh/axis_blocks.h"
 #include "mesh/mesh.h"
 
 namespace pfdm {
-
-/// A stretch of an axis cut into n cells whose widths grow geometrically.
-struct AxisBlock {
-  double length = 0.0;  ///< [m], > 0
-  Index n = 1;          ///< >= 1
-  double ratio = 1.0;   ///< width of the last cell over that of the first, > 0
-};
 
 /// Cells whose centre lies in the box between two corners [m].
 struct SubRegion {

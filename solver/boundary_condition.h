@@ -15,6 +15,8 @@ struct BoundaryCondition {
     symmetry,      ///< no normal displacement, no tangential traction
     plane,         ///< front or back of a mesh one cell thick: plane strain, the cells carry no gradient across it
     plane_stress,  ///< the same with no stress across it in place of no strain
+    axisymmetric,  ///< front or back of a sector about the axis z, one cell wide: the cells stretch by u_r / r across
+                   ///< it
   };
   std::string patch;
   Kind kind = Kind::components;
@@ -27,7 +29,7 @@ struct BoundaryCondition {
 /// Faces of such patches carry no unknown.
 inline bool is_front_or_back(const BoundaryCondition& condition) {
   using Kind = BoundaryCondition::Kind;
-  return condition.kind == Kind::plane || condition.kind == Kind::plane_stress;
+  return condition.kind == Kind::plane || condition.kind == Kind::plane_stress || condition.kind == Kind::axisymmetric;
 }
 
 }  // namespace pfdm

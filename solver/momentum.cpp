@@ -50,6 +50,19 @@ CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns) {
   return share;
 }
 
+// Of axisymmetric meshes; empty of others.
+CellField<Vector> sector_areas(const Mesh& mesh, const Unknowns& unknowns) {
+  if (!unknowns.is_axisymmetric()) return {};
+  CellField<Vector> area(as_size(mesh.n_cells()), Vector::Zero());
+  for (const PatchCondition& on : unknowns.conditions) {
+    if (on.condition.kind != BoundaryCondition::Kind::axisymmetric) continue;
+    const Patch& patch = mesh.patches[as_size(on.patch)];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+      area[mesh.owner[f]] += mesh.face_area[f];
+  }
+  return area;
+}
+
 }  // namespace
 
 MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
@@ -65,6 +78,8 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
       second_side_of_node_(unknowns.face_of_node.size(), -1),
       first_side_of_node_(unknowns.face_of_node.size(), -1),
       closure_(closures(mesh)),
+      sector_area_(sector_areas(mesh, unknowns)),
+      sector_stress_(sector_area_.size() > 0 ? as_size(mesh.n_cells()) : 0, 0.0),
       gradients_(as_size(mesh.n_cells())) {
   for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
     if (unknowns.node_of_face[f] >= 0) continue;
@@ -185,8 +200,18 @@ void MomentumOperator::set_stress(CellField<LinearStress> stress) {
   linear_stress_ = std::move(stress);
 }
 
-void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const {
+void MomentumOperator::find_gradients(const std::vector<Vector>& u) const {
   parallel_for(mesh_.n_cells(), [&](Index c) { gradients_[c] = gradient_.of(u.data(), c); });
+  if (!unknowns_.is_axisymmetric()) return;
+  const Vector &r = unknowns_.radial, &across = unknowns_.plane_normal;
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    gradients_[c] += (r.dot(u[as_size(c)]) / r.dot(mesh_.cell_centre[c])) * across * across.transpose();
+    sector_stress_[c] = across.dot(normal_stress(c, across));
+  });
+}
+
+void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const {
+  find_gradients(u);
   const auto n_links = static_cast<Index>(links_.size());
   parallel_for(n_links, [&](Index i) {
     const Link& link = links_[as_size(i)];
@@ -217,6 +242,8 @@ void MomentumOperator::add_initial_forces() const {
     const Side& side = sides_[as_size(i)];
     forces_[as_size(n_links + i)] += side.area * traction(side.cell, side.n);
   });
+  const Vector& across = unknowns_.plane_normal;
+  parallel_for(sector_stress_.size(), [&](Index c) { sector_stress_[c] += across.dot(traction(c, across)); });
 }
 
 void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
@@ -234,6 +261,7 @@ void MomentumOperator::sum_forces(std::vector<Vector>& out) const {
     Vector sum = Vector::Zero();
     for (std::size_t k = cell_offsets_[as_size(c)]; k < cell_offsets_[as_size(c) + 1]; ++k)
       sum += cell_forces_[k].sign * forces_[as_size(cell_forces_[k].force)];
+    if (sector_area_.size() > 0) sum += sector_stress_[c] * sector_area_[c];
     out[as_size(c)] = -sum;
   });
   const std::size_t n_links = links_.size();
@@ -287,6 +315,7 @@ void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
 void MomentumOperator::take_away_initial_forces(std::vector<Vector>& load) const {
   std::vector<Vector> initial(load.size());
   std::fill(forces_.begin(), forces_.end(), Vector::Zero());
+  std::fill(sector_stress_.begin(), sector_stress_.end(), 0.0);
   add_initial_forces();
   sum_forces(initial);
   for (std::size_t i = 0; i < load.size(); ++i) load[i] -= initial[i];
@@ -310,6 +339,14 @@ Tensor MomentumOperator::compact_side(const Side& side) const {
   return (side.area / h) * scaling(jump_modulus(side.cell), moduli_[side.cell].mu, side.n);
 }
 
+// What a displacement along r stretches across the sector pulls back.
+Tensor MomentumOperator::compact_sector(Index cell) const {
+  const Vector &r = unknowns_.radial, &across = unknowns_.plane_normal;
+  const double modulus = is_isotropic() ? moduli_[cell].constrained_modulus()
+                                        : across.dot(acoustic_tensor(stiffness_[cell], across) * across);
+  return sector_area_[cell].norm() * modulus / r.dot(mesh_.cell_centre[cell]) * r * r.transpose();
+}
+
 BlockTriplets MomentumOperator::compact_matrix() const {
   BlockTriplets matrix;
   matrix.diagonal.assign(as_size(unknowns_.n_nodes()), Tensor::Zero());
@@ -327,6 +364,7 @@ BlockTriplets MomentumOperator::compact_matrix() const {
     matrix.diagonal[as_size(side.node)] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);
     if (!is_free.isZero()) matrix.off_diagonal.push_back({side.cell, side.node, -a * is_free});
   }
+  for (Index c = 0; c < sector_area_.size(); ++c) matrix.diagonal[as_size(c)] += compact_sector(c);
   return matrix;
 }
 

@@ -9,6 +9,10 @@
 // series flux is left: a broken cell (g -> 0) disconnects its neighbours. Faces between elastic zones and on the
 // boundary carry u_f itself: each side has t_c = sigma_c n + a_c (u_f - u_c - G_c d_c).
 //
+// In an axisymmetric mesh, a sector of one cell across, the gradient has the stretch u_r / r across the sector as well,
+// and the sector's two faces pull on the cell with the stress sigma_phi across it: -2 sin(half the angle) A sigma_phi
+// along r.
+//
 // Cells of any stiffness C do likewise with a = (n.C.n) / h, the acoustic tensor of the face's normal, in full 3x3.
 //
 // A material with a history is linearised within each solve, sigma = C eps + sigma_0, for the stresses alone: a, b and
@@ -74,7 +78,7 @@ class MomentumOperator {
   std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;  ///< per boundary face [N]
   /// Traction [Pa] on each interior face that carries a node, on its owner.
   std::vector<std::pair<Index, Vector>> interface_tractions(const std::vector<Vector>& u) const;
-  /// On every face along its normal [Pa]; zero on the faces of plane patches.
+  /// On every face along its normal [Pa]; zero on the faces of plane and axisymmetric patches.
   FaceField<Vector> tractions(const std::vector<Vector>& u) const;
   std::vector<Vector> patch_displacements(const std::vector<Vector>& u) const;  ///< per patch, area mean [m]
 
@@ -121,6 +125,7 @@ class MomentumOperator {
   void take_away_initial_forces(std::vector<Vector>& load) const;
   bool has_linear_stress() const { return linear_stress_.size() > 0; }
   bool is_isotropic() const { return stiffness_.size() == 0; }
+  void find_gradients(const std::vector<Vector>& u) const;
   Vector normal_stress(Index cell, const Vector& n) const {
     const Tensor& G = gradients_[cell];
     if (!is_isotropic()) return to_tensor(stiffness_[cell] * to_mandel(symmetric_part(G))) * n;
@@ -143,6 +148,7 @@ class MomentumOperator {
   }
   Tensor compact_link(const Link& link) const;
   Tensor compact_side(const Side& side) const;
+  Tensor compact_sector(Index cell) const;
   // Stress [Pa] across the plane of a plane mesh, per unit of n (x) n.
   double stress_across(Index cell, const Tensor& strain) const;
   // Keeps what makes the strain across, and leaves the stiffness within the plate.
@@ -167,12 +173,16 @@ class MomentumOperator {
   std::vector<Side> sides_;
   std::vector<LinkTensors> link_tensors_;
   std::vector<Tensor> side_tensors_;        // a [Pa/m]
-  std::vector<Index> force_of_face_;        // owner's side; -1 for plane patches
+  std::vector<Index> force_of_face_;        // owner's side; -1 for plane and axisymmetric patches
   std::vector<Index> second_side_of_node_;  // of interface nodes: the neighbour's side, else -1
   std::vector<Index> first_side_of_node_;
   std::vector<std::size_t> cell_offsets_;
   std::vector<SignedForce> cell_forces_;
-  CellField<Tensor> closure_;            // K^-1 of K = (1/V) sum S (x) (x_f - x_c): the identity where faces are plane
+  CellField<Tensor> closure_;  // K^-1 of K = (1/V) sum S (x) (x_f - x_c): the identity where faces are plane
+  // Of axisymmetric meshes, else empty: the sum of the area vectors of the sector's faces of each cell, and the stress
+  // across them [Pa], with which they pull.
+  CellField<Vector> sector_area_;
+  mutable CellField<double> sector_stress_;
   mutable CellField<Tensor> gradients_;  // work space of apply
   mutable std::vector<Vector> forces_;   // per link, then per side: A t outwards from P or from the side's cell
 };

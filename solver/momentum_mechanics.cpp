@@ -84,10 +84,16 @@ FaceField<Vector> MomentumOperator::face_displacements(const std::vector<Vector>
   return u_face;
 }
 
-// Faces of plane patches carry no unknown: they move with their cell, within the plane.
+// Faces of plane patches carry no unknown: they move with their cell, within the plane. Those of a sector move with its
+// gradient, in themselves.
 Vector MomentumOperator::seen_from(Index cell, Index face, const FaceField<Vector>& u_face,
                                    const std::vector<Vector>& u) const {
   if (force_of_face_[as_size(face)] >= 0) return u_face[face];
+  if (unknowns_.is_axisymmetric()) {
+    const Vector along = mesh_.face_area[face].normalized();
+    const Vector moved = u[as_size(cell)] + gradients_[cell] * (mesh_.face_centre[face] - mesh_.cell_centre[cell]);
+    return moved - along.dot(moved) * along;
+  }
   const Vector& n = unknowns_.plane_normal;
   return u[as_size(cell)] - n.dot(u[as_size(cell)]) * n;
 }
@@ -110,11 +116,13 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
       const Vector area = (mesh_.owner[f] == c ? 1.0 : -1.0) * mesh_.face_area[f];
       const Vector rise = seen_from(c, f, u_face, u) - u[as_size(c)];
       gradient += rise * area.transpose();
-      if (force_of_face_[as_size(f)] < 0) continue;
-      const Vector force = cell_forces_[k].sign * forces_[as_size(cell_forces_[k].force)];
+      const bool has_node_or_link = force_of_face_[as_size(f)] >= 0;
+      if (!has_node_or_link && !unknowns_.is_axisymmetric()) continue;
+      const Vector force = has_node_or_link ? (cell_forces_[k].sign * forces_[as_size(cell_forces_[k].force)]).eval()
+                                            : (sector_stress_[c] * area).eval();
       if (with_stress) moment += force * (mesh_.face_centre[f] - mesh_.cell_centre[c]).transpose();
       work += 0.5 * force.dot(rise);
-      ++k;
+      if (has_node_or_link) ++k;
     }
     gradient = with_strain_across(c, gradient * closure_[c].transpose() / volume);
     result.strain[c] = symmetric_part(gradient);
@@ -122,8 +130,9 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
     if (with_gradient) result.gradient[c] = gradient;
     if (!with_stress) return;
     const Vector& normal = unknowns_.plane_normal;
-    result.stress[c] = symmetric_part((moment * closure_[c]) / volume) +
-                       stress_across(c, result.strain[c]) * normal * normal.transpose();
+    result.stress[c] = symmetric_part((moment * closure_[c]) / volume);
+    if (!unknowns_.is_axisymmetric())
+      result.stress[c] += stress_across(c, result.strain[c]) * normal * normal.transpose();
   });
   if (has_linear_stress()) {
     result.reconstructed_strain = CellField<Tensor>(n);

@@ -93,7 +93,12 @@ void require_held(const Mesh& mesh, const Unknowns& unknowns) {
   };
   for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k)
     resist(mesh.face_centre[unknowns.face_of_node[k]], Tensor::Identity() - unknowns.free_directions[k]);
-  if (const Vector n = unknowns.plane_normal; n.norm() > 0.0) {
+  if (unknowns.is_axisymmetric()) {
+    // A ring can only move along the axis; all else strains it.
+    const Vector axis = Vector::UnitZ();
+    form.topLeftCorner<3, 3>() += form.trace() * (Tensor::Identity() - axis * axis.transpose());
+    form.bottomRightCorner<3, 3>() += form.trace() * Tensor::Identity();
+  } else if (const Vector n = unknowns.plane_normal; n.norm() > 0.0) {
     // A plane mesh can only move within its plane.
     form.topLeftCorner<3, 3>() += form.trace() * n * n.transpose();
     form.bottomRightCorner<3, 3>() += form.trace() * (Tensor::Identity() - n * n.transpose());
@@ -103,6 +108,27 @@ void require_held(const Mesh& mesh, const Unknowns& unknowns) {
     throw InputError(
         "the body can still move rigidly: prescribe displacements (or symmetry) so that all three translations and "
         "rotations are held");
+}
+
+// Normal of a patch of a sector: its plane has to hold the axis z.
+Vector sector_normal(const Mesh& mesh, const Patch& patch) {
+  const Vector normal = plane_patch_normal(mesh, patch, "axisymmetric");
+  const Vector x = mesh.face_centre[patch.first_face];
+  if (std::abs(normal.z()) > 1e-8 || std::abs(normal.dot(x)) > 1e-8 * x.norm())
+    throw InputError(
+        fmt::format("patch \"{}\" does not lie in a plane through the axis z; an axisymmetric patch must", patch.name));
+  return normal;
+}
+
+// From the outward normals of the sector's two planes.
+void place_sector(const std::vector<Vector>& normals, Unknowns& unknowns) {
+  if (normals.empty()) return;
+  if (unknowns.plane_normal.norm() > 0.0) throw InputError("plane and axisymmetric patches cannot be combined");
+  if (normals.size() != 2 || !(normals[0].cross(normals[1]).norm() > 1e-6))
+    throw InputError(
+        "two axisymmetric patches are due, the planes of a sector that meet in the axis z, as \"front\" and \"back\"");
+  unknowns.plane_normal = (normals[1] - normals[0]).normalized();
+  unknowns.radial = -(normals[0] + normals[1]).normalized();
 }
 
 }  // namespace
@@ -121,8 +147,13 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
   };
   for (Index f = 0; f < mesh.n_interior_faces(); ++f)
     if (unknowns.zone[mesh.owner[f]] != unknowns.zone[mesh.neighbour[f]]) add_node(f, Tensor::Identity());
+  std::vector<Vector> sector_normals;
   for (const PatchCondition& on : unknowns.conditions) {
     const Patch& patch = mesh.patches[static_cast<std::size_t>(on.patch)];
+    if (on.condition.kind == BoundaryCondition::Kind::axisymmetric) {
+      sector_normals.push_back(sector_normal(mesh, patch));
+      continue;
+    }
     if (is_front_or_back(on.condition)) {
       add_plane(mesh, on, unknowns);
       continue;
@@ -131,6 +162,7 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
       add_node(f, free_directions(on.condition, mesh.face_area[f]));
   }
+  place_sector(sector_normals, unknowns);
   require_held(mesh, unknowns);
   return unknowns;
 }

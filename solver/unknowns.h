@@ -1,6 +1,6 @@
 #pragma once
 // Where displacement unknowns live: one node per cell, then one per face that lies between two elastic zones or on the
-// boundary. Faces of plane patches (one-cell-thick meshes) carry none.
+// boundary. Faces of plane and axisymmetric patches (one-cell-thick meshes) carry none.
 
 #include "mesh/mesh.h"
 #include "solver/fracture_model.h"
@@ -22,10 +22,13 @@ struct Unknowns {
   std::vector<Index> face_of_node;         ///< entry k is the face of node n_cells + k
   std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free where nothing was said
   std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
-  Vector plane_normal = Vector::Zero();    ///< of the plane patches; zero in three-dimensional meshes
-  bool plane_stress = false;               ///< across the plane patches; else plane strain
+  /// Across the one cell of plane and axisymmetric meshes; zero in three-dimensional ones.
+  Vector plane_normal = Vector::Zero();
+  bool plane_stress = false;       ///< across the plane patches; else plane strain
+  Vector radial = Vector::Zero();  ///< of axisymmetric meshes: from the axis z along the middle of the sector
   Index n_cells = 0;
 
+  bool is_axisymmetric() const { return radial != Vector::Zero(); }
   Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }
 };
 

@@ -27,6 +27,7 @@ constexpr BoundaryType type_table[] = {
     {"symmetry", "no normal displacement, no tangential traction"},
     {"plane", "front or back of a mesh one cell thick: plane strain"},
     {"plane_stress", "front or back of a mesh one cell thick: no stress across it"},
+    {"axisymmetric", "front or back of a sector about the axis z, one cell wide"},
     {"free", "no traction"},
 };
 
@@ -98,6 +99,7 @@ void read_condition(const ConfigTable& table, const Materials& materials, Bounda
   if (type == "symmetry") settings.condition.kind = BoundaryCondition::Kind::symmetry;
   if (type == "plane") settings.condition.kind = BoundaryCondition::Kind::plane;
   if (type == "plane_stress") settings.condition.kind = BoundaryCondition::Kind::plane_stress;
+  if (type == "axisymmetric") settings.condition.kind = BoundaryCondition::Kind::axisymmetric;
 }
 
 std::vector<ConfigValue> patches_of(const ConfigTable& table) {

@@ -131,6 +131,8 @@ void check_names(const FractureCase& fracture, std::span<const std::string> regi
   if (!regions.empty())
     for (const RegionMaterial& material : fracture.materials.by_region)
       material.where.one_of(regions, "region of the mesh");
+  if (!regions.empty() && fracture.initial_damage)
+    for (const ConfigValue& region : fracture.initial_damage->regions) region.one_of(regions, "region of the mesh");
   if (patches.empty()) return;
   for (const BoundarySettings& boundary : fracture.boundary) boundary.patch.one_of(patches, "patch of the mesh");
   fracture.curve_patch->one_of(patches, "patch of the mesh");
@@ -180,20 +182,41 @@ void read_output(const ConfigTable& root, FractureCase& fracture) {
   fracture.output.tips = read_energy_release(output);
 }
 
+/// Which regions of the mesh have an initial damage.
+std::vector<bool> initially_damaged(const InitialDamage& initial, const FractureModel& model, const Mesh& mesh) {
+  std::vector<bool> damaged(mesh.region_names.size(), initial.regions.empty());
+  for (const ConfigValue& region : initial.regions) {
+    const auto r = as_size(mesh.region_index(region.one_of(mesh.region_names, "region of the mesh")));
+    if (!model.regions[r].damageable)
+      throw region.error(fmt::format("region \"{}\" cannot be damaged", mesh.region_names[r]));
+    damaged[r] = true;
+  }
+  return damaged;
+}
+
 /// Where nothing can be damaged there is none.
-CellField<double> damage_at_the_start(const Parameter& initial, const FractureModel& model, const Mesh& mesh) {
+CellField<double> damage_at_the_start(const InitialDamage& initial, const FractureModel& model, const Mesh& mesh) {
+  const std::vector<bool> damaged = initially_damaged(initial, model, mesh);
   CellField<double> damage(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c)
-    damage[c] = model.in_cell(mesh, c).damageable ? initial.at(mesh.cell_centre[c]) : 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const bool here = damaged[as_size(mesh.region[c])] && model.in_cell(mesh, c).damageable;
+    damage[c] = here ? initial.damage.at(mesh.cell_centre[c]) : 0.0;
+  }
   return damage;
 }
 
-std::optional<Parameter> read_initial_damage(const ConfigTable& root, const FractureModel& model) {
+std::optional<InitialDamage> read_initial_damage(const ConfigTable& root, const FractureModel& model) {
   if (!root.has("initial")) return std::nullopt;
-  const ConfigValue damage = root.table("initial").at("damage");
+  const ConfigTable table = root.table("initial");
+  const ConfigValue damage = table.at("damage");
   if (model.irreversibility != Irreversibility::bounds)
     throw damage.error("this needs the irreversibility \"bounds\": the driving energy that led to it is not known");
-  return read_parameter(damage, dimension::number, range::fraction);
+  InitialDamage initial{read_parameter(damage, dimension::number, range::fraction), {}};
+  if (const auto regions = table.find("regions")) {
+    initial.regions = regions->list();
+    if (initial.regions.empty()) throw regions->error("the list is empty; name a region, or leave the key out");
+  }
+  return initial;
 }
 
 }  // namespace

@@ -15,6 +15,12 @@
 
 namespace pfdm {
 
+/// Damage before the first step.
+struct InitialDamage {
+  Parameter damage;
+  std::vector<ConfigValue> regions;  ///< where; empty: in all that can be damaged
+};
+
 /// Whose force and displacement make the curve.
 struct CurveSettings {
   std::string patch;
@@ -35,7 +41,7 @@ struct FractureCase {
   Materials materials;
   std::vector<BoundarySettings> boundary;
   FractureModel model;  ///< what depends on the mesh is filled in by model_on()
-  std::optional<Parameter> initial_damage;
+  std::optional<InitialDamage> initial_damage;
   StaggeredSettings staggered;
   LoadingSettings loading;
   FractureOutput output;

@@ -6,31 +6,40 @@
 #include "mesh/import_vtk.h"
 #include "mesh/particles_in_box.h"
 #include "mesh/patch_rules.h"
+#include "mesh/sphere_sector.h"
 #include "postproc/text_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <set>
 
 namespace pfdm {
 namespace {
 
 constexpr Range cell_count{1.0, 1e6, false, "at least 1"};
+constexpr Range azimuth_range{std::numeric_limits<double>::min(), 0.25 * std::numbers::pi + 1e-9, false,
+                              "more than 0 and at most 45 degrees"};
 constexpr Range dihedral_range{0.0, 30.0, false, "between 0 and 30 degrees"};
 const std::vector<std::string> box_sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 
-std::vector<AxisBlock> read_axis(const ConfigValue& blocks) {
+AxisBlock read_block(const ConfigTable& block, std::string_view key, const Dimension& due) {
+  return {.length = block.quantity(key, due, range::positive),
+          .n = static_cast<Index>(block.integer("cells", cell_count)),
+          .ratio = block.number("ratio", range::positive, 1.0)};
+}
+
+/// [{ length = ..., cells = ..., ratio = ... }, ...], or with another key for the extent.
+std::vector<AxisBlock> read_axis(const ConfigValue& blocks, std::string_view key, const Dimension& due) {
   std::vector<AxisBlock> axis;
-  for (const ConfigValue& entry : blocks.list()) {
-    const ConfigTable block = entry.table();
-    axis.push_back({.length = block.quantity("length", dimension::length, range::positive),
-                    .n = static_cast<Index>(block.integer("cells", cell_count)),
-                    .ratio = block.number("ratio", range::positive, 1.0)});
-  }
-  if (axis.empty()) throw blocks.error("the list is empty; it needs at least one { length = ..., cells = ... }");
+  for (const ConfigValue& entry : blocks.list()) axis.push_back(read_block(entry.table(), key, due));
+  if (axis.empty())
+    throw blocks.error(fmt::format("the list is empty; it needs at least one {{ {} = ..., cells = ... }}", key));
   return axis;
 }
 
@@ -59,7 +68,8 @@ NamedBox read_patch_box(const ConfigTable& table, std::vector<std::string>& patc
 MeshRecipe read_box_hexes(const ConfigTable& table, const std::filesystem::path&) {
   BoxHexesSettings settings;
   if (const auto origin = table.find("origin")) settings.origin = read_point(*origin);
-  settings.axes = {read_axis(table.at("x")), read_axis(table.at("y")), read_axis(table.at("z"))};
+  for (std::size_t a = 0; a < 3; ++a)
+    settings.axes[a] = read_axis(table.at(std::string(1, "xyz"[a])), "length", dimension::length);
   settings.base_region = table.string("region", settings.base_region);
   for (const ConfigTable& region : table.tables("regions")) settings.regions.push_back(read_box<SubRegion>(region));
   std::vector<std::string> patches = box_sides;
@@ -70,6 +80,35 @@ MeshRecipe read_box_hexes(const ConfigTable& table, const std::filesystem::path&
     settings.patches.push_back(read_patch_box<SurfacePart>(part, patches));
   return {.make = [settings] { return make_box_hexes(settings); },
           .regions = names_of_regions(settings),
+          .patches = patches,
+          .data_files = {}};
+}
+
+std::vector<Shell> read_shells(const ConfigValue& list) {
+  std::vector<Shell> shells;
+  for (const ConfigValue& entry : list.list()) {
+    const ConfigTable shell = entry.table();
+    shells.push_back({read_block(shell, "length", dimension::length), shell.string("region")});
+  }
+  if (shells.empty())
+    throw list.error("the list is empty; it needs at least one { length = ..., cells = ..., region = ... }");
+  return shells;
+}
+
+MeshRecipe read_sphere_sector(const ConfigTable& table, const std::filesystem::path&) {
+  const SphereSectorSettings settings{
+      .azimuth = table.quantity("azimuth", dimension::angle, azimuth_range),
+      .inner_radius = table.quantity("inner_radius", dimension::length, range::not_negative, 0.0),
+      .shells = read_shells(table.at("shells")),
+      .polar = read_axis(table.at("polar"), "angle", dimension::angle)};
+  std::vector<std::string> regions;
+  for (const Shell& shell : settings.shells) regions.push_back(shell.region);
+  std::vector<std::string> patches{"front", "back", "outer"};
+  if (settings.inner_radius > 0.0) patches.emplace_back("inner");
+  const auto add = [](double sum, const AxisBlock& block) { return sum + block.length; };
+  if (std::accumulate(settings.polar.begin(), settings.polar.end(), 0.0, add) < 3.0) patches.emplace_back("equator");
+  return {.make = [settings] { return make_sphere_sector(settings); },
+          .regions = regions,
           .patches = patches,
           .data_files = {}};
 }
@@ -203,6 +242,8 @@ constexpr CellKind cell_kind_table[] = {
 constexpr MeshGenerator table[] = {
     {"particles_in_box", "a box of tetrahedra with spheres in prism layers", read_particles_in_box},
     {"box_hexes", "a box of hexahedra, graded along each axis, with regions, slits and holes", read_box_hexes},
+    {"sphere_sector", "concentric shells about the axis z, one cell wide in azimuth: axisymmetric problems",
+     read_sphere_sector},
     {"vtk", "a mesh from a .vtu or legacy .vtk file", read_vtk},
 };
 

@@ -2,9 +2,12 @@
 
 #include "solver/unknowns.h"
 
+#include "mesh/sphere_sector.h"
 #include "physics/error.h"
 #include "tests/physics/physics_checks.h"
 #include "tests/solver/solver_checks.h"
+
+#include <numbers>
 
 namespace pfdm {
 namespace {
@@ -147,6 +150,23 @@ TEST(Unknowns, PlatesAreInPlaneStrainOrInPlaneStress) {
   EXPECT_EQ(unknowns.node_of_face[mesh.patch("zmax").first_face], -1);
   EXPECT_THAT(refusal(mesh, between(Kind::plane, Kind::plane_stress)),
               AllOf(HasSubstr("\"zmax\""), HasSubstr("one type")));
+}
+
+TEST(Unknowns, SectorsNeedOnlyBeHeldAlongTheirAxis) {
+  const Mesh mesh = make_sphere_sector(
+      {.azimuth = 0.1, .shells = {{{1.0, 3, 1.0}, "body"}}, .polar = {{0.5 * std::numbers::pi, 4, 1.0}}});
+  const auto with = [](std::vector<BoundaryCondition> others) {
+    others.push_back(of_kind("front", Kind::axisymmetric));
+    others.push_back(of_kind("back", Kind::axisymmetric));
+    return others;
+  };
+  const Unknowns unknowns = place_unknowns(mesh, model_of(mesh, with({of_kind("equator", Kind::symmetry)})));
+  EXPECT_NEAR(std::abs(unknowns.plane_normal.y()), 1.0, 1e-12);
+  EXPECT_NEAR(unknowns.radial.x(), 1.0, 1e-12);
+  EXPECT_THAT(refusal(mesh, with({})), HasSubstr("rigid"));
+  EXPECT_THAT(refusal(mesh, {of_kind("front", Kind::axisymmetric), of_kind("equator", Kind::symmetry)}),
+              HasSubstr("two axisymmetric patches"));
+  EXPECT_THAT(refusal(mesh, with({of_kind("equator", Kind::axisymmetric)})), HasSubstr("through the axis z"));
 }
 
 // Plane strain is across one direction.

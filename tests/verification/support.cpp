@@ -36,6 +36,10 @@ BoundaryCondition plane_stress_on(const std::string& patch) {
   return {.patch = patch, .kind = BoundaryCondition::Kind::plane_stress, .value = {}};
 }
 
+BoundaryCondition axisymmetric_on(const std::string& patch) {
+  return {.patch = patch, .kind = BoundaryCondition::Kind::axisymmetric, .value = {}};
+}
+
 BoundaryCondition plane_on(const std::string& patch) {
   return {.patch = patch, .kind = BoundaryCondition::Kind::plane, .value = {}};
 }

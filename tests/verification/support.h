@@ -18,6 +18,7 @@ using StressField = std::function<Tensor(const Vector&)>;
 BoundaryCondition displacement_on(const std::string& patch, DisplacementField u);
 BoundaryCondition traction_on(const std::string& patch, std::function<Vector(const Vector&)> traction);
 BoundaryCondition symmetry_on(const std::string& patch);
+BoundaryCondition axisymmetric_on(const std::string& patch);
 BoundaryCondition plane_on(const std::string& patch);
 BoundaryCondition plane_stress_on(const std::string& patch);
 std::vector<BoundaryCondition> displacement_on_all(const Mesh& mesh, const DisplacementField& u);
