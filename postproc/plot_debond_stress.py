@@ -118,7 +118,9 @@ def plot_whole(axes, sweep, folders, arguments):
     axes.plot(middle, slope, "s--", label="local exponent")
     axes.axhline(-0.5, color="k", lw=0.8, ls=":")
     axes.axhline(1 / arguments.concentration, color="k", lw=0.8, ls="--", label="1/k_p")
-    axes.set_xscale("log"), axes.set_yscale("symlog", linthresh=2)
+    axes.set_xscale("log")
+    axes.xaxis.set_ticks(ratio, [f"{x:.2g}" for x in ratio])
+    axes.xaxis.set_ticks([], minor=True)
     table = {"radius_over_l_ch": ratio, "debond_stress_over_strength": stress / arguments.strength,
              "half_width_over_strength": error / arguments.strength,
              "local_exponent_beyond": numpy.append(slope, math.nan)}
