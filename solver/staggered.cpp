@@ -52,7 +52,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
     if (!std::isfinite(energies.unsettled)) return outcome;
     if (outcome.iterations == 0) stored_at_unit_load = energies.stored / (state.load * state.load);
     const double undamaged = stored_at_unit_load * state.load * state.load;
-    outcome.energy_release = std::abs(energies.stored - undamaged) / (undamaged + fracture_energy);
+    outcome.energy_release = std::abs(energies.stored - undamaged) / std::max(undamaged + fracture_energy, 1e-300);
     CellField<double> answer = state.damage;
     const double load = state.load;
     const bool damage_solved =
