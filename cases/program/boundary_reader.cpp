@@ -22,13 +22,15 @@ constexpr DisplacementField field_table[] = {
      read_goodier},
 };
 
+using Kind = BoundaryCondition::Kind;
+
 constexpr BoundaryType type_table[] = {
-    {"components", "each component is a displacement, a traction or free (the default)"},
-    {"symmetry", "no normal displacement, no tangential traction"},
-    {"plane", "front or back of a mesh one cell thick: plane strain"},
-    {"plane_stress", "front or back of a mesh one cell thick: no stress across it"},
-    {"axisymmetric", "front or back of a sector about the axis z, one cell wide"},
-    {"free", "no traction"},
+    {"components", "each component is a displacement, a traction or free (the default)", Kind::components},
+    {"symmetry", "no normal displacement, no tangential traction", Kind::symmetry},
+    {"plane", "front or back of a mesh one cell thick: plane strain", Kind::plane},
+    {"plane_stress", "front or back of a mesh one cell thick: no stress across it", Kind::plane_stress},
+    {"axisymmetric", "front or back of a sector about the axis z, one cell wide", Kind::axisymmetric},
+    {"free", "no traction", Kind::components},
 };
 
 bool is_free(const ConfigValue& value) { return value.is_string() && value.string() == "free"; }
@@ -90,16 +92,13 @@ void read_components(const ConfigTable& table, const Materials& materials, Bound
 
 void read_condition(const ConfigTable& table, const Materials& materials, BoundarySettings& settings) {
   const auto type_value = table.find("type");
-  const std::string_view type =
-      type_value ? choose(*type_value, boundary_types(), "type of boundary condition").name : "components";
-  if (type == "components") return read_components(table, materials, settings);
+  const BoundaryType& type =
+      type_value ? choose(*type_value, boundary_types(), "type of boundary condition") : type_table[0];
+  settings.condition.kind = type.kind;
+  if (type.name == "components") return read_components(table, materials, settings);
   for (const char* key : {"displacement", "traction"})
     if (const auto value = table.find(key))
-      throw value->error(fmt::format("a patch of type \"{}\" has no prescribed value", type));
-  if (type == "symmetry") settings.condition.kind = BoundaryCondition::Kind::symmetry;
-  if (type == "plane") settings.condition.kind = BoundaryCondition::Kind::plane;
-  if (type == "plane_stress") settings.condition.kind = BoundaryCondition::Kind::plane_stress;
-  if (type == "axisymmetric") settings.condition.kind = BoundaryCondition::Kind::axisymmetric;
+      throw value->error(fmt::format("a patch of type \"{}\" has no prescribed value", type.name));
 }
 
 std::vector<ConfigValue> patches_of(const ConfigTable& table) {

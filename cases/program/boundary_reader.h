@@ -26,6 +26,7 @@ std::vector<BoundarySettings> read_boundary(const ConfigTable& root, const Mater
 struct BoundaryType {
   std::string_view name;
   std::string_view description;
+  BoundaryCondition::Kind kind;
 };
 std::span<const BoundaryType> boundary_types();
 
