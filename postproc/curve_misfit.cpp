@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pfdm {
 namespace {
@@ -45,6 +46,14 @@ std::optional<std::vector<double>> residuals_of(const SampledCurve& model, const
     residuals.push_back((model.at(point.x) - point.y) / scale);
   }
   return residuals;
+}
+
+double rms_residual(const SampledCurve& model, const MeasuredPoints& measured) {
+  const auto residuals = residuals_of(model, measured);
+  if (!residuals) return std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  for (const double r : *residuals) sum += r * r;
+  return std::sqrt(sum / static_cast<double>(residuals->size()));
 }
 
 double neighbour_correlation(std::span<const double> residuals, const MeasuredPoints& measured) {

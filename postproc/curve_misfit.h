@@ -30,6 +30,9 @@ MeasuredPoints points_between(const std::vector<SampledCurve>& specimens, double
 /// has one. Nothing if the model's curve does not reach all points.
 std::optional<std::vector<double>> residuals_of(const SampledCurve& model, const MeasuredPoints& measured);
 
+/// Rms of residuals_of(), not finite where there are none.
+double rms_residual(const SampledCurve& model, const MeasuredPoints& measured);
+
 /// Correlation of neighbouring residuals, of the same specimen; none of noise that is independent from point to point.
 double neighbour_correlation(std::span<const double> residuals, const MeasuredPoints& measured);
 

@@ -30,9 +30,9 @@ Json estimates(const std::vector<FitParameter>& parameters, const FitResult& res
   return list;
 }
 
-Json path(const FitResult& result) {
+Json path(const std::vector<FitIteration>& iterations) {
   Json list = Json::array();
-  for (const FitIteration& i : result.path) list.push_back({{"rms_residual", i.rms}, {"parameters", i.parameters}});
+  for (const FitIteration& i : iterations) list.push_back({{"rms_residual", i.rms}, {"parameters", i.parameters}});
   return list;
 }
 
@@ -91,7 +91,9 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
                {"experiments", experiments(report)},
                {"correlation", to_json(result.correlation)},
                {"start_rms_residual", result.start_rms},
-               {"path", path(result)}};
+               {"path", path(result.path)}};
+  if (report.first_rms) json["first_guess_rms_residual"] = *report.first_rms;
+  if (!result.screened.empty()) json["screened"] = path(result.screened);
   for (const TriedKernel& t : report.tried)
     json["kernel_terms_tried"].push_back(
         {{"terms", t.n_terms}, {"rms_misfit_Pa", t.rms}, {"bayesian_information", t.information}});
@@ -106,9 +108,10 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
                                       {"message", s.result.message},
                                       {"residuals", s.result.residuals.size()},
                                       {"rms_residual", s.result.rms},
+                                      {"first_guess_rms_residual", s.first_rms},
                                       {"parameters", estimates(s.parameters, s.result)},
                                       {"correlation", to_json(s.result.correlation)},
-                                      {"path", path(s.result)}});
+                                      {"path", path(s.result.path)}});
   if (report.runs)
     json["runs"] = {
         {"made", report.runs->made}, {"reused", report.runs->reused}, {"not_converged", report.runs->failed}};

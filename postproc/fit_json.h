@@ -25,6 +25,7 @@ struct FitStageReport {
   std::string name;
   double from = 0.0, to = 0.0;  ///< displacements [m]
   std::vector<FitParameter> parameters;
+  double first_rms = 0.0;  ///< of the residuals with the first guess of all parameters
   FitResult result;
 };
 
@@ -40,6 +41,7 @@ struct FitReport {
   std::string method;
   double wall_seconds = 0.0;
   std::vector<FitParameter> parameters;
+  std::optional<double> first_rms = std::nullopt;  ///< of the residuals with the first guess
   FitResult result;
   std::vector<ExperimentMisfit> experiments;
   std::vector<TriedKernel> tried;

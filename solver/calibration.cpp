@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "solver/calibration_scale.h"
+#include "solver/calibration_starts.h"
 #include "solver/calibration_statistics.h"
 
 #include <ceres/ceres.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace pfdm {
 namespace {
@@ -61,7 +61,7 @@ class Recorder : public ceres::IterationCallback {
       : model_(model), u_(u), settings_(settings), path_(path) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     if (summary.step_is_successful || summary.iteration == 0) {
-      path_.push_back({std::sqrt(2.0 * summary.cost / static_cast<double>(model_.n_residuals())), model_.natural(u_)});
+      path_.push_back({model_.rms(summary.cost), model_.natural(u_)});
       if (settings_.iterated) settings_.iterated(path_.back());
     }
     const bool was_tried = summary.iteration > 0 && summary.step_is_valid;
@@ -165,31 +165,15 @@ Attempt minimise(const ScaledModel& model, const Eigen::VectorXd& start, const F
   return attempt;
 }
 
-/// The first guess, then points at random: within the bounds, or about the first guess.
-std::vector<Eigen::VectorXd> starting_points(const ScaledModel& model, const FitSettings& settings) {
-  std::vector<Eigen::VectorXd> starts{model.first()};
-  std::mt19937_64 engine(settings.seed);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  for (int i = 1; i < settings.starts; ++i) {
-    Eigen::VectorXd u = model.first();
-    for (std::size_t j = 0; j < model.n_parameters(); ++j) {
-      double& entry = u[static_cast<Eigen::Index>(j)];
-      const double reach = settings.spread * (model.is_log(j) ? 1.0 : std::max(std::abs(entry), 1e-3));
-      const auto [lower, upper] = model.bounds(j);
-      const double low = std::max(lower, entry - reach), high = std::min(upper, entry + reach);
-      entry = low + uniform(engine) * (high - low);
-    }
-    starts.push_back(u);
-  }
-  return starts;
-}
-
 void check(const FitProblem& problem) {
   if (problem.parameters.empty()) throw InputError("there is no parameter to be estimated");
   for (const FitParameter& p : problem.parameters) {
     if (!(p.lower <= p.first && p.first <= p.upper) || !std::isfinite(p.first))
       throw InputError(fmt::format("parameter {}: the first guess {} is not within its bounds {} and {}", p.name,
                                    p.first, p.lower, p.upper));
+    if (p.start && !(p.lower <= *p.start && *p.start <= p.upper))
+      throw InputError(fmt::format("parameter {}: the start {} is not within its bounds {} and {}", p.name, *p.start,
+                                   p.lower, p.upper));
     if (!(p.lower < p.upper))
       throw InputError(
           fmt::format("parameter {}: the lower bound {} is not below the upper one {}", p.name, p.lower, p.upper));
@@ -220,12 +204,11 @@ FitResult fit(const FitProblem& problem, const FitSettings& settings) {
   ScaledModel model(problem, settings);
   FitResult result;
   Attempt best;
-  const std::vector<Eigen::VectorXd> starts = starting_points(model, settings);
+  const std::vector<Eigen::VectorXd> starts = starting_points(model, settings, result);
   model.prepare(starts);
   for (const Eigen::VectorXd& start : starts) {
     Attempt attempt = minimise(model, start, settings);
-    result.start_rms.push_back(
-        std::sqrt(2.0 * attempt.cost / static_cast<double>(std::max<std::size_t>(1, model.n_residuals()))));
+    result.start_rms.push_back(model.rms(attempt.cost));
     if (best.message.empty() || attempt.cost < best.cost) best = std::move(attempt);
   }
   if (!std::isfinite(best.cost)) throw ComputationError(fmt::format("the fit found no solution: {}", best.message));

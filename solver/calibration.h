@@ -28,6 +28,8 @@ struct FitParameter {
   double upper = std::numeric_limits<double>::infinity();
   bool log_scale = false;  ///< of a positive parameter: its logarithm is estimated
   std::optional<GaussianPrior> prior = std::nullopt;
+  std::optional<double> start = std::nullopt;  ///< where the fit starts, if not from the first guess
+  bool is_sampled = true;                      ///< other starts have other values of it
 };
 
 /// Residuals at these parameters, always as many; nothing where the model does not converge.
@@ -35,7 +37,9 @@ using Residuals = std::function<std::optional<std::vector<double>>(std::span<con
 /// d residual_i / d parameter_j; nothing where the model does not converge.
 using ResidualJacobian = std::function<std::optional<Eigen::MatrixXd>(std::span<const double> parameters)>;
 
-enum class Differences { central, forward };
+/// `shared`: central about the nearest point of a grid, whose spacing is the step and which holds the first guess.
+/// Points near each other have them in common, also in fits to other data; they are a half step off at most.
+enum class Differences { central, forward, shared };
 
 struct FitProblem {
   std::vector<FitParameter> parameters;
@@ -63,7 +67,11 @@ struct FitSettings {
   double step = 6e-6;        ///< of the differences, in parameters over their first guess (or of the logarithm)
   bool side_by_side = true;  ///< evaluations on all threads; not for models that use threads or processes themselves
   int starts = 1;            ///< more than one: the others at random within the bounds
-  double spread = 1.0;  ///< of random starts about the first guess, factor exp(+-spread), where there are no bounds
+  double spread = 1.0;       ///< of other starts about the first one, factor exp(+-spread), where there are no bounds
+  /// More than 0: instead of random starts so many points are evaluated once, the better third takes one step each, and
+  /// the best `starts` of where those lead go on to the end. The points do not depend on the data, but for parameters
+  /// that are not sampled, whose start is rounded to `least_step` so that similar fits have them in common.
+  int screened = 0;
   std::uint64_t seed = 1;
   double robust_scale = 0.0;  ///< residuals well above count less (Huber); 0: least squares
   std::function<void(const FitIteration&)> iterated = {};  ///< after every step that was taken
@@ -83,12 +91,13 @@ struct FitResult {
   Eigen::MatrixXd covariance;   ///< of the parameters, of their logarithms on a logarithmic scale
   Eigen::MatrixXd correlation;  ///< likewise
   std::vector<std::string> warnings;
-  std::vector<FitIteration> path;  ///< of the best start
-  std::vector<double> residuals;   ///< at the estimates, without priors
-  double rms = 0.0;                ///< of the residuals
-  double sum_of_squares = 0.0;     ///< of the residuals
-  std::vector<double> start_rms;   ///< what each start came to; infinite where the model did not converge
-  int evaluations = 0;             ///< of the model
+  std::vector<FitIteration> path;      ///< of the best start
+  std::vector<FitIteration> screened;  ///< points, in the order of the sample; rms infinite where there is no answer
+  std::vector<double> residuals;       ///< at the estimates, without priors
+  double rms = 0.0;                    ///< of the residuals
+  double sum_of_squares = 0.0;         ///< of the residuals
+  std::vector<double> start_rms;       ///< what each start came to; infinite where the model did not converge
+  int evaluations = 0;                 ///< of the model
 
   std::vector<double> values() const;
 };

@@ -43,6 +43,13 @@ Eigen::VectorXd ScaledModel::first() const {
   return u;
 }
 
+Eigen::VectorXd ScaledModel::start() const {
+  Eigen::VectorXd u = first();
+  for (std::size_t j = 0; j < n_parameters(); ++j)
+    if (const auto& start = problem_.parameters[j].start) u[static_cast<Eigen::Index>(j)] = scaled(j, *start);
+  return u;
+}
+
 std::vector<double> ScaledModel::natural(const Eigen::VectorXd& u) const {
   std::vector<double> parameters;
   for (std::size_t j = 0; j < n_parameters(); ++j) parameters.push_back(natural(j, u[static_cast<Eigen::Index>(j)]));
@@ -72,6 +79,14 @@ std::optional<std::vector<double>> ScaledModel::residuals(const Eigen::VectorXd&
     if (const auto& prior = problem_.parameters[j].prior)
       r->push_back((u[static_cast<Eigen::Index>(j)] - scaled(j, prior->mean)) * scale_[j] / prior->standard_deviation);
   return r;
+}
+
+double ScaledModel::cost(const Eigen::VectorXd& u) const {
+  const auto r = residuals(u);
+  if (!r) return std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  for (const double value : *r) sum += value * value;
+  return 0.5 * sum;
 }
 
 std::optional<Eigen::MatrixXd> ScaledModel::jacobian(const Eigen::VectorXd& u) const {
@@ -127,7 +142,20 @@ std::optional<Eigen::VectorXd> ScaledModel::difference(const Eigen::VectorXd& u,
   return (as_vector(above ? *above : here) - as_vector(below ? *below : here)) / width;
 }
 
-std::optional<Eigen::MatrixXd> ScaledModel::differences(const Eigen::VectorXd& u) const {
+Eigen::VectorXd ScaledModel::centre_of_differences(const Eigen::VectorXd& u) const {
+  if (settings_.differences != Differences::shared) return u;
+  Eigen::VectorXd centre = first();
+  for (std::size_t j = 0; j < n_parameters(); ++j) {
+    const auto index = static_cast<Eigen::Index>(j);
+    const double h = step_of(centre[index]);
+    const auto [lower, upper] = bounds(j);
+    centre[index] = std::clamp(centre[index] + h * std::round((u[index] - centre[index]) / h), lower, upper);
+  }
+  return centre;
+}
+
+std::optional<Eigen::MatrixXd> ScaledModel::differences(const Eigen::VectorXd& where) const {
+  const Eigen::VectorXd u = centre_of_differences(where);
   std::vector<Eigen::VectorXd> points{u};
   for (std::size_t j = 0; j < n_parameters(); ++j) {
     const auto above = moved(u, j, 1.0);

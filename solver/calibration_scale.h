@@ -15,13 +15,14 @@ class ScaledModel {
   ScaledModel(const FitProblem& problem, const FitSettings& settings);
 
   std::size_t n_parameters() const { return problem_.parameters.size(); }
-  /// Without priors; known after the first evaluation.
+  /// Without priors; known after the first evaluation, 0 before.
   std::size_t n_residuals() const { return n_residuals_; }
   const FitProblem& problem() const { return problem_; }
   bool is_log(std::size_t j) const { return problem_.parameters[j].log_scale; }
   int evaluations() const { return evaluations_; }
 
   Eigen::VectorXd first() const;
+  Eigen::VectorXd start() const;
   std::vector<double> natural(const Eigen::VectorXd& u) const;
   double natural(std::size_t j, double u) const;
   std::pair<double, double> bounds(std::size_t j) const;
@@ -32,6 +33,12 @@ class ScaledModel {
   /// Of the data, then of the priors.
   std::optional<std::vector<double>> residuals(const Eigen::VectorXd& u) const;
   std::optional<Eigen::MatrixXd> jacobian(const Eigen::VectorXd& u) const;
+  /// Half the sum of the squares, priors included; infinite where the model does not converge.
+  double cost(const Eigen::VectorXd& u) const;
+  /// Of that many residuals as there are without priors.
+  double rms(double cost) const {
+    return std::sqrt(2.0 * cost / static_cast<double>(std::max<std::size_t>(1, n_residuals())));
+  }
   /// Tells the model that these points are asked for next.
   void prepare(const std::vector<Eigen::VectorXd>& points) const;
 
@@ -43,6 +50,8 @@ class ScaledModel {
   double step_of(double u) const { return settings_.step * std::max(1.0, std::abs(u)); }
   std::optional<Eigen::VectorXd> difference(const Eigen::VectorXd& u, const std::vector<double>& here,
                                             std::size_t j) const;
+  /// About which differences are taken: u, or the nearest point of the grid.
+  Eigen::VectorXd centre_of_differences(const Eigen::VectorXd& u) const;
   double scaled(std::size_t j, double parameter) const;
 
   const FitProblem& problem_;

@@ -25,19 +25,20 @@ class CurveFit {
         runs_(session.results / "runs", session),
         parameters_(parameters_of(job.settings)),
         model_(job.file, parameters_, job.read_curve, runs_) {
-    for (const CaseParameter& parameter : parameters_) values_.push_back(parameter.value);
+    for (const CaseParameter& parameter : parameters_) first_.push_back(parameter.value);
+    values_ = first_;
+    is_estimated_.resize(values_.size(), false);
   }
 
   void run() {
     const Stopwatch watch;
-    const std::vector<double> first = values_;
     std::vector<FitStageReport> stages;
     for (const CurveFitStage& stage : job_.settings.stages) stages.push_back(fit_stage(stage));
     const SampledCurve fitted = curve_at(values_, std::nullopt);
     const CurveFitFindings found{.values = values_,
                                  .stages = std::move(stages),
                                  .parameters = parameters_,
-                                 .first_curve = curve_at(first, std::nullopt),
+                                 .first_curve = curve_at(first_, std::nullopt),
                                  .fitted_curve = fitted,
                                  .runs = {runs_.n_made(), runs_.n_reused(), runs_.n_failed()},
                                  .seconds = watch.seconds()};
@@ -65,10 +66,9 @@ class CurveFit {
     return values;
   }
 
-  MeasuredPoints points_of(const CurveFitStage& stage, std::optional<double> until) {
-    const SampledCurve start = curve_at(values_, until);
+  MeasuredPoints points_of(const CurveFitStage& stage, const SampledCurve& curve) {
     MeasuredPoints points = job_.settings.where.in_context([&] {
-      return points_between(job_.specimens, std::max(stage.from, start.x.front()), std::min(stage.to, start.x.back()));
+      return points_between(job_.specimens, std::max(stage.from, curve.x.front()), std::min(stage.to, curve.x.back()));
     });
     session_.log.say(fmt::format("stage \"{}\": {} parameters, {} measured points from {:.4g} to {:.4g} m", stage.name,
                                  stage.parameters.size(), points.points.size(),
@@ -79,9 +79,12 @@ class CurveFit {
 
   FitProblem problem_of(const CurveFitStage& stage, const MeasuredPoints& points, std::optional<double> until) {
     FitProblem problem;
+    const bool all_estimated =
+        std::ranges::all_of(stage.parameters, [this](std::size_t j) { return is_estimated_[j]; });
     for (const std::size_t j : stage.parameters) {
       FitParameter p = job_.settings.parameters[j].in_fit;
-      p.first = std::clamp(values_[j], p.lower, p.upper);
+      p.start = std::clamp(values_[j], p.lower, p.upper);
+      p.is_sampled = all_estimated || !is_estimated_[j];
       problem.parameters.push_back(p);
     }
     problem.noise_is_known = points.noise_is_known;
@@ -99,9 +102,12 @@ class CurveFit {
 
   FitStageReport fit_stage(const CurveFitStage& stage) {
     const auto until = std::isfinite(stage.to) ? std::optional(stage.to) : std::nullopt;
-    const MeasuredPoints points = points_of(stage, until);
+    const SampledCurve first_curve = curve_at(first_, until);
+    const MeasuredPoints points = points_of(stage, first_curve);
     const FitProblem problem = problem_of(stage, points, until);
     FitSettings settings = job_.settings.solver;
+    settings.starts = stage.starts;
+    settings.screened = stage.screened;
     settings.cost_tolerance = least_change / static_cast<double>(points.points.size());
     settings.iterated = [&](const FitIteration& iteration) {
       session_.log.say(fmt::format("  rms residual {:.5g} at {}", iteration.rms,
@@ -111,9 +117,11 @@ class CurveFit {
                           .from = points.points.front().x,
                           .to = points.points.back().x,
                           .parameters = problem.parameters,
+                          .first_rms = rms_residual(first_curve, points),
                           .result = fit(problem, settings)};
     warn_of_correlated_residuals(points, report.result);
     values_ = with_stage(stage, report.result.values());
+    for (const std::size_t j : stage.parameters) is_estimated_[j] = true;
     return report;
   }
 
@@ -132,7 +140,9 @@ class CurveFit {
   CaseRuns runs_;
   std::vector<CaseParameter> parameters_;
   CurveModel model_;
-  std::vector<double> values_;  // of all parameters, as known so far [SI]
+  std::vector<double> first_;       // of all parameters, the case's own [SI]
+  std::vector<double> values_;      // of all parameters, as known so far [SI]
+  std::vector<bool> is_estimated_;  // by an earlier stage
 };
 
 }  // namespace

@@ -10,6 +10,8 @@ namespace pfdm {
 namespace {
 
 constexpr Range starts_range{1.0, 1000.0, false, "between 1 and 1000"};
+constexpr Range screened_range{0.0, 10000.0, false, "between 0 and 10000"};
+constexpr Range spread_range{0.0, 10.0, true, "above 0 and below 10"};
 constexpr Range iterations_range{1.0, 1000.0, false, "between 1 and 1000"};
 constexpr Range step_range{0.0, 0.5, true, "above 0 and below 0.5"};
 
@@ -47,14 +49,22 @@ std::vector<std::size_t> all_of(const std::vector<CurveFitParameter>& parameters
   return numbers;
 }
 
-CurveFitStage whole_stage(const std::vector<CurveFitParameter>& parameters) {
+CurveFitStage whole_stage(const ConfigTable& fit, const std::vector<CurveFitParameter>& parameters) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  return {.name = "whole curve", .parameters = all_of(parameters), .from = -infinite, .to = infinite};
+  return {.name = "whole curve",
+          .parameters = all_of(parameters),
+          .from = -infinite,
+          .to = infinite,
+          .starts = static_cast<int>(fit.integer("starts", starts_range, 1)),
+          .screened = static_cast<int>(fit.integer("screened", screened_range, 0))};
 }
 
-CurveFitStage read_stage(const ConfigTable& table, const std::vector<CurveFitParameter>& parameters) {
-  CurveFitStage stage = whole_stage(parameters);
+CurveFitStage read_stage(const ConfigTable& table, const CurveFitStage& whole,
+                         const std::vector<CurveFitParameter>& parameters) {
+  CurveFitStage stage = whole;
   stage.name = table.string("name");
+  stage.starts = static_cast<int>(table.integer("starts", starts_range, whole.starts));
+  stage.screened = static_cast<int>(table.integer("screened", screened_range, whole.screened));
   std::vector<std::string> names;
   for (const CurveFitParameter& parameter : parameters) names.push_back(parameter.in_case.name);
   if (const auto list = table.find("parameters")) {
@@ -78,14 +88,16 @@ CurveFitStage read_stage(const ConfigTable& table, const std::vector<CurveFitPar
 
 FitSettings read_settings(const ConfigTable& fit) {
   FitSettings settings;
-  settings.starts = static_cast<int>(fit.integer("starts", starts_range, 1));
+  settings.spread = fit.number("spread", spread_range, 1.0);
   settings.maximum_iterations = static_cast<int>(fit.integer("maximum_iterations", iterations_range, 30));
   settings.step = fit.number("step", step_range, 0.02);
   settings.least_step = fit.number("tolerance", step_range, 1e-4);
-  const std::string kinds[] = {"central", "forward"};
-  const auto differences = fit.find("differences");
-  if (differences && differences->one_of(kinds, "kind of differences") == "forward")
-    settings.differences = Differences::forward;
+  const std::string kinds[] = {"central", "forward", "shared"};
+  if (const auto differences = fit.find("differences")) {
+    const std::string kind = differences->one_of(kinds, "kind of differences");
+    if (kind == "forward") settings.differences = Differences::forward;
+    if (kind == "shared") settings.differences = Differences::shared;
+  }
   settings.tolerance = 1e-8;
   settings.trust_radius = 30.0;
   settings.side_by_side = false;
@@ -124,9 +136,10 @@ std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
           throw table.at("key").error(fmt::format("\"{}\" is named twice", key));
   }
   if (settings.parameters.empty()) throw fit.error("at least one [[fit.parameters]] is due");
+  const CurveFitStage whole = whole_stage(fit, settings.parameters);
   for (const ConfigTable& table : fit.tables("stages"))
-    settings.stages.push_back(read_stage(table, settings.parameters));
-  if (settings.stages.empty()) settings.stages.push_back(whole_stage(settings.parameters));
+    settings.stages.push_back(read_stage(table, whole, settings.parameters));
+  if (settings.stages.empty()) settings.stages.push_back(whole);
   require_each_in_a_stage(settings, fit);
   return settings;
 }

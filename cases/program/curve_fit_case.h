@@ -20,6 +20,8 @@ struct CurveFitStage {
   std::string name;
   std::vector<std::size_t> parameters;  ///< numbers
   double from = 0.0, to = 0.0;          ///< displacements between which the data count [m]
+  int starts = 1;                       ///< FitSettings::starts
+  int screened = 0;                     ///< FitSettings::screened
 };
 
 struct CurveFitSettings {

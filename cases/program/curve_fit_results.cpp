@@ -68,11 +68,14 @@ std::vector<ExperimentMisfit> misfits(const CurveFitJob& job, const CurveFitFind
 }
 
 void say_estimates(const FitStageReport& whole, const std::vector<CaseParameter>& parameters, Log& log) {
+  log.say(fmt::format("rms residual of {} points {:.4g}, with the first guess {:.4g}", whole.result.residuals.size(),
+                      whole.result.rms, whole.first_rms));
   for (std::size_t j = 0; j < whole.parameters.size(); ++j) {
     const FitEstimate& e = whole.result.estimates[j];
     const CaseParameter& p = *std::ranges::find(parameters, whole.parameters[j].name, &CaseParameter::name);
-    log.say(fmt::format("  {} = {:.5g} {}, 95 % between {:.5g} and {:.5g}", p.name, p.in_file_units(e.value), p.unit,
-                        p.in_file_units(e.lower_95), p.in_file_units(e.upper_95)));
+    log.say(fmt::format("  {} = {:.5g} {}, 95 % between {:.5g} and {:.5g}, first guess {:.5g}", p.name,
+                        p.in_file_units(e.value), p.unit, p.in_file_units(e.lower_95), p.in_file_units(e.upper_95),
+                        p.in_file_units(whole.parameters[j].first)));
   }
   for (std::size_t j = 0; j < whole.parameters.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)
@@ -92,6 +95,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
                          .method = "force_displacement",
                          .wall_seconds = found.seconds,
                          .parameters = whole.parameters,
+                         .first_rms = whole.first_rms,
                          .result = whole.result,
                          .experiments = misfits(job, found),
                          .tried = {},

@@ -1,0 +1,147 @@
+#include "solver/calibration_starts.h"
+
+#include "physics/error.h"
+
+#include <algorithm>
+#include <random>
+
+namespace pfdm {
+namespace {
+
+constexpr int trials = 4;              // of a step, each ten times as damped
+constexpr double least_weight = 1e-6;  // of the damping, for parameters without influence; as Ceres'
+
+struct Candidate {
+  Eigen::VectorXd u;
+  double cost = 0.0;
+};
+
+/// Where other starts may lie, about the first one.
+std::pair<double, double> range_about(const ScaledModel& model, const FitSettings& settings, std::size_t j,
+                                      double centre) {
+  const double reach = settings.spread * (model.is_log(j) ? 1.0 : std::max(std::abs(centre), 1e-3));
+  const auto [lower, upper] = model.bounds(j);
+  return {std::max(lower, centre - reach), std::min(upper, centre + reach)};
+}
+
+/// `share(j)` says where in its range each parameter is.
+template <class Share>
+Eigen::VectorXd point_about(const ScaledModel& model, const FitSettings& settings, const Eigen::VectorXd& start,
+                            const Share& share) {
+  Eigen::VectorXd u = start;
+  for (std::size_t j = 0; j < model.n_parameters(); ++j) {
+    if (!model.problem().parameters[j].is_sampled) continue;
+    double& entry = u[static_cast<Eigen::Index>(j)];
+    const auto [low, high] = range_about(model, settings, j, entry);
+    entry = low + share(j) * (high - low);
+  }
+  return u;
+}
+
+/// Digits of n in a base, behind the point in reverse: Halton's sequence, whose first points are those of any longer
+/// one (Halton, Numerische Mathematik 2 (1960) 84).
+double radical_inverse(int n, int base) {
+  double result = 0.0;
+  for (double digit = 1.0 / base; n > 0; n /= base, digit /= base) result += digit * (n % base);
+  return result;
+}
+
+bool is_prime(int n) {
+  for (int d = 2; d * d <= n; ++d)
+    if (n % d == 0) return false;
+  return true;
+}
+
+/// The first n prime numbers.
+std::vector<int> primes(std::size_t n) {
+  std::vector<int> result;
+  for (int candidate = 2; result.size() < n; ++candidate)
+    if (is_prime(candidate)) result.push_back(candidate);
+  return result;
+}
+
+/// The start, with what is not sampled rounded to least_step.
+Eigen::VectorXd rounded_start(const ScaledModel& model, const FitSettings& settings) {
+  Eigen::VectorXd u = model.start();
+  const Eigen::VectorXd first = model.first();
+  for (std::size_t j = 0; j < model.n_parameters(); ++j) {
+    if (model.problem().parameters[j].is_sampled || !(settings.least_step > 0.0)) continue;
+    const auto index = static_cast<Eigen::Index>(j);
+    const double steps = std::round((u[index] - first[index]) / settings.least_step);
+    const auto [lower, upper] = model.bounds(j);
+    u[index] = std::clamp(first[index] + steps * settings.least_step, lower, upper);
+  }
+  return u;
+}
+
+std::vector<Eigen::VectorXd> sample(const ScaledModel& model, const FitSettings& settings) {
+  const std::vector<int> bases = primes(model.n_parameters());
+  std::vector<Eigen::VectorXd> points{rounded_start(model, settings)};
+  for (int i = 1; i < settings.screened; ++i)
+    points.push_back(
+        point_about(model, settings, points.front(), [&](std::size_t j) { return radical_inverse(i, bases[j]); }));
+  return points;
+}
+
+void keep_best(std::vector<Candidate>& candidates, std::size_t n) {
+  std::ranges::stable_sort(candidates, {}, &Candidate::cost);
+  candidates.resize(std::min(n, candidates.size()));
+}
+
+/// One step of Levenberg and Marquardt, if there is one downwards.
+void take_step(const ScaledModel& model, const FitSettings& settings, Candidate& candidate) {
+  const auto r = model.residuals(candidate.u);
+  const auto J = model.jacobian(candidate.u);
+  if (!r || !J) return;
+  const Eigen::VectorXd gradient =
+      J->transpose() * Eigen::Map<const Eigen::VectorXd>(r->data(), static_cast<Eigen::Index>(r->size()));
+  const Eigen::MatrixXd normal = J->transpose() * *J;
+  double radius = settings.trust_radius;
+  for (int trial = 0; trial < trials; ++trial, radius /= 10.0) {
+    Eigen::MatrixXd damped = normal;
+    damped.diagonal() += normal.diagonal().cwiseMax(least_weight) / radius;
+    Eigen::VectorXd u = candidate.u - damped.ldlt().solve(gradient);
+    for (std::size_t j = 0; j < model.n_parameters(); ++j) {
+      const auto [lower, upper] = model.bounds(j);
+      double& entry = u[static_cast<Eigen::Index>(j)];
+      entry = std::clamp(entry, lower, upper);
+    }
+    const double cost = model.cost(u);
+    if (cost >= candidate.cost) continue;
+    candidate = {u, cost};
+    return;
+  }
+}
+
+std::vector<Eigen::VectorXd> best_of_sample(const ScaledModel& model, const FitSettings& settings, FitResult& result) {
+  const std::vector<Eigen::VectorXd> points = sample(model, settings);
+  model.prepare(points);
+  std::vector<Candidate> candidates;
+  for (const Eigen::VectorXd& u : points) {
+    candidates.push_back({u, model.cost(u)});
+    result.screened.push_back({model.rms(candidates.back().cost), model.natural(u)});
+  }
+  std::erase_if(candidates, [](const Candidate& candidate) { return !std::isfinite(candidate.cost); });
+  if (candidates.empty()) throw ComputationError("the model converges at no point of the fit's sample");
+  const auto starts = static_cast<std::size_t>(settings.starts);
+  keep_best(candidates, std::max(starts, (points.size() + 2) / 3));
+  for (Candidate& candidate : candidates) take_step(model, settings, candidate);
+  keep_best(candidates, starts);
+  std::vector<Eigen::VectorXd> best;
+  for (const Candidate& candidate : candidates) best.push_back(candidate.u);
+  return best;
+}
+
+}  // namespace
+
+std::vector<Eigen::VectorXd> starting_points(const ScaledModel& model, const FitSettings& settings, FitResult& result) {
+  if (settings.screened > 0) return best_of_sample(model, settings, result);
+  std::vector<Eigen::VectorXd> starts{model.start()};
+  std::mt19937_64 engine(settings.seed);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int i = 1; i < settings.starts; ++i)
+    starts.push_back(point_about(model, settings, starts.front(), [&](std::size_t) { return uniform(engine); }));
+  return starts;
+}
+
+}  // namespace pfdm
