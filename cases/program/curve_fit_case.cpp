@@ -49,22 +49,27 @@ std::vector<std::size_t> all_of(const std::vector<CurveFitParameter>& parameters
   return numbers;
 }
 
+/// How many descents a stage makes and from where, as `table` says, or else as it is.
+void read_starts(const ConfigTable& table, CurveFitStage& stage) {
+  stage.starts = static_cast<int>(table.integer("starts", starts_range, stage.starts));
+  stage.screened = static_cast<int>(table.integer("screened", screened_range, stage.screened));
+  if (stage.screened == 0 || stage.starts <= stage.screened) return;
+  throw table.at(table.has("starts") ? "starts" : "screened")
+      .error(fmt::format("{} descents cannot be chosen from {} screened points", stage.starts, stage.screened));
+}
+
 CurveFitStage whole_stage(const ConfigTable& fit, const std::vector<CurveFitParameter>& parameters) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  return {.name = "whole curve",
-          .parameters = all_of(parameters),
-          .from = -infinite,
-          .to = infinite,
-          .starts = static_cast<int>(fit.integer("starts", starts_range, 1)),
-          .screened = static_cast<int>(fit.integer("screened", screened_range, 0))};
+  CurveFitStage stage{.name = "whole curve", .parameters = all_of(parameters), .from = -infinite, .to = infinite};
+  read_starts(fit, stage);
+  return stage;
 }
 
 CurveFitStage read_stage(const ConfigTable& table, const CurveFitStage& whole,
                          const std::vector<CurveFitParameter>& parameters) {
   CurveFitStage stage = whole;
   stage.name = table.string("name");
-  stage.starts = static_cast<int>(table.integer("starts", starts_range, whole.starts));
-  stage.screened = static_cast<int>(table.integer("screened", screened_range, whole.screened));
+  read_starts(table, stage);
   std::vector<std::string> names;
   for (const CurveFitParameter& parameter : parameters) names.push_back(parameter.in_case.name);
   if (const auto list = table.find("parameters")) {

@@ -15,6 +15,7 @@
 #include <csignal>
 #include <map>
 #include <random>
+#include <set>
 
 namespace pfdm {
 namespace {
@@ -92,6 +93,7 @@ TEST(CurveFit, FindsTheValuesThatMadeACurve) {
   EXPECT_LT(json["experiments"][0]["relative_misfit"].get<double>(), 2e-2);
   EXPECT_GT(json["experiments"][0]["rms_force_N"].get<double>(), 0.0);
   EXPECT_EQ(json["runs"]["reused"], 0);
+  EXPECT_GT(json["first_guess_rms_residual"].get<double>(), 5.0 * json["rms_residual"].get<double>());
   const CsvTable curve = read_csv(fit.directory.results() / "fit_curve.csv");
   for (const char* column : {"displacement_m", "measured_force_N", "first_force_N", "model_force_N"})
     EXPECT_EQ(curve.column(column).size(), 401u);
@@ -201,6 +203,80 @@ parameters = ["materials.concrete.toughness"]
   EXPECT_NEAR(estimate(json, toughness), 110.0, 1.0);
   EXPECT_NE(json["warnings"].dump().find("is as stage \\\"elastic\\\" found it"), std::string::npos);
   EXPECT_NE(outcome.out.find("gone on with"), std::string::npos) << outcome.out;
+  const auto& elastic = json["earlier_stages"][0];
+  EXPECT_GT(elastic["first_guess_rms_residual"].get<double>(), 100.0 * elastic["rms_residual"].get<double>());
+}
+
+TEST(CurveFit, ShowsTheFirstGuessOfTheCaseInEveryStage) {
+  const BarFit fit(bar_fit + R"(
+[[fit.stages]]
+name = "elastic"
+parameters = ["materials.concrete.young_modulus"]
+between = ["0 um", "6 um"]
+[[fit.stages]]
+name = "whole"
+)");
+  const Outcome outcome = run({"fit", fit.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = fit_in(fit.directory.results());
+  EXPECT_NEAR(parameter(json, modulus)["first_guess"].get<double>(), 30e9, 1.0);
+  EXPECT_NE(outcome.out.find("first guess 30\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("with the first guess "), std::string::npos) << outcome.out;
+  EXPECT_GT(json["first_guess_rms_residual"].get<double>(), 5.0 * json["rms_residual"].get<double>());
+}
+
+/// Two stages: the modulus; the toughness from a sample, where the bar breaks at another displacement each time.
+const std::string screened_fit = "[fit]\ndifferences = \"shared\"\ntolerance = 0.02\nspread = 0.4\n" +
+                                 bar_fit.substr(bar_fit.find("[[fit.parameters]]")) + R"(
+[[fit.stages]]
+name = "elastic"
+parameters = ["materials.concrete.young_modulus"]
+between = ["0 um", "6 um"]
+[[fit.stages]]
+name = "whole"
+screened = 9
+starts = 2
+)";
+
+TEST(CurveFit, ScreensInTheStageThatAsksForIt) {
+  const BarFit fit(bar_fit.substr(0, bar_fit.find("[fit]")) + screened_fit);
+  const Outcome outcome = run({"fit", fit.path()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = fit_in(fit.directory.results());
+  EXPECT_NEAR(estimate(json, toughness), 110.0, 2.0);
+  EXPECT_NEAR(estimate(json, modulus), 33e9, 5e-3 * 33e9);
+  EXPECT_EQ(json["start_rms_residual"].size(), 2u);
+  EXPECT_FALSE(json["earlier_stages"][0].contains("screened"));
+  ASSERT_EQ(json["screened"].size(), 9u);
+  const double rounded = 30e9 * std::exp(0.02 * std::round(50.0 * std::log(33.0 / 30.0)));
+  std::set<double> values;
+  for (const auto& point : json["screened"]) {
+    EXPECT_NEAR(point["parameters"][0].get<double>(), rounded, 1e-9 * rounded);  // known from the stage before
+    values.insert(point["parameters"][1].get<double>());
+  }
+  EXPECT_EQ(values.size(), 9u);
+  EXPECT_NEAR(*values.begin(), 100.0 * std::exp(-0.4), 15.0);
+  EXPECT_NEAR(*values.rbegin(), 100.0 * std::exp(0.4), 15.0);
+}
+
+TEST(CurveFit, FitsToOtherDataReuseTheRunsOfTheSample) {
+  const BarFit fit(bar_fit.substr(0, bar_fit.find("[fit]")) + screened_fit);
+  ASSERT_EQ(run({"fit", fit.path()}).status, 0);
+  const auto first = fit_in(fit.directory.results());
+  CsvTable data = read_csv(fit.directory.path() / "data.csv"), noisy;
+  std::vector<double> force = data.column("force_N");
+  std::mt19937 engine(3);
+  std::normal_distribution<double> noise(0.0, 0.005 * std::ranges::max(force));
+  for (double& f : force) f += noise(engine);
+  noisy.comments = {"made by the test, with noise"};
+  noisy.add("displacement_m", data.column("displacement_m"));
+  noisy.add("force_N", force);
+  write_csv(fit.directory.path() / "data.csv", noisy);
+  ASSERT_EQ(run({"fit", fit.path()}).status, 0);
+  const auto second = fit_in(fit.directory.results());
+  EXPECT_NE(estimate(first, modulus), estimate(second, modulus));
+  const int made = second["runs"]["made"], reused = second["runs"]["reused"];
+  EXPECT_GT(reused, made) << made << " made, " << reused << " reused";
 }
 
 /// One parameter alone.
@@ -312,6 +388,23 @@ const BadInput bad_fits[] = {
     {"bounds_without_unit", "[\"10 GPa\", \"90 GPa\"]", "[10, 90]", {"bounds[0]: 10 has no unit; a stress is due"}},
     {"bounds_that_fall", "[\"10 GPa\", \"90 GPa\"]", "[\"90 GPa\", \"10 GPa\"]", {"must be below the upper one"}},
     {"misspelt_key", "bounds = [\"10", "bound = [\"10", {"did you mean \"bounds\"?"}},
+    {"spread_of_zero", "[fit]\n", "[fit]\nspread = 0.0\n", {"[fit] spread: 0 must be above 0 and below 10"}},
+    {"screened_points_below_zero",
+     "[fit]\n",
+     "[fit]\nscreened = -1\n",
+     {"[fit] screened: -1 must be between 0 and 10000"}},
+    {"more_starts_than_screened_points",
+     "[fit]\n",
+     "[fit]\nscreened = 2\nstarts = 3\n",
+     {"[fit] starts: 3 descents cannot be chosen from 2 screened points"}},
+    {"stage_with_more_starts_than_points",
+     "[fit]\n",
+     "[fit]\nstages = [{ name = \"a\", screened = 2, starts = 4 }]\n",
+     {"[fit.stages] starts: 4 descents cannot be chosen from 2 screened points"}},
+    {"unknown_differences",
+     "[fit]\n",
+     "[fit]\ndifferences = \"grid\"\n",
+     {"\"grid\" is no kind of differences (there are: central, forward, shared)"}},
     {"step_of_zero", "[fit]\n", "[fit]\nstep = 0.0\n", {"[fit] step: 0 must be above 0 and below 0.5"}},
     {"stage_of_nothing",
      "[fit]\n",

@@ -31,7 +31,7 @@ def arguments():
     parser.add_argument("--component", default="x", help="of the force")
     parser.add_argument("--spacing", type=float, default=1.0, help="of the measured points [um]")
     parser.add_argument("--first-seed", type=int, default=1, help="of the noise")
-    parser.add_argument("--side-by-side", type=int, default=1, help="number of fits at a time, each of one thread")
+    parser.add_argument("--side-by-side", type=int, default=1, help="number of fits at a time, each of one thread; the first, alone, has as many threads")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for runs and fits, to go on from; default: none")
     return parser.parse_args()
 
@@ -65,7 +65,7 @@ def true_run(options, folder):
     return values, run / "force_displacement.csv"
 
 
-def fit_with_noise(options, folder, curve, seed):
+def fit_with_noise(options, folder, curve, seed, threads):
     """Its fit.json. A fit that wants a run which another one is at breaks off: it goes on later."""
     case = folder / f"seed_{seed}"
     if not case.exists():
@@ -77,7 +77,7 @@ def fit_with_noise(options, folder, curve, seed):
                     "--spacing", str(options.spacing), "--seed", str(seed),
                     "--output", case / "data/synthetic_force_displacement.csv"], check=True)
     for _ in range(100):
-        done = subprocess.run([options.pfdm, "fit", case, "--quiet", "--threads", "1"], check=False,
+        done = subprocess.run([options.pfdm, "fit", case, "--quiet", "--threads", str(threads)], check=False,
                               capture_output=True, text=True)
         if done.returncode != 1:
             break
@@ -119,8 +119,10 @@ def main():
     truth, curve = true_run(options, folder)
     count = Count(truth)
     seeds = range(options.first_seed, options.first_seed + options.repetitions)
+    count.add(seeds[0], fit_with_noise(options, folder, curve, seeds[0], options.side_by_side))
     with concurrent.futures.ThreadPoolExecutor(options.side_by_side) as pool:
-        for seed, fit in zip(seeds, pool.map(lambda seed: fit_with_noise(options, folder, curve, seed), seeds)):
+        fits = pool.map(lambda seed: fit_with_noise(options, folder, curve, seed, 1), seeds[1:])
+        for seed, fit in zip(seeds[1:], fits):
             count.add(seed, fit)
     count.show()
     if not options.keep:
