@@ -66,6 +66,35 @@ TEST(Cohesive, ExtractsTheLawOfAPlane) {
 
 // In plane stress, held at two sides: its elastic elongation is that of E/(1 - nu^2), and the rest is the crack's,
 // however it contracts across the plate.
+TEST(Cohesive, ExtractsTheLawAroundAWholeBead) {
+  // The shipped case, coarser; on as many cells as it has it is within 1.5 %.
+  const fs::path shipped = fs::path(PFDM_CASES_DIR) / "cohesive_sphere";
+  std::string text = content_of(shipped / "case.toml");
+  text = replaced(text, "cells = 97", "cells = 65");
+  text = replaced(text, "cells = 18", "cells = 9");
+  text = replaced(text, "initial_increment = 0.01", "initial_increment = 0.02");
+  text = replaced(text, "maximum_increment = 0.01", "maximum_increment = 0.02");
+  const TemporaryCase directory(text);
+  ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
+  const CsvTable law = read_csv(directory.results() / "cohesive_law.csv");
+  const CsvTable closed = read_csv(shipped / "data/closed_form.csv");
+  const double ft = closed.column("traction_Pa").front(), final_separation = closed.column("separation_m").back();
+  double worst = 0.0, strength = 0.0;
+  int compared = 0;
+  for (std::size_t i = 0; i < law.n_rows(); ++i) {
+    const double w = law.column("separation_m")[i], T = law.column("traction_Pa")[i];
+    strength = std::max(strength, T);
+    if (w < 1e-4 * final_separation || w > final_separation) continue;
+    worst = std::max(worst, std::abs(T / ft - (1.0 - w / final_separation)));
+    ++compared;
+  }
+  std::printf("largest difference from the law %.2f %% of ft, strength %.2f %% above, %d points\n", 100.0 * worst,
+              100.0 * (strength / ft - 1.0), compared);
+  EXPECT_GT(compared, 60);
+  EXPECT_LE(worst, 0.04);
+  EXPECT_NEAR(strength, ft, 0.01 * ft);
+}
+
 TEST(Cohesive, ExtractsTheLawOfAPlaneInPlaneStress) {
   const TemporaryCase directory(replaced(cohesive_case(), "type = \"plane\"", "type = \"plane_stress\""));
   const Outcome outcome = run({"run", directory.path().string()});

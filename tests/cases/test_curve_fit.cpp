@@ -55,6 +55,16 @@ key = ["materials.concrete.toughness", "regions.weak.toughness"]
 bounds = ["20 J/m^2", "500 J/m^2"]
 )";
 
+/// The modulus first; what the second one does may follow.
+const std::string two_stages = R"(
+[[fit.stages]]
+name = "elastic"
+parameters = ["materials.concrete.young_modulus"]
+between = ["0 um", "6 um"]
+[[fit.stages]]
+name = "whole"
+)";
+
 /// The case with [fit], and in data.csv what a run of the bar with 33 GPa and 110 J/m^2 gives.
 class BarFit {
  public:
@@ -186,15 +196,7 @@ TEST(CurveFit, GoesOnAfterAKillToTheSameResult) {
 }
 
 TEST(CurveFit, GoesOnInTheSecondStageWithTheRunsOfTheFirst) {
-  const BarFit fit(bar_fit + R"(
-[[fit.stages]]
-name = "elastic"
-parameters = ["materials.concrete.young_modulus"]
-between = ["0 um", "6 um"]
-[[fit.stages]]
-name = "whole"
-parameters = ["materials.concrete.toughness"]
-)");
+  const BarFit fit(bar_fit + two_stages + "parameters = [\"materials.concrete.toughness\"]\n");
   const Outcome outcome = run({"fit", fit.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = fit_in(fit.directory.results());
@@ -208,14 +210,7 @@ parameters = ["materials.concrete.toughness"]
 }
 
 TEST(CurveFit, ShowsTheFirstGuessOfTheCaseInEveryStage) {
-  const BarFit fit(bar_fit + R"(
-[[fit.stages]]
-name = "elastic"
-parameters = ["materials.concrete.young_modulus"]
-between = ["0 um", "6 um"]
-[[fit.stages]]
-name = "whole"
-)");
+  const BarFit fit(bar_fit + two_stages);
   const Outcome outcome = run({"fit", fit.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = fit_in(fit.directory.results());
@@ -227,16 +222,8 @@ name = "whole"
 
 /// Two stages: the modulus; the toughness from a sample, where the bar breaks at another displacement each time.
 const std::string screened_fit = "[fit]\ndifferences = \"shared\"\ntolerance = 0.02\nspread = 0.4\n" +
-                                 bar_fit.substr(bar_fit.find("[[fit.parameters]]")) + R"(
-[[fit.stages]]
-name = "elastic"
-parameters = ["materials.concrete.young_modulus"]
-between = ["0 um", "6 um"]
-[[fit.stages]]
-name = "whole"
-screened = 9
-starts = 2
-)";
+                                 bar_fit.substr(bar_fit.find("[[fit.parameters]]")) + two_stages +
+                                 "screened = 9\nstarts = 2\n";
 
 TEST(CurveFit, ScreensInTheStageThatAsksForIt) {
   const BarFit fit(bar_fit.substr(0, bar_fit.find("[fit]")) + screened_fit);
