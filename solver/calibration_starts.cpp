@@ -92,28 +92,55 @@ void keep_best(std::vector<Candidate>& candidates, std::size_t n) {
   candidates.resize(std::min(n, candidates.size()));
 }
 
-/// One step of Levenberg and Marquardt, if there is one downwards.
-void take_step(const ScaledModel& model, const FitSettings& settings, Candidate& candidate) {
-  const auto r = model.residuals(candidate.u);
-  const auto J = model.jacobian(candidate.u);
-  if (!r || !J) return;
-  const Eigen::VectorXd gradient =
-      J->transpose() * Eigen::Map<const Eigen::VectorXd>(r->data(), static_cast<Eigen::Index>(r->size()));
-  const Eigen::MatrixXd normal = J->transpose() * *J;
+/// A candidate and the linear model of its residuals.
+struct Slope {
+  Candidate* candidate;
+  Eigen::VectorXd gradient;  // J^T r
+  Eigen::MatrixXd normal;    // J^T J
+};
+
+std::vector<Slope> slopes_of(const ScaledModel& model, std::vector<Candidate>& candidates) {
+  std::vector<Slope> slopes;
+  for (Candidate& candidate : candidates) {
+    const auto r = model.residuals(candidate.u);
+    const auto J = model.jacobian(candidate.u);
+    if (!r || !J) continue;
+    const Eigen::Map<const Eigen::VectorXd> residuals(r->data(), static_cast<Eigen::Index>(r->size()));
+    slopes.push_back({&candidate, J->transpose() * residuals, J->transpose() * *J});
+  }
+  return slopes;
+}
+
+/// Where a step of Levenberg and Marquardt leads, within the bounds.
+Eigen::VectorXd stepped(const ScaledModel& model, const Slope& slope, double radius) {
+  Eigen::MatrixXd damped = slope.normal;
+  damped.diagonal() += slope.normal.diagonal().cwiseMax(least_weight) / radius;
+  Eigen::VectorXd u = slope.candidate->u - damped.ldlt().solve(slope.gradient);
+  for (std::size_t j = 0; j < model.n_parameters(); ++j) {
+    const auto [lower, upper] = model.bounds(j);
+    double& entry = u[static_cast<Eigen::Index>(j)];
+    entry = std::clamp(entry, lower, upper);
+  }
+  return u;
+}
+
+/// One step of each candidate, if there is one downwards; those that have none yet try again side by side.
+void take_steps(const ScaledModel& model, const FitSettings& settings, std::vector<Candidate>& candidates) {
+  std::vector<Slope> open = slopes_of(model, candidates);
   double radius = settings.trust_radius;
-  for (int trial = 0; trial < trials; ++trial, radius /= 10.0) {
-    Eigen::MatrixXd damped = normal;
-    damped.diagonal() += normal.diagonal().cwiseMax(least_weight) / radius;
-    Eigen::VectorXd u = candidate.u - damped.ldlt().solve(gradient);
-    for (std::size_t j = 0; j < model.n_parameters(); ++j) {
-      const auto [lower, upper] = model.bounds(j);
-      double& entry = u[static_cast<Eigen::Index>(j)];
-      entry = std::clamp(entry, lower, upper);
+  for (int trial = 0; trial < trials && !open.empty(); ++trial, radius /= 10.0) {
+    std::vector<Eigen::VectorXd> points;
+    for (const Slope& slope : open) points.push_back(stepped(model, slope, radius));
+    model.prepare(points);
+    std::vector<Slope> still_open;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const double cost = model.cost(points[i]);
+      if (cost < open[i].candidate->cost)
+        *open[i].candidate = {points[i], cost};
+      else
+        still_open.push_back(open[i]);
     }
-    const double cost = model.cost(u);
-    if (cost >= candidate.cost) continue;
-    candidate = {u, cost};
-    return;
+    open = std::move(still_open);
   }
 }
 
@@ -129,7 +156,7 @@ std::vector<Eigen::VectorXd> best_of_sample(const ScaledModel& model, const FitS
   if (candidates.empty()) throw ComputationError("the model converges at no point of the fit's sample");
   const auto starts = static_cast<std::size_t>(settings.starts);
   keep_best(candidates, std::max(starts, (points.size() + 2) / 3));
-  for (Candidate& candidate : candidates) take_step(model, settings, candidate);
+  take_steps(model, settings, candidates);
   keep_best(candidates, starts);
   std::vector<Eigen::VectorXd> best;
   for (const Candidate& candidate : candidates) best.push_back(candidate.u);
