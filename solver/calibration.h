@@ -70,7 +70,8 @@ struct FitSettings {
   double spread = 1.0;       ///< of other starts about the first one, factor exp(+-spread), where there are no bounds
   /// More than 0: instead of random starts so many points are evaluated once, the better third takes one step each, and
   /// the best `starts` of where those lead go on to the end. The points do not depend on the data, but for parameters
-  /// that are not sampled, whose start is rounded to `least_step` so that similar fits have them in common.
+  /// that are not sampled, whose start is rounded so that similar fits have them in common: to `least_step`, or with
+  /// shared differences to their grid, on which all points then lie.
   int screened = 0;
   std::uint64_t seed = 1;
   double robust_scale = 0.0;  ///< residuals well above count less (Huber); 0: least squares

@@ -33,6 +33,8 @@ class ScaledModel {
   /// Of the data, then of the priors.
   std::optional<std::vector<double>> residuals(const Eigen::VectorXd& u) const;
   std::optional<Eigen::MatrixXd> jacobian(const Eigen::VectorXd& u) const;
+  /// About which differences are taken: u, or the nearest point of the grid.
+  Eigen::VectorXd centre_of_differences(const Eigen::VectorXd& u) const;
   /// Half the sum of the squares, priors included; infinite where the model does not converge.
   double cost(const Eigen::VectorXd& u) const;
   /// Of that many residuals as there are without priors.
@@ -50,8 +52,6 @@ class ScaledModel {
   double step_of(double u) const { return settings_.step * std::max(1.0, std::abs(u)); }
   std::optional<Eigen::VectorXd> difference(const Eigen::VectorXd& u, const std::vector<double>& here,
                                             std::size_t j) const;
-  /// About which differences are taken: u, or the nearest point of the grid.
-  Eigen::VectorXd centre_of_differences(const Eigen::VectorXd& u) const;
   double scaled(std::size_t j, double parameter) const;
 
   const FitProblem& problem_;

@@ -74,16 +74,22 @@ Eigen::VectorXd rounded_start(const ScaledModel& model, const FitSettings& setti
   return u;
 }
 
-/// The start, which takes the place of the first point of the sequence (in one dimension they are the same).
+/// The start, which takes the place of the first point of the sequence (in one dimension they are the same). On the
+/// grid of shared differences, which are then at hand.
 std::vector<Eigen::VectorXd> sample(const ScaledModel& model, const FitSettings& settings) {
   std::vector<int> bases = primes(model.n_parameters());
   for (std::size_t j = 0; j < bases.size(); ++j)  // the small ones, which fill space best, to those that are sampled
     if (!model.problem().parameters[j].is_sampled)
       std::rotate(bases.begin() + static_cast<std::ptrdiff_t>(j), bases.end() - 1, bases.end());
-  std::vector<Eigen::VectorXd> points{rounded_start(model, settings)};
-  for (int i = 1; i < settings.screened; ++i)
-    points.push_back(
-        point_about(model, settings, points.front(), [&](std::size_t j) { return radical_inverse(i + 1, bases[j]); }));
+  const Eigen::VectorXd start = rounded_start(model, settings);
+  std::vector<Eigen::VectorXd> points;
+  for (int i = 0; i < settings.screened; ++i) {
+    const Eigen::VectorXd u =
+        i == 0 ? start
+               : point_about(model, settings, start, [&](std::size_t j) { return radical_inverse(i + 1, bases[j]); });
+    const Eigen::VectorXd point = model.centre_of_differences(u);
+    if (std::ranges::count(points, point) == 0) points.push_back(point);
+  }
   return points;
 }
 
