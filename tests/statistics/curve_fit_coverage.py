@@ -2,8 +2,8 @@
 """How often the 95 % intervals of pfdm fit hold the truth.
 
 A case is run with known values of its [[fit.parameters]], its curve gets noise of 2 % of the largest force
-(postproc/make_synthetic.py), and the case is fitted to it from its own values; again and again with other noise. All fits
-share their runs. KEY may be any value of the case: the truth may have finer load steps.
+(postproc/make_synthetic.py), and the case is fitted to it from its own values; again and again with other noise. All
+fits share their runs. KEY may be any value of the case: the truth may have finer load steps.
 
     curve_fit_coverage.py build/release/cases/program/pfdm cases/bar_fit 20 \
         "materials.concrete.young_modulus=32 GPa" "materials.concrete.strength,regions.weak.strength=2.8 MPa" ...
@@ -31,7 +31,8 @@ def arguments():
     parser.add_argument("--component", default="x", help="of the force")
     parser.add_argument("--spacing", type=float, default=1.0, help="of the measured points [um]")
     parser.add_argument("--first-seed", type=int, default=1, help="of the noise")
-    parser.add_argument("--side-by-side", type=int, default=1, help="number of fits at a time, each of one thread; the first, alone, has as many threads")
+    parser.add_argument("--side-by-side", type=int, default=1,
+                        help="number of fits at a time, each of one thread; the first, alone, has as many threads")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for runs and fits, to go on from; default: none")
     return parser.parse_args()
 
