@@ -217,4 +217,18 @@ std::vector<FacePair> pair_half_faces(const HalfFaces& halves, Index n_points) {
   return pairs;
 }
 
+void list_faces_of_cells(Mesh& mesh) {
+  std::vector<Index>& offsets = mesh.cell_face_offsets;
+  offsets.assign(static_cast<std::size_t>(mesh.n_cells()) + 1, 0);
+  for (const Index c : mesh.owner) ++offsets[c + 1];
+  for (const Index c : mesh.neighbour) ++offsets[c + 1];
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  mesh.cell_faces.resize(static_cast<std::size_t>(offsets.back()));
+  std::vector<Index> fill(offsets.begin(), offsets.end() - 1);
+  for (Index f = 0; f < mesh.n_faces(); ++f) {
+    mesh.cell_faces[fill[mesh.owner[f]]++] = f;
+    if (mesh.is_interior(f)) mesh.cell_faces[fill[mesh.neighbour[f]]++] = f;
+  }
+}
+
 }  // namespace pfdm

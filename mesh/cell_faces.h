@@ -47,6 +47,9 @@ HalfFaces half_faces(const CellSoup& soup);
 /// Half-faces on the same points are one face. Throws InputError if more than two are.
 std::vector<FacePair> pair_half_faces(const HalfFaces& halves, Index n_points);
 
+/// Fills cell_face_offsets and cell_faces of a mesh whose faces are there.
+void list_faces_of_cells(Mesh& mesh);
+
 /// Volume [m^3] of a cell of any shape but a polyhedron; negative if its points are in mirrored order.
 double signed_cell_volume(const std::vector<Vector>& points, CellShape shape, std::span<const Index> cell);
 

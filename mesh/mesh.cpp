@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "mesh/cell_faces.h"
@@ -129,20 +128,6 @@ void store_faces(Mesh& mesh, std::vector<PlacedFace>& faces, const FaceTable& ta
     next += patch.n_faces;
   }
   std::erase_if(mesh.patches, [](const Patch& patch) { return patch.n_faces == 0; });
-}
-
-void list_faces_of_cells(Mesh& mesh) {
-  std::vector<Index>& offsets = mesh.cell_face_offsets;
-  offsets.assign(static_cast<std::size_t>(mesh.n_cells()) + 1, 0);
-  for (const Index c : mesh.owner) ++offsets[c + 1];
-  for (const Index c : mesh.neighbour) ++offsets[c + 1];
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  mesh.cell_faces.resize(static_cast<std::size_t>(offsets.back()));
-  std::vector<Index> fill(offsets.begin(), offsets.end() - 1);
-  for (Index f = 0; f < mesh.n_faces(); ++f) {
-    mesh.cell_faces[fill[mesh.owner[f]]++] = f;
-    if (mesh.is_interior(f)) mesh.cell_faces[fill[mesh.neighbour[f]]++] = f;
-  }
 }
 
 // A cell's area vectors do not sum to zero when two cells overlap: the shared face then has both on one side.

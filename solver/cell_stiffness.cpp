@@ -1,5 +1,6 @@
 #include "solver/cell_stiffness.h"
 
+#include "mesh/mesh_part.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -26,6 +27,20 @@ void CellStiffness::start_step(double duration) {
     move_ = CellField<Tensor>(n);
     share_ = CellField<float>(n, 1.0F);
   }
+}
+
+void CellStiffness::take_out_memory(const CellStiffness& whole, const std::vector<Index>& cells) {
+  closing_ = take_out(whole.closing_, cells);
+  turns_ = take_out(whole.turns_, cells);
+  move_ = take_out(whole.move_, cells);
+  share_ = take_out(whole.share_, cells);
+}
+
+void CellStiffness::put_back_memory(const CellStiffness& part, const std::vector<Index>& cells) {
+  put_back(part.closing_, cells, closing_);
+  put_back(part.turns_, cells, turns_);
+  put_back(part.move_, cells, move_);
+  put_back(part.share_, cells, share_);
 }
 
 const IsotropicElasticity& CellStiffness::elasticity(Index cell) const {
@@ -106,6 +121,7 @@ double CellStiffness::plastic_dissipation(const FractureState& from, const Fract
 double CellStiffness::follow(const CellField<Tensor>& strain, FractureState& state) {
   const bool isotropic = model_.split->secant != nullptr;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
+    if (held_.size() > 0 && held_[c] != 0) return 0.0;
     return isotropic ? follow_with_closure(c, strain[c], state.damage[c], state.closure[c])
                      : follow_with_tangent(c, strain[c], state.damage[c], state.tangent_strain[c]);
   });

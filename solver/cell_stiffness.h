@@ -20,6 +20,11 @@ class CellStiffness {
   void start_step(double duration);
   /// Gives the momentum balance the stiffness that belongs to the damage, closure and tangent strain of the state.
   void set(const FractureState& state, MomentumSolver& momentum) const;
+  /// The same cells of a part of the mesh: in what manner their strains have moved within the step; and back.
+  void take_out_memory(const CellStiffness& whole, const std::vector<Index>& cells);
+  void put_back_memory(const CellStiffness& part, const std::vector<Index>& cells);
+  /// From now on the stiffness of cells whose entry is not zero does not follow the strain; empty for none.
+  void hold(CellField<char> held) { held_ = std::move(held); }
   /// Has the closure or the tangent strain of the state follow these strains. Returns the energy [J] by which the
   /// stiffness that was used falsifies them.
   double follow(const CellField<Tensor>& strain, FractureState& state);
@@ -46,6 +51,7 @@ class CellStiffness {
   const Mesh& mesh_;
   const FractureModel& model_;
   EndochronicCells endochronic_;
+  CellField<char> held_;
   CellField<float> closing_;  // per cell: last move of the closure, and
   CellField<Index> turns_;    // how often it has turned within the step
   CellField<Tensor> move_;    // last move of the tangent strain, and

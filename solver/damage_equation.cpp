@@ -198,7 +198,7 @@ DamageSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
     renew_correction(d);
     account.converged = false;
     double target = 0.0;  // of the step that each cell would still take
-    parallel_for(n, [&](Index c) { active[as_size(c)] = is_damageable(c) ? 0 : 1; });
+    parallel_for(n, [&](Index c) { active[as_size(c)] = is_free(c) ? 0 : 1; });
     for (Index change = 0; change < most_changes; ++change) {
       parallel_for(n, [&](Index c) {
         // Where alpha is concave (Wu), cells much wider than ell would have a negative diagonal, and sound ones break.
@@ -220,7 +220,7 @@ DamageSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
       ++account.active_set_iterations;
     }
     parallel_for(n, [&](Index c) {
-      if (is_damageable(c)) d[c] = std::clamp(d[c], lower[c], 1.0);
+      if (is_free(c)) d[c] = std::clamp(d[c], lower[c], 1.0);
     });
   }
   return account;
@@ -230,12 +230,12 @@ DamageSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
 void DamageEquation::choose_active(const CellField<double>& psi_plus, const CellField<double>& lower,
                                    const std::vector<double>& diagonal, CellField<double>& d, ActiveSet& active) const {
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (!is_damageable(c)) return;
+    if (!is_free(c)) return;
     const double wanted = d[c] - residual(c, d, psi_plus[c]) / diagonal[as_size(c)];
     active[as_size(c)] = wanted < lower[c] ? -1 : (wanted > 1.0 ? 1 : 0);
   });
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (is_damageable(c) && active[as_size(c)] != 0) d[c] = active[as_size(c)] < 0 ? lower[c] : 1.0;
+    if (is_free(c) && active[as_size(c)] != 0) d[c] = active[as_size(c)] < 0 ? lower[c] : 1.0;
   });
 }
 

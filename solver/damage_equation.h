@@ -47,6 +47,14 @@ class DamageEquation {
   /// What that takes to get to d [J]: int eta (d - d_n)^2/dt dV.
   double viscous_dissipation(const CellField<double>& d) const;
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
+  /// By how much a cell is out of balance [J/m^3], with the deferred flux of the last solution.
+  double imbalance(Index cell, const CellField<double>& d, double psi_plus) const {
+    return residual(cell, d, psi_plus) / mesh_.cell_volume[cell];
+  }
+
+  /// From now on the damage of cells whose entry is not zero stays as it is; empty for none.
+  void hold(CellField<char> held) { held_ = std::move(held); }
+  const CellField<char>& held() const { return held_; }
 
   /// Additional source per volume [J/m^3], for manufactured solutions.
   void set_source(CellField<double> source) { source_ = std::move(source); }
@@ -58,9 +66,10 @@ class DamageEquation {
     bool corrected;      // not orthogonal, and both sides know their gradient
   };
 
-  // -1 at the lower bound, 1 at the upper, 0 free.
+  // -1 at the lower bound, 1 at the upper or held, 0 free.
   using ActiveSet = std::vector<signed char>;
 
+  bool is_free(Index cell) const { return is_damageable(cell) && (held_.size() == 0 || held_[cell] == 0); }
   void build_links();
   void build_rows();
   Gradient build_gradient(const Vector& plane_normal);
@@ -100,6 +109,7 @@ class DamageEquation {
   std::vector<Vector> gradients_;
   std::vector<double> range_;  // of damage over each cell and its neighbours
   CellField<double> source_;
+  CellField<char> held_;
   double resistance_ = 0.0;     // [J/m^3]
   CellField<double> from_;      // empty without resistance
   std::vector<double> pivots_;  // of the incomplete factorisation, inverted; zero in active rows

@@ -53,6 +53,7 @@ struct StaggeredSettings {
   double energy_tolerance = 1e-4;       ///< change of the total energy over the energy
   double equilibrium_tolerance = 1e-6;  ///< row-scaled residual of the momentum balance at an accepted step, relative
   Index maximum_iterations = 500;
+  bool windows = false;  ///< between iterations the loop goes on around the cells that still change
 };
 
 struct LoadingSettings {

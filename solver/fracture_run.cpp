@@ -54,6 +54,7 @@ struct FractureRun::Parts {
   Staggered staggered;
   Index maximum_iterations;
   Index krylov_iterations = 0, staggered_iterations = 0;
+  double window_iterations = 0.0;
 
   Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& settings, LoadingSettings l)
       : mesh(m),
@@ -62,7 +63,16 @@ struct FractureRun::Parts {
         unknowns((require_complete(m, model), place_unknowns(m, model))),
         staggered(m, model, unknowns, settings),
         maximum_iterations(settings.maximum_iterations) {
+    if (settings.windows) require_windows(model);
     require_path(model);
+  }
+
+  void require_windows(const FractureModel& m) const {
+    if (std::isfinite(loading.maximum_dissipation))
+      throw InputError(
+          "windows cannot be had where a dissipation is prescribed: the load of a step is not known there");
+    for (const RegionModel& region : m.regions)
+      if (region.endochronic) throw InputError("windows cannot be had with endochronic materials");
   }
 
   // Path-following needs displacements that are proportional to the load, and a dissipation that only grows; a load
@@ -223,6 +233,7 @@ FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
         parts.staggered.solve_step(state, trial, hooks, parts.limits_of(increment, state.increment));
     parts.krylov_iterations += outcome.krylov_iterations;
     parts.staggered_iterations += outcome.iterations;
+    parts.window_iterations += outcome.window_iterations;
     if (outcome.broke_too_much) {
       state.increment = std::max(cut * increment, parts.loading.finest_increment);
       continue;
@@ -283,5 +294,7 @@ std::map<std::string, double> FractureRun::cpu_seconds_by_stage() const { return
 Index FractureRun::krylov_iterations() const { return parts_->krylov_iterations; }
 
 Index FractureRun::staggered_iterations() const { return parts_->staggered_iterations; }
+
+double FractureRun::window_iterations() const { return parts_->window_iterations; }
 
 }  // namespace pfdm

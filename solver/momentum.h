@@ -46,6 +46,7 @@ struct CellMechanics {
   CellField<double> energy;    ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
   /// By least squares, as it makes the stress that the faces see [-]; empty where none is linearised.
   CellField<Tensor> reconstructed_strain{};
+  FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
 };
 
 class MomentumOperator {

@@ -101,7 +101,7 @@ Vector MomentumOperator::seen_from(Index cell, Index face, const FaceField<Vecto
 CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted wanted) const {
   const bool with_gradient = wanted == Wanted::all, with_stress = with_gradient || has_linear_stress();
   compute_forces(u);
-  const FaceField<Vector> u_face = face_displacements(u);
+  FaceField<Vector> u_face = face_displacements(u);
   const auto n = as_size(mesh_.n_cells());
   CellMechanics result{.strain = CellField<Tensor>(n),
                        .gradient = CellField<Tensor>(with_gradient ? n : 0),
@@ -140,6 +140,7 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
       result.reconstructed_strain[c] = symmetric_part(with_strain_across(c, gradients_[c]));
     });
   }
+  result.face_displacement = std::move(u_face);
   return result;
 }
 

@@ -97,6 +97,7 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
 
 // The norm that residuals are measured against: that of the prescribed values alone.
 double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load) {
+  if (fixed_reference_) return *fixed_reference_;
   if (reference_load_ == t) return reference_;
   std::vector<Vector> prescribed(load.size(), Vector::Zero()), image(load.size());
   operator_.prescribe(t, prescribed);
@@ -107,9 +108,9 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
   return reference_;
 }
 
-void MomentumSolver::set_body_force(std::vector<Vector> force_on_cells) {
-  assert(force_on_cells.empty() || force_on_cells.size() == as_size(unknowns_.n_cells));
-  body_force_ = std::move(force_on_cells);
+void MomentumSolver::set_body_force(std::vector<Vector> force) {
+  assert(force.empty() || force.size() == as_size(unknowns_.n_cells) || force.size() == as_size(unknowns_.n_nodes()));
+  body_force_ = std::move(force);
   reference_load_.reset();
 }
 

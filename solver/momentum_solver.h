@@ -42,8 +42,11 @@ class MomentumSolver {
     Index most_iterations = 2000;  ///< of FGMRES
   };
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
-  /// Forces on the cells [N], one per cell, at every load parameter from now on; empty for none.
-  void set_body_force(std::vector<Vector> force_on_cells);
+  /// Forces [N] on the cells, or on all nodes, at every load parameter from now on; empty for none.
+  void set_body_force(std::vector<Vector> force);
+  /// Residuals are measured against this one's instead of those of the prescribed displacements and tractions.
+  void measure_against(double reference) { fixed_reference_ = reference; }
+  double residual_reference() const { return fixed_reference_.value_or(reference_); }
 
   MomentumOperator& balance() { return operator_; }
   const MomentumOperator& balance() const { return operator_; }
@@ -68,6 +71,7 @@ class MomentumSolver {
   std::vector<double> scale_;
   std::optional<double> reference_load_;  // load parameter that reference_ belongs to
   double reference_ = 0.0;
+  std::optional<double> fixed_reference_;  // if it was given
   std::vector<Lane> b_, x_;
   Index n_preconditioners_ = 0;
 };

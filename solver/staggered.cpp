@@ -1,6 +1,7 @@
 #include "solver/staggered.h"
 
 #include "solver/parallel.h"
+#include "solver/window.h"
 
 #include <boost/math/tools/toms748_solve.hpp>
 
@@ -14,12 +15,24 @@ namespace {
 // FGMRES iterations at most, within the loop and of the last solve.
 constexpr Index inner_iterations = 80, last_iterations = 400;
 
+// Windows are around the cells whose damage changes by more than this share of the largest change,
+constexpr double changing_share = 0.3;
+// reach this number of lengths ell from them, and have at most this share of the cells.
+constexpr double window_reach = 2.0, largest_window = 0.4, most_changing = 0.1;
+// They iterate until the change has fallen to this share of itself, or
+constexpr double window_fall = 0.1;
+// to this share of the tolerance.
+constexpr double window_precision = 0.5;
+constexpr Index window_iterations = 20;
+constexpr Index least_cells = 1500;  // of a mesh or window that has windows in it
+
 }  // namespace
 
 Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
                      const StaggeredSettings& settings)
     : mesh_(mesh),
       model_(model),
+      unknowns_(unknowns),
       settings_(settings),
       momentum_(mesh, unknowns),
       stiffness_(mesh, model),
@@ -27,6 +40,23 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
                                   const StepLimits& limits) {
+  stiffness_.start_step(limits.duration);
+  StepOutcome outcome = alternate(start, state, hooks, limits);
+  if (outcome.failed || outcome.broke_too_much) return outcome;
+  // Reactions balance, and energies belong to the damage of the step.
+  degrade(state);
+  const Equilibrium equilibrium =
+      solve_momentum(state, {.reduction = 0.0, .ceiling = 3e-8, .floor = 3e-8, .most_iterations = last_iterations});
+  outcome.krylov_iterations += equilibrium.iterations;
+  outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
+  outcome.elastic_energy = update_driving_energy(start, state, false).stored;
+  outcome.viscous_dissipation = damage_.viscous_dissipation(state.damage);
+  outcome.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
+  return outcome;
+}
+
+StepOutcome Staggered::alternate(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                                 const StepLimits& limits) {
   StepOutcome outcome;
   const bool path_is_followed = std::isfinite(limits.dissipation);
   const double fracture_energy = damage_.renewed_fracture_energy(start.damage);
@@ -34,7 +64,6 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   if (path_is_followed) limit = {state.load, fracture_energy + limits.dissipation, limits.dissipation};
   Relaxation relaxation;
   if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / limits.duration, start.damage);
-  stiffness_.start_step(limits.duration);
   momentum_.start_afresh();  // a run that is gone on with does the same
   double energy_before = 0.0, stored_at_unit_load = 0.0;
   bool settled = false;
@@ -47,9 +76,12 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
     // few of them leave is left to the next turn of the loop.
     const Equilibrium equilibrium = solve_momentum(
         state, {.reduction = 0.1, .ceiling = ceiling, .floor = floor, .most_iterations = inner_iterations});
-    if (!std::isfinite(equilibrium.residual)) return outcome;
+    FractureState from;
+    if (settings_.windows) from = state;
     const Energies energies = update_driving_energy(start, state, true);
-    if (!std::isfinite(energies.unsettled)) return outcome;
+    if (settings_.windows) from.driving_energy = state.driving_energy;
+    outcome.failed = !std::isfinite(equilibrium.residual) || !std::isfinite(energies.unsettled);
+    if (outcome.failed) return outcome;
     if (outcome.iterations == 0) stored_at_unit_load = energies.stored / (state.load * state.load);
     const double undamaged = stored_at_unit_load * state.load * state.load;
     outcome.energy_release = std::abs(energies.stored - undamaged) / std::max(undamaged + fracture_energy, 1e-300);
@@ -71,6 +103,9 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
       state.damage = answer;
     else
       state.damage = relaxation.next(state.damage, answer, start.damage);
+    const bool moved_on =
+        !outcome.converged && settle_windows(start, {from, answer, change}, limits.duration, state, outcome);
+    if (moved_on) relaxation = {};
     outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
     outcome.broke_too_much = outcome.growth > limits.growth || outcome.energy_release > limits.energy_release;
     if (hooks.iterated)
@@ -80,16 +115,47 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
       return outcome;
     }
   }
-  // Reactions balance, and energies belong to the damage of the step.
-  degrade(state);
-  const Equilibrium equilibrium =
-      solve_momentum(state, {.reduction = 0.0, .ceiling = 3e-8, .floor = 3e-8, .most_iterations = last_iterations});
-  outcome.krylov_iterations += equilibrium.iterations;
-  outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
-  outcome.elastic_energy = update_driving_energy(start, state, false).stored;
-  outcome.viscous_dissipation = damage_.viscous_dissipation(state.damage);
-  outcome.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
   return outcome;
+}
+
+// Whether there were any.
+bool Staggered::settle_windows(const FractureState& start, const Turn& turn, double duration, FractureState& state,
+                               StepOutcome& outcome) {
+  const Index n = mesh_.n_cells();
+  if (!settings_.windows || n < least_cells) return false;
+  const auto lap = clock_.lap("windows");
+  const double least = std::max(changing_share * turn.change, window_precision * settings_.damage_tolerance);
+  std::vector<Index> changing;
+  double ell = 0.0;
+  for (Index c = 0; c < n; ++c) {
+    if (!(std::abs(turn.answer[c] - turn.from.damage[c]) > least)) continue;
+    changing.push_back(c);
+    ell = std::max(ell, model_.in_cell(mesh_, c).ell);
+  }
+  if (double(changing.size()) > most_changing * double(n)) return false;
+  StaggeredSettings settings = settings_;
+  settings.damage_tolerance = std::max(window_precision * settings_.damage_tolerance, window_fall * turn.change);
+  settings.energy_tolerance = std::numeric_limits<double>::infinity();
+  settings.maximum_iterations = window_iterations;
+  const Window::Surroundings whole{.mesh = mesh_,
+                                   .model = model_,
+                                   .unknowns = unknowns_,
+                                   .start = start,
+                                   .state = turn.from,
+                                   .face_displacement = face_displacement_,
+                                   .damage_equation = damage_,
+                                   .stiffness = stiffness_,
+                                   .residual_reference = momentum_.residual_reference(),
+                                   .duration = duration};
+  bool any = false;
+  for (std::vector<Index>& cells : window_cells(mesh_, changing, window_reach * ell)) {
+    const double share = double(cells.size()) / double(n);
+    if (share > largest_window) continue;
+    any = true;
+    const StepOutcome inner = Window(whole, std::move(cells), settings).settle(state);
+    outcome.window_iterations += share * (double(inner.iterations) + inner.window_iterations);
+  }
+  return any;
 }
 
 void Staggered::degrade(const FractureState& state) {
@@ -110,6 +176,7 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   energies.stored =
       parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
   strain_ = std::move(mechanics.strain);
+  face_displacement_ = std::move(mechanics.face_displacement);
   drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_.follow(strain_, state);
   return energies;

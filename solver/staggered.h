@@ -1,6 +1,8 @@
 #pragma once
 // Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
-// the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797).
+// the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797). On request the
+// loop goes on between its iterations in windows around the cells that still change (window.h), within which it may do
+// likewise.
 
 #include "solver/cell_stiffness.h"
 #include "solver/damage_equation.h"
@@ -15,10 +17,12 @@ namespace pfdm {
 
 struct StepOutcome {
   bool converged = false;
+  bool failed = false;          ///< given up, as there was no finite solution
   bool broke_too_much = false;  ///< given up, as the damage went beyond what is allowed
   double growth = 0.0;          ///< largest of d over a cell
   double energy_release = 0.0;  ///< change of elastic energy by damage, over elastic and fracture energy before it
   Index iterations = 0;
+  double window_iterations = 0.0;  ///< those in windows, each counting as its share of the cells
   Index krylov_iterations = 0;
   double elastic_energy = 0.0;       ///< [J]
   double viscous_dissipation = 0.0;  ///< of the step [J]
@@ -44,9 +48,18 @@ class Staggered {
   StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
                          const StepLimits& limits = {});
 
+  /// The loop of solve_step alone; the energies of the outcome are not set.
+  StepOutcome alternate(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                        const StepLimits& limits);
+  /// The driving energy at the displacement of the state, with the stiffness as it is.
+  void renew_driving_energy(const FractureState& start, FractureState& state) {
+    update_driving_energy(start, state, false);
+  }
+
   MomentumSolver& momentum() { return momentum_; }
   DamageEquation& damage_equation() { return damage_; }
   const DamageEquation& damage_equation() const { return damage_; }
+  CellStiffness& stiffness() { return stiffness_; }
   const CellStiffness& stiffness() const { return stiffness_; }
   StageClock& clock() { return clock_; }
   /// Sets the stiffness of the state in the momentum balance.
@@ -62,6 +75,14 @@ class Staggered {
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   void drive(const FractureState& start, FractureState& state, double scale);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
+  /// What the loop came from, and what the damage equation answered to it.
+  struct Turn {
+    const FractureState& from;
+    const CellField<double>& answer;
+    double change;  ///< largest of d
+  };
+  bool settle_windows(const FractureState& start, const Turn& turn, double duration, FractureState& state,
+                      StepOutcome& outcome);
   struct PathLimit {
     double load = 0.0;    // most load of the step
     double energy = 0.0;  // surface energy that the step may end with [J], and
@@ -71,12 +92,14 @@ class Staggered {
 
   const Mesh& mesh_;
   const FractureModel& model_;
+  const Unknowns& unknowns_;
   StaggeredSettings settings_;
   MomentumSolver momentum_;
   CellStiffness stiffness_;
   DamageEquation damage_;
   StageClock clock_;
-  CellField<Tensor> strain_;  // of the last equilibrium
+  CellField<Tensor> strain_;             // of the last equilibrium, as are the displacements
+  FaceField<Vector> face_displacement_;  // [m]
 };
 
 }  // namespace pfdm

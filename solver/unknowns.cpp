@@ -167,4 +167,25 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
   return unknowns;
 }
 
+Unknowns unknowns_of_part(const Unknowns& whole, const MeshPart& part) {
+  Unknowns unknowns = whole;
+  unknowns.n_cells = part.mesh.n_cells();
+  unknowns.zone = CellField<Index>(part.cell.size());
+  unknowns.node_of_face = FaceField<Index>(part.face.size(), -1);
+  unknowns.face_of_node.clear();
+  unknowns.free_directions.clear();
+  for (Index c = 0; c < unknowns.n_cells; ++c) unknowns.zone[c] = whole.zone[part.cell[as_size(c)]];
+  unknowns.conditions.push_back({part.cut, {.patch = "cut", .kind = BoundaryCondition::Kind::held, .value = {}}});
+  const Index first_of_cut = part.mesh.patches[as_size(part.cut)].first_face;
+  for (Index f = 0; f < part.mesh.n_faces(); ++f) {
+    const Index node = whole.node_of_face[part.face[as_size(f)]];
+    if (node < 0 && f < first_of_cut) continue;
+    unknowns.node_of_face[f] = unknowns.n_nodes();
+    unknowns.face_of_node.push_back(f);
+    unknowns.free_directions.push_back(f < first_of_cut ? whole.free_directions[as_size(node - whole.n_cells)]
+                                                        : Tensor(Tensor::Zero()));
+  }
+  return unknowns;
+}
+
 }  // namespace pfdm

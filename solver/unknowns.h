@@ -2,7 +2,7 @@
 // Where displacement unknowns live: one node per cell, then one per face that lies between two elastic zones or on the
 // boundary. Faces of plane and axisymmetric patches (one-cell-thick meshes) carry none.
 
-#include "mesh/mesh.h"
+#include "mesh/mesh_part.h"
 #include "solver/fracture_model.h"
 
 #include <vector>
@@ -35,5 +35,8 @@ struct Unknowns {
 /// Throws InputError for a condition on a patch that is not there, two conditions on one patch, a symmetry patch that
 /// is not plane, plane stress beside plane strain, or a body that nothing holds against a rigid motion.
 Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model);
+
+/// Those of a part of a mesh, where displacements on the cut are held.
+Unknowns unknowns_of_part(const Unknowns& whole, const MeshPart& part);
 
 }  // namespace pfdm

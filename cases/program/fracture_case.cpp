@@ -113,6 +113,7 @@ StaggeredSettings read_solver(const ConfigTable& root) {
       table.number("equilibrium_tolerance", above_zero_to_one, settings.equilibrium_tolerance);
   settings.maximum_iterations =
       static_cast<Index>(table.integer("maximum_iterations", at_least_one, settings.maximum_iterations));
+  settings.windows = table.boolean("windows", settings.windows);
   return settings;
 }
 
