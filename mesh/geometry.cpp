@@ -70,6 +70,16 @@ Vector fan_middle(const Mesh& mesh, Index face) {
   return mean_point(mesh.points, mesh.points_of_face(face));
 }
 
+Tensor face_warp(const Mesh& mesh, Index face) {
+  const Vector middle = fan_middle(mesh, face);
+  Tensor warp = Tensor::Zero();
+  for_each_rim_edge(mesh.points, mesh.points_of_face(face), [&](const Vector& p, const Vector& q) {
+    const Vector area = 0.5 * (p - middle).cross(q - middle);
+    warp += area * ((p + q + middle) / 3.0 - mesh.face_centre[face]).transpose();
+  });
+  return warp;
+}
+
 void compute_geometry(Mesh& mesh) {
   const auto n_faces = static_cast<std::size_t>(mesh.n_faces());
   const auto n_cells = static_cast<std::size_t>(mesh.n_cells());

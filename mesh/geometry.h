@@ -17,6 +17,10 @@ FaceGeometry face_geometry(const std::vector<Vector>& points, std::span<const In
 /// The middle of a face's fan of triangles [m].
 Vector fan_middle(const Mesh& mesh, Index face);
 
+/// Sum over a face's triangles of S_t (x) (x_t - x_f) [m^3], area vectors and centroids: zero where it is plane. A
+/// displacement u_f + G (x - x_f) lets u_f.S + G : this through.
+Tensor face_warp(const Mesh& mesh, Index face);
+
 /// Fills face_centre, face_area, cell_centre and cell_volume of a mesh whose tables are complete. Volumes and centroids
 /// are sums over the tetrahedra between the face triangles and the mean of the cell's face centres: exact for planar
 /// faces.

@@ -9,7 +9,6 @@
 namespace pfdm {
 namespace {
 
-constexpr Index restart_length = 40;
 using Single = Eigen::Vector3f;
 
 // The Arnoldi process of one cycle.
@@ -58,8 +57,11 @@ struct Basis {
 
 // Least squares of the Hessenberg matrix by Givens rotations.
 struct Hessenberg {
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(restart_length + 1, restart_length);
-  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(restart_length + 1);
+  explicit Hessenberg(Index restart_length)
+      : R(Eigen::MatrixXd::Zero(restart_length + 1, restart_length)), rhs(Eigen::VectorXd::Zero(restart_length + 1)) {}
+
+  Eigen::MatrixXd R;
+  Eigen::VectorXd rhs;
   std::vector<Eigen::JacobiRotation<double>> rotations;
 
   void append(Index k, const Eigen::VectorXd& column, double below) {
@@ -145,17 +147,17 @@ KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector
     result.converged = result.residual <= target;
     if (result.converged || result.iterations >= most_iterations || !std::isfinite(beta)) return result;
     normalise(basis, 0, beta);
-    Hessenberg hessenberg;
+    Hessenberg hessenberg(problem.restart_length);
     hessenberg.rhs[0] = beta;
     Index k = 0;
-    while (k < restart_length && result.iterations < most_iterations) {
+    while (k < problem.restart_length && result.iterations < most_iterations) {
       Eigen::VectorXd h;
       const double below = extend(problem, basis, k, h);
       hessenberg.append(k, h, below);
       ++result.iterations;
       ++k;
       if (below == 0.0 || std::abs(hessenberg.rhs[k]) <= std::max(0.9 * target, greatest_drop * beta)) break;
-      if (k < restart_length) normalise(basis, k, below);
+      if (k < problem.restart_length) normalise(basis, k, below);
     }
     add_combination(basis, hessenberg, k, x);
     if (problem.constrain) problem.constrain(x);

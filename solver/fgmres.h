@@ -25,6 +25,7 @@ struct KrylovProblem {
   std::function<void(std::vector<Vector>& x)> constrain = {};
   /// The norm is that of scale_i r_i.
   std::vector<double> scale;
+  Index restart_length = 40;  ///< vectors of a cycle
 };
 
 /// Improves x until the scaled residual of A x = b is at most target(initial residual), in at most `most_iterations`.

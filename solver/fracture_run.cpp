@@ -208,7 +208,7 @@ FractureState FractureRun::initial_state() const {
   const auto n = as_size(parts_->mesh.n_cells());
   FractureState state;
   state.increment = parts_->loading.initial_increment;
-  state.displacement.assign(as_size(parts_->unknowns.n_nodes()), Vector::Zero());
+  state.displacement.assign(as_size(parts_->unknowns.n_unknowns()), Vector::Zero());
   state.damage = parts_->model.initial_damage.size() > 0 ? parts_->model.initial_damage : CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
@@ -287,7 +287,7 @@ OutputFields FractureRun::output(const FractureState& state) const {
 
 const FractureModel& FractureRun::model() const { return parts_->model; }
 
-Index FractureRun::n_unknowns() const { return 3 * parts_->unknowns.n_nodes(); }
+Index FractureRun::n_unknowns() const { return 2 * parts_->unknowns.n_nodes() + parts_->unknowns.n_unknowns(); }
 
 std::map<std::string, double> FractureRun::cpu_seconds_by_stage() const { return parts_->staggered.clock().seconds(); }
 

@@ -47,6 +47,7 @@ CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns) {
     if (mesh.shape[c] == CellShape::polyhedron && sound.lambda > 1.5 * sound.mu)
       share[c] = 1.5 * sound.mu / sound.lambda;
   }
+  for (const Index c : unknowns.pressure_cells) share[c] = 1.0;
   return share;
 }
 
@@ -80,6 +81,7 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
       closure_(closures(mesh)),
       sector_area_(sector_areas(mesh, unknowns)),
       sector_stress_(sector_area_.size() > 0 ? as_size(mesh.n_cells()) : 0, 0.0),
+      pressure_(mesh, unknowns),
       gradients_(as_size(mesh.n_cells())) {
   for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
     if (unknowns.node_of_face[f] >= 0) continue;
@@ -116,6 +118,7 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
     if (mesh.is_interior(f)) second_side_of_node_[k] = add_side(node, f, mesh.neighbour[f], -1.0);
   }
   forces_.resize(links_.size() + sides_.size());
+  if (pressure_.any()) flux_.resize(forces_.size());
   cell_offsets_.push_back(0);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     for (const Index f : mesh.faces_of_cell(c)) {
@@ -153,6 +156,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
                                   double part) {
   moduli_ = moduli;
   condense(moduli_);
+  pressure_.take_over(moduli_, g, part);
   stiffness_ = {};
   linear_stress_ = {};
   gradient_.update(g, part);
@@ -202,11 +206,12 @@ void MomentumOperator::set_stress(CellField<LinearStress> stress) {
 
 void MomentumOperator::find_gradients(const std::vector<Vector>& u) const {
   parallel_for(mesh_.n_cells(), [&](Index c) { gradients_[c] = gradient_.of(u.data(), c); });
+  if (pressure_.any()) pressure_.read(u);
   if (!unknowns_.is_axisymmetric()) return;
   const Vector &r = unknowns_.radial, &across = unknowns_.plane_normal;
   parallel_for(mesh_.n_cells(), [&](Index c) {
     gradients_[c] += (r.dot(u[as_size(c)]) / r.dot(mesh_.cell_centre[c])) * across * across.transpose();
-    sector_stress_[c] = across.dot(normal_stress(c, across));
+    sector_stress_[c] = across.dot(normal_stress(c, across)) + pressure_.mean(c);
   });
 }
 
@@ -215,15 +220,17 @@ void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const
   const auto n_links = static_cast<Index>(links_.size());
   parallel_for(n_links, [&](Index i) {
     const Link& link = links_[as_size(i)];
-    const Vector stress_P = normal_stress(link.P, link.n), stress_N = normal_stress(link.N, link.n);
-    const Vector jump =
-        u[as_size(link.N)] + gradients_[link.N] * link.d_N - u[as_size(link.P)] - gradients_[link.P] * link.d_P;
+    const Vector stress_P = normal_stress(link.P, link.n, link.d_P), stress_N = normal_stress(link.N, link.n, link.d_N);
+    const Vector u_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
+    const Vector jump = u[as_size(link.N)] + gradients_[link.N] * link.d_N - u_P;
+    if (!flux_.empty()) flux_[as_size(i)] = link_flux(as_size(i), u_P, jump, stress_N - stress_P);
     forces_[as_size(i)] = link.area * (stress_N + weigh(as_size(i), stress_P - stress_N) + pull(as_size(i), jump));
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];
     const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - gradients_[side.cell] * side.d;
-    forces_[as_size(n_links + i)] = side.area * (normal_stress(side.cell, side.n) + hold(as_size(i), gap));
+    forces_[as_size(n_links + i)] = side.area * (normal_stress(side.cell, side.n, side.d) + hold(as_size(i), gap));
+    if (!flux_.empty()) flux_[as_size(n_links + i)] = side_flux(side, u[as_size(side.node)]);
   });
 }
 
@@ -254,6 +261,7 @@ void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
 void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& out) const {
   compute_linear_forces(u);
   sum_forces(out);
+  balance_pressures(out);
 }
 
 void MomentumOperator::sum_forces(std::vector<Vector>& out) const {
@@ -277,11 +285,11 @@ void MomentumOperator::sum_forces(std::vector<Vector>& out) const {
 void MomentumOperator::keep_in_plane(std::vector<Vector>& v) const {
   const Vector& n = unknowns_.plane_normal;
   if (n.isZero()) return;
-  parallel_for(static_cast<Index>(v.size()), [&](Index i) { v[as_size(i)] -= n.dot(v[as_size(i)]) * n; });
+  parallel_for(unknowns_.n_nodes(), [&](Index i) { v[as_size(i)] -= n.dot(v[as_size(i)]) * n; });
 }
 
 std::vector<Vector> MomentumOperator::load_vector(double t) const {
-  std::vector<Vector> load(as_size(unknowns_.n_nodes()), Vector::Zero());
+  std::vector<Vector> load(as_size(unknowns_.n_unknowns()), Vector::Zero());
   for (const PatchCondition& on : unknowns_.conditions) {
     const BoundaryCondition& condition = on.condition;
     if (condition.kind != BoundaryCondition::Kind::components || !condition.value) continue;

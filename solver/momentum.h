@@ -26,11 +26,15 @@
 // sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge. Polyhedra of any
 // stiffness C keep the full a.
 //
+// Nearly incompressible cells have a pressure q as an unknown of its own, which joins sigma at the face, and lambda_s
+// in place of lambda everywhere else (cell_pressure.h).
+//
 // In plane stress the cells' stiffness is what is left of it with no stress across the plate: in all above, C, lambda
 // and sigma_0 are those of physics/plane_stress.h. The strain across is added to what the displacements say.
 
 #include "physics/plane_stress.h"
 #include "solver/block_matrix.h"
+#include "solver/cell_pressure.h"
 #include "solver/gradient.h"
 #include "solver/unknowns.h"
 
@@ -61,8 +65,8 @@ class MomentumOperator {
   /// After set_moduli(), which takes it away: the stress of every cell in place of that of its moduli.
   void set_stress(CellField<LinearStress> stress);
 
-  /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node. Initial
-  /// stresses have no part in it.
+  /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
+  /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Initial stresses have no part in it.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
   /// Forces from prescribed tractions at the load parameter t and from initial stresses, [N].
   std::vector<Vector> load_vector(double t) const;
@@ -73,6 +77,10 @@ class MomentumOperator {
 
   /// The compact symmetric matrix that preconditions A: c between cells, a from a cell to its face nodes.
   BlockTriplets compact_matrix() const;
+  /// For each pressure about the diagonal of its Schur complement [m^3/Pa].
+  std::vector<double> pressure_compliance() const;
+  /// r -= what the pressures q, where they stand among the unknowns, do to the nodes.
+  void take_away_pressure_forces(const std::vector<Vector>& q, std::vector<Vector>& r) const;
 
   enum class Wanted { all, strain_and_energy };
   CellMechanics mechanics(const std::vector<Vector>& u, Wanted wanted = Wanted::all) const;
@@ -124,6 +132,9 @@ class MomentumOperator {
   void compute_forces(const std::vector<Vector>& u) const;
   void sum_forces(std::vector<Vector>& out) const;
   void take_away_initial_forces(std::vector<Vector>& load) const;
+  double link_flux(std::size_t i, const Vector& u_P, const Vector& jump, const Vector& stress_jump) const;
+  double side_flux(const Side& side, const Vector& u_f) const;
+  void balance_pressures(std::vector<Vector>& out) const;
   bool has_linear_stress() const { return linear_stress_.size() > 0; }
   bool is_isotropic() const { return stiffness_.size() == 0; }
   void find_gradients(const std::vector<Vector>& u) const;
@@ -133,6 +144,10 @@ class MomentumOperator {
     if (has_linear_stress()) return to_tensor(linear_stress_[cell].C * to_mandel(symmetric_part(G))) * n;
     const IsotropicElasticity& c = moduli_[cell];
     return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
+  }
+  // At the distance d from the cell's centre; all but the pressure is the same throughout a cell.
+  Vector normal_stress(Index cell, const Vector& n, const Vector& d) const {
+    return pressure_.any() ? (normal_stress(cell, n) + pressure_.at(cell, d) * n).eval() : normal_stress(cell, n);
   }
   double jump_modulus(Index cell) const;
   double jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const;
@@ -184,6 +199,8 @@ class MomentumOperator {
   // across them [Pa], with which they pull.
   CellField<Vector> sector_area_;
   mutable CellField<double> sector_stress_;
+  mutable CellPressure pressure_;
+  mutable std::vector<double> flux_;     // as forces_: u_f.S [m^3]; empty without pressures
   mutable CellField<Tensor> gradients_;  // work space of apply
   mutable std::vector<Vector> forces_;   // per link, then per side: A t outwards from P or from the side's cell
 };

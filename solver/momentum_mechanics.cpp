@@ -25,7 +25,7 @@ Vector MomentumOperator::face_displacement(std::size_t i, const std::vector<Vect
   const Link& link = links_[i];
   const Vector from_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
   const Vector from_N = u[as_size(link.N)] + gradients_[link.N] * link.d_N;
-  Vector stress_jump = normal_stress(link.N, link.n) - normal_stress(link.P, link.n);
+  Vector stress_jump = normal_stress(link.N, link.n, link.d_N) - normal_stress(link.P, link.n, link.d_P);
   if (has_linear_stress())
     stress_jump += to_tensor(linear_stress_[link.N].initial - linear_stress_[link.P].initial) * link.n;
   const Vector towards_N =
@@ -68,7 +68,7 @@ Tensor MomentumOperator::with_strain_across(Index cell, const Tensor& gradient) 
 
 double MomentumOperator::stress_across(Index cell, const Tensor& strain) const {
   if (unknowns_.plane_stress) return 0.0;
-  if (is_isotropic() && !has_linear_stress()) return moduli_[cell].lambda * strain.trace();
+  if (is_isotropic() && !has_linear_stress()) return moduli_[cell].lambda * strain.trace() + pressure_.mean(cell);
   const Vector& normal = unknowns_.plane_normal;
   const Mandel stress =
       is_isotropic() ? linear_stress_[cell](to_mandel(strain)) : Mandel(stiffness_[cell] * to_mandel(strain));

@@ -73,16 +73,26 @@ void MomentumSolver::build_preconditioner() {
   const BlockTriplets compact = operator_.compact_matrix();
   scale_.resize(compact.diagonal.size());
   for (std::size_t i = 0; i < scale_.size(); ++i) scale_[i] = 1.0 / std::sqrt(compact.diagonal[i].trace() / 3.0);
+  pressure_compliance_ = operator_.pressure_compliance();
+  for (const double s : pressure_compliance_) scale_.push_back(1.0 / std::sqrt(s));
   multigrid_.emplace(compress(compact, position_of_node_));
   reference_load_.reset();
   ++n_preconditioners_;
 }
 
 void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vector>& z) {
-  const auto n = static_cast<Index>(r.size());
+  const Index n = unknowns_.n_nodes();
+  const bool has_pressures = !pressure_compliance_.empty();
+  if (has_pressures) {
+    parallel_for(static_cast<Index>(pressure_compliance_.size()),
+                 [&](Index k) { z[as_size(n + k)] = r[as_size(n + k)] / pressure_compliance_[as_size(k)]; });
+    rest_ = r;
+    operator_.take_away_pressure_forces(z, rest_);
+  }
+  const std::vector<Vector>& left = has_pressures ? rest_ : r;
   parallel_for(n, [&](Index i) {
     Lane& to = b_[as_size(position_of_node_[as_size(i)])];
-    to.head<3>() = r[as_size(i)].cast<float>();
+    to.head<3>() = left[as_size(i)].cast<float>();
     to[3] = 0.0F;
   });
   multigrid_->apply(b_, x_);
@@ -132,7 +142,8 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
       .apply = [this](const std::vector<Vector>& x, std::vector<Vector>& y) { operator_.apply(x, y); },
       .precondition = [this](const std::vector<Vector>& r, std::vector<Vector>& z) { precondition(r, z); },
       .constrain = [&](std::vector<Vector>& x) { operator_.prescribe(t, x); },
-      .scale = scale_};
+      .scale = scale_,
+      .restart_length = pressure_compliance_.empty() ? 40 : 80};
   const auto target = [&](double initial) {
     return std::max(tolerance.floor * reference,
                     std::min(tolerance.ceiling * reference, tolerance.reduction * initial));

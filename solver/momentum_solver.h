@@ -1,6 +1,7 @@
 #pragma once
 // Equilibrium at fixed damage: flexible GMRES on the traction operator, preconditioned by multigrid on its compact
-// matrix. Residuals are measured row-scaled by (tr D / 3)^-1/2: unscaled, the norm is all glass and blind to broken
+// matrix; with pressures by the block triangle [A B; 0 S], multigrid for A and a diagonal for the Schur complement S.
+// Residuals are measured row-scaled by (tr D / 3)^-1/2: unscaled, the norm is all glass and blind to broken
 // cells.
 
 #include "solver/fgmres.h"
@@ -69,7 +70,9 @@ class MomentumSolver {
   CellField<IsotropicElasticity> moduli_of_multigrid_;  // empty if it is of any stiffness
   bool starts_afresh_ = false;
   std::vector<double> scale_;
-  std::optional<double> reference_load_;  // load parameter that reference_ belongs to
+  std::vector<double> pressure_compliance_;  // per pressure [m^3/Pa]
+  std::vector<Vector> rest_;                 // of the residual, without what the pressures answer; work space
+  std::optional<double> reference_load_;     // load parameter that reference_ belongs to
   double reference_ = 0.0;
   std::optional<double> fixed_reference_;  // if it was given
   std::vector<Lane> b_, x_;

@@ -13,6 +13,10 @@
 namespace pfdm {
 namespace {
 
+// Poisson's ratio above which cells have a pressure. Measured: from 0.46 on it makes the errors smaller, from 0.475 to
+// 0.49 on it takes no longer than doing without.
+constexpr double nearly_incompressible = 0.47;
+
 // A zone has the number of the first region of its law.
 CellField<Index> elastic_zones(const Mesh& mesh, const FractureModel& model) {
   std::vector<Index> zone_of_region;
@@ -131,6 +135,18 @@ void place_sector(const std::vector<Vector>& normals, Unknowns& unknowns) {
   unknowns.radial = -(normals[0] + normals[1]).normalized();
 }
 
+// Where the stress is not that of isotropic moduli there is nothing to split off, in plane stress nothing that grows
+// with lambda.
+std::vector<Index> pressure_cells(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns) {
+  const bool is_isotropic = (model.split == nullptr || model.split->secant != nullptr) &&
+                            std::ranges::none_of(model.regions, [](const auto& r) { return r.endochronic != nullptr; });
+  std::vector<Index> cells;
+  if (unknowns.plane_stress || !is_isotropic) return cells;
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio() > nearly_incompressible) cells.push_back(c);
+  return cells;
+}
+
 }  // namespace
 
 Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
@@ -164,6 +180,7 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
   }
   place_sector(sector_normals, unknowns);
   require_held(mesh, unknowns);
+  unknowns.pressure_cells = pressure_cells(mesh, model, unknowns);
   return unknowns;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Where displacement unknowns live: one node per cell, then one per face that lies between two elastic zones or on the
-// boundary. Faces of plane and axisymmetric patches (one-cell-thick meshes) carry none.
+// boundary. Faces of plane and axisymmetric patches (one-cell-thick meshes) carry none. Nearly incompressible cells
+// have a pressure beside it (cell_pressure.h): unknowns after the nodes, in the first component of a vector each.
 
 #include "mesh/mesh_part.h"
 #include "solver/fracture_model.h"
@@ -27,9 +28,11 @@ struct Unknowns {
   bool plane_stress = false;       ///< across the plane patches; else plane strain
   Vector radial = Vector::Zero();  ///< of axisymmetric meshes: from the axis z along the middle of the sector
   Index n_cells = 0;
+  std::vector<Index> pressure_cells;  ///< entry k is the cell of unknown n_nodes() + k
 
   bool is_axisymmetric() const { return radial != Vector::Zero(); }
   Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }
+  Index n_unknowns() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }  ///< vectors
 };
 
 /// Throws InputError for a condition on a patch that is not there, two conditions on one patch, a symmetry patch that

@@ -203,14 +203,16 @@ class BrokenLayer : public testing::TestWithParam<LoadAndCells> {
 
 TEST_P(BrokenLayer, OneCellThickTransmitsTheSeriesStress) { expect_series(1, 0.44); }
 TEST_P(BrokenLayer, ThreeCellsThickTransmitsTheSeriesStress) { expect_series(3, 0.44); }
-TEST_P(BrokenLayer, NearlyIncompressibleTransmitsTheSeriesStress) { expect_series(2, 0.49); }
+TEST_P(BrokenLayer, NearlyIncompressibleTransmitsTheSeriesStress) {
+  for (const double nu : {0.49, 0.4999}) expect_series(2, nu);
+}
 // Damage that rises and falls from layer to layer, as across a crack.
 TEST_P(BrokenLayer, OfGradedStiffnessTransmitsTheSeriesStress) {
   std::vector<Layer> layers{{0.4, 4, 0}};
   for (const double one_minus_d : {0.7, 0.5, 0.3, 0.2, 0.1, 0.0, 0.1, 0.2, 0.3, 0.5, 0.7})
     layers.push_back({0.02, 1, 0, one_minus_d * one_minus_d + 1e-6});
   layers.push_back({0.4, 4, 0});
-  for (const double nu : {0.44, 0.49}) {
+  for (const double nu : {0.44, 0.49, 0.4999}) {
     const Laminate laminate{
         .layers = layers, .materials = {from_young_poisson(75e6, nu)}, .load = std::get<0>(GetParam())};
     const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));

@@ -75,7 +75,7 @@ std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureM
   }
   solution->solver->set_moduli(moduli, factors);
   solution->solver->set_body_force(std::move(force_on_cells));
-  solution->u.assign(as_size(solution->unknowns.n_nodes()), Vector::Zero());
+  solution->u.assign(as_size(solution->unknowns.n_unknowns()), Vector::Zero());
   solution->equilibrium =
       solution->solver->solve(1.0, {.reduction = 0.0, .ceiling = residual, .floor = residual}, solution->u);
   solution->cpu_seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
