@@ -3,6 +3,7 @@
 #include "mesh/geometry.h"
 #include "solver/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm {
@@ -32,7 +33,8 @@ FaceField<Tensor> warps(const Mesh& mesh) {
 }  // namespace
 
 CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
-    : unknowns_(unknowns),
+    : mesh_(mesh),
+      unknowns_(unknowns),
       gradient_(mesh, {.zone = unknowns.zone,
                        .node_of_face = {},
                        .plane_normal = unknowns.plane_normal,
@@ -43,18 +45,30 @@ CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
   modulus_ = CellField<double>(n, 0.0);
   q_ = CellField<double>(n, 0.0);
   slope_ = CellField<Vector>(n, Vector::Zero());
+  counts_ = CellField<double>(n, 1.0);
   warp_ = warps(mesh);
 }
 
-void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part) {
-  if (!any()) return;
-  gradient_.update(g, part);
+void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
   for (const Index c : unknowns_.pressure_cells) {
     const IsotropicElasticity& sound = unknowns_.sound[as_size(unknowns_.zone[c])];
     const double kept = moderate_lambda * sound.mu / sound.lambda * moduli[c].lambda;
     modulus_[c] = moduli[c].lambda - kept;
     moduli[c].lambda = kept;
+    counts_[c] = likeness(c, g);
   }
+}
+
+// The least ratio of a neighbour's stiffness factor to the cell's own, or the other way round.
+double CellPressure::likeness(Index cell, const CellField<double>& g) const {
+  double least = 1.0;
+  for (const Index f : mesh_.faces_of_cell(cell)) {
+    if (!mesh_.is_interior(f)) continue;
+    const Index other = mesh_.across(f, cell);
+    if (unknowns_.zone[other] == unknowns_.zone[cell])
+      least = std::min({least, g[other] / g[cell], g[cell] / g[other]});
+  }
+  return least;
 }
 
 void CellPressure::read(const std::vector<Vector>& u) {
@@ -63,7 +77,7 @@ void CellPressure::read(const std::vector<Vector>& u) {
   parallel_for(static_cast<Index>(cells.size()), [&](Index k) { q_[cells[as_size(k)]] = u[first + as_size(k)][0]; });
   parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
     const Index c = cells[as_size(k)];
-    slope_[c] = gradient_.of(&q_[0], c);
+    slope_[c] = counts_[c] * gradient_.of(&q_[0], c);
   });
 }
 

@@ -156,7 +156,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
                                   double part) {
   moduli_ = moduli;
   condense(moduli_);
-  pressure_.take_over(moduli_, g, part);
+  pressure_.take_over(moduli_, g);
   stiffness_ = {};
   linear_stress_ = {};
   gradient_.update(g, part);

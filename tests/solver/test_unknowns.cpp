@@ -45,6 +45,18 @@ TEST(Unknowns, EqualMaterialsShareAZone) {
   EXPECT_EQ(place_unknowns(mesh, model).n_nodes(), 24 + mesh.n_faces() - mesh.n_interior_faces());
 }
 
+TEST(Unknowns, NearlyIncompressibleCellsCarryPressures) {
+  const Mesh mesh = box(4, 3, 2, Vector::Ones(), 1.0, {{"right", {0.5, -1.0, -1.0}, {2.0, 2.0, 2.0}}});
+  FractureModel model = model_of(mesh, {clamped("xmin")});
+  EXPECT_TRUE(place_unknowns(mesh, model).pressure_cells.empty());
+  model.regions[1].elasticity = from_young_poisson(75e6, 0.4999);
+  const Unknowns unknowns = place_unknowns(mesh, model);
+  EXPECT_EQ(unknowns.n_unknowns(), unknowns.n_nodes() + 12);
+  for (const Index c : unknowns.pressure_cells) EXPECT_GT(mesh.cell_centre[c][0], 0.5);
+  model.split = &energy_split("spectral");  // whose stiffness is not isotropic
+  EXPECT_TRUE(place_unknowns(mesh, model).pressure_cells.empty());
+}
+
 TEST(Unknowns, FreeDirectionsAreThoseNotPrescribed) {
   const Mesh mesh = box(2, 2, 2);
   const Unknowns unknowns =

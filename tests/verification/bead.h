@@ -10,10 +10,10 @@
 
 namespace pfdm::verification {
 
-/// AT2, ell = 0.2 m; the top moves by `elongation` [m] at the load 1.
-inline FractureModel bead_model(const Mesh& mesh, const std::string& split, double elongation) {
+/// AT2, ell = 0.2 m; the top moves by `elongation` [m] at the load 1; nu is that of the Sylgard.
+inline FractureModel bead_model(const Mesh& mesh, const std::string& split, double elongation, double nu = 0.44) {
   const std::map<std::string, double> toughness{{"bead", 1e7}, {"interface", 1e5}, {"matrix", 1e6}};  // [J/m^2]
-  const IsotropicElasticity glass = from_young_poisson(70e9, 0.3), sylgard = from_young_poisson(75e6, 0.44);
+  const IsotropicElasticity glass = from_young_poisson(70e9, 0.3), sylgard = from_young_poisson(75e6, nu);
   FractureModel model;
   for (const std::string& name : mesh.region_names)
     model.regions.push_back({.elasticity = name == "bead" ? glass : sylgard, .Gc = toughness.at(name), .ell = 0.2});
