@@ -77,7 +77,7 @@ void CellPressure::read(const std::vector<Vector>& u) {
   parallel_for(static_cast<Index>(cells.size()), [&](Index k) { q_[cells[as_size(k)]] = u[first + as_size(k)][0]; });
   parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
     const Index c = cells[as_size(k)];
-    slope_[c] = counts_[c] * gradient_.of(&q_[0], c);
+    slope_[c] = counts_[c] * gradient_.of(q_.data(), c);
   });
 }
 
