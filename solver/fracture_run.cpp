@@ -71,6 +71,8 @@ struct FractureRun::Parts {
     if (std::isfinite(loading.maximum_dissipation))
       throw InputError(
           "windows cannot be had where a dissipation is prescribed: the load of a step is not known there");
+    if (!unknowns.pressure_cells.empty())
+      throw InputError("windows cannot be had with nearly incompressible materials, whose cells carry a pressure");
     for (const RegionModel& region : m.regions)
       if (region.endochronic) throw InputError("windows cannot be had with endochronic materials");
   }

@@ -39,7 +39,7 @@ struct Unknowns {
 /// is not plane, plane stress beside plane strain, or a body that nothing holds against a rigid motion.
 Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model);
 
-/// Those of a part of a mesh, where displacements on the cut are held.
+/// Those of a part of a mesh without pressures, where displacements on the cut are held.
 Unknowns unknowns_of_part(const Unknowns& whole, const MeshPart& part);
 
 }  // namespace pfdm

@@ -140,6 +140,13 @@ TEST(Windows, HoldTheCellsAroundTheSeedsInPartsThatDoNotTouch) {
   EXPECT_EQ(window_cells(mesh, {top, bottom}, 10.0).size(), 1U);
 }
 
+TEST(Windows, AreRefusedWithPressures) {
+  const Mesh mesh = bead();
+  FractureModel model = bead_model(mesh, "none", 0.1);
+  for (RegionModel& region : model.regions) region.elasticity = from_young_poisson(75e6, 0.499);
+  EXPECT_THROW(FractureRun(mesh, model, {.windows = true}, {}), InputError);
+}
+
 TEST(Windows, AreRefusedWhereTheLoadOfAStepIsNotKnown) {
   const Mesh mesh = bead();
   LoadingSettings loading;
