@@ -70,11 +70,14 @@ struct FractureRun::Parts {
   void require_windows(const FractureModel& m) const {
     if (std::isfinite(loading.maximum_dissipation))
       throw InputError(
-          "windows cannot be had where a dissipation is prescribed: the load of a step is not known there");
+          "windows (solver.windows) cannot be had with a prescribed dissipation (loading.maximum_dissipation): the "
+          "load of a "
+          "step is not known there");
     if (!unknowns.pressure_cells.empty())
-      throw InputError("windows cannot be had with nearly incompressible materials, whose cells carry a pressure");
+      throw InputError(
+          "windows (solver.windows) cannot be had with nearly incompressible materials, whose cells carry a pressure");
     for (const RegionModel& region : m.regions)
-      if (region.endochronic) throw InputError("windows cannot be had with endochronic materials");
+      if (region.endochronic) throw InputError("windows (solver.windows) cannot be had with endochronic materials");
   }
 
   // Path-following needs displacements that are proportional to the load, and a dissipation that only grows; a load
