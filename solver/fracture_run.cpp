@@ -71,8 +71,7 @@ struct FractureRun::Parts {
     if (std::isfinite(loading.maximum_dissipation))
       throw InputError(
           "windows (solver.windows) cannot be had with a prescribed dissipation (loading.maximum_dissipation): the "
-          "load of a "
-          "step is not known there");
+          "load of a step is not known there");
     if (!unknowns.pressure_cells.empty())
       throw InputError(
           "windows (solver.windows) cannot be had with nearly incompressible materials, whose cells carry a pressure");

@@ -36,7 +36,9 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       settings_(settings),
       momentum_(mesh, unknowns),
       stiffness_(mesh, model),
-      damage_(mesh, model, unknowns.plane_normal) {}
+      damage_(mesh, model, unknowns.plane_normal) {
+  settings_.windows = settings.windows && mesh.n_cells() >= least_cells;
+}
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
                                   const StepLimits& limits) {
@@ -76,12 +78,14 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
     // few of them leave is left to the next turn of the loop.
     const Equilibrium equilibrium = solve_momentum(
         state, {.reduction = 0.1, .ceiling = ceiling, .floor = floor, .most_iterations = inner_iterations});
+    outcome.failed = !std::isfinite(equilibrium.residual);
+    if (outcome.failed) return outcome;
     FractureState from;
     if (settings_.windows) from = state;
     const Energies energies = update_driving_energy(start, state, true);
-    if (settings_.windows) from.driving_energy = state.driving_energy;
-    outcome.failed = !std::isfinite(equilibrium.residual) || !std::isfinite(energies.unsettled);
+    outcome.failed = !std::isfinite(energies.unsettled);
     if (outcome.failed) return outcome;
+    if (settings_.windows) from.driving_energy = state.driving_energy;
     if (outcome.iterations == 0) stored_at_unit_load = energies.stored / (state.load * state.load);
     const double undamaged = stored_at_unit_load * state.load * state.load;
     outcome.energy_release = std::abs(energies.stored - undamaged) / std::max(undamaged + fracture_energy, 1e-300);
@@ -121,8 +125,8 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
 // Whether there were any.
 bool Staggered::settle_windows(const FractureState& start, const Turn& turn, double duration, FractureState& state,
                                StepOutcome& outcome) {
+  if (!settings_.windows) return false;
   const Index n = mesh_.n_cells();
-  if (!settings_.windows || n < least_cells) return false;
   const auto lap = clock_.lap("windows");
   const double least = std::max(changing_share * turn.change, window_precision * settings_.damage_tolerance);
   std::vector<Index> changing;

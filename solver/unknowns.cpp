@@ -185,15 +185,17 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
 }
 
 Unknowns unknowns_of_part(const Unknowns& whole, const MeshPart& part) {
-  Unknowns unknowns = whole;
+  Unknowns unknowns;
   unknowns.n_cells = part.mesh.n_cells();
-  unknowns.zone = CellField<Index>(part.cell.size());
+  unknowns.zone = take_out(whole.zone, part.cell);
+  unknowns.sound = whole.sound;
   unknowns.node_of_face = FaceField<Index>(part.face.size(), -1);
-  unknowns.face_of_node.clear();
-  unknowns.free_directions.clear();
-  for (Index c = 0; c < unknowns.n_cells; ++c) unknowns.zone[c] = whole.zone[part.cell[as_size(c)]];
+  unknowns.plane_normal = whole.plane_normal;
+  unknowns.plane_stress = whole.plane_stress;
+  unknowns.radial = whole.radial;
+  unknowns.conditions = whole.conditions;
   unknowns.conditions.push_back({part.cut, {.patch = "cut", .kind = BoundaryCondition::Kind::held, .value = {}}});
-  const Index first_of_cut = part.mesh.patches[as_size(part.cut)].first_face;
+  const Index first_of_cut = part.cut_patch().first_face;
   for (Index f = 0; f < part.mesh.n_faces(); ++f) {
     const Index node = whole.node_of_face[part.face[as_size(f)]];
     if (node < 0 && f < first_of_cut) continue;

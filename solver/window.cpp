@@ -94,11 +94,11 @@ void Window::hold_rim() {
   std::ranges::sort(rings);
   rings.erase(std::ranges::unique(rings).begin(), rings.end());
   add_rings(mesh, rim - 1, rings);
-  held_ = take_out(whole_.damage_equation.held(), part_.cell);
-  if (held_.size() == 0) held_ = CellField<char>(part_.cell.size(), 0);
-  for (const Index c : rings) held_[c] = 1;
-  staggered_.damage_equation().hold(held_);
-  staggered_.stiffness().hold(held_);
+  CellField<char> held = take_out(whole_.damage_equation.held(), part_.cell);
+  if (held.size() == 0) held = CellField<char>(part_.cell.size(), 0);
+  for (const Index c : rings) held[c] = 1;
+  staggered_.stiffness().hold(held);
+  staggered_.damage_equation().hold(std::move(held));
 }
 
 // The forces and sources at the cut. Cells that are not held get no force: what the residual of the whole leaves on
@@ -110,12 +110,13 @@ void Window::agree() {
   MomentumSolver& momentum = staggered_.momentum();
   std::vector<Vector> force(at.displacement.size());
   momentum.balance().apply(at.displacement, force);
-  for (Index c = 0; c < held_.size(); ++c)
-    if (held_[c] == 0) force[as_size(c)] = Vector::Zero();
+  const CellField<char>& held = staggered_.damage_equation().held();
+  for (Index c = 0; c < held.size(); ++c)
+    if (held[c] == 0) force[as_size(c)] = Vector::Zero();
   for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
     const Index f = unknowns_.face_of_node[k];
     const bool is_held =
-        held_[part_.mesh.owner[f]] != 0 || (part_.mesh.is_interior(f) && held_[part_.mesh.neighbour[f]] != 0);
+        held[part_.mesh.owner[f]] != 0 || (part_.mesh.is_interior(f) && held[part_.mesh.neighbour[f]] != 0);
     if (!is_held) force[part_.cell.size() + k] = Vector::Zero();
   }
   momentum.set_body_force(std::move(force));

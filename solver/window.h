@@ -47,7 +47,6 @@ class Window {
   Unknowns unknowns_;
   Staggered staggered_;
   FractureState start_;
-  CellField<char> held_;
 };
 
 }  // namespace pfdm

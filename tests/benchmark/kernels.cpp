@@ -94,7 +94,7 @@ void traction_operator(benchmark::State& state) {
   set_threads(static_cast<int>(state.range(0)));
   const Mesh& mesh = mesh_of(usual);
   Momentum momentum(mesh);
-  std::vector<Vector> u(as_size(momentum.unknowns.n_nodes()), Vector::Ones()), force(u.size());
+  std::vector<Vector> u(as_size(momentum.unknowns.n_unknowns()), Vector::Ones()), force(u.size());
   for ([[maybe_unused]] const auto step : state) momentum.solver.balance().apply(u, force);
   state.counters["cells"] = mesh.n_cells();
 }
@@ -106,7 +106,7 @@ void elastic_solve(benchmark::State& state) {
   Index iterations = 0;
   for ([[maybe_unused]] const auto step : state) {
     Momentum momentum(mesh);
-    std::vector<Vector> u(as_size(momentum.unknowns.n_nodes()), Vector::Zero());
+    std::vector<Vector> u(as_size(momentum.unknowns.n_unknowns()), Vector::Zero());
     const Equilibrium equilibrium = momentum.solver.solve(1.0, {.reduction = 0.0, .ceiling = 1e-8, .floor = 1e-8}, u);
     if (!equilibrium.converged) state.SkipWithError("no equilibrium");
     iterations = equilibrium.iterations;

@@ -46,7 +46,7 @@ Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField
   result.state.damage = std::move(damage);
   result.state.closure = CellField<double>(n, 0.0);
   result.state.tangent_strain = CellField<Tensor>(n);
-  result.state.displacement.assign(as_size(unknowns.n_nodes()), Vector::Zero());
+  result.state.displacement.assign(as_size(unknowns.n_unknowns()), Vector::Zero());
   for (double unsettled = 1.0; unsettled > 1e-10 && result.iterations < 50; ++result.iterations) {
     stiffness.set(result.state, solver);
     EXPECT_TRUE(solver.solve(1.0, {.ceiling = 1e-12, .floor = 1e-12}, result.state.displacement).converged);
@@ -215,7 +215,7 @@ TEST(EnergySplits, TheFullTensorOperatorContainsTheIsotropicOne) {
   }
   isotropic.set_moduli(moduli, g);
   full.set_stiffness(stiffness, g);
-  std::vector<Vector> u(as_size(unknowns.n_nodes())), one(u.size()), other(u.size());
+  std::vector<Vector> u(as_size(unknowns.n_unknowns())), one(u.size()), other(u.size());
   for (std::size_t i = 0; i < u.size(); ++i) {
     const auto k = static_cast<Index>(i);
     u[i] = field(k < unknowns.n_cells ? mesh.cell_centre[k]
