@@ -137,6 +137,19 @@ void Window::agree() {
   equation.set_source(std::move(source));
 }
 
+// With the damage and the stiffness that the forces at the cut belong to: they would tear a cell away that broke or
+// opened since.
+void Window::hold_rim_as_it_was(FractureState& here) const {
+  const CellField<char>& held = staggered_.damage_equation().held();
+  for (Index i = 0; i < held.size(); ++i) {
+    if (held[i] == 0) continue;
+    const Index c = part_.cell[as_size(i)];
+    here.damage[i] = whole_.state.damage[c];
+    here.closure[i] = whole_.state.closure[c];
+    if (here.tangent_strain.size() > 0) here.tangent_strain[i] = whole_.state.tangent_strain[c];
+  }
+}
+
 FractureState Window::take_out_state(const FractureState& whole) const {
   FractureState here;
   here.step = whole.step;
@@ -154,11 +167,17 @@ FractureState Window::take_out_state(const FractureState& whole) const {
   return here;
 }
 
+// What is held keeps what it has in the whole.
 void Window::put_back_state(const FractureState& here, FractureState& whole) const {
-  put_back(here.damage, part_.cell, whole.damage);
-  put_back(here.driving_energy, part_.cell, whole.driving_energy);
-  put_back(here.closure, part_.cell, whole.closure);
-  put_back(here.tangent_strain, part_.cell, whole.tangent_strain);
+  const CellField<char>& held = staggered_.damage_equation().held();
+  for (Index i = 0; i < held.size(); ++i) {
+    if (held[i] != 0) continue;
+    const Index c = part_.cell[as_size(i)];
+    whole.damage[c] = here.damage[i];
+    whole.driving_energy[c] = here.driving_energy[i];
+    whole.closure[c] = here.closure[i];
+    if (here.tangent_strain.size() > 0) whole.tangent_strain[c] = here.tangent_strain[i];
+  }
   for (std::size_t i = 0; i < part_.cell.size(); ++i) whole.displacement[as_size(part_.cell[i])] = here.displacement[i];
   for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
     const Index node = whole_.unknowns.node_of_face[part_.face[as_size(unknowns_.face_of_node[k])]];
@@ -168,6 +187,7 @@ void Window::put_back_state(const FractureState& here, FractureState& whole) con
 
 StepOutcome Window::settle(FractureState& state) {
   FractureState here = take_out_state(state);
+  hold_rim_as_it_was(here);
   const StepOutcome outcome = staggered_.alternate(start_, here, {}, {.duration = whole_.duration});
   if (outcome.failed) return outcome;
   whole_.stiffness.put_back_memory(staggered_.stiffness(), part_.cell);

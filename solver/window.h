@@ -38,6 +38,7 @@ class Window {
  private:
   void hold_rim();
   void agree();
+  void hold_rim_as_it_was(FractureState& here) const;
   FractureState take_out_state(const FractureState& whole) const;
   void put_back_state(const FractureState& here, FractureState& whole) const;
 
