@@ -105,8 +105,11 @@ bool Gradient::has_full_rank(Index cell, const std::vector<Index>& samples) cons
     const Vector d = (node_[as_size(s)] - node_[as_size(cell)]).normalized();
     moment += d * d.transpose();
   }
+  constexpr double least = 1e-3;
+  // The product of the other two eigenvalues is at most (trace/2)^2: most cells need no eigenvalues.
+  if (4.0 * moment.determinant() > 1.01 * least * moment.trace() * moment.trace()) return true;
   const Eigen::SelfAdjointEigenSolver<Tensor> eigen(moment, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()[0] > 1e-3;
+  return eigen.eigenvalues()[0] > least;
 }
 
 double Gradient::trust(Index cell, Index neighbour, const CellField<double>& g) const {
