@@ -23,8 +23,8 @@ constexpr double window_reach = 2.0, largest_window = 0.4, most_changing = 0.1;
 constexpr double window_fall = 0.1;
 // to this share of the tolerance.
 constexpr double window_precision = 0.5;
-constexpr Index window_iterations = 20;
-constexpr Index least_cells = 1500;  // of a mesh or window that has windows in it
+constexpr Index window_iterations = 10;
+constexpr Index least_cells = 1500;  // of a mesh that has windows
 
 }  // namespace
 
@@ -43,6 +43,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
                                   const StepLimits& limits) {
   stiffness_.start_step(limits.duration);
+  momentum_.start_afresh();  // a run that is gone on with does the same
   StepOutcome outcome = alternate(start, state, hooks, limits);
   if (outcome.failed || outcome.broke_too_much) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
@@ -66,7 +67,6 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
   if (path_is_followed) limit = {state.load, fracture_energy + limits.dissipation, limits.dissipation};
   Relaxation relaxation;
   if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / limits.duration, start.damage);
-  momentum_.start_afresh();  // a run that is gone on with does the same
   double energy_before = 0.0, stored_at_unit_load = 0.0;
   bool settled = false;
   while (outcome.iterations < settings_.maximum_iterations && !outcome.converged) {
@@ -138,6 +138,7 @@ bool Staggered::settle_windows(const FractureState& start, const Turn& turn, dou
   }
   if (double(changing.size()) > most_changing * double(n)) return false;
   StaggeredSettings settings = settings_;
+  settings.windows = false;
   settings.damage_tolerance = std::max(window_precision * settings_.damage_tolerance, window_fall * turn.change);
   settings.energy_tolerance = std::numeric_limits<double>::infinity();
   settings.maximum_iterations = window_iterations;
@@ -157,7 +158,7 @@ bool Staggered::settle_windows(const FractureState& start, const Turn& turn, dou
     if (share > largest_window) continue;
     any = true;
     const StepOutcome inner = Window(whole, std::move(cells), settings).settle(state);
-    outcome.window_iterations += share * (double(inner.iterations) + inner.window_iterations);
+    outcome.window_iterations += share * double(inner.iterations);
   }
   return any;
 }

@@ -1,8 +1,7 @@
 #pragma once
 // Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
 // the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797). On request the
-// loop goes on between its iterations in windows around the cells that still change (window.h), within which it may do
-// likewise.
+// loop goes on between its iterations in windows around the cells that still change (window.h).
 
 #include "solver/cell_stiffness.h"
 #include "solver/damage_equation.h"
