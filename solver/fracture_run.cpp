@@ -150,7 +150,9 @@ struct FractureRun::Parts {
   }
 
   StepLimits limits_of(double increment, double planned_increment) const {
-    StepLimits limits{.dissipation = dissipation_of(planned_increment), .duration = increment * loading.duration};
+    StepLimits limits{.dissipation = dissipation_of(planned_increment),
+                      .duration = increment * loading.duration,
+                      .may_be_cut = cut * increment >= loading.minimum_increment};
     const bool may_jump = increment <= loading.finest_increment * (1.0 + load_rounding);
     if (!may_jump) limits.growth = loading.damage_growth, limits.energy_release = loading.energy_release;
     return limits;

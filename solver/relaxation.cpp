@@ -3,12 +3,17 @@
 #include "solver/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfdm {
 namespace {
 
-constexpr double least_factor = 0.5, most_factor = 5.0;
+constexpr double least_factor = 0.5;
 constexpr double least_share = 1.0 / 16.0, recovery = 1.5;
+// Stretches that come to less than this share of the way they go make the largest factor smaller.
+constexpr double least_progress = 0.5, tightening = 0.5, loosening = 1.5;
+// Long ones that come to less than this are circles.
+constexpr double progress_of_circles = 0.3;
 
 }  // namespace
 
@@ -28,14 +33,33 @@ CellField<double> Relaxation::next(const CellField<double>& d, const CellField<d
     const double along = parallel_sum(n, [&](Index c) { return share_[c] * increment_[c] * fall(c); });
     const double square = parallel_sum(n, [&](Index c) { return fall(c) * fall(c); });
     // An increment that does not fall asks for the longest step.
-    factor_ = along > 0.0 ? std::clamp(factor_ * along / square, least_factor, most_factor) : most_factor;
+    factor_ = along > 0.0 ? std::clamp(factor_ * along / square, least_factor, largest_factor_) : largest_factor_;
   }
   parallel_for(n, [&](Index c) {
     const double step = turned(c) ? share_[c] : factor_ * share_[c];
     result[c] = std::clamp(d[c] + step * increment[c], lower[c], 1.0);
   });
   increment_ = std::move(increment);
+  watch(d, result);
   return result;
+}
+
+void Relaxation::watch(const CellField<double>& from, const CellField<double>& to) {
+  if (const auto progress = progress_.of_step(from, to))
+    largest_factor_ = *progress < least_progress ? std::max(tightening * largest_factor_, 1.0)
+                                                 : std::min(loosening * largest_factor_, most_factor);
+  if (const auto progress = long_progress_.of_step(from, to))
+    circles_ = *progress < progress_of_circles ? circles_ + 1 : 0;
+}
+
+std::optional<double> Progress::of_step(const CellField<double>& from, const CellField<double>& to) {
+  const Index n = from.size();
+  if (steps_ == 0) begin_ = from, way_ = 0.0;
+  way_ += parallel_sum(n, [&](Index c) { return std::abs(to[c] - from[c]); });
+  if (++steps_ < stretch_) return std::nullopt;
+  steps_ = 0;
+  const double come = parallel_sum(n, [&](Index c) { return std::abs(to[c] - begin_[c]); });
+  return way_ > 0.0 ? come / way_ : 1.0;
 }
 
 }  // namespace pfdm

@@ -118,6 +118,7 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
       outcome.converged = false;
       return outcome;
     }
+    if (limits.may_be_cut && !outcome.converged && relaxation.goes_in_circles()) return outcome;
   }
   return outcome;
 }

@@ -33,7 +33,8 @@ struct StepLimits {
   double growth = std::numeric_limits<double>::infinity();          ///< of d in a cell
   double energy_release = std::numeric_limits<double>::infinity();  ///< relative
   double dissipation = std::numeric_limits<double>::infinity();     ///< [J]
-  double duration = 0.0;  ///< of the step [s]; for models that look at the rate
+  double duration = 0.0;    ///< of the step [s]; for models that look at the rate
+  bool may_be_cut = false;  ///< a shorter step can be tried instead: one that goes in circles is given up
 };
 
 class Staggered {

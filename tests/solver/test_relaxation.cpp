@@ -55,6 +55,42 @@ TEST(Relaxation, DoesNotOvershootACreepingFront) {
   EXPECT_LE(next, 0.01 + 0.01 * 10.0);
 }
 
+// Three cells take turns to go on by two equal increments, which asks for long steps; either each goes on for ever, or
+// it goes back the next time.
+struct TurnTaking {
+  Relaxation relaxation;
+  double factor = 0.0;  // of the last step over its increment
+};
+
+TurnTaking take_turns(int n_iterations, bool goes_back) {
+  TurnTaking cells;
+  const Damage lower = field({0.0, 0.0, 0.0});
+  Damage d = field({0.5, 0.5, 0.5});
+  for (int iteration = 0; iteration < n_iterations; ++iteration) {
+    const int turn = iteration / 2;
+    const double increment = goes_back && turn / 3 % 2 == 1 ? -1e-4 : 1e-4;
+    Damage answer = d;
+    answer[turn % 3] += increment;
+    const Damage next = cells.relaxation.next(d, answer, lower);
+    cells.factor = (next[turn % 3] - d[turn % 3]) / increment;
+    d = next;
+  }
+  return cells;
+}
+
+TEST(Relaxation, TakesTheFactorBackWhereStepsLeadNowhere) {
+  EXPECT_NEAR(take_turns(12, true).factor, 5.0, 1e-9);
+  EXPECT_NEAR(take_turns(24, true).factor, 2.5, 1e-9);
+  EXPECT_NEAR(take_turns(72, true).factor, 1.0, 1e-9);
+  EXPECT_NEAR(take_turns(72, false).factor, 5.0, 1e-9);
+}
+
+TEST(Relaxation, NoticesCircles) {
+  EXPECT_FALSE(take_turns(95, true).relaxation.goes_in_circles());
+  EXPECT_TRUE(take_turns(96, true).relaxation.goes_in_circles());
+  EXPECT_FALSE(take_turns(480, false).relaxation.goes_in_circles());
+}
+
 // One cell that flips for ever is damped although the field as a whole creeps.
 TEST(Relaxation, HalvesTheIncrementWhereItTurns) {
   Relaxation relaxation;
