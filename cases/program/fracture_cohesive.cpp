@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace pfdm {
 namespace {
 
@@ -19,7 +21,11 @@ std::string outcome_of(const CohesiveResult& result) {
   if (!f.is_traced())
     return fmt::format("carries {:.4g} Pa at the end; int T ddelta so far at least {:.4g} J/m^2", f.final_traction,
                        f.energy_at_least);
-  const std::string energy = fmt::format("int T ddelta {:.6g} J/m^2", f.normal_energy + f.tangential_energy);
+  const double work = f.normal_energy + f.tangential_energy;
+  const std::string energy =
+      std::isfinite(work)
+          ? fmt::format("int T ddelta {:.6g} J/m^2", work)
+          : fmt::format("int T ddelta at least {:.4g} J/m^2, as single places fall at once", f.energy_at_least);
   if (result.fits.empty()) return energy + ", too few states for a fit";
   return fmt::format("{}; nearest to \"{}\", rms {:.2g} % of the strength", energy, result.fits.front().law,
                      100.0 * result.fits.front().rms);
