@@ -19,6 +19,20 @@ constexpr double progress_of_circles = 0.3;
 
 CellField<double> Relaxation::next(const CellField<double>& d, const CellField<double>& answer,
                                    const CellField<double>& lower) {
+  CellField<double> result = mixing_ ? mixing_->next(d, answer, lower) : over_relaxed(d, answer, lower);
+  if (const auto progress = progress_.of_step(d, result))
+    largest_factor_ = *progress < least_progress ? std::max(tightening * largest_factor_, 1.0)
+                                                 : std::min(loosening * largest_factor_, most_factor);
+  if (const auto progress = long_progress_.of_step(d, result))
+    circles_ = *progress < progress_of_circles ? circles_ + 1 : 0;
+  if (circles_ < most_circles || mixing_) return result;
+  circles_ = 0;
+  mixing_.emplace();
+  return long_progress_.mean();
+}
+
+CellField<double> Relaxation::over_relaxed(const CellField<double>& d, const CellField<double>& answer,
+                                           const CellField<double>& lower) {
   const Index n = d.size();
   const bool first = increment_.size() != n;
   if (first) increment_ = CellField<double>(as_size(n), 0.0), share_ = CellField<double>(as_size(n), 1.0);
@@ -40,26 +54,24 @@ CellField<double> Relaxation::next(const CellField<double>& d, const CellField<d
     result[c] = std::clamp(d[c] + step * increment[c], lower[c], 1.0);
   });
   increment_ = std::move(increment);
-  watch(d, result);
   return result;
-}
-
-void Relaxation::watch(const CellField<double>& from, const CellField<double>& to) {
-  if (const auto progress = progress_.of_step(from, to))
-    largest_factor_ = *progress < least_progress ? std::max(tightening * largest_factor_, 1.0)
-                                                 : std::min(loosening * largest_factor_, most_factor);
-  if (const auto progress = long_progress_.of_step(from, to))
-    circles_ = *progress < progress_of_circles ? circles_ + 1 : 0;
 }
 
 std::optional<double> Progress::of_step(const CellField<double>& from, const CellField<double>& to) {
   const Index n = from.size();
-  if (steps_ == 0) begin_ = from, way_ = 0.0;
+  if (steps_ == 0) begin_ = from, way_ = 0.0, sum_ = CellField<double>(as_size(n), 0.0);
+  parallel_for(n, [&](Index c) { sum_[c] += to[c]; });
   way_ += parallel_sum(n, [&](Index c) { return std::abs(to[c] - from[c]); });
   if (++steps_ < stretch_) return std::nullopt;
   steps_ = 0;
   const double come = parallel_sum(n, [&](Index c) { return std::abs(to[c] - begin_[c]); });
   return way_ > 0.0 ? come / way_ : 1.0;
+}
+
+CellField<double> Progress::mean() const {
+  CellField<double> result(as_size(sum_.size()));
+  for (Index c = 0; c < sum_.size(); ++c) result[c] = sum_[c] / stretch_;
+  return result;
 }
 
 }  // namespace pfdm

@@ -3,9 +3,10 @@
 // form: Irons, Tuck, IJNME 1 (1969) 275) times a share of each cell's own, which halves whenever the cell's increment
 // changes sign and recovers while it does not: a few cells that would swing for ever neither go on nor hold up the
 // rest. Where the steps of all together lead nowhere, as where a crack may be in one layer of cells or in the next, the
-// factor is taken back towards that of plain alternation.
+// factor is taken back towards that of plain alternation; if that goes in circles too, Anderson's mixing goes on from
+// the middle of them.
 
-#include "mesh/fields.h"
+#include "solver/anderson.h"
 
 #include <optional>
 
@@ -18,10 +19,12 @@ class Progress {
   explicit Progress(int stretch) : stretch_(stretch) {}
   /// Of the stretch that this step ends, if it ends one.
   std::optional<double> of_step(const CellField<double>& from, const CellField<double>& to);
+  /// Of the fields that the steps of the last stretch led to; once it has ended.
+  CellField<double> mean() const;
 
  private:
   int stretch_;
-  CellField<double> begin_;
+  CellField<double> begin_, sum_;
   double way_ = 0.0;
   int steps_ = 0;
 };
@@ -32,13 +35,15 @@ class Relaxation {
   /// and 1.
   CellField<double> next(const CellField<double>& d, const CellField<double>& answer, const CellField<double>& lower);
 
-  /// Whether a hundred steps or so have led nowhere; more of them hardly will.
-  bool goes_in_circles() const { return circles_ > 1; }
+  /// Whether mixing has not led out of circles either: more iterations hardly will.
+  bool goes_in_circles() const { return mixing_ && circles_ >= most_circles; }
 
  private:
-  void watch(const CellField<double>& from, const CellField<double>& to);
+  CellField<double> over_relaxed(const CellField<double>& d, const CellField<double>& answer,
+                                 const CellField<double>& lower);
 
   static constexpr double most_factor = 5.0;
+  static constexpr int most_circles = 2;
 
   CellField<double> increment_;  // the one before
   CellField<double> share_;      // of its increment that each cell may take, at most 1
@@ -46,6 +51,7 @@ class Relaxation {
   double largest_factor_ = most_factor;
   Progress progress_{12}, long_progress_{48};
   int circles_ = 0;  // long stretches in a row that came to hardly anything
+  std::optional<AndersonMixing> mixing_;
 };
 
 }  // namespace pfdm

@@ -2,6 +2,9 @@
 
 #include "tests/solver/solver_checks.h"
 
+#include <cmath>
+#include <numbers>
+
 namespace pfdm {
 namespace {
 
@@ -85,10 +88,53 @@ TEST(Relaxation, TakesTheFactorBackWhereStepsLeadNowhere) {
   EXPECT_NEAR(take_turns(72, false).factor, 5.0, 1e-9);
 }
 
-TEST(Relaxation, NoticesCircles) {
-  EXPECT_FALSE(take_turns(95, true).relaxation.goes_in_circles());
-  EXPECT_TRUE(take_turns(96, true).relaxation.goes_in_circles());
-  EXPECT_FALSE(take_turns(480, false).relaxation.goes_in_circles());
+// Around (0.5, 0.5) by an eighth of a turn at each answer, as alternation does where neither of two cells is the
+// weaker.
+Damage turned(const Damage& d) {
+  const double x = d[0] - 0.5, y = d[1] - 0.5, half = std::numbers::sqrt2 / 2.0;
+  return field({0.5 + half * (x - y), 0.5 + half * (x + y)});
+}
+
+double distance_from_the_middle(const Damage& d) { return std::hypot(d[0] - 0.5, d[1] - 0.5); }
+
+TEST(Relaxation, FindsTheMiddleOfCircles) {
+  Relaxation relaxation;
+  const Damage lower = field({0.0, 0.0});
+  Damage d = field({0.52, 0.5});
+  for (int iteration = 0; iteration < 95; ++iteration) d = relaxation.next(d, turned(d), lower);
+  EXPECT_GT(distance_from_the_middle(d), 1e-3);
+  for (int iteration = 0; iteration < 10; ++iteration) d = relaxation.next(d, turned(d), lower);
+  EXPECT_LT(distance_from_the_middle(d), 1e-9);
+  EXPECT_FALSE(relaxation.goes_in_circles());
+}
+
+TEST(Relaxation, NoticesCirclesThatHaveNoMiddle) {
+  Relaxation relaxation;
+  const Damage lower = field({0.0});
+  Damage d = field({0.45});
+  const auto go_on = [&](int n_iterations) {
+    for (int i = 0; i < n_iterations; ++i) d = relaxation.next(d, field({d[0] < 0.5 ? d[0] + 0.1 : d[0] - 0.1}), lower);
+  };
+  go_on(191);
+  EXPECT_FALSE(relaxation.goes_in_circles());
+  go_on(1);
+  EXPECT_TRUE(relaxation.goes_in_circles());
+}
+
+TEST(Relaxation, DoesNotTakeAFrontForCircles) { EXPECT_FALSE(take_turns(480, false).relaxation.goes_in_circles()); }
+
+TEST(AndersonMixing, SolvesALinearProblemOfSoManyUnknownsInSoManySteps) {
+  // Answers that grow by a half in one direction, turn in the plane of two and fall in the last.
+  const auto answer_to = [](const Damage& d) {
+    return field(
+        {0.3 + 1.5 * (d[0] - 0.3), 0.4 - 1.1 * (d[2] - 0.5), 0.5 + 1.1 * (d[1] - 0.4), 0.6 + 0.2 * (d[3] - 0.6)});
+  };
+  AndersonMixing mixing;
+  const Damage lower = field({0.0, 0.0, 0.0, 0.0});
+  Damage d = field({0.31, 0.42, 0.5, 0.57});
+  for (int iteration = 0; iteration < 6; ++iteration) d = mixing.next(d, answer_to(d), lower);
+  const Damage fixed = field({0.3, 0.4, 0.5, 0.6});
+  for (Index c = 0; c < 4; ++c) EXPECT_NEAR(d[c], fixed[c], 1e-9) << c;
 }
 
 // One cell that flips for ever is damped although the field as a whole creeps.
