@@ -7,18 +7,15 @@ namespace {
 
 constexpr std::size_t most_iterates = 7;
 
-Eigen::VectorXd as_vector(const CellField<double>& field) {
-  Eigen::VectorXd vector(field.size());
-  for (Index c = 0; c < field.size(); ++c) vector[c] = field[c];
-  return vector;
+Eigen::Map<const Eigen::VectorXd> as_vector(const CellField<double>& field) {
+  return {field.values().data(), static_cast<Eigen::Index>(field.values().size())};
 }
 
 }  // namespace
 
 CellField<double> AndersonMixing::next(const CellField<double>& d, const CellField<double>& answer,
                                        const CellField<double>& lower) {
-  Iterate last{.d = as_vector(d), .increment = {}};
-  last.increment = as_vector(answer) - last.d;
+  Iterate last{.d = as_vector(d), .increment = as_vector(answer) - as_vector(d)};
   Eigen::VectorXd step = last.increment;
   if (const auto m = static_cast<Eigen::Index>(iterates_.size()); m > 0) {
     Eigen::MatrixXd change_of_d(step.size(), m), change_of_increment(step.size(), m);
