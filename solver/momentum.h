@@ -20,11 +20,16 @@
 // direction of the strain increment.
 //
 // A polyhedron has about 14 faces against three unknowns: with a of the full lambda the jumps lock it as nu -> 0.5.
-// There c is that of lambda_s = min(lambda, 1.5 mu) in the undamaged material, of the same share of lambda in a damaged
-// one (lambda >> mu where a crack is closed), blended back to the full one between cells of unlike damage:
+// There c is that of lambda_s = min(lambda, 1.5 mu) in the undamaged material, of the same share of lambda + 2 mu in a
+// damaged one, blended back to the full one between cells of unlike damage:
 // c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = 1 - min(mu_P, mu_N)/max(mu_P, mu_N). The weights of
 // sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge. Polyhedra of any
 // stiffness C keep the full a.
+//
+// Where the split keeps lambda in closed cracks, a broken cell is a liquid (mu << lambda). Tangential displacements
+// that alternate between such polyhedra have gradients without a divergence of their own but, as faces are skew,
+// forces: nothing would hold them, and they grow without bounds. So they take the full c, and along the face between
+// two of them c_t + 0.05 c_n in the jump, which a slip that is linear over the cells does not notice.
 //
 // Nearly incompressible cells have a pressure q as an unknown of its own, which joins sigma at the face, and lambda_s
 // in place of lambda everywhere else (cell_pressure.h).
@@ -100,7 +105,7 @@ class MomentumOperator {
     Vector d_P, d_N;            // from the cell centres to the face centre
     double weight_n, weight_t;  // of sigma_P in the traction; those of sigma_N complete them to 1
     double c_n, c_t;            // [Pa/m]
-    double jump_n;              // c_n as the jump has it: smaller beside polyhedra [Pa/m]
+    double jump_n, jump_t;      // c_n and c_t as the jump has them beside polyhedra [Pa/m]
   };
   // One side of a face that carries a node.
   struct Side {
@@ -149,14 +154,16 @@ class MomentumOperator {
   Vector normal_stress(Index cell, const Vector& n, const Vector& d) const {
     return pressure_.any() ? (normal_stress(cell, n) + pressure_.at(cell, d) * n).eval() : normal_stress(cell, n);
   }
+  CellField<double> liquidity(const CellField<IsotropicElasticity>& moduli) const;
   double jump_modulus(Index cell) const;
   double jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const;
+  double slip_stiffness(Index P, Index N, double c_n, double c_t) const;
   // The weight of P's side, c and (a + b)^-1 of link i, and a of side i, times v.
   Vector weigh(std::size_t i, const Vector& v) const {
     return is_isotropic() ? scale(links_[i].weight_n, links_[i].weight_t, links_[i].n, v) : link_tensors_[i].weight * v;
   }
   Vector pull(std::size_t i, const Vector& v) const {
-    return is_isotropic() ? scale(links_[i].jump_n, links_[i].c_t, links_[i].n, v) : link_tensors_[i].c * v;
+    return is_isotropic() ? scale(links_[i].jump_n, links_[i].jump_t, links_[i].n, v) : link_tensors_[i].c * v;
   }
   Vector give(std::size_t i, const Vector& v) const;
   Vector hold(std::size_t i, const Vector& v) const {
@@ -181,7 +188,8 @@ class MomentumOperator {
   const Unknowns& unknowns_;
   Gradient gradient_;
   CellField<IsotropicElasticity> moduli_;
-  CellField<double> jump_share_;           // lambda_s over lambda; 1 but of polyhedra
+  CellField<double> jump_share_;  // lambda_s + 2 mu over lambda + 2 mu where sound; 1 but of polyhedra
+  CellField<double> liquidity_;
   CellField<MandelMatrix> stiffness_;      // empty while all cells are isotropic, as are the tensors of the faces
   CellField<LinearStress> linear_stress_;  // may be empty
   CellField<StrainAcross> strain_across_;  // empty but in plane stress

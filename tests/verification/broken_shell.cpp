@@ -3,7 +3,8 @@
 //
 //   u_r = A r + B / r^2,   sigma_rr = 3 K A - 4 mu B / r^3,
 //
-// with u_r and sigma_rr continuous (Timoshenko, Goodier, Theory of Elasticity, art. 142).
+// with u_r and sigma_rr continuous (Timoshenko, Goodier, Theory of Elasticity, art. 142). Where the crack is closed and
+// the split keeps the bulk modulus, the shell is a liquid.
 
 #include "tests/verification/support.h"
 
@@ -77,6 +78,7 @@ enum class Cells { tetrahedra_and_prisms, polyhedra };
 struct Shell {
   Index n_broken;  // layers
   double g;
+  bool closed;
   Cells cells = Cells::tetrahedra_and_prisms;
 
   // Polyhedra reach from the middle of one layer to that of the next.
@@ -119,7 +121,9 @@ struct ShellErrors {
 
 ShellErrors errors_of(const Shell& shell) {
   const IsotropicElasticity glass = from_young_poisson(70e9, 0.3), sylgard = from_young_poisson(75e6, 0.44);
-  const IsotropicElasticity broken{shell.g * sylgard.lambda, shell.g * sylgard.mu};
+  const EnergySplit& split = energy_split("volumetric_deviatoric");
+  const double closure = shell.closed ? 1.0 : 0.0;
+  const IsotropicElasticity broken = split.secant(sylgard, shell.g, closure);
   const ConcentricLayers exact({1.0, shell.lower(), shell.upper()}, {glass, sylgard, broken, sylgard}, 1e-3);
   const auto u = [&](const Vector& x) { return exact.displacement(x); };
   const auto strain = [&](const Vector& x) { return exact.strain(x); };
@@ -129,7 +133,9 @@ ShellErrors errors_of(const Shell& shell) {
   std::vector<IsotropicElasticity> by_region;
   for (const std::string& name : mesh.region_names) by_region.push_back(name == "bead" ? glass : sylgard);
   const CellField<double> g = stiffness_factors(mesh, shell);
-  const auto solution = solve_elastic(mesh, elastic_model(by_region, displacement_on_all(mesh, u)), g, 1e-10);
+  FractureModel model = elastic_model(by_region, displacement_on_all(mesh, u));
+  model.split = &split;
+  const auto solution = solve_elastic(mesh, model, g, shell.closed ? 1e-8 : 1e-10, {}, closure);
   EXPECT_TRUE(solution->equilibrium.converged);
   const Index n_in_layer =
       shell.cells == Cells::polyhedra ? 10 * subdivision * subdivision + 2 : 20 * subdivision * subdivision;
@@ -147,7 +153,8 @@ ShellErrors errors_of(const Shell& shell) {
           [&](Index c) { return g[c] == 1.0 && mesh.region[c] != bead && radius(c) < shell.lower(); }),
       .stress_beyond = relative_stress_error(mesh, cells.stress, sound_stress,
                                              [&](Index c) { return g[c] == 1.0 && radius(c) > shell.upper(); })};
-  report_row(fmt::format("g {:g} in {} layers, {} cells", shell.g, shell.n_broken, mesh.n_cells()),
+  report_row(fmt::format("g {:g} in {} layers{}, {} cells", shell.g, shell.n_broken, shell.closed ? ", closed" : "",
+                         mesh.n_cells()),
              {{"traction on the sphere", e.core_traction},
               {"u", e.displacement},
               {"strain in the shell", e.shell_strain},
@@ -158,28 +165,41 @@ ShellErrors errors_of(const Shell& shell) {
   return e;
 }
 
-class BrokenShell : public testing::TestWithParam<std::tuple<Index, double, Cells>> {};
+class BrokenShell : public testing::TestWithParam<std::tuple<Index, double, bool, Cells>> {};
 
 // A twenty-faced sphere of 1280 triangles is 1 % smaller than round; the stress within the shell, a small one, suffers
-// from the gradients along the layers next to the jump of g (README.md).
+// from the gradients along the layers next to the jump of g (README.md). In a liquid shell of one layer of polyhedra
+// the pressure varies from cell to cell by a few per cent.
 TEST_P(BrokenShell, LoadsTheSphereAsInTheClosedForm) {
-  const auto [n_broken, g, cells] = GetParam();
-  const ShellErrors e = errors_of({n_broken, g, cells});
-  EXPECT_LE(e.core_traction, 2.5e-2);
+  const auto [n_broken, g, closed, cells] = GetParam();
+  const ShellErrors e = errors_of({n_broken, g, closed, cells});
+  EXPECT_LE(e.core_traction, closed && cells == Cells::polyhedra ? 5e-2 : 2.5e-2);
   EXPECT_LE(e.displacement, 1e-2);
   EXPECT_LE(e.shell_strain, cells == Cells::polyhedra ? 3.5e-2 : 2.5e-2);
   EXPECT_LE(e.stress_beyond, 1.5e-2);
   EXPECT_LE(e.stress_within, 0.25);
 }
 
+std::string name_of(const testing::TestParamInfo<BrokenShell::ParamType>& test) {
+  const auto [n_broken, g, closed, cells] = test.param;
+  return fmt::format("{}LayersTo1em{}{}{}", n_broken, std::lround(-std::log10(g)), closed ? "Closed" : "",
+                     cells == Cells::polyhedra ? "Polyhedra" : "");
+}
+
 INSTANTIATE_TEST_SUITE_P(LayersAndStiffness, BrokenShell,
                          testing::Combine(testing::Values(1, 4), testing::Values(0.1, 1e-2, 1e-6),
+                                          testing::Values(false),
                                           testing::Values(Cells::tetrahedra_and_prisms, Cells::polyhedra)),
-                         [](const auto& test) {
-                           const long exponent = std::lround(-std::log10(std::get<1>(test.param)));
-                           return fmt::format("{}LayersTo1em{}{}", std::get<0>(test.param), exponent,
-                                              std::get<2>(test.param) == Cells::polyhedra ? "Polyhedra" : "");
-                         });
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(LayersOfPolyhedra, BrokenShell,
+                         testing::Combine(testing::Values(1, 4), testing::Values(0.1, 1e-2, 1e-6),
+                                          testing::Values(true), testing::Values(Cells::polyhedra)),
+                         name_of);
+// Prisms of 1e-6 slip past each other: the stress is right to 1 %, but strains within the shell are not held.
+INSTANTIATE_TEST_SUITE_P(LayersOfPrisms, BrokenShell,
+                         testing::Combine(testing::Values(1, 4), testing::Values(0.1, 1e-2), testing::Values(true),
+                                          testing::Values(Cells::tetrahedra_and_prisms)),
+                         name_of);
 
 }  // namespace
 }  // namespace pfdm::verification

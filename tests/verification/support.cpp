@@ -61,7 +61,7 @@ FractureModel elastic_model(std::vector<IsotropicElasticity> by_region, std::vec
 }
 
 std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureModel& model, const CellField<double>& g,
-                                               double residual, const DisplacementField& body_force) {
+                                               double residual, const DisplacementField& body_force, double closure) {
   auto solution = std::make_unique<ElasticSolution>();
   const std::clock_t start = std::clock();
   solution->unknowns = place_unknowns(mesh, model);
@@ -70,7 +70,7 @@ std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureM
   const CellField<double> factors = g.size() > 0 ? g : CellField<double>(as_size(mesh.n_cells()), 1.0);
   std::vector<Vector> force_on_cells;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    moduli[c] = model.split->secant(model.regions[as_size(mesh.region[c])].elasticity, factors[c], 0.0);
+    moduli[c] = model.split->secant(model.regions[as_size(mesh.region[c])].elasticity, factors[c], closure);
     if (body_force) force_on_cells.emplace_back(mesh.cell_volume[c] * body_force(mesh.cell_centre[c]));
   }
   solution->solver->set_moduli(moduli, factors);

@@ -38,7 +38,7 @@ struct ElasticSolution {
 };
 std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureModel& model,
                                                const CellField<double>& g = {}, double residual = 1e-10,
-                                               const DisplacementField& body_force = {});
+                                               const DisplacementField& body_force = {}, double closure = 0.0);
 
 /// Volume-weighted L2 norm of the difference over that of the exact field; `counts` says which cells take part.
 double relative_error(const Mesh& mesh, const std::function<Vector(Index)>& value,
