@@ -40,23 +40,6 @@ CellField<Tensor> closures(const Mesh& mesh) {
   return closure;
 }
 
-// What holds polyhedra of closed cracks together along their faces, over c along the normal. Measured on
-// glass_bead_quick: with 0.01 some solves still do not converge, from 0.025 to 0.3 all do and forces are alike. Cells
-// between tetrahedra do without, and take fewer staggered iterations so.
-constexpr double slip_share = 0.05;
-
-CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns) {
-  CellField<double> share(as_size(mesh.n_cells()), 1.0);
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const IsotropicElasticity& sound = unknowns.sound[as_size(unknowns.zone[c])];
-    const IsotropicElasticity seen = unknowns.plane_stress ? plane_stress(sound) : sound;
-    if (mesh.shape[c] == CellShape::polyhedron)
-      share[c] = std::min(1.0, (1.5 + 2.0) * seen.mu / seen.constrained_modulus());
-  }
-  for (const Index c : unknowns.pressure_cells) share[c] = 1.0;
-  return share;
-}
-
 // Of axisymmetric meshes; empty of others.
 CellField<Vector> sector_areas(const Mesh& mesh, const Unknowns& unknowns) {
   if (!unknowns.is_axisymmetric()) return {};
@@ -81,6 +64,7 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
                        .wanted = {}}),
       moduli_(as_size(mesh.n_cells())),
       jump_share_(jump_shares(mesh, unknowns)),
+      liquidity_(as_size(mesh.n_cells()), 0.0),
       force_of_face_(as_size(mesh.n_faces()), -1),
       second_side_of_node_(unknowns.face_of_node.size(), -1),
       first_side_of_node_(unknowns.face_of_node.size(), -1),
@@ -143,41 +127,10 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
   }
 }
 
-// 0 of sound cells and of open cracks, to 1 of closed ones, which keep the bulk modulus alone; polyhedra's.
-CellField<double> MomentumOperator::liquidity(const CellField<IsotropicElasticity>& moduli) const {
-  CellField<double> liquidity(as_size(mesh_.n_cells()), 0.0);
-  parallel_for(mesh_.n_cells(), [&](Index c) {
-    const IsotropicElasticity& sound = unknowns_.sound[as_size(unknowns_.zone[c])];
-    const double stiffer = moduli[c].bulk_modulus() * sound.mu / (sound.bulk_modulus() * moduli[c].mu);
-    if (mesh_.shape[c] == CellShape::polyhedron) liquidity[c] = std::max(0.0, 1.0 - 1.0 / stiffer);
-  });
-  return liquidity;
-}
-
-// lambda_s + 2 mu.
-double MomentumOperator::jump_modulus(Index cell) const {
-  const double share = jump_share_[cell] + liquidity_[cell] * (1.0 - jump_share_[cell]);
-  return share * moduli_[cell].constrained_modulus();
-}
-
-// Along the normal of the face between P and N, from what it is with the full lambda.
-double MomentumOperator::jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const {
-  if (mesh_.shape[P] != CellShape::polyhedron && mesh_.shape[N] != CellShape::polyhedron) return full;
-  const double mu_P = moduli_[P].mu, mu_N = moduli_[N].mu;
-  const double theta = 1.0 - std::min(mu_P, mu_N) / std::max(mu_P, mu_N);
-  const double small = 1.0 / (h_P / jump_modulus(P) + h_N / jump_modulus(N));
-  return small + theta * (full - small);
-}
-
-// Along the face.
-double MomentumOperator::slip_stiffness(Index P, Index N, double c_n, double c_t) const {
-  return c_t + slip_share * std::min(liquidity_[P], liquidity_[N]) * c_n;
-}
-
 void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                                   double part) {
   moduli_ = moduli;
-  liquidity_ = liquidity(moduli);
+  renew_liquidity();
   condense(moduli_);
   pressure_.take_over(moduli_, g);
   stiffness_ = {};

@@ -154,7 +154,8 @@ class MomentumOperator {
   Vector normal_stress(Index cell, const Vector& n, const Vector& d) const {
     return pressure_.any() ? (normal_stress(cell, n) + pressure_.at(cell, d) * n).eval() : normal_stress(cell, n);
   }
-  CellField<double> liquidity(const CellField<IsotropicElasticity>& moduli) const;
+  static CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns);
+  void renew_liquidity();
   double jump_modulus(Index cell) const;
   double jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const;
   double slip_stiffness(Index P, Index N, double c_n, double c_t) const;
@@ -188,8 +189,8 @@ class MomentumOperator {
   const Unknowns& unknowns_;
   Gradient gradient_;
   CellField<IsotropicElasticity> moduli_;
-  CellField<double> jump_share_;  // lambda_s + 2 mu over lambda + 2 mu where sound; 1 but of polyhedra
-  CellField<double> liquidity_;
+  CellField<double> jump_share_;           // lambda_s + 2 mu over lambda + 2 mu where sound; 1 but of polyhedra
+  CellField<double> liquidity_;            // 0 to 1 where a crack of a polyhedron is closed
   CellField<MandelMatrix> stiffness_;      // empty while all cells are isotropic, as are the tensors of the faces
   CellField<LinearStress> linear_stress_;  // may be empty
   CellField<StrainAcross> strain_across_;  // empty but in plane stress
