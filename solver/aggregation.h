@@ -11,8 +11,8 @@ namespace pfdm {
 /// Rows in the order given, from triplets in node numbers; position_of_node maps nodes to rows.
 BlockMatrix compress(const BlockTriplets& triplets, const std::vector<Index>& position_of_node);
 
-/// Aggregate of every row; -1 for rows without couplings, which the smoother alone solves. Aggregates are numbered
-/// by their first row. Of 2^n_passes rows as a rule; rows without a partner join others, so some are larger.
+/// Aggregate of every row; -1 for rows without couplings, which only the smoother treats. Aggregates are numbered by
+/// their first row. They have 2^n_passes rows in general; rows without a partner join others, so some are larger.
 struct Aggregates {
   std::vector<Index> of_row;
   Index count = 0;

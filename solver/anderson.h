@@ -1,7 +1,7 @@
 #pragma once
-// Anderson's mixing for a fixed point d = answer(d): of the last few iterates the combination whose increments cancel
-// best (Anderson, J. ACM 12 (1965) 547; Walker, Ni, SIAM J. Numer. Anal. 49 (2011) 1715). It finds fixed points that
-// plain iteration goes around for ever.
+// Anderson acceleration of a fixed-point iteration d = answer(d): the combination of the last iterates whose increments
+// cancel best in the least-squares sense (Anderson, J. ACM 12 (1965) 547; Walker, Ni, SIAM J. Numer. Anal. 49 (2011)
+// 1715). It converges to fixed points around which the plain iteration has a limit cycle.
 
 #include "mesh/fields.h"
 
@@ -13,7 +13,7 @@ namespace pfdm {
 
 class AndersonMixing {
  public:
-  /// The field to go on from, given the present one and the answer to it; bounded by `lower` and 1.
+  /// The next iterate, given the present one and the answer to it; bounded by `lower` and 1.
   CellField<double> next(const CellField<double>& d, const CellField<double>& answer, const CellField<double>& lower);
 
  private:

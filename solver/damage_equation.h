@@ -3,7 +3,7 @@
 //
 //   (Gc/(c0 ell)) alpha'(d) + (1 - k) g'(d) psi_plus - div((2 Gc ell/c0) grad d) = 0,  lower <= d <= 1,
 //
-// no flux through the boundary, d = 0 in regions that cannot be damaged. With a viscosity eta (Ginzburg-Landau; Miehe,
+// no flux through the boundary, d = 0 in undamageable regions. With a viscosity eta (Ginzburg-Landau; Miehe,
 // Welschinger, Hofacker, Int. J. Numer. Meth. Engng 83 (2010) 1273) the left side has eta (d - d_n)/dt as well.
 // Two-point fluxes, in series where Gc or ell jumps, with a deferred correction by two-ring gradients for faces that
 // are not orthogonal to their centre line. The correction is limited to the range of the damage around the face; a
@@ -30,29 +30,29 @@ class DamageEquation {
   DamageEquation(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal);
 
   struct Tolerance {
-    Index corrections = 1;    ///< how often the deferred flux is renewed; a staggered loop renews it at each iteration
-    double reduction = 1e-9;  ///< of the largest step that a cell would take by itself, from its start; 1e-10 at least
+    Index corrections = 1;    ///< number of updates of the deferred flux; a staggered loop updates it at each iteration
+    double reduction = 1e-9;  ///< of the initial value of the largest step of a cell by itself; 1e-10 at least
   };
   /// Solves for d [-] from its present value, given psi_plus [J/m^3] and the lower bound.
   DamageSolution solve(const CellField<double>& psi_plus, const CellField<double>& lower, const Tolerance& tolerance,
                        CellField<double>& d);
 
-  /// Discrete surface energy [J], with the deferred flux of the last solution; renewed: with that of d.
+  /// Discrete surface energy [J], with the deferred flux of the last solution; renewed_: with that of d.
   double fracture_energy(const CellField<double>& d) const;
   double renewed_fracture_energy(const CellField<double>& d);
-  /// The same over each cell's volume, half of a face's to each of its cells [J/m^3].
+  /// The same per cell volume; half of a face's energy belongs to each of its cells [J/m^3].
   CellField<double> fracture_energy_density(const CellField<double>& d) const;
-  /// From now on a change of the damage from `from` is resisted by so much [J/m^3], eta over the time step.
+  /// Viscous resistance to changes of the damage from `from` [J/m^3], eta over the time step, from now on.
   void resist_change(double resistance, const CellField<double>& from);
-  /// What that takes to get to d [J]: int eta (d - d_n)^2/dt dV.
+  /// Energy that the resistance dissipates up to d [J]: int eta (d - d_n)^2/dt dV.
   double viscous_dissipation(const CellField<double>& d) const;
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
-  /// By how much a cell is out of balance [J/m^3], with the deferred flux of the last solution.
+  /// Residual of a cell per volume [J/m^3], with the deferred flux of the last solution.
   double imbalance(Index cell, const CellField<double>& d, double psi_plus) const {
     return residual(cell, d, psi_plus) / mesh_.cell_volume[cell];
   }
 
-  /// From now on the damage of cells whose entry is not zero stays as it is; empty for none.
+  /// Holds the damage of cells with a nonzero entry from now on; empty for none.
   void hold(CellField<char> held) { held_ = std::move(held); }
   const CellField<char>& held() const { return held_; }
 

@@ -1,11 +1,12 @@
 #pragma once
 // Cell gradients by weighted least squares, exact for linear fields: grad u = sum_j (u_j - u_P) (x) c_j.
 //
-// Samples are neighbours of the same zone and the nodes on the cell's faces. Tetrahedra take two rings of face
-// neighbours with weight |d|^-2, all other cells one ring with |d|^-3: two rings on flat curved prisms falsify the
-// stress, one ring on tetrahedra does not converge. A neighbour's weight falls with min(1, g_j/g_P), so that a
-// broken cell does not bridge into a sound one; that of a polyhedron with min(g_P/g_j, g_j/g_P): its jump term, weaker
-// than the averaged tractions (momentum.h), does not cancel a wrong gradient of the broken cell either.
+// Samples are neighbours of the same zone and the nodes on the cell's faces. Tetrahedra use two rings of face
+// neighbours with weight |d|^-2, all other cells one ring with |d|^-3: two rings on flat curved prisms give wrong
+// stresses, one ring on tetrahedra does not converge. The weight of a neighbour is multiplied by min(1, g_j/g_P), so
+// that a broken cell does not bridge into a sound one. For a polyhedron the factor is min(g_P/g_j, g_j/g_P), small for
+// any neighbour of very different damage: its jump term, weaker than the averaged tractions (momentum.h), does not
+// cancel a wrong gradient of the broken cell either.
 
 #include "mesh/mesh.h"
 
@@ -14,10 +15,10 @@
 namespace pfdm {
 
 struct GradientSettings {
-  CellField<Index> zone;                 ///< which cells may see each other
+  CellField<Index> zone;                 ///< cells of the same zone sample each other
   FaceField<Index> node_of_face;         ///< sample nodes on faces (-1: none), numbered from n_cells on; or empty
-  Vector plane_normal = Vector::Zero();  ///< direction without gradient, if any
-  std::vector<char> wanted;              ///< cells whose gradient is asked for; empty: all
+  Vector plane_normal = Vector::Zero();  ///< direction in which the gradient is zero, if any
+  std::vector<char> wanted;              ///< nonzero for cells whose gradient is needed; empty: all
   bool zero_if_deficient = false;        ///< too few neighbours: gradient zero; otherwise InputError
 };
 
@@ -25,8 +26,8 @@ class Gradient {
  public:
   Gradient(const Mesh& mesh, const GradientSettings& settings);
 
-  /// Rebuilds the coefficients where a stiffness factor g of a cell's neighbourhood has moved by more than this part
-  /// of itself since they were built. Any weights are exact for linear fields.
+  /// Rebuilds the coefficients where a stiffness factor g in a cell's neighbourhood has changed by more than this
+  /// fraction since they were built. Any weights are exact for linear fields.
   void update(const CellField<double>& g, double part = 0.0);
 
   Tensor of(const Vector* u, Index cell) const {

@@ -1,41 +1,40 @@
 #pragma once
-// The momentum balance on cell-centred finite volumes with two-sided faces. Every face lets both its cells reconstruct
-// the traction and takes the face displacement at which they agree, so traction is continuous whatever the moduli:
+// The momentum balance on cell-centred finite volumes with two-sided faces. Both cells of a face reconstruct its
+// traction, and the face displacement is the one at which the two agree, so traction is continuous for any moduli:
 //
 //   a = (mu_P I + (lambda+mu)_P n n^T) / h_P,  b likewise for N,  c = a (a+b)^-1 b,
 //   t = b (a+b)^-1 sigma_P n + a (a+b)^-1 sigma_N n + c J,  J = (u_N + G_N d_N) - (u_P + G_P d_P),
 //
 // with G the least-squares gradients and d_P = x_f - x_P. On orthogonal cells the normal gradients cancel and the exact
-// series flux is left: a broken cell (g -> 0) disconnects its neighbours. Faces between elastic zones and on the
+// series flux remains: a broken cell (g -> 0) disconnects its neighbours. Faces between elastic zones and on the
 // boundary carry u_f itself: each side has t_c = sigma_c n + a_c (u_f - u_c - G_c d_c).
 //
-// In an axisymmetric mesh, a sector of one cell across, the gradient has the stretch u_r / r across the sector as well,
-// and the sector's two faces pull on the cell with the stress sigma_phi across it: -2 sin(half the angle) A sigma_phi
-// along r.
+// Axisymmetric meshes (a sector one cell wide): the gradient also has the hoop strain u_r / r, and the two faces of the
+// sector act on the cell with the hoop stress sigma_phi: -2 sin(half the angle) A sigma_phi along r.
 //
-// Cells of any stiffness C do likewise with a = (n.C.n) / h, the acoustic tensor of the face's normal, in full 3x3.
+// General stiffness C: the same with a = (n.C.n) / h, the acoustic tensor of the face normal, as a full 3x3 tensor.
 //
-// A material with a history is linearised within each solve, sigma = C eps + sigma_0, for the stresses alone: a, b and
-// c stay those of its elastic moduli. What the solves converge to thus does not depend on C, which may turn with the
+// A material with a history is linearised within each solve, sigma = C eps + sigma_0, for the stresses only: a, b and c
+// remain those of its elastic moduli. The converged solution therefore does not depend on C, which may change with the
 // direction of the strain increment.
 //
-// A polyhedron has about 14 faces against three unknowns: with a of the full lambda the jumps lock it as nu -> 0.5.
-// There c is that of lambda_s = min(lambda, 1.5 mu) in the undamaged material, of the same share of lambda + 2 mu in a
-// damaged one, blended back to the full one between cells of unlike damage:
+// Polyhedra have about 14 faces against three unknowns: with a of the full lambda the jump terms lock as nu -> 0.5.
+// Their c uses lambda_s = min(lambda, 1.5 mu) in the undamaged material, and the same fraction of lambda + 2 mu in a
+// damaged one, blended back to the full one between cells of different damage:
 // c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = 1 - min(mu_P, mu_N)/max(mu_P, mu_N). The weights of
-// sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge. Polyhedra of any
+// sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge. Polyhedra of general
 // stiffness C keep the full a.
 //
-// Where the split keeps lambda in closed cracks, a broken cell is a liquid (mu << lambda). Tangential displacements
-// that alternate between such polyhedra have gradients without a divergence of their own but, as faces are skew,
-// forces: nothing would hold them, and they grow without bounds. So they take the full c, and along the face between
-// two of them c_t + 0.05 c_n in the jump, which a slip that is linear over the cells does not notice.
+// Closed cracks in polyhedra: where the split keeps lambda, a broken cell has no shear stiffness (mu << lambda).
+// Tangential displacements that alternate between such polyhedra have gradients without divergence, but cause forces on
+// skew faces; without stabilisation they grow without bounds. Such cells therefore use the full c, and c_t + 0.05 c_n
+// along the face between two of them in the jump term, which vanishes for a slip that is linear over the cells.
 //
-// Nearly incompressible cells have a pressure q as an unknown of its own, which joins sigma at the face, and lambda_s
-// in place of lambda everywhere else (cell_pressure.h).
+// Nearly incompressible cells have an additional unknown, a pressure q, which is added to sigma at the face; everywhere
+// else lambda_s replaces lambda (cell_pressure.h).
 //
-// In plane stress the cells' stiffness is what is left of it with no stress across the plate: in all above, C, lambda
-// and sigma_0 are those of physics/plane_stress.h. The strain across is added to what the displacements say.
+// Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
+// are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements.
 
 #include "physics/plane_stress.h"
 #include "solver/block_matrix.h"
@@ -47,13 +46,13 @@
 
 namespace pfdm {
 
-/// What a displacement means in the cells.
+/// Strain, stress and energy of the cells for a given displacement.
 struct CellMechanics {
   CellField<Tensor> strain;    ///< from the two-sided face displacements (Green-Gauss) [-]
-  CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if it was not wanted
-  CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]; empty if it was not wanted
+  CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if not wanted
+  CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]; empty if not wanted
   CellField<double> energy;    ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
-  /// By least squares, as it makes the stress that the faces see [-]; empty where none is linearised.
+  /// By least squares, as used in the tractions of the faces [-]; empty unless some material is linearised.
   CellField<Tensor> reconstructed_strain{};
   FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
 };
@@ -62,29 +61,29 @@ class MomentumOperator {
  public:
   MomentumOperator(const Mesh& mesh, const Unknowns& unknowns);
 
-  /// Secant moduli of every cell, and the stiffness factors g that weigh the gradients; those follow only where g has
-  /// moved by more than this part of itself.
+  /// Secant moduli of every cell, and the stiffness factors g that weight the gradients; the weights are updated only
+  /// where g has changed by more than this fraction.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0);
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
-  /// After set_moduli(), which takes it away: the stress of every cell in place of that of its moduli.
+  /// Replaces the stress of the moduli in every cell; call after set_moduli(), which removes it.
   void set_stress(CellField<LinearStress> stress);
 
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
-  /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Initial stresses have no part in it.
+  /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Without initial stresses.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
   /// Forces from prescribed tractions at the load parameter t and from initial stresses, [N].
   std::vector<Vector> load_vector(double t) const;
   /// Writes the prescribed components of the boundary nodes at the load parameter t.
   void prescribe(double t, std::vector<Vector>& u) const;
-  /// Takes away what lies across the plane of a plane mesh.
+  /// Removes the component across the plane of a plane mesh.
   void keep_in_plane(std::vector<Vector>& v) const;
 
-  /// The compact symmetric matrix that preconditions A: c between cells, a from a cell to its face nodes.
+  /// The compact symmetric matrix for the preconditioner of A: c between cells, a from a cell to its face nodes.
   BlockTriplets compact_matrix() const;
-  /// For each pressure about the diagonal of its Schur complement [m^3/Pa].
+  /// Approximate diagonal of the Schur complement, per pressure [m^3/Pa].
   std::vector<double> pressure_compliance() const;
-  /// r -= what the pressures q, where they stand among the unknowns, do to the nodes.
+  /// r -= the forces of the pressures q (stored among the unknowns) on the nodes.
   void take_away_pressure_forces(const std::vector<Vector>& q, std::vector<Vector>& r) const;
 
   enum class Wanted { all, strain_and_energy };
@@ -115,7 +114,7 @@ class MomentumOperator {
     Vector d;         // from the cell centre to the face centre
     double a_n, a_t;  // [Pa/m]
   };
-  // What weight_n, weight_t and c_n, c_t are of a link whose cells are not isotropic.
+  // Weight and c of a link whose cells are not isotropic.
   struct LinkTensors {
     Tensor weight;    // of sigma_P n in the traction
     Tensor c;         // [Pa/m]
@@ -131,7 +130,7 @@ class MomentumOperator {
     return across * v + ((along - across) * n.dot(v)) * n;
   }
 
-  // Of the displacements, those of the initial stresses, and both, into forces_.
+  // Forces of the displacements, of the initial stresses, and of both, into forces_.
   void compute_linear_forces(const std::vector<Vector>& u) const;
   void add_initial_forces() const;
   void compute_forces(const std::vector<Vector>& u) const;
@@ -150,7 +149,7 @@ class MomentumOperator {
     const IsotropicElasticity& c = moduli_[cell];
     return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
   }
-  // At the distance d from the cell's centre; all but the pressure is the same throughout a cell.
+  // At the distance d from the cell's centre; only the pressure varies within a cell.
   Vector normal_stress(Index cell, const Vector& n, const Vector& d) const {
     return pressure_.any() ? (normal_stress(cell, n) + pressure_.at(cell, d) * n).eval() : normal_stress(cell, n);
   }
@@ -175,7 +174,7 @@ class MomentumOperator {
   Tensor compact_sector(Index cell) const;
   // Stress [Pa] across the plane of a plane mesh, per unit of n (x) n.
   double stress_across(Index cell, const Tensor& strain) const;
-  // Keeps what makes the strain across, and leaves the stiffness within the plate.
+  // Stores the coefficients of the strain across the plate, and replaces the stiffness by the condensed one.
   void condense(CellField<IsotropicElasticity>& moduli);
   void condense(CellField<MandelMatrix>& stiffness);
   void condense(CellField<LinearStress>& stress);
@@ -189,8 +188,8 @@ class MomentumOperator {
   const Unknowns& unknowns_;
   Gradient gradient_;
   CellField<IsotropicElasticity> moduli_;
-  CellField<double> jump_share_;           // lambda_s + 2 mu over lambda + 2 mu where sound; 1 but of polyhedra
-  CellField<double> liquidity_;            // 0 to 1 where a crack of a polyhedron is closed
+  CellField<double> jump_share_;           // lambda_s + 2 mu over lambda + 2 mu, undamaged; 1 except in polyhedra
+  CellField<double> liquidity_;            // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is
   CellField<MandelMatrix> stiffness_;      // empty while all cells are isotropic, as are the tensors of the faces
   CellField<LinearStress> linear_stress_;  // may be empty
   CellField<StrainAcross> strain_across_;  // empty but in plane stress

@@ -1,8 +1,8 @@
 #pragma once
 // Equilibrium at fixed damage: flexible GMRES on the traction operator, preconditioned by multigrid on its compact
 // matrix; with pressures by the block triangle [A B; 0 S], multigrid for A and a diagonal for the Schur complement S.
-// Residuals are measured row-scaled by (tr D / 3)^-1/2: unscaled, the norm is all glass and blind to broken
-// cells.
+// Residuals are row-scaled by (tr D / 3)^-1/2: without scaling the stiffest cells dominate the norm and broken cells do
+// not contribute.
 
 #include "solver/fgmres.h"
 #include "solver/momentum.h"
@@ -23,15 +23,15 @@ class MomentumSolver {
  public:
   MomentumSolver(const Mesh& mesh, const Unknowns& unknowns);
 
-  /// New secant moduli. The multigrid is built again when some cell's stiffness factor g has moved by more than 2, the
-  /// weights of the gradients where it has moved by more than a hundredth.
+  /// New secant moduli. The multigrid is rebuilt when the stiffness factor g of some cell has changed by more than a
+  /// factor of 2, the weights of the gradients where it has changed by more than a hundredth.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
-  /// Stresses in place of those of the moduli that were just set (see MomentumOperator).
+  /// Replaces the stresses of the moduli that were just set (see MomentumOperator).
   void set_stress(CellField<LinearStress> stress);
-  /// The same with any stiffness [Pa]; the multigrid follows its trace.
+  /// The same with a general stiffness [Pa]; the multigrid is rebuilt by changes of its trace.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
-  /// Has the next set_moduli build all that would come out otherwise, so that what follows does not depend on what was
-  /// before.
+  /// Makes the next set_moduli rebuild everything that could differ, so that the results do not depend on earlier
+  /// states.
   void start_afresh() { starts_afresh_ = true; }
 
   /// Writes the prescribed values at t into u and solves to a residual of
@@ -45,7 +45,7 @@ class MomentumSolver {
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
   /// Forces [N] on the cells, or on all nodes, at every load parameter from now on; empty for none.
   void set_body_force(std::vector<Vector> force);
-  /// Residuals are measured against this one's instead of those of the prescribed displacements and tractions.
+  /// Sets the reference of relative residuals, in place of that of the prescribed displacements and tractions.
   void measure_against(double reference) { fixed_reference_ = reference; }
   double residual_reference() const { return fixed_reference_.value_or(reference_); }
 
@@ -66,12 +66,12 @@ class MomentumSolver {
   std::vector<Vector> body_force_;       // on the cells [N]; may be empty
   std::vector<Index> position_of_node_;  // multigrid row of each node: face nodes follow a cell of theirs
   std::optional<Multigrid> multigrid_;
-  CellField<double> measure_of_multigrid_;  // of the cells' stiffness: any, as long as it is always the same
-  CellField<IsotropicElasticity> moduli_of_multigrid_;  // empty if it is of any stiffness
+  CellField<double> measure_of_multigrid_;              // of the cells' stiffness: any measure, but always the same
+  CellField<IsotropicElasticity> moduli_of_multigrid_;  // empty for a general stiffness
   bool starts_afresh_ = false;
   std::vector<double> scale_;
   std::vector<double> pressure_compliance_;  // per pressure [m^3/Pa]
-  std::vector<Vector> rest_;                 // of the residual, without what the pressures answer; work space
+  std::vector<Vector> rest_;                 // residual without the forces of the pressures; work space
   std::optional<double> reference_load_;     // load parameter that reference_ belongs to
   double reference_ = 0.0;
   std::optional<double> fixed_reference_;  // if it was given

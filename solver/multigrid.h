@@ -1,7 +1,7 @@
 #pragma once
 // Aggregation multigrid with a K-cycle (Notay, Vassilevski, Numer. Linear Algebra Appl. 15 (2008) 473) for symmetric
-// matrices of 3x3 blocks. Smoother: block Gauss-Seidel by fixed, coloured groups of rows, so that the result does not
-// depend on the number of threads. Nonlinear as a preconditioner: the outer method has to be flexible.
+// matrices of 3x3 blocks. Smoother: block Gauss-Seidel over fixed, coloured groups of rows; the result does not depend
+// on the number of threads. The K-cycle is a nonlinear preconditioner: the outer Krylov method has to be flexible.
 
 #include "solver/aggregation.h"
 
@@ -15,7 +15,7 @@ class Multigrid {
  public:
   explicit Multigrid(BlockMatrix matrix);
 
-  /// x = approximately A^-1 b.
+  /// One cycle: x approximates A^-1 b.
   void apply(const std::vector<Lane>& b, std::vector<Lane>& x);
   Index n_levels() const { return static_cast<Index>(levels_.size()); }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
-// the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797). On request the
-// loop goes on between its iterations in windows around the cells that still change (window.h).
+// the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797). Optionally with
+// local sub-domain iterations around the cells that still change, between the global iterations (window.h).
 
 #include "solver/cell_stiffness.h"
 #include "solver/damage_equation.h"
@@ -16,42 +16,42 @@ namespace pfdm {
 
 struct StepOutcome {
   bool converged = false;
-  bool failed = false;          ///< given up, as there was no finite solution
-  bool broke_too_much = false;  ///< given up, as the damage went beyond what is allowed
-  double growth = 0.0;          ///< largest of d over a cell
+  bool failed = false;          ///< abandoned: no finite solution
+  bool broke_too_much = false;  ///< abandoned: a limit on damage or energy was exceeded
+  double growth = 0.0;          ///< largest increase of d in a cell
   double energy_release = 0.0;  ///< change of elastic energy by damage, over elastic and fracture energy before it
   Index iterations = 0;
-  double window_iterations = 0.0;  ///< those in windows, each counting as its share of the cells
+  double window_iterations = 0.0;  ///< in windows, each weighted by its fraction of the cells
   Index krylov_iterations = 0;
   double elastic_energy = 0.0;       ///< [J]
   double viscous_dissipation = 0.0;  ///< of the step [J]
   double plastic_dissipation = 0.0;  ///< of the step [J]
 };
 
-/// What a step may do at most, and how long it takes.
+/// Limits of a step, and its duration.
 struct StepLimits {
   double growth = std::numeric_limits<double>::infinity();          ///< of d in a cell
   double energy_release = std::numeric_limits<double>::infinity();  ///< relative
   double dissipation = std::numeric_limits<double>::infinity();     ///< [J]
-  double duration = 0.0;    ///< of the step [s]; for models that look at the rate
-  bool may_be_cut = false;  ///< a shorter step can be tried instead: one that goes in circles is given up
+  double duration = 0.0;                                            ///< of the step [s]; for rate-dependent models
+  bool may_be_cut = false;  ///< a shorter step can be tried instead: a limit cycle ends the step at once
 };
 
 class Staggered {
  public:
   Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings);
 
-  /// Brings `state`, whose load is the step's, to equilibrium. `start` is the state that damage may not fall below.
-  /// Gives up once damage has gone beyond a limit. Where the step would dissipate more than its
-  /// limit, the load is lowered until it does not: boundary values must then be proportional to the load parameter, and
-  /// damage be bounded by that of `start`.
+  /// Brings `state`, whose load is the step's, to equilibrium. The damage of `start` is the lower bound
+  /// (irreversibility). The step is abandoned once a limit on damage or energy release is exceeded. With a limit on the
+  /// dissipation (dissipation control) the load is lowered until the step satisfies it: boundary values must then be
+  /// proportional to the load parameter, and irreversibility be by bounds.
   StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
                          const StepLimits& limits = {});
 
   /// The loop of solve_step alone; the energies of the outcome are not set.
   StepOutcome alternate(const FractureState& start, FractureState& state, const RunHooks& hooks,
                         const StepLimits& limits);
-  /// The driving energy at the displacement of the state, with the stiffness as it is.
+  /// The driving energy at the displacement of the state, with the present stiffness.
   void renew_driving_energy(const FractureState& start, FractureState& state) {
     update_driving_energy(start, state, false);
   }
@@ -62,20 +62,20 @@ class Staggered {
   CellStiffness& stiffness() { return stiffness_; }
   const CellStiffness& stiffness() const { return stiffness_; }
   StageClock& clock() { return clock_; }
-  /// Sets the stiffness of the state in the momentum balance.
+  /// Sets the degraded stiffness of the state in the momentum balance.
   void degrade(const FractureState& state);
 
  private:
   Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
   struct Energies {
     double stored = 0.0;     // [J]
-    double unsettled = 0.0;  // by which the stiffness that was used falsifies it [J]
+    double unsettled = 0.0;  // error of it by closures that have not settled [J]
   };
-  /// May have the stiffness follow the strain.
+  /// With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   void drive(const FractureState& start, FractureState& state, double scale);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
-  /// What the loop came from, and what the damage equation answered to it.
+  /// The last iterate of the loop, and the solution of the damage equation for it.
   struct Turn {
     const FractureState& from;
     const CellField<double>& answer;
@@ -84,9 +84,9 @@ class Staggered {
   bool settle_windows(const FractureState& start, const Turn& turn, double duration, FractureState& state,
                       StepOutcome& outcome);
   struct PathLimit {
-    double load = 0.0;    // most load of the step
-    double energy = 0.0;  // surface energy that the step may end with [J], and
-    double step = 0.0;    // what it may dissipate [J]
+    double load = 0.0;    // largest load of the step
+    double energy = 0.0;  // largest surface energy at the end of the step [J]
+    double step = 0.0;    // largest dissipation of the step [J]
   };
   bool follow_path(const FractureState& start, const PathLimit& limit, FractureState& state, CellField<double>& d);
 

@@ -1,7 +1,7 @@
 #pragma once
-// Where displacement unknowns live: one node per cell, then one per face that lies between two elastic zones or on the
+// Placement of the displacement unknowns: one node per cell, then one per face between two elastic zones or on the
 // boundary. Faces of plane and axisymmetric patches (one-cell-thick meshes) carry none. Nearly incompressible cells
-// have a pressure beside it (cell_pressure.h): unknowns after the nodes, in the first component of a vector each.
+// also have a pressure (cell_pressure.h): unknowns after the nodes, each in the first component of a vector.
 
 #include "mesh/mesh_part.h"
 #include "solver/fracture_model.h"
@@ -21,7 +21,7 @@ struct Unknowns {
   std::vector<IsotropicElasticity> sound;  ///< elasticity of each zone, undamaged
   FaceField<Index> node_of_face;           ///< -1 where a face carries no unknown
   std::vector<Index> face_of_node;         ///< entry k is the face of node n_cells + k
-  std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free where nothing was said
+  std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free by default
   std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
   /// Across the one cell of plane and axisymmetric meshes; zero in three-dimensional ones.
   Vector plane_normal = Vector::Zero();
@@ -35,11 +35,11 @@ struct Unknowns {
   Index n_unknowns() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }  ///< vectors
 };
 
-/// Throws InputError for a condition on a patch that is not there, two conditions on one patch, a symmetry patch that
-/// is not plane, plane stress beside plane strain, or a body that nothing holds against a rigid motion.
+/// Throws InputError for a condition on an unknown patch, two conditions on one patch, a symmetry patch that is not
+/// plane, plane stress together with plane strain, or boundary conditions that leave a rigid motion free.
 Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model);
 
-/// Those of a part of a mesh without pressures, where displacements on the cut are held.
+/// Unknowns of a part of a mesh without pressures; displacements on the cut are held.
 Unknowns unknowns_of_part(const Unknowns& whole, const MeshPart& part);
 
 }  // namespace pfdm

@@ -1,21 +1,22 @@
 #pragma once
-// A part of the mesh on which the staggered loop goes on alone, with the displacement around it held: where a crack's
-// front advances cell by cell, what changes is near it. Near the cut, where the discrete balances see cells that are
-// not there, the damage is held and what is missing acts as forces and sources (full approximation: Brandt, Math.
-// Comput. 31 (1977) 333), so that a solution of the whole is one of the window.
+// Local sub-domain iteration: the staggered loop on a part of the mesh, with the displacement around it held. Where a
+// crack front advances cell by cell, only its neighbourhood changes. Near the cut, where the discrete balances involve
+// cells outside the window, the damage is held and the missing contributions act as forces and sources (full
+// approximation scheme: Brandt, Math. Comput. 31 (1977) 333), so that a solution of the whole problem is also one of
+// the window.
 
 #include "solver/staggered.h"
 
 namespace pfdm {
 
-/// Parts of the mesh that do not touch and that hold all cells within `reach` [m] of the seeds, by the way of faces;
-/// around each of them the rings of cells whose damage is held. Cells in ascending order.
+/// Disjoint, non-adjacent parts of the mesh that contain all cells within `reach` [m] of the seeds, reached through
+/// faces; each with the surrounding rings of cells whose damage is held. Cells in ascending order.
 std::vector<std::vector<Index>> window_cells(const Mesh& mesh, const std::vector<Index>& seeds, double reach);
 
 class Window {
  public:
-  /// Where the loop of the whole stands. The damage equation was just solved from `state`, whose displacement is in
-  /// equilibrium with its damage.
+  /// The present iterate of the global loop. The damage equation has just been solved from `state`, whose displacement
+  /// is in equilibrium with its damage.
   struct Surroundings {
     const Mesh& mesh;
     const FractureModel& model;
@@ -29,10 +30,10 @@ class Window {
     double duration;            ///< of the step [s]
   };
 
-  /// Of such cells as window_cells gives. Must not outlive what surrounds it.
+  /// `cells` is one of the parts of window_cells. Must not outlive the surroundings.
   Window(const Surroundings& whole, std::vector<Index> cells, const StaggeredSettings& settings);
 
-  /// Iterates within the window from `state`, and leaves there what it comes to.
+  /// Iterates within the window from `state` and writes the result back to it.
   StepOutcome settle(FractureState& state);
 
  private:
