@@ -20,7 +20,10 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
-#include <vtkUnicodeString.h>
+#if __has_include(<vtkUnicodeString.h>)
+#include <vtkUnicodeString.h>  // up to VTK 9.1, whose device has to draw such strings too
+#define PFDM_VTK_HAS_UNICODE_STRING
+#endif
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -121,11 +124,13 @@ class PaperDevice : public vtkContextDevice2D {
   void DrawImage(float*, float, vtkImageData*) override {}
   void DrawImage(const vtkRectf&, vtkImageData*) override {}
   void SetTexture(vtkImageData*, int) override {}
+#ifdef PFDM_VTK_HAS_UNICODE_STRING
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
   void DrawString(float*, const vtkUnicodeString&) override {}
   void ComputeStringBounds(const vtkUnicodeString&, float*) override {}
 #pragma GCC diagnostic pop
+#endif
 
  private:
   static constexpr double cap_height = 0.72, line_height = 0.95;  // over the font's size

@@ -1,5 +1,7 @@
 #include "solver/anderson.h"
 
+#include "solver/least_squares.h"
+
 #include <algorithm>
 
 namespace pfdm {
@@ -24,7 +26,7 @@ CellField<double> AndersonMixing::next(const CellField<double>& d, const CellFie
       change_of_d.col(j) = last.d - before.d;
       change_of_increment.col(j) = last.increment - before.increment;
     }
-    const Eigen::VectorXd weight = change_of_increment.colPivHouseholderQr().solve(last.increment);
+    const Eigen::VectorXd weight = least_squares(change_of_increment, last.increment);
     step -= (change_of_d + change_of_increment) * weight;
   }
   CellField<double> result(as_size(d.size()));

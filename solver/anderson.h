@@ -7,7 +7,7 @@
 
 #include <deque>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 namespace pfdm {
 

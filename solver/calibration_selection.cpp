@@ -1,5 +1,7 @@
 #include "solver/calibration.h"
 
+#include "solver/least_squares.h"
+
 #include <cmath>
 
 namespace pfdm {
@@ -23,7 +25,7 @@ Eigen::VectorXd solve_within(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
     }
   Eigen::VectorXd all = Eigen::VectorXd::Zero(A.cols());
   if (part.cols() == 0) return all;
-  const Eigen::VectorXd x = part.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd x = least_squares(part, b);
   for (Eigen::Index j = 0, k = 0; j < A.cols(); ++j)
     if (free[static_cast<std::size_t>(j)]) all[j] = x[k++];
   return all;

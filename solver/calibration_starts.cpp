@@ -2,6 +2,8 @@
 
 #include "physics/error.h"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <random>
 

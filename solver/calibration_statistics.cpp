@@ -1,6 +1,7 @@
 #include "solver/calibration_statistics.h"
 
 #include "physics/error.h"
+#include "solver/least_squares.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -50,12 +51,12 @@ Eigen::MatrixXd inverse_normal(const ScaledModel& model, const Eigen::MatrixXd& 
     A.col(k) = J.col(static_cast<Eigen::Index>(visible[static_cast<std::size_t>(k)]));
   const Eigen::VectorXd size = A.colwise().norm();
   A = A * size.cwiseInverse().asDiagonal();
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinV);
+  const SingularValues svd = singular_values(A);
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const double sigma = svd.singularValues()[k];
-    const Eigen::VectorXd v = svd.matrixV().col(k);
-    if (sigma > dependent * svd.singularValues()[0]) {
+    const double sigma = svd.values[k];
+    const Eigen::VectorXd v = svd.V.col(k);
+    if (sigma > dependent * svd.values[0]) {
       inverse += v * v.transpose() / (sigma * sigma);
       continue;
     }

@@ -1,6 +1,7 @@
 #include "solver/identification_least_squares.h"
 
-#include <Eigen/QR>
+#include "solver/least_squares.h"
+
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include <cmath>
@@ -68,7 +69,7 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, const VectorXd& 
 
 VectorXd solve_scaled(const MatrixXd& A, const VectorXd& q) {
   const VectorXd norms = A.colwise().norm().cwiseMax(1e-300);
-  const VectorXd scaled = (A * norms.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(q);
+  const VectorXd scaled = least_squares(A * norms.cwiseInverse().asDiagonal(), q);
   return scaled.cwiseQuotient(norms);  // A/s (s p) = q: to get p, divide; the report (A4.3, step 4) says multiply
 }
 

@@ -2,6 +2,7 @@
 
 #include "physics/mass_material.h"
 #include "solver/calibration_statistics.h"
+#include "solver/least_squares.h"
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -88,7 +89,7 @@ Repeatability repeatability(std::span<const ScheduledRun> schedule, std::span<co
   const std::vector<Column> columns = columns_of(schedule);
   const MatrixXd A = design(columns, values.size());
   const auto y = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
-  const VectorXd x = A.colPivHouseholderQr().solve(y);
+  const VectorXd x = least_squares(A, y);
   Repeatability result;
   result.mean = x[0];
   result.residual_freedom = static_cast<int>(A.rows() - A.cols());

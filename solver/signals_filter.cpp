@@ -1,8 +1,7 @@
 #include "solver/signals_filter.h"
 
+#include "solver/least_squares.h"
 #include "solver/signals_fourier.h"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <cassert>
@@ -44,7 +43,7 @@ VectorXd smoothed_phase(const VectorXd& phase, double rate, double bandwidth) {
     at[k] = phase[i];
     for (Index p = 0; p < 8; ++p) powers(k, p) = std::pow(place(i), p);
   }
-  const VectorXd c = powers.colPivHouseholderQr().solve(at);
+  const VectorXd c = least_squares(powers, at);
   VectorXd course(n);
   for (Index i = 0; i < n; ++i) {
     double sum = 0.0;
