@@ -18,6 +18,7 @@ struct ExpressionInUnit {
 };
 
 ExpressionInUnit read_expression(const ConfigTable& table, const Dimension& due) {
+  table.with_keys({"expr", "unit"});
   const ConfigValue text = table.at("expr");
   double factor = 1.0;
   if (has_unit(due) || table.has("unit")) {

@@ -9,6 +9,7 @@ namespace pfdm {
 namespace {
 
 std::function<Vector(const Vector&)> read_goodier(const ConfigTable& settings, const Materials& materials) {
+  settings.with_keys({"field", "inclusion", "matrix", "radius", "stress"});
   const Goodier goodier(materials.elasticity(settings.at("inclusion")), materials.elasticity(settings.at("matrix")),
                         settings.quantity("radius", dimension::length, range::positive),
                         settings.quantity("stress", dimension::stress));
@@ -121,6 +122,7 @@ void add_patch(std::vector<BoundarySettings>& boundary, const BoundarySettings& 
 std::vector<BoundarySettings> read_boundary(const ConfigTable& root, const Materials& materials) {
   std::vector<BoundarySettings> boundary;
   for (const ConfigTable& table : root.tables("boundary")) {
+    table.with_keys({"patch", "patches", "type", "displacement", "traction"});
     const std::vector<ConfigValue> patches = patches_of(table);
     if (patches.empty()) throw table.error("patches is an empty list");
     BoundarySettings settings{.condition = {}, .displacement_at_full_load = {}, .patch = patches.front()};

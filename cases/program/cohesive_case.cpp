@@ -37,6 +37,7 @@ std::vector<Band> read_interfaces(const ConfigTable& table, std::span<const Band
 }
 
 CohesivePlane read_plane(const ConfigTable& table) {
+  table.with_keys({"name", "point", "normal", "half_width"});
   return {.name = read_plain_name(table.at("name"), "a folder"),
           .point = read_point(table.at("point")),
           .normal = read_direction(table.at("normal")),
@@ -49,7 +50,7 @@ CohesivePlane read_plane(const ConfigTable& table) {
 CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> bands, const Vector& axis) {
   CohesiveSettings settings{.bands = two_sided(bands), .planes = {}, .axis = axis};
   if (!root.has("cohesive")) return settings;
-  const ConfigTable table = root.table("cohesive");
+  const ConfigTable table = root.table("cohesive").with_keys({"interfaces", "planes"});
   settings.bands = read_interfaces(table, bands);
   for (const ConfigTable& plane : table.tables("planes")) {
     settings.planes.push_back(read_plane(plane));

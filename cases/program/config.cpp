@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace pfdm {
@@ -17,9 +18,11 @@ struct ConfigSource {
   TomlValue root;
   struct Opened {
     std::string path;
-    std::set<std::string> known;
+    std::set<std::string> asked_for;
+    std::set<std::string> allowed;  // all keys, where they were named
+    const std::set<std::string>& known() const { return allowed.empty() ? asked_for : allowed; }
   };
-  std::map<const TomlTable*, Opened> opened;  // tables that were looked into, and the keys that were asked for
+  std::map<const TomlTable*, Opened> opened;  // tables that were looked into
 };
 
 namespace {
@@ -52,13 +55,23 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-InputError unknown_key(const ConfigSource& source, const ConfigSource::Opened& table, const std::string& key,
-                       int line) {
-  const std::vector<std::string> allowed(table.known.begin(), table.known.end());
-  const auto meant = nearest(key, allowed);
+/// `list`: whether the keys that are known are all there are.
+InputError unknown_key(const ConfigSource& source, const ConfigSource::Opened& table, const std::string& key, int line,
+                       bool list) {
+  const std::vector<std::string> known(table.known().begin(), table.known().end());
+  const auto meant = nearest(key, known);
   return error_at(source, line,
-                  fmt::format("{}\"{}\" is not known here{} (allowed: {})", table_place(table.path), key,
-                              meant ? fmt::format("; did you mean \"{}\"?", *meant) : "", fmt::join(allowed, ", ")));
+                  fmt::format("{}\"{}\" is not known here{}{}", table_place(table.path), key,
+                              meant ? fmt::format("; did you mean \"{}\"?", *meant) : "",
+                              list ? fmt::format(" (allowed: {})", fmt::join(known, ", ")) : ""));
+}
+
+/// A key that nobody asked for.
+InputError idle_key(const ConfigSource& source, const ConfigSource::Opened& table, const std::string& key, int line) {
+  if (!table.allowed.contains(key)) return unknown_key(source, table, key, line, true);
+  return error_at(
+      source, line,
+      fmt::format("{}\"{}\" has no effect with the other settings of this case", table_place(table.path), key));
 }
 
 void reject_unknown_in(const ConfigSource& source, const TomlValue& value) {
@@ -68,8 +81,8 @@ void reject_unknown_in(const ConfigSource& source, const TomlValue& value) {
   if (table == nullptr) return;
   const auto opened = source.opened.find(table);
   for (const auto& [key, entry] : *table) {
-    if (opened != source.opened.end() && !opened->second.known.contains(key))
-      throw unknown_key(source, opened->second, key, entry.key_line);
+    if (opened != source.opened.end() && !opened->second.asked_for.contains(key))
+      throw idle_key(source, opened->second, key, entry.key_line);
     reject_unknown_in(source, entry);
   }
 }
@@ -179,8 +192,20 @@ InputError ConfigTable::error(std::string_view message) const {
   return error_at(*source_, value_->line, fmt::format("{}{}", table_place(path_), message));
 }
 
+ConfigTable ConfigTable::with_keys(std::span<const std::string_view> keys) const {
+  ConfigSource::Opened& opened = source_->opened[&content()];
+  opened.allowed = {keys.begin(), keys.end()};
+  for (const auto& [name, value] : content())
+    if (!opened.allowed.contains(name)) throw unknown_key(*source_, opened, name, value.key_line, true);
+  return *this;
+}
+
 std::optional<ConfigValue> ConfigTable::find(std::string_view key) const {
-  source_->opened[&content()].known.emplace(key);
+  ConfigSource::Opened& opened = source_->opened[&content()];
+  opened.asked_for.emplace(key);
+  if (!opened.known().contains(std::string(key)))
+    throw std::logic_error(
+        fmt::format("{}\"{}\" is asked for and not among the table's keys", table_place(path_), key));
   for (const auto& [name, value] : content())
     if (name == key) return ConfigValue(source_, &value, place_of_key(path_, key), subtable(path_, key));
   return std::nullopt;
@@ -193,8 +218,8 @@ InputError ConfigTable::missing(std::string_view key, std::string_view what) con
   const ConfigSource::Opened& opened = source_->opened[&content()];
   const std::string wanted[] = {std::string(key)};
   for (const auto& [name, value] : content())
-    if (!opened.known.contains(name) && nearest(name, wanted))
-      return unknown_key(*source_, opened, name, value.key_line);
+    if (!opened.known().contains(name) && nearest(name, wanted))
+      return unknown_key(*source_, opened, name, value.key_line, false);  // others may be asked for later
   return error(fmt::format("\"{}\" is missing{}", key, what));
 }
 

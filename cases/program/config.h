@@ -1,6 +1,6 @@
 #pragma once
-// A strict reader of case files. Every key that is asked for becomes known; one that nobody asked for is an error, with
-// the nearest known key. All functions throw InputError of the form
+// A strict reader of case files. Who reads a table names its keys; another one in the file is an error, with the
+// nearest of them, and so is one that nobody asked for in the end. All functions throw InputError of the form
 //   cases/x/case.toml:12: [mesh] "thicknes" is not known here; did you mean "thickness"? (allowed: ...)
 
 #include "cases/program/toml_document.h"
@@ -8,6 +8,7 @@
 #include "physics/error.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -31,6 +32,9 @@ inline constexpr Range any{};
 inline constexpr Range positive{0.0, std::numeric_limits<double>::infinity(), true, "positive"};
 inline constexpr Range not_negative{0.0, std::numeric_limits<double>::infinity(), false, "zero or positive"};
 inline constexpr Range fraction{0.0, 1.0, false, "between 0 and 1"};
+/// What the solver is tested for.
+inline constexpr Range poisson_ratio{-1.0 + std::numeric_limits<double>::epsilon(), 0.4999, false,
+                                     "above -1 and at most 0.4999"};
 }  // namespace range
 
 struct ConfigSource;
@@ -82,6 +86,13 @@ class ConfigValue {
 class ConfigTable {
  public:
   ConfigTable(std::shared_ptr<ConfigSource> source, const TomlValue* value, std::string path);
+
+  /// The same table, after it is known which keys it may have: throws for any other one in the file. To ask for a key
+  /// that was not named is a mistake of the program's (std::logic_error).
+  ConfigTable with_keys(std::span<const std::string_view> keys) const;
+  ConfigTable with_keys(std::initializer_list<std::string_view> keys) const {
+    return with_keys(std::span(keys.begin(), keys.size()));
+  }
 
   bool has(std::string_view key) const;
   ConfigValue at(std::string_view key) const;

@@ -97,7 +97,7 @@ void read_control_value(const ConfigValue& value, bool is_stress, const std::vec
     condition.values = {read_component_value(value, is_stress)};
     return;
   }
-  const ConfigTable table = value.table();
+  const ConfigTable table = value.table().with_keys({"expr", "unit", "table", "csv", "column", "time", "time_unit"});
   condition.pace = Pace::follow;
   if (table.has("expr")) return read_expression(table, is_stress, times, condition);
   Polyline line;

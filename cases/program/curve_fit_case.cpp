@@ -17,7 +17,7 @@ constexpr Range step_range{0.0, 0.5, true, "above 0 and below 0.5"};
 
 void read_prior(const ConfigTable& table, CurveFitParameter& parameter) {
   if (!table.has("prior")) return;
-  const ConfigTable prior = table.table("prior");
+  const ConfigTable prior = table.table("prior").with_keys({"mean", "deviation"});
   const double mean = read_parameter_value(prior.at("mean"), parameter.in_case);
   const double deviation = read_parameter_value(prior.at("deviation"), parameter.in_case);
   if (!(deviation > 0.0)) throw prior.at("deviation").error("a standard deviation must be positive");
@@ -27,6 +27,7 @@ void read_prior(const ConfigTable& table, CurveFitParameter& parameter) {
 }
 
 CurveFitParameter read_parameter(const ConfigTable& table, const CaseFile& file) {
+  table.with_keys({"key", "bounds", "prior"});
   CurveFitParameter parameter{.in_case = read_case_parameter(table.at("key"), file), .in_fit = {}};
   const CaseParameter& in_case = parameter.in_case;
   const ConfigValue bounds = table.at("bounds");
@@ -67,6 +68,7 @@ CurveFitStage whole_stage(const ConfigTable& fit, const std::vector<CurveFitPara
 
 CurveFitStage read_stage(const ConfigTable& table, const CurveFitStage& whole,
                          const std::vector<CurveFitParameter>& parameters) {
+  table.with_keys({"name", "parameters", "between", "starts", "screened"});
   CurveFitStage stage = whole;
   stage.name = table.string("name");
   read_starts(table, stage);
@@ -131,7 +133,8 @@ void require_start_within_bounds(const CurveFitSettings& settings) {
 std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
   const ConfigTable root = file.config.root();
   if (!root.has("fit")) return std::nullopt;
-  const ConfigTable fit = root.table("fit");
+  const ConfigTable fit = root.table("fit").with_keys({"parameters", "stages", "step", "differences", "tolerance",
+                                                       "maximum_iterations", "starts", "screened", "spread"});
   CurveFitSettings settings{.parameters = {}, .stages = {}, .solver = read_settings(fit), .where = fit};
   for (const ConfigTable& table : fit.tables("parameters")) {
     settings.parameters.push_back(read_parameter(table, file));

@@ -29,7 +29,8 @@ LoadSegment read_followed_strains(const ConfigTable& table, const std::filesyste
     const ControlledComponent component = value.in_context([&] { return controlled_component(key); });
     if (component.is_stress) throw value.error("a strain is due here; stresses stand in [fit.experiments.stress]");
     segment.conditions[static_cast<std::size_t>(component.pair)] = {
-        component.condition, Pace::follow, read_column(value.table(), file, "column", "unit", dimension::number)};
+        component.condition, Pace::follow,
+        read_column(value.table().with_keys({"column", "unit"}), file, "column", "unit", dimension::number)};
   }
   if (strains.entries().empty()) throw strains.error("no strain is named that the experiment followed");
   return segment;
@@ -38,13 +39,14 @@ LoadSegment read_followed_strains(const ConfigTable& table, const std::filesyste
 MaterialExperiment::Channel read_channel(const std::string& key, const ConfigValue& value, const CsvTable& file) {
   const ControlledComponent component = value.in_context([&] { return controlled_component(key); });
   if (!component.is_stress) throw value.error("a stress is due here; strains stand in [fit.experiments.strain]");
-  const ConfigTable table = value.table();
+  const ConfigTable table = value.table().with_keys({"column", "unit", "noise"});
   return {.component = component.pair,
           .stress = read_column(table, file, "column", "unit", dimension::stress),
           .noise = table.quantity("noise", dimension::stress, range::positive, 0.0)};
 }
 
 MaterialExperiment read_experiment(const ConfigTable& table, const std::filesystem::path& directory) {
+  table.with_keys({"name", "csv", "time", "time_unit", "strain", "stress"});
   const CsvTable file = read_csv_of(table, directory);
   MaterialExperiment experiment{.name = table.string("name"), .loading = {}, .channels = {}};
   experiment.loading = read_followed_strains(table, directory, file);
@@ -121,6 +123,7 @@ void require_noise_of_all_or_none(const ConfigTable& fit, const std::vector<Mate
 
 EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw& law,
                                     const std::filesystem::path& case_directory) {
+  fit.with_keys({"method", "estimate", "terms", "starts", "largest_strain_increment", "bounds", "experiments"});
   EndochronicFit result;
   result.method = fit.has("method") ? &choose(fit.at("method"), identification_methods(), "method of identification")
                                     : &identification_method("joint");

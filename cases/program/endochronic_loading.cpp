@@ -63,6 +63,7 @@ void read_components(Draft& draft) {
 
 /// { sum = { stress_xx = 1, strain_yy = "100 GPa" }, change = ... }
 void read_linear_condition(Draft& draft, const ConfigTable& table) {
+  table.with_keys({"sum", "change"});
   const auto terms = table.table("sum").entries();
   const bool has_stress = std::ranges::any_of(terms, [](const auto& term) { return term.first.starts_with("stress"); });
   LoadSegment::Condition condition{.condition = {}, .pace = Pace::increment, .values = {}};
@@ -111,6 +112,7 @@ void complete(Draft& draft) {
 
 LoadSegment read_segment(const ConfigTable& table, const EndochronicLaw& law, const std::filesystem::path& directory,
                          std::vector<std::filesystem::path>& files) {
+  table.with_keys({"duration", "increments", "control", "free", "conditions"});
   Draft draft{.table = table, .directory = directory, .files = files, .segment = {}, .conditions = {}};
   draft.segment.times = segment_times(draft);
   read_components(draft);
@@ -145,6 +147,7 @@ double read_component_value(const ConfigValue& value, bool is_stress) {
 
 EndochronicLoading read_endochronic_loading(const ConfigTable& loading, const EndochronicLaw& law,
                                             const std::filesystem::path& case_directory) {
+  loading.with_keys({"repeat", "largest_strain_increment", "segments"});
   EndochronicLoading result;
   std::vector<LoadSegment> once;
   for (const ConfigTable& table : loading.tables("segments"))

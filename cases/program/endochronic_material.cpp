@@ -6,13 +6,13 @@
 namespace pfdm {
 namespace {
 
-constexpr Range poisson_range{-1.0, 0.5, true, "between -1 and 0.5"};
-
 Kernel read_kernel(const ConfigTable& material) {
   Kernel kernel;
-  for (const ConfigTable& term : material.tables("kernel"))
+  for (const ConfigTable& term : material.tables("kernel")) {
+    term.with_keys({"C", "alpha"});
     kernel.push_back(
         {term.quantity("C", dimension::stress, range::positive), term.number("alpha", range::not_negative)});
+  }
   if (kernel.empty())
     throw material.error("\"kernel\" needs at least one term, as in kernel = [{ C = \"60 GPa\", alpha = 3000 }]");
   return kernel;
@@ -37,11 +37,19 @@ double read_parameter(const ConfigTable& table, const FactorParameter& due) {
   return table.quantity(due.name, dimension::rate, allowed);
 }
 
+std::vector<std::string_view> keys_of(const FactorLaw& law) {
+  std::vector<std::string_view> keys{"law"};
+  if (law.tabulated) keys.push_back("points");
+  for (const FactorParameter& parameter : law.parameters) keys.push_back(parameter.name);
+  return keys;
+}
+
 Factor read_factor(const ConfigTable& material, std::string_view key, std::span<const FactorLaw> laws,
                    const FactorLaw& otherwise, std::string_view what) {
   if (!material.has(key)) return make_factor(otherwise, {});
   const ConfigTable table = material.table(key);
   const FactorLaw& law = choose(table.at("law"), laws, what);
+  table.with_keys(keys_of(law));
   std::vector<double> p;
   if (law.tabulated) p = read_points(table);
   for (const FactorParameter& due : law.parameters) p.push_back(read_parameter(table, due));
@@ -69,7 +77,7 @@ std::string factor_toml(std::string_view key, const Factor& factor) {
 EndochronicLaw read_endochronic_law(const ConfigTable& material) {
   EndochronicLaw law;
   const double E = material.quantity("young_modulus", dimension::stress, range::positive);
-  law.elasticity = from_young_poisson(E, material.number("poisson_ratio", poisson_range));
+  law.elasticity = from_young_poisson(E, material.number("poisson_ratio", range::poisson_ratio));
   law.kernel = read_kernel(material);
   law.hardening.with_path =
       read_factor(material, "hardening", hardening_laws(), hardening_law("constant"), "hardening law");

@@ -24,6 +24,7 @@ void read_tip(const ConfigTable& table, TipRegion& region) {
 }
 
 TipRegion read_region(const ConfigTable& table) {
+  table.with_keys({"name", "point", "direction", "front", "shape", "inner", "outer", "tip", "tip_damage", "corridor"});
   TipRegion region;
   region.name = read_plain_name(table.at("name"), "a column");
   region.point = read_point(table.at("point"));

@@ -15,7 +15,7 @@ SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path
                            const Dimension& due) {
   const CsvTable file = read_csv_of(table, directory);
   const auto column = [&](const char* key, const Dimension& dimension) {
-    return read_column(table.table(key), file, "column", "unit", dimension);
+    return read_column(table.table(key).with_keys({"column", "unit"}), file, "column", "unit", dimension);
   };
   SampledCurve curve{
       .name = table.string("name"), .x = column("displacement", dimension::length), .y = column(quantity, due)};
@@ -30,6 +30,7 @@ SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path
 }
 
 MeasuredAngle read_angle(const ConfigTable& table, const std::filesystem::path& directory) {
+  table.with_keys({"name", "csv", "displacement", "angle", "deviation", "surface", "pole"});
   const std::string poles[] = {positive_pole, "negative"};
   return {.curve = read_curve_of(table, directory, "angle", dimension::angle),
           .surface = table.string("surface", ""),
@@ -41,7 +42,7 @@ MeasuredAngle read_angle(const ConfigTable& table, const std::filesystem::path& 
 std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
                                                   const std::filesystem::path& case_directory) {
   if (!root.has("experiment")) return std::nullopt;
-  const ConfigTable table = root.table("experiment");
+  const ConfigTable table = root.table("experiment").with_keys({"stiffness_between", "specimens", "debonding"});
   ExperimentSettings settings{.where = table};
   const ConfigValue range = table.at("stiffness_between");
   const std::vector<ConfigValue> ends = range.list(2);
@@ -50,7 +51,9 @@ std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
   if (!(settings.stiffness_from < settings.stiffness_to))
     throw range.error("the second displacement must be the larger");
   for (const ConfigTable& specimen : table.tables("specimens"))
-    settings.specimens.push_back(read_curve_of(specimen, case_directory, "force", dimension::force));
+    settings.specimens.push_back(
+        read_curve_of(specimen.with_keys({"name", "csv", "displacement", "force", "deviation"}), case_directory,
+                      "force", dimension::force));
   if (settings.specimens.empty()) throw table.error("no measured curve is named; [[experiment.specimens]] is due");
   for (const ConfigTable& debonding : table.tables("debonding")) {
     settings.angles.push_back(read_angle(debonding, case_directory));

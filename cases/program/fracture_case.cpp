@@ -29,7 +29,9 @@ const Law* find_law(const ConfigTable& table, std::string_view key, const Law& o
 }
 
 MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
-  const ConfigTable table = root.table("fracture");
+  const ConfigTable table = root.table("fracture")
+                                .with_keys({"model", "degradation", "softening", "split", "effective_toughness",
+                                            "irreversibility", "length", "residual_stiffness", "viscosity"});
   model.crack = find_law(table, "model", crack_geometry("AT2"), crack_geometries(), "crack geometric function");
   model.degradation = find_law(table, "degradation", degradation("quadratic"), degradations(), "degradation function");
   model.split = find_law(table, "split", energy_split("volumetric_deviatoric"), energy_splits(), "energy split");
@@ -85,7 +87,9 @@ LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model
     if (model.viscosity > 0.0) throw root.error("fracture.viscosity needs the table [loading] with a duration");
     return loading;
   }
-  const ConfigTable table = root.table("loading");
+  const ConfigTable table =
+      root.table("loading").with_keys({"end", "duration", "initial_increment", "maximum_increment", "minimum_increment",
+                                       "damage_growth", "energy_release", "finest_increment", "maximum_dissipation"});
   loading.end = table.number("end", range::positive, loading.end);
   loading.initial_increment = table.number("initial_increment", range::positive, loading.initial_increment);
   loading.maximum_increment = table.number("maximum_increment", range::positive,
@@ -106,7 +110,8 @@ LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model
 StaggeredSettings read_solver(const ConfigTable& root) {
   StaggeredSettings settings;
   if (!root.has("solver")) return settings;
-  const ConfigTable table = root.table("solver");
+  const ConfigTable table = root.table("solver").with_keys(
+      {"damage_tolerance", "energy_tolerance", "equilibrium_tolerance", "maximum_iterations", "windows"});
   settings.damage_tolerance = table.number("damage_tolerance", above_zero_to_one, settings.damage_tolerance);
   settings.energy_tolerance = table.number("energy_tolerance", above_zero_to_one, settings.energy_tolerance);
   settings.equilibrium_tolerance =
@@ -118,7 +123,7 @@ StaggeredSettings read_solver(const ConfigTable& root) {
 }
 
 void read_curve(const ConfigTable& output, FractureCase& fracture) {
-  const ConfigTable curve = output.table("curve");
+  const ConfigTable curve = output.table("curve").with_keys({"patch", "component"});
   fracture.curve_patch = curve.at("patch");
   fracture.output.curve.patch = curve.string("patch");
   const std::vector<std::string> components{"x", "y", "z"};
@@ -174,7 +179,8 @@ std::vector<double> read_frames(const ConfigTable& output, const FractureCase& f
 }
 
 void read_output(const ConfigTable& root, FractureCase& fracture) {
-  const ConfigTable output = root.table("output");
+  const ConfigTable output =
+      root.table("output").with_keys({"curve", "frames_at", "frames_every", "slices_through", "energy_release_rate"});
   read_curve(output, fracture);
   check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);  // the frames need the curve's patch
   fracture.loading.stops = read_frames(output, fracture);
@@ -208,7 +214,7 @@ CellField<double> damage_at_the_start(const InitialDamage& initial, const Fractu
 
 std::optional<InitialDamage> read_initial_damage(const ConfigTable& root, const FractureModel& model) {
   if (!root.has("initial")) return std::nullopt;
-  const ConfigTable table = root.table("initial");
+  const ConfigTable table = root.table("initial").with_keys({"damage", "regions"});
   const ConfigValue damage = table.at("damage");
   if (model.irreversibility != Irreversibility::bounds)
     throw damage.error("this needs the irreversibility \"bounds\": the driving energy that led to it is not known");
@@ -223,6 +229,8 @@ std::optional<InitialDamage> read_initial_damage(const ConfigTable& root, const 
 }  // namespace
 
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+  root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "boundary", "loading",
+                  "solver", "output", "cohesive", "experiment", "fit", "sweep"});
   FractureCase fracture;
   fracture.title = root.string("title");
   fracture.mesh = read_mesh_recipe(root.table("mesh"), case_directory);

@@ -41,6 +41,7 @@ std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStr
   for (const ConfigTable& term : model.tables("kernel")) {
     if (structure.forcing == KernelForcing::none)
       throw term.error(fmt::format("model \"{}\" has no kernel", structure.name));
+    term.with_keys({"alpha", "alpha_imaginary", "beta", "beta_imaginary"});
     const Dimension beta = beta_dimension(structure.forcing);
     const std::complex<double> alpha(term.quantity("alpha", rate_dimension, range::positive),
                                      term.quantity("alpha_imaginary", rate_dimension, range::any, 0.0));
@@ -54,7 +55,8 @@ std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStr
 }
 
 void read_model(const ConfigTable& root, MassMaterialCase& c) {
-  const ConfigTable table = root.table("model");
+  const ConfigTable table = root.table("model").with_keys(
+      {"structure", "mass", "stiffness", "damping", "damping_exponent", "reference_velocity", "kernel"});
   const ModelStructure& structure = choose(table.at("structure"), model_structures(), "mass-material model");
   c.structure = structure.name;
   c.model.mass = table.quantity("mass", dimension::mass, range::positive);
@@ -81,6 +83,7 @@ void read_model(const ConfigTable& root, MassMaterialCase& c) {
 double level(const ConfigTable& table) { return table.quantity("level", dimension::acceleration, range::positive); }
 
 Excitation read_swept_sine(const ConfigTable& table, const fs::path&, double, std::vector<fs::path>&) {
+  table.with_keys({"type", "level", "from", "to", "duration", "law", "ramp"});
   const std::string laws[] = {"linear", "logarithmic"};
   const auto law = table.find("law");
   SweptSine sweep{.amplitude = level(table),
@@ -93,12 +96,14 @@ Excitation read_swept_sine(const ConfigTable& table, const fs::path&, double, st
 }
 
 Excitation read_harmonic(const ConfigTable& table, const fs::path&, double, std::vector<fs::path>&) {
+  table.with_keys({"type", "level", "frequency", "duration", "ramp"});
   const double duration = table.quantity("duration", dimension::time, range::positive);
   return harmonic(level(table), table.quantity("frequency", dimension::frequency, range::positive), duration,
                   table.quantity("ramp", dimension::time, range::not_negative, 0.01 * duration));
 }
 
 Excitation read_random(const ConfigTable& table, const fs::path&, double, std::vector<fs::path>&) {
+  table.with_keys({"type", "density", "from", "to", "duration", "seed"});
   BandLimitedRandom random{.density = table.quantity("density", dimension::acceleration_density, range::positive),
                            .low = table.quantity("from", dimension::frequency, range::positive),
                            .high = table.quantity("to", dimension::frequency, range::positive),
@@ -124,6 +129,7 @@ RecordFile read_record_file(const ConfigTable& table, const fs::path& directory,
 }
 
 Excitation read_measured(const ConfigTable& table, const fs::path& directory, double, std::vector<fs::path>& files) {
+  table.with_keys({"type", "file", "base", "relative", "time", "unit", "rate", "from", "to"});
   const RecordFile source = read_record_file(table, directory, files);
   const SampledChannel channel = table.in_context([&] { return read_channel(source); });
   return sampled_excitation(channel.values, channel.rate, table.quantity("from", dimension::frequency, range::positive),
@@ -144,6 +150,7 @@ constexpr FitMethod methods[] = {
 };
 
 VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {
+  table.with_keys({"name", "excitation", "record", "predicted", "schedule"});
   VibrationTest test;
   test.where = table.at("name");
   test.name = table.string("name");
@@ -162,7 +169,8 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
                                      c.rate, 0.38 * c.rate));
   }
   if (table.has("record")) {
-    const ConfigTable record = table.table("record");
+    const ConfigTable record =
+        table.table("record").with_keys({"file", "base", "relative", "time", "unit", "rate", "from", "to"});
     test.record = read_record_file(record, directory, c.data_files);
     test.band_low = record.quantity("from", dimension::frequency, range::positive, test.band_low);
     test.band_high = record.quantity("to", dimension::frequency, range::positive, test.band_high);
@@ -188,7 +196,9 @@ void read_tests(const ConfigTable& root, const fs::path& directory, MassMaterial
 void read_fit(const ConfigTable& root, MassMaterialCase& c) {
   c.fit.structure = c.structure;
   if (!root.has("fit")) return;
-  const ConfigTable table = root.table("fit");
+  const ConfigTable table =
+      root.table("fit").with_keys({"method", "structure", "kernel_order", "maximum_kernel_order", "crop", "replicates",
+                                   "confidence", "seed", "repeatability", "ogden_terms"});
   MassMaterialFit& fit = c.fit;
   if (const auto method = table.find("method"))
     fit.method = choose(*method, fit_methods(), "method of identification").name;
@@ -211,7 +221,7 @@ void read_fit(const ConfigTable& root, MassMaterialCase& c) {
 }
 
 void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
-  const ConfigTable table = root.table("sampling");
+  const ConfigTable table = root.table("sampling").with_keys({"rate", "signal_to_noise_dB", "noise_seed"});
   c.rate = table.quantity("rate", dimension::frequency, range::positive);
   if (table.has("signal_to_noise_dB")) c.signal_to_noise = table.number("signal_to_noise_dB", decibel);
   c.noise_seed = static_cast<std::uint64_t>(table.integer("noise_seed", count, 1));
@@ -220,6 +230,7 @@ void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
 }  // namespace
 
 MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path& case_directory) {
+  root.with_keys({"kind", "title", "model", "sample", "sampling", "test", "change", "fit", "sweep"});
   MassMaterialCase c;
   c.title = root.string("title");
   read_model(root, c);
@@ -228,7 +239,7 @@ MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path
   c.changes = read_sample_changes(root);
   read_fit(root, c);
   if (root.has("sample")) {
-    const ConfigTable table = root.table("sample");
+    const ConfigTable table = root.table("sample").with_keys({"length", "area"});
     c.sample = SampleSize{.length = table.quantity("length", dimension::length, range::positive),
                           .area = table.quantity("area", dimension::area, range::positive)};
   }

@@ -36,6 +36,7 @@ std::array<double, 3> mean_coordinates(const MassMaterialCase& c) {
 }  // namespace
 
 ScheduledRun read_scheduled_run(const ConfigTable& table) {
+  table.with_keys({"level", "age", "run"});
   return {.level = table.quantity("level", dimension::acceleration, range::positive),
           .age = table.quantity("age", dimension::time, range::not_negative),
           .run = static_cast<int>(table.integer("run", run_number))};
@@ -44,12 +45,14 @@ ScheduledRun read_scheduled_run(const ConfigTable& table) {
 std::vector<SampleChange> read_sample_changes(const ConfigTable& root) {
   const std::string parameters[] = {"stiffness", "damping"};
   std::vector<SampleChange> changes;
-  for (const ConfigTable& table : root.tables("change"))
+  for (const ConfigTable& table : root.tables("change")) {
+    table.with_keys({"of", "per_g0", "per_day", "per_run", "scatter"});
     changes.push_back({.damping = table.at("of").one_of(parameters, "parameter that changes") == "damping",
                        .per_g0 = table.number("per_g0", relative_slope, 0.0),
                        .per_day = table.number("per_day", relative_slope, 0.0),
                        .per_run = table.number("per_run", relative_slope, 0.0),
                        .scatter = table.number("scatter", relative_scatter, 0.0)});
+  }
   return changes;
 }
 

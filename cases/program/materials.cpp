@@ -14,7 +14,12 @@
 namespace pfdm {
 namespace {
 
-constexpr Range poisson_range{-1.0, 0.5, true, "between -1 and 0.5"};
+/// Of [materials.NAME] and of [regions.NAME].
+constexpr std::string_view material_keys[] = {"regions",   "young_modulus", "poisson_ratio", "toughness",
+                                              "strength",  "length",        "damageable",    "kernel",
+                                              "hardening", "rate",          "beta"};
+constexpr std::string_view region_keys[] = {"young_modulus", "poisson_ratio", "toughness", "strength",
+                                            "length",        "damageable",    "band"};
 
 /// What a material or a region's override may say.
 struct MaterialKeys {
@@ -41,7 +46,7 @@ std::optional<Parameter> find_parameter(const ConfigTable& table, std::string_vi
 MaterialKeys read_keys(const ConfigTable& table) {
   MaterialKeys keys;
   keys.young_modulus = find_parameter(table, "young_modulus", dimension::stress);
-  keys.poisson_ratio = find_parameter(table, "poisson_ratio", dimension::number, poisson_range);
+  keys.poisson_ratio = find_parameter(table, "poisson_ratio", dimension::number, range::poisson_ratio);
   keys.toughness = find_parameter(table, "toughness", dimension::toughness);
   keys.strength = find_parameter(table, "strength", dimension::stress);
   keys.length = find_parameter(table, "length", dimension::length);
@@ -110,7 +115,7 @@ struct RegionOverride {
 
 std::optional<Band> read_band(const std::string& region, const ConfigTable& table) {
   if (!table.has("band")) return std::nullopt;
-  const ConfigTable band = table.table("band");
+  const ConfigTable band = table.table("band").with_keys({"width", "between"});
   const std::vector<ConfigValue> between = band.at("between").list(2);
   return Band{
       region, band.quantity("width", dimension::length, range::positive), {between[0].string(), between[1].string()}};
@@ -119,8 +124,10 @@ std::optional<Band> read_band(const std::string& region, const ConfigTable& tabl
 std::vector<RegionOverride> read_overrides(const ConfigTable& root) {
   std::vector<RegionOverride> overrides;
   if (!root.has("regions")) return overrides;
-  for (const auto& [name, value] : root.table("regions").entries())
-    overrides.push_back({name, value, read_keys(value.table()), read_band(name, value.table())});
+  for (const auto& [name, value] : root.table("regions").entries()) {
+    const ConfigTable table = value.table().with_keys(region_keys);
+    overrides.push_back({name, value, read_keys(table), read_band(name, table)});
+  }
   return overrides;
 }
 
@@ -255,7 +262,7 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
   std::vector<RegionOverride> overrides = read_overrides(root);
   std::vector<RegionKeys> regions;
   for (const auto& [name, value] : root.table("materials").entries())
-    read_material(materials, name, value.table(), overrides, regions);
+    read_material(materials, name, value.table().with_keys(material_keys), overrides, regions);
   for (const RegionOverride& over : overrides)
     if (!over.used)
       throw over.value.error(

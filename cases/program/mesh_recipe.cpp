@@ -26,6 +26,7 @@ constexpr Range cell_count{1.0, 1e6, false, "at least 1"};
 constexpr Range azimuth_range{std::numeric_limits<double>::min(), 0.25 * std::numbers::pi + 1e-9, false,
                               "more than 0 and at most 45 degrees"};
 constexpr Range dihedral_range{0.0, 30.0, false, "between 0 and 30 degrees"};
+constexpr std::string_view box_keys[] = {"name", "lower", "upper"};
 const std::vector<std::string> box_sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 
 AxisBlock read_block(const ConfigTable& block, std::string_view key, const Dimension& due) {
@@ -37,7 +38,8 @@ AxisBlock read_block(const ConfigTable& block, std::string_view key, const Dimen
 /// [{ length = ..., cells = ..., ratio = ... }, ...], or with another key for the extent.
 std::vector<AxisBlock> read_axis(const ConfigValue& blocks, std::string_view key, const Dimension& due) {
   std::vector<AxisBlock> axis;
-  for (const ConfigValue& entry : blocks.list()) axis.push_back(read_block(entry.table(), key, due));
+  for (const ConfigValue& entry : blocks.list())
+    axis.push_back(read_block(entry.table().with_keys({key, "cells", "ratio"}), key, due));
   if (axis.empty())
     throw blocks.error(fmt::format("the list is empty; it needs at least one {{ {} = ..., cells = ... }}", key));
   return axis;
@@ -58,7 +60,7 @@ NamedBox read_box(const ConfigTable& table) {
 // The same where the name is that of a patch, which joins the others.
 template <class NamedBox>
 NamedBox read_patch_box(const ConfigTable& table, std::vector<std::string>& patches) {
-  NamedBox box = read_box<NamedBox>(table);
+  NamedBox box = read_box<NamedBox>(table.with_keys(box_keys));
   if (std::ranges::find(patches, box.name) != patches.end())
     throw table.at("name").error("another patch has this name already");
   patches.push_back(box.name);
@@ -66,12 +68,14 @@ NamedBox read_patch_box(const ConfigTable& table, std::vector<std::string>& patc
 }
 
 MeshRecipe read_box_hexes(const ConfigTable& table, const std::filesystem::path&) {
+  table.with_keys({"generator", "cells", "x", "y", "z", "origin", "region", "regions", "slits", "holes", "patches"});
   BoxHexesSettings settings;
   if (const auto origin = table.find("origin")) settings.origin = read_point(*origin);
   for (std::size_t a = 0; a < 3; ++a)
     settings.axes[a] = read_axis(table.at(std::string(1, "xyz"[a])), "length", dimension::length);
   settings.base_region = table.string("region", settings.base_region);
-  for (const ConfigTable& region : table.tables("regions")) settings.regions.push_back(read_box<SubRegion>(region));
+  for (const ConfigTable& region : table.tables("regions"))
+    settings.regions.push_back(read_box<SubRegion>(region.with_keys(box_keys)));
   std::vector<std::string> patches = box_sides;
   for (const ConfigTable& slit : table.tables("slits")) settings.slits.push_back(read_patch_box<Slit>(slit, patches));
   for (const ConfigTable& hole : table.tables("holes"))
@@ -87,7 +91,7 @@ MeshRecipe read_box_hexes(const ConfigTable& table, const std::filesystem::path&
 std::vector<Shell> read_shells(const ConfigValue& list) {
   std::vector<Shell> shells;
   for (const ConfigValue& entry : list.list()) {
-    const ConfigTable shell = entry.table();
+    const ConfigTable shell = entry.table().with_keys({"length", "cells", "ratio", "region"});
     shells.push_back({read_block(shell, "length", dimension::length), shell.string("region")});
   }
   if (shells.empty())
@@ -96,6 +100,7 @@ std::vector<Shell> read_shells(const ConfigValue& list) {
 }
 
 MeshRecipe read_sphere_sector(const ConfigTable& table, const std::filesystem::path&) {
+  table.with_keys({"generator", "cells", "azimuth", "inner_radius", "shells", "polar"});
   const SphereSectorSettings settings{
       .azimuth = table.quantity("azimuth", dimension::angle, azimuth_range),
       .inner_radius = table.quantity("inner_radius", dimension::length, range::not_negative, 0.0),
@@ -120,12 +125,14 @@ struct Layers {
 };
 
 Layers read_layers(const ConfigTable& table) {
+  table.with_keys({"count", "thickness", "region"});
   return {.count = static_cast<Index>(table.integer("count", cell_count)),
           .thickness = table.quantity("thickness", dimension::length, range::positive),
           .region = table.string("region", "interface")};
 }
 
 Particle read_particle(const ConfigTable& table, const Layers& common_layers) {
+  table.with_keys({"centre", "diameter", "region", "subdivisions", "surface_size", "angle", "layers"});
   Particle particle;
   if (const auto centre = table.find("centre")) particle.centre = read_point(*centre);
   particle.radius = 0.5 * table.quantity("diameter", dimension::length, range::positive);
@@ -163,6 +170,8 @@ std::vector<Band> bands_of(const ParticlesInBoxSettings& settings) {
 }
 
 MeshRecipe read_particles_in_box(const ConfigTable& table, const std::filesystem::path&) {
+  table.with_keys({"generator", "cells", "size", "centre", "region", "layers", "particles", "size_far", "boundary_size",
+                   "grading", "particle_size_factor", "max_radius_edge_ratio", "min_dihedral_angle"});
   ParticlesInBoxSettings settings;
   const Vector size = read_point(table.at("size"), range::positive);
   const auto centre_value = table.find("centre");
@@ -201,6 +210,7 @@ std::map<Index, std::string> read_numbered_names(const ConfigTable& table, std::
 
 // Of faces in a plane, or between two corners.
 PatchRule read_patch(const ConfigTable& patch, double scale) {
+  patch.with_keys({"name", "axis", "at", "tolerance", "lower", "upper"});
   // A ten-thousandth of the file's unit: more than the rounding of coordinates in single precision.
   const double tolerance = patch.quantity("tolerance", dimension::length, range::positive, 1e-4 * scale);
   if (patch.has("lower") || patch.has("upper")) {
@@ -213,6 +223,8 @@ PatchRule read_patch(const ConfigTable& patch, double scale) {
 }
 
 MeshRecipe read_vtk(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  table.with_keys({"generator", "cells", "file", "length_unit", "region_array", "region_names", "face_array",
+                   "face_sets", "merge_tolerance", "patches"});
   ImportVtkSettings settings;
   const ConfigValue file = table.at("file");
   settings.file = case_directory / file.string();

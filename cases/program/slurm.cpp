@@ -39,6 +39,7 @@ ComputationError objection(const std::string& command, const ProgramEnd& end) {
 }  // namespace
 
 SlurmSettings read_slurm(const ConfigTable& table) {
+  table.with_keys({"partition", "time", "cpus_per_task", "memory", "at_once", "largest_array", "lines"});
   SlurmSettings settings;
   settings.partition = table.string("partition", "");
   if (table.has("time")) settings.time = table.quantity("time", dimension::time, range::positive);

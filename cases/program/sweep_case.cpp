@@ -113,10 +113,12 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t n, std::size_t n_di
 std::optional<SweepSettings> read_sweep(const CaseFile& file) {
   const ConfigTable root = file.config.root();
   if (!root.has("sweep")) return std::nullopt;
-  const ConfigTable sweep = root.table("sweep");
+  const ConfigTable sweep = root.table("sweep").with_keys({"method", "samples", "seed", "parameters", "slurm"});
   SweepSettings settings;
   const std::vector<ConfigTable> tables = sweep.tables("parameters");
-  for (const ConfigTable& table : tables) settings.parameters.push_back(read_case_parameter(table.at("key"), file));
+  for (const ConfigTable& table : tables)
+    settings.parameters.push_back(
+        read_case_parameter(table.with_keys({"key", "values", "between", "count", "spacing"}).at("key"), file));
   if (sweep.has("slurm")) settings.slurm = read_slurm(sweep.table("slurm"));
   if (tables.empty()) throw sweep.error("at least one [[sweep.parameters]] is due");
   const std::string methods[] = {"grid", "list", "latin_hypercube"};

@@ -17,6 +17,17 @@ TEST_P(BadCase, IsRefusedWithOneMessage) {
   expect_refused(directory, GetParam());
 }
 
+constexpr const char* hexahedra_of_bar = R"(generator = "box_hexes"
+x = [{ length = "20 mm", cells = 21 }]
+y = [{ length = "1 mm", cells = 2 }]
+z = [{ length = "1 mm", cells = 1 }]
+region = "bar"
+[[mesh.regions]]
+name = "weak"
+lower = ["9.6 mm", "-1 mm", "-1 mm"]
+upper = ["10.4 mm", "2 mm", "2 mm"]
+)";
+
 const BadInput bad_inputs[] = {
     {"unit_of_another_dimension",
      "\"30 GPa\"",
@@ -33,7 +44,7 @@ const BadInput bad_inputs[] = {
     {"material_out_of_range_in_a_cell",
      "poisson_ratio = 0.2",
      "poisson_ratio = { expr = \"60*x\" }",
-     {"case.toml:18: [materials.concrete] poisson_ratio: ", "m must be between -1 and 0.5"}},
+     {"case.toml:18: [materials.concrete] poisson_ratio: ", "m must be above -1 and at most 0.4999"}},
     {"varying_material_without_unit",
      "young_modulus = \"30 GPa\"",
      "young_modulus = { expr = \"30 + x\" }",
@@ -123,7 +134,14 @@ const BadInput bad_inputs[] = {
     {"material_without_length", "length = \"4 mm\"\n", "", {"region \"bar\" can be damaged but has no length (ell)"}},
     {"negative_size", "\"20 mm\"", "\"-20 mm\"", {"case.toml:6: [mesh.x] length: \"-20 mm\" must be positive"}},
     {"no_cells", "cells = 21", "cells = 0", {"cells: 0 must be at least 1"}},
-    {"poisson_ratio_of_a_half", "poisson_ratio = 0.2", "poisson_ratio = 0.5", {"0.5 must be between -1 and 0.5"}},
+    {"poisson_ratio_of_a_half",
+     "poisson_ratio = 0.2",
+     "poisson_ratio = 0.5",
+     {"0.5 must be above -1 and at most 0.4999"}},
+    {"poisson_ratio_beyond_the_limit",
+     "poisson_ratio = 0.2",
+     "poisson_ratio = 0.49991",
+     {"case.toml:18: [materials.concrete] poisson_ratio: 0.49991 must be above -1 and at most 0.4999"}},
     {"region_with_no_cell", "\"9.6 mm\", \"-1 mm\"", "\"10.39 mm\", \"-1 mm\"", {"case.toml:4: [mesh]", "weak"}},
     {"hole_with_no_cell",
      "[[mesh.regions]]",
@@ -223,7 +241,7 @@ const BadInput bad_inputs[] = {
      {"no type of boundary condition; did you mean \"free\"?"}},
     {"no_toml", "[mesh]", "[mesh", {"case.toml:4:"}},
     {"mesh_file_that_is_not_there",
-     "generator = \"box_hexes\"\n",
+     hexahedra_of_bar,
      "generator = \"vtk\"\nfile = \"data/no.vtu\"\nlength_unit = \"mm\"\n",
      {"case.toml:6: [mesh] file: there is no file"}},
 };

@@ -52,12 +52,24 @@ TEST(Config, ReadsTypedValues) {
 TEST(Config, NamesTheNearestKeyOfAMisspeltOne) {
   const Config config("[mesh]\nthicknes = \"2 um\"\n", "cases/x/case.toml");
   const ConfigTable mesh = config.root().table("mesh");
+  EXPECT_EQ(message_of([&] { mesh.quantity("thickness", dimension::length); }),
+            "cases/x/case.toml:2: [mesh] \"thicknes\" is not known here; did you mean \"thickness\"?");
   mesh.has("size");
   const std::string expected =
       "cases/x/case.toml:2: [mesh] \"thicknes\" is not known here; did you mean \"thickness\"? "
       "(allowed: size, thickness)";
-  EXPECT_EQ(message_of([&] { mesh.quantity("thickness", dimension::length); }), expected);
   EXPECT_EQ(message_of([&] { config.reject_unknown_keys(); }), expected);
+  EXPECT_EQ(message_of([&] { mesh.with_keys({"thickness", "size"}); }), expected);
+  EXPECT_EQ(message_of([&] { config.reject_unknown_keys(); }), expected);
+}
+
+TEST(Config, TellsAKeyWithoutEffectFromAnUnknownOne) {
+  const Config config("[mesh]\ncolour = 1\n", "case.toml");
+  const ConfigTable mesh = config.root().table("mesh").with_keys({"size", "colour"});
+  EXPECT_FALSE(mesh.has("size"));
+  EXPECT_EQ(message_of([&] { config.reject_unknown_keys(); }),
+            "case.toml:2: [mesh] \"colour\" has no effect with the other settings of this case");
+  EXPECT_THROW(mesh.has("shape"), std::logic_error);
 }
 
 TEST(Config, ListsWhatIsAllowedWhereNothingIsNear) {
