@@ -156,7 +156,7 @@ RunSummary summary_of(const FractureProgram& program, const Session& session, co
 /// Steps until the end of the load, --max-steps or failure; returns what became of it.
 std::string advance(FractureRun& run, FractureState& state, FractureResults& results, const FractureProgram& program,
                     Session& session, RunTimes& times) {
-  Progress progress(session.log, state.load, program.fracture.loading.end);
+  RunProgress progress(session.log, state.load, program.fracture.loading.end);
   const Index first_step = state.step;
   const int component = program.fracture.output.curve.component;
   RunHooks hooks;

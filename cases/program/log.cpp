@@ -6,6 +6,8 @@
 #include <spdlog/logger.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/ostream_sink.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <vector>
 
@@ -67,10 +69,17 @@ void Log::step(const std::string& line) {
   to_file(line);
 }
 
-void Log::progress(const std::string& bar) {
+void Log::progress(const std::string& line) {
   if (!sinks_->terminal || sinks_->quiet) return;
-  sinks_->stream << '\r' << bar << "\x1b[K" << std::flush;
+  sinks_->stream << '\r' << line.substr(0, static_cast<std::size_t>(columns())) << "\x1b[K" << std::flush;
   sinks_->progress_shown = true;
+}
+
+int Log::columns() const {
+  constexpr int usual = 80;
+  winsize size{};
+  const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return (known ? size.ws_col : usual) - 1;
 }
 
 void Log::clear_progress() {

@@ -23,8 +23,12 @@ class Log {
   void warn(const std::string& message);
   /// A step of long work is done: `line` goes to the file, and to a console that is no terminal.
   void step(const std::string& line);
-  /// Shown in the terminal's last line until something else is said.
-  void progress(const std::string& bar);
+  /// Shown in the terminal's last line until something else is said; no more of it than fits.
+  void progress(const std::string& line);
+  /// That a progress line may have; the terminal's width is not, lest the line wraps.
+  int columns() const;
+  /// To the file alone.
+  void record(const std::string& message) { to_file(message); }
 
  private:
   struct Sinks;
