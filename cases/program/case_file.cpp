@@ -31,15 +31,20 @@ std::optional<std::string> opened_table(const std::string& line) {
   return std::regex_match(line, match, header) ? std::optional(match[1].str()) : std::nullopt;
 }
 
-std::string with_moved_path(const std::string& line, const std::filesystem::path& from,
-                            const std::filesystem::path& to) {
+std::string with_path(const std::string& line, const std::function<std::string(const std::string&)>& renamed) {
   static const std::regex path(R"re((\b(csv|file)\s*=\s*")([^"]*)("))re");
   std::smatch match;
   if (!std::regex_search(line, match, path)) return line;
-  const auto absolute = std::filesystem::weakly_canonical(std::filesystem::absolute(from / match[3].str()));
-  const auto seen =
-      std::filesystem::relative(absolute, std::filesystem::weakly_canonical(std::filesystem::absolute(to)));
-  return match.prefix().str() + match[1].str() + seen.string() + match[4].str() + match.suffix().str();
+  return match.prefix().str() + match[1].str() + renamed(match[3].str()) + match[4].str() + match.suffix().str();
+}
+
+std::string with_moved_path(const std::string& line, const std::filesystem::path& from,
+                            const std::filesystem::path& to) {
+  return with_path(line, [&](const std::string& path) {
+    const auto absolute = std::filesystem::weakly_canonical(std::filesystem::absolute(from / path));
+    return std::filesystem::relative(absolute, std::filesystem::weakly_canonical(std::filesystem::absolute(to)))
+        .string();
+  });
 }
 
 }  // namespace
@@ -81,6 +86,13 @@ std::string table_hash(const CaseFile& file, std::string_view table,
   std::uint64_t hash = add_to_hash(hash_of_nothing, written(value_at(root, table)));
   for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
   return fmt::format("{:016x}", hash);
+}
+
+std::string with_paths(const CaseFile& file, const std::function<std::string(const std::string&)>& renamed) {
+  std::istringstream lines(file.text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) result += with_path(line, renamed) + "\n";
+  return result;
 }
 
 std::string moved(const CaseFile& file, const std::filesystem::path& folder) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,6 +34,9 @@ CaseFile with_text(const CaseFile& file, std::string text);
 
 /// Of what one table says, and of data files, likewise.
 std::string table_hash(const CaseFile& file, std::string_view table, std::span<const std::filesystem::path> data_files);
+
+/// case.toml with the files that it names as `csv` or `file` called as `renamed` says of each.
+std::string with_paths(const CaseFile& file, const std::function<std::string(const std::string&)>& renamed);
 
 /// case.toml, to stand in `folder`: the files that it names as `csv` or `file` are named from there.
 std::string moved(const CaseFile& file, const std::filesystem::path& folder);

@@ -1,6 +1,7 @@
 #include "cases/program/case_runs.h"
 
 #include "cases/program/kinds.h"
+#include "cases/program/stop_signal.h"
 #include "postproc/atomic_file.h"
 #include "postproc/folder_lock.h"
 #include "postproc/summary.h"
@@ -154,6 +155,8 @@ int CaseRuns::do_run(const Wanted& wanted, int threads, Log& log) {
     return run_broke_off;
   } catch (const InputError& failure) {
     return give_up(failure);
+  } catch (const Interrupted&) {
+    throw;
   } catch (const std::exception& failure) {
     log.say(fmt::format("failed: {}", failure.what()));
     return run_broke_off;
@@ -173,11 +176,14 @@ void CaseRuns::ended(const Wanted& wanted, const JobEnd& end) {
   remember(wanted, *done);
   const bool went_on = !made_.insert(wanted.key).second;
   reused_.erase(wanted.key);
-  if (done->went_well())
-    session_.log.step(
-        fmt::format("  {}: {}", went_on ? "gone on with" : fmt::format("run {}", n_made()), wanted.variant->shown));
-  else
+  if (done->went_well()) {
+    const std::string told =
+        fmt::format("  {}: {}", went_on ? "gone on with" : fmt::format("run {}", n_made()), wanted.variant->shown);
+    session_.log.step(told);
+    session_.log.progress(told);
+  } else {
     session_.log.warn(fmt::format("run {} did not converge: {}: {}", n_made(), wanted.variant->shown, done->failure));
+  }
 }
 
 }  // namespace pfdm

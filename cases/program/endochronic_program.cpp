@@ -161,7 +161,10 @@ RunnableCase read_endochronic_program(const CaseFile& file) {
           [program](Session& session) {
             write_report(endochronic_page(program->point, program->name, program->hash, session.results), session);
           }};
-  if (program->point.fit) runnable.fit = [program](Session& session) { fit_case(*program, session); };
+  runnable.fit = [program](Session& session) { fit_case(*program, session); };
+  if (!program->point.fit)
+    runnable.fit = job_without_table(file, "fit", "[[fit.experiments]] with the measured strains and stresses",
+                                     "endochronic_calibration");
   return runnable;
 }
 

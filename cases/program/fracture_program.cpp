@@ -10,6 +10,7 @@
 #include "cases/program/progress.h"
 #include "cases/program/report_parts.h"
 #include "cases/program/resolution.h"
+#include "cases/program/stop_signal.h"
 #include "cases/program/stopwatch.h"
 #include "mesh/quality.h"
 #include "postproc/folder_lock.h"
@@ -160,7 +161,11 @@ std::string advance(FractureRun& run, FractureState& state, FractureResults& res
   const Index first_step = state.step;
   const int component = program.fracture.output.curve.component;
   RunHooks hooks;
-  hooks.iterated = [&](const IterationReport& iteration) { progress.iterated(iteration); };
+  const LooksForStop looks;
+  hooks.iterated = [&](const IterationReport& iteration) {
+    progress.iterated(iteration);
+    stop_if_asked();
+  };
   hooks.warned = [&](const std::string& message) { session.log.warn(message); };
   hooks.step_done = [&](const FractureState& now, const StepReport& report) {
     const Stopwatch watch;
@@ -188,15 +193,19 @@ void solve(FractureRun& run, FractureState state, FractureResults& results, cons
     RunSummary summary = summary_of(program, session, run, times);
     summary.status = status;
     results.write_summary(summary);
-    session.log.say(fmt::format("{} at step {}, load {:.6g}, after {:.1f} s; results in {}", status, state.step,
-                                state.load, times.whole.seconds(), session.results.string()));
+    return fmt::format("{} at step {}, load {:.6g}, after {:.1f} s; results in {}", status, state.step, state.load,
+                       times.whole.seconds(), session.results.string());
   };
   try {
-    finish(advance(run, state, results, program, session, times));
+    session.log.say(finish(advance(run, state, results, program, session, times)));
+  } catch (const Interrupted& wish) {
+    const std::string told = finish(wish.what());
+    session.log.record(told);
+    throw Interrupted(wish.signal, told);
   } catch (const ComputationError& error) {
     try {
       results.write_last_frame([&] { return run.output(state); });
-      finish(fmt::format("failed: {}", error.what()));
+      session.log.say(finish(fmt::format("failed: {}", error.what())));
     } catch (const ComputationError&) {
       // A full disk is often what failed in the first place; the first message is the one to show.
     }
@@ -288,7 +297,13 @@ RunnableCase read_fracture_program(const CaseFile& file) {
                         .report = [program](Session& session) { report(*program, session); },
                         .prepare = [program](Session& session) { prepare(*program, session); },
                         .data_files = program->fracture.mesh.data_files};
-  if (program->fit) runnable.fit = [program](Session& session) { fit(*program, session); };
+  runnable.goes_on = true;
+  runnable.fit = [program](Session& session) { fit(*program, session); };
+  if (!program->fit)
+    runnable.fit = job_without_table(file, "fit",
+                                     "[[fit.parameters]] that name the values to be estimated with their bounds, and "
+                                     "[experiment] with the measured curve",
+                                     "bar_fit");
   return runnable;
 }
 

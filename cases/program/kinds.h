@@ -27,7 +27,13 @@ struct RunnableCase {
   std::function<void(Session&)> report{};           ///< pictures and plots on one page
   std::function<void(Session&)> prepare{};          ///< makes what runs with other values share, as the mesh
   std::vector<std::filesystem::path> data_files{};  ///< that decide the results of `run` besides case.toml
+  bool goes_on = false;                             ///< run with --restart, and fit, go on after an interruption
 };
+
+/// A job that the kind has and this case does not ask for: throws InputError that says which table is missing, what
+/// belongs into it, and which case that ships has one.
+std::function<void(Session&)> job_without_table(const CaseFile& file, std::string_view table, std::string_view needed,
+                                                std::string_view example);
 
 struct CaseKind {
   std::string_view name;

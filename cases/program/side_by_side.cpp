@@ -1,5 +1,6 @@
 #include "cases/program/side_by_side.h"
 
+#include "cases/program/stop_signal.h"
 #include "physics/error.h"
 #include "solver/parallel.h"
 
@@ -10,16 +11,20 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <map>
 #include <system_error>
+#include <thread>
 
 namespace pfdm {
 namespace {
 
+constexpr std::chrono::milliseconds between_looks{5};
 constexpr int threw = 101;  // exit status of a job that did not return
 
 [[noreturn]] void do_job(const Job& job, int threads, pid_t parent) {
+  leave_stop_signals();  // results are good for going on after a kill
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(threw);  // it died before it could be asked to tell
   int status = threw;
@@ -58,11 +63,18 @@ class Running {
     processes_[pid] = {&job, threads};
   }
 
-  /// Waits until one of them ends.
+  /// Waits until one of them ends. Throws Interrupted if the user wants an end.
   void wait() {
+    const LooksForStop looks;
     siginfo_t info{};
-    while (::waitid(P_ALL, 0, &info, WEXITED | WNOWAIT) != 0)
-      if (errno != EINTR) throw ComputationError("a process that was started is gone");
+    // No call waits for a child or a signal, whichever is first, without a gap in which the signal is missed.
+    while (info.si_pid == 0) {
+      stop_if_asked();
+      if (::waitid(P_ALL, 0, &info, WEXITED | WNOWAIT | WNOHANG) != 0 && errno != EINTR)
+        throw ComputationError("a process that was started is gone");
+      if (info.si_pid == 0) std::this_thread::sleep_for(between_looks);
+    }
+    stop_if_asked();  // what has ended the child may have been the same Ctrl-C
     int status = 0;
     ::waitpid(info.si_pid, &status, 0);
     const auto found = processes_.find(info.si_pid);

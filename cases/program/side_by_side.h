@@ -22,7 +22,8 @@ struct Job {
 };
 
 /// Returns when all have ended. At most `cores` run at a time; as long as fewer wait than there are cores, they share
-/// them. If `ended` throws, the jobs that still run are killed. Leaves this process with one thread for its loops.
+/// them. If `ended` throws, or with Interrupted after Ctrl-C (stop_signal.h), the jobs that still run are killed.
+/// Leaves this process with one thread for its loops.
 void run_side_by_side(const std::vector<Job>& jobs, int cores);
 
 }  // namespace pfdm

@@ -310,14 +310,13 @@ TEST(BadInput, WrongUsage) {
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
             "pfdm: there is no command \"rn\"; did you mean \"run\"? (there are: run, check, mesh, cohesive, "
-            "compare, fit, sweep, report, list, test)\n");
+            "compare, fit, sweep, report, init, list, help, completion, test)\n");
 }
 
 TEST(BadInput, JobThatTheKindOfCaseDoesNotHave) {
-  const TemporaryCase directory(bar_case());
-  const Outcome outcome = run({"fit", directory.path().string()});
+  const Outcome outcome = run({"cohesive", PFDM_CASES_DIR "/endochronic_uniaxial"});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("this kind of case has no \"fit\""), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("this kind of case has no \"cohesive\""), std::string::npos) << outcome.err;
 }
 
 TEST(BadInput, ResultsThatCannotBeWritten) {

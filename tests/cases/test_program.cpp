@@ -1,13 +1,16 @@
 // The program from end to end, on a bar that breaks.
 
+#include "cases/program/listing.h"
 #include "postproc/csv_table.h"
 #include "postproc/pvd.h"
 #include "tests/cases/temporary_case.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <sstream>
 
 namespace pfdm {
 namespace {
@@ -297,6 +300,18 @@ TEST(Program, ListsLawsAndCases) {
   const Outcome cases = run({"list"});
   EXPECT_EQ(cases.status, 0);
   EXPECT_NE(cases.out.find("glass_bead_quick"), std::string::npos) << cases.out;
+}
+
+TEST(Program, ListsKindsAndTimesOfCases) {
+  const TemporaryCase directory(bar_case());
+  fs::create_directories(directory.path() / "cases/ran");
+  fs::create_directories(directory.path() / "cases/new");
+  directory.write("cases/ran/case.toml", bar_case());
+  directory.write("cases/new/case.toml", replaced(bar_case(), "a bar", "another bar"));
+  ASSERT_EQ(run({"run", (directory.path() / "cases/ran").string()}).status, 0);
+  std::ostringstream out;
+  list_cases(directory.path() / "cases", out);
+  EXPECT_THAT(out.str(), testing::MatchesRegex("new  fracture  +another bar\nran  fracture  +[0-9.]+ s  a bar\n"));
 }
 
 TEST(Program, HelpsAndTellsItsVersion) {

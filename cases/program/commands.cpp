@@ -1,0 +1,235 @@
+#include "cases/program/commands.h"
+
+#include "cases/program/config.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+namespace pfdm {
+namespace {
+
+constexpr const char* exit_statuses =
+    "Exit status: 0 done; 1 the computation failed; 2 the input is wrong;\n"
+    "130 or 143 interrupted (Ctrl-C, SIGTERM).";
+
+/// A command, with what it writes and where.
+struct CommandText {
+  const char* name;
+  const char* description;
+  const char* writes;
+};
+
+constexpr CommandText case_commands[] = {
+    {"run", "Run a case: make the mesh, solve, write the results",
+     "Writes to CASE/results: summary.json, run.log and, by kind of case,\n"
+     "  fracture       force_displacement.csv, fields.pvd (ParaView), mesh.vtu, cohesive laws\n"
+     "  endochronic    history.csv\n"
+     "  mass_material  a CSV file for each test\n"
+     "A fracture run that was killed or interrupted goes on with --restart."},
+    {"check", "Read everything and solve nothing: say what would run, or what is wrong", "Writes no files."},
+    {"mesh", "Make the mesh and measure its quality", "Writes CASE/results/mesh.vtu."},
+    {"cohesive", "Extract the traction-separation laws of interfaces and planes from the results of a run",
+     "Writes to CASE/results: cohesive.json, cohesive_law.csv, cohesive_law_places.csv and,\n"
+     "around particles, debonding.csv."},
+    {"compare", "Compare the results of a run with the experiment that the case names in [experiment]",
+     "Writes to CASE/results: comparison.json, comparison.csv."},
+    {"fit", "Estimate the values that the case names in [fit] from its experiment",
+     "Writes to CASE/results: fit.json, the fitted case case.fitted.toml and curves.\n"
+     "The fit of a fracture case keeps its runs in CASE/results/runs; the same command goes on with them."},
+    {"sweep", "Run a case with the sets of values that it names in [sweep]",
+     "Writes to CASE/results: sweep.csv, a row for each run. The runs are kept in CASE/results/runs;\n"
+     "the same command goes on with them."},
+    {"report", "Draw pictures and plots of the results on one page",
+     "Writes to CASE/results/report: report.pdf, report.png."},
+};
+
+constexpr CommandText other_commands[] = {
+    {"init", "Make a new case directory from a case that is there",
+     "Writes to DIR: case.toml, the data files that it names, a README.md to be filled in; no results.\n"
+     "Without --like it lists the cases to choose from."},
+    {"list", "List the cases that ship: name, kind, what a run here has taken, title", "Writes no files."},
+    {"help", "Say what a command does, as COMMAND --help", "Writes no files."},
+    {"completion", "Print a script that completes words in bash or zsh",
+     "bash: put it where your shell reads it, as in\n"
+     "  pfdm completion bash > ~/.local/share/bash-completion/completions/pfdm\n"
+     "zsh: in ~/.zshrc, after compinit:  source <(pfdm completion zsh)"},
+    {"test", "Run the project's tests (through the launcher, ./pfdm test)",
+     "The tests write to a temporary directory."},
+};
+
+struct Parser {
+  CLI::App app{"Phase-field damage mechanics on cell-centred finite volumes", "pfdm"};
+  CommandLine line{};
+
+  Parser();
+  Parser(const Parser&) = delete;
+  Parser& operator=(const Parser&) = delete;
+
+ private:
+  void add(const CommandText& text) {
+    app.add_subcommand(text.name, text.description)->footer(fmt::format("\n{}\n\n{}", text.writes, exit_statuses));
+  }
+  CLI::App& command(const std::string& name) { return *app.get_subcommand(name); }
+  void add_case_options();
+  void add_other_options();
+};
+
+Parser::Parser() {
+  line.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  app.require_subcommand(1);
+  const std::shared_ptr<CLI::FormatterBase> formatter = app.get_formatter();  // the commands take it over
+  formatter->label("SUBCOMMAND", "COMMAND");
+  formatter->label("Subcommands", "Commands");
+  formatter->label("Positionals", "Arguments");
+  formatter->label("REQUIRED", "");
+  app.set_version_flag("--version", "pfdm " PFDM_VERSION, "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.footer(
+      fmt::format("\npfdm COMMAND --help says more of a command. A case is a directory with a case.toml, as\n"
+                  "cases/glass_bead_quick; cases/README.md is the reference of its keys.\n\n{}",
+                  exit_statuses));
+  for (const CommandText& text : case_commands) add(text);
+  for (const CommandText& text : other_commands) add(text);
+  add_case_options();
+  add_other_options();
+}
+
+void Parser::add_case_options() {
+  for (const CommandText& text : case_commands) {
+    CLI::App& of = command(text.name);
+    of.add_option("CASE", line.case_directory, "the case directory, or a .toml file in it")->required()->type_name("");
+    of.add_option("--threads", line.threads, "number of threads (default: all cores)")
+        ->check(CLI::Range(1, 4096).description(""))
+        ->type_name("N");
+    of.add_flag("--quiet", line.quiet, "say nothing but errors");
+    if (of.get_name() != "check")
+      of.add_option("--output", line.output, "results directory (default: CASE/results)")->type_name("DIR");
+  }
+  command("run").add_flag("--restart", line.restart, "go on from the last complete step");
+  command("run")
+      .add_option("--max-steps", line.max_steps, "stop after N load steps; --restart goes on from there")
+      ->check(CLI::Range(1, 1000000000).description(""))
+      ->type_name("N");
+  command("sweep").add_flag("--slurm", line.slurm, "hand the missing runs to Slurm, or collect them");
+  command("sweep")
+      .add_option("--prepared", line.prepared, "make this one of the runs that --slurm has prepared")
+      ->type_name("RUN")
+      ->needs("--output")
+      ->group("");
+}
+
+void Parser::add_other_options() {
+  command("init").add_option("DIR", line.new_directory, "the new case directory")->type_name("");
+  command("init")
+      .add_option("--like", line.like, "the case to start from: a directory, or the name of a case that ships")
+      ->type_name("CASE");
+  command("list").add_flag("--laws", line.laws, "list laws, boundary conditions and generators instead");
+  command("help").add_option("COMMAND", line.case_directory, "the command")->type_name("");
+  command("completion").add_option("SHELL", line.shell, "bash or zsh")->required()->type_name("");
+}
+
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> names_of_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    if (option->nonpositional() && !option->get_group().empty()) names.push_back("--" + option->get_lnames().front());
+  return names;
+}
+
+std::string meant(const std::string& word, const std::vector<std::string>& words) {
+  const auto near = nearest(word, words);
+  return near ? fmt::format("; did you mean \"{}\"?", *near) : "";
+}
+
+/// CLI11 would only say that a command is missing.
+void require_known_command(const std::string& word, const CLI::App& app) {
+  const std::vector<std::string> names = names_of_commands(app);
+  if (std::ranges::count(names, word) > 0) return;
+  throw InputError(
+      fmt::format("there is no command \"{}\"{} (there are: {})", word, meant(word, names), fmt::join(names, ", ")));
+}
+
+void require_command(const std::vector<std::string>& arguments, const CLI::App& app) {
+  if (arguments.empty())
+    throw InputError(
+        fmt::format("a command is due, as in: pfdm run cases/glass_bead_quick (there are: {}); pfdm help "
+                    "says what each does",
+                    fmt::join(names_of_commands(app), ", ")));
+  if (!arguments.front().starts_with("-")) require_known_command(arguments.front(), app);
+}
+
+/// Words that no command or option has taken are what is wrong, whatever else CLI11 misses on their account.
+InputError wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
+  const auto parsed = app.get_subcommands();
+  const CLI::App& command = parsed.empty() ? app : *parsed.back();
+  const std::string called = command.get_name(), help = parsed.empty() ? "pfdm help" : "pfdm help " + called;
+  const std::vector<std::string> left = app.remaining(true);
+  const auto option = std::ranges::find_if(left, [](const std::string& word) { return word.starts_with("-"); });
+  if (option != left.end()) {
+    const std::vector<std::string> names = names_of_options(command);
+    const std::string word = option->substr(0, option->find('='));
+    if (std::ranges::count(names, word) > 0)
+      return InputError(fmt::format("{} stands behind the command, as in: pfdm {} ... {}", word, called, word));
+    return InputError(fmt::format("{} has no option \"{}\"{} (there are: {})", called, word, meant(word, names),
+                                  fmt::join(names, ", ")));
+  }
+  if (!left.empty())
+    return InputError(fmt::format("{}: \"{}\" is one word too many; {} says what is due", called, left.front(), help));
+  return InputError(fmt::format("{}: {}; {} says what is due", called, error.what(), help));
+}
+
+CommandWords::Option words_of(const CLI::Option& option, const std::vector<std::string>& commands) {
+  if (option.nonpositional())
+    return {.name = "--" + option.get_lnames().front(),
+            .value = option.get_items_expected_max() > 0 ? option.get_type_name() : ""};
+  CommandWords::Option words{.name = "", .value = option.get_name(true)};
+  if (words.value == "COMMAND") words.choices = commands;
+  if (words.value == "SHELL") words.choices = {"bash", "zsh"};
+  return words;
+}
+
+}  // namespace
+
+std::optional<CommandLine> read_command_line(const std::vector<std::string>& arguments, std::ostream& out) {
+  Parser parser;
+  CLI::App& app = parser.app;
+  require_command(arguments, app);
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 wants the last first
+  } catch (const CLI::Success& asked) {
+    app.exit(asked, out, out);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw wrong_usage(app, error);
+  }
+  CommandLine& line = parser.line;
+  line.command = app.get_subcommands().front()->get_name();
+  if (line.command != "help") return line;
+  if (line.case_directory.empty()) return read_command_line({"--help"}, out);
+  require_known_command(line.case_directory, app);
+  return read_command_line({line.case_directory, "--help"}, out);
+}
+
+std::vector<CommandWords> command_words() {
+  const Parser parser;
+  const std::vector<std::string> names = names_of_commands(parser.app);
+  std::vector<CommandWords> commands;
+  for (const CLI::App* command : parser.app.get_subcommands({})) {
+    commands.push_back({command->get_name(), command->get_description(), {}});
+    for (const CLI::Option* option : command->get_options())
+      if (!option->get_group().empty()) commands.back().options.push_back(words_of(*option, names));
+  }
+  return commands;
+}
+
+}  // namespace pfdm

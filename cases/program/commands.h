@@ -1,0 +1,46 @@
+#pragma once
+// The words of the command line: commands, their options, help. The only place that knows CLI11.
+
+#include "physics/tensor.h"
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// What was asked for.
+struct CommandLine {
+  std::string command;
+  std::string case_directory;
+  std::string output;  ///< directory; empty: the case's own
+  int threads = 1;
+  std::optional<Index> max_steps{};
+  bool restart = false;
+  bool quiet = false;
+  bool laws = false;
+  bool slurm = false;
+  std::optional<std::string> prepared{};
+  std::string new_directory;  ///< of init
+  std::string like;           ///< of init: a case
+  std::string shell;          ///< of completion
+};
+
+/// Nothing if help or the version was asked for and written to `out`. Throws InputError that names what was meant.
+std::optional<CommandLine> read_command_line(const std::vector<std::string>& arguments, std::ostream& out);
+
+/// What may be typed, for completion.
+struct CommandWords {
+  struct Option {
+    std::string name;                    ///< "--threads"; empty: a word in its place
+    std::string value;                   ///< what it takes, as "N", "DIR" or "CASE"; empty: nothing
+    std::vector<std::string> choices{};  ///< all values there are, where they are known
+  };
+  std::string name;
+  std::string description;
+  std::vector<Option> options;
+};
+std::vector<CommandWords> command_words();
+
+}  // namespace pfdm

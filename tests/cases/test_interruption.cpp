@@ -1,0 +1,75 @@
+// Ctrl-C and SIGTERM, on the program itself.
+
+#include "cases/program/external_program.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::string bar_in_steps_of(const std::string& increment) {
+  return replaced(replaced(bar_case(), "initial_increment = 0.1", "initial_increment = " + increment),
+                  "maximum_increment = 0.1", "maximum_increment = " + increment);
+}
+
+/// Starts the program in a process group of its own, as a terminal would, and sends the whole group the signal as soon
+/// as there is `file` with at least so many lines.
+ProgramEnd interrupted(const std::string& words, const std::string& signal, const fs::path& file, int lines) {
+  const std::string script = fmt::format(
+      "exec 3>&2 2>/dev/null\n"  // where bash tells of its jobs
+      "set -m\n"
+      "{} {} --threads 2 2>&3 &\n"
+      "while ! [ \"$(cat {} 2>/dev/null | wc -l)\" -ge {} ]; do sleep 0.02; kill -0 $! || break; done\n"
+      "kill -{} -- -$!\n"
+      "wait $!\n",
+      PFDM_PROGRAM, words, file.string(), lines, signal);
+  return run_external({"bash", "-c", script});
+}
+
+class Interruption : public testing::TestWithParam<std::pair<const char*, int>> {};
+
+TEST_P(Interruption, LeavesARunThatGoesOnToTheSameCurve) {
+  const TemporaryCase directory(bar_in_steps_of("0.01"));
+  const std::string place = directory.path().string();
+  const fs::path curve = directory.results() / "force_displacement.csv";
+  const auto [signal, status] = GetParam();
+  const ProgramEnd end = interrupted("run " + place, signal, curve, 20);
+  EXPECT_EQ(end.status, status) << end.err;
+  EXPECT_THAT(end.err, HasSubstr("pfdm: interrupted at step "));
+  EXPECT_THAT(end.err, HasSubstr("results in " + directory.results().string() + "; pfdm run " + place + " --restart"));
+  EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
+  EXPECT_THAT(content_of(directory.results() / "summary.json"), HasSubstr("\"status\": \"interrupted\""));
+  ASSERT_EQ(run_external({PFDM_PROGRAM, "run", place, "--restart"}).status, 0);
+  const std::string gone_on = content_of(curve);
+  ASSERT_EQ(run_external({PFDM_PROGRAM, "run", place}).status, 0);
+  EXPECT_EQ(content_of(curve), gone_on);
+}
+
+TEST_P(Interruption, LeavesASweepThatGoesOn) {
+  const TemporaryCase directory(
+      bar_in_steps_of("0.002") + "\n[sweep]\nmethod = \"list\"\n[[sweep.parameters]]\n" +
+      "key = \"materials.concrete.young_modulus\"\nvalues = [\"30 GPa\", \"35 GPa\", \"40 GPa\"]\n");
+  const std::string place = directory.path().string();
+  const auto [signal, status] = GetParam();
+  const ProgramEnd end = interrupted("sweep " + place, signal, directory.results() / "runs/*/case.toml", 1);
+  EXPECT_EQ(end.status, status) << end.err;
+  EXPECT_EQ(end.err, "pfdm: interrupted; what was run so far is kept, and the same command goes on with it\n");
+  EXPECT_FALSE(fs::exists(directory.results() / "sweep.csv"));
+  EXPECT_EQ(run_external({PFDM_PROGRAM, "sweep", place}).status, 0);
+  EXPECT_TRUE(fs::exists(directory.results() / "sweep.csv"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Program, Interruption, testing::Values(std::pair("INT", 130), std::pair("TERM", 143)),
+                         [](const auto& row) { return std::string(row.param.first); });
+
+}  // namespace
+}  // namespace pfdm
