@@ -101,7 +101,7 @@ TEST(EndochronicFitCase, CasesWithoutAFitSayThatThereIsNone) {
   const TemporaryCase directory(cyclic_case(true_kernel, "2.0"));
   const Outcome outcome = run({"fit", directory.path().string()});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("\"fit\""), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("the case has no [fit] table"), std::string::npos) << outcome.err;
 }
 
 struct BadFit {
