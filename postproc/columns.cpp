@@ -66,6 +66,7 @@ Column column_from_face(const Mesh& mesh, Index face, Index into, double longest
   column.segments.erase(leaves, column.segments.end());
   column.segments.front().entry = face;
   column.length = column.segments.back().begin + column.segments.back().length;
+  column.reference = 0.5 * column.length;
   return column;
 }
 
@@ -134,19 +135,16 @@ CellExcess excess_of(const Mesh& mesh, const FractureModel& model, const OutputF
   return excess;
 }
 
-// The middle one of those whose damage is the largest.
-std::size_t most_damaged(const OutputFields& output, const Column& column, double largest) {
-  std::size_t best = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  const double middle = column.segments.front().begin + 0.5 * column.length;
-  for (std::size_t i = 0; i < column.segments.size(); ++i) {
-    const LineSegment& s = column.segments[i];
-    const double distance = std::abs(s.begin + 0.5 * s.length - middle);
-    if (output.damage[s.cell] < largest || distance >= nearest) continue;
-    nearest = distance;
-    best = i;
-  }
-  return best;
+// At the column's reference, between the middles of the cells on either side of it. One place for all states: along a
+// column that is not thin against the radius of its surface tractions differ.
+Vector reference_traction(const Column& column, const std::vector<CellExcess>& excess) {
+  const auto middle = [&](std::size_t i) { return column.segments[i].begin + 0.5 * column.segments[i].length; };
+  std::size_t beyond = 0;
+  while (beyond < excess.size() && middle(beyond) < column.reference) ++beyond;
+  if (beyond == 0) return excess.front().traction;
+  if (beyond == excess.size()) return excess.back().traction;
+  const double share = (column.reference - middle(beyond - 1)) / (middle(beyond) - middle(beyond - 1));
+  return (1.0 - share) * excess[beyond - 1].traction + share * excess[beyond].traction;
 }
 
 ColumnSample sample(const Mesh& mesh, const FractureModel& model, const OutputFields& output, const Column& column) {
@@ -158,7 +156,7 @@ ColumnSample sample(const Mesh& mesh, const FractureModel& model, const OutputFi
     sample.surface_energy += s.length * output.fracture_energy_density[s.cell];
     sample.largest_damage = std::max(sample.largest_damage, output.damage[s.cell]);
   }
-  sample.traction = excess[most_damaged(output, column, sample.largest_damage)].traction;
+  sample.traction = reference_traction(column, excess);
   sample.bulk = 0.5 * column.length * (excess.front().strain + excess.back().strain);
   return sample;
 }

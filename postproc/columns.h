@@ -25,6 +25,7 @@ struct Column {
   std::array<Vector, 2> tangents{};     ///< unit length; the first in the direction of growing polar angle
   double area = 0.0;                    ///< of the surface that it stands for [m^2]
   double length = 0.0;                  ///< [m]
+  double reference = 0.0;               ///< where along it the traction is taken, at every state [m]
   std::vector<LineSegment> segments{};  ///< along the normal
 };
 
@@ -45,20 +46,21 @@ struct ColumnSet {
 double polar_angle(const Vector& normal, const Vector& axis);
 
 /// A column through the region `band` from every face that it shares with a region other than `outer`, as a particle.
+/// Its traction is that at its middle, where the crack of a band between tougher neighbours runs.
 /// One set for each connected surface: called as the band, or band_1, band_2 ... in the order of their faces. Throws
 /// InputError if the mesh has no such regions or no such face. `axis`: a unit vector from which tangents and polar
 /// angles are counted.
 std::vector<ColumnSet> interface_columns(const Mesh& mesh, const std::string& band, const std::string& outer,
                                          const Vector& axis);
 
-/// A column through every section of the plane with a cell, half_width [m] to either side, or to the boundary. Throws
-/// InputError if the normal is zero or the plane misses the mesh.
+/// A column through every section of the plane with a cell, half_width [m] to either side, or to the boundary. Its
+/// traction is that on the plane. Throws InputError if the normal is zero or the plane misses the mesh.
 ColumnSet plane_columns(const Mesh& mesh, const std::string& name, const Vector& point, const Vector& normal,
                         double half_width, const Vector& axis);
 
 /// What a column tells at a converged state. Components: normal, first and second tangent.
 struct ColumnSample {
-  Vector traction = Vector::Zero();    ///< on the faces of its cell of largest damage [Pa]
+  Vector traction = Vector::Zero();    ///< at its reference [Pa]
   Vector separation = Vector::Zero();  ///< of the whole column [m]
   Vector bulk = Vector::Zero();        ///< its length times the mean of the excess strains at both ends [m]
   double surface_energy = 0.0;         ///< line integral of the discrete surface energy density [J/m^2]

@@ -121,7 +121,8 @@ RegionModel band_model(double strength) {
           .rational = rational_coefficients(softening_law("linear"), band_modulus, Gc, strength, ell)};
 }
 
-/// The band's middle is a little weaker, so that the crack is there.
+/// The strength falls outwards as the traction does, and a little more at the band's middle, so that the crack is
+/// there.
 FractureModel model_on(const Mesh& mesh, const Layers& layers, double largest_load) {
   FractureModel model;
   for (const std::string& name : mesh.region_names)
@@ -130,8 +131,10 @@ FractureModel model_on(const Mesh& mesh, const Layers& layers, double largest_lo
                                 : RegionModel{.elasticity = name == "bead" ? glass : sylgard, .damageable = false});
   model.cells = CellField<RegionModel>(as_size(mesh.n_cells()));
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const bool in_middle = std::abs(mesh.cell_centre[c][0] - layers.crack()) < 0.7 * ell;
-    model.cells[c] = in_middle ? band_model(0.997 * ft) : model.regions[as_size(mesh.region[c])];
+    model.cells[c] = model.regions[as_size(mesh.region[c])];
+    if (!model.cells[c].damageable) continue;
+    const double r = mesh.cell_centre[c][0], strength = ft * std::pow(layers.crack() / r, 2);
+    model.cells[c] = band_model(std::abs(r - layers.crack()) < 0.7 * ell ? 0.997 * strength : strength);
   }
   model.crack = &crack_geometry("Wu");
   model.degradation = &degradation("rational");
@@ -147,6 +150,7 @@ FractureModel model_on(const Mesh& mesh, const Layers& layers, double largest_lo
 struct Measured {
   std::vector<double> load, separation, traction;  // [Pa], [m], [Pa]
   double surface_energy = 0.0;                     // at the end [J/m^2]
+  double crack = 0.0;                              // radius of the most damaged cell at the end [m]
   void add(double at_load, const ColumnSample& sample) {
     load.push_back(at_load);
     separation.push_back(sample.separation[0]);
@@ -180,7 +184,10 @@ Measured pulled(double a, Index n_steps) {
     return run.run(start, hooks);
   };
   const double elastic = 0.97 * compliance.load_at(0.0) / end;
-  run_to(1.0, (1.0 - elastic) / static_cast<double>(n_steps), run_to(elastic, elastic, std::nullopt));
+  const FractureState broken =
+      run_to(1.0, (1.0 - elastic) / static_cast<double>(n_steps), run_to(elastic, elastic, std::nullopt));
+  const auto most = std::ranges::max_element(broken.damage) - broken.damage.begin();
+  measured.crack = mesh.cell_centre[static_cast<Index>(most)].x();
   return measured;
 }
 
@@ -216,6 +223,7 @@ TEST(CohesiveSphere, ExtractedLawIsTheBands) {
               {"strength/ft", strength / ft},
               {"area/Gc", area / Gc},
               {"surface energy/Gc", measured.surface_energy / Gc},
+              {"crack beside the middle, um", 1e6 * (measured.crack - Layers(radius).crack())},
               {"largest error of the load", load},
               {"least radius that snaps, from the extracted law [um]", 1e6 * from_law},
               {"closed form [um]", 1e6 * closed},

@@ -121,16 +121,17 @@ void expect_profile_law(const std::string& name, const std::vector<Profile>& pro
                  .pinned_ends = false,
                  .residual_stiffness = 1e-9});
   Extraction extraction(bar, 20.0 * Bar::ell);
+  for (const Profile& profile : profiles) extraction.add(bar.output(state_with(bar, profile)));
+  const CohesiveLaw law = extraction.law();
+  ASSERT_EQ(law.states.size(), profiles.size());
   double largest = 0.0;
-  for (const Profile& profile : profiles) {
-    extraction.add(bar.output(state_with(bar, profile)));
-    const ColumnSample state = extraction.law().states.back();
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    const ColumnSample& state = law.states[i];
     // The stress was given: a separation that is wrong counts as the stress by which the law differs there.
     const double slope = bar.strength() / (Bar::Gc / bar.strength());
-    largest = std::max({largest, std::abs(state.traction[0] - profile.stress) / bar.strength(),
-                        std::abs(state.separation[0] - profile.separation) * slope / bar.strength()});
+    largest = std::max({largest, std::abs(state.traction[0] - profiles[i].stress) / bar.strength(),
+                        std::abs(state.separation[0] - profiles[i].separation) * slope / bar.strength()});
   }
-  const CohesiveLaw law = extraction.law();
   const CohesiveFigures figures = figures_of(extraction.record(), law);
   report_row("extracted from a bar, " + name,
              {{"largest error/strength", largest},
