@@ -63,7 +63,8 @@ struct Energies {
 };
 
 bool falls_at_once(const ColumnSample& before, const ColumnSample& after, double strength) {
-  return before.traction[0] - after.traction[0] > 0.5 * strength;
+  const bool opens = after.separation.norm() > before.separation.norm();  // else it is unloaded
+  return opens && before.traction[0] - after.traction[0] > 0.5 * strength;
 }
 
 double strength_of(const std::vector<ColumnSample>& states) {
@@ -107,6 +108,17 @@ double cap_angle(double cap, double whole) { return std::acos(std::clamp(1.0 - 2
 
 }  // namespace
 
+bool was_damaged(const ColumnRecord& record, std::size_t place) {
+  return std::ranges::any_of(
+      record.steps, [&](const std::vector<ColumnSample>& step) { return step[place].largest_damage > sound_damage; });
+}
+
+std::size_t n_never_damaged(const ColumnRecord& record) {
+  std::size_t n = 0;
+  for (std::size_t p = 0; p < record.places.size(); ++p) n += was_damaged(record, p) ? 0 : 1;
+  return n;
+}
+
 CohesiveLaw law_at_place(const ColumnRecord& record, std::size_t place) {
   return mean_of(record, {place}, record.places[place].polar_angle, record.places[place].polar_angle);
 }
@@ -114,16 +126,17 @@ CohesiveLaw law_at_place(const ColumnRecord& record, std::size_t place) {
 CohesiveLaw law_between(const ColumnRecord& record, double from, double to) {
   std::vector<std::size_t> places;
   for (std::size_t p = 0; p < record.places.size(); ++p)
-    if (const double angle = record.places[p].polar_angle; angle >= from && (angle < to || to == std::numbers::pi))
+    if (const double angle = record.places[p].polar_angle;
+        angle >= from && (angle < to || to == std::numbers::pi) && was_damaged(record, p))
       places.push_back(p);
   return mean_of(record, places, from, to);
 }
 
 std::vector<CohesiveLaw> averaged_laws(const ColumnRecord& record) {
-  if (record.kind == SurfaceKind::plane) return {law_between(record, 0.0, std::numbers::pi)};
+  const int n = record.kind == SurfaceKind::plane ? 1 : n_bins;
   std::vector<CohesiveLaw> laws;
-  for (int bin = 0; bin < n_bins; ++bin) {
-    CohesiveLaw law = law_between(record, bin * std::numbers::pi / n_bins, (bin + 1) * std::numbers::pi / n_bins);
+  for (int bin = 0; bin < n; ++bin) {
+    CohesiveLaw law = law_between(record, bin * std::numbers::pi / n, (bin + 1) * std::numbers::pi / n);
     if (!law.places.empty()) laws.push_back(std::move(law));
   }
   return laws;
@@ -150,6 +163,7 @@ CohesiveFigures figures_of(const ColumnRecord& record, const CohesiveLaw& law) {
   figures.mixity_at_strength = std::atan2(tangential(strongest->traction), figures.strength);
   figures.final_separation =
       std::ranges::max(states, {}, [](const ColumnSample& s) { return s.separation[0]; }).separation[0];
+  figures.unloaded = states.back().separation[0] < figures.critical_separation;
   for (std::size_t i = 1; i < states.size() && !figures.jump; ++i)
     if (falls_at_once(states[i - 1], states[i], figures.strength)) figures.jump = i;
   figures.initial_stiffness = stiffness_at_half(states, figures.strength, known_separation(states, figures.jump));

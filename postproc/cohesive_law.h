@@ -1,6 +1,7 @@
 #pragma once
 // Traction against separation from the record of a run's columns: averaged over places, with the figures that one asks
-// for, and how far the surface has debonded.
+// for, and how far the surface has debonded. Places that were never damaged have no law: their separation is zero but
+// for the error of discretisation.
 
 #include "postproc/column_record.h"
 
@@ -14,6 +15,15 @@ namespace pfdm {
 /// Damage above which a column counts as debonded.
 constexpr double debonded_damage = 0.95;
 
+/// Damage up to which a column counts as sound: it adds less to the separation than columns resolve, about 1.5 % of
+/// the elastic elongation.
+constexpr double sound_damage = 0.01;
+
+/// Whether the place was ever damaged beyond sound_damage.
+bool was_damaged(const ColumnRecord& record, std::size_t place);
+/// How many places of the record never were.
+std::size_t n_never_damaged(const ColumnRecord& record);
+
 /// States of one place, or means of several, one for each load step.
 struct CohesiveLaw {
   double from = 0.0, to = 0.0;  ///< polar angles of the places [rad]
@@ -24,9 +34,10 @@ struct CohesiveLaw {
 
 /// Of one place.
 CohesiveLaw law_at_place(const ColumnRecord& record, std::size_t place);
-/// Means weighted by area over polar angles [from, to) [rad], pi itself included; without places if there are none.
+/// Means weighted by area over the places with polar angles [from, to) [rad], pi itself included, that were damaged;
+/// without places and states if there are none.
 CohesiveLaw law_between(const ColumnRecord& record, double from, double to);
-/// Of an interface: in bins of 15 degrees, those without places left out. Of a plane: of all its places.
+/// Of an interface: in bins of 15 degrees. Of a plane: of all its places. Laws without places are left out.
 std::vector<CohesiveLaw> averaged_laws(const ColumnRecord& record);
 
 /// NaN where the law has none.
@@ -44,9 +55,11 @@ struct CohesiveFigures {
   double largest_tangential = 0.0;   ///< |T_t| [Pa]
   double final_traction = 0.0;       ///< normal [Pa]
   double bulk_separation = 0.0;      ///< at the strength, of the bulk: taken off on a plane [m]
-  std::optional<std::size_t> jump;   ///< the step across which the traction falls by more than half the strength
+  bool unloaded = false;             ///< at the end less open than at the strength
+  /// The step across which the traction falls by more than half the strength while the separation's magnitude grows.
+  std::optional<std::size_t> jump;
   /// The law is known down to a tenth of its strength.
-  bool is_traced() const { return !jump && final_traction < 0.1 * strength; }
+  bool is_traced() const { return !jump && !unloaded && final_traction < 0.1 * strength; }
 };
 
 /// Of a law of the record.

@@ -98,8 +98,10 @@ Json to_json(const CohesiveReport& report) {
     Json surface = {{"name", record.name},
                     {"kind", name_of(record.kind)},
                     {"places", record.places.size()},
+                    {"never_damaged_places", n_never_damaged(record)},
                     {"area_m2", record.area()},
-                    {"debonded_area_m2", debonding_of(record).back().area}};
+                    {"debonded_area_m2", debonding_of(record).back().area},
+                    {"laws", Json::array()}};
     for (const CohesiveResult& result : report.results[r]) surface["laws"].push_back(to_json(result));
     json["surfaces"].push_back(surface);
   }
@@ -131,15 +133,29 @@ CsvTable debonding_table(const CohesiveReport& report) {
 }
 
 // Names of the surfaces behind their numbers.
-std::vector<std::string> remarks(const CohesiveReport& report) {
+std::vector<std::string> surface_remarks(const CohesiveReport& report) {
   std::vector<std::string> lines;
-  for (std::size_t r = 0; r < report.records.size(); ++r)
-    lines.push_back(fmt::format("surface {}: {}", r, report.records[r].name));
+  for (std::size_t r = 0; r < report.records.size(); ++r) {
+    const ColumnRecord& record = report.records[r];
+    lines.push_back(fmt::format("surface {}: {}", r, record.name));
+    if (const std::size_t sound = n_never_damaged(record); sound > 0)
+      lines.back() += fmt::format("; {} of {} places never damaged (d at most {:g}): no law", sound,
+                                  record.places.size(), sound_damage);
+  }
   return lines;
 }
 
-void write_table(const std::filesystem::path& file, CsvTable table, const CohesiveReport& report) {
-  table.comments = remarks(report);
+// What the columns of a table of laws mean.
+constexpr const char* law_remarks[] = {
+    "separation_m, traction_Pa: normal, from the particle outwards (of a plane: its normal); opening and tension are > "
+    "0",
+    "1: tangent towards growing polar angle, away from the direction of the load; 2: normal x tangent 1",
+    "traction: at the middle of the column (of a plane: on it); separation: of the whole column, beyond elastic strain",
+    "polar angles: of the normal from the direction of the load, in radians (bins of 15 degrees are 0.2618 rad wide)",
+};
+
+void write_table(const std::filesystem::path& file, CsvTable table, std::vector<std::string> remarks) {
+  table.comments = std::move(remarks);
   write_csv(file, table);
 }
 
@@ -173,11 +189,14 @@ void write_cohesive_results(const std::filesystem::path& results, const Cohesive
     const auto surface = static_cast<double>(r);
     for (const CohesiveResult& result : report.results[r]) averaged.add(result.law, {surface}, report.curve);
     for (std::size_t p = 0; p < record.places.size(); ++p)
-      places.add(law_at_place(record, p), {surface, static_cast<double>(p)}, report.curve);
+      if (was_damaged(record, p)) places.add(law_at_place(record, p), {surface, static_cast<double>(p)}, report.curve);
   }
-  write_table(results / "cohesive_law.csv", averaged.table(), report);
-  write_table(results / "cohesive_law_places.csv", places.table(), report);
-  write_table(results / "debonding.csv", debonding_table(report), report);
+  const std::vector<std::string> surfaces = surface_remarks(report);
+  std::vector<std::string> laws = surfaces;
+  laws.insert(laws.end(), std::begin(law_remarks), std::end(law_remarks));
+  write_table(results / "cohesive_law.csv", averaged.table(), laws);
+  write_table(results / "cohesive_law_places.csv", places.table(), laws);
+  write_table(results / "debonding.csv", debonding_table(report), surfaces);
   write_file(results / "cohesive.json", to_json(report).dump(2) + "\n");
 }
 

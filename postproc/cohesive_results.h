@@ -1,8 +1,8 @@
 #pragma once
 // The cohesive laws of a run as files:
 //
-//   cohesive_law.csv         the averaged laws, a row for each load step of each law
-//   cohesive_law_places.csv  those of every place
+//   cohesive_law.csv         the averaged laws, a row for each load step of each law; none for surfaces never damaged
+//   cohesive_law_places.csv  those of every place that was damaged
 //   cohesive.json            figures and fitted analytic laws of the averaged ones
 //   debonding.csv            debonded area and angles against the load, a row for each load step of each surface
 
@@ -23,7 +23,7 @@ struct CohesiveResult {
   std::vector<CohesiveFit> fits;  ///< the best first; of traced laws only
 };
 
-/// All of a surface's averaged laws.
+/// All of a surface's averaged laws; none if it was never damaged.
 std::vector<CohesiveResult> evaluate(const ColumnRecord& record);
 
 struct CohesiveReport {

@@ -208,6 +208,11 @@ std::string label_of(const CohesiveResult& result, SurfaceKind kind) {
   return fmt::format("{:.0f}°–{:.0f}°", result.law.from / degree, result.law.to / degree);
 }
 
+/// Whether the first surface has one.
+bool has_law(const std::vector<ColumnRecord>& records) {
+  return !records.empty() && n_never_damaged(records.front()) < records.front().places.size();
+}
+
 /// Those of the first surface that carry much, by polar angle.
 Chart law_chart(const ColumnRecord& record) {
   std::vector<CohesiveResult> results = evaluate(record);
@@ -258,7 +263,7 @@ ReportPage fracture_page(const FractureCase& fracture, const std::optional<Exper
   std::vector<PageBlock> blocks = damage_pictures(fracture, story.curve, results);
   blocks.emplace_back(force_chart(story));
   blocks.emplace_back(energy_chart(story));
-  if (!story.records.empty()) blocks.emplace_back(law_chart(story.records.front()));
+  if (has_law(story.records)) blocks.emplace_back(law_chart(story.records.front()));
   blocks.emplace_back(iterations_chart(story));
   for (PageRow& row : in_pairs(std::move(blocks))) page.rows.push_back(std::move(row));
   for (PageRow& row : warnings_row(results / "run.log")) page.rows.push_back(std::move(row));

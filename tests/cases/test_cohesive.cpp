@@ -64,6 +64,27 @@ TEST(Cohesive, ExtractsTheLawOfAPlane) {
   EXPECT_GT(surface["laws"][0]["surface_energy_J_per_m2"].get<double>(), 60.0);
 }
 
+// The separation of a sound bar is zero but for rounding: it has no law.
+TEST(Cohesive, HasNoLawWhereNothingCanBreak) {
+  const TemporaryCase directory(
+      replaced(cohesive_case(), "poisson_ratio = 0.2\n", "poisson_ratio = 0.2\ndamageable = false\n"));
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("cohesive law of \"crack\", 2 places: never damaged (d at most 0.01), no law"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(outcome.out.find("int T ddelta"), std::string::npos) << outcome.out;
+  const nlohmann::json surface = json_in(directory.results() / "cohesive.json")["surfaces"][0];
+  EXPECT_EQ(surface["never_damaged_places"], 2);
+  EXPECT_TRUE(surface["laws"].is_array() && surface["laws"].empty()) << surface;
+  for (const char* file : {"cohesive_law.csv", "cohesive_law_places.csv"}) {
+    const std::string law = content_of(directory.results() / file);
+    EXPECT_TRUE(law.starts_with("# surface 0: crack; 2 of 2 places never damaged (d at most 0.01): no law\n")) << law;
+    EXPECT_TRUE(law.ends_with(",step,load\n")) << law;
+  }
+  EXPECT_EQ(run({"report", directory.path().string()}).status, 0);
+}
+
 // In plane stress, held at two sides: its elastic elongation is that of E/(1 - nu^2), and the rest is the crack's,
 // however it contracts across the plate.
 TEST(Cohesive, ExtractsTheLawAroundAWholeBead) {
