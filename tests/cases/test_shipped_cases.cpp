@@ -2,8 +2,13 @@
 
 #include "cases/program/case_file.h"
 #include "cases/program/kinds.h"
+#include "postproc/csv_table.h"
+#include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -17,6 +22,48 @@ TEST(ShippedCases, CanBeRead) {
     EXPECT_TRUE(std::filesystem::exists(entry.path() / "README.md")) << entry.path();
   }
   EXPECT_GT(n_cases, 0);
+}
+
+// As it is shipped, up to the lower pole's debonding: 7 of its 20 steps.
+TEST(ShippedCases, QuickBeadDebondsAsItsReadmeSays) {
+  const TemporaryCase place("");
+  const std::string bead = PFDM_CASES_DIR "/glass_bead_quick";
+  const Outcome outcome = run({"run", bead, "--output", place.results().string(), "--max-steps", "7", "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable curve = read_csv(place.results() / "force_displacement.csv");
+  ASSERT_EQ(curve.n_rows(), 8u);
+  const auto u = [&](std::size_t i) { return curve.column("displacement_m")[i]; };
+  const auto force = [&](std::size_t i) { return curve.column("force_z_N")[i]; };
+
+  // The README's table, to its last digit.
+  EXPECT_NEAR(u(1), 31.2e-6, 1e-12);
+  EXPECT_NEAR(force(1), 2.20, 0.01);
+  EXPECT_NEAR(force(6), 12.91, 0.02);
+  EXPECT_NEAR(force(7), 13.11, 0.02);
+
+  // More than a block of Sylgard under uniform stress (a bound); by little: rigid spheres of this volume, 4.2 %, add
+  // 2.5 times as much, and the glued bottom a few per cent.
+  const double block = 75e6 * 0.8e-6 / 1e-3;
+  EXPECT_GT(force(1) / u(1), block);
+  EXPECT_LT(force(1) / u(1), 1.25 * block);
+  EXPECT_NEAR(force(2) / force(1), 2.0, 0.01) << "linear as long as the damage is small";
+
+  for (std::size_t i = 1; i < 8; ++i) {
+    const double work = curve.column("external_work_J")[i], damage = curve.column("max_damage")[i];
+    const double stored = curve.column("elastic_energy_J")[i] + curve.column("fracture_energy_J")[i];
+    EXPECT_GE(damage, curve.column("max_damage")[i - 1]);
+    EXPECT_LE(damage, 1.0);
+    EXPECT_NEAR(stored / work, i < 7 ? 1.0 : 0.952, i < 7 ? 1e-3 : 5e-3) << "step " << i;  // the jump releases 4.8 %
+  }
+  EXPECT_LT(curve.column("max_damage")[6], 0.3);
+  EXPECT_GT(curve.column("max_damage")[7], 0.99);
+
+  // The lower pole alone: no more than the bead's lower half, 4 pi R^2 being 0.503 mm2.
+  const nlohmann::json cohesive = nlohmann::json::parse(content_of(place.results() / "cohesive.json"));
+  const double debonded = cohesive["surfaces"][0]["debonded_area_m2"];
+  EXPECT_GT(debonded, 0.05e-6);
+  EXPECT_LT(debonded, 0.25e-6);
+  EXPECT_EQ(cohesive["surfaces"][0]["laws"].back()["jump_at_step"], 7);
 }
 
 }  // namespace
