@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <vector>
 
 namespace pfdm::test {
@@ -125,11 +127,19 @@ TEST(Summary, is_read_again) {
 }
 
 TEST(Summary, measures_this_process) {
-  const double before = peak_memory();
+  const double before = peak_memory(), cpu = cpu_seconds();
   EXPECT_GT(before, 1e6);
-  std::vector<char> much(100'000'000, 'x');
-  EXPECT_GE(peak_memory(), before + 0.5e8 * static_cast<double>(much.back() == 'x'));
-  EXPECT_GT(cpu_seconds(), 0.0);
+  EXPECT_LT(before, 1e9);
+  const double size = before + 1e8;  // more than is in use now, so that the peak must grow
+  std::vector<char> much(static_cast<std::size_t>(size), 'x');
+  EXPECT_EQ(std::count(much.begin(), much.end(), 'x'), static_cast<std::ptrdiff_t>(much.size()));
+  EXPECT_GE(peak_memory(), size);
+  EXPECT_LE(peak_memory(), size + before + 1e7);
+  const std::clock_t start = std::clock();
+  while (std::clock() - start < CLOCKS_PER_SEC / 20) {
+  }
+  const double used = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  EXPECT_GE(cpu_seconds() - cpu, used - 0.01);
 }
 
 TEST(Summary, comes_back) {
