@@ -78,7 +78,7 @@ std::vector<Index> face_stream(vtkUnstructuredGrid& grid, vtkIdType cell) {
   return stream;
 }
 
-void copy_cells(VtkFile& file, vtkUnstructuredGrid& grid) {
+void copy_cells(MeshFile& file, vtkUnstructuredGrid& grid) {
   if (grid.GetNumberOfCells() > 0 && !grid.GetCells()->IsValid())
     throw InputError("its cells name more points than their list holds");
   for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
@@ -102,7 +102,7 @@ std::optional<std::vector<Index>> whole_numbers(vtkDataArray& array) {
   return values;
 }
 
-void copy_arrays(VtkFile& file, vtkUnstructuredGrid& grid) {
+void copy_arrays(MeshFile& file, vtkUnstructuredGrid& grid) {
   vtkCellData& data = *grid.GetCellData();
   for (int a = 0; a < data.GetNumberOfArrays(); ++a) {
     vtkDataArray* array = data.GetArray(a);  // null for strings
@@ -114,9 +114,9 @@ void copy_arrays(VtkFile& file, vtkUnstructuredGrid& grid) {
 
 }  // namespace
 
-VtkFile read_vtk_file(const std::filesystem::path& path) {
+MeshFile read_vtk_file(const std::filesystem::path& path) {
   const auto grid = read_grid(path);
-  VtkFile file;
+  MeshFile file;
   try {
     if (std::max(grid->GetNumberOfPoints(), 8 * grid->GetNumberOfCells()) > std::numeric_limits<Index>::max())
       throw InputError("it has too many cells to number");

@@ -3,7 +3,7 @@
 #include "cases/program/amount.h"
 #include "mesh/box_hexes.h"
 #include "mesh/dual.h"
-#include "mesh/import_vtk.h"
+#include "mesh/import_mesh.h"
 #include "mesh/particles_in_box.h"
 #include "mesh/patch_rules.h"
 #include "mesh/sphere_sector.h"
@@ -222,25 +222,43 @@ PatchRule read_patch(const ConfigTable& patch, double scale) {
   return plane_patch(patch.string("name"), axis, patch.quantity("at", dimension::length), tolerance);
 }
 
-MeshRecipe read_vtk(const ConfigTable& table, const std::filesystem::path& case_directory) {
-  table.with_keys({"generator", "cells", "file", "length_unit", "region_array", "region_names", "face_array",
-                   "face_sets", "merge_tolerance", "patches"});
-  ImportVtkSettings settings;
+ImportSettings read_import(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  ImportSettings settings;
   const ConfigValue file = table.at("file");
   settings.file = case_directory / file.string();
   if (!std::filesystem::is_regular_file(settings.file))
     throw file.error(fmt::format("there is no file {}", settings.file.string()));
   const ConfigValue unit = table.at("length_unit");
   settings.scale = unit.in_context([&] { return unit_in_si(unit.string(), dimension::length); });
-  settings.region_array = table.string("region_array", "");
   settings.region_names = read_numbered_names(table, "region_names");
-  settings.face_array = table.string("face_array", "");
   settings.face_sets = read_numbered_names(table, "face_sets");
   settings.merge_tolerance = table.quantity("merge_tolerance", dimension::length, range::not_negative, 0.0);
   for (const ConfigTable& patch : table.tables("patches"))
     settings.patches.push_back(read_patch(patch, settings.scale));
-  return {
-      .make = [settings] { return import_vtk(settings); }, .regions = {}, .patches = {}, .data_files = {settings.file}};
+  return settings;
+}
+
+// Regions and patches are known when the file is read.
+MeshRecipe imported(const ImportSettings& settings, Mesh (*import)(const ImportSettings&)) {
+  return {.make = [settings, import] { return import(settings); },
+          .regions = {},
+          .patches = {},
+          .data_files = {settings.file}};
+}
+
+MeshRecipe read_vtk(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  table.with_keys({"generator", "cells", "file", "length_unit", "region_array", "region_names", "face_array",
+                   "face_sets", "merge_tolerance", "patches"});
+  ImportSettings settings = read_import(table, case_directory);
+  settings.region_array = table.string("region_array", "");
+  settings.face_array = table.string("face_array", "");
+  return imported(settings, import_vtk);
+}
+
+MeshRecipe read_gmsh(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  table.with_keys(
+      {"generator", "cells", "file", "length_unit", "region_names", "face_sets", "merge_tolerance", "patches"});
+  return imported(read_import(table, case_directory), import_gmsh);
 }
 
 Mesh as_generated(Mesh mesh) { return mesh; }
@@ -257,6 +275,7 @@ constexpr MeshGenerator table[] = {
     {"sphere_sector", "concentric shells about the axis z, one cell wide in azimuth: axisymmetric problems",
      read_sphere_sector},
     {"vtk", "a mesh from a .vtu or legacy .vtk file", read_vtk},
+    {"gmsh", "a mesh from a .msh file of Gmsh, regions and patches by its physical groups", read_gmsh},
 };
 
 }  // namespace

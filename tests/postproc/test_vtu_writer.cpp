@@ -1,5 +1,5 @@
 #include "mesh/dual.h"
-#include "mesh/import_vtk.h"
+#include "mesh/import_mesh.h"
 #include "physics/error.h"
 #include "postproc/frame.h"
 #include "postproc/vtu_writer.h"

@@ -1,6 +1,6 @@
 #pragma once
-// Meshes made elsewhere, from unstructured VTK files (.vtu, or .vtk of the legacy format): tetrahedra, wedges,
-// pyramids, hexahedra, voxels and polyhedra. Triangles, quadrilaterals and polygons may name patches.
+// Meshes made elsewhere, from unstructured VTK files (.vtu, or .vtk of the legacy format) and from Gmsh's: tetrahedra,
+// wedges, pyramids, hexahedra, voxels and polyhedra. Triangles, quadrilaterals and polygons may name patches.
 
 #include <filesystem>
 #include <map>
@@ -11,18 +11,18 @@
 
 namespace pfdm {
 
-struct ImportVtkSettings {
+struct ImportSettings {
   std::filesystem::path file;
   double scale = 1.0;  ///< the file's unit of length [m]
 
   /// Cell array of whole numbers that tells the regions; empty: the first there is of "region", "material",
   /// "gmsh:physical", "medit:ref", "cell_tags" and "CellEntityIds", or without any one region, "body".
   std::string region_array;
-  std::map<Index, std::string> region_names;  ///< names of its numbers; region_<number> where there is none
+  std::map<Index, std::string> region_names;  ///< names of its numbers; else the file's, else region_<number>
 
   /// Cell array whose numbers, on the file's faces, tell the patches; empty: the same as for the regions.
   std::string face_array;
-  std::map<Index, std::string> face_sets;  ///< number -> patch
+  std::map<Index, std::string> face_sets;  ///< number -> patch; besides those that the file names
 
   /// Patches by position [m], for boundary faces in no face set. Without patches and face sets: xmin ... zmax, as far
   /// as the mesh has faces on these planes of its bounding box.
@@ -34,6 +34,9 @@ struct ImportVtkSettings {
 /// Cells in mirrored order (writers disagree about wedges) are put right. Throws InputError, naming the file and what
 /// is wrong with it: unreadable, no volume cells, a cell of another type, a cell without positive volume, a number or
 /// an array that is not there.
-Mesh import_vtk(const ImportVtkSettings& settings);
+Mesh import_vtk(const ImportSettings& settings);
+/// The same from a .msh file, whose physical groups are the regions and patches (gmsh_file.h); cells whose faces do not
+/// match are refused as well (matching.h).
+Mesh import_gmsh(const ImportSettings& settings);
 
 }  // namespace pfdm

@@ -1,4 +1,4 @@
-#include "mesh/import_vtk.h"
+#include "mesh/import_mesh.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +12,8 @@
 #include <set>
 
 #include "mesh/cell_faces.h"
+#include "mesh/gmsh_file.h"
+#include "mesh/matching.h"
 #include "mesh/vtk_file.h"
 #include "physics/error.h"
 
@@ -51,9 +53,9 @@ void mirror(CellShape shape, std::vector<Index>& p) {
 
 class Importer {
  public:
-  explicit Importer(const ImportVtkSettings& settings) : settings_(settings), file_(read_vtk_file(settings.file)) {}
+  Importer(const ImportSettings& settings, MeshFile file) : settings_(settings), file_(std::move(file)) {}
 
-  Mesh import() {
+  Mesh import(void (*check)(const Mesh&) = nullptr) {
     if (!(settings_.scale > 0.0))
       throw error(fmt::format("its unit of length is {:g} m, not positive", settings_.scale));
     region_numbers_ = region_numbers();
@@ -66,7 +68,9 @@ class Importer {
     if (soup_.shape.empty()) throw error("it has no volume cells");
     try {
       const std::vector<PatchRule> rules = patch_rules();
-      return assemble_mesh(std::move(soup_), rules);
+      Mesh mesh = assemble_mesh(std::move(soup_), rules);
+      if (check) check(mesh);
+      return mesh;
     } catch (const InputError& e) {
       throw error(e.what());
     }
@@ -75,6 +79,11 @@ class Importer {
  private:
   InputError error(const std::string& reason) const {
     return InputError(fmt::format("the mesh {}: {}", settings_.file.string(), reason));
+  }
+
+  // What the file calls a cell.
+  std::int64_t number_of(Index cell) const {
+    return file_.cell_number.empty() ? cell : file_.cell_number[as_size(cell)];
   }
 
   Index n_cells() const { return static_cast<Index>(file_.cell_type.size()); }
@@ -86,7 +95,7 @@ class Importer {
     throw error(
         fmt::format("its cell {} is of VTK's type {}; there can be tetrahedra (10), voxels (11), hexahedra (12), "
                     "wedges (13), pyramids (14) and polyhedra (42)",
-                    cell, type));
+                    number_of(cell), type));
   }
 
   const std::vector<Index>& array(const std::string& name) const {
@@ -114,9 +123,11 @@ class Importer {
       if (!numbers.contains(number))
         throw error(fmt::format("no cell has the number {} of region \"{}\"; there are: {}", number, name,
                                 fmt::join(numbers, ", ")));
+    std::map<Index, std::string> names = settings_.region_names;
+    names.insert(file_.region_names.begin(), file_.region_names.end());
     for (const Index number : numbers) {
-      const auto named = settings_.region_names.find(number);
-      const std::string name = named != settings_.region_names.end() ? named->second : fmt::format("region_{}", number);
+      const auto named = names.find(number);
+      const std::string name = named != names.end() ? named->second : fmt::format("region_{}", number);
       const auto same = std::ranges::find(soup_.region_names, name);
       region_of_number_[number] = static_cast<Index>(same - soup_.region_names.begin());
       if (same == soup_.region_names.end()) soup_.region_names.push_back(name);
@@ -174,7 +185,7 @@ class Importer {
     const CellShape shape = *shape_of(file_.cell_type[cell]);
     std::vector<Index> ids = points_of(cell);
     if (std::set<Index>(ids.begin(), ids.end()).size() != ids.size())
-      throw error(fmt::format("its cell {} has a point twice", cell));
+      throw error(fmt::format("its cell {} has a point twice", number_of(cell)));
     if (shape != CellShape::polyhedron) put_in_order(cell, shape, ids);
     const Index region = region_numbers_.empty() ? 0 : region_of_number_.at(region_numbers_[cell]);
     soup_.add_cell(shape, ids, region);
@@ -182,7 +193,7 @@ class Importer {
 
   void put_in_order(Index cell, CellShape shape, std::vector<Index>& ids) const {
     if (static_cast<Index>(ids.size()) != points_per_cell(shape))
-      throw error(fmt::format("its cell {} has {} points", cell, ids.size()));
+      throw error(fmt::format("its cell {} has {} points", number_of(cell), ids.size()));
     if (file_.cell_type[cell] == vtk_voxel) {
       std::swap(ids[2], ids[3]);
       std::swap(ids[6], ids[7]);
@@ -190,7 +201,7 @@ class Importer {
     if (signed_cell_volume(soup_.points, shape, ids) < 0.0) mirror(shape, ids);
     const double volume = signed_cell_volume(soup_.points, shape, ids);
     if (!(volume > flat_cell * std::pow((soup_.points[ids[0]] - soup_.points[ids[2]]).norm(), 3)))
-      throw error(fmt::format("its cell {} has the volume {:g} m^3, which is not positive", cell, volume));
+      throw error(fmt::format("its cell {} has the volume {:g} m^3, which is not positive", number_of(cell), volume));
   }
 
   using FaceSets = std::map<std::vector<Index>, Index>;  // sorted points -> number
@@ -216,16 +227,21 @@ class Importer {
   }
 
   std::vector<PatchRule> patch_rules() const {
-    if (settings_.face_sets.empty()) return settings_.patches.empty() ? bounding_box_rules() : settings_.patches;
+    std::map<Index, std::string> names = settings_.face_sets;
+    names.insert(file_.patch_names.begin(), file_.patch_names.end());
+    if (names.empty()) return settings_.patches.empty() ? bounding_box_rules() : settings_.patches;
     std::vector<PatchRule> rules;
     const auto sets = std::make_shared<const FaceSets>(face_sets());
-    for (const auto& [number, name] : settings_.face_sets)
-      rules.push_back({name, [sets, wanted = number](const Vector&, const Vector&, std::span<const Index> ids) {
-                         std::vector<Index> key(ids.begin(), ids.end());
-                         std::ranges::sort(key);
-                         const auto found = sets->find(key);
-                         return found != sets->end() && found->second == wanted;
-                       }});
+    for (const auto& [number, name] : names) {
+      const auto holds = [sets, wanted = number](const Vector&, const Vector&, std::span<const Index> ids) {
+        std::vector<Index> key(ids.begin(), ids.end());
+        std::ranges::sort(key);
+        const auto found = sets->find(key);
+        return found != sets->end() && found->second == wanted;
+      };
+      // What the file names may lie within the body, as an interface does.
+      rules.push_back({name, holds, settings_.face_sets.contains(number)});
+    }
     rules.insert(rules.end(), settings_.patches.begin(), settings_.patches.end());
     return rules;
   }
@@ -242,8 +258,8 @@ class Importer {
     return rules;
   }
 
-  const ImportVtkSettings& settings_;
-  VtkFile file_;
+  const ImportSettings& settings_;
+  MeshFile file_;
   std::vector<Index> region_numbers_;
   std::map<Index, Index> region_of_number_;
   std::vector<Index> new_point_;  // of each point of the file; -1 where no volume cell has it
@@ -252,6 +268,10 @@ class Importer {
 
 }  // namespace
 
-Mesh import_vtk(const ImportVtkSettings& settings) { return Importer(settings).import(); }
+Mesh import_vtk(const ImportSettings& settings) { return Importer(settings, read_vtk_file(settings.file)).import(); }
+
+Mesh import_gmsh(const ImportSettings& settings) {
+  return Importer(settings, read_gmsh_file(settings.file)).import(require_matching_cells);
+}
 
 }  // namespace pfdm

@@ -1,7 +1,7 @@
 #include <fstream>
 
 #include "mesh/box_hexes.h"
-#include "mesh/import_vtk.h"
+#include "mesh/import_mesh.h"
 #include "mesh/particles_in_box.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
@@ -24,8 +24,8 @@ class ImportVtk : public ::testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  ImportVtkSettings write(const VtuText& text, const std::string& name = "mesh.vtu") const {
-    ImportVtkSettings settings;
+  ImportSettings write(const VtuText& text, const std::string& name = "mesh.vtu") const {
+    ImportSettings settings;
     settings.file = folder_ / name;
     if (settings.file.extension() == ".vtk")
       text.write_legacy(settings.file);
@@ -84,7 +84,7 @@ ParticlesInBoxSettings wedges_and_tetrahedra() {
 TEST_F(ImportVtk, WedgesAndTetrahedraComeBack) {
   const Mesh original = make_particles_in_box(wedges_and_tetrahedra());
   for (const char* name : {"mesh.vtu", "mesh.vtk"}) {
-    ImportVtkSettings settings = write(vtu_text(original), name);
+    ImportSettings settings = write(vtu_text(original), name);
     settings.region_names = {{original.region_index("bead"), "glass"}};
     const Mesh mesh = import_vtk(settings);
     expect_sound(mesh);
@@ -143,7 +143,7 @@ TEST_F(ImportVtk, VoxelsAreHexahedra) {
 }
 
 TEST_F(ImportVtk, ScaleIsTheFilesUnit) {
-  ImportVtkSettings settings = write(tetrahedron());
+  ImportSettings settings = write(tetrahedron());
   settings.scale = 1e-3;
   EXPECT_NEAR(total_volume(import_vtk(settings)) * 6e9, 1.0, 1e-12);
   settings.scale = 0.0;
@@ -154,7 +154,7 @@ TEST_F(ImportVtk, RegionsByTheUsualOrTheGivenArray) {
   VtuText text = two_cubes();
   text.cell_arrays = {
       {"gmsh:physical", {4, 9, 1, 1, 1, 0}}, {"colour", {2, 2, 0, 0, 0, 0}}, {"load", {0.5, 1, 1, 1, 1, 1}}};
-  ImportVtkSettings settings = write(text);
+  ImportSettings settings = write(text);
   EXPECT_EQ(import_vtk(settings).region_names, (std::vector<std::string>{"region_4", "region_9"}));
   settings.region_array = "colour";
   settings.region_names = {{2, "all"}};
@@ -173,7 +173,7 @@ TEST_F(ImportVtk, NoArrayMakesOneRegion) {
 TEST_F(ImportVtk, FaceSetsNamePatches) {
   VtuText text = two_cubes();
   text.cell_arrays = {{"tags", {1, 1, 5, 6, 7, 0}}};
-  ImportVtkSettings settings = write(text);
+  ImportSettings settings = write(text);
   settings.face_array = "tags";
   settings.face_sets = {{5, "left"}, {7, "right"}};
   settings.patches = {plane_patch("top", 2, 1.0, 1e-9), plane_patch("left_too", 0, 0.0, 1e-9)};
@@ -205,7 +205,7 @@ TEST_F(ImportVtk, PointsAreMergedOnlyWhenAsked) {
   for (const Vector& x : {Vector(0, 0, 1e-9), Vector(1, 1e-9, 0), Vector(0, 1, 0), Vector(0, 0, -1)})
     text.points.push_back(x);
   text.cells.push_back({10, {4, 6, 5, 7}, {}});
-  ImportVtkSettings settings = write(text);
+  ImportSettings settings = write(text);
   EXPECT_EQ(import_vtk(settings).n_interior_faces(), 0);
   settings.merge_tolerance = 1e-6;
   const Mesh mesh = import_vtk(settings);
@@ -233,7 +233,7 @@ TEST_F(ImportVtk, BadCellsAreRefusedByTheirNumberInTheFile) {
 
 TEST_F(ImportVtk, UnreadableFilesAreNamedInOneMessageAndVtkStaysSilent) {
   const auto message = [&](const std::string& name, const std::string& content) {
-    ImportVtkSettings settings;
+    ImportSettings settings;
     settings.file = folder_ / name;
     if (!content.empty()) std::ofstream(settings.file) << content;
     ::testing::internal::CaptureStderr();
