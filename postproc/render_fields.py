@@ -16,6 +16,7 @@ import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPlane
 from vtkmodules.vtkFiltersCore import vtkCutter, vtkFeatureEdges, vtkThreshold
+from vtkmodules.vtkFiltersGeneral import vtkWarpVector
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
@@ -36,23 +37,26 @@ def parse_arguments():
     parser.add_argument("--centre", nargs=3, type=float, metavar=("X", "Y", "Z"),
                         help="point of the planes [m]; default: the centre of the inclusion, or else of the body")
     parser.add_argument("--inclusion", type=int, default=0, help="number of the bead's material, -1 for none")
-    parser.add_argument("--load", type=float, help="load parameter of the frame; default: the last")
+    parser.add_argument("--time", type=float, help="time value of the frame, as in fields.pvd; default: the last")
+    parser.add_argument("--warp", type=float, default=0.0, metavar="FACTOR",
+                        help="draw the body as it has moved, displacements times this; default: as it was")
+    parser.add_argument("--gaps", action="store_true", help="leave the broken cells (d > 0.95) out of the sections")
     parser.add_argument("--band", type=float, default=0.9, help="least damage of the debonded band")
     parser.add_argument("--zoom", type=float, default=1.0)
     return parser.parse_args()
 
 
-def read_frame(results, load):
-    """The grid and the load of the frame nearest to the given load."""
+def read_frame(results, time):
+    """The grid and the time value of the frame nearest to the given one."""
     rows = xml.etree.ElementTree.parse(results / "fields.pvd").findall(".//DataSet")
     frames = [(float(row.get("timestep")), row.get("file")) for row in rows]
     if not frames:
         raise SystemExit(f"{results} has no frames")
-    load, file = frames[-1] if load is None else min(frames, key=lambda frame: abs(frame[0] - load))
+    time, file = frames[-1] if time is None else min(frames, key=lambda frame: abs(frame[0] - time))
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(results / file))
     reader.Update()
-    return reader.GetOutput(), load
+    return reader.GetOutput(), time
 
 
 def run(a_filter, source):
@@ -68,6 +72,13 @@ def cells_between(grid, field, low, high):
     threshold.SetUpperThreshold(high)
     threshold.SetThresholdFunction(vtkThreshold.THRESHOLD_BETWEEN)
     return run(threshold, grid)
+
+
+def warped(grid, factor):
+    warp = vtkWarpVector()
+    warp.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "displacement")
+    warp.SetScaleFactor(factor)
+    return run(warp, grid)
 
 
 def section(data, centre, normal):
@@ -213,15 +224,18 @@ def band_actors(grid, bead, least_damage):
 def main():
     options = parse_arguments()
     options.output.mkdir(parents=True, exist_ok=True)
-    grid, load = read_frame(options.results, options.load)
+    grid, time = read_frame(options.results, options.time)
+    if options.warp:
+        grid = warped(grid, options.warp)
+    drawn = cells_between(grid, "damage", 0.0, 0.95) if options.gaps else grid
     bead = cells_between(grid, "material", options.inclusion, options.inclusion)
     centre = options.centre or centre_of(bead if bead.GetNumberOfCells() else grid)
     for name, normal, direction in (("xz", (0, 1, 0), (0, 1, 0)), ("yz", (1, 0, 0), (-1, 0, 0))):
-        draw(options.output / f"damage_{name}.png", slice_actors(grid, bead, centre, normal),
-             f"{name} plane, load {load:.4g}", direction, grid.GetBounds(), options.zoom)
+        draw(options.output / f"damage_{name}.png", slice_actors(drawn, bead, centre, normal),
+             f"{name} plane, time value {time:.4g}", direction, grid.GetBounds(), options.zoom)
     around = bead if bead.GetNumberOfCells() else grid
     draw(options.output / "debonded_band.png", band_actors(grid, bead, options.band),
-         f"cells with d > {options.band:g}, load {load:.4g}", (-0.56, 0.72, -0.41), around.GetBounds(),
+         f"cells with d > {options.band:g}, time value {time:.4g}", (-0.56, 0.72, -0.41), around.GetBounds(),
          0.85 * options.zoom)
 
 

@@ -4,16 +4,22 @@
 #include "postproc/atomic_file.h"
 
 #include <fmt/format.h>
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkIdList.h>
+#include <vtkIdTypeArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -117,11 +123,18 @@ void insert_cell(vtkUnstructuredGrid& grid, const Mesh& mesh, const GridPoints& 
   grid.InsertNextCell(type, static_cast<vtkIdType>(all.size()), all.data(), faces.n_faces, faces.entries.data());
 }
 
-vtkSmartPointer<vtkStringArray> make_region_names(const Mesh& mesh) {
-  auto names = vtkSmartPointer<vtkStringArray>::New();
-  names->SetName("region_names");
-  for (const std::string& name : mesh.region_names) names->InsertNextValue(name);
-  return names;
+void add_region_numbers(vtkFieldData& data, const Mesh& mesh) {
+  for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
+    vtkNew<vtkIntArray> number;
+    number->SetName(("region_" + mesh.region_names[r]).c_str());
+    number->InsertNextValue(static_cast<int>(r));
+    data.AddArray(number);
+  }
+}
+
+void name_array(vtkDataArray& array, const std::string& name, const std::string& unit) {
+  array.SetName(name.c_str());
+  if (!unit.empty()) array.GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
 }
 
 // VTK reads the values where they are; its interface has no notion of arrays that it may not write to.
@@ -188,25 +201,36 @@ vtkSmartPointer<vtkDataArray> to_array(const NamedField& field, Index n_cells) {
     return to_array(*values, field.precision);
   };
   auto array = std::visit(convert, field.values);
-  array->SetName(field.name.c_str());
+  name_array(*array, field.name, field.unit);
   return array;
 }
 
-vtkSmartPointer<vtkDoubleArray> time_value(double time) {
+vtkSmartPointer<vtkDoubleArray> time_value(double time, const std::string& unit) {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName("TimeValue");
+  name_array(*array, "TimeValue", unit);
   array->InsertNextValue(time);
   return array;
 }
 
+void set_compressor(vtkXMLUnstructuredGridWriter& writer, Compression compression) {
+  switch (compression) {
+    case Compression::zlib:
+      writer.SetCompressorTypeToZLib();
+      writer.SetCompressionLevel(1);  // higher levels take twice the time for a twentieth of the size
+      break;
+    case Compression::lz4: writer.SetCompressorTypeToLZ4(); break;
+    case Compression::none: writer.SetCompressorTypeToNone(); break;
+  }
+}
+
 // Into memory, and from there to the disk by write_file: VTK overlooks some errors of the disk.
-std::string serialise(vtkUnstructuredGrid& grid) {
+std::string serialise(vtkUnstructuredGrid& grid, Compression compression) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(&grid);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  // A frame of 120,000 cells: 0.05 s and 13 MB with LZ4, 0.5 s and 11 MB with zlib at level 1, 0.1 s and 17 MB without.
-  writer->SetCompressorTypeToLZ4();
+  // Not appended at the file's end: where expat defers parsing, as Debian 12's since its update of 2024, VTK and
+  // ParaView read on into the appended numbers as if they were XML.
+  writer->SetDataModeToBinary();
+  set_compressor(*writer, compression);
   writer->SetHeaderTypeToUInt64();
   writer->SetIdTypeToInt32();
   writer->WriteToOutputStringOn();
@@ -216,33 +240,110 @@ std::string serialise(vtkUnstructuredGrid& grid) {
   return writer->GetOutputString();
 }
 
+// Gives cells copies of points in place of the points: in a grid of its own, as the one of all frames stays.
+class PointSplitter {
+ public:
+  explicit PointSplitter(vtkUnstructuredGrid& grid) : grid_(grid) {
+    points_->SetDataType(grid.GetPoints()->GetDataType());
+    points_->DeepCopy(grid.GetPoints());
+    cells_->DeepCopy(grid.GetCells());
+    if (!grid.GetFaces()) return;
+    faces_ = vtkSmartPointer<vtkIdTypeArray>::New();
+    faces_->DeepCopy(grid.GetFaces());
+  }
+
+  void split(vtkIdType point, const std::vector<Index>& cells) {
+    std::array<double, 3> place{};
+    points_->GetPoint(point, place.data());
+    const vtkIdType copy = points_->InsertNextPoint(place.data());
+    for (const Index cell : cells) {
+      cells_->GetCellAtId(cell, ids_);
+      for (vtkIdType i = 0; i < ids_->GetNumberOfIds(); ++i)
+        if (ids_->GetId(i) == point) ids_->SetId(i, copy);
+      cells_->ReplaceCellAtId(cell, ids_);
+      if (grid_.GetCellType(cell) == VTK_POLYHEDRON) split_faces(cell, point, copy);
+    }
+  }
+
+  void finish() {
+    grid_.SetPoints(points_);
+    vtkNew<vtkUnsignedCharArray> types;
+    types->DeepCopy(grid_.GetCellTypesArray());
+    const vtkSmartPointer<vtkIdTypeArray> locations = grid_.GetFaceLocations();
+    grid_.SetCells(types, cells_, locations, faces_);
+  }
+
+ private:
+  void split_faces(vtkIdType cell, vtkIdType point, vtkIdType copy) {
+    vtkIdType at = grid_.GetFaceLocations()->GetValue(cell);
+    vtkIdType n_faces = faces_->GetValue(at++);
+    for (; n_faces > 0; --n_faces)
+      for (vtkIdType n = faces_->GetValue(at++); n > 0; --n, ++at)
+        if (faces_->GetValue(at) == point) faces_->SetValue(at, copy);
+  }
+
+  vtkUnstructuredGrid& grid_;
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> cells_;
+  vtkSmartPointer<vtkIdTypeArray> faces_;
+  vtkNew<vtkIdList> ids_;
+};
+
+// `number` is that in the file of each of the mesh's points, -1 for those that no cell uses.
+vtkSmartPointer<vtkFloatArray> displacement_array(const SplitPoints& split, const std::vector<vtkIdType>& number) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  name_array(*array, "displacement", "m");
+  array->SetNumberOfComponents(3);
+  for (std::size_t p = 0; p < split.displacement.size(); ++p)
+    if (p >= number.size() || number[p] >= 0) array->InsertNextTuple(split.displacement[p].data());
+  return array;
+}
+
+void add_points(vtkUnstructuredGrid& frame, const SplitPoints& split, const std::vector<vtkIdType>& number) {
+  if (split.displacement.size() != number.size() + split.copies.size())
+    throw InputError(fmt::format("{} displacements for {} points and {} copies", split.displacement.size(),
+                                 number.size(), split.copies.size()));
+  if (!split.copies.empty()) {
+    PointSplitter splitter(frame);
+    for (const PointCopy& copy : split.copies) splitter.split(number[as_size(copy.point)], copy.cells);
+    splitter.finish();
+  }
+  frame.GetPointData()->AddArray(displacement_array(split, number));
+}
+
 }  // namespace
 
 struct VtuWriter::Grid {
   vtkNew<vtkUnstructuredGrid> mesh;
+  std::vector<vtkIdType> number;  // as in GridPoints
+  VtuSettings settings;
 };
 
-VtuWriter::VtuWriter(const Mesh& mesh) : grid_(std::make_unique<Grid>()) {
+VtuWriter::VtuWriter(const Mesh& mesh, VtuSettings settings) : grid_(std::make_unique<Grid>()) {
   vtkUnstructuredGrid& grid = *grid_->mesh;
-  const GridPoints points(mesh);
+  GridPoints points(mesh);
   grid.SetPoints(points.points);
   grid.Allocate(mesh.n_cells());
   for (Index cell = 0; cell < mesh.n_cells(); ++cell) insert_cell(grid, mesh, points, cell);
-  grid.GetFieldData()->AddArray(make_region_names(mesh));
+  add_region_numbers(*grid.GetFieldData(), mesh);
+  grid_->number = std::move(points.number);
+  grid_->settings = std::move(settings);
 }
 
 VtuWriter::~VtuWriter() = default;
 VtuWriter::VtuWriter(VtuWriter&&) noexcept = default;
 VtuWriter& VtuWriter::operator=(VtuWriter&&) noexcept = default;
 
-void VtuWriter::write(const std::filesystem::path& path, const std::vector<NamedField>& fields, double time) const {
+void VtuWriter::write(const std::filesystem::path& path, const std::vector<NamedField>& fields, double time,
+                      const SplitPoints* points) const {
   // A shallow copy shares the cells and leaves no pointers to the caller's values behind.
   vtkNew<vtkUnstructuredGrid> frame;
   frame->ShallowCopy(grid_->mesh);
   const auto n_cells = static_cast<Index>(frame->GetNumberOfCells());
   for (const NamedField& field : fields) frame->GetCellData()->AddArray(to_array(field, n_cells));
-  frame->GetFieldData()->AddArray(time_value(time));
-  write_file(path, serialise(*frame));
+  if (points) add_points(*frame, *points, grid_->number);
+  frame->GetFieldData()->AddArray(time_value(time, grid_->settings.time_unit));
+  write_file(path, serialise(*frame, grid_->settings.compression));
 }
 
 }  // namespace pfdm

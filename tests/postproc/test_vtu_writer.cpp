@@ -12,9 +12,11 @@
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
+#include <vtkInformation.h>
+#include <vtkInformationStringKey.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -194,10 +196,43 @@ TEST(VtuWriter, time_and_region_names_are_field_data) {
   vtkFieldData& data = *grid->GetFieldData();
   ASSERT_NE(data.GetArray("TimeValue"), nullptr);
   EXPECT_EQ(data.GetArray("TimeValue")->GetComponent(0, 0), awkward(3));
-  const auto* names = vtkStringArray::SafeDownCast(data.GetAbstractArray("region_names"));
-  ASSERT_NE(names, nullptr);
-  ASSERT_EQ(names->GetNumberOfValues(), 2);
-  EXPECT_EQ(const_cast<vtkStringArray*>(names)->GetValue(1), "epoxy");
+  ASSERT_NE(data.GetArray("region_glass"), nullptr);
+  ASSERT_NE(data.GetArray("region_epoxy"), nullptr);
+  EXPECT_EQ(data.GetArray("region_glass")->GetComponent(0, 0), 0);
+  EXPECT_EQ(data.GetArray("region_epoxy")->GetComponent(0, 0), 1);
+  EXPECT_EQ(data.GetNumberOfArrays(), 3);
+}
+
+TEST(VtuWriter, units_come_back) {
+  const TemporaryFolder folder;
+  const Mesh mesh = mesh_of_all_shapes();
+  const AwkwardFields f(mesh.n_cells());
+  const SplitPoints points{.copies = {}, .displacement = std::vector<Vector>(mesh.points.size(), Vector::UnitZ())};
+  VtuWriter(mesh, {.compression = Compression::zlib, .time_unit = "s"})
+      .write(folder / "a.vtu", {{"s", &f.scalar, Precision::single_precision, "Pa"}, {"i", &f.integer}}, 1.0, &points);
+  const auto grid = read_back(folder / "a.vtu");
+  const auto unit = [](vtkDataArray* array) -> std::string {
+    const char* text = array->GetInformation()->Get(vtkDataArray::UNITS_LABEL());
+    return text ? text : "none";
+  };
+  EXPECT_EQ(unit(grid->GetCellData()->GetArray("s")), "Pa");
+  EXPECT_EQ(unit(grid->GetCellData()->GetArray("i")), "none");
+  EXPECT_EQ(unit(grid->GetPointData()->GetArray("displacement")), "m");
+  EXPECT_EQ(unit(grid->GetFieldData()->GetArray("TimeValue")), "s");
+}
+
+TEST(VtuWriter, compresses_as_it_is_told) {
+  const TemporaryFolder folder;
+  const Mesh mesh = cube_mesh(1.0, 8);
+  const CellField<double> damage(as_size(mesh.n_cells()), 0.25);
+  const auto head = [&](Compression compression) {
+    VtuWriter(mesh, {.compression = compression}).write(folder / "a.vtu", {{"damage", &damage}}, 0.0);
+    EXPECT_EQ(read_back(folder / "a.vtu")->GetCellData()->GetArray("damage")->GetComponent(7, 0), 0.25);
+    return content_of(folder / "a.vtu").substr(0, 300);
+  };
+  EXPECT_THAT(head(Compression::zlib), HasSubstr("vtkZLibDataCompressor"));
+  EXPECT_THAT(head(Compression::lz4), HasSubstr("vtkLZ4DataCompressor"));
+  EXPECT_THAT(head(Compression::none), ::testing::Not(HasSubstr("compressor")));
 }
 
 TEST(VtuWriter, one_writer_makes_frames_that_do_not_mix) {

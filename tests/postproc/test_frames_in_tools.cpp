@@ -1,0 +1,96 @@
+// That other programs open frames as they are written by default; skipped where these are not installed.
+
+#include "mesh/dual.h"
+#include "mesh/particles_in_box.h"
+#include "postproc/frame.h"
+#include "postproc/point_displacement.h"
+#include "postproc/pvd.h"
+#include "tests/postproc/boxes.h"
+#include "tests/postproc/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+
+namespace pfdm::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Said {
+  int status = 0;
+  std::string text;
+};
+
+Said run(const std::string& command) {
+  Said said;
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::array<char, 256> buffer{};
+  while (pipe && std::fgets(buffer.data(), buffer.size(), pipe)) said.text += buffer.data();
+  said.status = pipe ? WEXITSTATUS(pclose(pipe)) : -1;
+  return said;
+}
+
+// The upper half has moved up by 1, the broken cells between stretch.
+OutputFields opened_fields(const Mesh& mesh, double band) {
+  const auto n = as_size(mesh.n_cells());
+  OutputFields output{.displacement = CellField<Vector>(n),
+                      .damage = CellField<double>(n),
+                      .stress = CellField<Tensor>(n),
+                      .strain = CellField<Tensor>(n),
+                      .gradient = CellField<Tensor>(n),
+                      .energy_density = CellField<double>(n),
+                      .driving_energy = CellField<double>(n),
+                      .fracture_energy_density = CellField<double>(n),
+                      .traction = {}};
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const double z = mesh.cell_centre[c].z();
+    output.damage[c] = std::abs(z) < band ? 1.0 : 0.0;
+    output.displacement[c] = Vector(0, 0, std::abs(z) < band ? 0.5 : z > 0.0 ? 1.0 : 0.0);
+  }
+  return output;
+}
+
+Mesh layered_bead() {
+  ParticlesInBoxSettings settings;
+  settings.lower = Vector::Constant(-2.0);
+  settings.upper = Vector::Constant(2.0);
+  settings.size_far = 0.8;
+  settings.particles.resize(1);
+  settings.particles[0].radius = 1.0;
+  settings.particles[0].subdivision = 2;
+  settings.particles[0].n_layers = 1;
+  settings.particles[0].layer_thickness = 0.2;
+  return make_particles_in_box(settings);
+}
+
+void expect_opens(const std::string& interpreter, const std::string& tool, const Mesh& mesh) {
+  const TemporaryFolder folder;
+  const OutputFields output = opened_fields(mesh, 0.3);
+  const SplitPoints points = point_displacement(mesh, {}, output, 1.0);
+  VtuWriter(mesh).write(folder / "a.vtu", frame_fields(mesh, output), 0.5, &points);
+  PvdSeries(folder / "fields.pvd").add(0.5, "a.vtu");
+  const Said said = run(fmt::format("{} {}/read_frames.py {} {}", interpreter, PFDM_TEST_SCRIPTS, tool,
+                                    (folder / "fields.pvd").string()));
+  if (said.status == 77 || said.status == 127) GTEST_SKIP() << tool << " is not installed";
+  ASSERT_EQ(said.status, 0) << said.text;
+  double damage = 0.0;
+  for (const double d : output.damage) damage += d;
+  EXPECT_THAT(said.text, HasSubstr(fmt::format("{} cells, damage {:g}, time 0.5, region_bead region_interface "
+                                               "region_matrix, warped from -2 to 3",
+                                               mesh.n_cells(), damage)));
+}
+
+TEST(FramesInTools, meshio_reads_tetrahedra_and_prisms) { expect_opens("/usr/bin/python3", "meshio", layered_bead()); }
+
+TEST(FramesInTools, paraview_warps_tetrahedra_and_prisms) { expect_opens("pvpython", "paraview", layered_bead()); }
+
+TEST(FramesInTools, paraview_warps_polyhedra) {
+  expect_opens("pvpython", "paraview", barycentric_dual(layered_bead()));
+}
+
+}  // namespace
+}  // namespace pfdm::test
