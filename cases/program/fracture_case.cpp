@@ -144,18 +144,25 @@ void check_names(const FractureCase& fracture, std::span<const std::string> regi
   fracture.curve_patch->one_of(patches, "patch of the mesh");
 }
 
-/// The load parameter at which the curve's patch has been displaced by `entry`.
-double load_at_displacement(const ConfigValue& entry, const FractureCase& fracture) {
+/// The displacement of the curve's patch along its component at load parameter 1 [m], where it is reached linearly and
+/// is not zero.
+std::optional<double> full_displacement(const FractureCase& fracture) {
   const CurveSettings& curve = fracture.output.curve;
   for (const BoundarySettings& boundary : fracture.boundary) {
     if (boundary.condition.patch != curve.patch) continue;
     const auto full = boundary.displacement_at_full_load[static_cast<std::size_t>(curve.component)];
-    if (full && *full != 0.0) return entry.quantity(dimension::length) / *full;
+    if (full && *full != 0.0) return full;
   }
+  return std::nullopt;
+}
+
+/// The load parameter at which the curve's patch has been displaced by `entry`.
+double load_at_displacement(const ConfigValue& entry, const FractureCase& fracture) {
+  if (const auto full = full_displacement(fracture)) return entry.quantity(dimension::length) / *full;
   throw entry.error(
       fmt::format("the displacement of patch \"{}\" along the curve's component is not prescribed by a "
                   "plain quantity; give load parameters, as in 0.78",
-                  curve.patch));
+                  fracture.output.curve.patch));
 }
 
 std::vector<double> read_frames(const ConfigTable& output, const FractureCase& fracture) {
@@ -179,11 +186,12 @@ std::vector<double> read_frames(const ConfigTable& output, const FractureCase& f
 }
 
 void read_output(const ConfigTable& root, FractureCase& fracture) {
-  const ConfigTable output =
-      root.table("output").with_keys({"curve", "frames_at", "frames_every", "slices_through", "energy_release_rate"});
+  const ConfigTable output = root.table("output").with_keys(
+      {"curve", "frames_at", "frames_every", "time_value", "compression", "slices_through", "energy_release_rate"});
   read_curve(output, fracture);
   check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);  // the frames need the curve's patch
   fracture.loading.stops = read_frames(output, fracture);
+  fracture.output.frames = read_frame_settings(output, fracture.loading, full_displacement(fracture));
   fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", count, 0));
   if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
   fracture.output.tips = read_energy_release(output);

@@ -5,6 +5,7 @@
 #include "cases/program/boundary_reader.h"
 #include "cases/program/cohesive_case.h"
 #include "cases/program/energy_release_case.h"
+#include "cases/program/frame_settings.h"
 #include "cases/program/materials.h"
 #include "cases/program/mesh_recipe.h"
 #include "solver/fracture_model.h"
@@ -29,8 +30,9 @@ struct CurveSettings {
 
 struct FractureOutput {
   CurveSettings curve;
-  bool figures_only = false;             ///< no frames, and nothing on the disk for the first seconds
-  Index frames_every = 0;                ///< steps; 0 = only LoadingSettings::stops and the last step
+  bool figures_only = false;  ///< no frames, and nothing on the disk for the first seconds
+  Index frames_every = 0;     ///< steps; 0 = only LoadingSettings::stops and the last step
+  FrameSettings frames;
   std::optional<Vector> slices_through;  ///< [m]
   std::vector<TipRegion> tips;           ///< around which the energy release rate is measured
 };

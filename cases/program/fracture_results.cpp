@@ -7,6 +7,7 @@
 #include "postproc/cohesive_results.h"
 #include "postproc/comparison_results.h"
 #include "postproc/frame.h"
+#include "postproc/point_displacement.h"
 #include "postproc/slice.h"
 #include "postproc/text_file.h"
 
@@ -165,7 +166,7 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
       frames_(last ? PvdSeries(directory_ / frames_file,
                                [last](const Frame& frame) { return frame.file <= frame_file(last->step); })
                    : PvdSeries(directory_ / frames_file)),
-      writer_(mesh),
+      writer_(mesh, fracture.output.frames.file),
       damage_(as_size(mesh.n_cells()), 0.0) {
   if (!columns.empty())
     columns_.emplace(directory_ / columns_folder, columns, fracture.cohesive.axis,
@@ -241,11 +242,12 @@ bool FractureResults::frame_is_due(const FractureState& state) const {
 }
 
 void FractureResults::write_frame(Index step, double load, const OutputFields& output) {
-  // A followed load falls back, and ParaView wants times that rise: they are the steps then.
-  const bool load_rises = std::isinf(fracture_.loading.maximum_dissipation) &&
-                          (frames_.frames().empty() || frames_.frames().back().time < load);
-  const double time = load_rises ? load : static_cast<double>(step);
-  writer_.write(directory_ / frame_file(step), frame_fields(mesh_, output), time);
+  double time = fracture_.output.frames.time(step, load);
+  // ParaView wants times that rise; those of a restart with another [loading] may be measured in something else.
+  if (const auto& before = frames_.frames(); !before.empty() && !(time > before.back().time))
+    time = std::max(static_cast<double>(step), std::floor(before.back().time) + 1.0);
+  const SplitPoints points = point_displacement(mesh_, model_.boundary, output, load);
+  writer_.write(directory_ / frame_file(step), frame_fields(mesh_, output), time, &points);
   frames_.add(time, frame_file(step));
 }
 
