@@ -71,6 +71,13 @@ CaseLine line_of(const fs::path& directory) {
 
 }  // namespace
 
+fs::path shipped_cases() {
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  const fs::path installed = program.parent_path().parent_path() / "share/pfdm/cases";
+  return fs::is_directory(installed, none) ? installed : fs::path(PFDM_CASES_DIR);
+}
+
 void list_cases(const std::filesystem::path& cases_directory, std::ostream& out) {
   if (!std::filesystem::is_directory(cases_directory))
     throw InputError(fmt::format("{}: there is no such directory of cases", cases_directory.string()));

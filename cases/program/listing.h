@@ -9,6 +9,9 @@
 
 namespace pfdm {
 
+/// The directory of the cases that ship: beside an installed program, else in the checkout that it was built from.
+std::filesystem::path shipped_cases();
+
 /// A line for each directory with a case.toml, by kind and name: its name, its kind, how long the last complete run in
 /// its results took, its title. Throws InputError if the directory is not there.
 void list_cases(const std::filesystem::path& cases_directory, std::ostream& out);

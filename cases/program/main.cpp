@@ -6,7 +6,25 @@
 #include <csignal>
 #include <iostream>
 
+namespace {
+
+bool can_run_here() {
+#if defined(__AVX2__) && defined(__FMA__)
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+  return true;
+#endif
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  if (!can_run_here()) {
+    std::cerr
+        << "pfdm: this program was compiled for processors with AVX2 and FMA, which this one has not: build it here "
+           "(./pfdm does), or with -DPFDM_ARCH=x86-64-v2\n";
+    return 1;
+  }
   const int status = pfdm::run_program({argv + 1, argv + argc}, std::cout, std::cerr, isatty(STDOUT_FILENO) == 1);
   for (const int signal : {SIGINT, SIGTERM})
     if (status == pfdm::exit_status_of_signal(signal)) {

@@ -40,7 +40,7 @@ const std::function<void(Session&)>& job_of(const CommandLine& line, const Runna
 
 CaseFile open_case_or_name_nearest(const std::string& where) {
   if (!std::filesystem::exists(where))
-    if (const auto near = nearest_case(where, PFDM_CASES_DIR))
+    if (const auto near = nearest_case(where, shipped_cases()))
       throw InputError(fmt::format("{}: there is no such case directory; did you mean \"{}\"?", where, *near));
   return open_case(where);
 }
@@ -81,12 +81,12 @@ void do_case(const CommandLine& line, std::ostream& out, bool terminal) {
 
 void do_init(const CommandLine& line, std::ostream& out) {
   if (line.like.empty() || line.new_directory.empty()) {
-    list_cases(PFDM_CASES_DIR, out);
+    list_cases(shipped_cases(), out);
     throw InputError(
         "init: a new directory and a case to start from are due, one of those above or any other, as in: "
         "pfdm init my_case --like glass_bead_quick");
   }
-  const std::filesystem::path shipped = std::filesystem::path(PFDM_CASES_DIR) / line.like;
+  const std::filesystem::path shipped = shipped_cases() / line.like;
   const bool by_name = !std::filesystem::exists(line.like) && std::filesystem::exists(shipped / "case.toml");
   if (!by_name) open_case_or_name_nearest(line.like);
   make_case(line.new_directory, by_name ? shipped : std::filesystem::path(line.like), out);
@@ -104,7 +104,7 @@ void do_command(const CommandLine& line, std::ostream& out, bool terminal) {
   if (line.laws)
     list_laws(out);
   else
-    list_cases(PFDM_CASES_DIR, out);
+    list_cases(shipped_cases(), out);
 }
 
 }  // namespace

@@ -1,0 +1,76 @@
+# cmake --install: the program with its cases, and the libraries with their headers. cpack -G DEB: a package of each.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(shared ${CMAKE_INSTALL_DATADIR}/pfdm)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/pfdm)
+
+install(TARGETS pfdm RUNTIME COMPONENT program)
+install(
+  DIRECTORY cases/
+  DESTINATION ${shared}/cases
+  COMPONENT program
+  PATTERN program EXCLUDE
+  PATTERN results EXCLUDE)
+file(GLOB scripts ${PROJECT_SOURCE_DIR}/postproc/*.py)
+install(PROGRAMS ${scripts} DESTINATION ${shared}/postproc COMPONENT program)
+install(FILES README.md LICENSE CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+foreach(shell bash zsh)
+  set(place_bash ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  set(place_zsh ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+  set(name_bash pfdm)
+  set(name_zsh _pfdm)
+  set(script ${PROJECT_BINARY_DIR}/completion/${name_${shell}})
+  install(
+    CODE "file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/completion)
+          execute_process(COMMAND $<TARGET_FILE:pfdm> completion ${shell} OUTPUT_FILE ${script} COMMAND_ERROR_IS_FATAL ANY)"
+    COMPONENT program)
+  install(FILES ${script} DESTINATION ${place_${shell}} COMPONENT program)
+endforeach()
+
+foreach(library options physics mesh solver postproc)
+  set_target_properties(pfdm_${library} PROPERTIES EXPORT_NAME ${library})
+  install(TARGETS pfdm_${library} EXPORT pfdm ARCHIVE COMPONENT development)
+endforeach()
+install(
+  DIRECTORY physics mesh solver postproc
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfdm
+  COMPONENT development
+  FILES_MATCHING
+  PATTERN "*.h")
+install(
+  EXPORT pfdm
+  FILE pfdmTargets.cmake
+  NAMESPACE pfdm::
+  DESTINATION ${package}
+  COMPONENT development)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/pfdmConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(
+  FILES ${CMAKE_CURRENT_LIST_DIR}/pfdmConfig.cmake ${CMAKE_CURRENT_LIST_DIR}/libraries.cmake
+        ${PROJECT_BINARY_DIR}/pfdmConfigVersion.cmake
+  DESTINATION ${package}
+  COMPONENT development)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_PACKAGE_CONTACT "The pfdm authors <pfdm@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME pfdm)
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS fonts-liberation) # the reports'
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3-matplotlib)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpfdm-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}: libraries and headers")
+string(
+  CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+         "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, libcgal-dev, libtet1.5-dev, libvtk9-dev, libgl1-mesa-dev, "
+         "libtomlplusplus-dev, libcli11-dev, libspdlog-dev, libfmt-dev, libudunits2-dev, libmuparser-dev, "
+         "nlohmann-json3-dev, libceres-dev, libfftw3-dev, libboost-dev, libmatio-dev, libhdf5-dev, zlib1g-dev, "
+         "libfreetype-dev")
+include(CPack)

@@ -1,0 +1,30 @@
+# BUILD: a finished build; FOLDER: where to install and to build the consumer; CXX: its compiler; FLAGS: its flags.
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN}: ${status}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+set(prefix ${FOLDER}/prefix)
+file(REMOVE_RECURSE ${FOLDER})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+
+run(${prefix}/bin/pfdm list)
+if(NOT output MATCHES "glass_bead_quick")
+  message(FATAL_ERROR "the installed program lists no cases:\n${output}")
+endif()
+run(${prefix}/bin/pfdm init ${FOLDER}/bar --like bar_at1)
+run(${prefix}/bin/pfdm check ${FOLDER}/bar)
+foreach(file share/bash-completion/completions/pfdm share/zsh/vendor-completions/_pfdm include/pfdm/solver/fracture_run.h)
+  if(NOT EXISTS ${prefix}/${file})
+    message(FATAL_ERROR "${file} was not installed")
+  endif()
+endforeach()
+
+set(ENV{CMAKE_PREFIX_PATH} ${prefix})
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${FOLDER}/consumer -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${FLAGS})
+run(${CMAKE_COMMAND} --build ${FOLDER}/consumer)
+run(${FOLDER}/consumer/bar)
