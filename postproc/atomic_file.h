@@ -1,6 +1,6 @@
 #pragma once
 // Results files are written whole or not at all: into a temporary file of the same folder, flushed to the disk,
-// renamed.
+// renamed. A file that is a link is replaced by a file; what it points to stays as it is.
 
 #include <filesystem>
 #include <functional>
@@ -16,6 +16,12 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// What `write` throws is passed on.
 void replace_file(const std::filesystem::path& path,
                   const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// Renames a file, whole or not at all, also onto another disk. Throws ComputationError that names `to`.
+void move_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Removes what killed runs left in a folder: all that is called .*.partial. Nobody else may be writing there.
+void remove_leftovers(const std::filesystem::path& folder);
 
 /// Makes a folder and those above it; throws ComputationError where that cannot be.
 void make_folder(const std::filesystem::path& folder);

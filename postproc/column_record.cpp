@@ -113,8 +113,11 @@ void remove_columns(const fs::path& folder) {
   std::error_code ignored;
   std::vector<fs::path> sets;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) sets.push_back(entry.path());
-  for (const fs::path& set : sets)
-    if (fs::remove(set / places_file, ignored)) fs::remove(set, ignored);  // unless there is something else in it
+  for (const fs::path& set : sets) {
+    if (!fs::remove(set / places_file, ignored)) continue;
+    remove_leftovers(set);
+    fs::remove(set, ignored);  // unless there is something else in it
+  }
 }
 
 ColumnFiles::ColumnFiles(fs::path folder, const std::vector<ColumnSet>& sets, const Vector& axis,
@@ -122,6 +125,7 @@ ColumnFiles::ColumnFiles(fs::path folder, const std::vector<ColumnSet>& sets, co
     : folder_(std::move(folder)), sets_(sets) {
   remove_steps_beyond(folder_, last_step.value_or(-1));
   for (const ColumnSet& set : sets_) {
+    remove_leftovers(folder_ / set.name);
     std::vector<Place> places;
     for (const Column& c : set.columns)
       places.push_back({c.point, c.normal, polar_angle(c.normal, axis), c.area, c.length});

@@ -14,8 +14,9 @@ struct FolderInUse : InputError {
 
 class FolderLock {
  public:
-  /// Makes the folder if need be. Throws FolderInUse if another run holds it, ComputationError if it cannot be made or
-  /// opened. Where the file system knows no locks there is none. A killed run holds nothing.
+  /// Makes the folder if need be, and removes temporary files that killed runs left in it. Throws FolderInUse if
+  /// another run holds it, ComputationError that names --output if it cannot be made, opened or written to. Where the
+  /// file system knows no locks there is none. A killed run holds nothing.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -3,6 +3,7 @@
 #include "physics/error.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
@@ -22,16 +23,33 @@ std::optional<Number> parse(std::string_view text) {
   return value;
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError(fmt::format("cannot read {}: {}", path.string(), reason));
+}
+
+std::string message(int reason) { return std::generic_category().message(reason); }
+
 }  // namespace
 
+void require_file(const std::filesystem::path& path) {
+  using std::filesystem::file_type;
+  std::error_code error;
+  const file_type type = std::filesystem::status(path, error).type();
+  if (type == file_type::directory) refuse(path, "it is a directory, not a file");
+  if (type == file_type::fifo) refuse(path, "it is a named pipe, not a file");
+  if (type == file_type::not_found) refuse(path, message(ENOENT));
+  if (error) refuse(path, error.message());
+  if (type != file_type::regular) refuse(path, "it is no regular file");
+  if (::access(path.c_str(), R_OK) != 0) refuse(path, message(errno));
+}
+
 std::string read_file(const std::filesystem::path& path) {
+  require_file(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   std::string content;
   if (in) content.assign(std::istreambuf_iterator<char>(in), {});
-  if (!in || std::filesystem::is_directory(path))
-    throw InputError(
-        fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno != 0 ? errno : EIO)));
+  if (!in) refuse(path, message(errno != 0 ? errno : EIO));
   return content;
 }
 

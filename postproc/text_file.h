@@ -9,7 +9,11 @@
 
 namespace pfdm {
 
-/// Throws InputError that names the file and the reason.
+/// Throws InputError that names the path and what is wrong with it, unless it leads to a file that may be read: a
+/// folder holds nothing to read, and of a pipe nobody knows whether something will come.
+void require_file(const std::filesystem::path& path);
+
+/// Likewise.
 std::string read_file(const std::filesystem::path& path);
 
 /// Without the blanks at either end.

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <thread>
+
 namespace pfdm::test {
 namespace {
 
@@ -21,11 +23,44 @@ TEST(AtomicFile, holds_what_was_written_and_leaves_nothing_else) {
   EXPECT_EQ(folder.n_entries(), 1u);
 }
 
-TEST(AtomicFile, overwrites_what_a_killed_run_left_behind) {
+TEST(AtomicFile, removes_what_a_killed_run_left_behind) {
   const TemporaryFolder folder;
   put(folder / ".a.txt.partial", "half of something longer than the new content");
+  put(folder / ".a.txt.17_0.partial", "half of something");
+  put(folder / "b.partial", "somebody's file");
   write_file(folder / "a.txt", "whole");
+  remove_leftovers(folder.path());
   EXPECT_EQ(content_of(folder / "a.txt"), "whole");
+  EXPECT_EQ(content_of(folder / "b.partial"), "somebody's file");
+  EXPECT_EQ(folder.n_entries(), 2u);
+}
+
+// Links that somebody else laid where the temporary file would be.
+TEST(AtomicFile, does_not_write_through_links) {
+  const TemporaryFolder folder;
+  put(folder / "mine", "mine");
+  for (int attempt = 0; attempt < 2; ++attempt)
+    std::filesystem::create_symlink(
+        folder / "mine", folder / (".a.txt." + std::to_string(getpid()) + "_" + std::to_string(attempt) + ".partial"));
+  std::filesystem::create_symlink(folder / "mine", folder / ".a.txt.partial");
+  std::filesystem::create_symlink(folder / "mine", folder / "a.txt");
+  write_file(folder / "a.txt", "whole");
+  EXPECT_EQ(content_of(folder / "mine"), "mine");
+  EXPECT_EQ(content_of(folder / "a.txt"), "whole");
+  EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(folder / "a.txt")));
+}
+
+TEST(AtomicFile, writes_side_by_side) {
+  const TemporaryFolder folder;
+  const std::string one(200'000, '1'), two(100'000, '2');
+  const auto write = [&](const std::string& content) {
+    for (int i = 0; i < 20; ++i) write_file(folder / "a.txt", content);
+  };
+  std::thread other([&] { write(one); });
+  write(two);
+  other.join();
+  const std::string last = content_of(folder / "a.txt");
+  EXPECT_TRUE(last == one || last == two);
   EXPECT_EQ(folder.n_entries(), 1u);
 }
 
