@@ -85,9 +85,10 @@ Json to_json(const RunSummary& s) {
                {"cpu_seconds", s.cpu_seconds},
                {"wall_seconds_by_stage", s.wall_seconds_by_stage},
                {"cpu_seconds_by_stage", s.cpu_seconds_by_stage},
-               {"peak_memory_bytes", s.peak_memory}};
+               {"peak_memory_bytes", std::llround(s.peak_memory)}};
   if (s.figures) json.update(to_json(*s.figures));
   for (const auto& [name, value] : s.other_figures) json[name] = value;
+  for (const auto& [name, count] : s.other_counts) json[name] = count;
   return json;
 }
 
@@ -141,7 +142,7 @@ double ReadSummary::number(std::string_view name) const {
 std::optional<ReadSummary> read_summary(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) return std::nullopt;
   return read_json(path, "summary of a run", [](const Json& json) {
-    ReadSummary summary{.status = json.at("status").get<std::string>(), .numbers = {}};
+    ReadSummary summary{.status = json.at("status"), .case_hash = json.at("case_hash"), .numbers = {}};
     for (const auto& [name, value] : json.items())
       if (value.is_number() || value.is_null()) summary.numbers.emplace_back(name, number_of(value));
     return summary;
@@ -168,8 +169,13 @@ RunSummary read_run_summary(const std::filesystem::path& path) {
     s.cpu_seconds_by_stage = json.at("cpu_seconds_by_stage");
     s.peak_memory = json.at("peak_memory_bytes");
     const Json known = to_json(s);
-    for (const auto& [name, value] : json.items())
-      if (!known.contains(name) && (value.is_number() || value.is_null())) s.other_figures[name] = number_of(value);
+    for (const auto& [name, value] : json.items()) {
+      if (known.contains(name)) continue;
+      if (value.is_number_integer())
+        s.other_counts[name] = value;
+      else if (value.is_number() || value.is_null())
+        s.other_figures[name] = number_of(value);
+    }
     return s;
   });
 }

@@ -3,6 +3,7 @@
 
 #include "postproc/curve_csv.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -60,6 +61,7 @@ struct RunSummary {
   double peak_memory = 0.0;                     ///< [byte]
   std::optional<Headlines> figures;             ///< of kinds that have a force-displacement curve
   std::map<std::string, double> other_figures;  ///< a case's own, with the unit in the name
+  std::map<std::string, std::int64_t> other_counts;
 };
 
 /// Written whole or not at all; numbers that are not finite become null. Throws ComputationError if the file cannot be
@@ -71,6 +73,7 @@ inline constexpr const char* summary_file = "summary.json";
 /// What a summary.json says.
 struct ReadSummary {
   std::string status;
+  std::string case_hash;
   std::vector<std::pair<std::string, double>> numbers;  ///< in their order, by name; NaN where it has null
   double number(std::string_view name) const;           ///< NaN if it has none of this name
 };
@@ -78,8 +81,8 @@ struct ReadSummary {
 /// Nothing if there is no such file. Throws InputError for a file that is no summary.
 std::optional<ReadSummary> read_summary(const std::filesystem::path& path);
 
-/// What write_summary() wrote; all figures are in other_figures. Throws InputError that names the file for what is no
-/// summary.
+/// What write_summary() wrote; all figures are in other_figures and other_counts. Throws InputError that names the file
+/// for what is no summary.
 RunSummary read_run_summary(const std::filesystem::path& path);
 
 /// The most memory that this process has had so far [byte].

@@ -18,6 +18,7 @@ Json to_json(const std::vector<NamedFigures>& tests) {
   for (const NamedFigures& test : tests) {
     Json entry = {{"name", test.name}};
     for (const auto& [name, value] : test.figures) entry[name] = value;
+    for (const auto& [name, count] : test.counts) entry[name] = count;
     list.push_back(std::move(entry));
   }
   return list;
@@ -137,10 +138,22 @@ void write_vibration_summary(const std::filesystem::path& path, const VibrationS
   Json json = {{"case", s.case_name},          {"status", s.status},
                {"version", s.version},         {"case_hash", s.case_hash},
                {"threads", s.threads},         {"wall_seconds", s.wall_seconds},
-               {"cpu_seconds", cpu_seconds()}, {"peak_memory_bytes", peak_memory()}};
+               {"cpu_seconds", cpu_seconds()}, {"peak_memory_bytes", std::llround(peak_memory())}};
   for (const auto& [name, value] : s.figures) json[name] = value;
   json["tests"] = to_json(s.tests);
   write_file(path, json.dump(2) + "\n");
+}
+
+std::vector<std::string> tests_of_vibration_summary(const std::filesystem::path& path) {
+  try {
+    return read_json(path, "summary", [](const Json& json) {
+      std::vector<std::string> names;
+      for (const Json& test : json.at("tests")) names.push_back(std::filesystem::path(test.at("name")).filename());
+      return names;
+    });
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 void write_vibration_fit(const std::filesystem::path& path, const VibrationFit& fit) {

@@ -5,6 +5,7 @@
 #include "solver/identification_repeats.h"
 #include "solver/ogden_fit.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -15,6 +16,7 @@ namespace pfdm {
 struct NamedFigures {
   std::string name;                       ///< of a test
   std::map<std::string, double> figures;  ///< with the unit in the name
+  std::map<std::string, std::int64_t> counts{};
 };
 
 struct VibrationSummary {
@@ -28,6 +30,9 @@ struct VibrationSummary {
   std::vector<NamedFigures> tests;
 };
 void write_vibration_summary(const std::filesystem::path& path, const VibrationSummary& summary);
+
+/// The names of the tests whose results a summary tells of; none if the file is no such summary.
+std::vector<std::string> tests_of_vibration_summary(const std::filesystem::path& path);
 
 /// Young's modulus of the sample at a frequency: K L/A.
 struct ModulusRow {

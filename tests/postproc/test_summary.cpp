@@ -103,6 +103,23 @@ TEST(Summary, has_units_in_its_names_and_null_for_what_is_not_a_number) {
   EXPECT_EQ(json.at("debonded_area_m2"), 1e-9);
 }
 
+TEST(Summary, has_whole_numbers_where_it_counts) {
+  const TemporaryFolder folder;
+  RunSummary s;
+  s.peak_memory = 1e9;
+  s.other_figures = {{"final_time_s", 3.0}};
+  s.other_counts = {{"newton_iterations", 18482}};
+  write_summary(folder / "summary.json", s);
+  const std::string text = content_of(folder / "summary.json");
+  for (const char* line :
+       {"\"newton_iterations\": 18482", "\"peak_memory_bytes\": 1000000000", "\"final_time_s\": 3.0"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << " is missing in " << text;
+  EXPECT_EQ(text.find("18482.0"), std::string::npos);
+  const RunSummary again = read_run_summary(folder / "summary.json");
+  EXPECT_EQ(again.other_counts, s.other_counts);
+  EXPECT_EQ(again.other_figures, s.other_figures);
+}
+
 TEST(Summary, is_read_again) {
   const TemporaryFolder folder;
   EXPECT_FALSE(read_summary(folder / "summary.json"));
