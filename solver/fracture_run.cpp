@@ -224,9 +224,13 @@ FractureState FractureRun::initial_state() const {
   return state;
 }
 
-FractureState FractureRun::run(FractureState state, const RunHooks& hooks) {
+FractureState FractureRun::run(FractureState start, const RunHooks& hooks) {
+  if (hooks.step_done) hooks.step_done(start, parts_->report(start, {}, 0.0));
+  return go_on(std::move(start), hooks);
+}
+
+FractureState FractureRun::go_on(FractureState state, const RunHooks& hooks) {
   Parts& parts = *parts_;
-  if (state.step == 0 && hooks.step_done) hooks.step_done(state, parts.report(state, {}, 0.0));
   while (state.load < parts.loading.end - load_rounding) {
     const double stop = parts.next_stop(state.load);
     FractureState trial = state;

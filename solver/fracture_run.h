@@ -23,7 +23,7 @@ struct IterationReport {
 };
 
 struct RunHooks {
-  /// After every accepted step, and once for the unloaded state (step 0) of a run that is not restarted.
+  /// After every accepted step; in run() once for the state before the first one as well (step 0).
   std::function<void(const FractureState&, const StepReport&)> step_done;
   std::function<void(const IterationReport&)> iterated;
   std::function<void(const std::string& message)> warned;
@@ -36,9 +36,11 @@ class FractureRun {
   ~FractureRun();
 
   FractureState initial_state() const;
-  /// From `state` to the end of the load. Throws ComputationError when the smallest increment does not converge;
-  /// all accepted steps have then been reported.
-  FractureState run(FractureState state, const RunHooks& hooks);
+  /// From a start, as initial_state() is one, to the end of the load. Throws ComputationError when the smallest
+  /// increment does not converge; all accepted steps have then been reported.
+  FractureState run(FractureState start, const RunHooks& hooks);
+  /// Likewise from a state that a run has reported, which is not reported again.
+  FractureState go_on(FractureState state, const RunHooks& hooks);
 
   OutputFields output(const FractureState& state) const;
   const FractureModel& model() const;

@@ -181,7 +181,7 @@ Measured pulled(double a, Index n_steps) {
     hooks.step_done = [&](const FractureState& state, const StepReport&) {
       measured.add(state.load * end, sample_columns(mesh, model, run.output(state), set).front());
     };
-    return run.run(start, hooks);
+    return from ? run.go_on(start, hooks) : run.run(start, hooks);
   };
   const double elastic = 0.97 * compliance.load_at(0.0) / end;
   const FractureState broken =
