@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
 namespace pfdm {
 namespace {
 
@@ -36,8 +33,10 @@ double plain_value(const ConfigValue& value, const Dimension& due, const Range& 
 
 Amount read_amount(const ConfigValue& value, const Dimension& due) {
   if (value.is_table())
-    return {.value = [scaled = read_expression(value.table(), due)](
-                         const Vector& x, double t) { return scaled.factor * scaled.expression(x, t); },
+    return {.value =
+                [value, scaled = read_expression(value.table(), due)](const Vector& x, double t) {
+                  return value.in_context([&] { return scaled.factor * scaled.expression(x, t); });
+                },
             .at_full_load = std::nullopt};
   const double full = value.quantity(due);
   return {.value = [full](const Vector&, double t) { return t * full; }, .at_full_load = full};
@@ -76,14 +75,6 @@ Vector read_direction(const ConfigValue& value) {
   const Vector direction(entries[0].number(), entries[1].number(), entries[2].number());
   if (!(direction.norm() > 0.0)) throw value.error("a direction must not be zero");
   return direction;
-}
-
-std::string read_plain_name(const ConfigValue& value, std::string_view use) {
-  const std::string name = value.string();
-  const bool plain = std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
-  if (name.empty() || !plain)
-    throw value.error(fmt::format("\"{}\" becomes the name of {}: letters, digits, _ and - only", name, use));
-  return name;
 }
 
 }  // namespace pfdm

@@ -1,6 +1,5 @@
 #pragma once
-// Prescribed values and material parameters, plain or as an expression with its unit; points, directions, names of
-// files.
+// Prescribed values and material parameters, plain or as an expression with its unit; points, directions.
 
 #include "cases/program/config.h"
 #include "physics/tensor.h"
@@ -11,7 +10,7 @@
 
 namespace pfdm {
 
-/// SI value at x [m] and the load parameter t [-].
+/// SI value at x [m] and the load parameter t [-]. Throws InputError, with the place in the file, where there is none.
 using ScalarField = std::function<double(const Vector& x, double t)>;
 
 struct Amount {
@@ -35,9 +34,6 @@ Parameter read_parameter(const ConfigValue& value, const Dimension& due, const R
 
 /// Three numbers that are not all zero.
 Vector read_direction(const ConfigValue& value);
-
-/// A name that a folder, file or column can have; `use` says of which, as in "a folder".
-std::string read_plain_name(const ConfigValue& value, std::string_view use);
 
 /// Three lengths [m].
 Vector read_point(const ConfigValue& value, const Range& allowed = range::any);

@@ -8,6 +8,8 @@
 #include <optional>
 #include <regex>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -26,36 +28,46 @@ std::uint64_t add_to_hash(std::uint64_t hash, std::string_view bytes) {
 // The table that a line opens, as in "material.hardening"; none if it opens none. A multi-line list also has lines that
 // begin with a bracket.
 std::optional<std::string> opened_table(const std::string& line) {
-  static const std::regex header(R"(^\s*\[\[?\s*([A-Za-z_.\s]*[A-Za-z_])\s*\]\]?\s*(#.*)?$)");
+  static const std::regex header(R"(^\s*\[\[?\s*([A-Za-z_](?:[A-Za-z0-9_.\s-]*[A-Za-z0-9_-])?)\s*\]\]?\s*(#.*)?$)");
   std::smatch match;
   return std::regex_match(line, match, header) ? std::optional(match[1].str()) : std::nullopt;
 }
 
-std::string with_path(const std::string& line, const std::function<std::string(const std::string&)>& renamed) {
-  static const std::regex path(R"re((\b(csv|file)\s*=\s*")([^"]*)("))re");
-  std::smatch match;
-  if (!std::regex_search(line, match, path)) return line;
-  return match.prefix().str() + match[1].str() + renamed(match[3].str()) + match[4].str() + match.suffix().str();
+/// As opposed to what is there and cannot be read.
+bool is_not_there(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found;
 }
 
-std::string with_moved_path(const std::string& line, const std::filesystem::path& from,
-                            const std::filesystem::path& to) {
-  return with_path(line, [&](const std::string& path) {
-    const auto absolute = std::filesystem::weakly_canonical(std::filesystem::absolute(from / path));
-    return std::filesystem::relative(absolute, std::filesystem::weakly_canonical(std::filesystem::absolute(to)))
-        .string();
-  });
+std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  using std::filesystem::absolute, std::filesystem::weakly_canonical;
+  return std::filesystem::relative(weakly_canonical(absolute(file)), weakly_canonical(absolute(folder))).string();
+}
+
+/// The values that name files, in the order of the text.
+std::vector<const TomlValue*> values_that_name_files(const TomlValue& root) {
+  std::vector<const TomlValue*> found;
+  const auto search = [&found](const auto& self, std::string_view key, const TomlValue& value) -> void {
+    if ((key == "csv" || key == "file") && std::holds_alternative<std::string>(value.value)) found.push_back(&value);
+    if (const auto* list = std::get_if<TomlArray>(&value.value))
+      for (const TomlValue& element : *list) self(self, "", element);
+    if (const auto* table = std::get_if<TomlTable>(&value.value))
+      for (const auto& [name, entry] : *table) self(self, name, entry);
+  };
+  search(search, "", root);
+  std::ranges::sort(found, {}, [](const TomlValue* value) { return std::pair(value->line, value->column); });
+  return found;
 }
 
 }  // namespace
 
 CaseFile open_case(const std::filesystem::path& where) {
-  const bool is_file = where.extension() == ".toml";
+  std::error_code ignored;
+  const bool is_file = where.extension() == ".toml" && !std::filesystem::is_directory(where, ignored);
   const std::filesystem::path directory = !is_file ? where : where.has_parent_path() ? where.parent_path() : ".";
   const std::filesystem::path file = is_file ? where : where / "case.toml";
-  if (!std::filesystem::exists(where))
-    throw InputError(fmt::format("{}: there is no such case directory", where.string()));
-  if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: there is no case.toml in it", where.string()));
+  if (is_not_there(where)) throw InputError(fmt::format("{}: there is no such case directory", where.string()));
+  if (is_not_there(file)) throw InputError(fmt::format("{}: there is no case.toml in it", where.string()));
   std::string text = read_file(file);
   Config config(text, file.string());
   return {.directory = directory, .text = std::move(text), .config = std::move(config)};
@@ -89,22 +101,23 @@ std::string table_hash(const CaseFile& file, std::string_view table,
 }
 
 std::string with_paths(const CaseFile& file, const std::function<std::string(const std::string&)>& renamed) {
-  std::istringstream lines(file.text);
-  std::string result;
-  for (std::string line; std::getline(lines, line);) result += with_path(line, renamed) + "\n";
-  return result;
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  const std::vector<const TomlValue*> values = values_that_name_files(root);
+  std::vector<std::string> names;
+  for (const TomlValue* value : values) names.push_back(renamed(std::get<std::string>(value->value)));
+  std::string text = file.text;
+  for (std::size_t i = values.size(); i-- > 0;)  // from the end: what stands before stays put
+    text = with_value(text, *values[i], quoted_toml(names[i]));
+  return text;
 }
 
 std::string moved(const CaseFile& file, const std::filesystem::path& folder) {
-  std::istringstream lines(file.text);
-  std::string result;
-  for (std::string line; std::getline(lines, line);) result += with_moved_path(line, file.directory, folder) + "\n";
-  return result;
+  return with_paths(file, [&](const std::string& name) { return seen_from(folder, file.directory / name); });
 }
 
 std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,
                        const std::filesystem::path& folder) {
-  std::istringstream lines(file.text);
+  std::istringstream lines(moved(file, folder));
   std::string result;
   bool within = false, written = false;
   for (std::string line; std::getline(lines, line);) {
@@ -114,7 +127,7 @@ std::string with_table(const CaseFile& file, std::string_view table, const std::
       result += text;
       written = true;
     }
-    if (!within) result += with_moved_path(line, file.directory, folder) + "\n";
+    if (!within) result += line + "\n";
   }
   return result;
 }

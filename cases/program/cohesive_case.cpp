@@ -1,6 +1,7 @@
 #include "cases/program/cohesive_case.h"
 
 #include "cases/program/amount.h"
+#include "cases/program/path_reader.h"
 
 #include <fmt/format.h>
 
@@ -69,6 +70,8 @@ std::vector<ColumnSet> column_sets(const CohesiveSettings& settings, const Mesh&
       sets.push_back(std::move(set));
   for (const CohesivePlane& plane : settings.planes)
     plane.where.in_context([&] {
+      if (std::ranges::count(sets, plane.name, &ColumnSet::name) > 0)  // one of several particles' surfaces
+        throw InputError(fmt::format("two surfaces are called \"{}\"", plane.name));
       sets.push_back(plane_columns(mesh, plane.name, plane.point, plane.normal, plane.half_width, settings.axis));
       return true;
     });

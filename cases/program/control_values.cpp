@@ -2,6 +2,7 @@
 
 #include "cases/program/endochronic_loading.h"
 #include "cases/program/expression.h"
+#include "cases/program/path_reader.h"
 
 #include <fmt/format.h>
 
@@ -73,7 +74,8 @@ std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, 
 
 CsvTable read_csv_of(const ConfigTable& table, const std::filesystem::path& case_directory) {
   const ConfigValue name = table.at("csv");
-  return name.in_context([&] { return read_csv(case_directory / name.string()); });
+  const std::filesystem::path file = read_data_file(name, case_directory);
+  return name.in_context([&] { return read_csv(file); });
 }
 
 std::vector<double> file_times(const ConfigTable& table, const std::filesystem::path& case_directory) {

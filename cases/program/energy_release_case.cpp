@@ -1,6 +1,7 @@
 #include "cases/program/energy_release_case.h"
 
 #include "cases/program/amount.h"
+#include "cases/program/path_reader.h"
 
 #include <fmt/format.h>
 

@@ -220,6 +220,19 @@ CellField<double> damage_at_the_start(const InitialDamage& initial, const Fractu
   return damage;
 }
 
+/// Expressions are evaluated once where and when they will be, so that one without a value is refused before a run has
+/// taken time, and the place of earlier results.
+void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
+  std::vector<double> loads{0.0, fracture.loading.initial_increment, fracture.loading.end};
+  loads.insert(loads.end(), fracture.loading.stops.begin(), fracture.loading.stops.end());
+  for (const BoundarySettings& boundary : fracture.boundary) {
+    if (!boundary.condition.value) continue;
+    const Patch& patch = mesh.patch(boundary.condition.patch);
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+      for (const double load : loads) boundary.condition.value(mesh.face_centre[f], load);
+  }
+}
+
 std::optional<InitialDamage> read_initial_damage(const ConfigTable& root, const FractureModel& model) {
   if (!root.has("initial")) return std::nullopt;
   const ConfigTable table = root.table("initial").with_keys({"damage", "regions"});
@@ -260,6 +273,7 @@ FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
   std::vector<std::string> patches;
   for (const Patch& patch : mesh.patches) patches.push_back(patch.name);
   check_names(fracture, mesh.region_names, patches);
+  require_boundary_values(fracture, mesh);
   FractureModel model = fracture.model;
   place_materials(fracture.materials, mesh, model);
   if (fracture.initial_damage) model.initial_damage = damage_at_the_start(*fracture.initial_damage, model, mesh);

@@ -1,5 +1,6 @@
 #include "cases/program/mass_material_case.h"
 
+#include "cases/program/path_reader.h"
 #include "cases/program/units.h"
 #include "cases/program/vibration_reader.h"
 
@@ -116,9 +117,7 @@ Excitation read_random(const ConfigTable& table, const fs::path&, double, std::v
 
 RecordFile read_record_file(const ConfigTable& table, const fs::path& directory, std::vector<fs::path>& data_files) {
   RecordFile record;
-  const ConfigValue file = table.at("file");
-  record.file = directory / file.string();
-  if (!fs::exists(record.file)) throw file.error(fmt::format("there is no file {}", record.file.string()));
+  record.file = read_data_file(table.at("file"), directory);
   record.base = table.string("base", record.base);
   record.relative = table.string("relative", record.relative);
   record.time = table.string("time", record.time);
@@ -153,11 +152,7 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
   table.with_keys({"name", "excitation", "record", "predicted", "schedule"});
   VibrationTest test;
   test.where = table.at("name");
-  test.name = table.string("name");
-  const bool plain = !test.name.empty() && std::ranges::all_of(test.name, [](unsigned char ch) {
-    return std::isalnum(ch) != 0 || ch == '_' || ch == '-' || ch == '.';
-  });
-  if (!plain) throw test.where->error("a test's name is made of letters, digits, _ - and .: it names files");
+  test.name = read_plain_name(*test.where, "files");
   if (table.has("excitation")) {
     const ConfigTable shaker = table.table("excitation");
     const ExcitationType& type = choose(shaker.at("type"), excitation_types(), "type of excitation");

@@ -2,6 +2,7 @@
 
 #include "cases/program/amount.h"
 #include "cases/program/endochronic_material.h"
+#include "cases/program/path_reader.h"
 #include "physics/interface_toughness.h"
 
 #include <fmt/format.h>
@@ -117,6 +118,7 @@ std::optional<Band> read_band(const std::string& region, const ConfigTable& tabl
   if (!table.has("band")) return std::nullopt;
   const ConfigTable band = table.table("band").with_keys({"width", "between"});
   const std::vector<ConfigValue> between = band.at("between").list(2);
+  table.in_context([&] { return require_plain_name(region, "a folder"), true; });
   return Band{
       region, band.quantity("width", dimension::length, range::positive), {between[0].string(), between[1].string()}};
 }

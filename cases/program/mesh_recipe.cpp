@@ -1,6 +1,7 @@
 #include "cases/program/mesh_recipe.h"
 
 #include "cases/program/amount.h"
+#include "cases/program/path_reader.h"
 #include "mesh/box_hexes.h"
 #include "mesh/dual.h"
 #include "mesh/import_mesh.h"
@@ -128,7 +129,7 @@ Layers read_layers(const ConfigTable& table) {
   table.with_keys({"count", "thickness", "region"});
   return {.count = static_cast<Index>(table.integer("count", cell_count)),
           .thickness = table.quantity("thickness", dimension::length, range::positive),
-          .region = table.string("region", "interface")};
+          .region = table.has("region") ? read_plain_name(table.at("region"), "a folder") : "interface"};
 }
 
 Particle read_particle(const ConfigTable& table, const Layers& common_layers) {
@@ -224,10 +225,7 @@ PatchRule read_patch(const ConfigTable& patch, double scale) {
 
 ImportSettings read_import(const ConfigTable& table, const std::filesystem::path& case_directory) {
   ImportSettings settings;
-  const ConfigValue file = table.at("file");
-  settings.file = case_directory / file.string();
-  if (!std::filesystem::is_regular_file(settings.file))
-    throw file.error(fmt::format("there is no file {}", settings.file.string()));
+  settings.file = read_data_file(table.at("file"), case_directory);
   const ConfigValue unit = table.at("length_unit");
   settings.scale = unit.in_context([&] { return unit_in_si(unit.string(), dimension::length); });
   settings.region_names = read_numbered_names(table, "region_names");

@@ -2,15 +2,14 @@
 
 #include "cases/program/case_file.h"
 #include "cases/program/kinds.h"
+#include "cases/program/toml_document.h"
 #include "postproc/atomic_file.h"
 #include "postproc/text_file.h"
 
 #include <fmt/format.h>
 
-#include <iomanip>
 #include <map>
 #include <set>
-#include <sstream>
 
 namespace pfdm {
 namespace {
@@ -44,12 +43,6 @@ std::string readme(const std::string& name, const std::string& like) {
       name, like);
 }
 
-std::string as_toml(const std::string& text) {
-  std::ostringstream stream;
-  stream << std::quoted(text);
-  return stream.str();
-}
-
 void copy_data(const std::map<fs::path, fs::path>& places, const fs::path& directory) {
   for (const auto& [from, place] : places) {
     make_folder((directory / place).parent_path());
@@ -73,7 +66,7 @@ void make_case(const fs::path& directory, const fs::path& like, std::ostream& ou
     if (!places.contains(key)) places[key] = place_of(file, old.directory, taken);
     return places[key].string();
   });
-  text = with_value(text, "title", as_toml(fmt::format("{} (begun as a copy of {}: edit this title)", name, old_name)));
+  text = with_value(text, "title", quoted_toml(fmt::format("{} (begun as a copy of {}: edit this title)", name, old_name)));
   make_folder(directory);
   copy_data(places, directory);
   write_file(directory / "README.md", readme(name, old_name));

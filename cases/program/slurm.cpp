@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <regex>
 
@@ -25,10 +26,21 @@ std::string read_memory(const ConfigValue& value) {
   return fmt::format("{}{}", match[1].str(), match[2].str());
 }
 
+/// It becomes a line of the script.
+std::string read_partition(const ConfigValue& value) {
+  static const std::regex names("[A-Za-z0-9_.,:@+-]*");
+  const std::string text = value.string();
+  if (!std::regex_match(text, names))
+    throw value.error(
+        "this is no partition, or list of them, as in \"short,long\": letters, digits and _ . : @ + - only");
+  return text;
+}
+
 std::vector<std::string> read_lines(const ConfigTable& table) {
   std::vector<std::string> lines = table.strings("lines");
   for (const std::string& line : lines)
-    if (line.find('\n') != std::string::npos) throw table.at("lines").error("each line is an entry of its own");
+    if (std::ranges::any_of(line, [](unsigned char c) { return std::iscntrl(c) != 0 && c != '\t'; }))
+      throw table.at("lines").error("each line is an entry of its own, without line breaks and control characters");
   return lines;
 }
 
@@ -41,7 +53,7 @@ ComputationError objection(const std::string& command, const ProgramEnd& end) {
 SlurmSettings read_slurm(const ConfigTable& table) {
   table.with_keys({"partition", "time", "cpus_per_task", "memory", "at_once", "largest_array", "lines"});
   SlurmSettings settings;
-  settings.partition = table.string("partition", "");
+  if (table.has("partition")) settings.partition = read_partition(table.at("partition"));
   if (table.has("time")) settings.time = table.quantity("time", dimension::time, range::positive);
   settings.cpus_per_task = static_cast<int>(table.integer("cpus_per_task", cpus_range, settings.cpus_per_task));
   if (table.has("memory")) settings.memory = read_memory(table.at("memory"));

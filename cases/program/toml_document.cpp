@@ -113,6 +113,8 @@ std::size_t offset_of(const std::string& text, int line, int column) {
 std::size_t length_of_scalar(const std::string& text, std::size_t at) {
   const char first = text[at];
   if (first != '"' && first != '\'') return std::min(text.find_first_of(" \t\r\n,]}#", at), text.size()) - at;
+  const std::string thrice(3, first);
+  if (text.compare(at, 3, thrice) == 0) return text.find(thrice, at + 3) + 3 - at;
   std::size_t end = at + 1;
   while (end < text.size() && text[end] != first) end += text[end] == '\\' && first == '"' ? 2 : 1;
   return end + 1 - at;
@@ -136,10 +138,26 @@ std::string with_value(const std::string& text, std::string_view path, const std
   const TomlValue& old = value_at(root, path);
   if (std::holds_alternative<TomlArray>(old.value) || std::holds_alternative<TomlTable>(old.value))
     throw InputError(fmt::format("\"{}\" is no single value", path));
+  return with_value(text, old, value);
+}
+
+std::string with_value(const std::string& text, const TomlValue& old, const std::string& value) {
   const std::size_t at = offset_of(text, old.line, old.column);
   std::string result = text;
   result.replace(at, length_of_scalar(text, at), value);
   return result;
+}
+
+std::string quoted_toml(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7F)
+      result += fmt::format("\\u{:04X}", code);
+    else
+      result += c;
+  }
+  return result + "\"";
 }
 
 TomlValue parse_toml(const std::string& text, const std::string& shown_as) {

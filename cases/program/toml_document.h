@@ -29,6 +29,12 @@ const TomlValue& value_at(const TomlValue& root, std::string_view path);
 /// `text` with the text or number at `path` written anew as `value`, a piece of TOML; all else stays, comments too.
 std::string with_value(const std::string& text, std::string_view path, const std::string& value);
 
+/// Likewise for a value that parse_toml() found in `text`.
+std::string with_value(const std::string& text, const TomlValue& old, const std::string& value);
+
+/// A piece of TOML that stands for `text`.
+std::string quoted_toml(std::string_view text);
+
 /// `shown_as` is the file's name in messages. Throws InputError with the line of what TOML does not allow.
 TomlValue parse_toml(const std::string& text, const std::string& shown_as);
 

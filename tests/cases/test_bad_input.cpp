@@ -243,7 +243,7 @@ const BadInput bad_inputs[] = {
     {"mesh_file_that_is_not_there",
      hexahedra_of_bar,
      "generator = \"vtk\"\nfile = \"data/no.vtu\"\nlength_unit = \"mm\"\n",
-     {"case.toml:6: [mesh] file: there is no file"}},
+     {"case.toml:6: [mesh] file: cannot read ", "data/no.vtu: No such file or directory"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Program, BadCase, testing::ValuesIn(bad_inputs),

@@ -1,0 +1,163 @@
+// Files that a case names, and names that become files: nothing is read that is no file, nothing is written outside the
+// results, and a case that is written elsewhere names the same files.
+
+#include "cases/program/case_file.h"
+#include "cases/program/slurm.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const std::string point_case = R"(kind = "endochronic"
+title = "a strain from a file"
+[material]
+young_modulus = "100 GPa"
+poisson_ratio = 0.3
+kernel = [{ C = "30 GPa", alpha = 700 }]
+[loading]
+[[loading.segments]]
+control = { strain_xx = { csv = "DATA", column = "strain_xx" } }
+)";
+
+const std::string shaken_case = R"(kind = "mass_material"
+title = "a soft sample"
+[model]
+structure = "2"
+mass = "1.12 kg"
+stiffness = ["54 kN/m"]
+damping = "40 N s/m"
+[sampling]
+rate = "1 kHz"
+[[test]]
+name = "up"
+record = { file = "DATA", from = "10 Hz", to = "70 Hz" }
+)";
+
+const std::string shaken_by_a_record = replaced(shaken_case, R"(record = { file = "DATA", from)",
+                                                R"(excitation = { type = "measured", file = "DATA", from)");
+
+const std::string imported_case =
+    replaced(bar_case(), "generator = \"box_hexes\"\n", "generator = \"vtk\"\nfile = \"DATA\"\nlength_unit = \"mm\"\n");
+
+const std::string compared_case = bar_case() + R"([experiment]
+stiffness_between = ["1 um", "5 um"]
+[[experiment.specimens]]
+name = "one"
+csv = "DATA"
+displacement = { column = "displacement_um", unit = "um" }
+force = { column = "force_N", unit = "N" }
+)";
+
+void expect_refused_data(const std::string& text, const std::string& data, const std::string& message) {
+  const TemporaryCase directory(replaced(text, "DATA", data));
+  fs::create_directory(directory.path() / "folder.csv");
+  ASSERT_EQ(mkfifo((directory.path() / "pipe.csv").c_str(), 0600), 0);
+  expect_refused(directory, {data.c_str(), "", "", {"case.toml:", data + message}});
+}
+
+TEST(DataFile, IsNeitherAFolderNorAPipe) {
+  for (const std::string& text : {point_case, shaken_case, shaken_by_a_record, imported_case, compared_case}) {
+    SCOPED_TRACE(text.substr(0, 60));
+    expect_refused_data(text, "folder.csv", ": it is a directory, not a file");
+    expect_refused_data(text, "pipe.csv", ": it is a named pipe, not a file");
+    expect_refused_data(text, "/dev/null", ": it is no regular file");
+  }
+}
+
+TEST(CaseFile, IsNeitherAFolderNorAPipe) {
+  const TemporaryCase directory(bar_case());
+  fs::remove(directory.path() / "case.toml");
+  fs::create_directory(directory.path() / "case.toml");
+  const Outcome folder = run({"check", directory.path().string()});
+  EXPECT_EQ(folder.status, 2);
+  EXPECT_THAT(folder.err, HasSubstr("case.toml: it is a directory, not a file"));
+  fs::remove(directory.path() / "case.toml");
+  ASSERT_EQ(mkfifo((directory.path() / "case.toml").c_str(), 0600), 0);
+  const Outcome pipe = run({"check", directory.path().string()});
+  EXPECT_EQ(pipe.status, 2);
+  EXPECT_THAT(pipe.err, HasSubstr("case.toml: it is a named pipe, not a file"));
+}
+
+class BadName : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadName, IsRefused) {
+  const TemporaryCase directory(
+      replaced(GetParam().name[0] == 't' ? shaken_case : bar_case() + crack_plane(), GetParam().good, GetParam().bad));
+  expect_refused(directory, GetParam());
+}
+
+const BadInput bad_names[] = {
+    {"region_of_layers",
+     "generator = \"box_hexes\"",
+     "generator = \"particles_in_box\"\nsize = [\"9 mm\", \"9 mm\", \"9 mm\"]\n"
+     "layers = { count = 1, thickness = \"1 mm\", region = \"../../x\" }",
+     {"[mesh.layers] region: \"../../x\" becomes the name of a folder: letters, digits, _ and - only"}},
+    {"region_of_a_band",
+     "[regions.weak]",
+     "[regions.\"../weak\"]\nband = { width = \"1 mm\", between = [\"bar\", \"bar\"] }",
+     {"\"../weak\" becomes the name of a folder"}},
+    {"plane", "name = \"crack\"", "name = \"a/b\"", {"[cohesive.planes] name: \"a/b\" becomes the name of a folder"}},
+    {"plane_that_is_hidden", "name = \"crack\"", "name = \".new\"", {"and . but not at the beginning"}},
+    {"crack_tip",
+     "[output]",
+     "[[output.energy_release_rate]]\nname = \"a,b\"\n[output]",
+     {"\"a,b\" becomes the name of a column"}},
+    {"test", "name = \"up\"", "name = \"../up\"", {"[test] name: \"../up\" becomes the name of files"}},
+    {"test_above", "name = \"up\"", "name = \"..\"", {"[test] name: \"..\" becomes the name of files"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Program, BadName, testing::ValuesIn(bad_names),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+TEST(CaseFile, NamesTheSameFilesFromElsewhere) {
+  const TemporaryCase directory(
+      "both = [{ csv = \"a.csv\" }, { csv = 'data/b \"2\".csv' }]  # csv = \"no.csv\"\n"
+      "[\"x.y\"]\n\"file\" = \"../c.csv\"\ntitle = \"csv = \\\"d.csv\\\"\"\n");
+  EXPECT_EQ(moved(open_case(directory.path()), directory.results()),
+            "both = [{ csv = \"../a.csv\" }, { csv = \"../data/b \\\"2\\\".csv\" }]  # csv = \"no.csv\"\n"
+            "[\"x.y\"]\n\"file\" = \"../../c.csv\"\ntitle = \"csv = \\\"d.csv\\\"\"\n");
+}
+
+TEST(CaseFile, KeepsTablesWithDigitsBehindTheOneThatIsReplaced) {
+  const TemporaryCase directory("[model]\nmass = 1\n[glass_2]\nE = 2\n");
+  EXPECT_EQ(with_table(open_case(directory.path()), "model", "[model]\nmass = 2\n", directory.results()),
+            "[model]\nmass = 2\n[glass_2]\nE = 2\n");
+}
+
+TEST(Sweep, RunsAgainWhereALoadingFileHasChanged) {
+  const TemporaryCase directory(replaced(point_case, "DATA", "path.csv") +
+                                "[sweep]\nmethod = \"list\"\n[[sweep.parameters]]\n"
+                                "key = \"material.kernel[0].alpha\"\nvalues = [500, 700]\n");
+  directory.write("path.csv", "time_s,strain_xx\n0,0\n1,0.002\n");
+  const Outcome first = run({"sweep", directory.path().string()});
+  ASSERT_EQ(first.status, 0) << first.err;
+  EXPECT_THAT(run({"sweep", directory.path().string()}).out, HasSubstr("0 runs made, 2 reused"));
+  directory.write("path.csv", "time_s,strain_xx\n0,0\n1,0.003\n");
+  EXPECT_THAT(run({"sweep", directory.path().string()}).out, HasSubstr("2 runs made, 0 reused"));
+}
+
+TEST(Slurm, TakesNoCommandForAPartition) {
+  for (const char* partition : {"all\\nrm -rf x", "all --wrap=x", "$(x)", "a\\tb", "\\u001b[2J"}) {
+    const TemporaryCase directory(bar_case() +
+                                  "[sweep]\nmethod = \"list\"\n[[sweep.parameters]]\n"
+                                  "key = \"materials.concrete.young_modulus\"\nvalues = [\"30 GPa\"]\n"
+                                  "[sweep.slurm]\npartition = \"" +
+                                  partition + "\"\n");
+    expect_refused(directory, {"partition", "", "", {"[sweep.slurm] partition: this is no partition"}});
+  }
+  const TemporaryCase directory(bar_case() +
+                                "[sweep]\nmethod = \"list\"\n[[sweep.parameters]]\n"
+                                "key = \"materials.concrete.young_modulus\"\nvalues = [\"30 GPa\"]\n"
+                                "[sweep.slurm]\nlines = [\"a\\rb\"]\n");
+  expect_refused(directory, {"line", "", "", {"without line breaks and control characters"}});
+}
+
+}  // namespace
+}  // namespace pfdm
