@@ -1,5 +1,6 @@
 #include "cases/program/endochronic_program.h"
 
+#include "cases/program/earlier_results.h"
 #include "cases/program/endochronic_case.h"
 #include "cases/program/endochronic_fit_results.h"
 #include "cases/program/endochronic_report.h"
@@ -7,6 +8,7 @@
 #include "cases/program/stopwatch.h"
 #include "postproc/folder_lock.h"
 #include "postproc/history_csv.h"
+#include "postproc/new_results.h"
 #include "postproc/summary.h"
 
 #include <fmt/format.h>
@@ -70,14 +72,21 @@ void check(const EndochronicProgram& program, Session& session) {
   session.log.say("the input is in order");
 }
 
+constexpr const char* history_file = "history.csv";
+
+bool has_results(const std::filesystem::path& results) {
+  return std::filesystem::exists(results / history_file) || std::filesystem::exists(results / summary_file);
+}
+
 void remove_earlier_run(const std::filesystem::path& results) {
   std::error_code ignored;
-  for (const char* file : {"history.csv", summary_file}) std::filesystem::remove(results / file, ignored);
+  for (const char* file : {summary_file, history_file}) std::filesystem::remove(results / file, ignored);
   remove_report(results);
 }
 
-void write_results(const EndochronicProgram& program, const HistoryResult& history, Session& session, double seconds) {
-  write_csv(session.results / "history.csv", history_table(program.point.law, history));
+void write_results(const EndochronicProgram& program, const HistoryResult& history, const Session& session,
+                   const std::filesystem::path& folder, double seconds) {
+  write_csv(folder / history_file, history_table(program.point.law, history));
   RunSummary summary;
   summary.case_name = program.name;
   summary.status = history.converged ? "complete" : "failed: " + history.failure;
@@ -89,7 +98,8 @@ void write_results(const EndochronicProgram& program, const HistoryResult& histo
   summary.cpu_seconds = cpu_seconds();
   summary.peak_memory = peak_memory();
   summary.other_figures = history_figures(program.point.law, history);
-  write_summary(session.results / summary_file, summary);
+  summary.other_counts = {{"newton_iterations", newton_iterations(history)}};
+  write_summary(folder / summary_file, summary);
 }
 
 void run_case(const EndochronicProgram& program, Session& session) {
@@ -97,15 +107,18 @@ void run_case(const EndochronicProgram& program, Session& session) {
   Log& log = session.log;
   log.say(fmt::format("pfdm {}, case {}: {}", session.version, program.name, program.point.title));
   const FolderLock lock(session.results);
-  remove_earlier_run(session.results);
-  log.open_file(session.results / "run.log", false);
+  NewResults place(session.results, has_results(session.results));
+  log.open_file(place.folder() / "run.log", false);
+  if (place.wait()) say_what_is_replaced(session, program.hash, false);
   say_law(program.point.law, log);
   const EndochronicLoading& loading = program.point.loading;
   const HistoryResult history = run_history(program.point.law, loading.segments, loading.settings);
   const double seconds = watch.seconds();
-  write_results(program, history, session, seconds);
+  write_results(program, history, session, place.folder(), seconds);
+  if (history.points.size() > 1) place.take_place([&] { remove_earlier_run(session.results); }, summary_file);
   for (const auto& [name, value] : history_figures(program.point.law, history))
     log.say(fmt::format("  {} = {:.6g}", name, value));
+  log.say(fmt::format("  newton_iterations = {}", newton_iterations(history)));
   log.say(fmt::format("{} after {} of {} increments and {:.2f} s; results in {}",
                       history.converged ? "complete" : "failed", history.points.size() - 1, n_increments(loading),
                       seconds, session.results.string()));
@@ -127,12 +140,12 @@ void fit_case(const EndochronicProgram& program, Session& session) {
   EndochronicFit fit = *program.point.fit;
   log.say(fmt::format("pfdm {}, fit of {}: {}", session.version, program.name, program.point.title));
   const FolderLock lock(session.results);
-  log.open_file(session.results / "fit.log", false);
   log.say(
       fmt::format("method {}: {}; {} experiments", fit.method->name, fit.method->description, fit.experiments.size()));
   fit.settings.say = [&log](const std::string& message) { log.say(message); };
   const EndochronicIdentification found = fit.method->identify(program.point.law, fit.experiments, fit.settings);
   const double seconds = watch.seconds();
+  log.open_file(session.results / "fit.log", false);  // not before: it belongs to the estimates that are there
   write_fit_results(session.results, program.file, fit, found, {program.name, program.hash, session.version, seconds});
   say_estimates(found.fit, log);
   log.say(fmt::format("rms misfit {:.6g} Pa of {:.6g} Pa rms stress; {} evaluations, {:.1f} s; {}",
@@ -149,7 +162,8 @@ RunnableCase read_endochronic_program(const CaseFile& file) {
       std::make_shared<EndochronicProgram>(EndochronicProgram{.file = file, .point = {}, .name = {}, .hash = {}});
   program->point = read_endochronic_case(file.config.root(), file.directory);
   program->name = case_name(file);
-  std::vector<std::filesystem::path> data = program->point.loading.data_files;
+  const std::vector<std::filesystem::path>& of_run = program->point.loading.data_files;
+  std::vector<std::filesystem::path> data = of_run;
   if (program->point.fit)
     data.insert(data.end(), program->point.fit->data_files.begin(), program->point.fit->data_files.end());
   program->hash = case_hash(file, data);
@@ -160,7 +174,8 @@ RunnableCase read_endochronic_program(const CaseFile& file) {
       .report =
           [program](Session& session) {
             write_report(endochronic_page(program->point, program->name, program->hash, session.results), session);
-          }};
+          },
+      .data_files = of_run};
   runnable.fit = [program](Session& session) { fit_case(*program, session); };
   if (!program->point.fit)
     runnable.fit = job_without_table(file, "fit", "[[fit.experiments]] with the measured strains and stresses",

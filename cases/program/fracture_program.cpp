@@ -1,6 +1,7 @@
 #include "cases/program/fracture_program.h"
 
 #include "cases/program/curve_fit.h"
+#include "cases/program/earlier_results.h"
 #include "cases/program/experiment_case.h"
 #include "cases/program/fracture_case.h"
 #include "cases/program/fracture_cohesive.h"
@@ -119,6 +120,7 @@ void check(const FractureProgram& program, Session& session) {
 void mesh_only(const FractureProgram& program, Session& session) {
   const Mesh mesh = make_mesh(program, session.log);
   model_on(program.fracture, mesh);
+  const FolderLock lock(session.results);
   for (const std::string& line : lines_of(describe(mesh_quality(mesh)))) session.log.say(line);
   write_mesh(session.results, mesh);
   session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
@@ -127,12 +129,15 @@ void mesh_only(const FractureProgram& program, Session& session) {
 std::optional<FractureState> state_to_go_on_from(const FractureProgram& program, const FractureState& initial,
                                                  const Session& session) {
   if (!session.restart) return std::nullopt;
-  auto state = find_checkpoint(session.results, program.hash);
-  if (state &&
-      (state->damage.size() != initial.damage.size() || state->displacement.size() != initial.displacement.size()))
-    throw InputError(
-        fmt::format("{}: the checkpoint belongs to another mesh; run without --restart", session.results.string()));
-  return state;
+  try {
+    auto state = find_checkpoint(session.results, program.hash);
+    if (state &&
+        (state->damage.size() != initial.damage.size() || state->displacement.size() != initial.displacement.size()))
+      throw InputError(fmt::format("{}: the checkpoint belongs to another mesh", session.results.string()));
+    return state;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; without --restart the run starts anew and replaces it", error.what()));
+  }
 }
 
 RunSummary summary_of(const FractureProgram& program, const Session& session, const FractureRun& run,
@@ -154,61 +159,102 @@ RunSummary summary_of(const FractureProgram& program, const Session& session, co
   return summary;
 }
 
+void cohesive(const FractureProgram& program, Session& session) {
+  write_cohesive_laws(program.fracture, program.name, program.hash, session);
+}
+
+/// A run that steps.
+struct RunningCase {
+  const FractureProgram& program;
+  Session& session;
+  RunTimes& times;
+  FractureRun& run;
+  FractureResults& results;
+  FractureState state;   ///< the last one that was reached
+  bool goes_on = false;  ///< from a state that is in the results already
+};
+
+void step_done(RunningCase& c, const FractureState& now, const StepReport& report) {
+  const Stopwatch watch;
+  for (const std::string& warning : c.results.step_done(now, report, [&] { return c.run.output(now); }))
+    c.session.log.warn(warning);
+  c.state = now;
+  c.times.results += watch.seconds();
+}
+
 /// Steps until the end of the load, --max-steps or failure; returns what became of it.
-std::string advance(FractureRun& run, FractureState& state, FractureResults& results, const FractureProgram& program,
-                    Session& session, RunTimes& times) {
-  RunProgress progress(session.log, state.load, program.fracture.loading.end);
-  const Index first_step = state.step;
-  const int component = program.fracture.output.curve.component;
+std::string advance(RunningCase& c) {
+  const double end = c.program.fracture.loading.end;
+  RunProgress progress(c.session.log, c.state.load, end);
+  const Index first_step = c.state.step;
   RunHooks hooks;
   const LooksForStop looks;
   hooks.iterated = [&](const IterationReport& iteration) {
     progress.iterated(iteration);
     stop_if_asked();
   };
-  hooks.warned = [&](const std::string& message) { session.log.warn(message); };
+  hooks.warned = [&](const std::string& message) { c.session.log.warn(message); };
   hooks.step_done = [&](const FractureState& now, const StepReport& report) {
-    const Stopwatch watch;
-    for (const std::string& warning : results.step_done(now, report, [&] { return run.output(now); }))
-      session.log.warn(warning);
-    times.results += watch.seconds();
-    state = now;
-    progress.step_done(report, results.last_row().displacement, results.last_row().force[component]);
-    if (session.max_steps && now.step - first_step >= *session.max_steps) throw EnoughSteps{"stopped by --max-steps"};
-    if (session.until && results.last_row().displacement >= *session.until && now.load < program.fracture.loading.end)
+    step_done(c, now, report);
+    const CurveRow& row = c.results.last_row();
+    progress.step_done(report, row.displacement, row.force[c.program.fracture.output.curve.component]);
+    if (c.session.max_steps && now.step - first_step >= *c.session.max_steps)
+      throw EnoughSteps{"stopped by --max-steps"};
+    if (c.session.until && row.displacement >= *c.session.until && now.load < end)
       throw EnoughSteps{"stopped where enough is known"};
   };
   try {
-    run.run(state, hooks);
+    c.goes_on ? c.run.go_on(c.state, hooks) : c.run.run(c.state, hooks);
     return "complete";
   } catch (const EnoughSteps& enough) {
     return enough.why;
   }
 }
 
-void solve(FractureRun& run, FractureState state, FractureResults& results, const FractureProgram& program,
-           Session& session, RunTimes& times) {
-  const auto finish = [&](const std::string& status) {
-    results.write_what_waits(state);
-    RunSummary summary = summary_of(program, session, run, times);
-    summary.status = status;
-    results.write_summary(summary);
-    return fmt::format("{} at step {}, load {:.6g}, after {:.1f} s; results in {}", status, state.step, state.load,
-                       times.whole.seconds(), session.results.string());
-  };
+/// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said.
+std::string finish(RunningCase& c, const std::string& status) {
+  RunSummary summary = summary_of(c.program, c.session, c.run, c.times);
+  summary.status = status;
+  c.results.write_summary(summary);
+  return fmt::format("{} at step {}, load {:.6g}, after {:.1f} s; results in {}", status, c.state.step, c.state.load,
+                     c.times.whole.seconds(), c.session.results.string());
+}
+
+std::string earlier_results_stay(const RunningCase& c) {
+  return fmt::format("the earlier results in {} stay as they are", c.session.results.string());
+}
+
+/// Keeps as much of a run that failed as there is room for.
+void finish_failed(RunningCase& c, const std::string& why) {
+  if (c.results.wait()) return c.session.log.say(earlier_results_stay(c));
   try {
-    session.log.say(finish(advance(run, state, results, program, session, times)));
+    c.results.write_last_frame([&] { return c.run.output(c.state); });
+    c.results.write_what_waits(c.state);
+    c.session.log.say(finish(c, fmt::format("failed: {}", why)));
+  } catch (const ComputationError&) {
+    // A full disk is often what failed in the first place; the first message is the one to show.
+  }
+}
+
+/// Returns what is to be said.
+std::string finish_interrupted(RunningCase& c, const std::string& status) {
+  if (c.results.wait()) return fmt::format("{}; {}", status, earlier_results_stay(c));
+  c.results.write_what_waits(c.state);
+  return finish(c, status);
+}
+
+void solve(RunningCase& c) {
+  try {
+    const std::string status = advance(c);
+    c.results.write_what_waits(c.state);
+    if (c.results.records_columns()) cohesive(c.program, c.session);
+    c.session.log.say(finish(c, status));
   } catch (const Interrupted& wish) {
-    const std::string told = finish(wish.what());
-    session.log.record(told);
+    const std::string told = finish_interrupted(c, wish.what());
+    c.session.log.record(told);
     throw Interrupted(wish.signal, told);
   } catch (const ComputationError& error) {
-    try {
-      results.write_last_frame([&] { return run.output(state); });
-      session.log.say(finish(fmt::format("failed: {}", error.what())));
-    } catch (const ComputationError&) {
-      // A full disk is often what failed in the first place; the first message is the one to show.
-    }
+    finish_failed(c, error.what());
     throw;
   }
 }
@@ -239,22 +285,20 @@ void run_case(FractureProgram program, Session& session) {
   const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh);
   const FolderLock lock(session.results);
   const auto last = state_to_go_on_from(program, initial, session);
-  if (last && last->load >= program.fracture.loading.end && is_complete(session.results)) {
+  if (last && last->load >= program.fracture.loading.end && status_of_earlier(session.results) == "complete") {
     session.log.say(fmt::format("the run in {} is complete already", session.results.string()));
     return;
   }
-  if (!session.figures_only) write_mesh(session.results, mesh);
-  session.log.open_file(session.results / "run.log", last.has_value());
   FractureResults results(session.results, mesh, run.model(), program.fracture, columns, program.hash, last);
+  if (!session.figures_only) write_mesh(results.folder(), mesh);
+  session.log.open_file(results.folder() / "run.log", last.has_value());
   if (session.restart)
     session.log.say(last ? fmt::format("goes on after step {}, load {:.6g}", last->step, last->load)
                          : "there is no checkpoint to go on from: starts at the beginning");
-  solve(run, last ? *last : initial, results, program, session, times);
-  if (!columns.empty()) write_cohesive_laws(program.fracture, program.name, program.hash, session);
-}
-
-void cohesive(const FractureProgram& program, Session& session) {
-  write_cohesive_laws(program.fracture, program.name, program.hash, session);
+  else if (results.wait())
+    say_what_is_replaced(session, program.hash, true);
+  RunningCase running{program, session, times, run, results, last ? *last : initial, last.has_value()};
+  solve(running);
 }
 
 void compare(const FractureProgram& program, Session& session) {

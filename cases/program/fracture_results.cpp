@@ -35,29 +35,26 @@ constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of thos
 /// Of a step, relative to the results; in the order of the steps, so are the names.
 std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", frames_folder, step); }
 
-/// Otherwise a run that dies early would leave an older run's files beside its own.
-void remove_earlier_run(const fs::path& directory) {
+/// What other commands, and the end of the run, made of the steps that are there.
+void remove_what_was_made_of_them(const fs::path& directory) {
   std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
-  for (const char* file : {checkpoint_file, curve_file, frames_file, summary_file, energy_release_file})
-    fs::remove(directory / file, ignored);
+  fs::remove(directory / summary_file, ignored);
   for (const char* file : cohesive_files) fs::remove(directory / file, ignored);
   for (const char* file : comparison_files) fs::remove(directory / file, ignored);
-  remove_columns(directory / columns_folder);
   remove_report(directory);
+}
+
+/// Killed in between it leaves what is complete, what can be gone on with, or what nobody takes for results.
+void remove_earlier_run(const fs::path& directory) {
+  remove_what_was_made_of_them(directory);
+  std::error_code ignored;
+  for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file})
+    fs::remove(directory / file, ignored);
+  remove_columns(directory / columns_folder);
   for (const auto& entry : fs::directory_iterator(directory / frames_folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);
   }
-}
-
-fs::path prepared(const fs::path& directory, bool goes_on) {
-  make_folder(directory / frames_folder);
-  std::error_code ignored;
-  if (goes_on)
-    fs::remove(directory / summary_file, ignored);
-  else
-    remove_earlier_run(directory);
-  return directory;
 }
 
 Index patch_number(const Mesh& mesh, const std::string& name) {
@@ -116,7 +113,9 @@ std::optional<FractureState> find_checkpoint(const fs::path& results, const std:
   return read_checkpoint(file, case_hash);
 }
 
-bool is_complete(const fs::path& results) { return fs::exists(results / summary_file); }
+bool has_results(const fs::path& results) {
+  return fs::exists(results / checkpoint_file) || fs::exists(results / summary_file);
+}
 
 std::vector<CurveRow> read_curve_record(const fs::path& results, const std::string& case_hash) {
   require_results(results, case_hash);
@@ -153,27 +152,34 @@ std::vector<StoredStep> stored_steps(const fs::path& results) {
   return steps;
 }
 
+FractureResults::Files::Files(const fs::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
+                              std::optional<Index> last_step)
+    : curve(last_step ? CurveFile(folder / curve_file, *last_step) : CurveFile(folder / curve_file)),
+      frames(last_step ? PvdSeries(folder / frames_file,
+                                   [last_step](const Frame& frame) { return frame.file <= frame_file(*last_step); })
+                       : PvdSeries(folder / frames_file)) {
+  if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
+  if (const auto& tips = fracture.output.tips; !tips.empty())
+    energy_release.emplace(folder / energy_release_file, energy_release_columns(tips), last_step);
+}
+
 FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureModel& model,
                                  const FractureCase& fracture, const std::vector<ColumnSet>& columns,
                                  std::string case_hash, const std::optional<FractureState>& last)
-    : directory_(prepared(directory, last.has_value())),
+    : directory_(std::move(directory)),
       mesh_(mesh),
       fracture_(fracture),
       model_(model),
+      sets_(columns),
       case_hash_(std::move(case_hash)),
       curve_patch_(patch_number(mesh, fracture.output.curve.patch)),
-      curve_(last ? CurveFile(directory_ / curve_file, last->step) : CurveFile(directory_ / curve_file)),
-      frames_(last ? PvdSeries(directory_ / frames_file,
-                               [last](const Frame& frame) { return frame.file <= frame_file(last->step); })
-                   : PvdSeries(directory_ / frames_file)),
+      place_(directory_, !last && has_results(directory_)),
       writer_(mesh, fracture.output.frames.file),
       damage_(as_size(mesh.n_cells()), 0.0) {
-  if (!columns.empty())
-    columns_.emplace(directory_ / columns_folder, columns, fracture.cohesive.axis,
-                     last ? std::optional(last->step) : std::nullopt);
-  if (const auto& tips = fracture.output.tips; !tips.empty())
-    energy_release_.emplace(directory_ / energy_release_file, energy_release_columns(tips),
-                            last ? std::optional(last->step) : std::nullopt);
+  if (!last && !place_.wait()) remove_earlier_run(directory_);  // what a run left that was killed before its first step
+  make_folder(folder() / frames_folder);
+  remove_leftovers(folder() / frames_folder);
+  files_.emplace(folder(), fracture, columns, last ? std::optional(last->step) : std::nullopt);
   warned_of_tip_.assign(fracture.output.tips.size(), false);
   if (!last) return;
   last_step_ = last->step;
@@ -184,26 +190,40 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
 std::vector<std::string> FractureResults::step_done(const FractureState& state, const StepReport& report,
                                                     const Output& output) {
   std::vector<std::string> warnings;
+  if (!has_stepped_) remove_what_was_made_of_them(folder());
+  has_stepped_ = true;
   last_step_ = state.step;
   last_load_ = state.load;
   damage_ = state.damage;
-  curve_.add(curve_row(report, curve_patch_, fracture_.output.curve.component));
+  files_->curve.add(curve_row(report, curve_patch_, fracture_.output.curve.component));
   if (may_wait()) {
     waits_ = true;
     return warnings;
   }
-  curve_.write();
+  files_->curve.write();
   const bool frame = frame_is_due(state);
-  if (frame || columns_ || energy_release_) {
+  if (frame || files_->columns || files_->energy_release) {
     const OutputFields fields = output();
     if (frame) write_frame(state.step, state.load, fields);
-    if (columns_) columns_->append(state.step, mesh_, model_, fields);
-    if (energy_release_) add_energy_release(state, fields, warnings);
+    if (files_->columns) files_->columns->append(state.step, mesh_, model_, fields);
+    if (files_->energy_release) add_energy_release(state, fields, warnings);
   }
-  write_checkpoint(directory_ / checkpoint_file, state, case_hash_);
+  write_state(state);
+  if (state.step > 0) take_place(state);
+  return warnings;
+}
+
+void FractureResults::write_state(const FractureState& state) {
+  write_checkpoint(folder() / checkpoint_file, state, case_hash_);
   since_written_ = {};
   waits_ = false;
-  return warnings;
+}
+
+/// Goes on with the files in their new place as a restart would.
+void FractureResults::take_place(const FractureState& state) {
+  if (!place_.wait()) return;
+  place_.take_place([this] { remove_earlier_run(directory_); }, checkpoint_file);
+  files_.emplace(folder(), fracture_, sets_, state.step);
 }
 
 void FractureResults::add_energy_release(const FractureState& state, const OutputFields& output,
@@ -218,7 +238,7 @@ void FractureResults::add_energy_release(const FractureState& state, const Outpu
     if (doubt) warnings.push_back(*doubt);
     warned_of_tip_[i] = doubt.has_value();
   }
-  energy_release_->append(std::move(row));
+  files_->energy_release->append(std::move(row));
 }
 
 /// Many short runs would spend more time on flushing to the disk than on computing.
@@ -227,10 +247,11 @@ bool FractureResults::may_wait() const {
 }
 
 void FractureResults::write_what_waits(const FractureState& state) {
-  if (!waits_) return;
-  curve_.write();
-  write_checkpoint(directory_ / checkpoint_file, state, case_hash_);
-  waits_ = false;
+  if (waits_) {
+    files_->curve.write();
+    write_state(state);
+  }
+  take_place(state);
 }
 
 bool FractureResults::frame_is_due(const FractureState& state) const {
@@ -244,15 +265,15 @@ bool FractureResults::frame_is_due(const FractureState& state) const {
 void FractureResults::write_frame(Index step, double load, const OutputFields& output) {
   double time = fracture_.output.frames.time(step, load);
   // ParaView wants times that rise; those of a restart with another [loading] may be measured in something else.
-  if (const auto& before = frames_.frames(); !before.empty() && !(time > before.back().time))
+  if (const auto& before = files_->frames.frames(); !before.empty() && !(time > before.back().time))
     time = std::max(static_cast<double>(step), std::floor(before.back().time) + 1.0);
   const SplitPoints points = point_displacement(mesh_, model_.boundary, output, load);
-  writer_.write(directory_ / frame_file(step), frame_fields(mesh_, output), time, &points);
-  frames_.add(time, frame_file(step));
+  writer_.write(folder() / frame_file(step), frame_fields(mesh_, output), time, &points);
+  files_->frames.add(time, frame_file(step));
 }
 
 void FractureResults::write_last_frame(const Output& output) {
-  const auto& frames = frames_.frames();
+  const auto& frames = files_->frames.frames();
   if (fracture_.output.figures_only) return;
   if (frames.empty() || frames.back().file != frame_file(last_step_)) write_frame(last_step_, last_load_, output());
 }
@@ -267,10 +288,10 @@ std::map<std::string, double> FractureResults::damaged_areas() const {
 
 std::map<std::string, double> FractureResults::last_energy_release() const {
   std::map<std::string, double> figures;
-  if (!energy_release_ || energy_release_->rows().empty()) return figures;
-  const std::vector<std::string>& names = energy_release_->names();
+  if (!files_->energy_release || files_->energy_release->rows().empty()) return figures;
+  const std::vector<std::string>& names = files_->energy_release->names();
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i].ends_with("_G_J_per_m2")) figures["final_" + names[i]] = energy_release_->rows().back()[i];
+    if (names[i].ends_with("_G_J_per_m2")) figures["final_" + names[i]] = files_->energy_release->rows().back()[i];
   return figures;
 }
 
@@ -278,10 +299,10 @@ void FractureResults::write_summary(RunSummary summary) const {
   summary.case_hash = case_hash_;
   summary.cells = mesh_.n_cells();
   summary.steps = last_step_;
-  summary.figures = headlines(curve_.rows(), fracture_.output.curve.component);
+  summary.figures = headlines(files_->curve.rows(), fracture_.output.curve.component);
   summary.other_figures = damaged_areas();
   summary.other_figures.merge(last_energy_release());
-  pfdm::write_summary(directory_ / summary_file, summary);
+  pfdm::write_summary(folder() / summary_file, summary);
 }
 
 }  // namespace pfdm

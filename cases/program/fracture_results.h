@@ -7,6 +7,7 @@
 #include "mesh/mesh.h"
 #include "postproc/column_record.h"
 #include "postproc/curve_csv.h"
+#include "postproc/new_results.h"
 #include "postproc/pvd.h"
 #include "postproc/step_table.h"
 #include "postproc/summary.h"
@@ -27,8 +28,8 @@ void write_mesh(const std::filesystem::path& results, const Mesh& mesh);
 /// The state to go on from; none if there is no checkpoint. Throws InputError if it belongs to another case.
 std::optional<FractureState> find_checkpoint(const std::filesystem::path& results, const std::string& case_hash);
 
-/// Whether the directory holds the results of a run that came to its end.
-bool is_complete(const std::filesystem::path& results);
+/// Whether the directory holds results of a run, complete or not.
+bool has_results(const std::filesystem::path& results);
 
 /// What the columns of a run told. Throws InputError if there is no such record, or if the results belong to another
 /// case.
@@ -52,28 +53,46 @@ std::vector<StoredStep> stored_steps(const std::filesystem::path& results);
 
 class FractureResults {
  public:
-  /// Replaces the files of an earlier run, or goes on after `last`. Keeps references to mesh, model, case and columns.
+  /// Goes on after `last`, or starts anew: results of an earlier run stay as they are until the first step is done and
+  /// on the disk. Keeps references to mesh, model, case and columns.
   FractureResults(std::filesystem::path directory, const Mesh& mesh, const FractureModel& model,
                   const FractureCase& fracture, const std::vector<ColumnSet>& columns, std::string case_hash,
                   const std::optional<FractureState>& last);
+
+  /// Where the files are now, in the directory or, as long as earlier results are there, within it.
+  const std::filesystem::path& folder() const { return place_.folder(); }
+  bool wait() const { return place_.wait(); }
+  bool records_columns() const { return files_->columns.has_value(); }
 
   using Output = std::function<OutputFields()>;
   /// Appends the row, then writes the frame, if one is due, what the columns tell and the energy release rates, then
   /// the checkpoint: killed in between, a restart takes what is beyond the checkpoint away and does it again. Returns
   /// what the user should be warned of.
   std::vector<std::string> step_done(const FractureState& state, const StepReport& report, const Output& output);
-  /// The curve and the checkpoint of the last state, if step_done() has left them to later.
+  /// The curve and the checkpoint of the last state, if step_done() has left them to later; earlier results go away.
   void write_what_waits(const FractureState& state);
   /// A frame of the last state, if it has none yet.
   void write_last_frame(const Output& output);
   /// Fills in what the curve and the last damage tell.
   void write_summary(RunSummary summary) const;
 
-  const CurveRow& last_row() const { return curve_.rows().back(); }
+  const CurveRow& last_row() const { return files_->curve.rows().back(); }
 
  private:
+  /// The files that grow with the steps.
+  struct Files {
+    Files(const std::filesystem::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
+          std::optional<Index> last_step);
+    CurveFile curve;
+    PvdSeries frames;
+    std::optional<ColumnFiles> columns;
+    std::optional<StepTable> energy_release;
+  };
+
   bool frame_is_due(const FractureState& state) const;
   bool may_wait() const;
+  void write_state(const FractureState& state);
+  void take_place(const FractureState& state);
   void write_frame(Index step, double load, const OutputFields& output);
   void add_energy_release(const FractureState& state, const OutputFields& output, std::vector<std::string>& warnings);
   std::map<std::string, double> damaged_areas() const;
@@ -83,18 +102,18 @@ class FractureResults {
   const Mesh& mesh_;
   const FractureCase& fracture_;
   const FractureModel& model_;
+  const std::vector<ColumnSet>& sets_;
   std::string case_hash_;
   Index curve_patch_;
-  CurveFile curve_;
-  PvdSeries frames_;
+  NewResults place_;
+  std::optional<Files> files_;
   VtuWriter writer_;
-  std::optional<ColumnFiles> columns_;
-  std::optional<StepTable> energy_release_;
   std::vector<bool> warned_of_tip_;  // region by region
   Index last_step_ = 0;
   double last_load_ = 0.0;
   CellField<double> damage_;
   Stopwatch since_written_;
+  bool has_stepped_ = false;
   bool waits_ = false;  // curve and checkpoint, for a later step
 };
 

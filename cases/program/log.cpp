@@ -34,6 +34,8 @@ Log::Log(std::ostream& console, bool terminal, bool quiet)
 Log::~Log() { clear_progress(); }
 
 void Log::open_file(const std::filesystem::path& file, bool append) {
+  std::error_code ignored;  // a link is replaced: what it points to is not this program's to write to
+  if (!append || std::filesystem::is_symlink(file, ignored)) std::filesystem::remove(file, ignored);
   try {
     auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append);
     sinks_->file = std::make_shared<spdlog::logger>("file", sink);

@@ -16,7 +16,8 @@ class Log {
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  /// Everything goes to this file too, what was said so far as well. Throws ComputationError if it cannot be written.
+  /// Everything goes to this file too, what was said so far as well. Where `file` is a link, it is replaced. Throws
+  /// ComputationError if it cannot be written.
   void open_file(const std::filesystem::path& file, bool append);
 
   void say(const std::string& message);

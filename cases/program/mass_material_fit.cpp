@@ -196,6 +196,7 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   const Stopwatch watch;
   const Records records = read_records(c, session.results, session.log);
   const ModelStructure& structure = model_structure(c.fit.structure);
+  const FolderLock lock(session.results);
   session.log.say(fmt::format("pfdm {}, case {}: {} of model {} from {} records", session.version, program.name,
                               c.fit.method, structure.name, records.fitted.size()));
   const auto method = c.fit.method == "least_squares" ? by_least_squares
@@ -214,7 +215,6 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   if (c.fit.ogden_terms > 0) report.ogden = ogden_of(found.model, records, c);
   if (c.fit.repeatability) report.repeats = repeats_of(found, records, c);
   report.wall_seconds = watch.seconds();
-  const FolderLock lock(session.results);
   session.log.open_file(session.results / "fit.log", false);
   write_vibration_fit(session.results / "fit.json", report);
   write_file(session.results / "case.fitted.toml",

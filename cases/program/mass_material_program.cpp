@@ -1,11 +1,13 @@
 #include "cases/program/mass_material_program.h"
 
+#include "cases/program/earlier_results.h"
 #include "cases/program/mass_material_case.h"
 #include "cases/program/mass_material_jobs.h"
 #include "cases/program/mass_material_report.h"
 #include "cases/program/report_parts.h"
 #include "cases/program/stopwatch.h"
 #include "postproc/folder_lock.h"
+#include "postproc/new_results.h"
 #include "postproc/signal_table.h"
 #include "postproc/summary.h"
 #include "postproc/vibration_results.h"
@@ -162,25 +164,28 @@ NamedFigures figures_of(const SimulatedTest& t) {
   const double duration = t.record.duration();
   return {t.record.name,
           {{"duration_s", duration},
-           {"samples", static_cast<double>(t.record.n())},
            {"rms_base_acceleration_m_per_s2", t.record.base.norm() / std::sqrt(static_cast<double>(t.record.n()))},
            {"peak_base_acceleration_m_per_s2", t.record.base.lpNorm<Eigen::Infinity>()},
            {"peak_relative_acceleration_m_per_s2", t.record.relative.lpNorm<Eigen::Infinity>()},
            {"peak_relative_displacement_m", t.motion.displacement.lpNorm<Eigen::Infinity>()},
            {"peak_relative_velocity_m_per_s", t.motion.velocity.lpNorm<Eigen::Infinity>()},
-           {"times_real_time", duration / std::max(t.seconds, 1e-9)}}};
+           {"times_real_time", duration / std::max(t.seconds, 1e-9)}},
+          {{"samples", t.record.n()}}};
 }
 
-void remove_earlier_results(const MassMaterialCase& c, const fs::path& results) {
+/// Of tests that the case no longer has as well.
+void remove_earlier_results(const fs::path& results) {
   std::error_code ignored;
+  const std::vector<std::string> tests = tests_of_vibration_summary(results / summary_file);
   fs::remove(results / summary_file, ignored);
   remove_report(results);
-  for (const VibrationTest& test : c.tests)
+  for (const std::string& test : tests)
     for (const char* ending : {".csv", "_harmonics.csv", "_spectra.csv"})
-      if (test.excitation) fs::remove(results / (test.name + ending), ignored);
+      fs::remove(results / (test + ending), ignored);
 }
 
-void run_tests(const MassMaterialProgram& program, Session& session, VibrationSummary& summary) {
+void run_tests(const MassMaterialProgram& program, Session& session, const fs::path& folder,
+               VibrationSummary& summary) {
   const MassMaterialCase& c = program.parsed;
   for (std::size_t i = 0; i < c.tests.size(); ++i) {
     const VibrationTest& test = c.tests[i];
@@ -190,11 +195,11 @@ void run_tests(const MassMaterialProgram& program, Session& session, VibrationSu
     }
     const SimulatedTest simulated = simulate_test(c, i);
     const std::string says = remark(program, test);
-    write_record(session.results / (test.name + ".csv"), says, simulated);
+    write_record(folder / (test.name + ".csv"), says, simulated);
     if (test.excitation->frequency)
-      write_harmonics(session.results / (test.name + "_harmonics.csv"), says, simulated.record, *test.excitation);
+      write_harmonics(folder / (test.name + "_harmonics.csv"), says, simulated.record, *test.excitation);
     else
-      write_spectra(session.results / (test.name + "_spectra.csv"), says, simulated.record);
+      write_spectra(folder / (test.name + "_spectra.csv"), says, simulated.record);
     summary.tests.push_back(figures_of(simulated));
     session.log.step(fmt::format("test {:<16} {:g} s simulated in {:.2f} s, largest displacement {:.4g} mm", test.name,
                                  simulated.record.duration(), simulated.seconds,
@@ -209,9 +214,10 @@ void run_case(const MassMaterialProgram& program, Session& session) {
     session.log.say("a simulation of vibration tests has nothing to go on from: it starts at the beginning");
   const Stopwatch watch;
   const FolderLock lock(session.results);
-  session.log.open_file(session.results / "run.log", false);
+  NewResults place(session.results, fs::exists(session.results / summary_file));
+  session.log.open_file(place.folder() / "run.log", false);
   say_model(program, session.log);
-  remove_earlier_results(c, session.results);
+  if (place.wait()) say_what_is_replaced(session, program.hash, false);
   VibrationSummary summary{.case_name = program.name,
                            .status = "complete",
                            .version = session.version,
@@ -220,13 +226,14 @@ void run_case(const MassMaterialProgram& program, Session& session) {
                            .wall_seconds = 0.0,
                            .figures = {},
                            .tests = {}};
-  run_tests(program, session, summary);
+  run_tests(program, session, place.folder(), summary);
   const auto z0 = static_settling_point(c.model, standard_gravity);
   summary.figures = {{"mass_kg", c.model.mass},
                      {"static_stiffness_N_per_m", static_stiffness(c.model)},
                      {"static_settling_point_m", z0 ? *z0 : std::nan("")}};
   summary.wall_seconds = watch.seconds();
-  write_vibration_summary(session.results / summary_file, summary);
+  write_vibration_summary(place.folder() / summary_file, summary);
+  place.take_place([&] { remove_earlier_results(session.results); }, summary_file);
   session.log.say(
       fmt::format("complete after {:.1f} s; results in {}", summary.wall_seconds, session.results.string()));
 }

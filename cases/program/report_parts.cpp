@@ -1,6 +1,7 @@
 #include "cases/program/report_parts.h"
 
 #include "physics/error.h"
+#include "postproc/atomic_file.h"
 #include "postproc/page_drawing.h"
 #include "postproc/text_file.h"
 
@@ -72,8 +73,11 @@ void require_case(const std::filesystem::path& file, const std::string& found, c
 }
 
 void remove_report(const std::filesystem::path& results) {
+  const std::filesystem::path folder = results / "report";
   std::error_code ignored;
-  for (const char* file : {"report.pdf", "report.png"}) std::filesystem::remove(results / "report" / file, ignored);
+  for (const char* file : {"report.pdf", "report.png"}) std::filesystem::remove(folder / file, ignored);
+  remove_leftovers(folder);
+  std::filesystem::remove(folder, ignored);  // unless there is something else in it
 }
 
 void write_report(const ReportPage& page, Session& session) {

@@ -5,6 +5,7 @@
 #include "postproc/csv_table.h"
 #include "tests/cases/endochronic_case.h"
 #include "tests/cases/temporary_case.h"
+#include "tests/postproc/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -73,6 +74,25 @@ control = { strain_xx = { csv = "path.csv", column = "axial", unit = "percent", 
   EXPECT_NEAR(history.column("time_s")[2], 0.015, 1e-15);
   EXPECT_NEAR(history.column("strain_xx")[1], 0.005, 1e-15);
   EXPECT_NEAR(history.column("strain_xx")[2], -0.0025, 1e-15);
+}
+
+TEST(EndochronicCase, ReplacesEarlierResultsAsAWhole) {
+  const TemporaryCase directory(tension_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  ASSERT_EQ(run({"report", directory.path().string()}).status, 0);
+  const std::string history = content_of(directory.results() / "history.csv");
+  const auto summary = nlohmann::json::parse(content_of(directory.results() / "summary.json"));
+  EXPECT_TRUE(summary["newton_iterations"].is_number_integer());
+  {
+    const test::FileSizeLimit limit(history.size() / 2);
+    EXPECT_EQ(run({"run", directory.path().string()}).status, 1);
+  }
+  EXPECT_EQ(content_of(directory.results() / "history.csv"), history);
+  EXPECT_TRUE(std::filesystem::exists(directory.results() / "report"));
+  const Outcome outcome = run({"run", directory.path().string()});
+  EXPECT_NE(outcome.out.find("are complete: this run starts anew and replaces them"), std::string::npos) << outcome.out;
+  EXPECT_FALSE(std::filesystem::exists(directory.results() / "report"));
+  EXPECT_FALSE(std::filesystem::exists(directory.results() / ".new.partial"));
 }
 
 // What is loaded is what the results are of, however alike the material.

@@ -76,7 +76,7 @@ const BadInput bad_frames[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(All, BadFrames, testing::ValuesIn(bad_frames),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Frames, OfARestartAreThoseOfAnUnbrokenRun) {
   const TemporaryCase directory(replaced(bar_case(), frames_at, "frames_every = 2"));

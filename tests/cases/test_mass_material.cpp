@@ -69,6 +69,27 @@ TEST(MassMaterialProgram, SimulatesItsTests) {
   EXPECT_NEAR(summary["static_settling_point_m"].get<double>(), -1.12 * 9.80665 / 54e3, 2e-6);
 }
 
+// Results of a test that the case no longer has go with the others; those of a run that breaks off come to nothing.
+TEST(MassMaterialProgram, ReplacesEarlierResultsAsAWhole) {
+  const TemporaryCase directory(soft_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const std::string summary = content_of(directory.results() / "summary.json");
+  EXPECT_NE(summary.find("\"samples\": 6001"), std::string::npos) << summary;
+  EXPECT_EQ(summary.find("6001.0"), std::string::npos) << summary;
+  const std::string up = content_of(directory.results() / "up.csv");
+  directory.write("case.toml", replaced(soft_case(), "\"1.3e8 N/m^3\"", "\"-1e11 N/m^3\""));
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 1);
+  EXPECT_EQ(content_of(directory.results() / "summary.json"), summary);
+  EXPECT_EQ(content_of(directory.results() / "up.csv"), up);
+  directory.write("case.toml", replaced(soft_case(), "name = \"up\"", "name = \"upwards\""));
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("belong to other input: this run starts anew and replaces them"), std::string::npos);
+  EXPECT_FALSE(fs::exists(directory.results() / "up.csv"));
+  EXPECT_TRUE(fs::exists(directory.results() / "upwards.csv"));
+  EXPECT_FALSE(fs::exists(directory.results() / ".new.partial"));
+}
+
 TEST(MassMaterialProgram, FitsOgdensModelToTheStiffness) {
   const TemporaryCase directory(replaced(soft_case(), "replicates = 50", "replicates = 20\nogden_terms = 2"));
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
@@ -357,7 +378,7 @@ const BadInput bad_inputs[] = {
      "\"150 Hz\"",
      {"70 Hz are excited; 150 samples per second resolve up to 57 Hz"}},
     {"two_tests_of_one_name", "name = \"down\"", "name = \"up\"", {"there are two tests \"up\""}},
-    {"name_that_is_no_file", "name = \"down\"", "name = \"a/b\"", {"a test's name is made of letters"}},
+    {"name_that_is_no_file", "name = \"down\"", "name = \"a/b\"", {"becomes the name of files: letters, digits"}},
     {"unknown_key_of_fit", "replicates", "replicate", {"[fit] \"replicate\"", "did you mean \"replicates\"?"}},
 };
 INSTANTIATE_TEST_SUITE_P(Program, BadMassMaterial, testing::ValuesIn(bad_inputs),

@@ -1,0 +1,13 @@
+#pragma once
+// The program in a process of its own, which kills itself (SIGKILL) before it changes the disk once more.
+
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// Runs the program; when it has renamed or removed `changes` files it is killed before the next. Whether it was
+/// killed, that is, did not end before.
+bool run_killed_after(int changes, const std::vector<std::string>& arguments);
+
+}  // namespace pfdm
