@@ -3,6 +3,7 @@
 #include "tests/postproc/temporary_folder.h"
 
 #include <gmock/gmock.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -84,7 +85,7 @@ TEST(CurveCsv, a_restarted_file_equals_an_unbroken_one) {
 
 TEST(CurveCsv, names_file_and_line_of_what_is_not_a_row) {
   const TemporaryFolder folder;
-  const std::string header = std::string(curve_header) + "\n";
+  const std::string header = fmt::format("{}\n", curve_header);
   const std::string good = "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0\n";
   for (const std::string bad : {"1,2\n", "x,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0\n",
                                 "1,0.05,1e-06,0.5,0,-2 N,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0\n",
