@@ -1,10 +1,9 @@
 #include "solver/unknowns.h"
 
 #include "physics/error.h"
+#include "solver/rigid_motion.h"
 
 #include <fmt/format.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <map>
@@ -82,36 +81,28 @@ Tensor free_directions(const BoundaryCondition& condition, const Vector& face_ar
   return is_free.asDiagonal();
 }
 
-// The six rigid motions must all be resisted by prescribed displacements: the quadratic form of the prescribed
-// components of u = a + b x (x - x0) may not be singular.
-void require_held(const Mesh& mesh, const Unknowns& unknowns) {
-  Eigen::Matrix<double, 6, 6> form = Eigen::Matrix<double, 6, 6>::Zero();
-  const Vector origin = mesh.points.front();
-  double size2 = 0.0;
-  for (const Vector& x : mesh.points) size2 = std::max(size2, (x - origin).squaredNorm());
-  const auto resist = [&](const Vector& x, const Tensor& prescribed) {
-    Eigen::Matrix<double, 3, 6> motion;
-    const Vector r = (x - origin) / std::sqrt(size2);
-    motion << Tensor::Identity(), (Tensor() << 0, r[2], -r[1], -r[2], 0, r[0], r[1], -r[0], 0).finished();
-    form += motion.transpose() * prescribed * motion;
-  };
-  for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k)
-    resist(mesh.face_centre[unknowns.face_of_node[k]], Tensor::Identity() - unknowns.free_directions[k]);
-  if (unknowns.is_axisymmetric()) {
-    // A ring can only move along the axis; all else strains it.
-    const Vector axis = Vector::UnitZ();
-    form.topLeftCorner<3, 3>() += form.trace() * (Tensor::Identity() - axis * axis.transpose());
-    form.bottomRightCorner<3, 3>() += form.trace() * Tensor::Identity();
-  } else if (const Vector n = unknowns.plane_normal; n.norm() > 0.0) {
-    // A plane mesh can only move within its plane.
-    form.topLeftCorner<3, 3>() += form.trace() * n * n.transpose();
-    form.bottomRightCorner<3, 3>() += form.trace() * (Tensor::Identity() - n * n.transpose());
+// Cells carry no gradient across the plane: each needs its front and its back, or what lies beyond is held as well.
+void require_front_and_back(const Mesh& mesh, const Unknowns& unknowns) {
+  if (unknowns.plane_normal.isZero()) return;
+  std::vector<const PatchCondition*> of_face(as_size(mesh.n_faces()), nullptr);
+  for (const PatchCondition& on : unknowns.conditions) {
+    const Patch& patch = mesh.patches[as_size(on.patch)];
+    std::fill_n(of_face.begin() + patch.first_face, patch.n_faces, &on);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(form);
-  if (eigen.eigenvalues()[0] < 1e-10 * eigen.eigenvalues()[5] || eigen.eigenvalues()[5] == 0.0)
-    throw InputError(
-        "the body can still move rigidly: prescribe displacements (or symmetry) so that all three translations and "
-        "rotations are held");
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    Index front = 0, back = 0;
+    for (const Index f : mesh.faces_of_cell(c))
+      if (of_face[as_size(f)] != nullptr && is_front_or_back(of_face[as_size(f)]->condition))
+        ++(mesh.face_area[f].dot(unknowns.plane_normal) > 0.0 ? front : back);
+    if (front > 0 && back > 0) continue;
+    const Vector& x = mesh.cell_centre[c];
+    throw InputError(fmt::format(
+        "the types \"plane\" and \"plane_stress\" are for both sides, front and back, of a mesh that is one cell "
+        "thick; "
+        "the cell at ({:.4g}, {:.4g}, {:.4g}) m has {} of them: give both patches the type, or hold one side by "
+        "\"symmetry\"",
+        x[0], x[1], x[2], front + back == 0 ? "neither" : "one"));
+  }
 }
 
 // Normal of a patch of a sector: its plane has to hold the axis z.
@@ -178,6 +169,7 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
       add_node(f, free_directions(on.condition, mesh.face_area[f]));
   }
+  require_front_and_back(mesh, unknowns);
   place_sector(sector_normals, unknowns);
   require_held(mesh, unknowns);
   unknowns.pressure_cells = pressure_cells(mesh, model, unknowns);

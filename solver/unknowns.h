@@ -36,7 +36,8 @@ struct Unknowns {
 };
 
 /// Throws InputError for a condition on an unknown patch, two conditions on one patch, a symmetry patch that is not
-/// plane, plane stress together with plane strain, or boundary conditions that leave a rigid motion free.
+/// plane, plane stress together with plane strain, a plane mesh without a front or a back, or a part of the body that
+/// nothing holds against a rigid motion.
 Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model);
 
 /// Unknowns of a part of a mesh without pressures; displacements on the cut are held.

@@ -107,6 +107,34 @@ TEST(Unknowns, BodiesThatAreHeldAreAccepted) {
       place_unknowns(mesh, model_of(mesh, {held_along("xmin", 0), held_along("ymin", 1), held_along("zmax", 2)})));
 }
 
+Mesh cut_box() {
+  BoxHexesSettings settings;
+  settings.axes = {{{{1.0, 4, 1.0}}, {{1.0, 2, 1.0}}, {{1.0, 2, 1.0}}}};
+  settings.regions = {{"right", {0.5, -1.0, -1.0}, {2.0, 2.0, 2.0}}};
+  settings.slits = {{"cut", {0.5, 0.0, 0.0}, {0.5, 1.0, 1.0}}};
+  return make_box_hexes(settings);
+}
+
+TEST(Unknowns, EveryPartOfTheMeshMustBeHeld) {
+  const Mesh mesh = cut_box();
+  EXPECT_THAT(refusal(mesh, {clamped("xmin")}),
+              AllOf(HasSubstr("2 parts"), HasSubstr("(0.75, 0.5, 0.5) m"), HasSubstr("region \"right\", 8 of 16"),
+                    HasSubstr("along x and y and z")));
+  EXPECT_THAT(refusal(mesh, {clamped("xmin"), held_along("xmax", 0)}), HasSubstr("along y and z"));
+  EXPECT_THAT(refusal(mesh, {of_kind("ymin", Kind::symmetry), of_kind("zmin", Kind::symmetry), clamped("xmin")}),
+              AllOf(HasSubstr("\"right\""), HasSubstr("along x;")));
+  EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, {clamped("xmin"), clamped("xmax")})));
+}
+
+TEST(Unknowns, MotionsThatAreFreeAreNamed) {
+  const Mesh mesh = box(3, 3, 3);
+  EXPECT_THAT(refusal(mesh, {of_kind("xmin", Kind::symmetry), of_kind("ymin", Kind::symmetry)}),
+              HasSubstr("the body can still move rigidly: it can move along z;"));
+  // The centres of the faces that are held lie on one line.
+  EXPECT_THAT(refusal(box(10, 1, 1, {10.0, 1.0, 1.0}), {clamped("xmin"), clamped("xmax")}),
+              HasSubstr("it can turn about x through (5, 0.5, 0.5) m"));
+}
+
 // A body far from the origin and very small is judged like one at the origin.
 TEST(Unknowns, PlaceAndSizeDoNotMatter) {
   BoxHexesSettings settings;
@@ -162,6 +190,14 @@ TEST(Unknowns, PlatesAreInPlaneStrainOrInPlaneStress) {
   EXPECT_EQ(unknowns.node_of_face[mesh.patch("zmax").first_face], -1);
   EXPECT_THAT(refusal(mesh, between(Kind::plane, Kind::plane_stress)),
               AllOf(HasSubstr("\"zmax\""), HasSubstr("one type")));
+}
+
+TEST(Unknowns, PlatesNeedAFrontAndABack) {
+  const auto words = AllOf(HasSubstr("both sides"), HasSubstr("one of them"), HasSubstr("\"symmetry\""));
+  for (const Kind kind : {Kind::plane, Kind::plane_stress}) {
+    EXPECT_THAT(refusal(box(6, 2, 1), {clamped("xmin"), of_kind("zmin", kind)}), words);
+    EXPECT_THAT(refusal(box(6, 2, 2), {clamped("xmin"), of_kind("zmin", kind), of_kind("zmax", kind)}), words);
+  }
 }
 
 TEST(Unknowns, SectorsNeedOnlyBeHeldAlongTheirAxis) {

@@ -1,0 +1,13 @@
+#pragma once
+// What nothing holds moves rigidly, and equilibrium has no answer for it: every part of the mesh that hangs together
+// through faces must be held by itself.
+
+#include "solver/unknowns.h"
+
+namespace pfdm {
+
+/// Throws InputError that names a part which the prescribed displacements leave free to move rigidly, and how it can
+/// move. `damage`, per cell: those that are as good as broken hold nothing together; empty: there are none.
+void require_held(const Mesh& mesh, const Unknowns& unknowns, const CellField<double>& damage = {});
+
+}  // namespace pfdm
