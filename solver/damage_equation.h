@@ -37,6 +37,10 @@ class DamageEquation {
   DamageSolution solve(const CellField<double>& psi_plus, const CellField<double>& lower, const Tolerance& tolerance,
                        CellField<double>& d);
 
+  /// The damage of least surface energy that is nowhere below `given`: the optimal profile about cracks whose cells are
+  /// given as broken. Their surface energy is then about Gc times their area, whatever was given beside them.
+  CellField<double> relaxed(const CellField<double>& given);
+
   /// Discrete surface energy [J], with the deferred flux of the last solution; renewed_: with that of d.
   double fracture_energy(const CellField<double>& d) const;
   double renewed_fracture_energy(const CellField<double>& d);

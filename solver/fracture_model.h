@@ -41,7 +41,9 @@ struct FractureModel {
   double residual_stiffness = 1e-6;         ///< k of g_k = (1 - k) g + k
   double viscosity = 0.0;                   ///< eta of the damage equation [Pa s]; 0: rate-independent
   std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
-  CellField<double> initial_damage{};       ///< at load 0, between 0 and 1 [-]; empty: none
+  /// At load 0 the damage is nowhere below this, between 0 and 1 [-]: it has the profile of least surface energy.
+  /// Empty: none.
+  CellField<double> initial_damage{};
 
   const RegionModel& in_cell(const Mesh& mesh, Index cell) const {
     return cells.size() > 0 ? cells[cell] : regions[as_size(mesh.region[cell])];

@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "solver/parallel.h"
+#include "solver/rigid_motion.h"
 #include "solver/staggered.h"
 
 #include <fmt/format.h>
@@ -65,6 +66,14 @@ struct FractureRun::Parts {
         maximum_iterations(settings.maximum_iterations) {
     if (settings.windows) require_windows(model);
     require_path(model);
+    relax_initial_damage();
+  }
+
+  // Cracks begin with their own profile: that of the cells given as broken would have several times its energy.
+  void relax_initial_damage() {
+    if (model.initial_damage.size() == 0) return;
+    model.initial_damage = staggered.damage_equation().relaxed(model.initial_damage);
+    require_held(mesh, unknowns, model.initial_damage);
   }
 
   void require_windows(const FractureModel& m) const {

@@ -233,5 +233,38 @@ TEST_F(DamageThreads, SolutionsAreBitwiseTheSame) {
   EXPECT_EQ(solutions[2], solutions[0]);
 }
 
+// A crack in the middle of a bar: broken cells with nothing beside them have an energy of their own width.
+double energy_of_crack(const std::string& law, Index cells_per_ell, bool relaxes) {
+  const double h = ell / double(cells_per_ell);
+  const Mesh mesh = row(24 * cells_per_ell + 1, h);
+  const FractureModel model = model_of(mesh, law);
+  DamageEquation equation(mesh, model, Vector::Zero());
+  CellField<double> d = uniform(mesh, 0.0);
+  d[in_order_of_x(mesh)[as_size(12 * cells_per_ell)]] = 1.0;
+  const CellField<double> given = d;
+  if (relaxes) d = equation.relaxed(given);
+  for (Index c = 0; c < mesh.n_cells(); ++c) EXPECT_GE(d[c], given[c]);
+  return equation.renewed_fracture_energy(d) / (Gc * h * h);
+}
+
+TEST(DamageEquation, RelaxedCracksHaveTheSurfaceEnergyOfTheirArea) {
+  for (const std::string law : {"AT1", "AT2", "Wu"})
+    for (const Index n : {2, 5, 20, 60}) {
+      EXPECT_GT(energy_of_crack(law, n, false), 1.0 + 0.2 * double(n)) << law;
+      EXPECT_NEAR(energy_of_crack(law, n, true), 1.0, 0.13 / double(n * n)) << law << ", ell/h = " << n;
+    }
+  // The row of cells of least energy falls by one factor from cell to cell.
+  EXPECT_NEAR(energy_of_crack("AT2", 5, true), std::sqrt(1.0 + 0.25 / 25.0), 1e-6);
+}
+
+TEST(DamageEquation, RelaxingLeavesHomogeneousDamageAlone) {
+  const Mesh mesh = row(10, 0.3 * ell);
+  for (const std::string law : {"AT1", "AT2", "Wu"}) {
+    const FractureModel model = model_of(mesh, law);
+    for (const double value : DamageEquation(mesh, model, Vector::Zero()).relaxed(uniform(mesh, 0.5)))
+      EXPECT_EQ(value, 0.5) << law;
+  }
+}
+
 }  // namespace
 }  // namespace pfdm
