@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "solver/parallel.h"
+#include "solver/residual_stiffness.h"
 #include "solver/rigid_motion.h"
 #include "solver/staggered.h"
 
@@ -54,6 +55,7 @@ struct FractureRun::Parts {
   Unknowns unknowns;
   Staggered staggered;
   Index maximum_iterations;
+  ResidualStiffness residual_stiffness;
   Index krylov_iterations = 0, staggered_iterations = 0;
   double window_iterations = 0.0;
 
@@ -63,7 +65,8 @@ struct FractureRun::Parts {
         loading(std::move(l)),
         unknowns((require_complete(m, model), place_unknowns(m, model))),
         staggered(m, model, unknowns, settings),
-        maximum_iterations(settings.maximum_iterations) {
+        maximum_iterations(settings.maximum_iterations),
+        residual_stiffness(model.residual_stiffness) {
     if (settings.windows) require_windows(model);
     require_path(model);
     relax_initial_damage();
@@ -183,6 +186,31 @@ struct FractureRun::Parts {
     return work;
   }
 
+  // The last load at which the body held, and the one at which it does not.
+  [[noreturn]] void fail_torn(double held, double load) const {
+    const bool falls_back = std::isfinite(loading.maximum_dissipation);
+    throw NoConvergence(fmt::format(
+        "the body comes apart between the loads {:.6g} and {:.6g}: nothing but the residual stiffness of broken cells "
+        "holds its tractions then. {}; a smaller loading.maximum_increment tells the load more exactly",
+        held, load,
+        falls_back ? "Nothing is left to be loaded"
+                   : "Prescribe displacements instead, or let the load fall back (loading.maximum_dissipation)"));
+  }
+
+  [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) const {
+    const std::string advice =
+        outcome.settled
+            ? fmt::format(
+                  "its damage and energies have settled, but the momentum balance could not be solved to better than "
+                  "{:.2g}: a larger solver.equilibrium_tolerance is due",
+                  outcome.residual)
+            : "more iterations (solver.maximum_iterations) or a smaller loading.minimum_increment may help; where "
+              "tractions drive a crack that does not stop, prescribed displacements or loading.maximum_dissipation do";
+    throw NoConvergence(
+        fmt::format("step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load): {}",
+                    trial.step, trial.load, loading.minimum_increment, advice));
+  }
+
   StepReport report(const FractureState& state, const StepOutcome& outcome, double increment) {
     StepReport r;
     r.step = state.step;
@@ -253,17 +281,14 @@ FractureState FractureRun::go_on(FractureState state, const RunHooks& hooks) {
     parts.krylov_iterations += outcome.krylov_iterations;
     parts.staggered_iterations += outcome.iterations;
     parts.window_iterations += outcome.window_iterations;
+    if (outcome.collapsed) parts.fail_torn(state.load, trial.load);
     if (outcome.broke_too_much) {
       state.increment = std::max(cut * increment, parts.loading.finest_increment);
       continue;
     }
     if (!outcome.converged) {
       state.increment = cut * increment;
-      if (state.increment < parts.loading.minimum_increment)
-        throw NoConvergence(fmt::format(
-            "step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load): more iterations "
-            "(solver.maximum_iterations) or a smaller loading.minimum_increment may help",
-            trial.step, trial.load, parts.loading.minimum_increment));
+      if (state.increment < parts.loading.minimum_increment) parts.fail_unconverged(trial, outcome);
       if (hooks.warned)
         hooks.warned(fmt::format("step {} at load {:.6g} did not converge; the increment is cut to {:.3g}", trial.step,
                                  trial.load, state.increment));
@@ -276,6 +301,8 @@ FractureState FractureRun::go_on(FractureState state, const RunHooks& hooks) {
     trial.plastic_dissipation = state.plastic_dissipation + outcome.plastic_dissipation;
     trial.increment = parts.next_increment(state.increment, outcome);
     state = std::move(trial);
+    const std::string remark = parts.residual_stiffness.remark(outcome.share, state.load);
+    if (!remark.empty() && hooks.warned) hooks.warned(remark);
     if (hooks.step_done) hooks.step_done(state, parts.report(state, outcome, increment));
   }
   return state;

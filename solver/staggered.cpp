@@ -14,6 +14,10 @@ namespace {
 
 // FGMRES iterations at most, within the loop and of the last solve.
 constexpr Index inner_iterations = 80, last_iterations = 400;
+// Iterations in a row in which the loads may find nothing but the residual stiffness: the first ones are inexact.
+constexpr Index torn_at_most = 5;
+// Relative residual that the last solve goes down to, if no smaller one is asked for.
+constexpr double last_tolerance = 3e-8;
 
 // Windows are around the cells whose damage changes by more than this share of the largest change,
 constexpr double changing_share = 0.3;
@@ -45,14 +49,18 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   stiffness_.start_step(limits.duration);
   momentum_.start_afresh();  // a run that is gone on with does the same
   StepOutcome outcome = alternate(start, state, hooks, limits);
-  if (outcome.failed || outcome.broke_too_much) return outcome;
+  if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);
-  const Equilibrium equilibrium =
-      solve_momentum(state, {.reduction = 0.0, .ceiling = 3e-8, .floor = 3e-8, .most_iterations = last_iterations});
+  const double tolerance = std::min(last_tolerance, settings_.equilibrium_tolerance);
+  const Equilibrium equilibrium = solve_momentum(
+      state, {.reduction = 0.0, .ceiling = tolerance, .floor = tolerance, .most_iterations = last_iterations});
   outcome.krylov_iterations += equilibrium.iterations;
+  outcome.residual = equilibrium.residual;
   outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
   outcome.elastic_energy = update_driving_energy(start, state, false).stored;
+  outcome.share = residual_share(state, outcome.elastic_energy);
+  outcome.collapsed = outcome.converged && has_collapsed(outcome.share);
   outcome.viscous_dissipation = damage_.viscous_dissipation(state.damage);
   outcome.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
   return outcome;
@@ -68,12 +76,12 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
   Relaxation relaxation;
   if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / limits.duration, start.damage);
   double energy_before = 0.0, stored_at_unit_load = 0.0;
-  bool settled = false;
+  Index torn = 0;  // iterations in a row in which nothing held the loads
   while (outcome.iterations < settings_.maximum_iterations && !outcome.converged) {
     degrade(state);
     // Loose while the damage still moves; as tight as the step asks for once it has settled.
     const double floor = 0.1 * settings_.equilibrium_tolerance;
-    const double ceiling = settled ? settings_.equilibrium_tolerance : 1e-4;
+    const double ceiling = outcome.settled ? settings_.equilibrium_tolerance : 1e-4;
     // A crack that is closed and sheared is a nearly incompressible liquid, which takes many Krylov iterations: what a
     // few of them leave is left to the next turn of the loop.
     const Equilibrium equilibrium = solve_momentum(
@@ -87,6 +95,9 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
     if (outcome.failed) return outcome;
     if (settings_.windows) from.driving_energy = state.driving_energy;
     if (outcome.iterations == 0) stored_at_unit_load = energies.stored / (state.load * state.load);
+    torn = has_collapsed(residual_share(state, energies.stored)) ? torn + 1 : 0;
+    outcome.collapsed = torn > torn_at_most;
+    if (outcome.collapsed) return outcome;
     const double undamaged = stored_at_unit_load * state.load * state.load;
     outcome.energy_release = std::abs(energies.stored - undamaged) / std::max(undamaged + fracture_energy, 1e-300);
     CellField<double> answer = state.damage;
@@ -100,9 +111,11 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
     energy_before = energy;
     ++outcome.iterations;
     outcome.krylov_iterations += equilibrium.iterations;
-    settled = damage_solved && change < settings_.damage_tolerance && energy_change < settings_.energy_tolerance &&
-              std::abs(load_scale - 1.0) < settings_.damage_tolerance;
-    outcome.converged = settled && equilibrium.residual <= settings_.equilibrium_tolerance;
+    outcome.settled = damage_solved && change < settings_.damage_tolerance &&
+                      energy_change < settings_.energy_tolerance &&
+                      std::abs(load_scale - 1.0) < settings_.damage_tolerance;
+    outcome.residual = equilibrium.residual;
+    outcome.converged = outcome.settled && equilibrium.residual <= settings_.equilibrium_tolerance;
     if (outcome.converged)
       state.damage = answer;
     else
@@ -239,6 +252,18 @@ bool Staggered::follow_path(const FractureState& start, const PathLimit& limit, 
   for (Vector& u : state.displacement) u *= load / solved_load;
   state.load = load;
   return damage_solved;
+}
+
+// At the displacement whose strain was found last.
+ResidualShare Staggered::residual_share(const FractureState& state, double elastic) {
+  ResidualShare share{.elastic = elastic, .residual = stiffness_.residual_energy(strain_, state)};
+  if (!holds_all(share.residual, elastic)) return share;
+  const std::vector<Vector> force = momentum_.balance().boundary_forces(state.displacement);
+  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k)
+    if (const Index f = unknowns_.face_of_node[k]; !mesh_.is_interior(f))
+      share.traction_work += force[as_size(f - mesh_.n_interior_faces())].dot(
+          unknowns_.free_directions[k] * state.displacement[as_size(unknowns_.n_cells) + k]);
+  return share;
 }
 
 bool Staggered::solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d) {

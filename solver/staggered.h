@@ -8,6 +8,7 @@
 #include "solver/fracture_run.h"
 #include "solver/momentum_solver.h"
 #include "solver/relaxation.h"
+#include "solver/residual_stiffness.h"
 #include "solver/stage_clock.h"
 
 #include <limits>
@@ -23,7 +24,11 @@ struct StepOutcome {
   Index iterations = 0;
   double window_iterations = 0.0;  ///< in windows, each weighted by its fraction of the cells
   Index krylov_iterations = 0;
+  bool collapsed = false;            ///< given up, as nothing but the residual stiffness holds the loads
+  bool settled = false;              ///< all but the momentum balance
+  double residual = 0.0;             ///< of the momentum balance, relative
   double elastic_energy = 0.0;       ///< [J]
+  ResidualShare share{};             ///< of the residual stiffness
   double viscous_dissipation = 0.0;  ///< of the step [J]
   double plastic_dissipation = 0.0;  ///< of the step [J]
 };
@@ -74,6 +79,7 @@ class Staggered {
   /// With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   void drive(const FractureState& start, FractureState& state, double scale);
+  ResidualShare residual_share(const FractureState& state, double elastic);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   /// The last iterate of the loop, and the solution of the damage equation for it.
   struct Turn {

@@ -1,0 +1,38 @@
+#pragma once
+// What the residual stiffness k of broken cells carries. At a prescribed load the elastic energy E of the body changes
+// by dE/dk = int (1 - g) psi_plus dV (all else is stationary), so that R = k dE/dk is the part of it, and R/E the part
+// of the force, that is there only because k is not zero.
+
+#include <string>
+
+namespace pfdm {
+
+/// Energies of an equilibrium [J].
+struct ResidualShare {
+  double elastic = 0.0;        ///< E
+  double residual = 0.0;       ///< R
+  double traction_work = 0.0;  ///< prescribed tractions times displacements; together with the work of prescribed
+                               ///< displacements it is 2 E
+};
+
+/// Whether the residual stiffness has nearly all of the energy.
+bool holds_all(double residual, double elastic);
+/// Whether dead loads are carried by the residual stiffness alone: the body has come apart, and its displacements say
+/// how small k is.
+bool has_collapsed(const ResidualShare& share);
+
+/// Looks out for a residual stiffness that falsifies the forces.
+class ResidualStiffness {
+ public:
+  explicit ResidualStiffness(double k) : k_(k) {}
+
+  /// What is to be said after a step at this load parameter; empty most of the time, and once it was said.
+  std::string remark(const ResidualShare& share, double load);
+
+ private:
+  double k_;
+  double largest_ = 0.0;  // of E over the load so far: of half the force, at loads that rise in proportion
+  bool said_ = false;
+};
+
+}  // namespace pfdm
