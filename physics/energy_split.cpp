@@ -15,7 +15,7 @@ IsotropicElasticity degrade_all(const IsotropicElasticity& c, double g, double) 
 
 constexpr EnergySplit none{
     .name = "none",
-    .description = "the whole elastic energy is degraded",
+    .description = "the whole elastic energy is degraded, also in compression: cracks do not close",
     .variational = true,
     .energy =
         [](const IsotropicElasticity& c, const Tensor& eps) {
@@ -52,7 +52,9 @@ constexpr EnergySplit volumetric_deviatoric{
 // degraded. Not variational: the energies do not balance where the stress is not uniaxial.
 constexpr EnergySplit rankine{
     .name = "rankine",
-    .description = "<sigma_1>^2/(2E) drives damage, the whole stiffness is degraded (PF-CZM; not variational)",
+    .description =
+        "<sigma_1>^2/(2E) drives damage, the whole stiffness is degraded: cracks do not close (PF-CZM; not "
+        "variational)",
     .variational = false,
     .energy =
         [](const IsotropicElasticity& c, const Tensor& eps) {

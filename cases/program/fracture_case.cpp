@@ -10,6 +10,8 @@ namespace pfdm {
 namespace {
 
 constexpr Range above_zero_to_one{std::numeric_limits<double>::min(), 1.0, false, "above 0 and at most 1"};
+// Broken cells beside sound ones leave double precision no more than this.
+constexpr Range solvable{1e-12, 1.0, false, "between 1e-12 and 1"};
 constexpr Range at_least_one{1.0, 1e9, false, "at least 1"};
 constexpr Range count{0.0, 1e9, false, "zero or positive"};
 
@@ -114,8 +116,7 @@ StaggeredSettings read_solver(const ConfigTable& root) {
       {"damage_tolerance", "energy_tolerance", "equilibrium_tolerance", "maximum_iterations", "windows"});
   settings.damage_tolerance = table.number("damage_tolerance", above_zero_to_one, settings.damage_tolerance);
   settings.energy_tolerance = table.number("energy_tolerance", above_zero_to_one, settings.energy_tolerance);
-  settings.equilibrium_tolerance =
-      table.number("equilibrium_tolerance", above_zero_to_one, settings.equilibrium_tolerance);
+  settings.equilibrium_tolerance = table.number("equilibrium_tolerance", solvable, settings.equilibrium_tolerance);
   settings.maximum_iterations =
       static_cast<Index>(table.integer("maximum_iterations", at_least_one, settings.maximum_iterations));
   settings.windows = table.boolean("windows", settings.windows);
@@ -197,29 +198,6 @@ void read_output(const ConfigTable& root, FractureCase& fracture) {
   fracture.output.tips = read_energy_release(output);
 }
 
-/// Which regions of the mesh have an initial damage.
-std::vector<bool> initially_damaged(const InitialDamage& initial, const FractureModel& model, const Mesh& mesh) {
-  std::vector<bool> damaged(mesh.region_names.size(), initial.regions.empty());
-  for (const ConfigValue& region : initial.regions) {
-    const auto r = as_size(mesh.region_index(region.one_of(mesh.region_names, "region of the mesh")));
-    if (!model.regions[r].damageable)
-      throw region.error(fmt::format("region \"{}\" cannot be damaged", mesh.region_names[r]));
-    damaged[r] = true;
-  }
-  return damaged;
-}
-
-/// Where nothing can be damaged there is none.
-CellField<double> damage_at_the_start(const InitialDamage& initial, const FractureModel& model, const Mesh& mesh) {
-  const std::vector<bool> damaged = initially_damaged(initial, model, mesh);
-  CellField<double> damage(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const bool here = damaged[as_size(mesh.region[c])] && model.in_cell(mesh, c).damageable;
-    damage[c] = here ? initial.damage.at(mesh.cell_centre[c]) : 0.0;
-  }
-  return damage;
-}
-
 /// Expressions are evaluated once where and when they will be, so that one without a value is refused before a run has
 /// taken time, and the place of earlier results.
 void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
@@ -231,20 +209,6 @@ void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
       for (const double load : loads) boundary.condition.value(mesh.face_centre[f], load);
   }
-}
-
-std::optional<InitialDamage> read_initial_damage(const ConfigTable& root, const FractureModel& model) {
-  if (!root.has("initial")) return std::nullopt;
-  const ConfigTable table = root.table("initial").with_keys({"damage", "regions"});
-  const ConfigValue damage = table.at("damage");
-  if (model.irreversibility != Irreversibility::bounds)
-    throw damage.error("this needs the irreversibility \"bounds\": the driving energy that led to it is not known");
-  InitialDamage initial{read_parameter(damage, dimension::number, range::fraction), {}};
-  if (const auto regions = table.find("regions")) {
-    initial.regions = regions->list();
-    if (initial.regions.empty()) throw regions->error("the list is empty; name a region, or leave the key out");
-  }
-  return initial;
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #pragma once
 // Reads a case of kind "fracture": mesh, materials, boundary conditions, loading, output.
 
-#include "cases/program/amount.h"
 #include "cases/program/boundary_reader.h"
 #include "cases/program/cohesive_case.h"
 #include "cases/program/energy_release_case.h"
 #include "cases/program/frame_settings.h"
+#include "cases/program/initial_damage.h"
 #include "cases/program/materials.h"
 #include "cases/program/mesh_recipe.h"
 #include "solver/fracture_model.h"
@@ -15,12 +15,6 @@
 #include <vector>
 
 namespace pfdm {
-
-/// Damage before the first step.
-struct InitialDamage {
-  Parameter damage;
-  std::vector<ConfigValue> regions;  ///< where; empty: in all that can be damaged
-};
 
 /// Whose force and displacement make the curve.
 struct CurveSettings {

@@ -66,7 +66,8 @@ void make_case(const fs::path& directory, const fs::path& like, std::ostream& ou
     if (!places.contains(key)) places[key] = place_of(file, old.directory, taken);
     return places[key].string();
   });
-  text = with_value(text, "title", quoted_toml(fmt::format("{} (begun as a copy of {}: edit this title)", name, old_name)));
+  text = with_value(text, "title",
+                    quoted_toml(fmt::format("{} (begun as a copy of {}: edit this title)", name, old_name)));
   make_folder(directory);
   copy_data(places, directory);
   write_file(directory / "README.md", readme(name, old_name));
