@@ -301,7 +301,8 @@ FractureState FractureRun::go_on(FractureState state, const RunHooks& hooks) {
     trial.plastic_dissipation = state.plastic_dissipation + outcome.plastic_dissipation;
     trial.increment = parts.next_increment(state.increment, outcome);
     state = std::move(trial);
-    const std::string remark = parts.residual_stiffness.remark(outcome.share, state.load);
+    const std::string remark = parts.residual_stiffness.remark(
+        outcome.share, std::max(outcome.starting_energy, state.external_work), state.load);
     if (!remark.empty() && hooks.warned) hooks.warned(remark);
     if (hooks.step_done) hooks.step_done(state, parts.report(state, outcome, increment));
   }

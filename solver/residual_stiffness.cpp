@@ -26,8 +26,8 @@ bool has_collapsed(const ResidualShare& share) {
   return holds_all(share.residual, share.elastic) && share.traction_work > share.elastic;
 }
 
-std::string ResidualStiffness::remark(const ResidualShare& share, double load) {
-  largest_ = std::max(largest_, share.elastic / std::abs(load));
+std::string ResidualStiffness::remark(const ResidualShare& share, double energy_before, double load) {
+  largest_ = std::max(largest_, std::max(share.elastic, energy_before) / std::abs(load));
   if (said_ || !(share.residual / std::abs(load) > bearable * largest_)) return "";
   said_ = true;
   const double part = share.residual / share.elastic;

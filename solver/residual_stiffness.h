@@ -27,7 +27,9 @@ class ResidualStiffness {
   explicit ResidualStiffness(double k) : k_(k) {}
 
   /// What is to be said after a step at this load parameter; empty most of the time, and once it was said.
-  std::string remark(const ResidualShare& share, double load);
+  /// `energy_before` [J]: what the body had or was given before it broke, as a step may pass the peak and a restart
+  /// comes after it: the larger of the elastic energy that the step began with and of the work so far.
+  std::string remark(const ResidualShare& share, double energy_before, double load);
 
  private:
   double k_;

@@ -99,6 +99,7 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
     outcome.collapsed = torn > torn_at_most;
     if (outcome.collapsed) return outcome;
     const double undamaged = stored_at_unit_load * state.load * state.load;
+    outcome.starting_energy = undamaged;
     outcome.energy_release = std::abs(energies.stored - undamaged) / std::max(undamaged + fracture_energy, 1e-300);
     CellField<double> answer = state.damage;
     const double load = state.load;

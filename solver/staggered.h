@@ -28,6 +28,7 @@ struct StepOutcome {
   bool settled = false;              ///< all but the momentum balance
   double residual = 0.0;             ///< of the momentum balance, relative
   double elastic_energy = 0.0;       ///< [J]
+  double starting_energy = 0.0;      ///< elastic, at the load of the step with the damage that it began with [J]
   ResidualShare share{};             ///< of the residual stiffness
   double viscous_dissipation = 0.0;  ///< of the step [J]
   double plastic_dissipation = 0.0;  ///< of the step [J]

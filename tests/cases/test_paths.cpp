@@ -43,8 +43,11 @@ record = { file = "DATA", from = "10 Hz", to = "70 Hz" }
 const std::string shaken_by_a_record = replaced(shaken_case, R"(record = { file = "DATA", from)",
                                                 R"(excitation = { type = "measured", file = "DATA", from)");
 
-const std::string imported_case =
-    replaced(bar_case(), "generator = \"box_hexes\"\n", "generator = \"vtk\"\nfile = \"DATA\"\nlength_unit = \"mm\"\n");
+const std::string imported_case = [] {
+  std::string text = bar_case();
+  const auto mesh = text.find("generator"), next = text.find("[materials");
+  return text.replace(mesh, next - mesh, "generator = \"vtk\"\nfile = \"DATA\"\nlength_unit = \"mm\"\n");
+}();
 
 const std::string compared_case = bar_case() + R"([experiment]
 stiffness_between = ["1 um", "5 um"]
@@ -95,7 +98,9 @@ TEST_P(BadName, IsRefused) {
 
 const BadInput bad_names[] = {
     {"region_of_layers",
-     "generator = \"box_hexes\"",
+     "generator = \"box_hexes\"\nx = [{ length = \"20 mm\", cells = 21 }]\ny = [{ length = \"1 mm\", cells = 2 }]\n"
+     "z = [{ length = \"1 mm\", cells = 1 }]\nregion = \"bar\"\n[[mesh.regions]]\nname = \"weak\"\n"
+     "lower = [\"9.6 mm\", \"-1 mm\", \"-1 mm\"]\nupper = [\"10.4 mm\", \"2 mm\", \"2 mm\"]",
      "generator = \"particles_in_box\"\nsize = [\"9 mm\", \"9 mm\", \"9 mm\"]\n"
      "layers = { count = 1, thickness = \"1 mm\", region = \"../../x\" }",
      {"[mesh.layers] region: \"../../x\" becomes the name of a folder: letters, digits, _ and - only"}},

@@ -135,7 +135,8 @@ TEST(Report, ShowsDamageAlongABarAndInABody) {
   EXPECT_NEAR(profile.series[0].x.front(), 10.0 / 21.0, 1e-6);
   EXPECT_TRUE(std::ranges::is_sorted(profile.series[0].x));
   const TemporaryCase thick(
-      replaced(bar_case(), "z = [{ length = \"1 mm\", cells = 1 }]", "z = [{ length = \"1 mm\", cells = 2 }]"));
+      replaced(replaced(bar_case(), "z = [{ length = \"1 mm\", cells = 1 }]", "z = [{ length = \"1 mm\", cells = 2 }]"),
+               "type = \"plane\"", "type = \"symmetry\""));
   ASSERT_EQ(run({"run", thick.path().string(), "--max-steps", "5"}).status, 0);
   const ReportPage page = page_of_fracture(thick);
   EXPECT_EQ(block<Picture>(page, "Damage, plane xz").cells.size(), 42u);
