@@ -338,13 +338,16 @@ TEST(CurveFit, FindsStrengthAndToughnessOfACohesiveCrack) {
   const Outcome outcome = run({"fit", directory.path().string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = fit_in(directory.results());
-  const std::map<std::string, std::pair<double, double>> truth{
-      {modulus, {32e9, 0.01}}, {"materials.concrete.strength", {2.8e6, 0.05}}, {toughness, {110.0, 0.1}}};
-  for (const auto& [name, value] : truth) {
+  // The truth, and what least squares of the closed form itself find in this noise (SciPy): how far that is from the
+  // truth is the noise's doing.
+  const std::map<std::string, std::pair<double, double>> expected{
+      {modulus, {32e9, 31.746e9}}, {"materials.concrete.strength", {2.8e6, 2.7917e6}}, {toughness, {110.0, 110.32}}};
+  for (const auto& [name, values] : expected) {
+    const auto& [truth, best] = values;
     const auto& found = parameter(json, name);
-    EXPECT_NEAR(found["estimate"].get<double>(), value.first, value.first * value.second) << name;
-    EXPECT_LT(found["lower_95"].get<double>(), value.first) << name;
-    EXPECT_GT(found["upper_95"].get<double>(), value.first) << name;
+    EXPECT_NEAR(found["estimate"].get<double>(), best, 0.01 * best) << name;
+    EXPECT_LT(found["lower_95"].get<double>(), truth) << name;
+    EXPECT_GT(found["upper_95"].get<double>(), truth) << name;
   }
 }
 

@@ -1,4 +1,4 @@
-# BUILD: a finished build; FOLDER: where to install and to build the consumer; CXX: its compiler; FLAGS: its flags.
+# BUILD: a finished build; FOLDER: where to install and to build the consumer; CXX: its compiler.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -25,6 +25,6 @@ endforeach()
 
 set(ENV{CMAKE_PREFIX_PATH} ${prefix})
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${FOLDER}/consumer -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${FLAGS})
+    -DCMAKE_CXX_COMPILER=${CXX})
 run(${CMAKE_COMMAND} --build ${FOLDER}/consumer)
 run(${FOLDER}/consumer/bar)
