@@ -12,6 +12,8 @@ namespace {
 
 // The part of itself by which g may move before the weights of the gradients follow.
 constexpr double bearable_lag = 0.01;
+// By which a cell's stiffness may move before the multigrid does.
+constexpr double bearable_ratio = 2.0;
 
 std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<Index> position(as_size(unknowns.n_nodes()));
@@ -36,7 +38,7 @@ MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns)
 void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
   if (starts_afresh_ && !(moduli == moduli_of_multigrid_)) multigrid_.reset();
   operator_.set_moduli(moduli, g, gradient_lag());
-  if (renew_preconditioner(g)) moduli_of_multigrid_ = moduli;
+  if (renew_preconditioner(g, struggled_ && has_moved(moduli))) moduli_of_multigrid_ = moduli;
 }
 
 void MomentumSolver::set_stress(CellField<LinearStress> stress) {
@@ -49,7 +51,7 @@ void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const Cell
   parallel_for(stiffness.size(), [&](Index c) { trace[c] = stiffness[c].trace(); });
   if (starts_afresh_) multigrid_.reset();
   operator_.set_stiffness(std::move(stiffness), g, gradient_lag());
-  if (renew_preconditioner(trace)) moduli_of_multigrid_ = {};
+  if (renew_preconditioner(trace, false)) moduli_of_multigrid_ = {};
 }
 
 double MomentumSolver::gradient_lag() {
@@ -57,13 +59,23 @@ double MomentumSolver::gradient_lag() {
   return exact ? 0.0 : bearable_lag;
 }
 
+// Where cracks have closed or opened the stiffness moves at one and the same g.
+bool MomentumSolver::has_moved(const CellField<IsotropicElasticity>& moduli) const {
+  const CellField<IsotropicElasticity>& built = moduli_of_multigrid_;
+  if (built.size() == 0) return true;
+  return parallel_max(moduli.size(), [&](Index c) {
+           const double now = moduli[c].lambda + 2.0 * moduli[c].mu, then = built[c].lambda + 2.0 * built[c].mu;
+           return std::max(now / then, then / now);
+         }) > bearable_ratio;
+}
+
 // Whether it had to be.
-bool MomentumSolver::renew_preconditioner(const CellField<double>& measure) {
+bool MomentumSolver::renew_preconditioner(const CellField<double>& measure, bool must_be) {
   const CellField<double>& built = measure_of_multigrid_;
   const bool moved = multigrid_ && parallel_max(measure.size(), [&](Index c) {
                                      return std::max(measure[c] / built[c], built[c] / measure[c]);
-                                   }) > 2.0;
-  if (multigrid_ && !moved) return false;
+                                   }) > bearable_ratio;
+  if (multigrid_ && !moved && !must_be) return false;
   measure_of_multigrid_ = measure;
   build_preconditioner();
   return true;
@@ -149,6 +161,7 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
                     std::min(tolerance.ceiling * reference, tolerance.reduction * initial));
   };
   const KrylovResult result = solve_fgmres(problem, load, u, target, tolerance.most_iterations);
+  struggled_ = !result.converged;
   return {.converged = result.converged,
           .iterations = result.iterations,
           .initial_residual = result.initial_residual / reference,

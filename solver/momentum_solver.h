@@ -24,7 +24,8 @@ class MomentumSolver {
   MomentumSolver(const Mesh& mesh, const Unknowns& unknowns);
 
   /// New secant moduli. The multigrid is rebuilt when the stiffness factor g of some cell has changed by more than a
-  /// factor of 2, the weights of the gradients where it has changed by more than a hundredth.
+  /// factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights of
+  /// the gradients where g has changed by more than a hundredth.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
   /// Replaces the stresses of the moduli that were just set (see MomentumOperator).
   void set_stress(CellField<LinearStress> stress);
@@ -32,7 +33,10 @@ class MomentumSolver {
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
   /// Makes the next set_moduli rebuild everything that could differ, so that the results do not depend on earlier
   /// states.
-  void start_afresh() { starts_afresh_ = true; }
+  void start_afresh() {
+    starts_afresh_ = true;
+    struggled_ = false;
+  }
 
   /// Writes the prescribed values at t into u and solves to a residual of
   /// max(floor, min(ceiling, reduction x initial)).
@@ -56,7 +60,8 @@ class MomentumSolver {
  private:
   void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
   void build_preconditioner();
-  bool renew_preconditioner(const CellField<double>& measure);
+  bool has_moved(const CellField<IsotropicElasticity>& moduli) const;
+  bool renew_preconditioner(const CellField<double>& measure, bool must_be);
   double gradient_lag();
   std::vector<Vector> load_vector(double t) const;
   double reference_norm(double t, const std::vector<Vector>& load);
@@ -69,6 +74,7 @@ class MomentumSolver {
   CellField<double> measure_of_multigrid_;              // of the cells' stiffness: any measure, but always the same
   CellField<IsotropicElasticity> moduli_of_multigrid_;  // empty for a general stiffness
   bool starts_afresh_ = false;
+  bool struggled_ = false;  // the last solve did not come to its end
   std::vector<double> scale_;
   std::vector<double> pressure_compliance_;  // per pressure [m^3/Pa]
   std::vector<Vector> rest_;                 // residual without the forces of the pressures; work space
