@@ -24,8 +24,8 @@ class MomentumSolver {
   MomentumSolver(const Mesh& mesh, const Unknowns& unknowns);
 
   /// New secant moduli. The multigrid is rebuilt when the stiffness factor g of some cell has changed by more than a
-  /// factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights of
-  /// the gradients where g has changed by more than a hundredth.
+  /// factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights
+  /// of the gradients where g has changed by more than a hundredth.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
   /// Replaces the stresses of the moduli that were just set (see MomentumOperator).
   void set_stress(CellField<LinearStress> stress);

@@ -2,8 +2,8 @@
 #include "postproc/curve_csv.h"
 #include "tests/postproc/temporary_folder.h"
 
-#include <gmock/gmock.h>
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
