@@ -9,6 +9,7 @@ namespace pfdm {
 namespace {
 
 constexpr double cells_in_ell = 2.0;  // at least: the discrete toughness is then within 3 % (AT2) of Gc
+constexpr double rounding = 1e-9;     // of sizes that come from coordinates
 constexpr double long_tail = 2.0;  // half-width over ell at which a profile without end has fallen to 2 % of its energy
 
 // Extent of a cell across its largest face: of a prism layer its thickness, of a brick its shortest edge, of a
@@ -37,7 +38,7 @@ std::vector<std::string> resolution_warnings(const Mesh& mesh, const FractureMod
   }
   std::vector<std::string> warnings;
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
-    if (thickest[r].thickness > thickest[r].ell / cells_in_ell)
+    if (thickest[r].thickness > (1.0 + rounding) * thickest[r].ell / cells_in_ell)
       warnings.push_back(fmt::format(
           "region \"{}\": cells are up to {:.3g} m thick, ell is {:.3g} m: a crack in the thick ones would not "
           "be resolved (at most ell/{:g})",

@@ -211,6 +211,32 @@ TEST(Program, GoesOnWithOtherSettingsOfTheSolver) {
   EXPECT_EQ(summary_in(directory.results())["status"], "complete");
 }
 
+// 1 mm over 50 is a little more than 20 um in double precision.
+TEST(Program, DoesNotWarnOfCellsOfHalfTheLength) {
+  const TemporaryCase plate(R"(kind = "fracture"
+title = "a plate"
+boundary = [{ patch = "ymin", displacement = ["0 mm", "0 mm", "free"] },
+            { patch = "ymax", displacement = ["free", "8 um", "free"] },
+            { patches = ["zmin", "zmax"], type = "plane" }]
+mesh.generator = "box_hexes"
+mesh.x = [{ length = "1 mm", cells = 50 }]
+mesh.y = [{ length = "1 mm", cells = 50 }]
+mesh.z = [{ length = "1 mm", cells = 1 }]
+[materials.steel]
+regions = ["body"]
+young_modulus = "210 GPa"
+poisson_ratio = 0.3
+toughness = "2.7 kJ/m^2"
+[fracture]
+length = "40 um"
+[output]
+curve = { patch = "ymax", component = "y" }
+)");
+  const Outcome outcome = run({"check", plate.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("would not be resolved"), std::string::npos) << outcome.out;
+}
+
 TEST(Program, WarnsOfCellsThatAreTooThickForTheLength) {
   const TemporaryCase fine(bar_case()), coarse(replaced(bar_case(), "\"4 mm\"", "\"0.6 mm\""));
   EXPECT_EQ(run({"check", fine.path().string()}).out.find("would not be resolved"), std::string::npos);
