@@ -1,6 +1,6 @@
 #include "solver/anderson.h"
 
-#include "solver/least_squares.h"
+#include "solver/dense_algebra.h"
 
 #include <algorithm>
 

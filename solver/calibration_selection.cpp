@@ -1,6 +1,6 @@
 #include "solver/calibration.h"
 
-#include "solver/least_squares.h"
+#include "solver/dense_algebra.h"
 
 #include <cmath>
 

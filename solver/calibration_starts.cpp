@@ -1,8 +1,7 @@
 #include "solver/calibration_starts.h"
 
 #include "physics/error.h"
-
-#include <Eigen/Cholesky>
+#include "solver/dense_algebra.h"
 
 #include <algorithm>
 #include <random>
@@ -123,7 +122,7 @@ std::vector<Slope> slopes_of(const ScaledModel& model, std::vector<Candidate>& c
 Eigen::VectorXd stepped(const ScaledModel& model, const Slope& slope, double radius) {
   Eigen::MatrixXd damped = slope.normal;
   damped.diagonal() += slope.normal.diagonal().cwiseMax(least_weight) / radius;
-  Eigen::VectorXd u = slope.candidate->u - damped.ldlt().solve(slope.gradient);
+  Eigen::VectorXd u = slope.candidate->u - solve_symmetric(damped, slope.gradient);
   for (std::size_t j = 0; j < model.n_parameters(); ++j) {
     const auto [lower, upper] = model.bounds(j);
     double& entry = u[static_cast<Eigen::Index>(j)];

@@ -1,7 +1,7 @@
 #include "solver/calibration_statistics.h"
 
 #include "physics/error.h"
-#include "solver/least_squares.h"
+#include "solver/dense_algebra.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

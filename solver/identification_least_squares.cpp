@@ -1,6 +1,6 @@
 #include "solver/identification_least_squares.h"
 
-#include "solver/least_squares.h"
+#include "solver/dense_algebra.h"
 
 #include <unsupported/Eigen/NonLinearOptimization>
 

@@ -1,13 +1,13 @@
 // refine_output and prediction_misfit of identification.h.
 
+#include "solver/dense_algebra.h"
 #include "solver/identification.h"
 #include "solver/identification_coordinates.h"
 #include "solver/identification_least_squares.h"
 #include "solver/identification_responses.h"
 #include "solver/mass_material_simulation.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +86,7 @@ constexpr double tolerance = 1e-10;  // of the sum of squares and of the paramet
 /// if they do not contract.
 Minimum follow_fixed_jacobian(OutputError& error, VectorXd x, MatrixXd jacobian) {
   const VectorXd norms = jacobian.colwise().norm().cwiseMax(1e-300);
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(jacobian * norms.cwiseInverse().asDiagonal());
+  const auto solve = least_squares_solver(jacobian * norms.cwiseInverse().asDiagonal());
   Minimum best{.x = x, .residuals = error.residuals(x), .jacobian = std::move(jacobian), .path = {}};
   VectorXd r = best.residuals;
   double last_step = std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ Minimum follow_fixed_jacobian(OutputError& error, VectorXd x, MatrixXd jacobian)
     best.x = x;
     best.residuals = r;
     best.path.push_back(r.norm());
-    const VectorXd step = qr.solve(r);
+    const VectorXd step = solve(r);
     const double gain = (best.jacobian * step.cwiseQuotient(norms)).norm();
     if (gain * gain <= tolerance * r.squaredNorm()) {
       best.converged = true;
@@ -180,7 +180,7 @@ MatrixXd bootstrap(const Responses& responses, const VectorXd& x, const VectorXd
       g += gradient[k];
     }
     A.diagonal().array() += 1e-14 * A.diagonal().maxCoeff();
-    replicates.col(i) = x - A.ldlt().solve(g);
+    replicates.col(i) = x - solve_symmetric(A, g);
   }
   return replicates;
 }

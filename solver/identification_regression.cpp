@@ -1,11 +1,12 @@
 // regress_states and regress_separable of identification.h.
 
+#include "solver/dense_algebra.h"
 #include "solver/identification.h"
 #include "solver/identification_conditioning.h"
 #include "solver/identification_least_squares.h"
 #include "solver/parallel.h"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -227,8 +228,7 @@ Reduced reduce(const System& s) {
   all.leftCols(s.A.cols()) = s.A * r.norms.cwiseInverse().asDiagonal();
   all.rightCols(1) = s.q;
   r.total = s.q.norm();
-  const Eigen::HouseholderQR<MatrixXd> qr(std::move(all));
-  r.R = qr.matrixQR().topRows(s.A.cols() + 1).triangularView<Eigen::Upper>();
+  r.R = upper_triangle(std::move(all));
   return r;
 }
 
@@ -242,7 +242,7 @@ SubsetFit fit_subset(const Reduced& r, const std::vector<Index>& columns) {
   for (std::size_t i = 0; i < columns.size(); ++i) A.col(static_cast<Index>(i)) = r.R.col(columns[i]);
   const VectorXd q = r.R.rightCols(1);
   SubsetFit fit;
-  fit.x = A.householderQr().solve(q);
+  fit.x = least_squares(A, q);
   fit.misfit = (A * fit.x - q).norm() / r.total;
   for (std::size_t i = 0; i < columns.size(); ++i) fit.x[static_cast<Index>(i)] /= r.norms[columns[i]];
   return fit;

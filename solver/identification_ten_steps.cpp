@@ -3,13 +3,13 @@
 // the frequency response of v on f; the M terms of the most energy; v from them; and again. Kept for comparison: after
 // the first least squares v is orthogonal to the stiffness and damping columns, so that the iteration hardly moves.
 
+#include "solver/dense_algebra.h"
 #include "solver/identification.h"
 #include "solver/identification_conditioning.h"
 #include "solver/identification_least_squares.h"
 #include "solver/signals_spectra.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +76,7 @@ VectorXcd roots(const VectorXd& a) {
   MatrixXd companion = MatrixXd::Zero(n, n);
   companion.row(0) = -a.transpose();
   for (Index i = 1; i < n; ++i) companion(i, i - 1) = 1.0;
-  return companion.eigenvalues();
+  return eigenvalues(companion);
 }
 
 MatrixXd stacked(const MatrixXcd& A) {

@@ -2,11 +2,9 @@
 
 #include "physics/mass_material.h"
 #include "solver/calibration_statistics.h"
-#include "solver/least_squares.h"
+#include "solver/dense_algebra.h"
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
 #include <cassert>
 #include <cmath>
@@ -76,9 +74,7 @@ std::optional<std::string> confounded(std::span<const ScheduledRun> schedule) {
   const std::vector<Column> columns = columns_of(schedule);
   MatrixXd A = design(columns, schedule.size());
   A.colwise().normalize();
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(A);
-  qr.setThreshold(1e-6);
-  if (qr.rank() == A.cols()) return std::nullopt;
+  if (rank(A, 1e-6) == A.cols()) return std::nullopt;
   std::string names;
   for (const Column& c : columns) names += (names.empty() ? "" : ", ") + c.what;
   return names;
@@ -96,11 +92,12 @@ Repeatability repeatability(std::span<const ScheduledRun> schedule, std::span<co
   const double none = std::numeric_limits<double>::quiet_NaN();
   result.residual_deviation =
       result.residual_freedom > 0 ? std::sqrt((y - A * x).squaredNorm() / result.residual_freedom) : none;
-  const MatrixXd inverse = (A.transpose() * A).inverse();
+  const SingularValues svd = singular_values(A);
+  const VectorXd variance = (svd.V * svd.values.cwiseInverse().asDiagonal()).rowwise().squaredNorm();  // diag (A^T A)^-1
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const Index i = static_cast<Index>(k) + 1;
     const double half = result.residual_freedom > 0
-                            ? student_95(result.residual_freedom) * result.residual_deviation * std::sqrt(inverse(i, i))
+                            ? student_95(result.residual_freedom) * result.residual_deviation * std::sqrt(variance[i])
                             : none;
     result.effects.push_back({columns[k].name, x[i], x[i] - half, x[i] + half});
   }

@@ -1,6 +1,6 @@
 #include "solver/signals_filter.h"
 
-#include "solver/least_squares.h"
+#include "solver/dense_algebra.h"
 #include "solver/signals_fourier.h"
 
 #include <algorithm>
