@@ -1,6 +1,6 @@
 #include "cases/program/case_runs.h"
 
-#include "cases/program/kinds.h"
+#include "cases/program/runnable_case.h"
 #include "cases/program/stop_signal.h"
 #include "postproc/atomic_file.h"
 #include "postproc/folder_lock.h"
@@ -43,7 +43,7 @@ CaseRuns::CaseRuns(fs::path folder, const Session& session) : folder_(std::move(
 }
 
 std::string CaseRuns::key_of(const CaseVariant& variant) {
-  const std::vector<fs::path> data = read_case(variant.file).data_files;
+  const std::vector<fs::path> data = session_.read_case(variant.file).data_files;
   return fmt::format("{}_{}", case_hash(variant.file, data, without_influence), session_.version);
 }
 
@@ -114,7 +114,7 @@ bool CaseRuns::find(const Wanted& wanted) {
 }
 
 void CaseRuns::make(const std::vector<Wanted>& missing) {
-  const RunnableCase first = read_case(missing.front().variant->file);
+  const RunnableCase first = session_.read_case(missing.front().variant->file);
   if (first.prepare) first.prepare(session_);
   std::vector<Job> jobs;
   for (const Wanted& wanted : missing)
@@ -136,6 +136,7 @@ int CaseRuns::do_run(const Wanted& wanted, int threads, Log& log) {
                   .until = wanted.until,
                   .threads = threads,
                   .version = session_.version,
+                  .read_case = session_.read_case,
                   .log = log,
                   .figures_only = true,
                   .meshes = &meshes_};
@@ -146,7 +147,7 @@ int CaseRuns::do_run(const Wanted& wanted, int threads, Log& log) {
   try {
     make_folder(wanted.folder);
     write_file(wanted.folder / "case.toml", moved(wanted.variant->file, wanted.folder));
-    read_case(wanted.variant->file).run(session);
+    session_.read_case(wanted.variant->file).run(session);
     return run_went_well;
   } catch (const NoConvergence& failure) {
     return give_up(failure);

@@ -1,7 +1,7 @@
 #pragma once
 // A case of kind "endochronic" as a program: what check, run and fit do with it.
 
-#include "cases/program/kinds.h"
+#include "cases/program/runnable_case.h"
 
 namespace pfdm {
 

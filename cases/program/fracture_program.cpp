@@ -10,12 +10,12 @@
 #include "cases/program/fracture_results.h"
 #include "cases/program/progress.h"
 #include "cases/program/report_parts.h"
-#include "cases/program/resolution.h"
 #include "cases/program/stop_signal.h"
 #include "cases/program/stopwatch.h"
 #include "mesh/quality.h"
 #include "postproc/folder_lock.h"
 #include "solver/fracture_run.h"
+#include "solver/resolution.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // A case of kind "fracture" as a program: what check, mesh and run do with it.
 
-#include "cases/program/kinds.h"
+#include "cases/program/runnable_case.h"
 
 namespace pfdm {
 

@@ -5,8 +5,6 @@
 #include "cases/program/mass_material_program.h"
 #include "cases/program/sweep.h"
 
-#include <fmt/format.h>
-
 namespace pfdm {
 namespace {
 
@@ -19,15 +17,6 @@ constexpr CaseKind table[] = {
 }  // namespace
 
 std::span<const CaseKind> case_kinds() { return table; }
-
-std::function<void(Session&)> job_without_table(const CaseFile& file, std::string_view table, std::string_view needed,
-                                                std::string_view example) {
-  return [message = fmt::format("{}: the case has no [{}] table; it needs {}. cases/{} has one, and cases/README.md "
-                                "says what may stand in it",
-                                file.config.root().at("kind").file(), table, needed, example)](Session&) {
-    throw InputError(message);
-  };
-}
 
 RunnableCase read_case(const CaseFile& file) {
   const CaseKind& kind = choose(file.config.root().at("kind"), case_kinds(), "kind of case");

@@ -2,9 +2,9 @@
 // Reads [mesh]: which generator makes the mesh, with which settings.
 
 #include "cases/program/config.h"
+#include "mesh/band.h"
 #include "mesh/mesh.h"
 
-#include <array>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -12,13 +12,6 @@
 #include <vector>
 
 namespace pfdm {
-
-/// A thin band between two regions, as the layers around a particle are.
-struct Band {
-  std::string region;
-  double width = 0.0;                     ///< [m]
-  std::array<std::string, 2> neighbours;  ///< regions
-};
 
 struct MeshRecipe {
   std::function<Mesh()> make;        ///< throws InputError

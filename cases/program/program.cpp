@@ -69,6 +69,7 @@ void do_case(const CommandLine& line, std::ostream& out, bool terminal) {
                   .until = std::nullopt,
                   .threads = line.threads,
                   .version = PFDM_VERSION,
+                  .read_case = read_case,
                   .log = log,
                   .slurm = line.slurm};
   if (line.prepared)

@@ -11,6 +11,9 @@
 
 namespace pfdm {
 
+struct CaseFile;
+struct RunnableCase;
+
 struct Session {
   std::filesystem::path results;   ///< directory
   bool restart = false;            ///< go on from the last complete output
@@ -18,6 +21,7 @@ struct Session {
   std::optional<double> until;     ///< stop after the step that brings the curve's displacement here [m]
   int threads = 1;
   std::string version;
+  RunnableCase (*read_case)(const CaseFile& file) = nullptr;  ///< of any kind: for jobs that run other cases
   Log& log;
   bool slurm = false;           ///< hand the runs of a sweep to Slurm
   bool figures_only = false;    ///< of many runs: summary and curves, no fields
