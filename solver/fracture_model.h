@@ -7,6 +7,7 @@
 #include "physics/endochronic.h"
 #include "physics/energy_split.h"
 #include "solver/boundary_condition.h"
+#include "solver/unknowns.h"
 
 #include <limits>
 #include <memory>
@@ -49,6 +50,9 @@ struct FractureModel {
     return cells.size() > 0 ? cells[cell] : regions[as_size(mesh.region[cell])];
   }
 };
+
+/// Regions of equal elasticity and equal endochronic law are one zone.
+ElasticBody elastic_body(const FractureModel& model);
 
 struct StaggeredSettings {
   double damage_tolerance = 1e-4;       ///< largest change of d between iterations

@@ -63,7 +63,7 @@ struct FractureRun::Parts {
       : mesh(m),
         model(std::move(fm)),
         loading(std::move(l)),
-        unknowns((require_complete(m, model), place_unknowns(m, model))),
+        unknowns((require_complete(m, model), place_unknowns(m, elastic_body(model)))),
         staggered(m, model, unknowns, settings),
         maximum_iterations(settings.maximum_iterations),
         residual_stiffness(model.residual_stiffness) {

@@ -1,4 +1,4 @@
-#include "cases/program/resolution.h"
+#include "solver/resolution.h"
 
 #include <fmt/format.h>
 

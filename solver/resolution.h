@@ -1,7 +1,7 @@
 #pragma once
 // Whether the mesh and the lengths that were given can do what is asked of them.
 
-#include "cases/program/mesh_recipe.h"
+#include "mesh/band.h"
 #include "mesh/mesh.h"
 #include "solver/fracture_model.h"
 

@@ -16,27 +16,18 @@ namespace {
 // 0.49 on it takes no longer than doing without.
 constexpr double nearly_incompressible = 0.47;
 
-// A zone has the number of the first region of its law.
-CellField<Index> elastic_zones(const Mesh& mesh, const FractureModel& model) {
-  std::vector<Index> zone_of_region;
-  for (std::size_t r = 0; r < model.regions.size(); ++r) {
-    std::size_t same = 0;
-    while (!(model.regions[same].elasticity == model.regions[r].elasticity &&
-             model.regions[same].endochronic == model.regions[r].endochronic))
-      ++same;
-    zone_of_region.push_back(static_cast<Index>(same));
-  }
-  CellField<Index> zone(static_cast<std::size_t>(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) zone[c] = zone_of_region[static_cast<std::size_t>(mesh.region[c])];
+CellField<Index> elastic_zones(const Mesh& mesh, const ElasticBody& body) {
+  CellField<Index> zone(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c) zone[c] = body.zone[as_size(mesh.region[c])];
   return zone;
 }
 
-std::vector<PatchCondition> conditions_by_patch(const Mesh& mesh, const FractureModel& model) {
+std::vector<PatchCondition> conditions_by_patch(const Mesh& mesh, const ElasticBody& body) {
   std::vector<PatchCondition> conditions;
   for (std::size_t p = 0; p < mesh.patches.size(); ++p)
     conditions.push_back({static_cast<Index>(p), {.patch = mesh.patches[p].name, .value = {}}});
   std::vector<bool> said(mesh.patches.size(), false);
-  for (const BoundaryCondition& condition : model.boundary) {
+  for (const BoundaryCondition& condition : body.boundary) {
     const Patch& patch = mesh.patch(condition.patch);
     const auto p = static_cast<std::size_t>(&patch - mesh.patches.data());
     if (said[p]) throw InputError(fmt::format("patch \"{}\" has two boundary conditions", patch.name));
@@ -126,13 +117,10 @@ void place_sector(const std::vector<Vector>& normals, Unknowns& unknowns) {
   unknowns.radial = -(normals[0] + normals[1]).normalized();
 }
 
-// Where the stress is not that of isotropic moduli there is nothing to split off, in plane stress nothing that grows
-// with lambda.
-std::vector<Index> pressure_cells(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns) {
-  const bool is_isotropic = (model.split == nullptr || model.split->secant != nullptr) &&
-                            std::ranges::none_of(model.regions, [](const auto& r) { return r.endochronic != nullptr; });
+// In plane stress there is nothing that grows with lambda.
+std::vector<Index> pressure_cells(const Mesh& mesh, const ElasticBody& body, const Unknowns& unknowns) {
   std::vector<Index> cells;
-  if (unknowns.plane_stress || !is_isotropic) return cells;
+  if (unknowns.plane_stress || !body.has_pressure) return cells;
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio() > nearly_incompressible) cells.push_back(c);
   return cells;
@@ -140,12 +128,12 @@ std::vector<Index> pressure_cells(const Mesh& mesh, const FractureModel& model, 
 
 }  // namespace
 
-Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
+Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
   Unknowns unknowns;
   unknowns.n_cells = mesh.n_cells();
-  unknowns.zone = elastic_zones(mesh, model);
-  for (const RegionModel& region : model.regions) unknowns.sound.push_back(region.elasticity);
-  unknowns.conditions = conditions_by_patch(mesh, model);
+  unknowns.zone = elastic_zones(mesh, body);
+  unknowns.sound = body.elasticity;
+  unknowns.conditions = conditions_by_patch(mesh, body);
   unknowns.node_of_face = FaceField<Index>(static_cast<std::size_t>(mesh.n_faces()), -1);
   const auto add_node = [&](Index face, const Tensor& directions) {
     unknowns.node_of_face[face] = unknowns.n_nodes();
@@ -172,7 +160,7 @@ Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model) {
   require_front_and_back(mesh, unknowns);
   place_sector(sector_normals, unknowns);
   require_held(mesh, unknowns);
-  unknowns.pressure_cells = pressure_cells(mesh, model, unknowns);
+  unknowns.pressure_cells = pressure_cells(mesh, body, unknowns);
   return unknowns;
 }
 

@@ -4,11 +4,22 @@
 // also have a pressure (cell_pressure.h): unknowns after the nodes, each in the first component of a vector.
 
 #include "mesh/mesh_part.h"
-#include "solver/fracture_model.h"
+#include "physics/elasticity.h"
+#include "solver/boundary_condition.h"
 
 #include <vector>
 
 namespace pfdm {
+
+/// What the momentum balance is about.
+struct ElasticBody {
+  std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh, undamaged
+  /// Of each region: the first one with the same law. Faces between different laws carry unknowns.
+  std::vector<Index> zone;
+  std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
+  /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
+  bool has_pressure = true;
+};
 
 /// One boundary condition, found on its patch.
 struct PatchCondition {
@@ -17,7 +28,7 @@ struct PatchCondition {
 };
 
 struct Unknowns {
-  CellField<Index> zone;                   ///< cells of equal elasticity and equal endochronic law share a zone
+  CellField<Index> zone;                   ///< cells of one law share a zone
   std::vector<IsotropicElasticity> sound;  ///< elasticity of each zone, undamaged
   FaceField<Index> node_of_face;           ///< -1 where a face carries no unknown
   std::vector<Index> face_of_node;         ///< entry k is the face of node n_cells + k
@@ -38,7 +49,7 @@ struct Unknowns {
 /// Throws InputError for a condition on an unknown patch, two conditions on one patch, a symmetry patch that is not
 /// plane, plane stress together with plane strain, a plane mesh without a front or a back, or a part of the body that
 /// nothing holds against a rigid motion.
-Unknowns place_unknowns(const Mesh& mesh, const FractureModel& model);
+Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body);
 
 /// Unknowns of a part of a mesh without pressures; displacements on the cut are held.
 Unknowns unknowns_of_part(const Unknowns& whole, const MeshPart& part);

@@ -64,7 +64,7 @@ FractureModel pulled(const Mesh& mesh) {
 // The momentum balance of the undamaged body.
 struct Momentum {
   explicit Momentum(const Mesh& mesh)
-      : model(pulled(mesh)), unknowns(place_unknowns(mesh, model)), solver(mesh, unknowns) {
+      : model(pulled(mesh)), unknowns(place_unknowns(mesh, elastic_body(model))), solver(mesh, unknowns) {
     CellField<IsotropicElasticity> moduli(as_size(mesh.n_cells()));
     for (Index c = 0; c < mesh.n_cells(); ++c) moduli[c] = model.regions[as_size(mesh.region[c])].elasticity;
     solver.set_moduli(moduli, CellField<double>(as_size(mesh.n_cells()), 1.0));

@@ -41,7 +41,7 @@ BlockTriplets elastic_problem(Index cells_along_an_edge) {
   FractureModel model;
   model.regions.push_back({.elasticity = from_young_poisson(75e6, 0.44)});
   model.boundary = {clamped("zmin")};
-  const Unknowns unknowns = place_unknowns(mesh, model);
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumOperator balance(mesh, unknowns);
   RandomNumbers random;
   CellField<double> g(as_size(mesh.n_cells()));

@@ -25,12 +25,12 @@ FractureModel model_of(const Mesh& mesh, std::vector<BoundaryCondition> boundary
 }
 
 std::string refusal(const Mesh& mesh, std::vector<BoundaryCondition> boundary) {
-  return message_of<InputError>([&] { place_unknowns(mesh, model_of(mesh, std::move(boundary))); });
+  return message_of<InputError>([&] { place_unknowns(mesh, elastic_body(model_of(mesh, std::move(boundary)))); });
 }
 
 TEST(Unknowns, CellsInterfacesAndBoundaryCarryNodes) {
   const Mesh mesh = box(4, 3, 2, Vector::Ones(), 1.0, {{"right", {0.5, -1.0, -1.0}, {2.0, 2.0, 2.0}}});
-  const Unknowns unknowns = place_unknowns(mesh, model_of(mesh, {clamped("xmin")}));
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model_of(mesh, {clamped("xmin")})));
   const Index interface_faces = 3 * 2, boundary_faces = mesh.n_faces() - mesh.n_interior_faces();
   EXPECT_EQ(unknowns.n_nodes(), 24 + interface_faces + boundary_faces);
   for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k)
@@ -42,25 +42,25 @@ TEST(Unknowns, EqualMaterialsShareAZone) {
   FractureModel model = model_of(mesh, {clamped("xmin")});
   model.regions[1] = model.regions[0];
   model.regions[1].Gc = 7.0;  // toughness does not matter to the momentum balance
-  EXPECT_EQ(place_unknowns(mesh, model).n_nodes(), 24 + mesh.n_faces() - mesh.n_interior_faces());
+  EXPECT_EQ(place_unknowns(mesh, elastic_body(model)).n_nodes(), 24 + mesh.n_faces() - mesh.n_interior_faces());
 }
 
 TEST(Unknowns, NearlyIncompressibleCellsCarryPressures) {
   const Mesh mesh = box(4, 3, 2, Vector::Ones(), 1.0, {{"right", {0.5, -1.0, -1.0}, {2.0, 2.0, 2.0}}});
   FractureModel model = model_of(mesh, {clamped("xmin")});
-  EXPECT_TRUE(place_unknowns(mesh, model).pressure_cells.empty());
+  EXPECT_TRUE(place_unknowns(mesh, elastic_body(model)).pressure_cells.empty());
   model.regions[1].elasticity = from_young_poisson(75e6, 0.4999);
-  const Unknowns unknowns = place_unknowns(mesh, model);
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   EXPECT_EQ(unknowns.n_unknowns(), unknowns.n_nodes() + 12);
   for (const Index c : unknowns.pressure_cells) EXPECT_GT(mesh.cell_centre[c][0], 0.5);
   model.split = &energy_split("spectral");  // whose stiffness is not isotropic
-  EXPECT_TRUE(place_unknowns(mesh, model).pressure_cells.empty());
+  EXPECT_TRUE(place_unknowns(mesh, elastic_body(model)).pressure_cells.empty());
 }
 
 TEST(Unknowns, FreeDirectionsAreThoseNotPrescribed) {
   const Mesh mesh = box(2, 2, 2);
-  const Unknowns unknowns =
-      place_unknowns(mesh, model_of(mesh, {clamped("xmin"), held_along("xmax", 1), of_kind("zmin", Kind::symmetry)}));
+  const Unknowns unknowns = place_unknowns(
+      mesh, elastic_body(model_of(mesh, {clamped("xmin"), held_along("xmax", 1), of_kind("zmin", Kind::symmetry)})));
   const auto directions_on = [&](const std::string& patch) {
     return unknowns.free_directions[as_size(unknowns.node_of_face[mesh.patch(patch).first_face] - mesh.n_cells())];
   };
@@ -100,11 +100,12 @@ TEST(Unknowns, BodiesThatCanMoveAreRefused) {
 
 TEST(Unknowns, BodiesThatAreHeldAreAccepted) {
   const Mesh mesh = box(3, 3, 3);
-  EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, {clamped("ymax")})));
-  EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, {of_kind("xmin", Kind::symmetry), of_kind("ymin", Kind::symmetry),
-                                                       of_kind("zmin", Kind::symmetry)})));
-  EXPECT_NO_THROW(
-      place_unknowns(mesh, model_of(mesh, {held_along("xmin", 0), held_along("ymin", 1), held_along("zmax", 2)})));
+  EXPECT_NO_THROW(place_unknowns(mesh, elastic_body(model_of(mesh, {clamped("ymax")}))));
+  EXPECT_NO_THROW(place_unknowns(
+      mesh, elastic_body(model_of(mesh, {of_kind("xmin", Kind::symmetry), of_kind("ymin", Kind::symmetry),
+                                         of_kind("zmin", Kind::symmetry)}))));
+  EXPECT_NO_THROW(place_unknowns(
+      mesh, elastic_body(model_of(mesh, {held_along("xmin", 0), held_along("ymin", 1), held_along("zmax", 2)}))));
 }
 
 Mesh cut_box() {
@@ -123,7 +124,7 @@ TEST(Unknowns, EveryPartOfTheMeshMustBeHeld) {
   EXPECT_THAT(refusal(mesh, {clamped("xmin"), held_along("xmax", 0)}), HasSubstr("along y and z"));
   EXPECT_THAT(refusal(mesh, {of_kind("ymin", Kind::symmetry), of_kind("zmin", Kind::symmetry), clamped("xmin")}),
               AllOf(HasSubstr("\"right\""), HasSubstr("along x;")));
-  EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, {clamped("xmin"), clamped("xmax")})));
+  EXPECT_NO_THROW(place_unknowns(mesh, elastic_body(model_of(mesh, {clamped("xmin"), clamped("xmax")}))));
 }
 
 TEST(Unknowns, MotionsThatAreFreeAreNamed) {
@@ -141,7 +142,7 @@ TEST(Unknowns, PlaceAndSizeDoNotMatter) {
   settings.origin = {1.0, -2.0, 3.0};
   settings.axes = {{{{50e-6, 10, 1.0}}, {{10e-6, 2, 1.0}}, {{10e-6, 2, 1.0}}}};
   const Mesh mesh = make_box_hexes(settings);
-  EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, {clamped("xmin")})));
+  EXPECT_NO_THROW(place_unknowns(mesh, elastic_body(model_of(mesh, {clamped("xmin")}))));
   EXPECT_THAT(refusal(mesh, {held_along("xmin", 0)}), HasSubstr("rigid"));
 }
 
@@ -152,11 +153,12 @@ TEST(Unknowns, PlaneMeshesNeedOnlyBeHeldInTheirPlane) {
     others.push_back(of_kind("zmax", Kind::plane));
     return others;
   };
-  const Unknowns unknowns = place_unknowns(mesh, model_of(mesh, with({clamped("xmin")})));
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model_of(mesh, with({clamped("xmin")}))));
   EXPECT_NEAR(std::abs(unknowns.plane_normal[2]), 1.0, 1e-12);
   for (Index f = mesh.patch("zmin").first_face; f < mesh.patch("zmin").first_face + 12; ++f)
     EXPECT_EQ(unknowns.node_of_face[f], -1);
-  EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, with({held_along("xmin", 0), of_kind("ymin", Kind::symmetry)}))));
+  EXPECT_NO_THROW(place_unknowns(
+      mesh, elastic_body(model_of(mesh, with({held_along("xmin", 0), of_kind("ymin", Kind::symmetry)})))));
   EXPECT_THAT(refusal(mesh, with({held_along("xmin", 0)})), HasSubstr("rigid"));
   EXPECT_THAT(refusal(mesh, with({of_kind("ymin", Kind::symmetry)})), HasSubstr("rigid"));
 }
@@ -164,9 +166,10 @@ TEST(Unknowns, PlaneMeshesNeedOnlyBeHeldInTheirPlane) {
 // Turning about the bar's own axis is not a motion in the plane: nothing needs to resist it.
 TEST(Unknowns, OneCellWideBarsBetweenPlanesAreAccepted) {
   const Mesh mesh = box(10, 1, 1, {10.0, 1.0, 1.0});
-  EXPECT_NO_THROW(place_unknowns(mesh, model_of(mesh, {held_along("xmin", 0), held_along("xmax", 0),
-                                                       of_kind("ymin", Kind::symmetry), of_kind("ymax", Kind::symmetry),
-                                                       of_kind("zmin", Kind::plane), of_kind("zmax", Kind::plane)})));
+  EXPECT_NO_THROW(place_unknowns(
+      mesh, elastic_body(model_of(
+                mesh, {held_along("xmin", 0), held_along("xmax", 0), of_kind("ymin", Kind::symmetry),
+                       of_kind("ymax", Kind::symmetry), of_kind("zmin", Kind::plane), of_kind("zmax", Kind::plane)}))));
 }
 
 // With symmetry on all four sides the face centres, where displacements are held, lie in the two planes through the
@@ -184,8 +187,9 @@ TEST(Unknowns, PlatesAreInPlaneStrainOrInPlaneStress) {
     return std::vector{clamped("xmin"), of_kind("zmin", front), of_kind("zmax", back)};
   };
   const Mesh mesh = box(6, 2, 1);
-  EXPECT_FALSE(place_unknowns(mesh, model_of(mesh, between(Kind::plane, Kind::plane))).plane_stress);
-  const Unknowns unknowns = place_unknowns(mesh, model_of(mesh, between(Kind::plane_stress, Kind::plane_stress)));
+  EXPECT_FALSE(place_unknowns(mesh, elastic_body(model_of(mesh, between(Kind::plane, Kind::plane)))).plane_stress);
+  const Unknowns unknowns =
+      place_unknowns(mesh, elastic_body(model_of(mesh, between(Kind::plane_stress, Kind::plane_stress))));
   EXPECT_TRUE(unknowns.plane_stress);
   EXPECT_EQ(unknowns.node_of_face[mesh.patch("zmax").first_face], -1);
   EXPECT_THAT(refusal(mesh, between(Kind::plane, Kind::plane_stress)),
@@ -208,7 +212,8 @@ TEST(Unknowns, SectorsNeedOnlyBeHeldAlongTheirAxis) {
     others.push_back(of_kind("back", Kind::axisymmetric));
     return others;
   };
-  const Unknowns unknowns = place_unknowns(mesh, model_of(mesh, with({of_kind("equator", Kind::symmetry)})));
+  const Unknowns unknowns =
+      place_unknowns(mesh, elastic_body(model_of(mesh, with({of_kind("equator", Kind::symmetry)}))));
   EXPECT_NEAR(std::abs(unknowns.plane_normal.y()), 1.0, 1e-12);
   EXPECT_NEAR(unknowns.radial.x(), 1.0, 1e-12);
   EXPECT_THAT(refusal(mesh, with({})), HasSubstr("rigid"));

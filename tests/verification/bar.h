@@ -234,7 +234,7 @@ inline std::vector<BarState> Bar::run_with(LoadingSettings loading) const {
 
 inline std::vector<BarState> Bar::run_reversibly(const std::vector<Leg>& legs) const {
   const FractureState sound = sound_state();
-  const Unknowns unknowns = place_unknowns(mesh_, model_);
+  const Unknowns unknowns = place_unknowns(mesh_, elastic_body(model_));
   Staggered solver(mesh_, model_, unknowns, staggered());
   const Patch& pulled = mesh_.patch("xmax");
   std::vector<BarState> states;

@@ -37,7 +37,7 @@ struct Equilibrated {
 
 // Equilibrium at given damage: the stiffness follows the strain until it falsifies the energy by less than 1e-10.
 Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField<double> damage) {
-  const Unknowns unknowns = place_unknowns(mesh, model);
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumSolver solver(mesh, unknowns);
   CellStiffness stiffness(mesh, model);
   stiffness.start_step(0.0);
@@ -202,7 +202,7 @@ TEST(EnergySplits, TheFullTensorOperatorContainsTheIsotropicOne) {
   const Mesh mesh = rotated(extruded_triangles(5, {0.0, 0.2, 0.5, 1.0}), arbitrary_rotation());
   const auto field = [](const Vector& x) -> Vector { return Vector(std::sin(x[1]), x[0] * x[2], std::cos(x[0])); };
   const FractureModel model = elastic_model({steel}, displacement_on_all(mesh, field));
-  const Unknowns unknowns = place_unknowns(mesh, model);
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumOperator isotropic(mesh, unknowns), full(mesh, unknowns);
   const auto n = as_size(mesh.n_cells());
   CellField<IsotropicElasticity> moduli(n);

@@ -64,7 +64,7 @@ std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureM
                                                double residual, const DisplacementField& body_force, double closure) {
   auto solution = std::make_unique<ElasticSolution>();
   const std::clock_t start = std::clock();
-  solution->unknowns = place_unknowns(mesh, model);
+  solution->unknowns = place_unknowns(mesh, elastic_body(model));
   solution->solver = std::make_unique<MomentumSolver>(mesh, solution->unknowns);
   CellField<IsotropicElasticity> moduli(as_size(mesh.n_cells()));
   const CellField<double> factors = g.size() > 0 ? g : CellField<double>(as_size(mesh.n_cells()), 1.0);

@@ -124,7 +124,7 @@ class AtRest {
 
  private:
   const FractureModel model_ = bead_model(mesh, "none", 0.2);
-  const Unknowns unknowns_ = place_unknowns(mesh, model_);
+  const Unknowns unknowns_ = place_unknowns(mesh, elastic_body(model_));
   const StaggeredSettings tight_{
       .damage_tolerance = 1e-7, .energy_tolerance = 1e-9, .equilibrium_tolerance = 1e-8, .maximum_iterations = 5000};
   Staggered whole_{mesh, model_, unknowns_, tight_};
