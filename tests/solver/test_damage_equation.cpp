@@ -193,7 +193,7 @@ TEST(DamageEquation, ProfilesOfManyCellsAreFoundAtOnce) {
   DamageEquation equation(mesh, model, Vector::Zero());
   CellField<double> psi = uniform(mesh, 0.0), d = uniform(mesh, 0.0);
   psi[in_order_of_x(mesh)[200]] = 1e12 * unit;
-  const DamageSolution solution = equation.solve(psi, uniform(mesh, 0.0), {}, d);
+  const ScalarSolution solution = equation.solve(psi, uniform(mesh, 0.0), {}, d);
   EXPECT_TRUE(solution.converged);
   EXPECT_LE(solution.active_set_iterations, 5);
   EXPECT_NEAR(equation.fracture_energy(d) / (Gc * std::pow(0.02 * ell, 2)), 1.0, 2e-3);
