@@ -50,7 +50,7 @@ Mandel stress(const EndochronicLaw& law, const EndochronicState& state);
 /// Energy per volume that the terms of the kernel store, |s_r|^2 / (4 C_r) each [J/m^3].
 double kernel_energy(const EndochronicLaw& law, const EndochronicState& state);
 
-/// Energy per volume that can still be had back: of elastic strain and of the kernel [J/m^3].
+/// Recoverable energy per volume: of elastic strain and of the kernel [J/m^3].
 double free_energy(const EndochronicLaw& law, const EndochronicState& state);
 
 /// |sum_r s_r - 2 mu (e - eps_p)|, which is zero but for rounding [Pa].

@@ -92,7 +92,7 @@ constexpr EnergySplit spectral{
 };
 
 // Del Piero, Meccanica 24 (1989) 150; Freddi, Royer-Carfagni, J. Mech. Phys. Solids 58 (2010) 1154, sec. 3.3: what a
-// material that bears no tension stores. Crack strains open freely in the principal directions whose stress would be
+// material without tensile strength stores. Crack strains open freely in the principal directions whose stress would be
 // tensile; from the smallest strain upwards none, one, two or all three directions stay under compression.
 PrincipalStress kept_by_no_tension(const IsotropicElasticity& c, const Vector& eps) {
   const double E = c.young_modulus(), nu = c.poisson_ratio();
@@ -112,7 +112,7 @@ PrincipalStress kept_by_no_tension(const IsotropicElasticity& c, const Vector& e
 
 constexpr EnergySplit no_tension{
     .name = "no_tension",
-    .description = "a material without tensile strength is kept: masonry (Del Piero 1989, Freddi 2010)",
+    .description = "what a no-tension material (masonry) carries is kept (Del Piero 1989, Freddi 2010)",
     .variational = true,
     .energy = energy_less_kept<kept_by_no_tension>,
     .kept = kept_by_no_tension,

@@ -10,7 +10,7 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The computation could not go on (exit status 1): no convergence at the smallest increment, disk full.
+/// The computation could not continue (exit status 1): no convergence at the smallest increment, disk full.
 struct ComputationError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

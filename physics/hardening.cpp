@@ -69,7 +69,7 @@ void check_table(const std::vector<double>& p) {
   for (std::size_t i = 0; i < n; ++i) {
     if (i > 0 && !(p[i] > p[i - 1]))
       throw InputError(
-          fmt::format("zeta must rise from point to point in a hardening table; {} follows {}", p[i], p[i - 1]));
+          fmt::format("zeta must increase from point to point in a hardening table; {} follows {}", p[i], p[i - 1]));
     if (!(p[n + i] > 0.0)) throw InputError(fmt::format("f must be positive in a hardening table; found {}", p[n + i]));
   }
 }
@@ -89,7 +89,7 @@ Factor make_factor(const FactorLaw& law, std::vector<double> p) {
     return {&law, std::move(p)};
   }
   if (p.size() != law.parameters.size())
-    throw InputError(fmt::format("{}: {} parameters are due, found {}", law.name, law.parameters.size(), p.size()));
+    throw InputError(fmt::format("{}: expected {} parameters, found {}", law.name, law.parameters.size(), p.size()));
   for (std::size_t i = 0; i < p.size(); ++i) {
     const FactorParameter& due = law.parameters[i];
     if (p[i] < 0.0 || (p[i] == 0.0 && !due.may_be_zero))

@@ -19,7 +19,7 @@ const Law& find_by_name(std::span<const Law> table, std::string_view name, std::
     if (law.name == name) return law;
   std::vector<std::string_view> names;
   for (const Law& law : table) names.push_back(law.name);
-  throw InputError(fmt::format("no {} is called \"{}\"; there are: {}", kind, name, fmt::join(names, ", ")));
+  throw InputError(fmt::format("unknown {} \"{}\"; available: {}", kind, name, fmt::join(names, ", ")));
 }
 
 }  // namespace pfdm

@@ -62,10 +62,10 @@ TEST(Hardening, RefusesParametersThatMakeNoSense) {
   const auto refused = [](const FactorLaw& law, std::vector<double> p) {
     return message_of<InputError>([&] { make_factor(law, p); });
   };
-  EXPECT_THAT(refused(hardening_law("saturating"), {3.0, 6.0}), HasSubstr("3 parameters are due, found 2"));
+  EXPECT_THAT(refused(hardening_law("saturating"), {3.0, 6.0}), HasSubstr("expected 3 parameters, found 2"));
   EXPECT_THAT(refused(hardening_law("saturating"), {-3.0, 6.0, 1.0}), HasSubstr("f_inf = -3 must be positive"));
   EXPECT_THAT(refused(hardening_law("saturating"), {3.0, NAN, 1.0}), HasSubstr("a parameter is nan"));
-  EXPECT_THAT(refused(hardening_law("table"), {0.0, 0.0, 1.0, 2.0}), HasSubstr("zeta must rise"));
+  EXPECT_THAT(refused(hardening_law("table"), {0.0, 0.0, 1.0, 2.0}), HasSubstr("zeta must increase"));
   EXPECT_THAT(refused(hardening_law("table"), {0.0, 1.0, 1.0, 0.0}), HasSubstr("f must be positive"));
   EXPECT_THAT(refused(hardening_law("table"), {0.0, 1.0, 1.0}), HasSubstr("an f for each zeta"));
 }
