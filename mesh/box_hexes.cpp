@@ -112,7 +112,7 @@ struct GridSlit {
       if (p[a] < first[a] || p[a] > last[a]) return false;
     return true;
   }
-  // Whether the body comes apart there: not on the crack front, the slit's edges within the box.
+  // Whether the body separates there: not on the crack front, the slit's edges within the box.
   bool opens(const Position& p, const BoxGrid& grid) const {
     for (std::size_t a = 0; a < 3; ++a) {
       if (a == normal) continue;
@@ -132,8 +132,8 @@ Index node_at(const BoxGrid& grid, const Slit& slit, std::size_t axis, double x)
   const auto above = std::ranges::lower_bound(nodes, x - rounding);
   if (*above <= x + rounding) return static_cast<Index>(above - nodes.begin());
   throw InputError(
-      fmt::format("slit \"{}\": {} = {:.6g} m is no plane of the grid; the nearest are {:.6g} and {:.6g} m", slit.name,
-                  "xyz"[axis], x, *(above - 1), *above));
+      fmt::format("slit \"{}\": {} = {:.6g} m is not a plane of the grid; the nearest are {:.6g} and {:.6g} m",
+                  slit.name, "xyz"[axis], x, *(above - 1), *above));
 }
 
 GridSlit on_grid(const Slit& slit, const BoxGrid& grid) {
@@ -196,7 +196,7 @@ class SlitPoints {
     const bool opens = slits_.back().opens(p, grid_);
     const Copy copy{slits_.size() - 1, opens ? static_cast<Index>(points.size()) : -1};
     if (!copies_.emplace(grid_.id(p[0], p[1], p[2]), copy).second)
-      throw InputError(fmt::format("slit \"{}\" meets another one", slit.name));
+      throw InputError(fmt::format("slit \"{}\" meets another slit", slit.name));
     if (opens) points.push_back(grid_.node(p[0], p[1], p[2]));
   }
 

@@ -48,7 +48,7 @@ std::vector<Polygon> unpack_polyhedron(std::span<const Index> stream, Index cell
     const auto face = stream.subspan(1, static_cast<std::size_t>(n));
     for (const Index p : face)
       if (p < 0 || static_cast<std::size_t>(p) >= n_points)
-        throw InputError(fmt::format("polyhedron {} names the point {}, which is not there", cell, p));
+        throw InputError(fmt::format("polyhedron {} refers to point {}, which does not exist", cell, p));
     faces.emplace_back(face.begin(), face.end());
     stream = stream.subspan(face.size() + 1);
   }
@@ -125,7 +125,7 @@ void orient_outwards(std::vector<Polygon>& faces, const std::vector<Vector>& poi
 void add_standard_cell(HalfFaces& halves, Index cell, CellShape shape, std::span<const Index> points) {
   if (static_cast<Index>(points.size()) != points_per_cell(shape))
     throw InputError(
-        fmt::format("cell {} has {} points where its shape has {}", cell, points.size(), points_per_cell(shape)));
+        fmt::format("cell {} has {} points; its shape requires {}", cell, points.size(), points_per_cell(shape)));
   for (const LocalFace& local : local_faces(shape)) {
     std::array<Index, 4> face{};
     const std::size_t n = local[3] < 0 ? 3 : 4;
@@ -207,7 +207,7 @@ std::vector<FacePair> pair_half_faces(const HalfFaces& halves, Index n_points) {
       Index end = i + 1;
       while (end < bucket_start[p + 1] && equal(bucketed[i], bucketed[end])) ++end;
       if (end - i > 2)
-        throw InputError(fmt::format("{} cells share one face, where two can; among them the cells {}, {} and {}",
+        throw InputError(fmt::format("{} cells share one face, at most two may; among them are cells {}, {} and {}",
                                      end - i, halves.cell[bucketed[i]], halves.cell[bucketed[i + 1]],
                                      halves.cell[bucketed[i + 2]]));
       pairs.push_back({bucketed[i], end - i == 2 ? bucketed[i + 1] : -1});

@@ -64,7 +64,7 @@ FlatSurface disc(const Vector& centre, const Vector& normal, double radius) {
 FlatSurface strip(const Vector& from, const Vector& to, const Vector& front) {
   const Vector along = front.normalized(), line = to - from, across = line - along.dot(line) * along;
   if (!(across.norm() > rounding * line.norm()))
-    throw InputError("the two points are one, or one above the other along the front: they make no surface");
+    throw InputError("the two points coincide, or one lies above the other along the front: they span no surface");
   return {.point = from, .normal = along.cross(across).normalized(), .has_foot = [from, across](const Vector& x) {
             const double at = across.dot(x - from) / across.squaredNorm();
             return at >= 0.0 && at <= 1.0;
@@ -76,7 +76,7 @@ FlatSurface polygon(const std::vector<Vector>& corners) {
   const Vector area = area_of(corners), normal = area.normalized();
   double size = 0.0;
   for (const Vector& x : corners) size = std::max(size, (x - corners[0]).norm());
-  if (!(area.norm() > rounding * size * size)) throw InputError("the corners are on a line: they make no surface");
+  if (!(area.norm() > rounding * size * size)) throw InputError("the corners are collinear: they span no surface");
   for (const Vector& x : corners)
     if (const double off = std::abs(normal.dot(x - corners[0])); off > rounding * size)
       throw InputError(fmt::format("the corner ({:.6g}, {:.6g}, {:.6g}) m is {:.3g} m off the plane of the others",

@@ -57,21 +57,22 @@ class GmshReader {
   using Entity = std::pair<int, int>;  // dimension and number
 
   InputError partitioned() const {
-    return in_.error_in_file("it is cut into partitions; save it in one part, as with Gmsh's \"Unpartition\"");
+    return in_.error_in_file("it is partitioned; save it in one part, as with Gmsh's \"Unpartition\"");
   }
 
   void read_format() {
-    if (in_.next_section() != "MeshFormat") throw in_.error_in_file("it does not begin with $MeshFormat: no Gmsh file");
+    if (in_.next_section() != "MeshFormat")
+      throw in_.error_in_file("it does not begin with $MeshFormat: not a Gmsh file");
     version_ = in_.real_as_text();
     const int is_binary = in_.integer_as_text(), size = in_.integer_as_text();
     if (version_ != 4.1 && version_ != 2.2)
       throw in_.error_in_file(fmt::format(
-          "it is of Gmsh's format {:g}; there can be 4.1 and 2.2 (gmsh -format msh41 or -format msh22)", version_));
-    if (size != 8) throw in_.error_in_file(fmt::format("its numbers have {} bytes; there can be 8", size));
+          "it is of Gmsh's format {:g}; supported are 4.1 and 2.2 (gmsh -format msh41 or -format msh22)", version_));
+    if (size != 8) throw in_.error_in_file(fmt::format("its numbers have {} bytes; supported are 8", size));
     if (is_binary != 0) {
       in_.end_line();
       in_.set_binary(true);
-      if (in_.integer() != 1) throw in_.error_in_file("its binary numbers are of a machine of another byte order");
+      if (in_.integer() != 1) throw in_.error_in_file("its binary numbers have the opposite byte order");
     }
     in_.end_section();
   }
@@ -103,7 +104,7 @@ class GmshReader {
   void put_in_group(const Entity& entity, int group) {
     const auto [place, is_new] = group_of_entity_.emplace(entity, group);
     if (!is_new && place->second != group && entity.first >= 2)
-      throw in_.error_in_file(fmt::format("its {} {} is in {} and in {}; it can be in one physical group",
+      throw in_.error_in_file(fmt::format("its {} {} is in {} and in {}; it may be in one physical group only",
                                           entity.first == 3 ? "volume" : "surface", entity.second,
                                           called(entity.first, place->second), called(entity.first, group)));
   }
@@ -118,7 +119,7 @@ class GmshReader {
     if (file_.points.size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max()))
       throw in_.error_in_file("it has too many nodes to number");
     if (!node_.emplace(number, static_cast<Index>(file_.points.size())).second)
-      throw in_.error(fmt::format("the node {} is there twice", number));
+      throw in_.error(fmt::format("node {} is listed twice", number));
     file_.points.push_back(x);
   }
 
@@ -153,11 +154,11 @@ class GmshReader {
   const ElementType& type_of(int gmsh, std::uint64_t element) const {
     const auto* const found = std::ranges::find(element_types, gmsh, &ElementType::gmsh);
     if (found == std::end(element_types))
-      throw in_.error(fmt::format(
-          "the element {} is of Gmsh's type {}; there can be points (15), lines (1), triangles (2), "
-          "quadrilaterals (3), tetrahedra (4), hexahedra (5), prisms (6) and pyramids (7), none of second or "
-          "higher order (Mesh.ElementOrder = 1)",
-          element, gmsh));
+      throw in_.error(
+          fmt::format("the element {} is of Gmsh's type {}; supported are points (15), lines (1), triangles (2), "
+                      "quadrilaterals (3), tetrahedra (4), hexahedra (5), prisms (6) and pyramids (7), none of second "
+                      "or higher order (Mesh.ElementOrder = 1)",
+                      element, gmsh));
     return *found;
   }
 
@@ -168,7 +169,7 @@ class GmshReader {
       const std::uint64_t node = read_node();
       const auto found = node_.find(node);
       if (found == node_.end())
-        throw in_.error(fmt::format("the element {} has the node {}, which is not there", number, node));
+        throw in_.error(fmt::format("element {} refers to node {}, which does not exist", number, node));
       file_.cell_points.push_back(found->second);
     }
     file_.cell_type.push_back(type.vtk);
@@ -188,7 +189,7 @@ class GmshReader {
     const Index group = physical_.back(), other = physical_[as_size(place->second)];
     if (!is_new && other != group)
       throw in_.error_in_file(
-          fmt::format("its {} element {} is in {} and, as {}, in {}; it can be in one physical group",
+          fmt::format("its {} element {} is in {} and, as {}, in {}; it may be in one physical group only",
                       dimension == 3 ? "volume" : "surface", file_.cell_number[as_size(place->second)],
                       called(dimension, other), file_.cell_number.back(), called(dimension, group)));
   }

@@ -53,7 +53,7 @@ std::string GmshStream::next_section() {
   section_.clear();
   skip_space();
   if (at_ == content_.size()) return "";
-  if (content_[at_] != '$') throw error("a section is due, as $Nodes");
+  if (content_[at_] != '$') throw error("expected a section, as $Nodes");
   const std::size_t begin = ++at_;
   while (at_ < content_.size() && !is_space(content_[at_])) ++at_;
   section_ = content_.substr(begin, at_ - begin);
@@ -66,7 +66,7 @@ void GmshStream::end_section(bool skips) {
   skip_space();
   const std::size_t end = content_.find(mark, at_);
   if (end == std::string::npos) throw ends_early();
-  if (end != at_ && !skips) throw error(fmt::format("{} is due", mark));
+  if (end != at_ && !skips) throw error(fmt::format("expected {}", mark));
   at_ = end + mark.size();
 }
 
@@ -79,7 +79,7 @@ std::string GmshStream::quoted() {
   skip_space();
   const std::size_t end = at_ < content_.size() ? content_.find('"', at_ + 1) : std::string::npos;
   if (end == std::string::npos) throw ends_early();
-  if (content_[at_] != '"') throw error("a name in quotes is due");
+  if (content_[at_] != '"') throw error("expected a name in quotes");
   const std::string name = content_.substr(at_ + 1, end - at_ - 1);
   at_ = end + 1;
   return name;
@@ -104,7 +104,7 @@ T GmshStream::parse(std::string_view what) {
   if (status != std::errc() || (next != end && !is_space(*next))) {
     const std::size_t rest = std::min<std::size_t>(20, content_.size() - at_);
     const std::string_view found = std::string_view(content_).substr(at_, rest);
-    throw error(fmt::format("{} is due and \"{}\" stands there", what, found.substr(0, found.find_first_of(" \r\n"))));
+    throw error(fmt::format("expected {}, found \"{}\"", what, found.substr(0, found.find_first_of(" \r\n"))));
   }
   at_ = static_cast<std::size_t>(next - content_.data());
   return value;

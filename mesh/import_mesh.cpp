@@ -57,7 +57,7 @@ class Importer {
 
   Mesh import(void (*check)(const Mesh&) = nullptr) {
     if (!(settings_.scale > 0.0))
-      throw error(fmt::format("its unit of length is {:g} m, not positive", settings_.scale));
+      throw error(fmt::format("its unit of length is {:g} m; it must be positive", settings_.scale));
     region_numbers_ = region_numbers();
     name_regions();
     place_points();
@@ -93,7 +93,7 @@ class Importer {
     if (shape_of(type)) return true;
     if (type <= vtk_last_flat_type) return false;
     throw error(
-        fmt::format("its cell {} is of VTK's type {}; there can be tetrahedra (10), voxels (11), hexahedra (12), "
+        fmt::format("its cell {} is of VTK's type {}; supported are tetrahedra (10), voxels (11), hexahedra (12), "
                     "wedges (13), pyramids (14) and polyhedra (42)",
                     number_of(cell), type));
   }
@@ -103,7 +103,7 @@ class Importer {
     if (found != file_.integer_arrays.end()) return found->second;
     std::vector<std::string> names;
     for (const auto& entry : file_.integer_arrays) names.push_back(entry.first);
-    throw error(fmt::format("it has no cell array \"{}\" of whole numbers; there are: {}", name,
+    throw error(fmt::format("it has no cell array \"{}\" of whole numbers; available: {}", name,
                             names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
   }
 
@@ -121,7 +121,7 @@ class Importer {
       if (is_volume(c)) numbers.insert(region_numbers_[c]);
     for (const auto& [number, name] : settings_.region_names)
       if (!numbers.contains(number))
-        throw error(fmt::format("no cell has the number {} of region \"{}\"; there are: {}", number, name,
+        throw error(fmt::format("no cell has the number {} of region \"{}\"; available: {}", number, name,
                                 fmt::join(numbers, ", ")));
     std::map<Index, std::string> names = settings_.region_names;
     names.insert(file_.region_names.begin(), file_.region_names.end());
@@ -208,7 +208,7 @@ class Importer {
 
   FaceSets face_sets() const {
     const std::vector<Index> numbers = settings_.face_array.empty() ? region_numbers_ : array(settings_.face_array);
-    if (numbers.empty()) throw error("it has no cell array that could tell its face sets");
+    if (numbers.empty()) throw error("it has no cell array that numbers its face sets");
     FaceSets sets;
     std::set<Index> found;
     for (Index c = 0; c < n_cells(); ++c) {
@@ -221,7 +221,7 @@ class Importer {
     for (const auto& [number, name] : settings_.face_sets)
       if (!found.contains(number))
         throw error(
-            fmt::format("no triangle, quadrilateral or polygon has the number {} of patch \"{}\"; there are: {}",
+            fmt::format("no triangle, quadrilateral or polygon has the number {} of patch \"{}\"; available: {}",
                         number, name, found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", "))));
     return sets;
   }

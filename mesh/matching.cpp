@@ -73,8 +73,8 @@ void require_no_hanging_points(const Mesh& mesh) {
       if (a < b)
         if (const auto p = edges.hanging_point(a, b))
           throw InputError(fmt::format(
-              "cells do not match: the point at {} hangs in the edge from {} to {} of another cell; refined and coarse "
-              "cells must be joined by ones that share their faces",
+              "cells do not match: the point at {} is a hanging node on the edge from {} to {} of another cell; "
+              "refined and coarse cells must be joined by cells that share their faces",
               place(mesh.points[as_size(*p)]), place(mesh.points[as_size(a)]), place(mesh.points[as_size(b)])));
 }
 
@@ -95,8 +95,8 @@ void require_no_split_quadrilaterals(const Mesh& mesh) {
       std::ranges::sort(key);
       if (triangles.contains(key))
         throw InputError(
-            fmt::format("cells do not match: a triangle lies on the quadrilateral at {}; between hexahedra or prisms "
-                        "and tetrahedra pyramids are due",
+            fmt::format("cells do not match: a triangle lies on the quadrilateral at {}; hexahedra or prisms must be "
+                        "joined to tetrahedra by pyramids",
                         place(mesh.face_centre[f])));
     }
   }

@@ -5,8 +5,8 @@
 
 namespace pfdm {
 
-/// Throws InputError that says where a point of some boundary faces hangs in the edge of another, or where two
-/// triangles lie on a quadrilateral. Both sides of a crack may be meshed unlike, but for edges from tip to tip.
+/// Throws InputError that says where a point of some boundary faces is a hanging node on the edge of another, or where
+/// two triangles lie on a quadrilateral. Both sides of a crack may be meshed unlike, but for edges from tip to tip.
 void require_matching_cells(const Mesh& mesh);
 
 }  // namespace pfdm

@@ -26,8 +26,9 @@ void check_soup(const CellSoup& soup) {
   const auto in_range = [](const std::vector<Index>& list, std::size_t size) {
     return std::ranges::all_of(list, [size](Index i) { return i >= 0 && static_cast<std::size_t>(i) < size; });
   };
-  if (!in_range(soup.cell_points, soup.points.size())) throw InputError("a cell names a point that is not there");
-  if (!in_range(soup.region, soup.region_names.size())) throw InputError("a cell names a region that is not there");
+  if (!in_range(soup.cell_points, soup.points.size())) throw InputError("a cell refers to a point that does not exist");
+  if (!in_range(soup.region, soup.region_names.size()))
+    throw InputError("a cell refers to a region that does not exist");
   if (!std::ranges::all_of(soup.points, [](const Vector& x) { return x.allFinite(); }))
     throw InputError("a point of the mesh has a coordinate that is not a number");
 }
@@ -155,13 +156,13 @@ const Patch& Mesh::patch(const std::string& name) const {
   if (found != patches.end()) return *found;
   std::vector<std::string> names;
   for (const Patch& p : patches) names.push_back(p.name);
-  throw InputError(fmt::format("no patch is called \"{}\"; there are: {}", name, fmt::join(names, ", ")));
+  throw InputError(fmt::format("unknown patch \"{}\"; available: {}", name, fmt::join(names, ", ")));
 }
 
 Index Mesh::region_index(const std::string& name) const {
   const auto found = std::ranges::find(region_names, name);
   if (found != region_names.end()) return static_cast<Index>(found - region_names.begin());
-  throw InputError(fmt::format("no region is called \"{}\"; there are: {}", name, fmt::join(region_names, ", ")));
+  throw InputError(fmt::format("unknown region \"{}\"; available: {}", name, fmt::join(region_names, ", ")));
 }
 
 void CellSoup::add_cell(CellShape cell_shape, std::span<const Index> ids, Index cell_region) {

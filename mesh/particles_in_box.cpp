@@ -24,13 +24,13 @@ std::string describe_particle(const ParticlesInBoxSettings& settings, std::size_
 }
 
 void check_positive(const std::string& what, double value) {
-  if (!(value > 0.0)) throw InputError(fmt::format("{} is {:g}, where a positive number is due", what, value));
+  if (!(value > 0.0)) throw InputError(fmt::format("{} is {:g}; it must be positive", what, value));
 }
 
 void check_particle(const ParticlesInBoxSettings& settings, std::size_t i) {
   const Particle& p = settings.particles[i];
   const std::string name = describe_particle(settings, i);
-  if (!p.centre.allFinite()) throw InputError(name + " has no place");
+  if (!p.centre.allFinite()) throw InputError(name + " has a centre that is not finite");
   check_positive("the radius of " + name, p.radius);
   if (p.surface_size != 0.0 && p.subdivision != 0)
     throw InputError(fmt::format("{} has both a surface size ({:g} m) and a subdivision ({}); give one", name,
@@ -67,7 +67,7 @@ void check_settings(const ParticlesInBoxSettings& settings) {
   check_positive("the largest cell size inside particles over that on their surface", settings.particle_size_factor);
   check_positive("the largest radius-edge ratio", settings.max_radius_edge_ratio);
   if (!(settings.grading >= 0.0))
-    throw InputError(fmt::format("the grading is {:g}, where a number from 0 is due", settings.grading));
+    throw InputError(fmt::format("the grading is {:g}; it must be zero or positive", settings.grading));
   if (settings.boundary_size != 0.0) check_positive("the cell size on the box's surface [m]", settings.boundary_size);
   if (settings.particles.empty() && !std::isfinite(settings.size_far))
     throw InputError("a box without particles needs a cell size (size_far)");

@@ -26,8 +26,8 @@ void append(CgalMesh& mesh, const NamedSurface& named) {
   for (const Triangle& t : named.surface.triangles)
     if (mesh.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2])) == CgalMesh::null_face())
       throw InputError(
-          fmt::format("the surface of {} is not a surface: the triangle on its points {}, {} and {} cannot be "
-                      "joined to the others in one sense of rotation",
+          fmt::format("the surface of {} is not an orientable manifold: the triangle on its points {}, {} and {} "
+                      "cannot be joined to the others in one sense of rotation",
                       named.name, t[0], t[1], t[2]));
 }
 
@@ -59,8 +59,8 @@ void check_surfaces(const std::vector<NamedSurface>& surfaces) {
   std::vector<std::pair<CgalMesh::Face_index, CgalMesh::Face_index>> crossings;
   PMP::self_intersections(all, std::back_inserter(crossings));
   const auto& [a, b] = crossings.at(0);
-  throw InputError(fmt::format("the surfaces of {} and {} cross in {} pairs of triangles", surface_of_face(surfaces, a),
-                               surface_of_face(surfaces, b), crossings.size()));
+  throw InputError(fmt::format("the surfaces of {} and {} intersect in {} pairs of triangles",
+                               surface_of_face(surfaces, a), surface_of_face(surfaces, b), crossings.size()));
 }
 
 }  // namespace pfdm

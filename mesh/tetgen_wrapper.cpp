@@ -90,7 +90,7 @@ void fill_holes_and_seeds(tetgenio& in, const TetgenInput& input, const Scaling&
 [[noreturn]] void throw_tetgen_error(int code) {
   switch (code) {
     case 1: throw ComputationError("TetGen ran out of memory");
-    case 3: throw InputError("TetGen: two surfaces of the mesh cross each other");
+    case 3: throw InputError("TetGen: two surfaces of the mesh intersect");
     case 4:
     case 5: throw InputError("TetGen: surfaces of the mesh come too close to each other to fill the gap between them");
     case 10: throw InputError("TetGen refuses the surfaces of the mesh");

@@ -82,7 +82,7 @@ const double unit_size = std::sqrt(4.0 / std::numbers::sqrt3 * std::numbers::pi 
 }  // namespace
 
 TriangleSurface unit_icosphere(Index n) {
-  if (n < 1) throw InputError(fmt::format("a sphere's surface is subdivided {}-fold, where at least 1 is due", n));
+  if (n < 1) throw InputError(fmt::format("the subdivision of a sphere's surface is {}; it must be at least 1", n));
   Subdivision subdivision(n);
   for (const Triangle& side : icosahedron_sides) subdivision.add_side(side);
   return subdivision.take();

@@ -35,8 +35,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_with(const std::filesystem::path& path
   reader->Update();
   vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
   if (!caught.none() || !grid)
-    throw InputError(
-        fmt::format("cannot read the mesh {}: {}", path.string(), caught.none() ? "it holds no grid" : caught.first()));
+    throw InputError(fmt::format("cannot read the mesh {}: {}", path.string(),
+                                 caught.none() ? "it contains no grid" : caught.first()));
   return grid;
 }
 
@@ -54,7 +54,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path
 Index point_number(vtkUnstructuredGrid& grid, vtkIdType id, vtkIdType cell) {
   if (id < 0 || id >= grid.GetNumberOfPoints())
     throw InputError(
-        fmt::format("its cell {} has the point {}, and there are {} points", cell, id, grid.GetNumberOfPoints()));
+        fmt::format("its cell {} refers to point {}; the mesh has {} points", cell, id, grid.GetNumberOfPoints()));
   return static_cast<Index>(id);
 }
 
@@ -64,7 +64,7 @@ std::vector<Index> face_stream(vtkUnstructuredGrid& grid, vtkIdType cell) {
   vtkIdTypeArray* locations = grid.GetFaceLocations();
   const auto value = [&](vtkIdTypeArray* array, vtkIdType at) {
     if (!array || at < 0 || at >= array->GetNumberOfValues())
-      throw InputError(fmt::format("the faces of its polyhedron {} are not all there", cell));
+      throw InputError(fmt::format("the faces of its polyhedron {} are incomplete", cell));
     return array->GetValue(at);
   };
   vtkIdType at = value(locations, cell);
@@ -80,7 +80,7 @@ std::vector<Index> face_stream(vtkUnstructuredGrid& grid, vtkIdType cell) {
 
 void copy_cells(MeshFile& file, vtkUnstructuredGrid& grid) {
   if (grid.GetNumberOfCells() > 0 && !grid.GetCells()->IsValid())
-    throw InputError("its cells name more points than their list holds");
+    throw InputError("its cells refer beyond the end of their list of points");
   for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
     vtkIdType n = 0;
     const vtkIdType* ids = nullptr;

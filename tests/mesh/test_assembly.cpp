@@ -157,7 +157,7 @@ TEST(Assembly, BadCellsAreRefused) {
 
   CellSoup stray = unit_cube_points();
   add(stray, CellShape::tetrahedron, {0, 1, 3, 99});
-  EXPECT_THAT(message_of<InputError>([&] { assemble_mesh(stray, {}); }), HasSubstr("point that is not there"));
+  EXPECT_THAT(message_of<InputError>([&] { assemble_mesh(stray, {}); }), HasSubstr("point that does not exist"));
 
   EXPECT_THAT(message_of<InputError>([&] { assemble_mesh(unit_cube_points(), {}); }), HasSubstr("no cells"));
 }

@@ -114,8 +114,8 @@ TEST(BoxHexes, BadSlitsAreRefused) {
   const auto message = [](const Vector& lower, const Vector& upper) {
     return message_of<InputError>([&] { make_box_hexes(slit_block(lower, upper)); });
   };
-  EXPECT_THAT(message({0, 1.9, 0}, {2, 1.9, 2}), HasSubstr("y = 1.9 m is no plane of the grid"));
-  EXPECT_THAT(message({0, 2, 0}, {1.5, 2, 2}), HasSubstr("x = 1.5 m is no plane of the grid"));
+  EXPECT_THAT(message({0, 1.9, 0}, {2, 1.9, 2}), HasSubstr("y = 1.9 m is not a plane of the grid"));
+  EXPECT_THAT(message({0, 2, 0}, {1.5, 2, 2}), HasSubstr("x = 1.5 m is not a plane of the grid"));
   EXPECT_THAT(message({0, 1, 0}, {2, 2, 2}), HasSubstr("exactly one axis"));
   EXPECT_THAT(message({2, 2, 0}, {0, 2, 2}), HasSubstr("above its upper one along x"));
   EXPECT_THAT(message({0, 0, 0}, {2, 0, 2}), HasSubstr("surface of the box"));
