@@ -148,8 +148,8 @@ Attempt minimise(const ScaledModel& model, const Eigen::VectorXd& u, const std::
   return attempt;
 }
 
-/// Ceres cuts steps off at the bounds, which stalls where parameters are correlated. Parameters that have come to a
-/// bound are therefore held there while the others go on, and let go again if the sum of squares would fall inwards.
+/// Ceres truncates steps at the bounds, which stalls where parameters are correlated. Parameters that have reached a
+/// bound are therefore held there while the others continue, and released if the sum of squares decreases inwards.
 Attempt minimise(const ScaledModel& model, const Eigen::VectorXd& start, const FitSettings& settings) {
   std::vector<bool> held(model.n_parameters(), false);
   Attempt attempt = minimise(model, start, held, settings);
@@ -181,10 +181,7 @@ void check(const FitProblem& problem) {
       throw InputError(
           fmt::format("parameter {}: on a logarithmic scale the first guess {} must be positive", p.name, p.first));
     if (p.prior && !problem.noise_is_known)
-      throw InputError(
-          fmt::format("parameter {}: a prior can be weighed against the data only if the noise of the "
-                      "data is known",
-                      p.name));
+      throw InputError(fmt::format("parameter {}: a prior requires the noise of the data to be known", p.name));
     if (p.prior && !(p.prior->standard_deviation > 0.0))
       throw InputError(fmt::format("parameter {}: the standard deviation of its prior must be positive", p.name));
   }
@@ -200,7 +197,7 @@ std::vector<double> FitResult::values() const {
 
 FitResult fit(const FitProblem& problem, const FitSettings& settings) {
   check(problem);
-  FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres would tell of every step that the model could not follow
+  FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres would report every step at which the model fails
   ScaledModel model(problem, settings);
   FitResult result;
   Attempt best;
@@ -213,7 +210,9 @@ FitResult fit(const FitProblem& problem, const FitSettings& settings) {
   }
   if (!std::isfinite(best.cost)) throw ComputationError(fmt::format("the fit found no solution: {}", best.message));
   if (model.n_residuals() < model.n_parameters())
-    throw InputError(fmt::format("{} residuals cannot tell {} parameters", model.n_residuals(), model.n_parameters()));
+    throw InputError(fmt::format(
+        "{} residuals cannot determine {} parameters; at least as many residuals as parameters are required",
+        model.n_residuals(), model.n_parameters()));
   result.converged = best.converged;
   result.message = best.message;
   result.path = std::move(best.path);

@@ -1,7 +1,7 @@
 #pragma once
 // Least squares: the parameters of any model with which it meets data. The model is a function from parameters to
 // residuals; the estimates come with confidence intervals, correlations, and the names of parameters that the data
-// cannot tell. The only place that knows Ceres (calibration.cpp).
+// do not determine. Ceres is used in calibration.cpp only.
 
 #include <cstdint>
 #include <functional>
@@ -80,7 +80,7 @@ struct FitSettings {
 
 struct FitEstimate {
   double value = 0.0;
-  double standard_error = 0.0;  ///< infinite if the data cannot see the parameter
+  double standard_error = 0.0;  ///< infinite if the data do not determine the parameter
   double lower_95 = 0.0, upper_95 = 0.0;
   bool at_bound = false;
 };

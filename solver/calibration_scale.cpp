@@ -74,7 +74,7 @@ std::optional<std::vector<double>> ScaledModel::residuals(const Eigen::VectorXd&
     if (!std::isfinite(value)) return std::nullopt;
   const std::size_t before = n_residuals_.exchange(r->size());
   if (before != 0 && before != r->size())
-    throw ComputationError(fmt::format("the model gave {} residuals, then {}", before, r->size()));
+    throw ComputationError(fmt::format("the number of the model's residuals changed from {} to {}", before, r->size()));
   for (std::size_t j = 0; j < n_parameters(); ++j)
     if (const auto& prior = problem_.parameters[j].prior)
       r->push_back((u[static_cast<Eigen::Index>(j)] - scaled(j, prior->mean)) * scale_[j] / prior->standard_deviation);

@@ -30,17 +30,19 @@ std::vector<std::size_t> visible_parameters(const ScaledModel& model, const Eige
   for (std::size_t j = 0; j < model.n_parameters(); ++j) {
     const std::string& name = model.problem().parameters[j].name;
     if (!(J.col(static_cast<Eigen::Index>(j)).norm() > unseen * largest))
-      result.warnings.push_back(fmt::format("the data cannot see {}: it has no influence on the residuals", name));
+      result.warnings.push_back(
+          fmt::format("the data do not determine {}: it has no influence on the residuals", name));
     else if (result.estimates[j].at_bound)
-      result.warnings.push_back(fmt::format("{} is at its bound; the intervals of the others take it as given", name));
+      result.warnings.push_back(
+          fmt::format("{} is at its bound; the intervals of the others are conditional on it", name));
     else
       visible.push_back(j);
   }
   return visible;
 }
 
-/// (J^T J)^-1 of the visible columns by singular values of the normalised columns; directions that the data cannot tell
-/// are left out and named, their parameters marked.
+/// (J^T J)^-1 of the visible columns by singular values of the normalised columns; directions that the data do not
+/// determine are left out and named, their parameters marked.
 Eigen::MatrixXd inverse_normal(const ScaledModel& model, const Eigen::MatrixXd& J,
                                const std::vector<std::size_t>& visible, std::vector<bool>& undetermined,
                                FitResult& result) {
@@ -66,8 +68,8 @@ Eigen::MatrixXd inverse_normal(const ScaledModel& model, const Eigen::MatrixXd& 
         together.push_back(visible[static_cast<std::size_t>(i)]);
         undetermined[visible[static_cast<std::size_t>(i)]] = true;
       }
-    result.warnings.push_back(fmt::format("the data cannot tell {} from each other: only a combination of them matters",
-                                          fmt::join(names_of(model, together), ", ")));
+    result.warnings.push_back(
+        fmt::format("the data determine only a combination of {}", fmt::join(names_of(model, together), ", ")));
   }
   return size.cwiseInverse().asDiagonal() * inverse * size.cwiseInverse().asDiagonal();
 }
@@ -86,7 +88,7 @@ void warn_of_poor_estimates(const ScaledModel& model, FitResult& result) {
   for (std::size_t j = 0; j < model.n_parameters(); ++j) {
     const FitEstimate& e = result.estimates[j];
     if (std::isfinite(e.standard_error) && e.standard_error > std::abs(e.value))
-      result.warnings.push_back(fmt::format("{} is hardly determined: standard error {:.3g} of the estimate {:.3g}",
+      result.warnings.push_back(fmt::format("{} is poorly determined: standard error {:.3g} of the estimate {:.3g}",
                                             model.problem().parameters[j].name, e.standard_error, e.value));
     for (std::size_t i = 0; i < j; ++i) {
       const double r = result.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
@@ -117,7 +119,7 @@ double student_95(double degrees_of_freedom) {
 void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result) {
   const auto r = model.residuals(u);
   const auto J = model.jacobian(u);
-  if (!r || !J) throw ComputationError("the model does not converge at the parameters that the fit ended with");
+  if (!r || !J) throw ComputationError("the model does not converge at the fitted parameters");
   const std::size_t n = model.n_residuals(), k = model.n_parameters();
   result.residuals.assign(r->begin(), r->begin() + static_cast<std::ptrdiff_t>(n));
   for (const double value : result.residuals) result.sum_of_squares += value * value;

@@ -1,5 +1,5 @@
 #pragma once
-// What the Jacobian at the end of a fit tells about its estimates.
+// Statistics of a fit's estimates from the Jacobian at its end.
 
 #include "solver/calibration_scale.h"
 

@@ -9,7 +9,8 @@
 namespace pfdm {
 namespace {
 
-// Of a cell that swings; it recovers slowly, as the broken ones between two loose halves would swing again at once.
+// Step of a cell whose strain oscillates. It recovers slowly: broken cells between two loose halves would oscillate
+// again at once.
 constexpr float least_share = 1.0F / 256.0F, recovery = 1.05F;
 
 }  // namespace
@@ -136,8 +137,8 @@ double CellStiffness::follow(const CellField<Tensor>& strain, FractureState& sta
   });
 }
 
-// The closure follows the strain with steps that shorten at each turn: at once, cells at the edge of a crack would open
-// and close in turn for ever.
+// The closure follows the strain with steps that shorten at each reversal. With full steps, cells at the edge of a
+// crack would open and close alternately without converging.
 double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, double d, double& closure) {
   const double lag = model_.split->closure(strain) - closure;
   if (lag == 0.0) return 0.0;
@@ -146,7 +147,7 @@ double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, doub
                        energy_density(model_.split->secant(elasticity(cell), g, closure), strain);
   if (lag * closing_[cell] < 0.0) ++turns_[cell];
   closing_[cell] = static_cast<float>(lag);
-  // What is kept of the stiffness ranges from g to 1: over decades, so the steps are those of its logarithm.
+  // The kept fraction of the stiffness ranges from g to 1, over decades: steps are taken in its logarithm.
   const double step = 1.0 / (1.0 + turns_[cell]);
   const double kept = g + closure * (1.0 - g), wanted = lag > 0.0 ? 1.0 : g;
   const double next = std::pow(kept, 1.0 - step) * std::pow(wanted, step);
@@ -155,7 +156,7 @@ double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, doub
   return mesh_.cell_volume[cell] * std::abs(wrong);
 }
 
-// Newton's step, of which a cell whose strain swings takes the smaller a share the more often it turns.
+// Newton's step; a cell whose strain oscillates takes a fraction of it that decreases with each reversal.
 double CellStiffness::follow_with_tangent(Index cell, const Tensor& strain, double d, Tensor& tangent_strain) {
   const double g = factor(cell, d);
   if (g == 1.0) return 0.0;

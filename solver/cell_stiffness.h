@@ -15,21 +15,21 @@ class CellStiffness {
  public:
   CellStiffness(const Mesh& mesh, const FractureModel& model);
 
-  /// At the beginning of a load step, which takes `duration` [s]: forgets in what manner the strains moved in the one
-  /// before.
+  /// At the beginning of a load step, which takes `duration` [s]: clears the memory of how the strains moved in the
+  /// previous one.
   void start_step(double duration);
   /// Gives the momentum balance the stiffness that belongs to the damage, closure and tangent strain of the state.
   void set(const FractureState& state, MomentumSolver& momentum) const;
-  /// The same cells of a part of the mesh: in what manner their strains have moved within the step; and back.
+  /// Copies the memory of how the strains have moved within the step to the cells of a part of the mesh; and back.
   void take_out_memory(const CellStiffness& whole, const std::vector<Index>& cells);
   void put_back_memory(const CellStiffness& part, const std::vector<Index>& cells);
   /// From now on the stiffness of cells whose entry is not zero does not follow the strain; empty for none.
   void hold(CellField<char> held) { held_ = std::move(held); }
-  /// Has the closure or the tangent strain of the state follow these strains. Returns the energy [J] by which the
-  /// stiffness that was used falsifies them.
+  /// Has the closure or the tangent strain of the state follow these strains. Returns the energy error [J]
+  /// of the stiffness that was used.
   double follow(const CellField<Tensor>& strain, FractureState& state);
-  /// Takes the cells with a history from `start` to these strains. Returns the energy [J] by which the stress that was
-  /// used falsifies them; NaN where a material's step cannot be solved.
+  /// Takes the cells with a history from `start` to these strains. Returns the energy error [J] of the stress that
+  /// was used; NaN where a material's step cannot be solved.
   double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state);
 
   /// psi_plus [J/m^3] of a cell at this strain; with a history, at that of the state.
@@ -39,7 +39,7 @@ class CellStiffness {
   /// The part of what all cells store [J] that the residual stiffness alone has, at these strains
   /// (residual_stiffness.h).
   double residual_energy(const CellField<Tensor>& strain, const FractureState& state) const;
-  /// Heat [J] from one state to the other.
+  /// Energy dissipated plastically [J] from one state to the other.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   const EndochronicCells& endochronic() const { return endochronic_; }
 
@@ -55,10 +55,10 @@ class CellStiffness {
   const FractureModel& model_;
   EndochronicCells endochronic_;
   CellField<char> held_;
-  CellField<float> closing_;  // per cell: last move of the closure, and
-  CellField<Index> turns_;    // how often it has turned within the step
-  CellField<Tensor> move_;    // last move of the tangent strain, and
-  CellField<float> share_;    // the part of it that the cell may take
+  CellField<float> closing_;  // per cell: last change of the closure, and
+  CellField<Index> turns_;    // number of its reversals within the step
+  CellField<Tensor> move_;    // last change of the tangent strain, and
+  CellField<float> share_;    // the fraction of it that the cell may take
 };
 
 }  // namespace pfdm

@@ -10,7 +10,7 @@
 namespace pfdm {
 namespace {
 
-// Cells whose damage gradient may look at each other: those with equal conductance, so that no kink lies between.
+// Cells that may enter each other's damage gradient: those of equal conductance, so that no kink lies between them.
 CellField<Index> smooth_zones(const Mesh& mesh, const FractureModel& model) {
   std::map<std::pair<double, bool>, Index> number;
   CellField<Index> zone(as_size(mesh.n_cells()));

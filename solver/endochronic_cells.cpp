@@ -39,8 +39,8 @@ LinearStress EndochronicCells::linearised(Index cell, const EndochronicState& st
   return {T, stress(*law_[cell], state) - T * state.strain};
 }
 
-// The terms of the kernel are sheared, so that no split keeps their energy. A split that is not variational says itself
-// what drives.
+// The terms of the kernel are deviatoric: no split keeps their energy. A split that is not variational defines its own
+// driving energy.
 double EndochronicCells::driving_energy(Index cell, const EndochronicState& state) const {
   const EndochronicLaw& law = *law_[cell];
   const double psi = model_.split->energy(law.elasticity, to_tensor(state.strain - state.plastic_strain)).psi_plus;

@@ -1,14 +1,14 @@
 #pragma once
 // The cells of a mesh whose material is endochronic (physics/endochronic.h). Damage degrades their effective stress
-// sigma_0(eps, history), which knows nothing of it: sigma = g sigma_0, and what the energy split keeps of compression,
-// which is elastic, comes on top. Damage is driven by what the effective material stores, psi_plus of the elastic
-// strain and the energy of the kernel's terms; so work = stored energy + surface energy + g times the effective
-// material's heat.
+// sigma_0(eps, history), which does not depend on damage: sigma = g sigma_0, plus the elastic stress that the energy
+// split keeps in compression. Damage is driven by the energy that the effective material stores, psi_plus of the
+// elastic strain and the energy of the kernel's terms; so work = stored energy + surface energy + g times the plastic
+// dissipation of the effective material.
 //
 // Within a load step each equilibrium is linear, with the stress linearised at the last strain eps_k by the consistent
-// tangent T: sigma_0 = sigma_0(eps_k) + T (eps - eps_k). The first of a step is elastic, as a load may turn back. The
-// strain is the one whose stress the faces see, reconstructed by least squares: with any other, what the solves
-// converge to would depend on T, which turns with the direction of the increment, and they would not converge.
+// tangent T: sigma_0 = sigma_0(eps_k) + T (eps - eps_k). The first of a step is elastic, as the load may reverse. The
+// strain is the least-squares one, which also enters the tractions of the faces: with any other, the converged solution
+// would depend on T, which changes with the direction of the increment, and the iteration would not converge.
 
 #include "mesh/mesh.h"
 #include "physics/linear_stress.h"
@@ -26,15 +26,15 @@ class EndochronicCells {
 
   /// At the beginning of a load step, which takes `duration` [s].
   void start_step(double duration);
-  /// Takes a cell from its state at the start of the step to this strain. Returns the energy density [J/m^3] by which
-  /// the linearised stress of before falsifies its energy; NaN if the material's step cannot be solved.
+  /// Takes a cell from its state at the start of the step to this strain. Returns the error [J/m^3] of its energy
+  /// density with the previous linearised stress; NaN if the material's step cannot be solved.
   double advance(Index cell, const Tensor& strain, const EndochronicState& from, EndochronicState& to);
   /// The undamaged stress about the cell's state.
   LinearStress linearised(Index cell, const EndochronicState& state) const;
 
   /// psi_plus [J/m^3]
   double driving_energy(Index cell, const EndochronicState& state) const;
-  /// What the terms of the kernel store in a cell that is degraded to g [J/m^3].
+  /// Energy density of the kernel's terms in a cell that is degraded to g [J/m^3].
   double kernel_energy(Index cell, const EndochronicState& state, double g) const {
     return g * pfdm::kernel_energy(*law_[cell], state);
   }

@@ -68,8 +68,7 @@ void set_limits(std::vector<FitParameter>& parameters, const std::vector<FitPara
 std::vector<FitParameter> fit_parameters(const EndochronicLaw& law, const FitChoice& choice) {
   std::vector<FitParameter> parameters;
   visit_parameters(law, choice, [&](std::string name, std::string_view unit, double value) {
-    if (!(value > 0.0))
-      throw InputError(fmt::format("parameter {}: its first guess {} must be positive to be estimated", name, value));
+    if (!(value > 0.0)) throw InputError(fmt::format("parameter {}: the first guess {} must be positive", name, value));
     parameters.push_back(positive(std::move(name), unit, value));
   });
   if (choice.young_modulus) parameters.push_back(positive("young_modulus", "Pa", law.elasticity.young_modulus()));

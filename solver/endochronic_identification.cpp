@@ -125,7 +125,7 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
     law = result.fit.law;
     const double now = rms_misfit(law, experiments, settings.control);
     result.rounds.push_back({after_hardening, now});
-    settings.say(fmt::format("round {}: rms misfit {:.6g} Pa after the hardening, {:.6g} Pa after the kernel",
+    settings.say(fmt::format("iteration {}: rms misfit {:.6g} Pa after the hardening, {:.6g} Pa after the kernel",
                              round + 1, after_hardening, now));
     if (std::abs(last - now) <= settings.round_tolerance * now) break;
     last = now;
@@ -135,9 +135,10 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
 
 constexpr IdentificationMethod table[] = {
     {"joint", "kernel and hardening at once by least squares", identify_joint},
-    {"kernel", "the kernel by least squares, the hardening as it is", identify_kernel},
-    {"hardening", "the hardening from the transient response, the kernel as it is", identify_hardening},
-    {"staggered", "hardening from the transient, then kernel by least squares, by turns", identify_staggered},
+    {"kernel", "the kernel by least squares, the hardening fixed", identify_kernel},
+    {"hardening", "the hardening from the transient response, the kernel fixed", identify_hardening},
+    {"staggered", "alternately the hardening from the transient response and the kernel by least squares",
+     identify_staggered},
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 // Ways to identify the endochronic law from experiments: kernel alone, hardening alone from the transient response, the
-// two by turns (the staggered scheme of AFRL-RW-EG-TR-2016-088, A5.2.3), and both at once by least squares.
+// two alternately (the staggered scheme of AFRL-RW-EG-TR-2016-088, A5.2.3), and both at once by least squares.
 
 #include "solver/endochronic_transient.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Everything that a fracture run is given besides its mesh: materials by region, boundary conditions, settings.
+// The input of a fracture run besides its mesh: materials by region, boundary conditions, settings.
 
 #include "mesh/mesh.h"
 #include "physics/crack_geometry.h"
@@ -59,7 +59,7 @@ struct StaggeredSettings {
   double energy_tolerance = 1e-4;       ///< change of the total energy over the energy
   double equilibrium_tolerance = 1e-6;  ///< row-scaled residual of the momentum balance at an accepted step, relative
   Index maximum_iterations = 500;
-  bool windows = false;  ///< between iterations the loop goes on around the cells that still change
+  bool windows = false;  ///< local sub-domain iterations around the cells that still change (window.h)
 };
 
 struct LoadingSettings {
@@ -67,16 +67,17 @@ struct LoadingSettings {
   double initial_increment = 0.05;  ///< of t
   double minimum_increment = 1e-5;
   double maximum_increment = 0.05;
-  /// Increments are chosen so that the damage of no cell grows by more than this within a step, down to the finest;
-  /// a step of the finest or less may break what it likes.
+  /// Increments are chosen so that the damage of no cell grows by more than this within a step. Steps of the finest
+  /// increment or less are not limited.
   double damage_growth = std::numeric_limits<double>::infinity();
   /// Likewise, so that no step's cracks release more of the energy, elastic at the step's load and fracture; relative.
   double energy_release = std::numeric_limits<double>::infinity();
   double finest_increment = 1e-3;  ///< of t
-  /// Surface energy that a step may dissipate [J], in proportion less while the increment is below its maximum: a load
-  /// that would dissipate more is lowered, also below that of the step before, so that snap-back is followed.
+  /// Dissipation control: surface energy that a step may dissipate [J], in proportion less while the increment is below
+  /// its maximum. A load that would dissipate more is lowered, also below that of the step before, so that the
+  /// snap-back branch is traced.
   double maximum_dissipation = std::numeric_limits<double>::infinity();
-  /// Time in which the load parameter grows by 1 [s]; needed by a viscosity and by materials that look at the rate.
+  /// Time in which the load parameter grows by 1 [s]; required by a viscosity and by rate-dependent materials.
   double duration = 0.0;
   std::vector<double> stops;  ///< values of t that a step must end on (frames)
 };

@@ -15,11 +15,11 @@
 namespace pfdm {
 namespace {
 
-constexpr Index easy_iterations = 12;  // a step that needs no more lets the increment grow
+constexpr Index easy_iterations = 12;  // after a step with at most these the increment grows
 constexpr double bearable_share =
-    0.5;  // of the most iterations: a step that needs no more lets a cut increment recover
+    0.5;  // of the most iterations: after a step with at most these a cut increment recovers
 constexpr double growth = 1.5, cut = 0.5;
-constexpr double aim = 0.7;              // of what a step may break
+constexpr double aim = 0.7;              // of the limits on damage growth and energy release
 constexpr double load_rounding = 1e-12;  // of the load parameter
 
 void require_complete(const Mesh& mesh, const FractureModel& model) {
@@ -72,7 +72,7 @@ struct FractureRun::Parts {
     relax_initial_damage();
   }
 
-  // Cracks begin with their own profile: that of the cells given as broken would have several times its energy.
+  // Cracks begin with the optimal profile: the cells given as broken would have several times its energy.
   void relax_initial_damage() {
     if (model.initial_damage.size() == 0) return;
     model.initial_damage = staggered.damage_equation().relaxed(model.initial_damage);
@@ -82,27 +82,31 @@ struct FractureRun::Parts {
   void require_windows(const FractureModel& m) const {
     if (std::isfinite(loading.maximum_dissipation))
       throw InputError(
-          "windows (solver.windows) cannot be had with a prescribed dissipation (loading.maximum_dissipation): the "
-          "load of a step is not known there");
+          "windows (solver.windows) cannot be combined with dissipation control (loading.maximum_dissipation): the "
+          "load of a step is not known in advance");
     if (!unknowns.pressure_cells.empty())
       throw InputError(
-          "windows (solver.windows) cannot be had with nearly incompressible materials, whose cells carry a pressure");
+          "windows (solver.windows) cannot be combined with nearly incompressible materials, whose cells carry a "
+          "pressure");
     for (const RegionModel& region : m.regions)
-      if (region.endochronic) throw InputError("windows (solver.windows) cannot be had with endochronic materials");
+      if (region.endochronic)
+        throw InputError("windows (solver.windows) cannot be combined with endochronic materials");
   }
 
-  // Path-following needs displacements that are proportional to the load, and a dissipation that only grows; a load
-  // that falls back has no time.
+  // Dissipation control requires displacements proportional to the load, a dissipation that only grows, and no
+  // dependence on time: the load may decrease.
   void require_path(const FractureModel& m) const {
     if (m.viscosity > 0.0 && !(loading.duration > 0.0))
-      throw InputError("a viscosity needs the time that the load takes (loading.duration)");
+      throw InputError("viscosity (fracture.viscosity) requires loading.duration, the time in which t grows by 1");
     for (const RegionModel& region : m.regions)
       if (region.endochronic) require_history(m, *region.endochronic);
     if (!std::isfinite(loading.maximum_dissipation)) return;
     if (m.viscosity > 0.0)
-      throw InputError("a dissipation can be prescribed only without viscosity: a load that falls back takes no time");
+      throw InputError(
+          "dissipation control (loading.maximum_dissipation) cannot be combined with viscosity: the load may decrease, "
+          "time cannot");
     if (m.irreversibility != Irreversibility::bounds)
-      throw InputError("a dissipation can be prescribed only with the irreversibility \"bounds\"");
+      throw InputError("dissipation control (loading.maximum_dissipation) requires the irreversibility \"bounds\"");
     for (const PatchCondition& on : unknowns.conditions) {
       if (!on.condition.value) continue;
       const Patch& patch = mesh.patches[as_size(on.patch)];
@@ -110,10 +114,10 @@ struct FractureRun::Parts {
         const Vector full = on.condition.value(mesh.face_centre[f], loading.end);
         const Vector half = on.condition.value(mesh.face_centre[f], 0.5 * loading.end);
         if ((full - 2.0 * half).norm() > 1e-9 * full.norm())
-          throw InputError(fmt::format(
-              "a dissipation can be prescribed only where boundary values are proportional to t; those of patch \"{}\" "
-              "are not",
-              patch.name));
+          throw InputError(
+              fmt::format("dissipation control (loading.maximum_dissipation) requires boundary values proportional to "
+                          "t; those of patch \"{}\" are not",
+                          patch.name));
       }
     }
   }
@@ -125,12 +129,11 @@ struct FractureRun::Parts {
           m.split->name));
     if (law.hardening.depends_on_rate() && !(loading.duration > 0.0))
       throw InputError(
-          "an endochronic material with a rate factor needs the time that the load takes "
-          "(loading.duration)");
+          "an endochronic material with a rate factor requires loading.duration, the time in which t grows by 1");
     if (std::isfinite(loading.maximum_dissipation))
       throw InputError(
-          "a dissipation can be prescribed only without endochronic materials, whose displacements are not "
-          "proportional to the load");
+          "dissipation control (loading.maximum_dissipation) cannot be combined with endochronic materials: their "
+          "displacements are not proportional to the load");
   }
 
   // At given damage and with boundary values that are, displacements are proportional to the load.
@@ -155,7 +158,7 @@ struct FractureRun::Parts {
     else if (double(outcome.iterations) <= bearable_share * double(maximum_iterations) &&
              increment < loading.initial_increment)
       next = std::min(grown, loading.initial_increment);
-    // The next step shall break as much as is wished for, if it goes on as in this one.
+    // Extrapolates the damage and release per increment of this step.
     const double broken =
         std::max({outcome.growth / loading.damage_growth, outcome.energy_release / loading.energy_release, 1e-12});
     return std::min(next, std::max(aim / broken * increment, loading.finest_increment));
@@ -186,26 +189,26 @@ struct FractureRun::Parts {
     return work;
   }
 
-  // The last load at which the body held, and the one at which it does not.
+  // held: the last load with equilibrium; load: one at which only the residual stiffness carries the tractions.
   [[noreturn]] void fail_torn(double held, double load) const {
     const bool falls_back = std::isfinite(loading.maximum_dissipation);
     throw NoConvergence(fmt::format(
-        "the body comes apart between the loads {:.6g} and {:.6g}: nothing but the residual stiffness of broken cells "
-        "holds its tractions then. {}; a smaller loading.maximum_increment tells the load more exactly",
+        "the body breaks apart between the loads {:.6g} and {:.6g}: beyond, only the residual stiffness of broken "
+        "cells carries its tractions. {}; a smaller loading.maximum_increment locates the load more exactly",
         held, load,
-        falls_back ? "Nothing is left to be loaded"
-                   : "Prescribe displacements instead, or let the load fall back (loading.maximum_dissipation)"));
+        falls_back ? "No intact ligament carries load any more"
+                   : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)"));
   }
 
   [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) const {
-    const std::string advice =
-        outcome.settled
-            ? fmt::format(
-                  "its damage and energies have settled, but the momentum balance could not be solved to better than "
-                  "{:.2g}: a larger solver.equilibrium_tolerance is due",
-                  outcome.residual)
-            : "more iterations (solver.maximum_iterations) or a smaller loading.minimum_increment may help; where "
-              "tractions drive a crack that does not stop, prescribed displacements or loading.maximum_dissipation do";
+    const std::string advice = outcome.settled
+                                   ? fmt::format(
+                                         "its damage and energies have converged, but the momentum balance could not "
+                                         "be solved to better than {:.2g}; increase solver.equilibrium_tolerance",
+                                         outcome.residual)
+                                   : "more iterations (solver.maximum_iterations) or a smaller "
+                                     "loading.minimum_increment may help; where tractions drive unstable crack growth, "
+                                     "prescribe displacements or use dissipation control (loading.maximum_dissipation)";
     throw NoConvergence(
         fmt::format("step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load): {}",
                     trial.step, trial.load, loading.minimum_increment, advice));

@@ -1,5 +1,5 @@
 #pragma once
-// A fracture run from its mesh and model: the load stepping, with hooks for whoever writes results.
+// A fracture run from its mesh and model: the load stepping, with hooks for the output of results.
 
 #include "mesh/mesh.h"
 #include "solver/fracture_model.h"
@@ -12,7 +12,7 @@
 
 namespace pfdm {
 
-/// How far the solution of a step is.
+/// Progress of the solution of a step.
 struct IterationReport {
   Index step = 0;
   Index iteration = 0;
@@ -31,7 +31,7 @@ struct RunHooks {
 
 class FractureRun {
  public:
-  /// Throws InputError for what cannot be: a missing patch, a body free to move, a region without toughness.
+  /// Throws InputError for inconsistent input: a missing patch, a body free to move, a region without toughness.
   FractureRun(const Mesh& mesh, FractureModel model, StaggeredSettings staggered, LoadingSettings loading);
   ~FractureRun();
 

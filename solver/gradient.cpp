@@ -89,8 +89,8 @@ Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
     if (n_rings > most_rings && settings.zero_if_deficient) samples.clear();
     if (n_rings > most_rings && !settings.zero_if_deficient)
       throw InputError(
-          fmt::format("the gradient of cell {} at ({:.4g}, {:.4g}, {:.4g}) m cannot be found: the cell has "
-                      "too few neighbours of its own material; refine the mesh there",
+          fmt::format("the gradient of cell {} at ({:.4g}, {:.4g}, {:.4g}) m cannot be reconstructed: the cell has too "
+                      "few neighbours of its own material; refine the mesh there",
                       c, node_[as_size(c)][0], node_[as_size(c)][1], node_[as_size(c)][2]));
     sample_.insert(sample_.end(), samples.begin(), samples.end());
     offsets_.push_back(sample_.size());

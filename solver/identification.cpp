@@ -92,8 +92,8 @@ Identification identify(std::span<const VibrationRecord> records, const ModelStr
     best = std::move(found);
   }
   if (!best)
-    throw ComputationError(
-        fmt::format("no parameters of model \"{}\" that dissipate energy follow the records", structure.name));
+    throw ComputationError(fmt::format(
+        "model \"{}\" has no passive (energy-dissipating) parameters that fit the records", structure.name));
   best->orders = std::move(tried);
   best->passivity = passivity_in_band(best->fit.model, records);
   return std::move(*best);

@@ -1,6 +1,6 @@
 #pragma once
-// Identification of the mass-material model from vibration records: which parameters make the equation, or its
-// solution, meet what was measured. Methods:
+// Identification of the mass-material model from vibration records: the parameters with which the equation, or its
+// solution, fits the measurements. Methods (the report is AFRL-RW-EG-TR-2016-088):
 //
 //   regress_states     the report's continuous-time least squares (A4.2): the terms of the equation of motion are the
 //                      columns of a linear system; with one kernel term by its third-order equation
@@ -90,7 +90,7 @@ struct Identification {
 Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
                         const IdentificationSettings& settings);
 
-/// The model's answer z'' to the record's base acceleration, from rest [m/s^2]; NaN where it runs away.
+/// The model's answer z'' to the record's base acceleration, from rest [m/s^2]; NaN where it is unbounded.
 Eigen::VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record);
 
 /// Relative misfit of the model's response to the record's base acceleration: norm of the difference of z'' over that

@@ -35,7 +35,7 @@ struct Functor {
   }
   int df(const VectorXd& x, MatrixXd& jacobian) const {
     problem.jacobian(x, jacobian);
-    // A neighbour that runs away tells nothing about this parameter.
+    // A neighbour with unbounded motion gives no information on this parameter.
     for (Eigen::Index k = 0; k < jacobian.cols(); ++k)
       if (!jacobian.col(k).allFinite()) jacobian.col(k).setZero();
     return 0;

@@ -261,7 +261,8 @@ void for_each_choice(int n, int order, const std::function<void(const std::vecto
   choose(0, 0);
 }
 
-/// Rates from well below to well above what is excited; beyond, a term cannot be told from stiffness or damping.
+/// Rates from well below to well above what is excited; beyond, a term cannot be distinguished from stiffness or
+/// damping.
 VectorXd candidate_rates(std::span<const Prepared> prepared) {
   double low = std::numeric_limits<double>::infinity();
   double high = 0.0;

@@ -29,7 +29,7 @@ class Responses {
   /// back into it, which is little; where next to nothing is saved, the same as full_drives.
   Drives reduced_drives(const MassMaterial& model) const;
 
-  /// Weighted conditioned responses of the models, a column each; NaN in a record where one runs away.
+  /// Weighted conditioned responses of the models, a column each; NaN in a record where one is unbounded.
   Eigen::MatrixXd simulated(std::span<const MassMaterial> models, const Drives& drives) const;
   /// Subtracts what was measured.
   Eigen::VectorXd residuals(Eigen::VectorXd response) const;

@@ -114,8 +114,8 @@ class Pencil {
   Pencil(const VectorXd& g, double rate, int order) : g_(g), rate_(rate) {
     const Index n = g.size(), length = n / 3;
     if (n < std::max(12, 3 * order))
-      throw InputError(
-          fmt::format("an impulse response of {} samples is too short; {} are the least", n, std::max(12, 3 * order)));
+      throw InputError(fmt::format("an impulse response of {} samples is too short; at least {} are required", n,
+                                   std::max(12, 3 * order)));
     if (!g.allFinite() || !(g.norm() > 0.0))
       throw InputError("an impulse response needs finite samples that are not all zero");
     MatrixXd hankel(n - length, length + 1);

@@ -44,7 +44,7 @@ struct SimulationRun {
 /// their bases the same substeps; rates and durations may differ.
 std::vector<std::vector<SimulationRun>> simulation_groups(std::span<const SimulationRun> runs);
 
-/// Relative accelerations [m/s^2] of the runs of a group. One that runs away is NaN.
+/// Relative accelerations [m/s^2] of the runs of a group. One that is unbounded is NaN.
 std::vector<Eigen::VectorXd> simulate_group(std::span<const SimulationRun> runs);
 
 /// The same of several models under one base acceleration, a column each.

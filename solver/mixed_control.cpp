@@ -74,7 +74,7 @@ class StepSolver {
     return -J.partialPivLu().solve(F_);
   }
 
-  /// Takes the longest of the steps 1, 1/2, 1/4 ... that lessens the error.
+  /// Takes the longest of the steps 1, 1/2, 1/4 ... that reduces the error.
   bool search(const Mandel& direction) {
     const Mandel start = increment_;
     const double before = error();
@@ -87,7 +87,7 @@ class StepSolver {
     return false;
   }
 
-  /// Slow convergence is a sign of steps that are too short, as where a direction of the plastic strain turns.
+  /// Slow convergence is a sign of steps that are too short, as where the direction of the plastic strain changes.
   void stretch(const Mandel& start, const Mandel& direction) {
     const double single = error();
     take(start + 1.5 * direction);
@@ -137,7 +137,7 @@ class SegmentRunner {
 
   const HistoryPoint& point() const { return point_; }
 
-  /// What stands in the way of increment i.
+  /// Why increment i cannot be solved.
   std::string failure(std::size_t i) const {
     const double radius = saturation_radius(law_, point_.state.zeta, last_rate_);
     const double now = deviator(point_.stress).norm();
@@ -146,8 +146,9 @@ class SegmentRunner {
         std::ranges::any_of(conditions_, [](const auto& c) { return !c.on_stress.isZero(); });
     if (stress_prescribed && now > 0.97 * radius)
       return fmt::format(
-          "{}: the prescribed stress lies beyond the saturation surface: the deviatoric stress has come to {:.6g} Pa "
-          "of the {:.6g} Pa (2 f sum C/alpha) that the material can bear; prescribe less stress, or strain instead",
+          "{}: the prescribed stress lies beyond the saturation surface: the deviatoric stress has reached {:.6g} Pa "
+          "of the {:.6g} Pa (2 f sum C/alpha) that the material can sustain; prescribe less stress, or a strain "
+          "instead",
           where, now, radius);
     return fmt::format(
         "{}: Newton's method does not converge, not even in steps of 1/{:.0f} of the increment; the deviatoric stress "
@@ -216,7 +217,7 @@ ControlledStep controlled_step(const EndochronicLaw& law, const EndochronicState
 std::optional<std::string> dependent_conditions(const EndochronicLaw& law, const Conditions& conditions) {
   for (std::size_t k = 0; k < 6; ++k)
     if (conditions[k].on_stress.isZero() && conditions[k].on_strain.isZero())
-      return fmt::format("condition {} says nothing about stress or strain", k + 1);
+      return fmt::format("condition {} contains neither stress nor strain", k + 1);
   const Rows rows = rows_of(law, conditions);
   const MandelMatrix T = update(law, virgin_state(law), Mandel::Zero(), 1.0).tangent;
   const Eigen::FullPivLU<MandelMatrix> lu(rows.on_stress * T + rows.on_strain);

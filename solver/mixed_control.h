@@ -1,7 +1,7 @@
 #pragma once
 // A material point under mixed control: six linear conditions between stress and strain, which in the simplest case
 // prescribe six of their twelve components. Solved for the strain increment by Newton's method with the law's
-// consistent tangent; where that fails the increment is cut in halves.
+// consistent tangent; where that fails the increment is halved.
 
 #include "physics/endochronic.h"
 
@@ -51,7 +51,7 @@ struct ControlledStep {
 };
 
 /// One step in which the values of the six conditions change by `change`. Not converged if Newton's method is not, as
-/// for stresses that the material cannot bear. `guess`: of the strain increment, used if it is better than none.
+/// for stresses that the material cannot sustain. `guess`: of the strain increment, used if it is better than none.
 ControlledStep controlled_step(const EndochronicLaw& law, const EndochronicState& state,
                                const std::array<ControlCondition, 6>& conditions, const Mandel& change, double dt,
                                const ControlSettings& settings = {}, const Mandel& guess = Mandel::Zero());

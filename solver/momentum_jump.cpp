@@ -1,5 +1,4 @@
-// How the two sides of a face between polyhedra are held together: the c of the jump (momentum.h), which is not that of
-// the tractions.
+// The stiffness c of the jump term on faces between polyhedra (momentum.h), which differs from that of the tractions.
 
 #include "solver/momentum.h"
 #include "solver/parallel.h"
@@ -11,9 +10,9 @@ namespace {
 
 constexpr double moderate_lambda = 1.5;  // lambda_s / mu of the undamaged material, at most
 
-// What holds polyhedra of closed cracks together along their faces, over c along the normal. Measured on
-// glass_bead_quick: with 0.01 some solves still do not converge, from 0.025 to 0.3 all do and forces are alike. Cells
-// between tetrahedra do without, and take fewer staggered iterations so.
+// Tangential stiffness of the faces between polyhedra with closed cracks, over c along the normal. Measured on
+// glass_bead_quick: with 0.01 some solves still do not converge, from 0.025 to 0.3 all do and the forces agree. Cells
+// beside tetrahedra have none, which takes fewer staggered iterations.
 constexpr double slip_share = 0.05;
 
 }  // namespace
@@ -30,8 +29,8 @@ CellField<double> MomentumOperator::jump_shares(const Mesh& mesh, const Unknowns
   return share;
 }
 
-// 0 of sound cells and of open cracks, to 1 of closed ones, which keep the bulk modulus alone; polyhedra's. Of the
-// moduli as they are given, before plane stress or pressures take their part.
+// From 0 in undamaged polyhedra and open cracks to 1 in closed cracks, which keep only the bulk modulus. Computed from
+// the given moduli, before plane stress or pressures change them.
 void MomentumOperator::renew_liquidity() {
   parallel_for(mesh_.n_cells(), [&](Index c) {
     if (mesh_.shape[c] != CellShape::polyhedron) return;
@@ -47,7 +46,7 @@ double MomentumOperator::jump_modulus(Index cell) const {
   return share * moduli_[cell].constrained_modulus();
 }
 
-// Along the normal of the face between P and N, from what it is with the full lambda.
+// Along the normal of the face between P and N; `full` is the value with the full lambda.
 double MomentumOperator::jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const {
   if (mesh_.shape[P] != CellShape::polyhedron && mesh_.shape[N] != CellShape::polyhedron) return full;
   const double mu_P = moduli_[P].mu, mu_N = moduli_[N].mu;

@@ -1,5 +1,5 @@
-// What the pressures of nearly incompressible cells (cell_pressure.h) add to the momentum balance: their own rows, and
-// what preconditions them.
+// The pressures of nearly incompressible cells (cell_pressure.h) in the momentum balance: their rows and their
+// preconditioner.
 
 #include "solver/momentum.h"
 #include "solver/parallel.h"
@@ -21,7 +21,7 @@ double MomentumOperator::side_flux(const Side& side, const Vector& u_f) const {
   return side.area * side.n.dot(u_f) + sign * pressure_.flux_of_warp(side.face, gradients_[side.cell]);
 }
 
-// V q / (lambda - lambda_s) - sum of u_f.S. The sector's own faces let nothing through.
+// V q / (lambda - lambda_s) - sum of u_f.S. There is no flux through the sector's own faces.
 void MomentumOperator::balance_pressures(std::vector<Vector>& out) const {
   const std::vector<Index>& cells = unknowns_.pressure_cells;
   parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
@@ -35,8 +35,9 @@ void MomentumOperator::balance_pressures(std::vector<Vector>& out) const {
 }
 
 std::vector<double> MomentumOperator::pressure_compliance() const {
-  // Of the displacements' answer to a pressure, times lambda_s + 2 mu: between 1, of smooth pressures in the continuum,
-  // and what the damping of rough ones adds. Measured: 3 to 5 take the fewest iterations, 1 half as many again.
+  // Of the displacements' response to a pressure, times lambda_s + 2 mu: between 1, of smooth pressures in the
+  // continuum, and what the damping of rough ones adds. Measured: 3 to 5 take the fewest iterations, 1 half as many
+  // again.
   constexpr double answer = 4.0;
   std::vector<double> compliance;
   for (const Index c : unknowns_.pressure_cells)

@@ -10,9 +10,9 @@
 namespace pfdm {
 namespace {
 
-// The part of itself by which g may move before the weights of the gradients follow.
+// Relative change of g up to which the weights of the gradients are kept.
 constexpr double bearable_lag = 0.01;
-// By which a cell's stiffness may move before the multigrid does.
+// Factor by which a cell's stiffness may change before the multigrid is rebuilt.
 constexpr double bearable_ratio = 2.0;
 
 std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
@@ -59,7 +59,7 @@ double MomentumSolver::gradient_lag() {
   return exact ? 0.0 : bearable_lag;
 }
 
-// Where cracks have closed or opened the stiffness moves at one and the same g.
+// Where cracks have closed or opened the stiffness changes at the same g.
 bool MomentumSolver::has_moved(const CellField<IsotropicElasticity>& moduli) const {
   const CellField<IsotropicElasticity>& built = moduli_of_multigrid_;
   if (built.size() == 0) return true;
@@ -69,7 +69,7 @@ bool MomentumSolver::has_moved(const CellField<IsotropicElasticity>& moduli) con
          }) > bearable_ratio;
 }
 
-// Whether it had to be.
+// Returns whether it was rebuilt.
 bool MomentumSolver::renew_preconditioner(const CellField<double>& measure, bool must_be) {
   const CellField<double>& built = measure_of_multigrid_;
   const bool moved = multigrid_ && parallel_max(measure.size(), [&](Index c) {
@@ -110,7 +110,7 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
   multigrid_->apply(b_, x_);
   parallel_for(n, [&](Index i) {
     z[as_size(i)] = x_[as_size(position_of_node_[as_size(i)])].head<3>().cast<double>();
-    // What is prescribed stays so.
+    // Prescribed components stay unchanged.
     if (i >= unknowns_.n_cells)
       z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
   });

@@ -74,7 +74,7 @@ class MomentumSolver {
   CellField<double> measure_of_multigrid_;              // of the cells' stiffness: any measure, but always the same
   CellField<IsotropicElasticity> moduli_of_multigrid_;  // empty for a general stiffness
   bool starts_afresh_ = false;
-  bool struggled_ = false;  // the last solve did not come to its end
+  bool struggled_ = false;  // the last solve did not converge
   std::vector<double> scale_;
   std::vector<double> pressure_compliance_;  // per pressure [m^3/Pa]
   std::vector<Vector> rest_;                 // residual without the forces of the pressures; work space

@@ -138,7 +138,7 @@ void Multigrid::set_up_work_space() {
       dense.block<3, 3>(3 * i, 3 * last.columns[as_size(k)]) += to_tensor(last.blocks[as_size(k)]).cast<float>();
   }
   coarsest_.compute(dense);
-  // A part that hardly anything holds, as the halves of a broken body, is singular to the rounding of floats.
+  // A part that is hardly held, as the halves of a broken body, is singular to single precision.
   for (float shift = 1e-6F; coarsest_.info() != Eigen::Success && shift < 1.0F; shift *= 10.0F) {
     dense.diagonal() *= 1.0F + shift;
     coarsest_.compute(dense);

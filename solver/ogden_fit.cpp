@@ -104,7 +104,8 @@ std::vector<double> refined_alphas(const Target& target, std::vector<double> alp
 OgdenFit fit_ogden(std::span<const double> stiffness, double length, double area, double largest_displacement,
                    int n_terms) {
   if (!(largest_displacement > 0.0 && largest_displacement < length))
-    throw InputError(fmt::format("a sample of {:.4g} m cannot be pressed by {:.4g} m", length, largest_displacement));
+    throw InputError(
+        fmt::format("a sample of {:.4g} m cannot be compressed by {:.4g} m", length, largest_displacement));
   const Target target = target_of(stiffness, length, area, largest_displacement);
   const std::vector<double> alphas = refined_alphas(target, coarse_alphas(target, n_terms));
   const Weighted found = weighted(target, alphas);

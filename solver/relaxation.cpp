@@ -10,9 +10,9 @@ namespace {
 
 constexpr double least_factor = 0.5;
 constexpr double least_share = 1.0 / 16.0, recovery = 1.5;
-// Stretches that come to less than this share of the way they go make the largest factor smaller.
+// Net over summed change of a stretch below which the largest factor is reduced.
 constexpr double least_progress = 0.5, tightening = 0.5, loosening = 1.5;
-// Long ones that come to less than this are circles.
+// The same of a long stretch, below which it counts as a limit cycle.
 constexpr double progress_of_circles = 0.3;
 
 }  // namespace
@@ -46,7 +46,7 @@ CellField<double> Relaxation::over_relaxed(const CellField<double>& d, const Cel
     const auto fall = [&](Index c) { return share_[c] * (increment_[c] - increment[c]); };
     const double along = parallel_sum(n, [&](Index c) { return share_[c] * increment_[c] * fall(c); });
     const double square = parallel_sum(n, [&](Index c) { return fall(c) * fall(c); });
-    // An increment that does not fall asks for the longest step.
+    // An increment that does not decrease gets the largest factor.
     factor_ = along > 0.0 ? std::clamp(factor_ * along / square, least_factor, largest_factor_) : largest_factor_;
   }
   parallel_for(n, [&](Index c) {

@@ -40,7 +40,7 @@ struct Repeatability {
   int repeat_freedom = 0;
 };
 
-/// Which slopes a schedule cannot tell apart, in words; none: it can tell all that it varies.
+/// Names of the slopes that a schedule confounds; none: it separates all that it varies.
 std::optional<std::string> confounded(std::span<const ScheduledRun> schedule);
 
 /// Of a value of each test; as many as runs. The schedule must not be confounded, and have at least one more test than

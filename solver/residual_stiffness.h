@@ -17,16 +17,16 @@ struct ResidualShare {
 
 /// Whether the residual stiffness has nearly all of the energy.
 bool holds_all(double residual, double elastic);
-/// Whether dead loads are carried by the residual stiffness alone: the body has come apart, and its displacements say
-/// how small k is.
+/// Whether dead loads are carried by the residual stiffness alone: the body has separated, and its displacements are
+/// proportional to 1/k.
 bool has_collapsed(const ResidualShare& share);
 
-/// Looks out for a residual stiffness that falsifies the forces.
+/// Watches for a residual stiffness that distorts the forces.
 class ResidualStiffness {
  public:
   explicit ResidualStiffness(double k) : k_(k) {}
 
-  /// What is to be said after a step at this load parameter; empty most of the time, and once it was said.
+  /// The warning after a step at this load parameter; empty if there is none, and once it has been given.
   /// `energy_before` [J]: what the body had or was given before it broke, as a step may pass the peak and a restart
   /// comes after it: the larger of the elastic energy that the step began with and of the work so far.
   std::string remark(const ResidualShare& share, double energy_before, double load);

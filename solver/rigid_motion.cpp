@@ -102,14 +102,14 @@ std::string free_motion(const Part& part) {
   if (about.empty()) return "";
   const Vector b = Eigen::SelfAdjointEigenSolver<Tensor>(rotation).eigenvectors().col(0);
   const Vector a = -held * mixed * b;
-  return fmt::format("it can turn about {} through {} m", about, direction(part.origin + part.size * b.cross(a)));
+  return fmt::format("it can rotate about {} through {} m", about, direction(part.origin + part.size * b.cross(a)));
 }
 
 std::string describe(const Mesh& mesh, const Part& part, std::size_t n_parts, bool cracked) {
   if (n_parts == 1) return "the body can still move rigidly";
   return fmt::format("{} {} parts, and the one around {} m (region \"{}\", {} of {} cells) can still move rigidly",
-                     cracked ? "the initial damage cuts the body into" : "the cells of the mesh hang together in",
-                     n_parts, direction(part.origin), mesh.region_names[as_size(mesh.region[part.cells.front()])],
+                     cracked ? "the initial damage cuts the body into" : "the cells of the mesh form", n_parts,
+                     direction(part.origin), mesh.region_names[as_size(mesh.region[part.cells.front()])],
                      part.cells.size(), mesh.n_cells());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What nothing holds moves rigidly, and equilibrium has no answer for it: every part of the mesh that hangs together
+// A part that is not held can move rigidly, and its equilibrium is singular: every part of the mesh that is connected
 // through faces must be held by itself.
 
 #include "solver/unknowns.h"

@@ -31,9 +31,10 @@ struct Segments {
 };
 
 Segments cut(Index n, const SegmentSettings& settings) {
-  if (settings.length < 2) throw InputError(fmt::format("segments of {} samples: at least 2 are due", settings.length));
+  if (settings.length < 2)
+    throw InputError(fmt::format("segments of {} samples are too short; at least 2 are required", settings.length));
   if (!(settings.overlap >= 0.0 && settings.overlap < 1.0))
-    throw InputError(fmt::format("an overlap of {} of segments; it must be at least 0 and below 1", settings.overlap));
+    throw InputError(fmt::format("the overlap of segments is {}; it must be at least 0 and below 1", settings.overlap));
   if (n < settings.length)
     throw InputError(fmt::format("the record has {} samples, fewer than one segment of {}", n, settings.length));
   Segments s;
@@ -83,7 +84,7 @@ VectorXd hann_window(Index n) {
 
 Spectra spectra(const VectorXd& x, const VectorXd& y, double rate, const SegmentSettings& settings) {
   if (x.size() != y.size())
-    throw InputError(fmt::format("two signals of {} and {} samples; they must be as long", x.size(), y.size()));
+    throw InputError(fmt::format("the signals have {} and {} samples; they must be equally long", x.size(), y.size()));
   const Segments s = cut(x.size(), settings);
   const Index bins = s.length / 2 + 1;
   Spectra result{.frequency = frequencies(s.length, rate),

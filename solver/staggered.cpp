@@ -12,11 +12,11 @@
 namespace pfdm {
 namespace {
 
-// FGMRES iterations at most, within the loop and of the last solve.
+// Largest numbers of FGMRES iterations, within the loop and of the last solve.
 constexpr Index inner_iterations = 80, last_iterations = 400;
-// Iterations in a row in which the loads may find nothing but the residual stiffness: the first ones are inexact.
+// Successive iterations in which only the residual stiffness may carry the loads: the first ones are inexact.
 constexpr Index torn_at_most = 5;
-// Relative residual that the last solve goes down to, if no smaller one is asked for.
+// Relative residual of the last solve, if no smaller one is required.
 constexpr double last_tolerance = 3e-8;
 
 // Windows are around the cells whose damage changes by more than this share of the largest change,
@@ -47,7 +47,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
                                   const StepLimits& limits) {
   stiffness_.start_step(limits.duration);
-  momentum_.start_afresh();  // a run that is gone on with does the same
+  momentum_.start_afresh();  // as a restarted run does
   StepOutcome outcome = alternate(start, state, hooks, limits);
   if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
@@ -76,14 +76,14 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
   Relaxation relaxation;
   if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / limits.duration, start.damage);
   double energy_before = 0.0, stored_at_unit_load = 0.0;
-  Index torn = 0;  // iterations in a row in which nothing held the loads
+  Index torn = 0;  // successive iterations in which only the residual stiffness carried the loads
   while (outcome.iterations < settings_.maximum_iterations && !outcome.converged) {
     degrade(state);
-    // Loose while the damage still moves; as tight as the step asks for once it has settled.
+    // Loose while the damage still changes; as tight as the step requires once it has converged.
     const double floor = 0.1 * settings_.equilibrium_tolerance;
     const double ceiling = outcome.settled ? settings_.equilibrium_tolerance : 1e-4;
-    // A crack that is closed and sheared is a nearly incompressible liquid, which takes many Krylov iterations: what a
-    // few of them leave is left to the next turn of the loop.
+    // A crack that is closed and sheared is nearly incompressible and takes many Krylov iterations: the remaining
+    // residual is left to the next iteration of the loop.
     const Equilibrium equilibrium = solve_momentum(
         state, {.reduction = 0.1, .ceiling = ceiling, .floor = floor, .most_iterations = inner_iterations});
     outcome.failed = !std::isfinite(equilibrium.residual);
@@ -212,7 +212,7 @@ void Staggered::drive(const FractureState& start, FractureState& state, double s
 }
 
 // Path-following: displacements at given damage are proportional to the load, so that the load at which the damage
-// equation answers with the surface energy wanted is the root of one rising function (dissipation as the control:
+// equation yields the prescribed surface energy is the root of one rising function (dissipation as the control:
 // Gutierrez, Commun. Numer. Meth. Engng 20 (2004) 19; for phase fields Singh et al., Finite Elem. Anal. Des. 113
 // (2016) 14). Changes the load of the state, its displacement and driving energy, and d. The load is the greatest
 // allowed where that dissipates less.

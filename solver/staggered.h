@@ -24,8 +24,8 @@ struct StepOutcome {
   Index iterations = 0;
   double window_iterations = 0.0;  ///< in windows, each weighted by its fraction of the cells
   Index krylov_iterations = 0;
-  bool collapsed = false;            ///< given up, as nothing but the residual stiffness holds the loads
-  bool settled = false;              ///< all but the momentum balance
+  bool collapsed = false;            ///< abandoned: only the residual stiffness carries the loads
+  bool settled = false;              ///< all criteria hold but that of the momentum balance
   double residual = 0.0;             ///< of the momentum balance, relative
   double elastic_energy = 0.0;       ///< [J]
   double starting_energy = 0.0;      ///< elastic, at the load of the step with the damage that it began with [J]
@@ -75,7 +75,7 @@ class Staggered {
   Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
   struct Energies {
     double stored = 0.0;     // [J]
-    double unsettled = 0.0;  // error of it by closures that have not settled [J]
+    double unsettled = 0.0;  // error of it by stiffnesses that have not settled [J]
   };
   /// With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);

@@ -1,5 +1,5 @@
 #pragma once
-// The state of a fracture run is a value: it can be copied, written, and gone on from.
+// The state of a fracture run is a value: it can be copied, written, and restarted from.
 
 #include "mesh/fields.h"
 #include "physics/endochronic.h"

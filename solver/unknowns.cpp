@@ -72,7 +72,8 @@ Tensor free_directions(const BoundaryCondition& condition, const Vector& face_ar
   return is_free.asDiagonal();
 }
 
-// Cells carry no gradient across the plane: each needs its front and its back, or what lies beyond is held as well.
+// Cells carry no gradient across the plane: each requires its front and its back, or the cells beyond would be held
+// too.
 void require_front_and_back(const Mesh& mesh, const Unknowns& unknowns) {
   if (unknowns.plane_normal.isZero()) return;
   std::vector<const PatchCondition*> of_face(as_size(mesh.n_faces()), nullptr);
@@ -112,7 +113,8 @@ void place_sector(const std::vector<Vector>& normals, Unknowns& unknowns) {
   if (unknowns.plane_normal.norm() > 0.0) throw InputError("plane and axisymmetric patches cannot be combined");
   if (normals.size() != 2 || !(normals[0].cross(normals[1]).norm() > 1e-6))
     throw InputError(
-        "two axisymmetric patches are due, the planes of a sector that meet in the axis z, as \"front\" and \"back\"");
+        "two axisymmetric patches are required, the planes of a sector that meet in the axis z, as \"front\" and "
+        "\"back\"");
   unknowns.plane_normal = (normals[1] - normals[0]).normalized();
   unknowns.radial = -(normals[0] + normals[1]).normalized();
 }

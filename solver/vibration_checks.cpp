@@ -28,8 +28,8 @@ double rms(const VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(
 void check_lengths(const RawRecord& r, Faults& faults) {
   if (r.base.size() != r.relative.size() || (r.time && r.time->size() != r.base.size()))
     faults.push_back(
-        {"unequal_lengths", fmt::format("the channels have {} and {} samples{}", r.base.size(), r.relative.size(),
-                                        r.time ? fmt::format(", the time {}", r.time->size()) : "")});
+        {"unequal_lengths", fmt::format("the channels differ in length: {} and {} samples{}", r.base.size(),
+                                        r.relative.size(), r.time ? fmt::format(", time {}", r.time->size()) : "")});
   if (r.base.size() < 16) faults.push_back({"too_short", fmt::format("the record has {} samples", r.base.size())});
 }
 
@@ -37,7 +37,7 @@ void check_finite(const char* channel, const VectorXd& x, Faults& faults) {
   const auto bad = std::ranges::find_if(x, [](double v) { return !std::isfinite(v); });
   if (bad == x.end()) return;
   const auto count = std::ranges::count_if(x, [](double v) { return !std::isfinite(v); });
-  faults.push_back({"not_finite", fmt::format("{} has {} samples that are no numbers, the first at sample {}", channel,
+  faults.push_back({"not_finite", fmt::format("{} has {} samples that are not finite, the first at sample {}", channel,
                                               count, bad - x.begin())});
 }
 
@@ -51,8 +51,8 @@ void check_time(const RawRecord& r, Faults& faults) {
   const double step = median(dt);
   for (Index i = 0; i < dt.size(); ++i) {
     if (dt[i] > 0.0) continue;
-    faults.push_back(
-        {"time_runs_backwards", fmt::format("the time goes from {} s to {} s at sample {}", t[i], t[i + 1], i + 1)});
+    faults.push_back({"time_runs_backwards",
+                      fmt::format("time does not increase: from {} s to {} s at sample {}", t[i], t[i + 1], i + 1)});
     return;
   }
   for (Index i = 0; i < dt.size(); ++i) {
@@ -60,36 +60,36 @@ void check_time(const RawRecord& r, Faults& faults) {
     faults.push_back({"gap", fmt::format("{:.3g} s are missing after {} s", dt[i] - step, t[i])});
     return;
   }
-  // Times are printed with few digits: what counts is how far samples stray from an even grid.
+  // Times are printed with few digits: the criterion is the distance of samples from an even grid.
   const auto n = static_cast<double>(t.size() - 1);
   const double even = (t[t.size() - 1] - t[0]) / n;
   double stray = 0.0;
   for (Index i = 0; i < t.size(); ++i) stray = std::max(stray, std::abs(t[i] - t[0] - even * static_cast<double>(i)));
   if (stray > 0.1 * even)
-    faults.push_back(
-        {"uneven_sampling", fmt::format("samples stray from an even grid by up to {:.2g} of its step", stray / even)});
+    faults.push_back({"uneven_sampling",
+                      fmt::format("samples are up to {:.2g} of the sampling interval off an even grid", stray / even)});
   if (r.rate && std::abs(*r.rate * even - 1.0) > 1e-3)
-    faults.push_back(
-        {"wrong_rate", fmt::format("the rate is said to be {} Hz; the times say {:.6g} Hz", *r.rate, 1.0 / even)});
+    faults.push_back({"wrong_rate", fmt::format("the sampling rate is given as {} Hz; the times give {:.6g} Hz",
+                                                *r.rate, 1.0 / even)});
 }
 
 void check_extent(const RawRecord& r, double rate, Faults& faults) {
   const double duration = static_cast<double>(r.base.size()) / rate;
   if (duration * r.band_low < least_periods)
-    faults.push_back({"too_short", fmt::format("{:.3g} s hold {:.2g} periods of {} Hz; {} are due", duration,
-                                               duration * r.band_low, r.band_low, least_periods)});
+    faults.push_back({"too_short", fmt::format("{:.3g} s contain {:.2g} periods of {} Hz; at least {} are required",
+                                               duration, duration * r.band_low, r.band_low, least_periods)});
   if (r.band_high > 0.38 * rate)
-    faults.push_back(
-        {"sampled_too_slowly", fmt::format("{} Hz are excited; {:.6g} samples per second resolve {:.4g} Hz",
-                                           r.band_high, rate, 0.38 * rate)});
+    faults.push_back({"sampled_too_slowly",
+                      fmt::format("the excitation reaches {} Hz; {:.6g} samples per second resolve up to {:.4g} Hz",
+                                  r.band_high, rate, 0.38 * rate)});
 }
 
 void check_dead(const char* channel, const VectorXd& x, Faults& faults) {
   if (x.maxCoeff() - x.minCoeff() <= 1e-9 * std::abs(x.mean()) || x.isZero(0.0))
-    faults.push_back({"dead_channel", fmt::format("{} is {} all the time", channel, x[0])});
+    faults.push_back({"dead_channel", fmt::format("{} is constant, {}", channel, x[0])});
 }
 
-/// Several samples in a row at the very same extreme value: a converter at its end.
+/// Several successive samples at the same extreme value: an analogue-digital converter at the end of its range.
 void check_clipped(const char* channel, const VectorXd& x, Faults& faults) {
   for (const double extreme : {x.maxCoeff(), x.minCoeff()}) {
     Index runs = 0;
@@ -99,21 +99,21 @@ void check_clipped(const char* channel, const VectorXd& x, Faults& faults) {
       runs += length == 3;
     }
     if (runs < 3) continue;
-    faults.push_back(
-        {"clipped", fmt::format("{} stays at {:.6g} m/s^2 for three samples or more, {} times", channel, extreme, runs),
-         false});
+    faults.push_back({"clipped",
+                      fmt::format("{} may be clipped: it stays at {:.6g} m/s^2 for three samples or more, {} times",
+                                  channel, extreme, runs),
+                      false});
     return;
   }
 }
 
-/// An offset is taken out later; what wanders is no acceleration that the test has.
+/// An offset is removed later; a drift is not an acceleration of the test.
 void check_drift(const char* channel, const VectorXd& x, double rate, double band_low, Faults& faults) {
   const PassBand slow{.low = 0.0, .high = 0.1 * band_low, .skirt = 0.5};
   const double wandering = rms(filtered((x.array() - x.mean()).matrix(), rate, slow));
   if (wandering > 0.05 * rms((x.array() - x.mean()).matrix()))
     faults.push_back(
-        {"drift",
-         fmt::format("{} wanders slowly, with an rms of {:.3g} m/s^2 below {:.3g} Hz", channel, wandering, slow.high),
+        {"drift", fmt::format("{} drifts, with an rms of {:.3g} m/s^2 below {:.3g} Hz", channel, wandering, slow.high),
          false});
 }
 
@@ -136,7 +136,7 @@ void check_band(const RawRecord& r, double rate, Faults& faults) {
   const double all = rms((r.base.array() - r.base.mean()).matrix());
   if (within < 0.5 * all)
     faults.push_back({"outside_the_band",
-                      fmt::format("only {:.0f} % of the base's motion lie between {} and {} Hz", 100.0 * within / all,
+                      fmt::format("only {:.0f} % of the base's motion lies between {} and {} Hz", 100.0 * within / all,
                                   r.band_low, r.band_high),
                       false});
 }

@@ -5,8 +5,8 @@
 namespace pfdm {
 namespace {
 
-// Rings of cells at the cut whose balances are not those of the whole: a force looks at the gradients of the next cell,
-// which look two cells further.
+// Rings of cells at the cut whose balances differ from those of the whole mesh: a force depends on the gradients of the
+// next cell, which reach two cells further.
 constexpr int rim = 3;
 
 template <class Visit>
@@ -85,7 +85,7 @@ Window::Window(const Surroundings& whole, std::vector<Index> cells, const Stagge
   agree();
 }
 
-// What is held in the whole is held here.
+// Cells that are held in the whole mesh are held here.
 void Window::hold_rim() {
   const Mesh& mesh = part_.mesh;
   std::vector<Index> rings;
@@ -101,8 +101,8 @@ void Window::hold_rim() {
   staggered_.damage_equation().hold(std::move(held));
 }
 
-// The forces and sources at the cut. Cells that are not held get no force: what the residual of the whole leaves on
-// them, they would carry on after they break.
+// The forces and sources at the cut. Cells that are not held get no force: they would carry the residual of the whole
+// problem also after they break.
 void Window::agree() {
   const FractureState at = take_out_state(whole_.state);
   staggered_.stiffness().take_out_memory(whole_.stiffness, part_.cell);
@@ -137,8 +137,8 @@ void Window::agree() {
   equation.set_source(std::move(source));
 }
 
-// With the damage and the stiffness that the forces at the cut belong to: they would tear a cell away that broke or
-// opened since.
+// With the damage and the stiffness that the forces at the cut belong to: these would displace without limit a cell
+// that has broken or opened since.
 void Window::hold_rim_as_it_was(FractureState& here) const {
   const CellField<char>& held = staggered_.damage_equation().held();
   for (Index i = 0; i < held.size(); ++i) {
@@ -167,7 +167,7 @@ FractureState Window::take_out_state(const FractureState& whole) const {
   return here;
 }
 
-// What is held keeps what it has in the whole.
+// Held cells keep their values in the whole mesh.
 void Window::put_back_state(const FractureState& here, FractureState& whole) const {
   const CellField<char>& held = staggered_.damage_equation().held();
   for (Index i = 0; i < held.size(); ++i) {

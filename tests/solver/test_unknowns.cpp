@@ -133,7 +133,7 @@ TEST(Unknowns, MotionsThatAreFreeAreNamed) {
               HasSubstr("the body can still move rigidly: it can move along z;"));
   // The centres of the faces that are held lie on one line.
   EXPECT_THAT(refusal(box(10, 1, 1, {10.0, 1.0, 1.0}), {clamped("xmin"), clamped("xmax")}),
-              HasSubstr("it can turn about x through (5, 0.5, 0.5) m"));
+              HasSubstr("it can rotate about x through (5, 0.5, 0.5) m"));
 }
 
 // A body far from the origin and very small is judged like one at the origin.
