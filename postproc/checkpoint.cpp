@@ -105,7 +105,8 @@ class Reader {
     rest_.remove_prefix(n);
   }
   [[noreturn]] void fail() const {
-    throw InputError(fmt::format("the checkpoint {} is damaged: its lists do not fit its size", path_.string()));
+    throw InputError(
+        fmt::format("the checkpoint {} is corrupt: the lengths of its lists do not match its size", path_.string()));
   }
 
   std::string_view rest_;
@@ -133,7 +134,7 @@ T value_at(std::string_view bytes, std::size_t position) {
 std::string_view checked_payload(std::string_view bytes, const std::filesystem::path& path) {
   const std::string name = path.string();
   if (bytes.size() < header_size + checksum_size || !bytes.starts_with(magic))
-    throw InputError(fmt::format("{} is not a checkpoint, or one that was cut short", name));
+    throw InputError(fmt::format("{} is not a checkpoint, or is truncated", name));
   const auto version = value_at<std::uint32_t>(bytes, magic.size());
   if (version != format_version)
     throw InputError(fmt::format(
@@ -141,11 +142,11 @@ std::string_view checked_payload(std::string_view bytes, const std::filesystem::
         version, format_version));
   const auto size = value_at<std::uint64_t>(bytes, size_position);
   if (bytes.size() != size)
-    throw InputError(fmt::format("the checkpoint {} has {} bytes instead of {}: it was cut short or added to", name,
+    throw InputError(fmt::format("the checkpoint {} has {} bytes instead of {}: it was truncated or extended", name,
                                  bytes.size(), size));
   const std::size_t body = bytes.size() - checksum_size;
   if (fnv1a(bytes.substr(0, body)) != value_at<std::uint64_t>(bytes, body))
-    throw InputError(fmt::format("the checkpoint {} is damaged: its checksum is wrong", name));
+    throw InputError(fmt::format("the checkpoint {} is corrupt: its checksum is wrong", name));
   return bytes.substr(header_size, body - header_size);
 }
 

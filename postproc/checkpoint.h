@@ -1,5 +1,5 @@
 #pragma once
-// checkpoint.bin: the state of a fracture run, bit for bit, to go on from.
+// checkpoint.bin: the state of a fracture run, bit for bit, for a restart.
 
 #include "solver/state.h"
 
@@ -12,7 +12,7 @@ namespace pfdm {
 /// state belongs to.
 void write_checkpoint(const std::filesystem::path& path, const FractureState& state, const std::string& case_hash);
 
-/// Throws InputError if the file cannot be read, is no checkpoint, is cut short or damaged (checksum), has another
+/// Throws InputError if the file cannot be read, is not a checkpoint, is truncated or corrupt (checksum), has another
 /// version's format or belongs to another case.
 FractureState read_checkpoint(const std::filesystem::path& path, const std::string& case_hash);
 

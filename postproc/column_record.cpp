@@ -93,10 +93,10 @@ ColumnRecord read_record(const fs::path& folder) {
       throw InputError(fmt::format("{}: step {} is missing; run the case again", folder.string(), record.steps.size()));
     record.steps.push_back(rows_of<ColumnSample>(read_csv(file), visit_samples));
     if (record.steps.back().size() != record.places.size())
-      throw InputError(
-          fmt::format("{}: {} rows for {} places", file.string(), record.steps.back().size(), record.places.size()));
+      throw InputError(fmt::format("{}: found {} rows for {} places", file.string(), record.steps.back().size(),
+                                   record.places.size()));
   }
-  if (record.steps.empty()) throw InputError(fmt::format("{}: there is no step in it", folder.string()));
+  if (record.steps.empty()) throw InputError(fmt::format("{}: it contains no load step", folder.string()));
   return record;
 }
 

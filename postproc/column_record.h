@@ -1,7 +1,7 @@
 #pragma once
 // What the columns of a run told, step by step, as text: results/columns/NAME/places.csv says where the columns of a
 // set are, step_000012.csv has a row for each of them. Each file is written whole or not at all, so that a run that is
-// killed and gone on with leaves the record of an unbroken one.
+// killed and restarted leaves the record of an unbroken one.
 
 #include "postproc/columns.h"
 

@@ -206,7 +206,7 @@ ColumnSet plane_columns(const Mesh& mesh, const std::string& name, const Vector&
     if (section.area > 1e-9 * std::pow(mesh.cell_volume[cell], 2.0 / 3.0))
       set.columns.push_back(column_through(mesh, cell, section, unit, half_width, axis));
   }
-  if (set.columns.empty()) throw InputError(fmt::format("the plane \"{}\" misses the mesh", name));
+  if (set.columns.empty()) throw InputError(fmt::format("the plane \"{}\" does not intersect the mesh", name));
   return set;
 }
 

@@ -14,12 +14,12 @@ constexpr int n_points = 401;       // over the common range
 constexpr int n_slope_points = 51;  // over that of the stiffness
 
 void require_curve(const SampledCurve& curve) {
-  if (curve.x.size() < 2) throw InputError(fmt::format("the curve \"{}\" has less than two points", curve.name));
+  if (curve.x.size() < 2) throw InputError(fmt::format("the curve \"{}\" has fewer than two points", curve.name));
   for (std::size_t i = 1; i < curve.x.size(); ++i)
     if (curve.x[i] < curve.x[i - 1])
-      throw InputError(
-          fmt::format("the curve \"{}\" goes back at its point {}: cut unloading away, and put the points in order",
-                      curve.name, i + 1));
+      throw InputError(fmt::format(
+          "the curve \"{}\" decreases in displacement at its point {}: remove unloading, and sort the points",
+          curve.name, i + 1));
 }
 
 double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x) {

@@ -90,10 +90,9 @@ ForceComparison compare_forces(const SampledCurve& model, const std::vector<Samp
                         .stiffness_from = stiffness_from,
                         .stiffness_to = stiffness_to};
   if (stiffness_from < force.curves.x.front() || stiffness_to > force.curves.x.back())
-    throw InputError(
-        fmt::format("the stiffness is asked for between {:.4g} and {:.4g} m; the curves have in common "
-                    "{:.4g} to {:.4g} m",
-                    stiffness_from, stiffness_to, force.curves.x.front(), force.curves.x.back()));
+    throw InputError(fmt::format(
+        "the stiffness is requested between {:.4g} and {:.4g} m; the common range of the curves is {:.4g} to {:.4g} m",
+        stiffness_from, stiffness_to, force.curves.x.front(), force.curves.x.back()));
   const auto figures = [&](const SampledCurve& curve) {
     return figures_of(curve, force.curves.x.front(), force.curves.x.back(), stiffness_from, stiffness_to);
   };

@@ -17,7 +17,7 @@ void read_header(CsvTable& table, std::string_view line, const std::string& wher
   for (const std::string_view word : split_at_commas(line)) {
     if (word.empty() || parse_double(word))
       throw InputError(
-          fmt::format("{}: \"{}\" stands where the names of the columns are due, as in time_s,strain_xx", where, line));
+          fmt::format("{}: expected the names of the columns, as in time_s,strain_xx, found \"{}\"", where, line));
     if (std::ranges::count(table.names, word) > 0)
       throw InputError(fmt::format("{}: two columns are called \"{}\"", where, word));
     table.add(std::string(word), {});
@@ -27,11 +27,12 @@ void read_header(CsvTable& table, std::string_view line, const std::string& wher
 void read_row(CsvTable& table, std::string_view line, const std::string& where) {
   const auto words = split_at_commas(line);
   if (words.size() != table.names.size())
-    throw InputError(fmt::format("{}: {} entries in a table of {} columns", where, words.size(), table.names.size()));
+    throw InputError(
+        fmt::format("{}: found {} entries in a table of {} columns", where, words.size(), table.names.size()));
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto value = parse_double(words[i]);
     if (!value || !std::isfinite(*value))
-      throw InputError(fmt::format("{}: \"{}\" in column \"{}\" is no number", where, words[i], table.names[i]));
+      throw InputError(fmt::format("{}: \"{}\" in column \"{}\" is not a number", where, words[i], table.names[i]));
     table.columns[i].push_back(*value);
   }
 }
@@ -41,7 +42,7 @@ void read_row(CsvTable& table, std::string_view line, const std::string& where) 
 const std::vector<double>& CsvTable::column(std::string_view name) const {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == name) return columns[i];
-  throw InputError(fmt::format("there is no column \"{}\" (there are: {})", name, fmt::join(names, ", ")));
+  throw InputError(fmt::format("there is no column \"{}\" (available: {})", name, fmt::join(names, ", ")));
 }
 
 void CsvTable::add(std::string name, std::vector<double> values) {
@@ -64,7 +65,7 @@ CsvTable read_csv(const std::filesystem::path& path) {
     else
       read_row(table, line, where);
   }
-  if (table.n_rows() == 0) throw InputError(fmt::format("{}: there are no rows of numbers in it", path.string()));
+  if (table.n_rows() == 0) throw InputError(fmt::format("{}: it contains no rows of numbers", path.string()));
   return table;
 }
 

@@ -44,7 +44,7 @@ class CurveFile {
  public:
   /// Starts a curve without rows. Throws ComputationError if the file cannot be written, as write() does.
   explicit CurveFile(std::filesystem::path path);
-  /// Goes on from a curve on the disk, of which the rows up to `last_step` are kept; without a file, from none.
+  /// Continues a curve on the disk, of which the rows up to `last_step` are kept; without a file, from none.
   /// Throws InputError likewise to read_curve.
   CurveFile(std::filesystem::path path, Index last_step);
 

@@ -25,7 +25,7 @@ MeasuredPoints points_between(const std::vector<SampledCurve>& specimens, double
       const double deviation = curve.deviation.empty() ? 0.0 : curve.deviation[i];
       if (!curve.deviation.empty() && !(deviation > 0.0))
         throw InputError(
-            fmt::format("the standard deviation of \"{}\" at {:.4g} (SI) is zero: it would weigh without bound",
+            fmt::format("the standard deviation of \"{}\" at {:.4g} (SI) is zero: its weight would be infinite",
                         curve.name, curve.x[i]));
       measured.points.push_back({s, curve.x[i], curve.y[i], deviation});
       measured.rms += curve.y[i] * curve.y[i];

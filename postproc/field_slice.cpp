@@ -42,13 +42,13 @@ struct StoredFrame::Data {
 };
 
 StoredFrame::StoredFrame(const std::filesystem::path& file) : data_(std::make_unique<Data>()) {
-  if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: the frame is not there", file.string()));
+  if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: the frame does not exist", file.string()));
   const CaughtVtkMessages caught;
   data_->reader->SetFileName(file.c_str());
   data_->reader->Update();
   if (!caught.none() || data_->grid()->GetNumberOfCells() == 0)
     throw InputError(
-        fmt::format("{}: this is no frame: {}", file.string(), caught.none() ? "it has no cells" : caught.first()));
+        fmt::format("{}: this is not a frame: {}", file.string(), caught.none() ? "it has no cells" : caught.first()));
 }
 
 StoredFrame::~StoredFrame() = default;

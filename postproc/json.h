@@ -33,7 +33,7 @@ auto read_json(const std::filesystem::path& path, std::string_view what, const T
   try {
     return take(nlohmann::ordered_json::parse(read_file(path)));
   } catch (const nlohmann::ordered_json::exception& error) {
-    throw InputError(fmt::format("{}: this is no {}: {}", path.string(), what, error.what()));
+    throw InputError(fmt::format("{}: this is not a {}: {}", path.string(), what, error.what()));
   }
 }
 

@@ -63,7 +63,7 @@ class Font {
   explicit Font(const char* file) {
     if (FT_Init_FreeType(&library_) != 0 || FT_New_Face(library_, file, 0, &face_) != 0)
       throw ComputationError(
-          fmt::format("{}: the font of reports cannot be read; the Debian package fonts-liberation brings it", file));
+          fmt::format("{}: the font of reports cannot be read; the Debian package fonts-liberation provides it", file));
   }
   ~Font() { FT_Done_FreeType(library_); }  // its faces go with it
   Font(const Font&) = delete;

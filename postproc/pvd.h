@@ -22,7 +22,7 @@ class PvdSeries {
  public:
   /// Starts a list without frames. Throws ComputationError if the file cannot be written, as add() does.
   explicit PvdSeries(std::filesystem::path path);
-  /// Goes on from a list on the disk, of which the frames that `keeps` says are kept; without a file, from none.
+  /// Continues a list on the disk, of which the frames that `keeps` says are kept; without a file, from none.
   /// Throws InputError likewise to read_pvd.
   PvdSeries(std::filesystem::path path, const std::function<bool(const Frame&)>& keeps);
 

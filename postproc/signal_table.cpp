@@ -25,7 +25,7 @@ class CsvReader {
 
   SignalTable read() {
     while (next_line()) take(line_);
-    if (n_rows_ < 2) throw InputError(fmt::format("{}: a row of names and a row of units are due", path_.string()));
+    if (n_rows_ < 2) throw InputError(fmt::format("{}: expected a row of names and a row of units", path_.string()));
     SignalTable table{.remark = remark_, .columns = {}};
     for (std::size_t i = 0; i < names_.size(); ++i)
       table.columns.push_back(
@@ -49,17 +49,17 @@ class CsvReader {
     }
     const auto row = split_at_commas(line);
     if (n_rows_ > 0 && row.size() != names_.size())
-      throw error(fmt::format("{} cells in a table of {} columns", row.size(), names_.size()));
+      throw error(fmt::format("found {} entries in a table of {} columns", row.size(), names_.size()));
     if (n_rows_ == 0) names_.assign(row.begin(), row.end());
     if (n_rows_ == 1) units_.assign(row.begin(), row.end());
     values_.resize(row.size());
     for (std::size_t i = 0; n_rows_ >= 2 && i < row.size(); ++i) {
       const auto value = number(row[i]);
-      if (!value) throw error(fmt::format("\"{}\" is no number", row[i]));
+      if (!value) throw error(fmt::format("\"{}\" is not a number", row[i]));
       values_[i].push_back(*value);
     }
     if (n_rows_ == 1 && parse_double(row.front()))
-      throw error("numbers stand where the row of units is due, as in \"s,m/s^2,m/s^2\"");
+      throw error("expected a row of units, as in \"s,m/s^2,m/s^2\", found numbers");
     ++n_rows_;
   }
 

@@ -118,13 +118,13 @@ herr_t collect(hid_t root, const char* name, const H5O_info_t* info, void* user)
 SignalTable read_signals_hdf5(const std::filesystem::path& path) {
   const QuietHdf5 quiet;
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file.is_open()) throw InputError(fmt::format("{}: this is no HDF5 file that can be read", path.string()));
+  if (!file.is_open()) throw InputError(fmt::format("{}: this is not a readable HDF5 file", path.string()));
   Collected collected{.table = {}, .left_out = {}, .fault = {}};
   if (H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, &collect, &collected, H5O_INFO_BASIC) < 0)
     throw InputError(fmt::format("{}: {}", path.string(),
                                  collected.fault.empty() ? "its contents cannot be listed" : collected.fault));
   if (collected.table.columns.empty())
-    throw InputError(fmt::format("{}: there are no vectors of real numbers in it ({} other datasets)", path.string(),
+    throw InputError(fmt::format("{}: it contains no vectors of real numbers ({} other datasets)", path.string(),
                                  collected.left_out.size()));
   collected.table.remark = text_attribute(file, "remark").value_or("");
   return std::move(collected.table);

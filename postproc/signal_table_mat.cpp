@@ -48,7 +48,7 @@ std::optional<std::string> text_of(const matvar_t& v) {
 
 SignalTable read_signals_mat(const std::filesystem::path& path) {
   const File file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close);
-  if (!file) throw InputError(fmt::format("{}: this is no MATLAB file that can be read", path.string()));
+  if (!file) throw InputError(fmt::format("{}: this is not a readable MATLAB file", path.string()));
   SignalTable table;
   std::map<std::string, std::string> texts;
   for (;;) {
@@ -61,7 +61,7 @@ SignalTable read_signals_mat(const std::filesystem::path& path) {
   for (SignalColumn& column : table.columns)
     if (const auto unit = texts.find(column.name + "_unit"); unit != texts.end()) column.unit = unit->second;
   if (const auto remark = texts.find("remark"); remark != texts.end()) table.remark = remark->second;
-  if (table.columns.empty()) throw InputError(fmt::format("{}: there are no real vectors in it", path.string()));
+  if (table.columns.empty()) throw InputError(fmt::format("{}: it contains no real vectors", path.string()));
   return table;
 }
 

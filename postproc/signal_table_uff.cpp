@@ -81,9 +81,10 @@ class UffReader {
       skip_to_delimiter();
     }
     if (functions.empty())
-      throw InputError(seen_.empty() ? fmt::format("{}: this is no universal file: no dataset begins", path_.string())
-                                     : fmt::format("{}: there is no dataset 58 (there are: {})", path_.string(),
-                                                   fmt::join(seen_, ", ")));
+      throw InputError(
+          seen_.empty()
+              ? fmt::format("{}: this is not a universal file: no dataset begins", path_.string())
+              : fmt::format("{}: there is no dataset 58 (available: {})", path_.string(), fmt::join(seen_, ", ")));
     return functions;
   }
 
@@ -94,7 +95,7 @@ class UffReader {
   }
 
   std::string_view next_line(const char* what) {
-    if (at_ >= content_.size()) throw error(fmt::format("the file ends where {} is due", what));
+    if (at_ >= content_.size()) throw error(fmt::format("the file ends where {} is expected", what));
     const std::size_t end = std::min(content_.find('\n', at_), content_.size());
     std::string_view line(content_.data() + at_, end - at_);
     at_ = end + 1;
@@ -113,13 +114,13 @@ class UffReader {
   void skip_to_delimiter() {
     while (at_ < content_.size())
       if (trimmed(next_line("-1")) == "-1") return;
-    throw error("it is cut short: its closing -1 is missing");
+    throw error("it is truncated: its closing -1 is missing");
   }
 
   int integer(std::string_view line, std::size_t from, std::size_t width, const char* what) const {
     const std::string_view text = field(line, from, width);
     const auto value = parse_int(text);
-    if (!value) throw error(fmt::format("\"{}\" is no {}", text, what));
+    if (!value) throw error(fmt::format("\"{}\" is not a valid {}", text, what));
     return *value;
   }
 
@@ -128,7 +129,7 @@ class UffReader {
     std::ranges::replace(text, 'D', 'E');
     if (text.starts_with('+')) text.erase(0, 1);
     const auto value = parse_double(text);
-    if (!value) throw error(fmt::format("\"{}\" is no {}", text, what));
+    if (!value) throw error(fmt::format("\"{}\" is not a valid {}", text, what));
     return *value;
   }
 
@@ -159,15 +160,16 @@ class UffReader {
   void read_form(std::string_view line, UffFunction& f) const {
     const int type = integer(line, 0, 10, "data type");
     if (type != 2 && type != 4 && type != 5 && type != 6)
-      throw error(fmt::format("data type {} is not known; 2, 4, 5 and 6 are", type));
+      throw error(fmt::format("data type {} is not supported; 2, 4, 5 and 6 are", type));
     f.values = {.is_double = type == 4 || type == 6, .is_complex = type >= 5};
     const int n = integer(line, 10, 10, "number of values");
-    if (n < 1) throw error(fmt::format("it has {} values", n));
+    if (n < 1) throw error(fmt::format("it has {} values; at least 1 is required", n));
     f.n = static_cast<std::size_t>(n);
     f.even = integer(line, 20, 10, "abscissa spacing") == 1;
     f.first = real(line, 30, "first abscissa");
     f.step = real(line, 43, "abscissa increment");
-    if (f.even && !(f.step > 0.0)) throw error(fmt::format("its abscissa grows by {}", f.step));
+    if (f.even && !(f.step > 0.0))
+      throw error(fmt::format("its abscissa increment is {}; it must be positive", f.step));
   }
 
   std::vector<double> text_numbers(const UffFunction& f) {
@@ -195,7 +197,7 @@ class UffReader {
       const auto [next, fault] = std::from_chars(at, end, value);
       if (fault == std::errc::invalid_argument)
         throw error(
-            fmt::format("\"{}\" is no number", trimmed(std::string_view(at, static_cast<std::size_t>(end - at)))));
+            fmt::format("\"{}\" is not a number", trimmed(std::string_view(at, static_cast<std::size_t>(end - at)))));
       numbers.push_back(value);
       at = next;
     }
@@ -203,10 +205,10 @@ class UffReader {
 
   std::vector<double> binary_numbers(const UffFunction& f, std::string_view header) {
     const int order = integer(header, 7, 6, "byte order"), format = integer(header, 13, 6, "floating-point format");
-    if (order != 1 && order != 2) throw error(fmt::format("byte order {} is not known; 1 and 2 are", order));
+    if (order != 1 && order != 2) throw error(fmt::format("byte order {} is not supported; 1 and 2 are", order));
     if (format != 2) throw error(fmt::format("its numbers have format {}; only IEEE 754 (2) is read", format));
     if (const int n = integer(header, 19, 12, "number of lines"); n != lines_before_data)
-      throw error(fmt::format("{} lines stand before its data; {} are due", n, lines_before_data));
+      throw error(fmt::format("found {} lines before its data; expected {}", n, lines_before_data));
     const std::size_t size = f.values.is_double ? 8 : 4, abscissa = f.even ? 0 : size_of_abscissa(f, size);
     if (!ends_after(f.n * (abscissa + size)))
       throw error(fmt::format("its closing -1 does not follow {} binary values of {} bytes", f.n, size));
@@ -270,8 +272,8 @@ SignalTable read_signals_uff(const std::filesystem::path& path) {
   for (const UffFunction& f : functions) types.insert(f.type);
   std::erase_if(functions, [](const UffFunction& f) { return f.type != time_response; });
   if (functions.empty())
-    throw InputError(fmt::format("{}: there is no function of type 1, a time response (there are types {})",
-                                 path.string(), fmt::join(types, ", ")));
+    throw InputError(fmt::format("{}: there is no function of type 1, a time response (found types {})", path.string(),
+                                 fmt::join(types, ", ")));
   const UffFunction& first = functions.front();
   for (const UffFunction& f : functions)
     if (f.abscissa != first.abscissa)

@@ -39,7 +39,7 @@ void require_file(const std::filesystem::path& path) {
   if (type == file_type::fifo) refuse(path, "it is a named pipe, not a file");
   if (type == file_type::not_found) refuse(path, message(ENOENT));
   if (error) refuse(path, error.message());
-  if (type != file_type::regular) refuse(path, "it is no regular file");
+  if (type != file_type::regular) refuse(path, "it is not a regular file");
   if (::access(path.c_str(), R_OK) != 0) refuse(path, message(errno));
 }
 

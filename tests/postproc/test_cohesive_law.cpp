@@ -67,7 +67,7 @@ TEST(CohesiveLaw, is_traced_down_to_the_end) {
   EXPECT_DOUBLE_EQ(figures.normal_energy, 2e-6 + 12e-6 + 4e-6);
 }
 
-// No jump, although the traction falls at once, and not traced, although none is left.
+// No jump, although the traction drops within a step, and not traced, although none is left.
 TEST(CohesiveLaw, tells_unloading_from_a_jump) {
   const ColumnRecord record = record_of({0.1}, {unloads});
   const CohesiveFigures figures = figures_of(record, averaged_laws(record).front());

@@ -46,9 +46,10 @@ TEST(CsvTable, takes_blanks_comments_and_foreign_line_ends) {
 TEST(CsvTable, says_what_is_wrong_and_where) {
   using testing::HasSubstr;
   EXPECT_THAT(complaint("a,b\n1,2\n3\n"), HasSubstr("line 3: 1 entries in a table of 2 columns"));
-  EXPECT_THAT(complaint("a,b\n1,x\n"), HasSubstr("line 2: \"x\" in column \"b\" is no number"));
-  EXPECT_THAT(complaint("a,b\n1,nan\n"), HasSubstr("is no number"));
-  EXPECT_THAT(complaint("1,2\n3,4\n"), HasSubstr("line 1: \"1,2\" stands where the names"));
+  EXPECT_THAT(complaint("a,b\n1,x\n"), HasSubstr("line 2: \"x\" in column \"b\" is not a number"));
+  EXPECT_THAT(complaint("a,b\n1,nan\n"), HasSubstr("is not a number"));
+  EXPECT_THAT(complaint("1,2\n3,4\n"),
+              HasSubstr("line 1: expected the names of the columns, as in time_s,strain_xx, found \"1,2\""));
   EXPECT_THAT(complaint("a,a\n3,4\n"), HasSubstr("two columns are called \"a\""));
   EXPECT_THAT(complaint("a,b\n"), HasSubstr("no rows"));
   EXPECT_THAT(complaint("a\n1\n"), HasSubstr("nothing was thrown"));

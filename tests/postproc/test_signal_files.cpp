@@ -154,11 +154,11 @@ TEST_F(UniversalFiles, MayBeBinaryInEitherByteOrderAndPrecision) {
 }
 
 TEST_F(UniversalFiles, SayWhatIsWrongWithThem) {
-  EXPECT_THAT(refused("hello\n"), HasSubstr("a.unv: this is no universal file"));
-  EXPECT_THAT(refused("    -1\n    15\n    -1\n"), HasSubstr("no dataset 58 (there are: 15)"));
+  EXPECT_THAT(refused("hello\n"), HasSubstr("a.unv: this is not a universal file"));
+  EXPECT_THAT(refused("    -1\n    15\n    -1\n"), HasSubstr("no dataset 58 (available: 15)"));
   Function f;
   f.function_type = 4;
-  EXPECT_THAT(refused(f.text()), HasSubstr("no function of type 1, a time response (there are types 4)"));
+  EXPECT_THAT(refused(f.text()), HasSubstr("no function of type 1, a time response (found types 4)"));
   f = {};
   f.n = 5;
   EXPECT_THAT(refused(f.text()), HasSubstr("a.unv, dataset of line 1: it has 4 of 5 data values"));
@@ -168,7 +168,7 @@ TEST_F(UniversalFiles, SayWhatIsWrongWithThem) {
   EXPECT_THAT(refused(f.text()), HasSubstr("it has -3 values"));
   f = {};
   f.values = "  1.00000E+00 two\n";
-  EXPECT_THAT(refused(f.text()), HasSubstr("\"two\" is no number"));
+  EXPECT_THAT(refused(f.text()), HasSubstr("\"two\" is not a number"));
   f = {};
   f.data_type = 5;
   EXPECT_THAT(refused(f.text()), HasSubstr("complex"));
@@ -181,7 +181,7 @@ TEST_F(UniversalFiles, SayWhatIsWrongWithThem) {
   f.end = "";
   EXPECT_THAT(refused(f.text()), HasSubstr("cut short"));
   f.values = "";
-  EXPECT_THAT(refused(f.text()), HasSubstr("the file ends where a data value is due"));
+  EXPECT_THAT(refused(f.text()), HasSubstr("the file ends where a data value is expected"));
   f = {};
   f.header = binary_header(1, 1, 16);
   EXPECT_THAT(refused(f.text()), HasSubstr("only IEEE 754"));
