@@ -99,13 +99,13 @@ void read_condition(const ConfigTable& table, const Materials& materials, Bounda
   if (type.name == "components") return read_components(table, materials, settings);
   for (const char* key : {"displacement", "traction"})
     if (const auto value = table.find(key))
-      throw value->error(fmt::format("a patch of type \"{}\" has no prescribed value", type.name));
+      throw value->error(fmt::format("a patch of type \"{}\" takes no prescribed value", type.name));
 }
 
 std::vector<ConfigValue> patches_of(const ConfigTable& table) {
   const auto several = table.find("patches");
   if (!several) return {table.at("patch")};
-  if (table.has("patch")) throw table.error("patch and patches are both given; one is enough");
+  if (table.has("patch")) throw table.error("give either patch or patches, not both");
   return several->list();
 }
 

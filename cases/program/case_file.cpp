@@ -67,7 +67,7 @@ CaseFile open_case(const std::filesystem::path& where) {
   const std::filesystem::path directory = !is_file ? where : where.has_parent_path() ? where.parent_path() : ".";
   const std::filesystem::path file = is_file ? where : where / "case.toml";
   if (is_not_there(where)) throw InputError(fmt::format("{}: there is no such case directory", where.string()));
-  if (is_not_there(file)) throw InputError(fmt::format("{}: there is no case.toml in it", where.string()));
+  if (is_not_there(file)) throw InputError(fmt::format("{}: it contains no case.toml", where.string()));
   std::string text = read_file(file);
   Config config(text, file.string());
   return {.directory = directory, .text = std::move(text), .config = std::move(config)};

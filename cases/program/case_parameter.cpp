@@ -42,15 +42,15 @@ std::string CaseParameter::shown(double si) const {
 
 CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file) {
   const std::vector<ConfigValue> keys = key.is_list() ? key.list() : std::vector{key};
-  if (keys.empty()) throw key.error("a key of the case is due, as in \"materials.glass.young_modulus\"");
+  if (keys.empty()) throw key.error("expected a key of the case, as in \"materials.glass.young_modulus\"");
   CaseParameter result = keys[0].in_context([&] { return parameter_at(keys[0].string(), file); });
   for (std::size_t i = 1; i < keys.size(); ++i) {
     const CaseParameter other = keys[i].in_context([&] { return parameter_at(keys[i].string(), file); });
     if (other.dimension.name != result.dimension.name)
-      throw keys[i].error(fmt::format("this is {}, \"{}\" is {}: they cannot keep a ratio",
+      throw keys[i].error(fmt::format("this is {}, \"{}\" is {}; keys that keep a ratio must have the same dimension",
                                       with_article(other.dimension.name), result.name,
                                       with_article(result.dimension.name)));
-    if (result.value == 0.0) throw keys[0].error("nothing keeps its ratio to a value of zero");
+    if (result.value == 0.0) throw keys[0].error("the value of the first key is zero; no ratio to it can be kept");
     result.keys.push_back(other.name);
     result.ratios.push_back(other.value / result.value);
   }

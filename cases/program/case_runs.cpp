@@ -58,7 +58,7 @@ std::vector<CaseRuns::Wanted> CaseRuns::wanted(const std::vector<CaseVariant>& v
       wanted.folder = folder_ / wanted.key;
     } catch (const InputError& error) {  // values that the case's own rules exclude
       if (!known_.contains(wanted.known_as()))
-        session_.log.warn(fmt::format("there is no case with {}: {}", variant.shown, error.what()));
+        session_.log.warn(fmt::format("the case cannot be run with {}: {}", variant.shown, error.what()));
       remember(wanted, {{}, error.what()});
     }
   }
@@ -109,7 +109,7 @@ bool CaseRuns::find(const Wanted& wanted) {
   remember(wanted, *done);
   if (!made_.contains(wanted.key) && reused_.insert(wanted.key).second)
     session_.log.step(
-        fmt::format("  there already: {}{}", wanted.variant->shown, done->went_well() ? "" : ", did not converge"));
+        fmt::format("  reused: {}{}", wanted.variant->shown, done->went_well() ? "" : ", did not converge"));
   return true;
 }
 
@@ -166,20 +166,20 @@ int CaseRuns::do_run(const Wanted& wanted, int threads, Log& log) {
 
 void CaseRuns::ended(const Wanted& wanted, const JobEnd& end) {
   if (end.signal != 0)
-    throw ComputationError(fmt::format("the run in {} was killed by signal {}{}; what was run so far is kept",
+    throw ComputationError(fmt::format("the run in {} was killed by signal {}{}; completed steps are kept",
                                        wanted.folder.string(), end.signal,
                                        end.signal == SIGKILL ? " (is there enough memory?)" : ""));
   const bool is_an_answer = end.status == run_went_well || end.status == run_did_not_converge;
   const auto done = is_an_answer ? done_run_in(wanted.folder, wanted.until) : std::nullopt;
   if (!done)
-    throw ComputationError(fmt::format("the run in {} broke off; its run.log says why; what was run so far is kept",
-                                       wanted.folder.string()));
+    throw ComputationError(fmt::format(
+        "the run in {} ended without a result; see its run.log; completed steps are kept", wanted.folder.string()));
   remember(wanted, *done);
   const bool went_on = !made_.insert(wanted.key).second;
   reused_.erase(wanted.key);
   if (done->went_well()) {
     const std::string told =
-        fmt::format("  {}: {}", went_on ? "gone on with" : fmt::format("run {}", n_made()), wanted.variant->shown);
+        fmt::format("  {}: {}", went_on ? "continued" : fmt::format("run {}", n_made()), wanted.variant->shown);
     session_.log.step(told);
     session_.log.progress(told);
   } else {

@@ -1,6 +1,6 @@
 #pragma once
 // Runs of one case with other values, each in a folder of its own under the hash of all that decides its results: what
-// has been run is there, what was interrupted goes on, and no run is done twice.
+// has been run is there, what was interrupted continues, and no run is done twice.
 
 #include "cases/program/case_file.h"
 #include "cases/program/session.h"
@@ -41,8 +41,8 @@ class CaseRuns {
   CaseRuns& operator=(const CaseRuns&) = delete;
 
   /// Runs what is not there yet; with `until`, only up to the step that brings the curve's displacement there [m], from
-  /// where a later call goes on. Comes back in the order of the variants; the results do not depend on how many run at
-  /// a time. Throws ComputationError if a run breaks off for another reason than that it does not converge.
+  /// where a later call continues. Comes back in the order of the variants; the results do not depend on how many run
+  /// at a time. Throws ComputationError if a run breaks off for another reason than that it does not converge.
   std::vector<DoneRun> run(const std::vector<CaseVariant>& variants, std::optional<double> until = std::nullopt);
 
   /// What run() would have to run, each once; nothing is run.
@@ -52,7 +52,7 @@ class CaseRuns {
   /// variant's.
   void run_here(const CaseVariant& variant, const std::string& key);
 
-  int n_made() const { return static_cast<int>(made_.size()); }      ///< runs that were done, or gone on with, here
+  int n_made() const { return static_cast<int>(made_.size()); }      ///< runs that were done, or continued, here
   int n_reused() const { return static_cast<int>(reused_.size()); }  ///< that were there before
   int n_failed() const { return static_cast<int>(failed_.size()); }  ///< of all, that did not converge or cannot be
 

@@ -26,11 +26,9 @@ struct CommandText {
 
 constexpr CommandText case_commands[] = {
     {"run", "Run a case: make the mesh, solve, write the results",
-     "Writes to CASE/results: summary.json, run.log and, by kind of case,\n"
-     "  fracture       force_displacement.csv, fields.pvd (ParaView), mesh.vtu, cohesive laws\n"
-     "  endochronic    history.csv\n"
-     "  mass_material  a CSV file for each test\n"
-     "A fracture run that was killed or interrupted goes on with --restart."},
+     "Writes to CASE/results: summary.json, run.log and, by kind of case,\n  fracture       force_displacement.csv, "
+     "fields.pvd (ParaView), mesh.vtu, cohesive laws\n  endochronic    history.csv\n  mass_material  a CSV file for "
+     "each test\nA fracture run that was killed or interrupted continues with --restart."},
     {"check", "Read everything and solve nothing: say what would run, or what is wrong", "Writes no files."},
     {"mesh", "Make the mesh and measure its quality", "Writes CASE/results/mesh.vtu."},
     {"cohesive", "Extract the traction-separation laws of interfaces and planes from the results of a run",
@@ -39,17 +37,17 @@ constexpr CommandText case_commands[] = {
     {"compare", "Compare the results of a run with the experiment that the case names in [experiment]",
      "Writes to CASE/results: comparison.json, comparison.csv."},
     {"fit", "Estimate the values that the case names in [fit] from its experiment",
-     "Writes to CASE/results: fit.json, the fitted case case.fitted.toml and curves.\n"
-     "The fit of a fracture case keeps its runs in CASE/results/runs; the same command goes on with them."},
+     "Writes to CASE/results: fit.json, the fitted case case.fitted.toml and curves.\nThe fit of a fracture case keeps "
+     "its runs in CASE/results/runs; the same command continues them."},
     {"sweep", "Run a case with the sets of values that it names in [sweep]",
-     "Writes to CASE/results: sweep.csv, a row for each run. The runs are kept in CASE/results/runs;\n"
-     "the same command goes on with them."},
+     "Writes to CASE/results: sweep.csv, a row for each run. The runs are kept in CASE/results/runs;\nthe same command "
+     "continues them."},
     {"report", "Draw pictures and plots of the results on one page",
      "Writes to CASE/results/report: report.pdf, report.png."},
 };
 
 constexpr CommandText other_commands[] = {
-    {"init", "Make a new case directory from a case that is there",
+    {"init", "Make a new case directory from an existing case",
      "Writes to DIR: case.toml, the data files that it names, a README.md to be filled in; no results.\n"
      "Without --like it lists the cases to choose from."},
     {"list", "List the cases that ship: name, kind, what a run here has taken, title", "Writes no files."},
@@ -110,14 +108,14 @@ void Parser::add_case_options() {
     if (of.get_name() != "check")
       of.add_option("--output", line.output, "results directory (default: CASE/results)")->type_name("DIR");
   }
-  command("run").add_flag("--restart", line.restart, "go on from the last complete step");
+  command("run").add_flag("--restart", line.restart, "continue from the last complete step");
   command("run")
-      .add_option("--max-steps", line.max_steps, "stop after N load steps; --restart goes on from there")
+      .add_option("--max-steps", line.max_steps, "stop after N load steps; --restart continues from there")
       ->check(CLI::Range(1, 1000000000).description(""))
       ->type_name("N");
-  command("sweep").add_flag("--slurm", line.slurm, "hand the missing runs to Slurm, or collect them");
+  command("sweep").add_flag("--slurm", line.slurm, "submit the missing runs to Slurm, or collect them");
   command("sweep")
-      .add_option("--prepared", line.prepared, "make this one of the runs that --slurm has prepared")
+      .add_option("--prepared", line.prepared, "run this one of the runs that --slurm has prepared")
       ->type_name("RUN")
       ->needs("--output")
       ->group("");
@@ -156,15 +154,14 @@ void require_known_command(const std::string& word, const CLI::App& app) {
   const std::vector<std::string> names = names_of_commands(app);
   if (std::ranges::count(names, word) > 0) return;
   throw InputError(
-      fmt::format("there is no command \"{}\"{} (there are: {})", word, meant(word, names), fmt::join(names, ", ")));
+      fmt::format("unknown command \"{}\"{} (available: {})", word, meant(word, names), fmt::join(names, ", ")));
 }
 
 void require_command(const std::vector<std::string>& arguments, const CLI::App& app) {
   if (arguments.empty())
-    throw InputError(
-        fmt::format("a command is due, as in: pfdm run cases/glass_bead_quick (there are: {}); pfdm help "
-                    "says what each does",
-                    fmt::join(names_of_commands(app), ", ")));
+    throw InputError(fmt::format(
+        "a command is required, as in: pfdm run cases/glass_bead_quick (available: {}); pfdm help says what each does",
+        fmt::join(names_of_commands(app), ", ")));
   if (!arguments.front().starts_with("-")) require_known_command(arguments.front(), app);
 }
 
@@ -179,13 +176,13 @@ InputError wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<std::string> names = names_of_options(command);
     const std::string word = option->substr(0, option->find('='));
     if (std::ranges::count(names, word) > 0)
-      return InputError(fmt::format("{} stands behind the command, as in: pfdm {} ... {}", word, called, word));
-    return InputError(fmt::format("{} has no option \"{}\"{} (there are: {})", called, word, meant(word, names),
+      return InputError(fmt::format("{} must follow the command, as in: pfdm {} ... {}", word, called, word));
+    return InputError(fmt::format("{} has no option \"{}\"{} (available: {})", called, word, meant(word, names),
                                   fmt::join(names, ", ")));
   }
   if (!left.empty())
-    return InputError(fmt::format("{}: \"{}\" is one word too many; {} says what is due", called, left.front(), help));
-  return InputError(fmt::format("{}: {}; {} says what is due", called, error.what(), help));
+    return InputError(fmt::format("{}: unexpected argument \"{}\"; see {}", called, left.front(), help));
+  return InputError(fmt::format("{}: {}; see {}", called, error.what(), help));
 }
 
 CommandWords::Option words_of(const CLI::Option& option, const std::vector<std::string>& commands) {

@@ -116,17 +116,17 @@ InputError ConfigValue::error(std::string_view message) const {
 
 std::string ConfigValue::string() const {
   if (const auto* text = std::get_if<std::string>(&value_->value)) return *text;
-  throw error(fmt::format("{} stands where a text is due", shown(*value_)));
+  throw error(fmt::format("expected a text in quotes, found {}", shown(*value_)));
 }
 
 bool ConfigValue::boolean() const {
   if (const bool* flag = std::get_if<bool>(&value_->value)) return *flag;
-  throw error(fmt::format("{} stands where true or false is due", shown(*value_)));
+  throw error(fmt::format("expected true or false, found {}", shown(*value_)));
 }
 
 std::int64_t ConfigValue::integer(const Range& allowed) const {
   const auto* value = std::get_if<std::int64_t>(&value_->value);
-  if (value == nullptr) throw error(fmt::format("{} stands where a whole number is due", shown(*value_)));
+  if (value == nullptr) throw error(fmt::format("expected a whole number, found {}", shown(*value_)));
   if (!allowed.holds(static_cast<double>(*value))) throw error(fmt::format("{} must be {}", *value, allowed.words));
   return *value;
 }
@@ -138,7 +138,7 @@ double ConfigValue::number(const Range& allowed) const {
   else if (const auto* whole = std::get_if<std::int64_t>(&value_->value))
     value = static_cast<double>(*whole);
   else
-    throw error(fmt::format("{} stands where a number is due", shown(*value_)));
+    throw error(fmt::format("expected a number, found {}", shown(*value_)));
   if (!allowed.holds(value)) throw error(fmt::format("{} must be {}", value, allowed.words));
   return value;
 }
@@ -146,7 +146,7 @@ double ConfigValue::number(const Range& allowed) const {
 std::string ConfigValue::shown_with_unit_due(const Dimension& due) const {
   const bool bare =
       std::holds_alternative<double>(value_->value) || std::holds_alternative<std::int64_t>(value_->value);
-  return fmt::format("{} {}; {} is due here, as in \"{}\"", shown(*value_), bare ? "has no unit" : "is no quantity",
+  return fmt::format("{} {}; expected {}, as in \"{}\"", shown(*value_), bare ? "has no unit" : "is not a quantity",
                      with_article(due.name), due.example);
 }
 
@@ -162,14 +162,14 @@ std::string ConfigValue::one_of(std::span<const std::string> allowed, std::strin
   const std::string value = string();
   if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
   const auto meant = nearest(value, allowed);
-  throw error(fmt::format("\"{}\" is no {}{} (there are: {})", value, what,
+  throw error(fmt::format("\"{}\" is not {}{} (allowed: {})", value, with_article(what),
                           meant ? fmt::format("; did you mean \"{}\"?", *meant) : "", fmt::join(allowed, ", ")));
 }
 
 std::vector<ConfigValue> ConfigValue::list(std::optional<std::size_t> n) const {
   const auto* array = std::get_if<TomlArray>(&value_->value);
-  if (array == nullptr) throw error(fmt::format("{} stands where a list is due", shown(*value_)));
-  if (n && array->size() != *n) throw error(fmt::format("the list has {} entries; {} are due", array->size(), *n));
+  if (array == nullptr) throw error(fmt::format("expected a list, found {}", shown(*value_)));
+  if (n && array->size() != *n) throw error(fmt::format("expected {} entries, found {}", *n, array->size()));
   std::vector<ConfigValue> result;
   for (std::size_t i = 0; i < array->size(); ++i)
     result.emplace_back(source_, &(*array)[i], fmt::format("{}[{}]", place_, i), path_);
@@ -177,7 +177,7 @@ std::vector<ConfigValue> ConfigValue::list(std::optional<std::size_t> n) const {
 }
 
 ConfigTable ConfigValue::table() const {
-  if (!is_table()) throw error(fmt::format("{} stands where a table is due", shown(*value_)));
+  if (!is_table()) throw error(fmt::format("expected a table, found {}", shown(*value_)));
   return ConfigTable(source_, value_, path_);
 }
 
@@ -237,7 +237,7 @@ std::vector<std::pair<std::string, ConfigValue>> ConfigTable::entries() const {
 }
 
 ConfigTable ConfigTable::table(std::string_view key) const {
-  return required(key, fmt::format("; the table [{}] is due", subtable(path_, key))).table();
+  return required(key, fmt::format("; expected a table [{}]", subtable(path_, key))).table();
 }
 
 std::string ConfigTable::string(std::string_view key, std::string_view otherwise) const {
@@ -261,7 +261,7 @@ double ConfigTable::number(std::string_view key, const Range& allowed, double ot
 }
 
 double ConfigTable::quantity(std::string_view key, const Dimension& due, const Range& allowed) const {
-  return required(key, fmt::format("; {} is due, as in \"{}\"", with_article(due.name), due.example))
+  return required(key, fmt::format("; expected {}, as in \"{}\"", with_article(due.name), due.example))
       .quantity(due, allowed);
 }
 

@@ -40,7 +40,8 @@ Polyline read_table(const ConfigTable& table, bool is_stress) {
     const auto pair = point.list(2);
     line.x.push_back(pair[0].quantity(dimension::time, range::not_negative));
     line.y.push_back(read_component_value(pair[1], is_stress));
-    if (line.x.size() > 1 && !(line.x.back() > line.x[line.x.size() - 2])) throw pair[0].error("the times must rise");
+    if (line.x.size() > 1 && !(line.x.back() > line.x[line.x.size() - 2]))
+      throw pair[0].error("the times must increase");
   }
   if (line.x.empty()) throw table.error("\"table\" has no points, as in [[\"0 s\", 0], [\"1 s\", 0.01]]");
   return line;
@@ -87,7 +88,7 @@ std::vector<double> file_times(const ConfigTable& table, const std::filesystem::
   for (double& t : times) t = factor * (t - begin);
   for (std::size_t i = 1; i < times.size(); ++i)
     if (!(times[i] > times[i - 1]))
-      throw table.error(fmt::format("the times in column \"{}\" must rise; they do not at row {}", name, i + 1));
+      throw table.error(fmt::format("the times in column \"{}\" must increase; they do not at row {}", name, i + 1));
   if (times.size() < 2) throw table.error("a history needs two rows or more");
   return times;
 }

@@ -21,7 +21,7 @@ struct CurveFitJob {
 };
 
 /// Writes fit.json, fit_curve.csv and case.fitted.toml to session.results, the runs to runs/ there. Killed at any
-/// moment it goes on, at the next call, with the runs that it left, to the same result.
+/// moment it continues, at the next call, with the runs that it left, to the same result.
 void fit_curve(const CurveFitJob& job, Session& session);
 
 }  // namespace pfdm

@@ -125,8 +125,8 @@ void require_start_within_bounds(const CurveFitSettings& settings) {
   for (std::size_t j = 0; j < settings.parameters.size(); ++j) {
     const auto& [in_case, p] = settings.parameters[j];
     if (p.lower <= p.first && p.first <= p.upper) continue;
-    throw tables[j].at("bounds").error(
-        fmt::format("the case's own value, {}, from which the fit starts, is not within", in_case.shown(p.first)));
+    throw tables[j].at("bounds").error(fmt::format(
+        "the case's own value, {}, from which the fit starts, is outside these bounds", in_case.shown(p.first)));
   }
 }
 
@@ -143,7 +143,7 @@ std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
         if (std::ranges::count(settings.parameters[j].in_case.keys, key) > 0)
           throw table.at("key").error(fmt::format("\"{}\" is named twice", key));
   }
-  if (settings.parameters.empty()) throw fit.error("at least one [[fit.parameters]] is due");
+  if (settings.parameters.empty()) throw fit.error("at least one [[fit.parameters]] is required");
   const CurveFitStage whole = whole_stage(fit, settings.parameters);
   for (const ConfigTable& table : fit.tables("stages"))
     settings.stages.push_back(read_stage(table, whole, settings.parameters));

@@ -29,7 +29,7 @@ FitStageReport merged(const std::vector<FitStageReport>& stages) {
       const Eigen::Index n = result.correlation.rows();
       result.correlation.conservativeResizeLike(Eigen::MatrixXd::Identity(n + 1, n + 1));
       result.warnings.push_back(fmt::format(
-          "{} is as stage \"{}\" found it: the intervals of the others take it as given", p.name, stage->name));
+          "{} was estimated in stage \"{}\"; the intervals of the others are conditional on it", p.name, stage->name));
     }
   return whole;
 }

@@ -23,10 +23,10 @@ struct Remark {
 };
 
 Remark remark_on(const std::optional<ReadSummary>& earlier, const std::string& hash) {
-  constexpr const char* goes_on = "; --restart would go on with them";
-  if (!earlier) return {"are of a run that did not come to its end", goes_on};
-  if (earlier->case_hash != hash) return {"belong to other input", ""};
-  if (earlier->status == "complete") return {"are complete", "; with --restart they would stay"};
+  constexpr const char* goes_on = "; --restart would continue them";
+  if (!earlier) return {"are of an unfinished run", goes_on};
+  if (earlier->case_hash != hash) return {"belong to different input", ""};
+  if (earlier->status == "complete") return {"are complete", "; with --restart they would be kept"};
   return {fmt::format("are of a run that ended early ({})", earlier->status), goes_on};
 }
 

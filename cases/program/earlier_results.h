@@ -9,8 +9,8 @@
 
 namespace pfdm {
 
-/// The status of the run whose results are in the folder, "complete" or why it ended before; nothing if it did not come
-/// to its end.
+/// The status of the run whose results are in the folder, "complete" or why it ended before; nothing if it did not
+/// finish.
 std::optional<std::string> status_of_earlier(const std::filesystem::path& results);
 
 /// Says that a run that starts anew will replace the results in the session's folder. `hash` is the case's;

@@ -27,18 +27,18 @@ LoadSegment read_followed_strains(const ConfigTable& table, const std::filesyste
   const ConfigTable strains = table.table("strain");
   for (const auto& [key, value] : strains.entries()) {
     const ControlledComponent component = value.in_context([&] { return controlled_component(key); });
-    if (component.is_stress) throw value.error("a strain is due here; stresses stand in [fit.experiments.stress]");
+    if (component.is_stress) throw value.error("expected a strain; stresses belong in [fit.experiments.stress]");
     segment.conditions[static_cast<std::size_t>(component.pair)] = {
         component.condition, Pace::follow,
         read_column(value.table().with_keys({"column", "unit"}), file, "column", "unit", dimension::number)};
   }
-  if (strains.entries().empty()) throw strains.error("no strain is named that the experiment followed");
+  if (strains.entries().empty()) throw strains.error("name at least one strain that the experiment followed");
   return segment;
 }
 
 MaterialExperiment::Channel read_channel(const std::string& key, const ConfigValue& value, const CsvTable& file) {
   const ControlledComponent component = value.in_context([&] { return controlled_component(key); });
-  if (!component.is_stress) throw value.error("a stress is due here; strains stand in [fit.experiments.strain]");
+  if (!component.is_stress) throw value.error("expected a stress; strains belong in [fit.experiments.strain]");
   const ConfigTable table = value.table().with_keys({"column", "unit", "noise"});
   return {.component = component.pair,
           .stress = read_column(table, file, "column", "unit", dimension::stress),
@@ -55,7 +55,7 @@ MaterialExperiment read_experiment(const ConfigTable& table, const std::filesyst
   if (experiment.channels.empty()) throw stresses.error("no measured stress is named");
   for (const MaterialExperiment::Channel& channel : experiment.channels)
     if (experiment.loading.conditions[static_cast<std::size_t>(channel.component)].condition.on_strain.isZero())
-      throw stresses.error(fmt::format("stress_{} was measured, but its strain is not among those that are followed",
+      throw stresses.error(fmt::format("stress_{} was measured, but [fit.experiments.strain] does not name its strain",
                                        component_names[static_cast<std::size_t>(channel.component)]));
   return experiment;
 }
@@ -99,7 +99,7 @@ void read_bounds(const ConfigTable& fit, const EndochronicLaw& law, EndochronicI
   for (const FitParameter& p : fit_parameters(longest, settings.choice)) names.push_back(p.name);
   for (const auto& [key, value] : fit.table("bounds").entries()) {
     if (std::ranges::count(names, key) == 0)
-      throw value.error(fmt::format("\"{}\" is not estimated (there are: {})", key, fmt::join(names, ", ")));
+      throw value.error(fmt::format("\"{}\" is not estimated (available: {})", key, fmt::join(names, ", ")));
     const auto ends = value.list(2);
     const double lower = read_parameter_value(ends[0]), upper = read_parameter_value(ends[1]);
     if (!(lower < upper)) throw value.error("the lower bound must be below the upper one");
@@ -138,7 +138,7 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
     result.experiments.push_back(read_experiment(table, case_directory));
     result.data_files.push_back(case_directory / table.string("csv"));
   }
-  if (result.experiments.empty()) throw fit.at("experiments").error("at least one [[fit.experiments]] is due");
+  if (result.experiments.empty()) throw fit.at("experiments").error("at least one [[fit.experiments]] is required");
   require_noise_of_all_or_none(fit, result.experiments);
   return result;
 }

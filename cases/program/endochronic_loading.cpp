@@ -103,10 +103,10 @@ void complete(Draft& draft) {
     draft.conditions.push_back({controlled_component(key).condition, Pace::ramp, {0.0}});
   }
   if (draft.conditions.size() != 6)
-    throw draft.table.error(fmt::format(
-        "there are {} conditions on stress and strain; six are due (pairs that are not named count as free of "
-        "stress; free = [\"yy\"] takes one out)",
-        draft.conditions.size()));
+    throw draft.table.error(
+        fmt::format("expected 6 conditions on stress and strain, found {} (a pair that is not named counts as free of "
+                    "stress; free = [\"yy\"] omits that condition)",
+                    draft.conditions.size()));
   std::ranges::move(draft.conditions, draft.segment.conditions.begin());
 }
 
@@ -136,7 +136,7 @@ ControlledComponent controlled_component(std::string_view name) {
   }
   const auto keys = component_keys();
   const auto meant = nearest(name, keys);
-  throw InputError(fmt::format("\"{}\" is no component of stress or strain{} (there are: {})", name,
+  throw InputError(fmt::format("\"{}\" is not a component of stress or strain{} (available: {})", name,
                                meant ? fmt::format("; did you mean \"{}\"?", *meant) : "", fmt::join(keys, ", ")));
 }
 
@@ -152,7 +152,7 @@ EndochronicLoading read_endochronic_loading(const ConfigTable& loading, const En
   std::vector<LoadSegment> once;
   for (const ConfigTable& table : loading.tables("segments"))
     once.push_back(read_segment(table, law, case_directory, result.data_files));
-  if (once.empty()) throw loading.at("segments").error("at least one [[loading.segments]] is due");
+  if (once.empty()) throw loading.at("segments").error("at least one [[loading.segments]] is required");
   const auto repeat = loading.integer("repeat", count, 1);
   for (std::int64_t i = 0; i < repeat; ++i) result.segments.insert(result.segments.end(), once.begin(), once.end());
   result.settings.largest_increment =

@@ -69,7 +69,7 @@ void check(const EndochronicProgram& program, Session& session) {
       fmt::format("{} segments, {} increments", point.loading.segments.size(), n_increments(point.loading)));
   if (point.fit) say_fit(*point.fit, point.law, session.log);
   session.log.say(fmt::format("results go to {}", session.results.string()));
-  session.log.say("the input is in order");
+  session.log.say("the input is valid");
 }
 
 constexpr const char* history_file = "history.csv";

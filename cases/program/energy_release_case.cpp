@@ -19,7 +19,7 @@ void read_tip(const ConfigTable& table, TipRegion& region) {
   region.follows = tip && tip->one_of(ways, "way to find the tip") == "foremost";
   for (const char* key : {"tip_damage", "corridor"})
     if (const auto value = table.find(key); value && !region.follows)
-      throw value->error("this belongs to tip = \"foremost\"; the tip of this region is fixed");
+      throw value->error("this requires tip = \"foremost\"; the tip of this region is fixed");
   region.tip_damage = table.number("tip_damage", tip_damages, region.tip_damage);
   region.corridor = table.quantity("corridor", dimension::length, range::positive, region.corridor);
 }
@@ -32,7 +32,7 @@ TipRegion read_region(const ConfigTable& table) {
   region.direction = read_direction(table.at("direction")).normalized();
   if (const auto front = table.find("front")) region.front = read_direction(*front).normalized();
   if (std::abs(region.front.dot(region.direction)) > 1e-9)
-    throw table.error("the crack front (front, [0, 0, 1] where it is not given) must be at a right angle to direction");
+    throw table.error("the crack front (front, [0, 0, 1] where it is not given) must be perpendicular to direction");
   const auto shape = table.find("shape");
   region.shape = shape ? &choose(*shape, region_shapes(), "shape of a region") : &region_shapes().front();
   region.inner = table.quantity("inner", dimension::length, range::positive);

@@ -25,7 +25,7 @@ SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path
       throw table.at("deviation").error("a standard deviation must not be negative");
   }
   if (!std::ranges::is_sorted(curve.x))
-    throw table.at("displacement").error("the displacements fall: cut unloading away, and put the rows in order");
+    throw table.at("displacement").error("the displacements decrease: remove unloading, and sort the rows");
   return curve;
 }
 
@@ -54,7 +54,8 @@ std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
     settings.specimens.push_back(
         read_curve_of(specimen.with_keys({"name", "csv", "displacement", "force", "deviation"}), case_directory,
                       "force", dimension::force));
-  if (settings.specimens.empty()) throw table.error("no measured curve is named; [[experiment.specimens]] is due");
+  if (settings.specimens.empty())
+    throw table.error("no measured curve is named; at least one [[experiment.specimens]] is required");
   for (const ConfigTable& debonding : table.tables("debonding")) {
     settings.angles.push_back(read_angle(debonding, case_directory));
     const MeasuredAngle &first = settings.angles.front(), &last = settings.angles.back();

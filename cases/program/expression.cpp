@@ -31,7 +31,7 @@ Expression::Expression(const std::string& text) : parsed_(std::make_shared<Parse
     parser.SetExpr(text);
     int n_results = 0;
     parser.Eval(n_results);
-    if (n_results != 1) throw InputError(fmt::format("the expression \"{}\" is a list; one value is due", text));
+    if (n_results != 1) throw InputError(fmt::format("the expression \"{}\" is a list; expected one value", text));
   } catch (const mu::Parser::exception_type& error) {
     throw InputError(fmt::format("the expression \"{}\" cannot be read: {} It may use x, y, z (metres), t and pi", text,
                                  error.GetMsg()));

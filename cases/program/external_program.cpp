@@ -67,7 +67,7 @@ ProgramEnd run_external(const std::vector<std::string>& words) {
     throw ComputationError(fmt::format("{} cannot be run: {}", words[0], std::generic_category().message(error)));
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0)
-    if (errno != EINTR) throw ComputationError(fmt::format("{} was started and is gone", words[0]));
+    if (errno != EINTR) throw ComputationError(fmt::format("{} was started and disappeared", words[0]));
   return {.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = out.content(), .err = err.content()};
 }
 

@@ -19,7 +19,7 @@ std::string unsuited_split(const FractureModel& model) {
   std::vector<std::string_view> suited;
   for (const EnergySplit& split : energy_splits())
     if (split.secant != nullptr) suited.push_back(split.name);
-  return fmt::format("an endochronic material cannot be combined with the energy split \"{}\"; there are {}",
+  return fmt::format("an endochronic material cannot be combined with the energy split \"{}\"; allowed: {}",
                      model.split->name, fmt::join(suited, ", "));
 }
 
@@ -61,15 +61,13 @@ void check_histories(const FractureCase& fracture, const ConfigTable& root) {
     if (fracture.model.split->secant == nullptr) throw material.where.error(unsuited_split(fracture.model));
     if (material.endochronic->hardening.depends_on_rate() && !(fracture.loading.duration > 0.0))
       throw material.where.error(
-          "the material's rate factor needs the time in which the load parameter grows by 1: duration = \"1 s\" in "
+          "the material's rate factor requires the time in which the load parameter grows by 1: duration = \"1 s\" in "
           "[loading]");
     if (std::isfinite(fracture.loading.maximum_dissipation))
       throw root.table("loading")
           .at("maximum_dissipation")
           .error(
-              "it cannot be prescribed together with endochronic materials: their displacements are not proportional "
-              "to the "
-              "load");
+              "it cannot be combined with endochronic materials: their displacements are not proportional to the load");
   }
 }
 
@@ -77,10 +75,11 @@ void read_time(const ConfigTable& table, const FractureModel& model, LoadingSett
   loading.duration = table.quantity("duration", dimension::time, range::positive, 0.0);
   if (!(model.viscosity > 0.0)) return;
   if (!table.has("duration"))
-    throw table.error("fracture.viscosity needs the time in which the load parameter grows by 1: duration = \"1 s\"");
+    throw table.error(
+        "fracture.viscosity requires the time in which the load parameter grows by 1: duration = \"1 s\"");
   if (table.has("maximum_dissipation"))
     throw table.at("maximum_dissipation")
-        .error("it cannot be prescribed together with fracture.viscosity: a load that falls back takes no time");
+        .error("it cannot be combined with fracture.viscosity: the load may decrease, time cannot");
 }
 
 LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model) {
@@ -98,7 +97,7 @@ LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model
                                            std::max(loading.maximum_increment, loading.initial_increment));
   loading.minimum_increment = table.number("minimum_increment", range::positive, loading.minimum_increment);
   if (loading.minimum_increment > loading.initial_increment || loading.initial_increment > loading.maximum_increment)
-    throw table.error(fmt::format("the increments must not fall: minimum {}, initial {}, maximum {}",
+    throw table.error(fmt::format("expected minimum <= initial <= maximum of the increments, found {}, {}, {}",
                                   loading.minimum_increment, loading.initial_increment, loading.maximum_increment));
   loading.damage_growth = table.number("damage_growth", above_zero_to_one, loading.damage_growth);
   loading.energy_release = table.number("energy_release", above_zero_to_one, loading.energy_release);
@@ -172,7 +171,7 @@ std::vector<double> read_frames(const ConfigTable& output, const FractureCase& f
   if (!frames) return loads;
   if (std::isfinite(fracture.loading.maximum_dissipation))
     throw frames->error(
-        "with loading.maximum_dissipation the load may pass a value more than once; say frames_every = 10, for every "
+        "with loading.maximum_dissipation the load may pass a value more than once; use frames_every = 10, for every "
         "tenth step");
   for (const ConfigValue& entry : frames->list()) {
     const double load = entry.is_string() ? load_at_displacement(entry, fracture) : entry.number();

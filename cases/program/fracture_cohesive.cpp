@@ -44,7 +44,7 @@ void say_law(const CohesiveResult& result, SurfaceKind kind, Log& log) {
   const std::string where = kind == SurfaceKind::plane ? std::string("  mean")
                                                        : fmt::format("  {:3.0f} to {:3.0f} degrees",
                                                                      result.law.from / degree, result.law.to / degree);
-  if (!(f.strength > 0.0)) return log.say(where + ": always pressed");
+  if (!(f.strength > 0.0)) return log.say(where + ": always in compression");
   log.say(fmt::format("{}: largest normal traction {:.4g} Pa at {:.4g} m, {}; surface energy {:.4g} J/m^2", where,
                       f.strength, f.critical_separation, outcome_of(result), f.surface_energy));
 }

@@ -114,7 +114,7 @@ void check(const FractureProgram& program, Session& session) {
   for (const ColumnSet& set : columns)
     log.say(fmt::format("cohesive law of \"{}\" from {} columns", set.name, set.columns.size()));
   log.say(fmt::format("results go to {}", session.results.string()));
-  log.say("the input is in order");
+  log.say("the input is valid");
 }
 
 void mesh_only(const FractureProgram& program, Session& session) {
@@ -201,7 +201,7 @@ std::string advance(RunningCase& c) {
     if (c.session.max_steps && now.step - first_step >= *c.session.max_steps)
       throw EnoughSteps{"stopped by --max-steps"};
     if (c.session.until && row.displacement >= *c.session.until && now.load < end)
-      throw EnoughSteps{"stopped where enough is known"};
+      throw EnoughSteps{"stopped at the last displacement needed"};
   };
   try {
     c.goes_on ? c.run.go_on(c.state, hooks) : c.run.run(c.state, hooks);
@@ -221,7 +221,7 @@ std::string finish(RunningCase& c, const std::string& status) {
 }
 
 std::string earlier_results_stay(const RunningCase& c) {
-  return fmt::format("the earlier results in {} stay as they are", c.session.results.string());
+  return fmt::format("the earlier results in {} are kept", c.session.results.string());
 }
 
 /// Keeps as much of a run that failed as there is room for.
@@ -293,8 +293,8 @@ void run_case(FractureProgram program, Session& session) {
   if (!session.figures_only) write_mesh(results.folder(), mesh);
   session.log.open_file(results.folder() / "run.log", last.has_value());
   if (session.restart)
-    session.log.say(last ? fmt::format("goes on after step {}, load {:.6g}", last->step, last->load)
-                         : "there is no checkpoint to go on from: starts at the beginning");
+    session.log.say(last ? fmt::format("continuing after step {}, load {:.6g}", last->step, last->load)
+                         : "no checkpoint found: starting from the beginning");
   else if (results.wait())
     say_what_is_replaced(session, program.hash, true);
   RunningCase running{program, session, times, run, results, last ? *last : initial, last.has_value()};

@@ -11,7 +11,7 @@
 
 namespace pfdm {
 
-/// Of the results in a directory, also of a run that has not come to its end. Throws InputError if there are none, or
+/// Of the results in a directory, also of an unfinished run. Throws InputError if there are none, or
 /// if they belong to another case.
 ReportPage fracture_page(const FractureCase& fracture, const std::optional<ExperimentSettings>& experiment,
                          const std::string& name, const std::string& hash, const std::filesystem::path& results);

@@ -44,7 +44,7 @@ void remove_what_was_made_of_them(const fs::path& directory) {
   remove_report(directory);
 }
 
-/// Killed in between it leaves what is complete, what can be gone on with, or what nobody takes for results.
+/// Killed in between it leaves what is complete, what can be continued, or what nobody takes for results.
 void remove_earlier_run(const fs::path& directory) {
   remove_what_was_made_of_them(directory);
   std::error_code ignored;
@@ -84,7 +84,7 @@ std::optional<std::string> doubt_about(const EnergyRelease& release, const std::
   if (release.damaged_share > bearable_damaged_share)
     return fmt::format(
         "energy release rate \"{}\": {:.0f} % of it comes from damaged cells (d > 0.1); it is that of the far field "
-        "only where the ring between inner and outer lies in sound material",
+        "only where the ring between inner and outer lies in undamaged material",
         region, 100.0 * release.damaged_share);
   return std::nullopt;
 }
@@ -146,7 +146,9 @@ std::vector<StoredStep> stored_steps(const fs::path& results) {
   for (const Frame& frame : read_pvd(results / frames_file)) {
     const std::string name = fs::path(frame.file).stem().string();
     const auto step = parse_int(std::string_view(name).substr(std::min(name.find('_') + 1, name.size())));
-    if (!step) throw InputError(fmt::format("{}: \"{}\" is no frame of ours", (results / frames_file).string(), name));
+    if (!step)
+      throw InputError(
+          fmt::format("{}: \"{}\" is not a frame that pfdm wrote", (results / frames_file).string(), name));
     steps.push_back({*step, results / frame.file});
   }
   return steps;
@@ -219,7 +221,7 @@ void FractureResults::write_state(const FractureState& state) {
   waits_ = false;
 }
 
-/// Goes on with the files in their new place as a restart would.
+/// Continues with the files in their new place as a restart would.
 void FractureResults::take_place(const FractureState& state) {
   if (!place_.wait()) return;
   place_.take_place([this] { remove_earlier_run(directory_); }, checkpoint_file);

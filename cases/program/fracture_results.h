@@ -25,7 +25,7 @@ namespace pfdm {
 /// Writes mesh.vtu: material (the number of the region), volume [m^3] and quality figures. Makes the directory.
 void write_mesh(const std::filesystem::path& results, const Mesh& mesh);
 
-/// The state to go on from; none if there is no checkpoint. Throws InputError if it belongs to another case.
+/// The state to restart from; none if there is no checkpoint. Throws InputError if it belongs to another case.
 std::optional<FractureState> find_checkpoint(const std::filesystem::path& results, const std::string& case_hash);
 
 /// Whether the directory holds results of a run, complete or not.
@@ -53,7 +53,7 @@ std::vector<StoredStep> stored_steps(const std::filesystem::path& results);
 
 class FractureResults {
  public:
-  /// Goes on after `last`, or starts anew: results of an earlier run stay as they are until the first step is done and
+  /// Continues after `last`, or starts anew: results of an earlier run are kept until the first step is done and
   /// on the disk. Keeps references to mesh, model, case and columns.
   FractureResults(std::filesystem::path directory, const Mesh& mesh, const FractureModel& model,
                   const FractureCase& fracture, const std::vector<ColumnSet>& columns, std::string case_hash,

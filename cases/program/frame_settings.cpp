@@ -20,7 +20,7 @@ FrameSettings by_displacement(const ConfigValue& wanted, const LoadingSettings&,
   if (!full)
     throw wanted.error(
         "the displacement of the curve's patch is not prescribed by a plain quantity along the curve's component: it "
-        "may fall, and times have to rise; say \"load\" or \"step\"");
+        "may decrease, and times must increase; use \"load\" or \"step\"");
   return measured_in(std::abs(*full), "m");
 }
 
@@ -48,7 +48,7 @@ FrameSettings read_time_value(const ConfigValue& wanted, const LoadingSettings& 
                               const std::optional<double>& full_displacement) {
   const TimeValue& value = choose(wanted, std::span<const TimeValue>(time_values), "time value");
   if (std::isfinite(loading.maximum_dissipation) && !value.rises_whatever_the_load)
-    throw wanted.error("with loading.maximum_dissipation the load may fall, and times have to rise; say \"step\"");
+    throw wanted.error("with loading.maximum_dissipation the load may decrease, and times must increase; use \"step\"");
   return value.settings(wanted, loading, full_displacement);
 }
 

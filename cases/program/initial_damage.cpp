@@ -21,7 +21,7 @@ FlatSurface read_points(const ConfigTable& table, const ConfigValue& list) {
     return list.in_context([&] { return strip(points[0], points[1], along); });
   }
   if (front) throw front->error("this belongs to a crack between two points; one of three or more is a polygon");
-  if (points.size() < 2) throw list.error("two points are due, or the corners of a polygon");
+  if (points.size() < 2) throw list.error("expected two points, or the corners of a polygon");
   return list.in_context([&] { return polygon(points); });
 }
 
@@ -52,7 +52,7 @@ std::optional<InitialDamage> read_initial_damage(const ConfigTable& root, const 
   const ConfigTable table = root.table("initial").with_keys({"cracks", "damage", "regions"});
   if (model.irreversibility != Irreversibility::bounds)
     throw table.at(table.has("cracks") ? "cracks" : "damage")
-        .error("this needs the irreversibility \"bounds\": the driving energy that led to it is not known");
+        .error("this requires the irreversibility \"bounds\": the driving energy of an initial damage is not known");
   InitialDamage initial;
   for (const ConfigTable& crack : table.tables("cracks"))
     initial.cracks.push_back(read_crack(crack.with_keys({"points", "front", "centre", "normal", "radius"})));

@@ -20,9 +20,8 @@ bool can_run_here() {
 
 int main(int argc, char** argv) {
   if (!can_run_here()) {
-    std::cerr
-        << "pfdm: this program was compiled for processors with AVX2 and FMA, which this one has not: build it here "
-           "(./pfdm does), or with -DPFDM_ARCH=x86-64-v2\n";
+    std::cerr << "pfdm: this program was compiled for processors with AVX2 and FMA, which this one lacks: build it "
+                 "here (./pfdm does), or with -DPFDM_ARCH=x86-64-v2\n";
     return 1;
   }
   const int status = pfdm::run_program({argv + 1, argv + argc}, std::cout, std::cerr, isatty(STDOUT_FILENO) == 1);

@@ -47,7 +47,8 @@ std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStr
     const std::complex<double> alpha(term.quantity("alpha", rate_dimension, range::positive),
                                      term.quantity("alpha_imaginary", rate_dimension, range::any, 0.0));
     kernel.push_back({alpha, {term.quantity("beta", beta), term.quantity("beta_imaginary", beta, range::any, 0.0)}});
-    if (!kernel.back().is_pair() && kernel.back().beta.imag() != 0.0) throw term.error("a real alpha has a real beta");
+    if (!kernel.back().is_pair() && kernel.back().beta.imag() != 0.0)
+      throw term.error("a real alpha requires a real beta");
   }
   if (structure.kernel_order && static_cast<int>(kernel.size()) != *structure.kernel_order && !kernel.empty())
     throw model.error(fmt::format("model \"{}\" has {} kernel terms; {} are given", structure.name,
@@ -111,7 +112,8 @@ Excitation read_random(const ConfigTable& table, const fs::path&, double, std::v
                            .duration = table.quantity("duration", dimension::time, range::positive)};
   random.seed = static_cast<std::uint64_t>(table.integer("seed", count, 1));
   if (random.low >= random.high)
-    throw table.error(fmt::format("the band goes from {} to {} Hz; it must rise", random.low, random.high));
+    throw table.error(
+        fmt::format("the band goes from {} to {} Hz; the first must be the lower", random.low, random.high));
   return band_limited_random(random);
 }
 
@@ -144,8 +146,8 @@ constexpr ExcitationType excitations[] = {
 
 constexpr FitMethod methods[] = {
     {"output_error", "separable start, then the simulated response fitted to all records; order by BIC; intervals"},
-    {"least_squares", "the report's continuous-time least squares (A4.2), M = 0 or 1"},
-    {"ten_step", "the report's iteration with a Prony series (A4.3), of the first record; for comparison"},
+    {"least_squares", "continuous-time least squares (AFRL-RW-EG-TR-2016-088, A4.2), M = 0 or 1"},
+    {"ten_step", "iteration with a Prony series (AFRL-RW-EG-TR-2016-088, A4.3), of the first record; for comparison"},
 };
 
 VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {
@@ -160,8 +162,8 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
     test.band_low = test.excitation->band_low;
     test.band_high = test.excitation->band_high;
     if (test.band_high > 0.38 * c.rate)
-      throw shaker.error(fmt::format("{} Hz are excited; {} samples per second resolve up to {:.4g} Hz", test.band_high,
-                                     c.rate, 0.38 * c.rate));
+      throw shaker.error(fmt::format("the excitation reaches {} Hz; {} samples per second resolve up to {:.4g} Hz",
+                                     test.band_high, c.rate, 0.38 * c.rate));
   }
   if (table.has("record")) {
     const ConfigTable record =
@@ -170,7 +172,7 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
     test.band_low = record.quantity("from", dimension::frequency, range::positive, test.band_low);
     test.band_high = record.quantity("to", dimension::frequency, range::positive, test.band_high);
   }
-  if (!test.excitation && !test.record) throw table.error("a test has an excitation, a record or both");
+  if (!test.excitation && !test.record) throw table.error("a test requires an excitation, a record or both");
   if (!(test.band_low > 0.0 && test.band_high >= test.band_low))
     throw table.error("the excited band is not known: give the record's \"from\" and \"to\"");
   test.predicted = table.boolean("predicted", false);
@@ -185,7 +187,7 @@ void read_tests(const ConfigTable& root, const fs::path& directory, MassMaterial
       throw test.where->error(fmt::format("there are two tests \"{}\"", test.name));
     c.tests.push_back(std::move(test));
   }
-  if (c.tests.empty()) throw root.error("there is no test; a table [[test]] is due");
+  if (c.tests.empty()) throw root.error("there is no test; at least one [[test]] is required");
 }
 
 void read_fit(const ConfigTable& root, MassMaterialCase& c) {

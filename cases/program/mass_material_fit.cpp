@@ -47,8 +47,8 @@ void require_low_order(const MassMaterialFit& fit, const ModelStructure& structu
   const int order = fit.kernel_order.value_or(structure.kernel_order.value_or(1));
   if (structure.forcing != KernelForcing::none && order != 1)
     throw InputError(
-        fmt::format("[fit] \"least_squares\" takes kernels of one term; {} are asked for: use "
-                    "\"output_error\" or kernel_order = 1",
+        fmt::format("[fit] \"least_squares\" supports kernels of one term; {} are requested: use \"output_error\" or "
+                    "kernel_order = 1",
                     order));
 }
 
@@ -152,7 +152,7 @@ void say_repeats(const RepeatedIdentification& repeats, Log& log) {
     for (const Effect& e : r.effects) log.say(fmt::format("  {:<18}   {}", "", with_interval(e, r.mean)));
   }
   for (const RecordEstimates& r : repeats.records)
-    if (!r.converged) log.warn(fmt::format("test {}: its own fit did not come to its end", r.name));
+    if (!r.converged) log.warn(fmt::format("test {}: its own fit did not converge", r.name));
 }
 
 RepeatedIdentification repeats_of(const Found& found, const Records& records, const MassMaterialCase& c) {
@@ -168,15 +168,15 @@ void say_found(const Found& found, Log& log) {
                 ? fmt::format("  {:<18} {:>14.6g}   {:.6g} to {:.6g}", e.name, e.value, e.lower, e.upper)
                 : fmt::format("  {:<18} {:>14.6g}", e.name, e.value));
   for (const NamedFigures& test : found.report.tests)
-    log.say(fmt::format("  test {:<16} {} to {:.3g} of its motion", test.name,
-                        test.figures.at("fitted") > 0.0 ? "met" : "predicted", test.figures.at("relative_misfit")));
+    log.say(fmt::format("  test {:<16} {}, relative misfit {:.3g}", test.name,
+                        test.figures.at("fitted") > 0.0 ? "fitted" : "predicted", test.figures.at("relative_misfit")));
   if (found.report.ogden) say_ogden(*found.report.ogden, log);
   if (found.report.repeats) say_repeats(*found.report.repeats, log);
   if (!found.report.passivity.passive)
-    log.warn(fmt::format("the model gives energy to the shaker: damping {:.3g} N s/m at {:.4g} Hz",
-                         found.report.passivity.least_damping,
-                         found.report.passivity.worst_omega / (2.0 * std::numbers::pi)));
-  if (!found.report.converged) log.warn("the iteration did not come to its end; the estimates may be off");
+    log.warn(fmt::format(
+        "the model is not passive: it supplies energy to the shaker (damping {:.3g} N s/m at {:.4g} Hz)",
+        found.report.passivity.least_damping, found.report.passivity.worst_omega / (2.0 * std::numbers::pi)));
+  if (!found.report.converged) log.warn("the iteration did not converge; the estimates may be off");
 }
 
 }  // namespace

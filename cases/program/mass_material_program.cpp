@@ -48,15 +48,16 @@ void say_model(const MassMaterialProgram& program, Log& log) {
     log.say(
         fmt::format("settles by {:.4g} mm under its weight; the parameters are those about that point", -1e3 * *z0));
   else
-    log.warn("taken about z = 0 the sample does not carry the mass's weight");
+    log.warn("with the parameters taken about z = 0 the sample does not carry the mass's weight");
 }
 
 void say_passivity(const MassMaterialCase& c, const VibrationTest& test, Log& log) {
   const Passivity p = passivity(c.model, 2.0 * std::numbers::pi * test.band_low,
                                 2.0 * std::numbers::pi * test.band_high, c.model.reference_velocity);
   if (!p.passive)
-    log.warn(fmt::format("test {}: the model gives energy to the shaker: damping {:.3g} N s/m at {:.4g} Hz", test.name,
-                         p.least_damping, p.worst_omega / (2.0 * std::numbers::pi)));
+    log.warn(fmt::format(
+        "test {}: the model is not passive: it supplies energy to the shaker (damping {:.3g} N s/m at {:.4g} Hz)",
+        test.name, p.least_damping, p.worst_omega / (2.0 * std::numbers::pi)));
 }
 
 void check(const MassMaterialProgram& program, Session& session) {
@@ -75,7 +76,7 @@ void check(const MassMaterialProgram& program, Session& session) {
     if (c.has_parameters) say_passivity(c, test, log);
   }
   log.say(fmt::format("results go to {}", session.results.string()));
-  log.say("the input is in order");
+  log.say("the input is valid");
 }
 
 struct SimulatedTest {
@@ -90,8 +91,8 @@ SimulatedTest simulate_test(const MassMaterialCase& c, std::size_t number) {
   SimulatedTest result;
   result.motion = simulate(sample_of_test(c, number), *test.excitation, c.rate);
   if (!result.motion.bounded)
-    throw ComputationError(
-        fmt::format("test {}: the mass runs away: the restoring force does not hold it at this level", test.name));
+    throw ComputationError(fmt::format(
+        "test {}: the motion is unbounded: the restoring force does not hold the mass at this level", test.name));
   result.seconds = watch.seconds();
   result.record.name = test.name;
   result.record.rate = c.rate;
@@ -211,7 +212,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
   const MassMaterialCase& c = program.parsed;
   require_parameters(c);
   if (session.restart)
-    session.log.say("a simulation of vibration tests has nothing to go on from: it starts at the beginning");
+    session.log.say("a simulation of vibration tests cannot be restarted: starting from the beginning");
   const Stopwatch watch;
   const FolderLock lock(session.results);
   NewResults place(session.results, fs::exists(session.results / summary_file));

@@ -67,8 +67,9 @@ MassMaterial sample_of_test(const MassMaterialCase& c, std::size_t number) {
     const double factor = 1.0 + change.per_g0 * (at[0] - mean[0]) + change.per_day * (at[1] - mean[1]) +
                           change.per_run * (at[2] - mean[2]) + change.scatter * normal;
     if (!(factor > 0.0))
-      throw InputError(fmt::format("[[change]]: test {} would have {:.3g} times the {} of [model]",
-                                   c.tests[number].name, factor, change.damping ? "damping" : "stiffness"));
+      throw InputError(
+          fmt::format("[[change]]: test {} would have {:.3g} times the {} of [model]; the factor must be positive",
+                      c.tests[number].name, factor, change.damping ? "damping" : "stiffness"));
     if (change.damping) {
       m.damping *= factor;
       continue;
@@ -80,7 +81,7 @@ MassMaterial sample_of_test(const MassMaterialCase& c, std::size_t number) {
 }
 
 void require_schedule(const MassMaterialCase& c, const ConfigValue& asked) {
-  if (c.fit.method != "output_error") throw asked.error("repeatability is that of the method \"output_error\"");
+  if (c.fit.method != "output_error") throw asked.error("repeatability requires the method \"output_error\"");
   std::vector<ScheduledRun> schedule;
   for (const VibrationTest& test : c.tests) {
     if (test.predicted) continue;
@@ -91,9 +92,10 @@ void require_schedule(const MassMaterialCase& c, const ConfigValue& asked) {
                       test.name));
     schedule.push_back(*test.schedule);
   }
-  if (schedule.size() < 3) throw asked.error(fmt::format("{} tests are fitted; 3 are the least", schedule.size()));
+  if (schedule.size() < 3)
+    throw asked.error(fmt::format("{} tests are fitted; at least 3 are required", schedule.size()));
   if (const auto names = confounded(schedule))
-    throw asked.error(fmt::format("in this schedule the effects of {} cannot be told apart", *names));
+    throw asked.error(fmt::format("in this schedule the effects of {} cannot be separated", *names));
 }
 
 }  // namespace pfdm

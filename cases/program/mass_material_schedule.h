@@ -29,7 +29,7 @@ std::vector<SampleChange> read_sample_changes(const ConfigTable& root);
 /// The model that a test is simulated with.
 MassMaterial sample_of_test(const MassMaterialCase& c, std::size_t number);
 
-/// Throws InputError where a fit's repeatability cannot be told from the tests that are fitted.
+/// Throws InputError where a fit's repeatability cannot be determined from the tests that are fitted.
 void require_schedule(const MassMaterialCase& c, const ConfigValue& asked);
 
 }  // namespace pfdm

@@ -255,7 +255,7 @@ const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const 
   const std::string wanted = name.one_of(names, "material");
   const auto found = std::ranges::find(by_name, wanted, &NamedElasticity::material);
   if (!found->elasticity)
-    throw name.error(fmt::format("the elasticity of material \"{}\" varies; one that does not is due here", wanted));
+    throw name.error(fmt::format("the elasticity of material \"{}\" varies; a uniform one is required here", wanted));
   return *found->elasticity;
 }
 

@@ -203,7 +203,7 @@ std::map<Index, std::string> read_numbered_names(const ConfigTable& table, std::
   if (!table.has(key)) return names;
   for (const auto& [number, name] : table.table(key).entries()) {
     const auto index = parse_int(number);
-    if (!index) throw name.error(fmt::format("\"{}\" stands where a whole number is due, as in 1 = \"bead\"", number));
+    if (!index) throw name.error(fmt::format("expected a whole number, as in 1 = \"bead\", found \"{}\"", number));
     names[*index] = name.string();
   }
   return names;

@@ -21,7 +21,7 @@ fs::path whole(const fs::path& path) { return fs::weakly_canonical(fs::absolute(
 void require_empty(const fs::path& directory) {
   if (!fs::exists(directory)) return;
   if (!fs::is_directory(directory))
-    throw InputError(fmt::format("{}: this is a file; a new directory is due", directory.string()));
+    throw InputError(fmt::format("{}: this is a file; a new directory is required", directory.string()));
   if (!fs::is_empty(directory))
     throw InputError(
         fmt::format("{}: the directory is not empty; a new case goes into a new directory", directory.string()));

@@ -21,7 +21,7 @@ void require_plain_name(std::string_view name, std::string_view use) {
       std::ranges::all_of(name, may_stand_in_a_name))
     return;
   throw InputError(
-      fmt::format("\"{}\" becomes the name of {}: letters, digits, _ and - only, and . but not at the "
+      fmt::format("\"{}\" is used as the name of {}; it may have letters, digits, _ and - only, and . but not at the "
                   "beginning, at most {} characters",
                   name, use, longest_name));
 }

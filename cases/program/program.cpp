@@ -19,12 +19,12 @@ namespace {
 
 enum ExitStatus { done = 0, computation_failed = 1, input_wrong = 2 };
 
-/// How an interrupted job goes on.
+/// How an interrupted job can be continued.
 std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
   if (line.command == "sweep" || (line.command == "fit" && runnable.goes_on))
-    return "; what was run so far is kept, and the same command goes on with it";
+    return "; what has been computed is kept, and the same command continues it";
   if (line.command != "run" || !runnable.goes_on) return "";
-  return fmt::format("; pfdm run {}{} --restart goes on from the last complete step", line.case_directory,
+  return fmt::format("; pfdm run {}{} --restart continues from the last complete step", line.case_directory,
                      line.output.empty() ? "" : fmt::format(" --output {}", line.output));
 }
 
@@ -84,8 +84,8 @@ void do_init(const CommandLine& line, std::ostream& out) {
   if (line.like.empty() || line.new_directory.empty()) {
     list_cases(shipped_cases(), out);
     throw InputError(
-        "init: a new directory and a case to start from are due, one of those above or any other, as in: "
-        "pfdm init my_case --like glass_bead_quick");
+        "init: a new directory and a case to start from are required, one of those above or any other, as in: pfdm "
+        "init my_case --like glass_bead_quick");
   }
   const std::filesystem::path shipped = shipped_cases() / line.like;
   const bool by_name = !std::filesystem::exists(line.like) && std::filesystem::exists(shipped / "case.toml");

@@ -68,7 +68,7 @@ std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t 
 void require_case(const std::filesystem::path& file, const std::string& found, const std::string& due) {
   if (found != due)
     throw InputError(
-        fmt::format("{}: it belongs to another case, or to this one before it was changed (hash {}, due {})",
+        fmt::format("{}: it belongs to another case, or to this one before it was changed (hash {}, expected {})",
                     file.string(), found, due));
 }
 

@@ -16,7 +16,7 @@ struct RunnableCase;
 
 struct Session {
   std::filesystem::path results;   ///< directory
-  bool restart = false;            ///< go on from the last complete output
+  bool restart = false;            ///< continue from the last complete output
   std::optional<Index> max_steps;  ///< stop after so many steps of this run
   std::optional<double> until;     ///< stop after the step that brings the curve's displacement here [m]
   int threads = 1;

@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds between_looks{5};
 constexpr int threw = 101;  // exit status of a job that did not return
 
 [[noreturn]] void do_job(const Job& job, int threads, pid_t parent) {
-  leave_stop_signals();  // results are good for going on after a kill
+  leave_stop_signals();  // results can be continued after a kill
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(threw);  // it died before it could be asked to tell
   int status = threw;
@@ -71,7 +71,7 @@ class Running {
     while (info.si_pid == 0) {
       stop_if_asked();
       if (::waitid(P_ALL, 0, &info, WEXITED | WNOWAIT | WNOHANG) != 0 && errno != EINTR)
-        throw ComputationError("a process that was started is gone");
+        throw ComputationError("a process that was started disappeared");
       if (info.si_pid == 0) std::this_thread::sleep_for(between_looks);
     }
     stop_if_asked();  // what has ended the child may have been the same Ctrl-C

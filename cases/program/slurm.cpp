@@ -21,8 +21,8 @@ std::string read_memory(const ConfigValue& value) {
   std::smatch match;
   const std::string text = value.string();
   if (!std::regex_match(text, match, amount))
-    throw value.error(
-        fmt::format("\"{}\" is no amount of memory; a whole number of MB, GB or TB is due, as in \"4 GB\"", text));
+    throw value.error(fmt::format(
+        "\"{}\" is not an amount of memory; expected a whole number of MB, GB or TB, as in \"4 GB\"", text));
   return fmt::format("{}{}", match[1].str(), match[2].str());
 }
 
@@ -32,7 +32,7 @@ std::string read_partition(const ConfigValue& value) {
   const std::string text = value.string();
   if (!std::regex_match(text, names))
     throw value.error(
-        "this is no partition, or list of them, as in \"short,long\": letters, digits and _ . : @ + - only");
+        "this is not a partition, or a list of them, as in \"short,long\": letters, digits and _ . : @ + - only");
   return text;
 }
 
@@ -40,7 +40,7 @@ std::vector<std::string> read_lines(const ConfigTable& table) {
   std::vector<std::string> lines = table.strings("lines");
   for (const std::string& line : lines)
     if (std::ranges::any_of(line, [](unsigned char c) { return std::iscntrl(c) != 0 && c != '\t'; }))
-      throw table.at("lines").error("each line is an entry of its own, without line breaks and control characters");
+      throw table.at("lines").error("each line must be an entry of its own, without line breaks or control characters");
   return lines;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Ctrl-C (SIGINT) and SIGTERM. Long loops look between their iterations whether one has come and end in order;
-// elsewhere it ends the process at once, as does a second one: results can be gone on with after a kill at any moment.
+// elsewhere it ends the process at once, as does a second one: results can be continued after a kill at any moment.
 
 #include <stdexcept>
 #include <string>
@@ -16,7 +16,7 @@ struct Interrupted : std::runtime_error {
 /// What shells show of a process that a signal has ended.
 inline int exit_status_of_signal(int signal) { return 128 + signal; }
 
-/// Ends this process by the signal itself: a shell that runs a loop goes on with it after any other end.
+/// Ends this process by the signal itself: a shell that runs a loop continues it after any other end.
 [[noreturn]] void end_by_signal(int signal);
 
 /// While it lives both signals are handled here; one that was ignored before stays so. One object at a time.

@@ -42,7 +42,7 @@ std::vector<double> read_values(const ConfigTable& table, const CaseParameter& p
   std::vector<double> values;
   if (table.has("values")) {
     for (const ConfigValue& value : table.at("values").list()) values.push_back(read_parameter_value(value, parameter));
-    if (values.empty()) throw table.at("values").error("one value at least is due");
+    if (values.empty()) throw table.at("values").error("at least one value is required");
     return values;
   }
   if (!table.has("between")) throw table.error("\"values\" is missing, or \"between\" with \"count\"");
@@ -75,8 +75,8 @@ Points side_by_side(const std::vector<std::vector<double>>& values, const Config
   Points points(values.front().size());
   for (const std::vector<double>& of_one : values) {
     if (of_one.size() != points.size())
-      throw sweep.error(fmt::format("a list needs as many values of each parameter; there are {} and {}", points.size(),
-                                    of_one.size()));
+      throw sweep.error(fmt::format("a list needs equally many values of each parameter; found {} and {}",
+                                    points.size(), of_one.size()));
     for (std::size_t i = 0; i < points.size(); ++i) points[i].push_back(of_one[i]);
   }
   return points;
@@ -120,7 +120,7 @@ std::optional<SweepSettings> read_sweep(const CaseFile& file) {
     settings.parameters.push_back(
         read_case_parameter(table.with_keys({"key", "values", "between", "count", "spacing"}).at("key"), file));
   if (sweep.has("slurm")) settings.slurm = read_slurm(sweep.table("slurm"));
-  if (tables.empty()) throw sweep.error("at least one [[sweep.parameters]] is due");
+  if (tables.empty()) throw sweep.error("at least one [[sweep.parameters]] is required");
   const std::string methods[] = {"grid", "list", "latin_hypercube"};
   const std::string method = sweep.at("method").one_of(methods, "method of a sweep");
   if (method == "latin_hypercube") {

@@ -48,8 +48,9 @@ void warn_of_broken_tasks(const fs::path& folder, std::span<const MissingRun> mi
     const auto run = std::ranges::find(missing, tasks[i], &MissingRun::key);
     if (run == missing.end()) continue;
     const bool said = fs::exists(log_of(folder, i));
-    log.warn(fmt::format("the task of {} ended without a result{}", run->variant->shown,
-                         said ? fmt::format("; its last words: {}", last_line(read_file(log_of(folder, i)))) : ""));
+    log.warn(fmt::format(
+        "the task of {} ended without a result{}", run->variant->shown,
+        said ? fmt::format("; the last line of its output: {}", last_line(read_file(log_of(folder, i)))) : ""));
   }
 }
 
@@ -85,10 +86,9 @@ void hand_to_slurm(const CaseFile& file, const SlurmSettings& settings, std::spa
   const fs::path folder = folder_of(session);
   const ActiveTasks active = active_tasks(folder);
   if (active.any()) {
-    session.log.say(
-        fmt::format("{}; {} runs are not there yet. Nothing was submitted; the same command collects them "
-                    "when all are there",
-                    described(active), missing.size()));
+    session.log.say(fmt::format(
+        "{}; {} runs are not complete. Nothing was submitted; the same command collects them when all are complete",
+        described(active), missing.size()));
     return;
   }
   warn_of_broken_tasks(folder, missing, session.log);
@@ -102,10 +102,9 @@ void hand_to_slurm(const CaseFile& file, const SlurmSettings& settings, std::spa
     throw;
   }
   const std::size_t left = missing.size() - now.size();
-  session.log.say(
-      fmt::format("Slurm job {}: {} runs submitted{}; the same command says how they are and collects them "
-                  "when all are there",
-                  job, now.size(), left == 0 ? "" : fmt::format(", {} left for the next job", left)));
+  session.log.say(fmt::format(
+      "Slurm job {}: {} runs submitted{}; the same command shows their state and collects them when all are complete",
+      job, now.size(), left == 0 ? "" : fmt::format(", {} left for the next job", left)));
 }
 
 void require_no_tasks_of(const Session& session) {

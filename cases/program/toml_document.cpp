@@ -52,7 +52,7 @@ TomlValue plain(const toml::node& node, const std::string& file) {
   else if (const auto* number = node.as_floating_point())
     result.value = number->get();
   else
-    throw InputError(fmt::format("{}:{}: dates and times have no meaning here", file, result.line));
+    throw InputError(fmt::format("{}:{}: dates and times are not supported", file, result.line));
   return result;
 }
 
@@ -66,7 +66,7 @@ Step take_step(std::string_view& path) {
   if (path.starts_with('[')) {
     const std::size_t end = path.find(']');
     const auto number = end == std::string_view::npos ? std::nullopt : parse_int(path.substr(1, end - 1));
-    if (!number) throw InputError(fmt::format("\"{}\" is no number of an element, as in [0]", path));
+    if (!number) throw InputError(fmt::format("\"{}\" is not the number of an element, as in [0]", path));
     path.remove_prefix(end + 1);
     return {{}, number};
   }
@@ -79,7 +79,7 @@ Step take_step(std::string_view& path) {
 
 const TomlValue& element_of(const TomlValue& list, int number, std::string_view where) {
   const auto* array = std::get_if<TomlArray>(&list.value);
-  if (array == nullptr) throw InputError(fmt::format("\"{}\" is no list", where));
+  if (array == nullptr) throw InputError(fmt::format("\"{}\" is not a list", where));
   if (number < 0 || static_cast<std::size_t>(number) >= array->size())
     throw InputError(fmt::format("\"{}\" has {} elements, of which the first is [0]; there is no [{}]", where,
                                  array->size(), number));
@@ -88,13 +88,13 @@ const TomlValue& element_of(const TomlValue& list, int number, std::string_view 
 
 const TomlValue& entry_of(const TomlValue& value, std::string_view key, std::string_view where) {
   const auto* table = std::get_if<TomlTable>(&value.value);
-  if (table == nullptr) throw InputError(fmt::format("\"{}\" is no table", where));
+  if (table == nullptr) throw InputError(fmt::format("\"{}\" is not a table", where));
   std::vector<std::string> keys;
   for (const auto& [name, entry] : *table) {
     if (name == key) return entry;
     keys.push_back(name);
   }
-  throw InputError(fmt::format("{} has no \"{}\" (there are: {})",
+  throw InputError(fmt::format("{} has no \"{}\" (available: {})",
                                where.empty() ? std::string("the case") : fmt::format("[{}]", where), key,
                                fmt::join(keys, ", ")));
 }
@@ -137,7 +137,7 @@ std::string with_value(const std::string& text, std::string_view path, const std
   const TomlValue root = parse_toml(text, "case.toml");
   const TomlValue& old = value_at(root, path);
   if (std::holds_alternative<TomlArray>(old.value) || std::holds_alternative<TomlTable>(old.value))
-    throw InputError(fmt::format("\"{}\" is no single value", path));
+    throw InputError(fmt::format("\"{}\" is not a single value", path));
   return with_value(text, old, value);
 }
 

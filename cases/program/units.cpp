@@ -67,7 +67,7 @@ bool same_dimension(const ut_unit* a, const ut_unit* b) {
 }
 
 std::string with_example(const Dimension& due) {
-  return fmt::format("{} is due here, as in \"{}\"", with_article(due.name), due.example);
+  return fmt::format("expected {}, as in \"{}\"", with_article(due.name), due.example);
 }
 
 std::string describe(const ut_unit* unit) {
@@ -130,12 +130,12 @@ const Dimension& dimension_of(std::string_view text) {
   if (!unit) throw InputError(fmt::format("\"{}\": the unit \"{}\" is not known", text, spelled));
   for (const Dimension* known : named_dimensions)
     if (same_dimension(unit.get(), parse_unit(known->si_unit).get())) return *known;
-  throw InputError(fmt::format("\"{}\" is {}, which nothing here is", text, describe(unit.get())));
+  throw InputError(fmt::format("\"{}\" is {}; no key has this dimension", text, describe(unit.get())));
 }
 
 std::string_view unit_of(std::string_view text) {
   const auto parts = split_number(trimmed(text));
-  if (!parts || parts->second.empty()) throw InputError(fmt::format("\"{}\" is no quantity with a unit", text));
+  if (!parts || parts->second.empty()) throw InputError(fmt::format("\"{}\" is not a quantity with a unit", text));
   return parts->second;
 }
 

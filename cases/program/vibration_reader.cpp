@@ -23,7 +23,7 @@ Eigen::VectorXd in_si(const SignalColumn& column, const std::optional<std::strin
                       const std::filesystem::path& file) {
   const std::string unit = stated ? *stated : column.unit;
   if (unit.empty())
-    throw InputError(fmt::format("{}: column \"{}\" has no unit; {} is due, as in \"{}\"", file.string(), column.name,
+    throw InputError(fmt::format("{}: column \"{}\" has no unit; expected {}, as in \"{}\"", file.string(), column.name,
                                  with_article(due.name), due.si_unit));
   try {
     return column.values * unit_in_si(unit, due);
@@ -38,7 +38,7 @@ Eigen::VectorXd acceleration(const SignalTable& table, const std::string& name, 
   std::vector<std::string> names;
   for (const SignalColumn& c : table.columns) names.push_back(c.name);
   throw InputError(
-      fmt::format("{}: there is no column \"{}\" (there are: {})", source.file.string(), name, fmt::join(names, ", ")));
+      fmt::format("{}: there is no column \"{}\" (available: {})", source.file.string(), name, fmt::join(names, ", ")));
 }
 
 std::optional<Eigen::VectorXd> times(const SignalTable& table, const RecordFile& source) {

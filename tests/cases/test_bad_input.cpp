@@ -32,9 +32,11 @@ const BadInput bad_inputs[] = {
     {"unit_of_another_dimension",
      "\"30 GPa\"",
      "\"30 um\"",
-     {"case.toml:17: [materials.concrete] young_modulus: \"30 um\" is a length; a stress is due here, as in \"75 "
-      "MPa\""}},
-    {"no_unit", "length = \"4 mm\"", "length = 4", {"case.toml:27: [fracture] length: 4 has no unit; a length is due"}},
+     {"case.toml:17: [materials.concrete] young_modulus: \"30 um\" is a length; expected a stress, as in \"75 MPa\""}},
+    {"no_unit",
+     "length = \"4 mm\"",
+     "length = 4",
+     {"case.toml:27: [fracture] length: 4 has no unit; expected a length"}},
     {"unknown_unit", "\"4 mm\"", "\"4 furlong_\"", {"the unit \"furlong_\" is not known"}},
     {"missing_key", "poisson_ratio = 0.2\n", "", {"case.toml:15: [materials.concrete] \"poisson_ratio\" is missing"}},
     {"material_that_depends_on_the_load",
@@ -56,12 +58,12 @@ const BadInput bad_inputs[] = {
     {"initial_damage_with_history",
      "[fracture]",
      "[initial]\ndamage = 0.5\n[fracture]\nirreversibility = \"history\"",
-     {"[initial] damage: this needs the irreversibility \"bounds\""}},
+     {"[initial] damage: this requires the irreversibility \"bounds\""}},
     {"initial_crack_with_history",
      "[fracture]",
      "[initial]\ncracks = [{ points = [[\"1 mm\", \"0 mm\", \"0 mm\"], [\"1 mm\", \"1 mm\", \"0 mm\"]] }]\n"
      "[fracture]\nirreversibility = \"history\"",
-     {"[initial] cracks: this needs the irreversibility \"bounds\""}},
+     {"[initial] cracks: this requires the irreversibility \"bounds\""}},
     {"initial_crack_beside_the_body",
      "[fracture]",
      "[[initial.cracks]]\npoints = [[\"1 mm\", \"2 mm\", \"0 mm\"], [\"3 mm\", \"2 mm\", \"0 mm\"]]\n[fracture]",
@@ -69,11 +71,11 @@ const BadInput bad_inputs[] = {
     {"initial_crack_of_one_point",
      "[fracture]",
      "[[initial.cracks]]\npoints = [[\"1 mm\", \"0 mm\", \"0 mm\"]]\n[fracture]",
-     {"[initial.cracks] points: two points are due, or the corners of a polygon"}},
+     {"[initial.cracks] points: expected two points, or the corners of a polygon"}},
     {"initial_crack_along_its_front",
      "[fracture]",
      "[[initial.cracks]]\npoints = [[\"1 mm\", \"0 mm\", \"0 mm\"], [\"1 mm\", \"0 mm\", \"1 mm\"]]\n[fracture]",
-     {"[initial.cracks] points: ", "they make no surface"}},
+     {"[initial.cracks] points: ", "they span no surface"}},
     {"initial_disc_with_points",
      "[fracture]",
      "[[initial.cracks]]\nradius = \"1 mm\"\npoints = [[\"1 mm\", \"0 mm\", \"0 mm\"], [\"3 mm\", \"0 mm\", \"0 "
@@ -91,7 +93,7 @@ const BadInput bad_inputs[] = {
     {"missing_table",
      "[fracture]",
      "[[boundary]]\n[[boundary.x]]",
-     {"\"fracture\" is missing; the table [fracture] is due"}},
+     {"\"fracture\" is missing; expected a table [fracture]"}},
     {"misspelt_required_key",
      "poisson_ratio",
      "poison_ratio",
@@ -104,35 +106,35 @@ const BadInput bad_inputs[] = {
     {"dissipation_with_frames_at_loads",
      "maximum_increment = 0.1",
      "maximum_increment = 0.1\nmaximum_dissipation = \"2 uJ\"",
-     {"[output] frames_at: with loading.maximum_dissipation the load may pass a value more than once; say "
+     {"[output] frames_at: with loading.maximum_dissipation the load may pass a value more than once; use "
       "frames_every"}},
     {"dissipation_that_is_no_energy",
      "maximum_increment = 0.1",
      "maximum_increment = 0.1\nmaximum_dissipation = \"2 um\"",
-     {"[loading] maximum_dissipation: \"2 um\" is a length; an energy is due here"}},
+     {"[loading] maximum_dissipation: \"2 um\" is a length; expected an energy"}},
     {"viscosity_without_time",
      "length = \"4 mm\"",
      "length = \"4 mm\"\nviscosity = \"1 kPa s\"",
-     {"[loading] fracture.viscosity needs the time in which the load parameter grows by 1"}},
+     {"[loading] fracture.viscosity requires the time in which the load parameter grows by 1"}},
     {"viscosity_that_is_no_viscosity",
      "length = \"4 mm\"",
      "length = \"4 mm\"\nviscosity = \"1 s\"",
-     {"[fracture] viscosity: \"1 s\" is a time; a viscosity is due here, as in \"1 kPa s\""}},
+     {"[fracture] viscosity: \"1 s\" is a time; expected a viscosity, as in \"1 kPa s\""}},
     {"misspelt_key_in_a_list", "frames_at", "frames_of", {"[output] \"frames_of\"", "did you mean \"frames_at\"?"}},
     {"unknown_table", "[loading]", "[load]", {"\"load\" is not known here"}},
     {"patch_that_is_not_there",
      "patch = \"xmin\"",
      "patch = \"xmim\"",
-     {"case.toml:30: [boundary] patch: \"xmim\" is no patch of the mesh; did you mean \"xmin\"? (there are: xmin, "
+     {"case.toml:30: [boundary] patch: \"xmim\" is not a patch of the mesh; did you mean \"xmin\"? (allowed: xmin, "
       "xmax,"}},
     {"patch_of_the_curve",
      "curve = { patch = \"xmax\"",
      "curve = { patch = \"top\"",
-     {"case.toml:47: [output.curve] patch: \"top\" is no patch of the mesh"}},
+     {"case.toml:47: [output.curve] patch: \"top\" is not a patch of the mesh"}},
     {"initial_damage_in_a_region_that_is_not_there",
      "[fracture]",
      "[initial]\ndamage = 1.0\nregions = [\"weka\"]\n[fracture]",
-     {"[initial] regions[0]: \"weka\" is no region of the mesh; did you mean \"weak\"?"}},
+     {"[initial] regions[0]: \"weka\" is not a region of the mesh; did you mean \"weak\"?"}},
     {"initial_damage_in_no_region",
      "[fracture]",
      "[initial]\ndamage = 1.0\nregions = []\n[fracture]",
@@ -144,7 +146,7 @@ const BadInput bad_inputs[] = {
     {"region_that_is_not_there",
      "[\"bar\", \"weak\"]",
      "[\"baar\", \"weak\"]",
-     {"case.toml:16: [materials.concrete] regions[0]: \"baar\" is no region of the mesh; did you mean \"bar\"?"}},
+     {"case.toml:16: [materials.concrete] regions[0]: \"baar\" is not a region of the mesh; did you mean \"bar\"?"}},
     {"region_without_material",
      "regions = [\"bar\", \"weak\"]\n",
      "regions = [\"weak\"]\n",
@@ -197,12 +199,12 @@ const BadInput bad_inputs[] = {
      "frames_at = [\"0.006 mm\"]",
      "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"1 mm\", \"0 mm\", \"0 mm\"]\ndirection = [0, 1, 1]\n"
      "inner = \"1 mm\"\nouter = \"2 mm\"",
-     {"must be at a right angle to direction"}},
+     {"must be perpendicular to direction"}},
     {"threshold_of_a_fixed_tip",
      "frames_at = [\"0.006 mm\"]",
      "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"1 mm\", \"0 mm\", \"0 mm\"]\ndirection = [1, 0, 0]\n"
      "inner = \"1 mm\"\nouter = \"2 mm\"\ntip_damage = 0.5",
-     {"this belongs to tip = \"foremost\""}},
+     {"this requires tip = \"foremost\""}},
     {"unknown_generator", "\"box_hexes\"", "\"box_hexe\"", {"no mesh generator; did you mean \"box_hexes\"?"}},
     {"polyhedra_of_hexahedra",
      "\"box_hexes\"",
@@ -211,8 +213,11 @@ const BadInput bad_inputs[] = {
     {"unknown_cells",
      "\"box_hexes\"",
      "\"box_hexes\"\ncells = \"polyhedral\"",
-     {"\"polyhedral\" is no kind of cells; did you mean \"polyhedra\"?"}},
-    {"unknown_kind", "\"fracture\"", "\"fractal\"", {"case.toml:1: kind: \"fractal\" is no kind of case", "fracture"}},
+     {"\"polyhedral\" is not a kind of cells; did you mean \"polyhedra\"?"}},
+    {"unknown_kind",
+     "\"fracture\"",
+     "\"fractal\"",
+     {"case.toml:1: kind: \"fractal\" is not a kind of case", "fracture"}},
     {"unknown_model", "\"AT1\"", "\"AT3\"", {"no crack geometric function", "AT1", "AT2"}},
     {"cohesive_crack_without_strength",
      "model = \"AT1\"",
@@ -229,12 +234,12 @@ const BadInput bad_inputs[] = {
     {"expression_with_wrong_unit",
      "\"0.015 mm\"",
      "{ expr = \"0.1*t\", unit = \"kg\" }",
-     {"is a mass; a length is due"}},
+     {"is a mass; expected a length"}},
     {"expression_without_unit", "\"0.015 mm\"", "{ expr = \"0.1*t\" }", {"\"unit\" is missing"}},
     {"wrong_number_of_components",
      "[\"0 mm\", \"free\", \"free\"]",
      "[\"0 mm\", \"free\"]",
-     {"the list has 2 entries; 3 are due"}},
+     {"expected 3 entries, found 2"}},
     {"displacement_and_traction",
      "displacement = [\"0 mm\", \"free\", \"free\"]",
      "displacement = [\"0 mm\", \"free\", \"free\"]\ntraction = [\"1 Pa\", \"free\", \"free\"]",
@@ -243,7 +248,10 @@ const BadInput bad_inputs[] = {
      "\"0.006 mm\"",
      "\"0.06 mm\"",
      {"this is at load parameter 4; the loading goes from 0 to 1"}},
-    {"increments_that_fall", "initial_increment = 0.1", "initial_increment = 0.2", {"the increments must not fall"}},
+    {"increments_that_fall",
+     "initial_increment = 0.1",
+     "initial_increment = 0.2",
+     {"expected minimum <= initial <= maximum of the increments"}},
     {"damage_that_grows_beyond_one",
      "initial_increment = 0.1",
      "damage_growth = 1.5\ninitial_increment = 0.1",
@@ -260,7 +268,7 @@ const BadInput bad_inputs[] = {
      "[[mesh.regions]]",
      "[[mesh.slits]]\nname = \"notch\"\nlower = [\"0.0123 mm\", \"-9 mm\", \"-9 mm\"]\n"
      "upper = [\"0.0123 mm\", \"9 mm\", \"9 mm\"]\n[[mesh.regions]]",
-     {"slit \"notch\": x = 1.23e-05 m is no plane of the grid"}},
+     {"slit \"notch\": x = 1.23e-05 m is not a plane of the grid"}},
     {"slit_with_the_name_of_a_patch",
      "[[mesh.regions]]",
      "[[mesh.slits]]\nname = \"xmin\"\nlower = [\"0 mm\", \"-9 mm\", \"-9 mm\"]\n"
@@ -320,7 +328,7 @@ void expect_no_path(const std::string& good, const std::string& bad, const std::
 TEST(BadInput, DissipationWhereItCannotBePrescribed) {
   expect_no_path("\"0.015 mm\"", "{ expr = \"0.015*t^2\", unit = \"mm\" }", "those of patch \"xmax\" are not");
   expect_no_path("split = \"none\"", "split = \"none\"\nirreversibility = \"history\"",
-                 "a dissipation can be prescribed only with the irreversibility \"bounds\"");
+                 "dissipation control (loading.maximum_dissipation) requires the irreversibility \"bounds\"");
 }
 
 TEST(BadInput, CaseThatIsNotThere) {
@@ -340,8 +348,8 @@ TEST(BadInput, WrongUsage) {
 
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
-            "pfdm: there is no command \"rn\"; did you mean \"run\"? (there are: run, check, mesh, cohesive, "
-            "compare, fit, sweep, report, init, list, help, completion, test)\n");
+            "pfdm: unknown command \"rn\"; did you mean \"run\"? (available: run, check, mesh, cohesive, compare, fit, "
+            "sweep, report, init, list, help, completion, test)\n");
 }
 
 TEST(BadInput, JobThatTheKindOfCaseDoesNotHave) {

@@ -201,7 +201,7 @@ const BadInput bad_cohesive[] = {
     {"plane_beside_the_body",
      "[\"10 mm\", \"0.5 mm\"",
      "[\"90 mm\", \"0.5 mm\"",
-     {"case.toml:51: [cohesive.planes]", "the plane \"crack\" misses the mesh"}},
+     {"case.toml:51: [cohesive.planes]", "the plane \"crack\" does not intersect the mesh"}},
     {"normal_of_zero", "[1, 0, 0]", "[0, 0, 0]", {"[cohesive.planes] normal", "must not be zero"}},
     {"no_half_width", "half_width = \"30 mm\"\n", "", {"\"half_width\" is missing"}},
     {"half_width_without_unit", "\"30 mm\"", "30", {"30 has no unit"}},
@@ -209,7 +209,7 @@ const BadInput bad_cohesive[] = {
     {"interface_that_is_no_band",
      "[cohesive]\n",
      "[cohesive]\ninterfaces = [\"weak\"]\n",
-     {"interfaces[0]: \"weak\" is no band between two regions"}},
+     {"interfaces[0]: \"weak\" is not a band between two regions"}},
     {"misspelt_key", "half_width", "half_with", {"did you mean \"half_width\"?"}},
 };
 INSTANTIATE_TEST_SUITE_P(Inputs, BadCohesive, testing::ValuesIn(bad_cohesive),
@@ -287,8 +287,8 @@ TEST_P(BadExperiment, IsRefusedWithOneMessage) {
 
 const BadInput bad_experiments[] = {
     {"file_that_is_not_there", "data/one.csv", "data/won.csv", {"case.toml:54: [experiment.specimens] csv", "won.csv"}},
-    {"column_that_is_not_there", "\"f\"", "\"g\"", {"there is no column \"g\" (there are: u, f, back)"}},
-    {"unit_of_another_dimension", "\"kN\"", "\"kPa\"", {"is a stress; a force is due"}},
+    {"column_that_is_not_there", "\"f\"", "\"g\"", {"there is no column \"g\" (available: u, f, back)"}},
+    {"unit_of_another_dimension", "\"kN\"", "\"kPa\"", {"is a stress; expected a force"}},
     {"displacements_that_fall", "column = \"u\"", "column = \"back\"", {"the displacements fall"}},
     {"range_that_is_empty", "[\"1 um\", \"5 um\"]", "[\"5 um\", \"1 um\"]", {"must be the larger"}},
     {"range_without_unit", "[\"1 um\", \"5 um\"]", "[1, 5]", {"has no unit"}},
@@ -312,9 +312,9 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
   directory.write("data/one.csv", "u,f\n500,0\n600,1\n");
   expect("no range is common");
   directory.write("data/one.csv", "u,f\n5,0\n");
-  expect("less than two points");
+  expect("fewer than two points");
   directory.write("data/one.csv", "u,f\n0,0\n3,1\n");
-  expect("the stiffness is asked for between 1e-06 and 5e-06 m");
+  expect("the stiffness is requested between 1e-06 and 5e-06 m");
 }
 
 }  // namespace

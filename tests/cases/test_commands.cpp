@@ -28,16 +28,16 @@ void expect_wrong(const std::vector<std::string>& arguments, const std::string& 
 
 TEST(Commands, NameWhatWasMeant) {
   const std::string bar = (shipped / "bar_at1").string();
-  expect_wrong({"runn", bar}, "there is no command \"runn\"; did you mean \"run\"?");
-  expect_wrong({"help", "sweeep"}, "there is no command \"sweeep\"; did you mean \"sweep\"?");
+  expect_wrong({"runn", bar}, "unknown command \"runn\"; did you mean \"run\"?");
+  expect_wrong({"help", "sweeep"}, "unknown command \"sweeep\"; did you mean \"sweep\"?");
   expect_wrong({"run", bar, "--thread", "2"}, "run has no option \"--thread\"; did you mean \"--threads\"?");
   expect_wrong({"run", "--thread=2", bar}, "run has no option \"--thread\"; did you mean \"--threads\"?");
   expect_wrong({"check", bar, "--restart"}, "check has no option \"--restart\"");
   expect_wrong({"--versoin"}, "pfdm has no option \"--versoin\"; did you mean \"--version\"?");
-  expect_wrong({"--quiet", "run", bar}, "--quiet stands behind the command");
-  expect_wrong({"run", bar, "2"}, "run: \"2\" is one word too many");
-  expect_wrong({"run"}, "run: CASE is required; pfdm help run says what is due");
-  expect_wrong({}, "a command is due, as in: pfdm run cases/glass_bead_quick");
+  expect_wrong({"--quiet", "run", bar}, "--quiet must follow the command");
+  expect_wrong({"run", bar, "2"}, "run: unexpected argument \"2\"");
+  expect_wrong({"run"}, "run: CASE is required; see pfdm help run");
+  expect_wrong({}, "a command is required, as in: pfdm run cases/glass_bead_quick");
 }
 
 TEST(Commands, NameTheNearestCase) {

@@ -89,7 +89,7 @@ TEST(Config, SaysWhichKeyIsMissingAndWhatIsDue) {
   const Config config("\n\n[mesh]\nsize = 1\n", "case.toml");
   const ConfigTable mesh = config.root().table("mesh");
   EXPECT_EQ(message_of([&] { mesh.quantity("thickness", dimension::length); }),
-            "case.toml:3: [mesh] \"thickness\" is missing; a length is due, as in \"20 um\"");
+            "case.toml:3: [mesh] \"thickness\" is missing; expected a length, as in \"20 um\"");
   EXPECT_EQ(message_of([&] { mesh.string("generator"); }), "case.toml:3: [mesh] \"generator\" is missing");
 }
 
@@ -97,11 +97,11 @@ TEST(Config, WantsUnits) {
   const Config config("size = 2.5\nlength = \"3 kg\"\nflag = true\n", "case.toml");
   const ConfigTable root = config.root();
   EXPECT_EQ(message_of([&] { root.quantity("size", dimension::length); }),
-            "case.toml:1: size: 2.5 has no unit; a length is due here, as in \"20 um\"");
+            "case.toml:1: size: 2.5 has no unit; expected a length, as in \"20 um\"");
   EXPECT_EQ(message_of([&] { root.quantity("length", dimension::length); }),
-            "case.toml:2: length: \"3 kg\" is a mass; a length is due here, as in \"20 um\"");
+            "case.toml:2: length: \"3 kg\" is a mass; expected a length, as in \"20 um\"");
   EXPECT_EQ(message_of([&] { root.quantity("flag", dimension::length); }),
-            "case.toml:3: flag: true is no quantity; a length is due here, as in \"20 um\"");
+            "case.toml:3: flag: true is not a quantity; expected a length, as in \"20 um\"");
 }
 
 TEST(Config, ChecksRangesAndTypes) {
@@ -110,11 +110,11 @@ TEST(Config, ChecksRangesAndTypes) {
   EXPECT_EQ(message_of([&] { root.quantity("size", dimension::length, range::positive); }),
             "case.toml:1: size: \"-2 um\" must be positive");
   EXPECT_EQ(message_of([&] { root.integer("n", range::positive); }), "case.toml:2: n: 0 must be positive");
-  EXPECT_EQ(message_of([&] { root.string("name"); }), "case.toml:3: name: 3 stands where a text is due");
-  EXPECT_EQ(message_of([&] { root.at("list").list(3); }), "case.toml:4: list: the list has 2 entries; 3 are due");
+  EXPECT_EQ(message_of([&] { root.string("name"); }), "case.toml:3: name: expected a text in quotes, found 3");
+  EXPECT_EQ(message_of([&] { root.at("list").list(3); }), "case.toml:4: list: expected 3 entries, found 2");
   const std::string models[] = {"AT1", "AT2"};
   EXPECT_EQ(message_of([&] { root.at("model").one_of(models, "model"); }),
-            "case.toml:5: model: \"AT3\" is no model; did you mean \"AT1\"? (there are: AT1, AT2)");
+            "case.toml:5: model: \"AT3\" is not a model; did you mean \"AT1\"? (allowed: AT1, AT2)");
 }
 
 TEST(Config, GivesTheLineOfASyntaxError) {

@@ -203,8 +203,8 @@ TEST(CurveFit, GoesOnInTheSecondStageWithTheRunsOfTheFirst) {
   EXPECT_EQ(json["earlier_stages"][0]["name"], "elastic");
   EXPECT_NEAR(estimate(json, modulus), 33e9, 1e-4 * 33e9);
   EXPECT_NEAR(estimate(json, toughness), 110.0, 1.0);
-  EXPECT_NE(json["warnings"].dump().find("is as stage \\\"elastic\\\" found it"), std::string::npos);
-  EXPECT_NE(outcome.out.find("gone on with"), std::string::npos) << outcome.out;
+  EXPECT_NE(json["warnings"].dump().find("was estimated in stage \\\"elastic\\\""), std::string::npos);
+  EXPECT_NE(outcome.out.find("continued"), std::string::npos) << outcome.out;
   const auto& elastic = json["earlier_stages"][0];
   EXPECT_GT(elastic["first_guess_rms_residual"].get<double>(), 100.0 * elastic["rms_residual"].get<double>());
 }
@@ -299,8 +299,8 @@ TEST(CurveFit, LeavesValuesOutThatMakeNoCase) {
   const BarFit fit(fit_of("materials.concrete.strength", "[\"5 MPa\", \"50 MPa\"]"), bar);
   const Outcome outcome = run({"fit", fit.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("there is no case with concrete.strength"), std::string::npos) << outcome.out;
-  EXPECT_NE(fit_in(fit.directory.results())["warnings"].dump().find("the data cannot see"), std::string::npos);
+  EXPECT_NE(outcome.out.find("the case cannot be run with concrete.strength"), std::string::npos) << outcome.out;
+  EXPECT_NE(fit_in(fit.directory.results())["warnings"].dump().find("the data do not determine"), std::string::npos);
 }
 
 // ---- Strength, toughness and modulus of a bar with a cohesive crack, from a closed form with noise
@@ -365,17 +365,17 @@ const BadInput bad_fits[] = {
     {"key_that_is_not_there",
      "\"materials.concrete.young_modulus\"",
      "\"materials.concrete.young_modulos\"",
-     {"[fit.parameters] key: [materials.concrete] has no \"young_modulos\" (there are: regions, young_modulus"}},
+     {"[fit.parameters] key: [materials.concrete] has no \"young_modulos\" (available: regions, young_modulus"}},
     {"key_of_a_table",
      "\"materials.concrete.young_modulus\"",
      "\"materials.concrete\"",
      {"neither a quantity nor a number"}},
-    {"key_of_a_word", "\"materials.concrete.young_modulus\"", "\"fracture.model\"", {"is no quantity with a unit"}},
+    {"key_of_a_word", "\"materials.concrete.young_modulus\"", "\"fracture.model\"", {"is not a quantity with a unit"}},
     {"key_named_twice",
      "key = [\"materials.concrete.toughness\",",
      "key = [\"materials.concrete.young_modulus\",",
      {"key[1]: this is an energy per area, \"materials.concrete.young_modulus\" is a stress"}},
-    {"bounds_without_unit", "[\"10 GPa\", \"90 GPa\"]", "[10, 90]", {"bounds[0]: 10 has no unit; a stress is due"}},
+    {"bounds_without_unit", "[\"10 GPa\", \"90 GPa\"]", "[10, 90]", {"bounds[0]: 10 has no unit; expected a stress"}},
     {"bounds_that_fall", "[\"10 GPa\", \"90 GPa\"]", "[\"90 GPa\", \"10 GPa\"]", {"must be below the upper one"}},
     {"misspelt_key", "bounds = [\"10", "bound = [\"10", {"did you mean \"bounds\"?"}},
     {"spread_of_zero", "[fit]\n", "[fit]\nspread = 0.0\n", {"[fit] spread: 0 must be above 0 and below 10"}},
@@ -394,7 +394,7 @@ const BadInput bad_fits[] = {
     {"unknown_differences",
      "[fit]\n",
      "[fit]\ndifferences = \"grid\"\n",
-     {"\"grid\" is no kind of differences (there are: central, forward, shared)"}},
+     {"\"grid\" is not a kind of differences (allowed: central, forward, shared)"}},
     {"step_of_zero", "[fit]\n", "[fit]\nstep = 0.0\n", {"[fit] step: 0 must be above 0 and below 0.5"}},
     {"stage_of_nothing",
      "[fit]\n",
@@ -418,11 +418,11 @@ TEST(CurveFit, RefusesWhatCannotBeFitted) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   };
   expect("[\"10 GPa\", \"90 GPa\"]", "[\"40 GPa\", \"90 GPa\"]",
-         "the case's own value, 30 GPa, from which the fit starts, is not within");
+         "the case's own value, 30 GPa, from which the fit starts, is outside these bounds");
   expect("force = { column = \"force_N\" }", "force = { column = \"force_N\" }\ndeviation = { column = \"s\" }",
          "the standard deviation of \"one\" at 0 (SI) is zero");
   expect("bounds = [\"10 GPa\"", "prior = { mean = \"30 GPa\", deviation = \"1 GPa\" }\nbounds = [\"10 GPa\"",
-         "a prior can be weighed against the data only if the noise of the data is known");
+         "a prior requires the noise of the data to be known");
 }
 
 }  // namespace

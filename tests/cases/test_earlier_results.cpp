@@ -158,7 +158,7 @@ TEST_F(EarlierResults, StayWhereTheFirstStepDoesNotConverge) {
                       "[solver]\nmaximum_iterations = 1\n");
   const Outcome outcome = run({"run", place()});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.out, HasSubstr("the earlier results in " + directory.results().string() + " stay as they are"));
+  EXPECT_THAT(outcome.out, HasSubstr("the earlier results in " + directory.results().string() + " are kept"));
   expect_untouched("after a failed first step");
 }
 
@@ -176,7 +176,7 @@ TEST_F(EarlierResults, AreReplacedWithAWordAndWithAllThatWasMadeOfThem) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("the results in " + directory.results().string() +
                                      " are complete: this run starts anew and replaces them once it has its own; with "
-                                     "--restart they would stay"));
+                                     "--restart they would be kept"));
   for (const char* stale : {"report", "comparison.json", ".new.partial"})
     EXPECT_FALSE(fs::exists(directory.results() / stale)) << stale;
   EXPECT_FALSE(fs::exists(directory.results() / "fields" / "step_000003.vtu"));
@@ -199,7 +199,7 @@ TEST_F(EarlierResults, AreOfOtherInputAndNotGoneOnWith) {
   EXPECT_THAT(refused.err, HasSubstr("without --restart the run starts anew and replaces it"));
   expect_untouched("after a refused restart");
   const Outcome anew = run({"run", place()});
-  EXPECT_THAT(anew.out, HasSubstr("belong to other input"));
+  EXPECT_THAT(anew.out, HasSubstr("belong to different input"));
   EXPECT_THAT(anew.out, Not(HasSubstr("--restart would")));
 }
 

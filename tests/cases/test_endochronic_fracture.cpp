@@ -64,7 +64,7 @@ TEST_P(RefusedHistory, IsNamed) {
 INSTANTIATE_TEST_SUITE_P(
     EndochronicFracture, RefusedHistory,
     ::testing::Values(
-        BadInput{"Split", "split = \"none\"", "split = \"spectral\"", {"regions", "\"spectral\"", "there are none"}},
+        BadInput{"Split", "split = \"none\"", "split = \"spectral\"", {"regions", "\"spectral\"", "allowed: none"}},
         BadInput{"OtherModulus",
                  "toughness = \"80 J/m^2\"",
                  "young_modulus = \"20 GPa\"",

@@ -161,7 +161,7 @@ TEST(GmshCase, NamesAFileThatIsNone) {
   directory.write("cubes.msh", "no mesh");
   const Outcome refused = run({"check", directory.path().string()});
   EXPECT_EQ(refused.status, 2);
-  EXPECT_THAT(refused.err, HasSubstr("cubes.msh: in line 1: a section is due"));
+  EXPECT_THAT(refused.err, HasSubstr("cubes.msh: in line 1: expected a section"));
 }
 
 }  // namespace

@@ -154,7 +154,7 @@ TEST(DeadLoads, ThatTearTheBodyApartEndTheRun) {
   const TemporaryCase directory(pulled_by_traction());
   const Outcome outcome = run({"run", directory.path().string()});
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("comes apart between the loads 0.4 and 0.5"), HasSubstr("displacements"),
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("breaks apart between the loads 0.4 and 0.5"), HasSubstr("displacements"),
                                  HasSubstr("loading.maximum_dissipation")));
   const auto summary = nlohmann::json::parse(content_of(directory.results() / "summary.json"));
   EXPECT_THAT(summary.at("status").get<std::string>(), HasSubstr("failed: "));

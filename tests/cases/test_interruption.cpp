@@ -62,7 +62,7 @@ TEST_P(Interruption, LeavesASweepThatGoesOn) {
   const auto [signal, status] = GetParam();
   const ProgramEnd end = interrupted("sweep " + place, signal, directory.results() / "runs/*/case.toml", 1);
   EXPECT_EQ(end.status, status) << end.err;
-  EXPECT_EQ(end.err, "pfdm: interrupted; what was run so far is kept, and the same command goes on with it\n");
+  EXPECT_EQ(end.err, "pfdm: interrupted; what has been computed is kept, and the same command continues it\n");
   EXPECT_FALSE(fs::exists(directory.results() / "sweep.csv"));
   EXPECT_EQ(run_external({PFDM_PROGRAM, "sweep", place}).status, 0);
   EXPECT_TRUE(fs::exists(directory.results() / "sweep.csv"));

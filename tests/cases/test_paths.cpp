@@ -70,7 +70,7 @@ TEST(DataFile, IsNeitherAFolderNorAPipe) {
     SCOPED_TRACE(text.substr(0, 60));
     expect_refused_data(text, "folder.csv", ": it is a directory, not a file");
     expect_refused_data(text, "pipe.csv", ": it is a named pipe, not a file");
-    expect_refused_data(text, "/dev/null", ": it is no regular file");
+    expect_refused_data(text, "/dev/null", ": it is not a regular file");
   }
 }
 
@@ -103,19 +103,22 @@ const BadInput bad_names[] = {
      "lower = [\"9.6 mm\", \"-1 mm\", \"-1 mm\"]\nupper = [\"10.4 mm\", \"2 mm\", \"2 mm\"]",
      "generator = \"particles_in_box\"\nsize = [\"9 mm\", \"9 mm\", \"9 mm\"]\n"
      "layers = { count = 1, thickness = \"1 mm\", region = \"../../x\" }",
-     {"[mesh.layers] region: \"../../x\" becomes the name of a folder: letters, digits, _ and - only"}},
+     {"[mesh.layers] region: \"../../x\" is used as the name of a folder; it may have letters, digits, _ and - only"}},
     {"region_of_a_band",
      "[regions.weak]",
      "[regions.\"../weak\"]\nband = { width = \"1 mm\", between = [\"bar\", \"bar\"] }",
-     {"\"../weak\" becomes the name of a folder"}},
-    {"plane", "name = \"crack\"", "name = \"a/b\"", {"[cohesive.planes] name: \"a/b\" becomes the name of a folder"}},
+     {"\"../weak\" is used as the name of a folder"}},
+    {"plane",
+     "name = \"crack\"",
+     "name = \"a/b\"",
+     {"[cohesive.planes] name: \"a/b\" is used as the name of a folder"}},
     {"plane_that_is_hidden", "name = \"crack\"", "name = \".new\"", {"and . but not at the beginning"}},
     {"crack_tip",
      "[output]",
      "[[output.energy_release_rate]]\nname = \"a,b\"\n[output]",
-     {"\"a,b\" becomes the name of a column"}},
-    {"test", "name = \"up\"", "name = \"../up\"", {"[test] name: \"../up\" becomes the name of files"}},
-    {"test_above", "name = \"up\"", "name = \"..\"", {"[test] name: \"..\" becomes the name of files"}},
+     {"\"a,b\" is used as the name of a column"}},
+    {"test", "name = \"up\"", "name = \"../up\"", {"[test] name: \"../up\" is used as the name of files"}},
+    {"test_above", "name = \"up\"", "name = \"..\"", {"[test] name: \"..\" is used as the name of files"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Program, BadName, testing::ValuesIn(bad_names),
@@ -155,13 +158,13 @@ TEST(Slurm, TakesNoCommandForAPartition) {
                                   "key = \"materials.concrete.young_modulus\"\nvalues = [\"30 GPa\"]\n"
                                   "[sweep.slurm]\npartition = \"" +
                                   partition + "\"\n");
-    expect_refused(directory, {"partition", "", "", {"[sweep.slurm] partition: this is no partition"}});
+    expect_refused(directory, {"partition", "", "", {"[sweep.slurm] partition: this is not a partition"}});
   }
   const TemporaryCase directory(bar_case() +
                                 "[sweep]\nmethod = \"list\"\n[[sweep.parameters]]\n"
                                 "key = \"materials.concrete.young_modulus\"\nvalues = [\"30 GPa\"]\n"
                                 "[sweep.slurm]\nlines = [\"a\\rb\"]\n");
-  expect_refused(directory, {"line", "", "", {"without line breaks and control characters"}});
+  expect_refused(directory, {"line", "", "", {"without line breaks or control characters"}});
 }
 
 }  // namespace

@@ -99,8 +99,7 @@ TEST(Program, AccountsForViscousDissipation) {
   const TemporaryCase refused(replaced(dissipated, "frames_at = [\"0.006 mm\"]", ""));
   const Outcome outcome = run({"run", refused.path().string()});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("maximum_dissipation: it cannot be prescribed together with fracture.viscosity"),
-            std::string::npos)
+  EXPECT_NE(outcome.err.find("maximum_dissipation: it cannot be combined with fracture.viscosity"), std::string::npos)
       << outcome.err;
 }
 
@@ -207,7 +206,7 @@ TEST(Program, GoesOnWithOtherSettingsOfTheSolver) {
   directory.write("case.toml", "# with more iterations\n" + bar_case() + "[solver]\nmaximum_iterations = 500\n");
   const Outcome outcome = run({"run", place, "--restart"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("goes on after step"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("continuing after step"), std::string::npos) << outcome.out;
   EXPECT_EQ(summary_in(directory.results())["status"], "complete");
 }
 

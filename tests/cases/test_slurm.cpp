@@ -63,7 +63,7 @@ TEST_F(SweepOnSlurm, MakesTheTableOfALocalOne) {
   EXPECT_THAT(second.out, HasSubstr("Nothing was submitted"));
   ASSERT_TRUE(slurm_->wait_for_running(1)) << "two processors are there, each task asks for both";
   EXPECT_THAT(pfdm_sweep(directory, handed).out,
-              HasSubstr("2 runs queued (Resources), 1 running; 3 runs are not there"));
+              HasSubstr("2 runs queued (Resources), 1 running; 3 runs are not complete"));
   const ProgramEnd here = pfdm_sweep(directory, there);
   EXPECT_EQ(here.status, 2);
   EXPECT_THAT(here.err, HasSubstr("wait for them, or stop them with scancel 1"));
@@ -91,7 +91,7 @@ TEST_F(SweepOnSlurm, SubmitsAgainWhatWasLost) {
   const ProgramEnd again = pfdm_sweep(directory, {"--slurm"});
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_THAT(again.out + again.err,
-              HasSubstr("young_modulus = 30 GPa ended without a result; its last words: slurmstepd"));
+              HasSubstr("young_modulus = 30 GPa ended without a result; the last line of its output: slurmstepd"));
   EXPECT_THAT(again.out, HasSubstr("3 runs submitted;"));
   ASSERT_TRUE(slurm_->wait_for_jobs());
   ASSERT_EQ(pfdm_sweep(directory, {"--slurm"}).status, 0);

@@ -38,19 +38,19 @@ TEST(Units, ReadsMultiplesOfGravity) {
 }
 
 TEST(Units, SaysWhatWasFoundAndWhatIsDue) {
-  EXPECT_EQ(message_of("20 um", dimension::stress), "\"20 um\" is a length; a stress is due here, as in \"75 MPa\"");
-  EXPECT_EQ(message_of("20", dimension::length), "\"20\" has no unit; a length is due here, as in \"20 um\"");
+  EXPECT_EQ(message_of("20 um", dimension::stress), "\"20 um\" is a length; expected a stress, as in \"75 MPa\"");
+  EXPECT_EQ(message_of("20", dimension::length), "\"20\" has no unit; expected a length, as in \"20 um\"");
   EXPECT_EQ(message_of("20 parsnips", dimension::length),
-            "\"20 parsnips\": the unit \"parsnips\" is not known; a length is due here, as in \"20 um\"");
+            "\"20 parsnips\": the unit \"parsnips\" is not known; expected a length, as in \"20 um\"");
   EXPECT_EQ(message_of("fast", dimension::length),
-            "\"fast\" does not start with a number; a length is due here, as in \"20 um\"");
+            "\"fast\" does not start with a number; expected a length, as in \"20 um\"");
   EXPECT_EQ(message_of("20 30 um", dimension::length),
-            "\"20 30 um\" has two numbers; a length is due here, as in \"20 um\"");
-  EXPECT_NE(message_of("1 mol", dimension::energy).find("an energy is due"), std::string::npos);
+            "\"20 30 um\" has two numbers; expected a length, as in \"20 um\"");
+  EXPECT_NE(message_of("1 mol", dimension::energy).find("expected an energy"), std::string::npos);
 }
 
 TEST(Units, DoesNotTakeATimeForAFrequency) {
-  EXPECT_NE(message_of("1 s", dimension::frequency).find("is a time; a frequency is due"), std::string::npos);
+  EXPECT_NE(message_of("1 s", dimension::frequency).find("is a time; expected a frequency"), std::string::npos);
 }
 
 TEST(Units, RefusesWhatIsNotFinite) {
