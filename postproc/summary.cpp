@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <string>
 
 namespace pfdm {
 namespace {
@@ -180,7 +182,13 @@ RunSummary read_run_summary(const std::filesystem::path& path) {
   });
 }
 
-double peak_memory() { return 1024.0 * static_cast<double>(usage().ru_maxrss); }  // Linux counts in KiB
+// getrusage would count the program that has started this one as well.
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return 1024.0 * std::stod(line.substr(6));  // in KiB
+  return 1024.0 * static_cast<double>(usage().ru_maxrss);
+}
 
 double cpu_seconds() {
   const rusage now = usage();
