@@ -78,6 +78,29 @@ half_width = "30 mm"
 )";
 }
 
+std::string measured_specimen(const std::string& stiffness_between) {
+  return "\n[experiment]\nstiffness_between = " + stiffness_between + R"(
+[[experiment.specimens]]
+name = "one"
+csv = "data/one.csv"
+displacement = { column = "u", unit = "um" }
+force = { column = "f", unit = "kN" }
+)";
+}
+
+std::string soft_sample() {
+  return R"(kind = "mass_material"
+title = "a soft sample"
+[model]
+structure = "2"
+mass = "1.12 kg"
+stiffness = ["54 kN/m"]
+damping = "40 N s/m"
+[sampling]
+rate = "1 kHz"
+)";
+}
+
 std::string replaced(std::string text, const std::string& old_text, const std::string& new_text) {
   const std::size_t place = text.find(old_text);
   if (place == std::string::npos || text.find(old_text, place + 1) != std::string::npos)

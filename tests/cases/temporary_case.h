@@ -14,6 +14,12 @@ std::string bar_case();
 /// [cohesive] with the plane in which that bar breaks, "crack".
 std::string crack_plane();
 
+/// [experiment] with the specimen "one": columns u [um] and f [kN] of data/one.csv.
+std::string measured_specimen(const std::string& stiffness_between = "[\"1 um\", \"5 um\"]");
+
+/// A mass on a soft sample, without its tests.
+std::string soft_sample();
+
 /// `text` with its one occurrence of `old_text` replaced; throws if it does not occur exactly once.
 std::string replaced(std::string text, const std::string& old_text, const std::string& new_text);
 

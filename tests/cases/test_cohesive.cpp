@@ -16,16 +16,6 @@ namespace fs = std::filesystem;
 
 std::string cohesive_case() { return bar_case() + crack_plane(); }
 
-std::string experiment(const std::string& range = "[\"1 um\", \"5 um\"]") {
-  return "\n[experiment]\nstiffness_between = " + range + R"(
-[[experiment.specimens]]
-name = "one"
-csv = "data/one.csv"
-displacement = { column = "u", unit = "um" }
-force = { column = "f", unit = "kN" }
-)";
-}
-
 nlohmann::json json_in(const fs::path& file) { return nlohmann::json::parse(content_of(file)); }
 
 /// What a run of the case made, in micrometres and kilonewtons, its forces times a factor.
@@ -233,7 +223,7 @@ TEST(Compare, FindsNoDifferenceFromItself) {
   fs::create_directory(directory.path() / "data");
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
   directory.write("data/one.csv", measured(directory.results(), 1.0));
-  directory.write("case.toml", bar_case() + experiment());  // after the run: its results stay valid
+  directory.write("case.toml", bar_case() + measured_specimen());  // after the run: its results stay valid
   const Outcome outcome = run({"compare", directory.path().string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const nlohmann::json force = json_in(directory.results() / "comparison.json")["force_displacement"];
@@ -250,10 +240,10 @@ TEST(Compare, TakesTheBandFromSpecimensAndFromTheirDeviation) {
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
   directory.write("data/one.csv", measured(directory.results(), 1.1));
   directory.write("data/two.csv", measured(directory.results(), 0.9));
-  std::string second = experiment();
+  std::string second = measured_specimen();
   second.erase(0, second.find("[[experiment"));
   second = replaced(replaced(second, "\"one\"", "\"two\""), "data/one.csv", "data/two.csv");
-  directory.write("case.toml", bar_case() + experiment() + second);
+  directory.write("case.toml", bar_case() + measured_specimen() + second);
   ASSERT_EQ(run({"compare", directory.path().string()}).status, 0);
   nlohmann::json force = json_in(directory.results() / "comparison.json")["force_displacement"];
   EXPECT_NEAR(force["share_within_two_standard_deviations"].get<double>(), 1.0, 1e-12);
@@ -269,7 +259,7 @@ TEST(Compare, TakesTheBandFromSpecimensAndFromTheirDeviation) {
                       std::to_string(0.01 * f) + "\n";
   }
   directory.write("data/one.csv", with_deviation);
-  directory.write("case.toml", bar_case() + experiment() + "deviation = { column = \"s\", unit = \"kN\" }\n");
+  directory.write("case.toml", bar_case() + measured_specimen() + "deviation = { column = \"s\", unit = \"kN\" }\n");
   ASSERT_EQ(run({"compare", directory.path().string()}).status, 0);
   force = json_in(directory.results() / "comparison.json")["force_displacement"];
   EXPECT_LT(force["share_within_two_standard_deviations"].get<double>(), 0.2);
@@ -279,7 +269,7 @@ TEST(Compare, TakesTheBandFromSpecimensAndFromTheirDeviation) {
 class BadExperiment : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadExperiment, IsRefusedWithOneMessage) {
-  const TemporaryCase directory(replaced(bar_case() + experiment(), GetParam().good, GetParam().bad));
+  const TemporaryCase directory(replaced(bar_case() + measured_specimen(), GetParam().good, GetParam().bad));
   fs::create_directory(directory.path() / "data");
   directory.write("data/one.csv", "u,f,back\n0,0,0\n5,1,2\n10,1.5,1\n");
   expect_refused(directory, GetParam());
@@ -298,7 +288,7 @@ INSTANTIATE_TEST_SUITE_P(Inputs, BadExperiment, testing::ValuesIn(bad_experiment
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Compare, RefusesWhatCannotBeCompared) {
-  const TemporaryCase directory(bar_case() + experiment());
+  const TemporaryCase directory(bar_case() + measured_specimen());
   fs::create_directory(directory.path() / "data");
   directory.write("data/one.csv", "u,f\n0,0\n5,1\n");
   const auto expect = [&](const std::string& message) {

@@ -26,19 +26,8 @@ kernel = [{ C = "30 GPa", alpha = 700 }]
 control = { strain_xx = { csv = "DATA", column = "strain_xx" } }
 )";
 
-const std::string shaken_case = R"(kind = "mass_material"
-title = "a soft sample"
-[model]
-structure = "2"
-mass = "1.12 kg"
-stiffness = ["54 kN/m"]
-damping = "40 N s/m"
-[sampling]
-rate = "1 kHz"
-[[test]]
-name = "up"
-record = { file = "DATA", from = "10 Hz", to = "70 Hz" }
-)";
+const std::string shaken_case =
+    soft_sample() + "[[test]]\nname = \"up\"\nrecord = { file = \"DATA\", from = \"10 Hz\", to = \"70 Hz\" }\n";
 
 const std::string shaken_by_a_record = replaced(shaken_case, R"(record = { file = "DATA", from)",
                                                 R"(excitation = { type = "measured", file = "DATA", from)");
@@ -49,14 +38,7 @@ const std::string imported_case = [] {
   return text.replace(mesh, next - mesh, "generator = \"vtk\"\nfile = \"DATA\"\nlength_unit = \"mm\"\n");
 }();
 
-const std::string compared_case = bar_case() + R"([experiment]
-stiffness_between = ["1 um", "5 um"]
-[[experiment.specimens]]
-name = "one"
-csv = "DATA"
-displacement = { column = "displacement_um", unit = "um" }
-force = { column = "force_N", unit = "N" }
-)";
+const std::string compared_case = bar_case() + replaced(measured_specimen(), "data/one.csv", "DATA");
 
 void expect_refused_data(const std::string& text, const std::string& data, const std::string& message) {
   const TemporaryCase directory(replaced(text, "DATA", data));

@@ -50,17 +50,6 @@ void expect_files(const fs::path& results) {
   EXPECT_GT(fs::file_size(results / "report" / "report.png"), 50000u);
 }
 
-constexpr const char* specimen = R"(
-[experiment]
-stiffness_between = ["1 um", "5 um"]
-[[experiment.specimens]]
-name = "one"
-csv = "data/one.csv"
-displacement = { column = "u", unit = "um" }
-force = { column = "f", unit = "kN" }
-deviation = { column = "s", unit = "N" }
-)";
-
 ReportPage page_of_fracture(const TemporaryCase& directory) {
   const CaseFile file = open_case(directory.path());
   const FractureCase fracture = read_fracture_case(file.config.root(), file.directory);
@@ -70,7 +59,8 @@ ReportPage page_of_fracture(const TemporaryCase& directory) {
 }
 
 TEST(Report, TellsOfAFracture) {
-  const TemporaryCase directory(bar_case() + crack_plane() + specimen);
+  const TemporaryCase directory(bar_case() + crack_plane() + measured_specimen() +
+                                "deviation = { column = \"s\", unit = \"N\" }\n");
   fs::create_directories(directory.path() / "data");
   directory.write("data/one.csv", "u,f,s\n0,0,1\n15,0.002,1\n");
   const Outcome ran = run({"run", directory.path().string()});

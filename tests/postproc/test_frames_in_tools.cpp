@@ -5,7 +5,7 @@
 #include "postproc/frame.h"
 #include "postproc/point_displacement.h"
 #include "postproc/pvd.h"
-#include "tests/postproc/boxes.h"
+#include "tests/postproc/opened_fields.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -34,26 +34,6 @@ Said run(const std::string& command) {
   return said;
 }
 
-// The upper half has moved up by 1, the broken cells between stretch.
-OutputFields opened_fields(const Mesh& mesh, double band) {
-  const auto n = as_size(mesh.n_cells());
-  OutputFields output{.displacement = CellField<Vector>(n),
-                      .damage = CellField<double>(n),
-                      .stress = CellField<Tensor>(n),
-                      .strain = CellField<Tensor>(n),
-                      .gradient = CellField<Tensor>(n),
-                      .energy_density = CellField<double>(n),
-                      .driving_energy = CellField<double>(n),
-                      .fracture_energy_density = CellField<double>(n),
-                      .traction = {}};
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const double z = mesh.cell_centre[c].z();
-    output.damage[c] = std::abs(z) < band ? 1.0 : 0.0;
-    output.displacement[c] = Vector(0, 0, std::abs(z) < band ? 0.5 : z > 0.0 ? 1.0 : 0.0);
-  }
-  return output;
-}
-
 Mesh layered_bead() {
   ParticlesInBoxSettings settings;
   settings.lower = Vector::Constant(-2.0);
@@ -69,7 +49,7 @@ Mesh layered_bead() {
 
 void expect_opens(const std::string& interpreter, const std::string& tool, const Mesh& mesh) {
   const TemporaryFolder folder;
-  const OutputFields output = opened_fields(mesh, 0.3);
+  const OutputFields output = opened_fields(mesh, Vector::UnitZ(), 0.3, Vector::UnitZ());
   const SplitPoints points = point_displacement(mesh, {}, output, 1.0);
   VtuWriter(mesh).write(folder / "a.vtu", frame_fields(mesh, output), 0.5, &points);
   PvdSeries(folder / "fields.pvd").add(0.5, "a.vtu");

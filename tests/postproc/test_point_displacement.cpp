@@ -4,6 +4,7 @@
 #include "postproc/frame.h"
 #include "postproc/point_displacement.h"
 #include "tests/postproc/boxes.h"
+#include "tests/postproc/opened_fields.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -25,37 +26,11 @@ namespace {
 const Tensor some_gradient = (Tensor() << 0.1, 0.02, -0.03, 0.04, -0.2, 0.05, 0.07, -0.01, 0.3).finished();
 const Vector some_shift(0.5, -0.25, 2.0);
 
-OutputFields sound_fields(const Mesh& mesh) {
-  const auto n = as_size(mesh.n_cells());
-  return {.displacement = CellField<Vector>(n),
-          .damage = CellField<double>(n),
-          .stress = CellField<Tensor>(n),
-          .strain = CellField<Tensor>(n),
-          .gradient = CellField<Tensor>(n),
-          .energy_density = CellField<double>(n),
-          .driving_energy = CellField<double>(n),
-          .fracture_energy_density = CellField<double>(n),
-          .traction = {}};
-}
-
 OutputFields linear_fields(const Mesh& mesh) {
   OutputFields output = sound_fields(mesh);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     output.displacement[c] = some_shift + some_gradient * mesh.cell_centre[c];
     output.gradient[c] = some_gradient;
-  }
-  return output;
-}
-
-// Cells with their centre above move by w, those within the band are broken and stretch.
-OutputFields opened_fields(const Mesh& mesh, const Vector& normal, double band, const Vector& w) {
-  OutputFields output = sound_fields(mesh);
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const double height = normal.dot(mesh.cell_centre[c]);
-    output.displacement[c] = std::clamp(0.5 + 0.5 * height / band, 0.0, 1.0) * w;
-    if (std::abs(height) >= band) continue;
-    output.damage[c] = 1.0;
-    output.gradient[c] = w * normal.transpose() / (2.0 * band);
   }
   return output;
 }
