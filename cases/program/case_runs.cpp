@@ -121,7 +121,7 @@ void CaseRuns::make(const std::vector<Wanted>& missing) {
     jobs.push_back({.work =
                         [this, &wanted](int threads) {
                           std::ostringstream unseen;
-                          Log log(unseen, false, true);
+                          Log log(unseen, unseen, false, true);
                           return do_run(wanted, threads, log);
                         },
                     .ended = [this, &wanted](const JobEnd& end) { ended(wanted, end); }});

@@ -104,7 +104,7 @@ void Parser::add_case_options() {
     of.add_option("--threads", line.threads, "number of threads (default: all cores)")
         ->check(CLI::Range(1, 4096).description(""))
         ->type_name("N");
-    of.add_flag("--quiet", line.quiet, "say nothing but errors");
+    of.add_flag("--quiet", line.quiet, "say nothing but warnings and errors");
     if (of.get_name() != "check")
       of.add_option("--output", line.output, "results directory (default: CASE/results)")->type_name("DIR");
   }

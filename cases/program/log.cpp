@@ -15,6 +15,7 @@ namespace pfdm {
 
 struct Log::Sinks {
   std::ostream& stream;
+  std::ostream& errors;
   bool terminal = false;
   bool quiet = false;
   bool progress_shown = false;
@@ -23,8 +24,8 @@ struct Log::Sinks {
   std::vector<std::string> said_before;  // for the file, when it is opened
 };
 
-Log::Log(std::ostream& console, bool terminal, bool quiet)
-    : sinks_(std::make_unique<Sinks>(Sinks{console, terminal, quiet, false, nullptr, nullptr, {}})) {
+Log::Log(std::ostream& console, std::ostream& errors, bool terminal, bool quiet)
+    : sinks_(std::make_unique<Sinks>(Sinks{console, errors, terminal, quiet, false, nullptr, nullptr, {}})) {
   auto sink = std::make_shared<spdlog::sinks::ostream_sink_mt>(console, true);
   sinks_->console = std::make_shared<spdlog::logger>("console", sink);
   sinks_->console->set_pattern("%v");
@@ -64,7 +65,10 @@ void Log::say(const std::string& message) {
   to_file(message);
 }
 
-void Log::warn(const std::string& message) { say(fmt::format("warning: {}", message)); }
+void Log::warn(const std::string& message) {
+  say(fmt::format("warning: {}", message));
+  if (sinks_->quiet) sinks_->errors << "pfdm: warning: " << message << std::endl;
+}
 
 void Log::step(const std::string& line) {
   if (!sinks_->terminal) sinks_->console->info(line);

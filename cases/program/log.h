@@ -10,8 +10,9 @@ namespace pfdm {
 
 class Log {
  public:
-  /// On a terminal progress is redrawn in place; `quiet` silences the console, not the file.
-  Log(std::ostream& console, bool terminal, bool quiet);
+  /// On a terminal progress is redrawn in place. `quiet` silences the console, not the file; warnings then go to
+  /// `errors`.
+  Log(std::ostream& console, std::ostream& errors, bool terminal, bool quiet);
   ~Log();
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;

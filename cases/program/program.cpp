@@ -19,11 +19,14 @@ namespace {
 
 enum ExitStatus { done = 0, computation_failed = 1, input_wrong = 2 };
 
-/// How an interrupted job can be continued.
+/// What is kept after an interruption, and how the job is continued.
 std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
   if (line.command == "sweep" || (line.command == "fit" && runnable.goes_on))
     return "; what has been computed is kept, and the same command continues it";
-  if (line.command != "run" || !runnable.goes_on) return "";
+  if (!runnable.goes_on && (line.command == "run" || line.command == "fit"))
+    return fmt::format("; earlier results are unchanged, and the same command starts the {} from the beginning",
+                       line.command);
+  if (line.command != "run") return "";
   return fmt::format("; pfdm run {}{} --restart continues from the last complete step", line.case_directory,
                      line.output.empty() ? "" : fmt::format(" --output {}", line.output));
 }
@@ -60,9 +63,9 @@ void do_job(const std::function<void(Session&)>& job, Session& session, const st
   }
 }
 
-void do_case(const CommandLine& line, std::ostream& out, bool terminal) {
+void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool terminal) {
   set_threads(line.threads);
-  Log log(out, terminal, line.quiet);
+  Log log(out, err, terminal, line.quiet);
   Session session{.results = line.output,
                   .restart = line.restart,
                   .max_steps = line.max_steps,
@@ -93,7 +96,7 @@ void do_init(const CommandLine& line, std::ostream& out) {
   make_case(line.new_directory, by_name ? shipped : std::filesystem::path(line.like), out);
 }
 
-void do_command(const CommandLine& line, std::ostream& out, bool terminal) {
+void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, bool terminal) {
   if (line.command == "test")
     throw InputError("the tests are built and run by the launcher at the root of the checkout: ./pfdm test");
   if (line.command == "init") return do_init(line, out);
@@ -101,7 +104,7 @@ void do_command(const CommandLine& line, std::ostream& out, bool terminal) {
     out << completion_script(line.shell, command_words());
     return;
   }
-  if (line.command != "list") return do_case(line, out, terminal);
+  if (line.command != "list") return do_case(line, out, err, terminal);
   if (line.laws)
     list_laws(out);
   else
@@ -112,7 +115,7 @@ void do_command(const CommandLine& line, std::ostream& out, bool terminal) {
 
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err, bool terminal) {
   try {
-    if (const auto line = read_command_line(arguments, out)) do_command(*line, out, terminal);
+    if (const auto line = read_command_line(arguments, out)) do_command(*line, out, err, terminal);
     return done;
   } catch (const Interrupted& wish) {
     err << "pfdm: " << wish.what() << '\n';

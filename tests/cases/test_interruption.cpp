@@ -1,6 +1,7 @@
 // Ctrl-C and SIGTERM, on the program itself.
 
 #include "cases/program/external_program.h"
+#include "tests/cases/endochronic_case.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>
@@ -66,6 +67,38 @@ TEST_P(Interruption, LeavesASweepThatGoesOn) {
   EXPECT_FALSE(fs::exists(directory.results() / "sweep.csv"));
   EXPECT_EQ(run_external({PFDM_PROGRAM, "sweep", place}).status, 0);
   EXPECT_TRUE(fs::exists(directory.results() / "sweep.csv"));
+}
+
+std::string shaken_for(const std::string& duration) {
+  return soft_sample() +
+         "[[test]]\nname = \"up\"\nexcitation = { type = \"swept_sine\", level = \"1 g0\", from = \"10 Hz\", "
+         "to = \"100 Hz\", duration = \"" +
+         duration + "\" }\n";
+}
+
+/// Runs the short case, then the long one, which is interrupted once it has begun.
+void expect_earlier_results_to_stay(const std::string& short_case, const std::string& long_case,
+                                    const std::string& file) {
+  const TemporaryCase directory(short_case);
+  const std::string place = directory.path().string();
+  ASSERT_EQ(run_external({PFDM_PROGRAM, "run", place}).status, 0);
+  const std::string earlier = content_of(directory.results() / file);
+  directory.write("case.toml", long_case);
+  const ProgramEnd end = interrupted("run " + place, "INT", directory.results() / ".new.partial/run.log", 1);
+  EXPECT_EQ(end.status, 130) << end.err;
+  EXPECT_EQ(end.err,
+            "pfdm: interrupted; earlier results are unchanged, and the same command starts the run from "
+            "the beginning\n");
+  EXPECT_EQ(content_of(directory.results() / file), earlier);
+}
+
+TEST(InterruptedRun, OfAMaterialPointSaysThatItStartsAgain) {
+  expect_earlier_results_to_stay(tension_case(), replaced(tension_case(), "repeat = 2", "repeat = 20000"),
+                                 "history.csv");
+}
+
+TEST(InterruptedRun, OfAMassOnASampleSaysThatItStartsAgain) {
+  expect_earlier_results_to_stay(shaken_for("20 s"), shaken_for("4000 s"), "up.csv");
 }
 
 INSTANTIATE_TEST_SUITE_P(Program, Interruption, testing::Values(std::pair("INT", 130), std::pair("TERM", 143)),

@@ -304,6 +304,18 @@ TEST(Program, SaysNothingWhenQuiet) {
   EXPECT_FALSE(content_of(directory.results() / "run.log").empty());
 }
 
+TEST(Program, WarnsOnStandardErrorWhenQuiet) {
+  const TemporaryCase coarse(replaced(bar_case(), "length = \"4 mm\"", "length = \"0.8 mm\""));
+  const Outcome quiet = run({"run", coarse.path().string(), "--quiet", "--max-steps", "1"});
+  EXPECT_EQ(quiet.status, 0);
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_EQ(quiet.err.rfind("pfdm: warning: ", 0), 0u) << quiet.err;
+  EXPECT_NE(content_of(coarse.results() / "run.log").find("warning: "), std::string::npos);
+  const Outcome loud = run({"run", coarse.path().string(), "--max-steps", "1"});
+  EXPECT_NE(loud.out.find("\nwarning: "), std::string::npos) << loud.out;
+  EXPECT_EQ(loud.err, "");
+}
+
 TEST(Program, ReadsBoundaryExpressions) {
   const TemporaryCase directory(
       replaced(replaced(bar_case(), "\"0.015 mm\"", "{ expr = \"15*t\", unit = \"um\" }"), "\"0.006 mm\"", "0.4"));

@@ -44,7 +44,7 @@ TEST(ProgressLine, SaysThatTheTimeLeftIsUnknown) {
 
 TEST(ProgressLine, IsCutToTheTerminal) {
   std::ostringstream out;
-  Log log(out, true, false);
+  Log log(out, out, true, false);
   log.progress(std::string(300, 'x'));
   const auto shown = static_cast<std::size_t>(log.columns());
   EXPECT_EQ(out.str(), fmt::format("\r{:x<{}}\x1b[K", "", shown));

@@ -198,7 +198,7 @@ ReportPage page_of_sweep(const TemporaryCase& directory) {
       .file = file, .parsed = read_mass_material_case(file.config.root(), file.directory), .name = "sweep", .hash = {}};
   program.hash = case_hash(file, program.parsed.data_files);
   std::ostringstream said;
-  Log log(said, false, true);
+  Log log(said, said, false, true);
   Session session{
       .results = directory.results(), .max_steps = std::nullopt, .until = std::nullopt, .version = "test", .log = log};
   return mass_material_page(program, session);
