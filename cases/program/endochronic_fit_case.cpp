@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <span>
 
 namespace pfdm {
 namespace {
@@ -58,6 +60,16 @@ MaterialExperiment read_experiment(const ConfigTable& table, const std::filesyst
       throw stresses.error(fmt::format("stress_{} was measured, but [fit.experiments.strain] does not name its strain",
                                        component_names[static_cast<std::size_t>(channel.component)]));
   return experiment;
+}
+
+void require_own_files(const ConfigTable& table, const std::vector<MaterialExperiment>& experiments) {
+  const std::string& name = experiments.back().name;
+  for (const MaterialExperiment& other : std::span(experiments).first(experiments.size() - 1))
+    if (fit_curve_file(other.name) == fit_curve_file(name))
+      throw table.at("name").error(
+          fmt::format("the curves of \"{}\" and \"{}\" would have the same file, {}: use names "
+                      "with different letters or digits",
+                      other.name, name, fit_curve_file(name)));
 }
 
 FitChoice read_choice(const ConfigTable& fit, const EndochronicLaw& law) {
@@ -121,6 +133,13 @@ void require_noise_of_all_or_none(const ConfigTable& fit, const std::vector<Mate
 
 }  // namespace
 
+std::string fit_curve_file(const std::string& experiment) {
+  std::string name = experiment;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return "fit_" + name + ".csv";
+}
+
 EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw& law,
                                     const std::filesystem::path& case_directory) {
   fit.with_keys({"method", "estimate", "terms", "starts", "largest_strain_increment", "bounds", "experiments"});
@@ -136,6 +155,7 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
   read_bounds(fit, law, settings);
   for (const ConfigTable& table : fit.tables("experiments")) {
     result.experiments.push_back(read_experiment(table, case_directory));
+    require_own_files(table, result.experiments);
     result.data_files.push_back(case_directory / table.string("csv"));
   }
   if (result.experiments.empty()) throw fit.at("experiments").error("at least one [[fit.experiments]] is required");

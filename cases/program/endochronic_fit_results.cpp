@@ -12,13 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string file_name(const std::string& experiment) {
-  std::string name = experiment;
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  return "fit_" + name + ".csv";
-}
-
 /// What was followed, what was measured and what the fitted law answers.
 CsvTable curve(const MaterialExperiment& experiment, const EndochronicLaw& law, const ControlSettings& control) {
   CsvTable table;
@@ -53,7 +46,7 @@ std::vector<ExperimentMisfit> misfits(const EndochronicFit& fit, const Endochron
                       .n_data = n,
                       .rms = rms_misfit(law, experiment, fit.settings.control),
                       .rms_measured = rms_stress({experiment}),
-                      .curve = file_name(experiment.name)});
+                      .curve = fit_curve_file(experiment.name)});
   }
   return result;
 }
@@ -63,7 +56,7 @@ std::vector<ExperimentMisfit> misfits(const EndochronicFit& fit, const Endochron
 void write_fit_results(const fs::path& results, const CaseFile& file, const EndochronicFit& fit,
                        const EndochronicIdentification& found, const FitRun& run) {
   for (const MaterialExperiment& experiment : fit.experiments)
-    write_csv(results / file_name(experiment.name), curve(experiment, found.fit.law, fit.settings.control));
+    write_csv(results / fit_curve_file(experiment.name), curve(experiment, found.fit.law, fit.settings.control));
   for (std::size_t i = 0; i < found.transients.size(); ++i) {
     CsvTable table;
     std::vector<double> zeta, rate, f, weight;
@@ -73,7 +66,7 @@ void write_fit_results(const fs::path& results, const CaseFile& file, const Endo
     table.add("zeta_rate_per_s", std::move(rate));
     table.add("f", std::move(f));
     table.add("weight_Pa", std::move(weight));
-    write_csv(results / ("transient_" + file_name(fit.experiments[i].name)), table);
+    write_csv(results / ("transient_" + fit_curve_file(fit.experiments[i].name)), table);
   }
   write_file(results / "case.fitted.toml",
              with_table(file, "material", "# estimated by pfdm fit\n" + to_toml(found.fit.law) + "\n", results));

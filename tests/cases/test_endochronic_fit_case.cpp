@@ -132,6 +132,11 @@ const BadFit bad_fits[] = {
     {"bounds_that_cross", "[0.5, 10]", "[10, 0.5]", "the lower bound must be below the upper one"},
     {"terms", "method = \"joint\"", "method = \"joint\"\nterms = [3, 2]", "the first number of terms is larger"},
     {"no_experiments", "[[fit.experiments]]", "[[fit.experiment]]", "did you mean \"experiments\"?"},
+    {"names_with_the_same_file", "[[fit.experiments]]",
+     "[[fit.experiments]]\nname = \"cycles 0_5 %\"\ncsv = \"cycles.csv\"\nstrain = { strain_xx = { column = "
+     "\"strain_xx\" } "
+     "}\nstress = { stress_xx = { column = \"stress_xx_Pa\" } }\n[[fit.experiments]]",
+     "name: the curves of \"cycles 0_5 %\" and \"cycles 0.5 %\" would have the same file, fit_cycles_0_5__.csv"},
     {"no_file", "\"cycles.csv\"", "\"circles.csv\"", "csv: cannot read"},
     {"no_column", "column = \"stress_xx_Pa\"", "column = \"stress\"", "there is no column \"stress\""},
     {"unit", "unit = \"Pa\"", "unit = \"mm\"", "expected a stress"},
