@@ -5,22 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace pfdm {
 namespace {
-
-// Cells that may enter each other's damage gradient: those of equal conductance, so that no kink lies between them.
-CellField<Index> smooth_zones(const Mesh& mesh, const FractureModel& model) {
-  std::map<std::pair<double, bool>, Index> number;
-  CellField<Index> zone(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const RegionModel& region = model.regions[as_size(mesh.region[c])];
-    zone[c] = number.try_emplace({region.Gc * region.ell, region.damageable}, static_cast<Index>(number.size()))
-                  .first->second;
-  }
-  return zone;
-}
 
 CellField<char> damageable_cells(const Mesh& mesh, const FractureModel& model) {
   CellField<char> damageable(as_size(mesh.n_cells()));
@@ -38,10 +25,8 @@ CellField<double> energy_density(const Mesh& mesh, const FractureModel& model) {
 
 // The damage is zero at the faces of undamageable cells.
 TwoPointFlux::Medium medium_of(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal) {
-  TwoPointFlux::Medium medium{.conductance = CellField<double>(as_size(mesh.n_cells()), 0.0),
-                              .zone = smooth_zones(mesh, model),
-                              .plane_normal = plane_normal,
-                              .limited = true};
+  TwoPointFlux::Medium medium{
+      .conductance = CellField<double>(as_size(mesh.n_cells()), 0.0), .plane_normal = plane_normal, .limited = true};
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (const RegionModel& region = model.in_cell(mesh, c); region.damageable)
       medium.conductance[c] = 2.0 * region.Gc * region.ell / model.crack->c0;

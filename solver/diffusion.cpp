@@ -35,29 +35,6 @@ std::vector<Exchange> exchanges_of(const Mesh& mesh, const std::vector<Diffusion
   return exchanges;
 }
 
-// Gradients of u have a kink where the conductivity jumps: a zone is a region, or all regions of one conductivity.
-CellField<Index> zones_of(const Mesh& mesh, const CellField<double>& conductivity) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  struct Range {
-    double least = infinite, most = 0.0;
-    bool is_one() const { return least == most; }
-  };
-  std::vector<Range> range(mesh.region_names.size());
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    Range& r = range[as_size(mesh.region[c])];
-    r = {std::min(r.least, conductivity[c]), std::max(r.most, conductivity[c])};
-  }
-  std::vector<Index> zone_of_region;
-  for (std::size_t r = 0; r < range.size(); ++r) {
-    std::size_t same = 0;
-    while (same < r && !(range[r].is_one() && range[same].is_one() && range[same].least == range[r].least)) ++same;
-    zone_of_region.push_back(static_cast<Index>(same));
-  }
-  CellField<Index> zone(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) zone[c] = zone_of_region[as_size(mesh.region[c])];
-  return zone;
-}
-
 // Into each cell from the patches whose flux is given [W].
 CellField<double> inflow_of(const Mesh& mesh, const std::vector<DiffusionBoundary>& boundary) {
   CellField<double> inflow(as_size(mesh.n_cells()), 0.0);
@@ -113,7 +90,6 @@ Diffusion::Diffusion(const Mesh& mesh, DiffusionProblem problem) {
   if (problem.capacity.size() > 0) require_positive(problem.capacity, mesh, "the heat capacity");
   require_one_each(problem.boundary);
   TwoPointFlux flux(mesh, {.conductance = problem.conductivity,
-                           .zone = zones_of(mesh, problem.conductivity),
                            .exchanges = exchanges_of(mesh, problem.boundary),
                            .plane_normal = problem.plane_normal});
   CellField<double> inflow = inflow_of(mesh, problem.boundary);

@@ -93,7 +93,8 @@ Repeatability repeatability(std::span<const ScheduledRun> schedule, std::span<co
   result.residual_deviation =
       result.residual_freedom > 0 ? std::sqrt((y - A * x).squaredNorm() / result.residual_freedom) : none;
   const SingularValues svd = singular_values(A);
-  const VectorXd variance = (svd.V * svd.values.cwiseInverse().asDiagonal()).rowwise().squaredNorm();  // diag (A^T A)^-1
+  const VectorXd variance =
+      (svd.V * svd.values.cwiseInverse().asDiagonal()).rowwise().squaredNorm();  // diag (A^T A)^-1
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const Index i = static_cast<Index>(k) + 1;
     const double half = result.residual_freedom > 0

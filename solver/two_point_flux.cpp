@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pfdm {
 namespace {
 
-constexpr double orthogonal = 1e-3;  // deviation of unit vectors
+constexpr double orthogonal = 1e-3;    // deviation of unit vectors
+constexpr double smooth_ratio = 1.25;  // of the conductances of neighbours, below which they vary; above they jump
 
 Vector unit_normal(const Mesh& mesh, Index face) { return mesh.face_area[face] / mesh.face_area[face].norm(); }
 
@@ -17,6 +19,35 @@ Vector unit_normal(const Mesh& mesh, Index face) { return mesh.face_area[face] /
 Vector within_face(const Mesh& mesh, Index face, Index cell, const Vector& normal) {
   const Vector d = mesh.face_centre[face] - mesh.cell_centre[cell];
   return d - d.dot(normal) * normal;
+}
+
+// Whether u has no kink between two cells: equal conductances, or of a region's own cells nearly equal ones.
+bool is_smooth(const Mesh& mesh, const CellField<double>& conductance, Index a, Index b) {
+  const auto [least, most] = std::minmax(conductance[a], conductance[b]);
+  return most == least || (mesh.region[a] == mesh.region[b] && most < smooth_ratio * least);
+}
+
+// Cells that may enter each other's gradient of u: those connected by faces without a kink.
+CellField<Index> smooth_zones(const Mesh& mesh, const CellField<double>& conductance) {
+  CellField<Index> zone(as_size(mesh.n_cells()), -1);
+  std::vector<Index> front;
+  for (Index first = 0; first < mesh.n_cells(); ++first) {
+    if (zone[first] >= 0) continue;
+    zone[first] = first;
+    front.assign(1, first);
+    while (!front.empty()) {
+      const Index c = front.back();
+      front.pop_back();
+      for (const Index f : mesh.faces_of_cell(c)) {
+        if (!mesh.is_interior(f)) continue;
+        const Index other = mesh.across(f, c);
+        if (zone[other] >= 0 || !is_smooth(mesh, conductance, c, other)) continue;
+        zone[other] = first;
+        front.push_back(other);
+      }
+    }
+  }
+  return zone;
 }
 
 SymmetricCoupling coupling_of(const Mesh& mesh, const std::vector<TwoPointFlux::Link>& links) {
@@ -86,7 +117,7 @@ Gradient TwoPointFlux::build_gradient() const {
     if (link.corrected) wanted[as_size(link.P)] = wanted[as_size(link.N)] = 1;
   for (const Exchange& exchange : medium_.exchanges)
     if (exchange.corrected) wanted[as_size(exchange.cell)] = 1;
-  return Gradient(mesh_, {.zone = medium_.zone,
+  return Gradient(mesh_, {.zone = smooth_zones(mesh_, medium_.conductance),
                           .node_of_face = {},
                           .plane_normal = medium_.plane_normal,
                           .wanted = std::move(wanted),

@@ -25,7 +25,6 @@ class TwoPointFlux {
  public:
   struct Medium {
     CellField<double> conductance;  ///< k; zero: no flux through the cell's faces
-    CellField<Index> zone;          ///< cells whose gradients of u may look at each other: no kink lies between
     std::vector<Exchange> exchanges{};
     Vector plane_normal = Vector::Zero();  ///< of one-cell-thick meshes
     bool limited = false;                  ///< the deferred correction, to the range of u around a face
