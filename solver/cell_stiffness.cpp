@@ -111,13 +111,11 @@ double CellStiffness::stored_energy(Index cell, const CellMechanics& mechanics, 
   return mechanics.energy[cell] + mesh_.cell_volume[cell] * (of_kernel - on_plastic_strain);
 }
 
-double CellStiffness::residual_energy(const CellField<Tensor>& strain, const FractureState& state) const {
-  return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    const RegionModel& region = model_.in_cell(mesh_, c);
-    if (!region.damageable) return 0.0;
-    const double lost = 1.0 - model_.degradation->g(state.damage[c], region.rational);
-    return model_.residual_stiffness * lost * driving_energy(c, strain[c], state) * mesh_.cell_volume[c];
-  });
+double CellStiffness::residual_energy(Index cell, double psi_plus, double d) const {
+  const RegionModel& region = model_.in_cell(mesh_, cell);
+  if (!region.damageable) return 0.0;
+  const double lost = 1.0 - model_.degradation->g(d, region.rational);
+  return model_.residual_stiffness * lost * psi_plus * mesh_.cell_volume[cell];
 }
 
 double CellStiffness::plastic_dissipation(const FractureState& from, const FractureState& to) const {

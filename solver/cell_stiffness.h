@@ -36,9 +36,9 @@ class CellStiffness {
   double driving_energy(Index cell, const Tensor& strain, const FractureState& state) const;
   /// What a cell stores [J].
   double stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
-  /// The part of what all cells store [J] that the residual stiffness alone has, at these strains
+  /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]
   /// (residual_stiffness.h).
-  double residual_energy(const CellField<Tensor>& strain, const FractureState& state) const;
+  double residual_energy(Index cell, double psi_plus, double d) const;
   /// Energy dissipated plastically [J] from one state to the other.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   const EndochronicCells& endochronic() const { return endochronic_; }

@@ -58,8 +58,9 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   outcome.krylov_iterations += equilibrium.iterations;
   outcome.residual = equilibrium.residual;
   outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
-  outcome.elastic_energy = update_driving_energy(start, state, false).stored;
-  outcome.share = residual_share(state, outcome.elastic_energy);
+  const Energies energies = update_driving_energy(start, state, false);
+  outcome.elastic_energy = energies.stored;
+  outcome.share = residual_share(state, energies);
   outcome.collapsed = outcome.converged && has_collapsed(outcome.share);
   outcome.viscous_dissipation = damage_.viscous_dissipation(state.damage);
   outcome.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
@@ -95,7 +96,7 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
     if (outcome.failed) return outcome;
     if (settings_.windows) from.driving_energy = state.driving_energy;
     if (outcome.iterations == 0) stored_at_unit_load = energies.stored / (state.load * state.load);
-    torn = has_collapsed(residual_share(state, energies.stored)) ? torn + 1 : 0;
+    torn = has_collapsed(residual_share(state, energies)) ? torn + 1 : 0;
     outcome.collapsed = torn > torn_at_most;
     if (outcome.collapsed) return outcome;
     const double undamaged = stored_at_unit_load * state.load * state.load;
@@ -197,17 +198,18 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
       parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
   strain_ = std::move(mechanics.strain);
   face_displacement_ = std::move(mechanics.face_displacement);
-  drive(start, state, 1.0);
+  energies.residual = drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_.follow(strain_, state);
   return energies;
 }
 
-// The driving energy of the last equilibrium's strain times `scale`.
-void Staggered::drive(const FractureState& start, FractureState& state, double scale) {
+// The driving energy of the last equilibrium's strain times `scale`. Returns what the residual stiffness stores [J].
+double Staggered::drive(const FractureState& start, FractureState& state, double scale) {
   const bool history = model_.irreversibility == Irreversibility::history;
-  parallel_for(mesh_.n_cells(), [&](Index c) {
+  return parallel_sum(mesh_.n_cells(), [&](Index c) {
     const double psi = stiffness_.driving_energy(c, scale * strain_[c], state);
     state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
+    return stiffness_.residual_energy(c, psi, state.damage[c]);
   });
 }
 
@@ -255,10 +257,9 @@ bool Staggered::follow_path(const FractureState& start, const PathLimit& limit, 
   return damage_solved;
 }
 
-// At the displacement whose strain was found last.
-ResidualShare Staggered::residual_share(const FractureState& state, double elastic) {
-  ResidualShare share{.elastic = elastic, .residual = stiffness_.residual_energy(strain_, state)};
-  if (!holds_all(share.residual, elastic)) return share;
+ResidualShare Staggered::residual_share(const FractureState& state, const Energies& energies) {
+  ResidualShare share{.elastic = energies.stored, .residual = energies.residual};
+  if (!holds_all(share.residual, share.elastic)) return share;
   const std::vector<Vector> force = momentum_.balance().boundary_forces(state.displacement);
   for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k)
     if (const Index f = unknowns_.face_of_node[k]; !mesh_.is_interior(f))

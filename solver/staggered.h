@@ -75,12 +75,13 @@ class Staggered {
   Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
   struct Energies {
     double stored = 0.0;     // [J]
+    double residual = 0.0;   // the part of it that the residual stiffness has [J]
     double unsettled = 0.0;  // error of it by stiffnesses that have not settled [J]
   };
   /// With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
-  void drive(const FractureState& start, FractureState& state, double scale);
-  ResidualShare residual_share(const FractureState& state, double elastic);
+  double drive(const FractureState& start, FractureState& state, double scale);
+  ResidualShare residual_share(const FractureState& state, const Energies& energies);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   /// The last iterate of the loop, and the solution of the damage equation for it.
   struct Turn {
