@@ -23,6 +23,16 @@ foreach(file share/bash-completion/completions/pfdm share/zsh/vendor-completions
   endif()
 endforeach()
 
+file(STRINGS ${BUILD}/CPackConfig.cmake depends REGEX "DEVELOPMENT_PACKAGE_DEPENDS")
+foreach(library libeigen3-dev nlohmann-json3-dev libtet1.5-dev libfreetype-dev)
+  if(NOT depends MATCHES "[ \"]${library}[,\"]")
+    message(FATAL_ERROR "libpfdm-dev does not depend on ${library}: ${depends}")
+  endif()
+endforeach()
+if(depends MATCHES "cmake|ccache|libgtest-dev")
+  message(FATAL_ERROR "libpfdm-dev depends on tools: ${depends}")
+endif()
+
 set(ENV{CMAKE_PREFIX_PATH} ${prefix})
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${FOLDER}/consumer -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${CXX})

@@ -67,10 +67,10 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS fonts-liberation) # the reports'
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3-matplotlib)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpfdm-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}: libraries and headers")
-string(
-  CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-         "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, libcgal-dev, libtet1.5-dev, libvtk9-dev, libgl1-mesa-dev, "
-         "libtomlplusplus-dev, libcli11-dev, libspdlog-dev, libfmt-dev, libudunits2-dev, libmuparser-dev, "
-         "nlohmann-json3-dev, libceres-dev, libfftw3-dev, libboost-dev, libmatio-dev, libhdf5-dev, zlib1g-dev, "
-         "libfreetype-dev")
+# The libraries that the launcher installs.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/pfdm)
+file(READ ${PROJECT_SOURCE_DIR}/pfdm launcher)
+string(REGEX MATCH "\npackages=\\([^)]*\\)" packages "${launcher}")
+string(REGEX MATCHALL "[a-z0-9.]+(-[a-z0-9.]+)*-dev" libraries "${packages}")
+list(JOIN libraries ", " CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS)
 include(CPack)
