@@ -93,7 +93,7 @@ void expect_order(const std::string& label, const std::vector<Result>& results, 
                        {"most d", r.most}});
     EXPECT_GE(r.least, 0.0);
     EXPECT_LE(r.most, 1.0);
-    EXPECT_LT(r.corrections, 60);
+    EXPECT_LT(r.corrections, 26);
   }
   const Result &coarse = results.front(), &fine = results.back();
   EXPECT_GE(observed_order(coarse.error, coarse.cells, fine.error, fine.cells), least_order) << label;

@@ -136,8 +136,8 @@ TEST(EndochronicCells, OneOfThemIsTheMaterialPoint) {
     const Difference d = difference(steps, point);
     report_row(looks_at_rate ? "with rate" : "without rate",
                {{"stress", d.stress}, {"strain", d.strain}, {"iterations", double(most_iterations(steps))}});
-    EXPECT_LE(d.stress, 1e-10);
-    EXPECT_LE(d.strain, 1e-10);
+    EXPECT_LE(d.stress, 1e-11);
+    EXPECT_LE(d.strain, 1e-11);
     EXPECT_LE(most_iterations(steps), 12);
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const EndochronicState& state = point[i].state;
@@ -156,8 +156,8 @@ TEST(EndochronicCells, BodiesOfThemInUniformStressAreTheMaterialPoint) {
     const auto steps = steps_of(mesh, cube_in_tension(law), in_steps(12));
     const Difference d = difference(steps, point);
     report_row(std::to_string(mesh.n_cells()) + " cells", {{"stress", d.stress}, {"strain", d.strain}});
-    EXPECT_LE(d.stress, 1e-9);
-    EXPECT_LE(d.strain, 1e-9);
+    EXPECT_LE(d.stress, 2e-11);
+    EXPECT_LE(d.strain, 2e-11);
   }
 }
 
@@ -175,8 +175,8 @@ TEST(EndochronicCells, APlateInPlaneStressIsTheMaterialPoint) {
     ASSERT_EQ(steps.size(), point.size());
     const Difference d = difference(steps, point);
     report_row(std::to_string(mesh.n_cells()) + " cells", {{"stress", d.stress}, {"strain", d.strain}});
-    EXPECT_LE(d.stress, 1e-9);
-    EXPECT_LE(d.strain, 1e-9);
+    EXPECT_LE(d.stress, 2e-11);
+    EXPECT_LE(d.strain, 2e-11);
     EXPECT_LE(most_iterations(steps), 12);
   }
 }

@@ -80,9 +80,9 @@ TEST_P(ExtractedFromBar, IsTheProducedLaw) {
               {"surface energy/Gc", figures.surface_energy / Bar::Gc},
               {"bulk's share of the separation", figures.bulk_separation / figures.final_separation},
               {"rms of the fit", fits.front().rms}});
-  EXPECT_LE(largest, 0.02);
+  EXPECT_LE(largest, 0.005);
   EXPECT_NEAR(figures.strength, ft, 0.01 * ft);
-  EXPECT_NEAR(figures.normal_energy, area, 0.02 * area);
+  EXPECT_NEAR(figures.normal_energy, area, 1e-3 * area);
   EXPECT_LE(std::abs(figures.tangential_energy), 1e-9 * area);
   EXPECT_TRUE(std::isnan(figures.initial_stiffness)) << "a rigid rise";
   EXPECT_LE(fits.front().rms, 0.02);
@@ -140,7 +140,7 @@ void expect_profile_law(const std::string& name, const std::vector<Profile>& pro
               {"surface energy/Gc", figures.surface_energy / Bar::Gc},
               {"bulk's share of 40 ell's separation at the strength",
                figures.bulk_separation / (figures.bulk_separation + figures.critical_separation)}});
-  EXPECT_LE(largest, 0.02);
+  EXPECT_LE(largest, 1e-3);
   EXPECT_NEAR(figures.strength, bar.strength(), 0.01 * bar.strength());
   EXPECT_NEAR(figures.normal_energy, Bar::Gc, 0.02 * Bar::Gc);
 }

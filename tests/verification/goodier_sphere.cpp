@@ -188,6 +188,22 @@ TEST_F(Polyhedra, MeetTheTargets) {
   EXPECT_LE(e.pole, 0.7e-2);
 }
 
+TEST(GoodierSphere, BeforeDualising) {
+  const SphereErrors e = errors_of({}, sphere_in_cube(8, 20, half_width, 0.4));
+  EXPECT_NEAR(e.cells, 45670, 1000);
+  EXPECT_LE(e.displacement, 1.2e-3);
+  EXPECT_LE(e.stress, 2e-2);
+  EXPECT_LE(e.pole, 1e-2);
+}
+
+TEST(GoodierSphere, OnPolyhedraOfTenLayers) {
+  const SphereErrors e = errors_of({}, barycentric_dual(sphere_in_cube(8, 10, half_width, 0.4)));
+  EXPECT_NEAR(e.cells, 10984, 300);
+  EXPECT_LE(e.displacement, 1.2e-3);
+  EXPECT_LE(e.stress, 1.3e-2);
+  EXPECT_LE(e.pole, 0.8e-2);
+}
+
 TEST_F(Polyhedra, DoNotLock) {
   expect_no_locking(mesh(), {.displacement = 1.2e-3, .stress = 1.5e-2, .energy = 3e-2, .pole = 1.2e-2});
 }
