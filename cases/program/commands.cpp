@@ -1,6 +1,6 @@
 #include "cases/program/commands.h"
 
-#include "cases/program/config.h"
+#include "cases/program/input/config.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

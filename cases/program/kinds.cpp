@@ -1,9 +1,9 @@
 #include "cases/program/kinds.h"
 
-#include "cases/program/endochronic_program.h"
-#include "cases/program/fracture_program.h"
-#include "cases/program/mass_material_program.h"
-#include "cases/program/sweep.h"
+#include "cases/program/fracture/fracture_program.h"
+#include "cases/program/point/endochronic_program.h"
+#include "cases/program/studies/sweep.h"
+#include "cases/program/vibration/mass_material_program.h"
 
 namespace pfdm {
 namespace {

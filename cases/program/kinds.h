@@ -2,7 +2,7 @@
 // The kinds of case, and what each can do. To add one, write its `read` and a row of the table at the foot of
 // kinds.cpp.
 
-#include "cases/program/runnable_case.h"
+#include "cases/program/session/runnable_case.h"
 
 #include <span>
 #include <string_view>

@@ -1,10 +1,10 @@
 #include "cases/program/listing.h"
 
-#include "cases/program/boundary_reader.h"
-#include "cases/program/case_file.h"
+#include "cases/program/fracture/boundary_reader.h"
+#include "cases/program/fracture/mesh_recipe.h"
+#include "cases/program/input/case_file.h"
 #include "cases/program/kinds.h"
-#include "cases/program/mass_material_case.h"
-#include "cases/program/mesh_recipe.h"
+#include "cases/program/vibration/mass_material_case.h"
 #include "physics/crack_geometry.h"
 #include "physics/degradation.h"
 #include "physics/energy_split.h"
@@ -12,9 +12,9 @@
 #include "physics/mass_material.h"
 #include "physics/softening_law.h"
 #include "physics/traction_separation.h"
-#include "postproc/energy_release_rate.h"
-#include "postproc/summary.h"
-#include "solver/endochronic_identification.h"
+#include "postproc/curves/summary.h"
+#include "postproc/fields/energy_release_rate.h"
+#include "solver/point/endochronic_identification.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #include "cases/program/program.h"
-#include "cases/program/stop_signal.h"
+#include "cases/program/session/stop_signal.h"
 
 #include <unistd.h>
 

@@ -1,10 +1,10 @@
 #include "cases/program/new_case.h"
 
-#include "cases/program/case_file.h"
+#include "cases/program/input/case_file.h"
+#include "cases/program/input/toml_document.h"
 #include "cases/program/kinds.h"
-#include "cases/program/toml_document.h"
-#include "postproc/atomic_file.h"
-#include "postproc/text_file.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
 

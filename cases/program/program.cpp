@@ -5,8 +5,8 @@
 #include "cases/program/kinds.h"
 #include "cases/program/listing.h"
 #include "cases/program/new_case.h"
-#include "cases/program/stop_signal.h"
-#include "cases/program/sweep_on_slurm.h"
+#include "cases/program/session/stop_signal.h"
+#include "cases/program/studies/sweep_on_slurm.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>

@@ -1,17 +1,64 @@
-# Fails if a folder includes or links against one that stands to its left:
-#
-#     cases -> postproc -> solver -> mesh -> physics
+# Fails if a room includes or links against one that it may not use, or if the rooms use each other in a circle.
 #
 # cmake -DROOT=<checkout> -P check_arrows.cmake
 cmake_minimum_required(VERSION 3.25)
 
-set(folders physics mesh solver postproc cases) # each may use those before it
-set(targets pfdm_physics pfdm_mesh pfdm_solver pfdm_postproc pfdm_program)
+# Each room, and the rooms that it may use: they stand above it. Files belong to the innermost room around them.
+set(rooms
+    "physics"
+    "mesh: physics"
+    "solver: physics"
+    "solver/linear: physics mesh solver"
+    "solver/scalar: physics mesh solver solver/linear"
+    "solver/momentum: physics mesh solver solver/linear solver/scalar"
+    "solver/fracture: physics mesh solver solver/linear solver/scalar solver/momentum"
+    "solver/calibration: physics solver solver/linear"
+    "solver/point: physics solver solver/calibration"
+    "solver/vibration: physics solver solver/linear solver/calibration"
+    "postproc/files: physics"
+    "postproc/fields: physics mesh solver solver/momentum solver/fracture postproc/files"
+    "postproc/curves: physics solver/fracture solver/point solver/vibration postproc/files"
+    "postproc/cohesive: physics mesh solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"
+    "postproc/page: physics postproc/files"
+    "postproc/records: physics postproc/files"
+    "cases/program/input: physics postproc/files"
+    "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page cases/program/input"
+    "cases/program/studies: physics solver/calibration postproc/files postproc/curves cases/program/input cases/program/session"
+    "cases/program/point: physics solver/point postproc/files postproc/curves postproc/page cases/program/input
+     cases/program/session"
+    "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/page postproc/records
+     cases/program/input cases/program/session"
+    "cases/program/fracture: physics mesh solver/momentum solver/fracture postproc/files postproc/fields postproc/curves
+     postproc/cohesive postproc/page cases/program/input cases/program/session cases/program/studies cases/program/point"
+    "cases/program: physics solver solver/point postproc/files postproc/fields postproc/curves cases/program/input
+     cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture")
 set(complaints "")
 
-# Includes of one source file: each must begin with the name of a folder that this one may use.
-function(check_includes folder file)
-  list(FIND folders ${folder} own_rank)
+set(names "")
+foreach(row IN LISTS rooms)
+  string(REGEX MATCHALL "[a-z/_]+" words "${row}")
+  list(POP_FRONT words room)
+  foreach(used IN LISTS words)
+    if(NOT used IN_LIST names)
+      list(APPEND complaints "${room} may not use ${used}, which does not stand above it")
+    endif()
+  endforeach()
+  list(APPEND names ${room})
+  set(used_by_${room} ${room} ${words})
+endforeach()
+
+# The innermost room of a path; empty for what is in none, as headers of libraries.
+function(find_room path result)
+  get_filename_component(folder "${path}" DIRECTORY)
+  while(folder AND NOT folder IN_LIST names)
+    get_filename_component(folder "${folder}" DIRECTORY)
+  endwhile()
+  set(${result} "${folder}" PARENT_SCOPE)
+endfunction()
+
+# Includes of one source file: paths in quotes start with a folder of the top level.
+function(check_includes file)
+  find_room("${file}" room)
   file(STRINGS "${ROOT}/${file}" lines REGEX "^[ \t]*#[ \t]*include")
   foreach(line IN LISTS lines)
     if(NOT line MATCHES "include[ \t]*([\"<])([^\">]+)[\">]")
@@ -19,43 +66,58 @@ function(check_includes folder file)
     endif()
     set(quote "${CMAKE_MATCH_1}")
     set(header "${CMAKE_MATCH_2}")
-    string(REGEX REPLACE "/.*" "" first "${header}")
-    list(FIND folders "${first}" rank)
-    if(rank GREATER own_rank)
-      list(APPEND complaints "${file} includes ${header}: ${folder} must not know ${first}")
-    elseif(quote STREQUAL "\"" AND rank EQUAL -1)
+    find_room("${header}" used)
+    if(NOT room)
+      list(APPEND complaints "${file} is in no room")
+    elseif(used AND NOT used IN_LIST used_by_${room})
+      list(APPEND complaints "${file} includes ${header}: ${room} must not know ${used}")
+    elseif(quote STREQUAL "\"" AND NOT used)
       list(APPEND complaints "${file} includes \"${header}\": paths start with a folder of the top level")
     endif()
   endforeach()
   set(complaints "${complaints}" PARENT_SCOPE)
 endfunction()
 
-# The project's own targets that a folder's CMakeLists.txt names.
-function(check_links folder file)
-  list(FIND folders ${folder} own_rank)
+# The room that a target of this project is made of, as in pfdm_solver_linear.
+function(room_of_target target result)
+  string(REGEX REPLACE "^pfdm_" "" room "${target}")
+  string(REGEX REPLACE "^(solver|postproc|program)_" "\\1/" room "${room}")
+  string(REGEX REPLACE "^program" "cases/program" room "${room}")
+  string(REGEX REPLACE "^solver/parallel$" "solver" room "${room}")
+  if(NOT room IN_LIST names AND NOT room STREQUAL "postproc")
+    set(room "")
+  endif()
+  set(${result} "${room}" PARENT_SCOPE)
+endfunction()
+
+# The project's own targets that a CMakeLists.txt names; that of a folder may name its own rooms.
+function(check_links file)
+  get_filename_component(folder "${file}" DIRECTORY)
+  find_room("${file}" room)
   file(STRINGS "${ROOT}/${file}" lines)
   list(TRANSFORM lines REPLACE "#.*" "")
-  string(REGEX MATCHALL "pfdm_[a-z_]+" names "${lines}")
-  list(REMOVE_DUPLICATES names)
-  foreach(name IN LISTS names)
-    list(FIND targets ${name} rank)
-    if(rank GREATER own_rank)
-      list(APPEND complaints "${file} links ${name}: ${folder} must not know it")
+  string(REGEX MATCHALL "pfdm_[a-z_]+" targets "${lines}")
+  list(REMOVE_DUPLICATES targets)
+  foreach(target IN LISTS targets)
+    room_of_target(${target} used)
+    string(FIND "${used}/" "${folder}/" inside)
+    if(used AND NOT inside EQUAL 0 AND NOT used IN_LIST used_by_${room})
+      list(APPEND complaints "${file} links ${target}: ${folder} must not know it")
     endif()
   endforeach()
   set(complaints "${complaints}" PARENT_SCOPE)
 endfunction()
 
 set(n_sources 0)
-foreach(folder IN LISTS folders)
+foreach(folder physics mesh solver postproc cases)
   file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/${folder}/*.h" "${ROOT}/${folder}/*.cpp")
   foreach(file IN LISTS sources)
-    check_includes(${folder} "${file}")
+    check_includes("${file}")
     math(EXPR n_sources "${n_sources} + 1")
   endforeach()
-  file(GLOB_RECURSE lists RELATIVE "${ROOT}" "${ROOT}/${folder}/CMakeLists.txt" "${ROOT}/${folder}/*.cmake")
+  file(GLOB_RECURSE lists RELATIVE "${ROOT}" "${ROOT}/${folder}/CMakeLists.txt")
   foreach(file IN LISTS lists)
-    check_links(${folder} "${file}")
+    check_links("${file}")
   endforeach()
 endforeach()
 

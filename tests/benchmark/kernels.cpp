@@ -10,9 +10,9 @@
 #include <map>
 
 #include "mesh/particles_in_box.h"
-#include "postproc/frame.h"
-#include "solver/damage_equation.h"
-#include "solver/momentum_solver.h"
+#include "postproc/fields/frame.h"
+#include "solver/fracture/damage_equation.h"
+#include "solver/momentum/momentum_solver.h"
 #include "solver/parallel.h"
 
 namespace pfdm {

@@ -1,8 +1,8 @@
 // The mass-material model: simulation against real time, and one step of an identification.
 
-#include "solver/identification.h"
-#include "solver/mass_material_simulation.h"
 #include "solver/parallel.h"
+#include "solver/vibration/identification.h"
+#include "solver/vibration/mass_material_simulation.h"
 #include "tests/solver/mass_material_truth.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 // Whatever is wrong with the input ends with status 2 and one message that says what, where and what is allowed.
 
-#include "postproc/folder_lock.h"
+#include "postproc/files/folder_lock.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Values of a case that are found, and written anew, by their keys.
 
-#include "cases/program/case_parameter.h"
-#include "cases/program/side_by_side.h"
+#include "cases/program/input/case_parameter.h"
+#include "cases/program/session/side_by_side.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>

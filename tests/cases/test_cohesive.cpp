@@ -1,6 +1,6 @@
 // pfdm cohesive and pfdm compare from end to end, on a bar that breaks.
 
-#include "postproc/csv_table.h"
+#include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // The command line: what was meant by words that it does not know, help, completion, new cases.
 
 #include "cases/program/commands.h"
-#include "cases/program/external_program.h"
 #include "cases/program/listing.h"
+#include "cases/program/session/external_program.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "cases/program/config.h"
+#include "cases/program/input/config.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // pfdm fit on cases whose runs leave a curve, with data that the tests make.
 
 #include "physics/error.h"
-#include "postproc/csv_table.h"
-#include "postproc/folder_lock.h"
+#include "postproc/files/csv_table.h"
+#include "postproc/files/folder_lock.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>

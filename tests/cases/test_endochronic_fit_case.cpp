@@ -1,8 +1,8 @@
 // pfdm fit on cases of kind "endochronic", with data that the program made itself.
 
-#include "cases/program/case_file.h"
-#include "cases/program/endochronic_case.h"
-#include "postproc/csv_table.h"
+#include "cases/program/input/case_file.h"
+#include "cases/program/point/endochronic_case.h"
+#include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>

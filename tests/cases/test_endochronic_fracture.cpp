@@ -1,6 +1,6 @@
 // Endochronic materials in a case of kind "fracture".
 
-#include "postproc/csv_table.h"
+#include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>

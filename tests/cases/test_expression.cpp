@@ -1,4 +1,4 @@
-#include "cases/program/expression.h"
+#include "cases/program/input/expression.h"
 #include "physics/error.h"
 
 #include <gtest/gtest.h>

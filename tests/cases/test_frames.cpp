@@ -1,6 +1,6 @@
 // What frames of a run are called by, and meshes of Gmsh as cases.
 
-#include "postproc/pvd.h"
+#include "postproc/fields/pvd.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>

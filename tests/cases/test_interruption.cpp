@@ -1,6 +1,6 @@
 // Ctrl-C and SIGTERM, on the program itself.
 
-#include "cases/program/external_program.h"
+#include "cases/program/session/external_program.h"
 #include "tests/cases/endochronic_case.h"
 #include "tests/cases/temporary_case.h"
 

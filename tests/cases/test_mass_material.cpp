@@ -1,8 +1,8 @@
 // Cases of kind mass_material from end to end: simulated, identified, and what is wrong with them said.
 
-#include "cases/program/case_file.h"
+#include "cases/program/input/case_file.h"
 #include "cases/program/kinds.h"
-#include "cases/program/mass_material_case.h"
+#include "cases/program/vibration/mass_material_case.h"
 #include "tests/cases/temporary_case.h"
 
 #include <fmt/format.h>

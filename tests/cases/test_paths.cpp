@@ -1,8 +1,8 @@
 // Files that a case names, and names that become files: nothing is read that is no file, nothing is written outside the
 // results, and a case that is written elsewhere names the same files.
 
-#include "cases/program/case_file.h"
-#include "cases/program/slurm.h"
+#include "cases/program/input/case_file.h"
+#include "cases/program/studies/slurm.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>

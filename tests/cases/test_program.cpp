@@ -1,8 +1,8 @@
 // The program from end to end, on a bar that breaks.
 
 #include "cases/program/listing.h"
-#include "postproc/csv_table.h"
-#include "postproc/pvd.h"
+#include "postproc/fields/pvd.h"
+#include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include "cases/program/progress.h"
+#include "cases/program/fracture/progress.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

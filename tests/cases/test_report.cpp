@@ -1,10 +1,10 @@
 // pfdm report: what the page of each kind of case tells, and that the files are made.
 
-#include "cases/program/endochronic_report.h"
-#include "cases/program/fracture_report.h"
-#include "cases/program/mass_material_report.h"
-#include "postproc/csv_table.h"
-#include "postproc/summary.h"
+#include "cases/program/fracture/fracture_report.h"
+#include "cases/program/point/endochronic_report.h"
+#include "cases/program/vibration/mass_material_report.h"
+#include "postproc/curves/summary.h"
+#include "postproc/files/csv_table.h"
 #include "tests/cases/endochronic_case.h"
 #include "tests/cases/temporary_case.h"
 

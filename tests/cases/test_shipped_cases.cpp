@@ -1,8 +1,8 @@
 // Every case that ships can be read; meshes are made by the cases' own runs.
 
-#include "cases/program/case_file.h"
+#include "cases/program/input/case_file.h"
 #include "cases/program/kinds.h"
-#include "postproc/csv_table.h"
+#include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // pfdm sweep --slurm, on a Slurm of the test's own: controller, node and munge, started and stopped by it. Skipped
 // where Slurm is not installed (Debian: slurm-wlm).
 
-#include "cases/program/external_program.h"
-#include "cases/program/slurm.h"
-#include "postproc/csv_table.h"
+#include "cases/program/session/external_program.h"
+#include "cases/program/studies/slurm.h"
+#include "postproc/files/csv_table.h"
 #include "tests/cases/own_slurm.h"
 #include "tests/cases/temporary_case.h"
 

@@ -1,7 +1,7 @@
 // pfdm sweep, on a bar that breaks and on a material point.
 
-#include "cases/program/sweep_case.h"
-#include "postproc/csv_table.h"
+#include "cases/program/studies/sweep_case.h"
+#include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "cases/program/units.h"
+#include "cases/program/input/units.h"
 #include "physics/error.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // A key that the program does not know is an error that names the nearest one and lists all that its table may have.
 
-#include "cases/program/case_file.h"
+#include "cases/program/input/case_file.h"
 #include "cases/program/kinds.h"
 
 #include <gtest/gtest.h>

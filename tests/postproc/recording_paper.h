@@ -1,8 +1,8 @@
 #pragma once
 // A paper that remembers what was drawn on it.
 
-#include "postproc/lettering.h"
-#include "postproc/paper.h"
+#include "postproc/page/lettering.h"
+#include "postproc/page/paper.h"
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "postproc/atomic_file.h"
+#include "postproc/files/atomic_file.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "postproc/checkpoint.h"
+#include "postproc/fields/checkpoint.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gmock/gmock.h>

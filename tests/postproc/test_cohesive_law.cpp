@@ -1,4 +1,4 @@
-#include "postproc/cohesive_law.h"
+#include "postproc/cohesive/cohesive_law.h"
 
 #include <gtest/gtest.h>
 

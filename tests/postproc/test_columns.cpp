@@ -1,6 +1,6 @@
 #include "mesh/geometry.h"
-#include "postproc/columns.h"
-#include "solver/state.h"
+#include "postproc/cohesive/columns.h"
+#include "solver/fracture/state.h"
 #include "tests/postproc/boxes.h"
 
 #include <gtest/gtest.h>

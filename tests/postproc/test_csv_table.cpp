@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "postproc/csv_table.h"
+#include "postproc/files/csv_table.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "postproc/curve_csv.h"
+#include "postproc/curves/curve_csv.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <fmt/format.h>

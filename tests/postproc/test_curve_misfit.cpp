@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "postproc/curve_misfit.h"
+#include "postproc/curves/curve_misfit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "physics/error.h"
-#include "postproc/field_slice.h"
-#include "postproc/vtu_writer.h"
+#include "postproc/fields/field_slice.h"
+#include "postproc/fields/vtu_writer.h"
 #include "tests/postproc/boxes.h"
 #include "tests/postproc/temporary_folder.h"
 

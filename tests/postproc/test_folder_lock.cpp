@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "postproc/folder_lock.h"
+#include "postproc/files/folder_lock.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gmock/gmock.h>

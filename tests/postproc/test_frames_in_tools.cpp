@@ -2,9 +2,9 @@
 
 #include "mesh/dual.h"
 #include "mesh/particles_in_box.h"
-#include "postproc/frame.h"
-#include "postproc/point_displacement.h"
-#include "postproc/pvd.h"
+#include "postproc/fields/frame.h"
+#include "postproc/fields/point_displacement.h"
+#include "postproc/fields/pvd.h"
 #include "tests/postproc/opened_fields.h"
 #include "tests/postproc/temporary_folder.h"
 

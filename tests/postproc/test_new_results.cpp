@@ -1,5 +1,5 @@
-#include "postproc/atomic_file.h"
-#include "postproc/new_results.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/new_results.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "postproc/pvd.h"
+#include "postproc/fields/pvd.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gmock/gmock.h>

@@ -1,13 +1,13 @@
 // The page of a report: axes, texts, charts and the two files, all without a display.
 
 #include "physics/error.h"
-#include "postproc/chart_drawing.h"
-#include "postproc/chart_ticks.h"
-#include "postproc/display_unit.h"
-#include "postproc/lettering.h"
-#include "postproc/page_drawing.h"
-#include "postproc/page_text.h"
-#include "postproc/raster.h"
+#include "postproc/page/chart_drawing.h"
+#include "postproc/page/chart_ticks.h"
+#include "postproc/page/display_unit.h"
+#include "postproc/page/lettering.h"
+#include "postproc/page/page_drawing.h"
+#include "postproc/page/page_text.h"
+#include "postproc/page/raster.h"
 #include "tests/postproc/recording_paper.h"
 #include "tests/postproc/temporary_folder.h"
 

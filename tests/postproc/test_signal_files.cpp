@@ -1,7 +1,7 @@
 // Vibration records in universal and HDF5 files; those in data/ were written by other programs.
 
 #include "physics/error.h"
-#include "postproc/signal_table.h"
+#include "postproc/records/signal_table.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <fmt/format.h>

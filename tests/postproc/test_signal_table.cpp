@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "postproc/signal_table.h"
+#include "postproc/records/signal_table.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #include "mesh/dual.h"
 #include "physics/error.h"
-#include "postproc/slice.h"
+#include "postproc/fields/slice.h"
 #include "tests/postproc/boxes.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "postproc/step_table.h"
+#include "postproc/files/step_table.h"
 
 #include "physics/error.h"
 

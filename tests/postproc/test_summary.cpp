@@ -1,7 +1,7 @@
-#include "postproc/summary.h"
+#include "postproc/curves/summary.h"
 
 #include "physics/error.h"
-#include "postproc/atomic_file.h"
+#include "postproc/files/atomic_file.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include "mesh/dual.h"
 #include "mesh/import_mesh.h"
 #include "physics/error.h"
-#include "postproc/frame.h"
-#include "postproc/vtu_writer.h"
+#include "postproc/fields/frame.h"
+#include "postproc/fields/vtu_writer.h"
 #include "tests/postproc/boxes.h"
 #include "tests/postproc/temporary_folder.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "solver/mixed_control.h"
+#include "solver/point/mixed_control.h"
 
 namespace pfdm {
 

@@ -11,7 +11,7 @@
 
 #include "mesh/box_hexes.h"
 #include "mesh/particles_in_box.h"
-#include "solver/fracture_model.h"
+#include "solver/fracture/fracture_model.h"
 #include "solver/parallel.h"
 
 namespace pfdm {

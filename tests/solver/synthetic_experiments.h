@@ -4,7 +4,7 @@
 #include <numbers>
 #include <random>
 
-#include "solver/endochronic_fit.h"
+#include "solver/point/endochronic_fit.h"
 #include "tests/physics/endochronic_laws.h"
 #include "tests/solver/loadings.h"
 

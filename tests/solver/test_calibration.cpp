@@ -1,4 +1,4 @@
-#include "solver/calibration.h"
+#include "solver/calibration/calibration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <set>
 
 #include "physics/error.h"
-#include "solver/calibration_statistics.h"
+#include "solver/calibration/calibration_statistics.h"
 #include "solver/parallel.h"
 
 namespace pfdm {

@@ -1,6 +1,6 @@
 // The damage equation where its solution is known, its bounds, and that it is the minimum of its energy.
 
-#include "solver/damage_equation.h"
+#include "solver/fracture/damage_equation.h"
 
 #include <cmath>
 #include <functional>

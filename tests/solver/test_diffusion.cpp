@@ -1,6 +1,6 @@
 // Diffusion against closed forms: slabs with exchange at their sides, laminates, decay in time, non-linear sources.
 
-#include "solver/diffusion.h"
+#include "solver/scalar/diffusion.h"
 
 #include "physics/error.h"
 

@@ -1,4 +1,4 @@
-#include "solver/endochronic_identification.h"
+#include "solver/point/endochronic_identification.h"
 #include "tests/solver/synthetic_experiments.h"
 
 #include <gmock/gmock.h>

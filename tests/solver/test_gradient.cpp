@@ -1,6 +1,6 @@
 // Least-squares gradients are exact for linear fields on every kind of cell and for any damage.
 
-#include "solver/gradient.h"
+#include "solver/scalar/gradient.h"
 
 #include "mesh/dual.h"
 

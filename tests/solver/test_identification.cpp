@@ -4,10 +4,10 @@
 #include "tests/solver/mass_material_truth.h"
 
 #include "physics/error.h"
-#include "solver/identification_conditioning.h"
-#include "solver/identification_least_squares.h"
-#include "solver/identification_stiffness.h"
-#include "solver/signals_filter.h"
+#include "solver/vibration/identification_conditioning.h"
+#include "solver/vibration/identification_least_squares.h"
+#include "solver/vibration/identification_stiffness.h"
+#include "solver/vibration/signals_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "physics/error.h"
-#include "solver/impulse_response.h"
-#include "solver/vibration_excitation.h"
+#include "solver/vibration/impulse_response.h"
+#include "solver/vibration/vibration_excitation.h"
 
 #include <gtest/gtest.h>
 

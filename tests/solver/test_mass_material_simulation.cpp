@@ -1,6 +1,6 @@
-#include "solver/lanes.h"
-#include "solver/mass_material_simulation.h"
-#include "solver/signals_spectra.h"
+#include "solver/vibration/lanes.h"
+#include "solver/vibration/mass_material_simulation.h"
+#include "solver/vibration/signals_spectra.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "solver/mixed_control.h"
+#include "solver/point/mixed_control.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,14 +1,14 @@
 // Aggregation, multigrid and flexible GMRES on symmetric matrices of 3x3 blocks, to the true residual.
 
-#include "solver/multigrid.h"
+#include "solver/linear/multigrid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
 
-#include "solver/fgmres.h"
-#include "solver/momentum.h"
+#include "solver/linear/fgmres.h"
+#include "solver/momentum/momentum.h"
 #include "tests/solver/solver_checks.h"
 
 namespace pfdm {

@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "solver/ogden_fit.h"
+#include "solver/vibration/ogden_fit.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>

@@ -1,4 +1,4 @@
-#include "solver/relaxation.h"
+#include "solver/fracture/relaxation.h"
 
 #include "tests/solver/solver_checks.h"
 

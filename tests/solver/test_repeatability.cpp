@@ -1,7 +1,7 @@
 // Spread and drift over a schedule, against values that are known.
 
-#include "solver/repeatability.h"
-#include "solver/vibration_excitation.h"
+#include "solver/vibration/repeatability.h"
+#include "solver/vibration/vibration_excitation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // When the stiffness that broken cells keep is said to matter, and when it is all that is left.
 
-#include "solver/residual_stiffness.h"
+#include "solver/fracture/residual_stiffness.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include "physics/error.h"
-#include "solver/signals_filter.h"
-#include "solver/signals_fourier.h"
-#include "solver/signals_spectra.h"
-#include "solver/vibration_excitation.h"
+#include "solver/vibration/signals_filter.h"
+#include "solver/vibration/signals_fourier.h"
+#include "solver/vibration/signals_spectra.h"
+#include "solver/vibration/vibration_excitation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Where displacement unknowns live, and what is refused.
 
-#include "solver/unknowns.h"
+#include "solver/momentum/unknowns.h"
 
 #include "mesh/sphere_sector.h"
 #include "physics/error.h"

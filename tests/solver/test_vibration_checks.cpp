@@ -1,7 +1,7 @@
 // Records with one thing wrong each, and a good one with nothing wrong.
 
-#include "solver/vibration_checks.h"
-#include "solver/vibration_excitation.h"
+#include "solver/vibration/vibration_checks.h"
+#include "solver/vibration/vibration_excitation.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 """How often the 95 % intervals of pfdm fit hold the truth.
 
 A case is run with known values of its [[fit.parameters]], its curve gets noise of 2 % of the largest force
-(postproc/make_synthetic.py), and the case is fitted to it from its own values; again and again with other noise. All
+(postproc/plots/make_synthetic.py), and the case is fitted to it from its own values; again and again with other noise. All
 fits share their runs. KEY may be any value of the case: the truth may have finer load steps.
 
     curve_fit_coverage.py build/release/cases/program/pfdm cases/bar_fit 20 \
@@ -73,7 +73,7 @@ def fit_with_noise(options, folder, curve, seed, threads):
         shutil.copytree(options.case, case, ignore=shutil.ignore_patterns("results"))
         (case / "results").mkdir()
         (case / "results/runs").symlink_to(folder / "results/runs")
-    script = pathlib.Path(__file__).parents[2] / "postproc/make_synthetic.py"
+    script = pathlib.Path(__file__).parents[2] / "postproc/plots/make_synthetic.py"
     subprocess.run([sys.executable, script, curve, f"force_{options.component}_N", "force_N", ", ".join(options.truth),
                     "--spacing", str(options.spacing), "--seed", str(seed),
                     "--output", case / "data/synthetic_force_displacement.csv"], check=True)

@@ -7,11 +7,11 @@
 //   identification_statistics models SECONDS DB [THREADS NAME ...]
 //                                                models of Table A2, all or these: errors and CPU seconds, three levels
 
-#include "solver/identification_least_squares.h"
-#include "solver/identification_stiffness.h"
-#include "solver/impulse_response.h"
 #include "solver/parallel.h"
-#include "solver/vibration_excitation.h"
+#include "solver/vibration/identification_least_squares.h"
+#include "solver/vibration/identification_stiffness.h"
+#include "solver/vibration/impulse_response.h"
+#include "solver/vibration/vibration_excitation.h"
 #include "tests/solver/mass_material_truth.h"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 // so that damage localises there. Two cells wide, one cell thick.
 
 #include "physics/closed_forms/bars.h"
-#include "solver/fracture_run.h"
-#include "solver/staggered.h"
+#include "solver/fracture/fracture_run.h"
+#include "solver/fracture/staggered.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // A glass sphere of radius 1 m in Sylgard with a weak band in its prism layers, pulled at the top of its cube: scaled
 // so that it debonds as the bead of 100 um does.
 
-#include "solver/fracture_run.h"
+#include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"
 
 #include <map>

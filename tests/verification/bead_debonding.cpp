@@ -4,7 +4,7 @@
 #include "mesh/sphere_sector.h"
 #include "physics/closed_forms/goodier.h"
 #include "physics/interface_toughness.h"
-#include "solver/fracture_run.h"
+#include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // A coarse form of the case three_point_bend (Miehe, Hofacker, Welschinger, CMAME 199 (2010) 2765): a notched beam on
 // two supports, pressed at its middle; twice the length ell of the case, h = ell/2.
 
-#include "solver/fracture_run.h"
+#include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // Hashemi, Kinloch, Williams, Proc. R. Soc. A 427 (1990) 173) has the opening D = 8 P (a + chi h)^3/(E' B h^3) and G =
 // 12 P^2 (a + chi h)^2/(E' B^2 h^3).
 
-#include "postproc/energy_release_rate.h"
+#include "postproc/fields/energy_release_rate.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

@@ -7,8 +7,8 @@
 // adds nothing to what drives the damage across it; at the least radius that snaps the strain in Sylgard itself would.
 
 #include "mesh/geometry.h"
-#include "postproc/cohesive_law.h"
-#include "solver/fracture_run.h"
+#include "postproc/cohesive/cohesive_law.h"
+#include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"
 
 #include "physics/softening_law.h"

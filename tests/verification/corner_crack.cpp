@@ -1,7 +1,7 @@
 // A coarse form of the case l_panel: the L-shaped concrete panel of Winkler (PhD thesis, Innsbruck 2001) with a
 // cohesive crack, twice the length ell of the case.
 
-#include "solver/fracture_run.h"
+#include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

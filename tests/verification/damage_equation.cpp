@@ -1,7 +1,7 @@
 // A smooth damage field made the solution by a source, on tetrahedra and on the prism layers of a sphere: second order,
 // and never outside [0, 1] on the way.
 
-#include "solver/damage_equation.h"
+#include "solver/fracture/damage_equation.h"
 
 #include "tests/verification/support.h"
 

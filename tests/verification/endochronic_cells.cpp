@@ -3,8 +3,8 @@
 
 #include "mesh/geometry.h"
 #include "physics/error.h"
-#include "solver/fracture_run.h"
-#include "solver/mixed_control.h"
+#include "solver/fracture/fracture_run.h"
+#include "solver/point/mixed_control.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

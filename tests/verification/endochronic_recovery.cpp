@@ -3,8 +3,8 @@
 //   endochronic_recovery [repetitions] [points of the experiment]
 
 #include "physics/error.h"
-#include "solver/endochronic_identification.h"
 #include "solver/parallel.h"
+#include "solver/point/endochronic_identification.h"
 #include "tests/solver/synthetic_experiments.h"
 
 #include <fmt/format.h>

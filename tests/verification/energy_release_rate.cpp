@@ -1,7 +1,7 @@
 // The energy release rate by G-theta, on a sharp slit under the displacements of its own field:
 // G = (K_I^2 + K_II^2) (1 - nu^2)/E.
 
-#include "postproc/energy_release_rate.h"
+#include "postproc/fields/energy_release_rate.h"
 #include "tests/verification/near_field.h"
 #include "tests/verification/support.h"
 

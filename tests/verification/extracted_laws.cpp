@@ -2,8 +2,8 @@
 // (literature.md 3.3 to 3.5): cohesive cracks as they run, AT1 and AT2 on the states of their first integrals, the
 // whole law down, also where no displacement control can follow it.
 
-#include "postproc/cohesive_fit.h"
-#include "postproc/cohesive_law.h"
+#include "postproc/cohesive/cohesive_fit.h"
+#include "postproc/cohesive/cohesive_law.h"
 #include "tests/verification/bar_profiles.h"
 
 namespace pfdm::verification {

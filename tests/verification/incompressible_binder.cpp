@@ -1,5 +1,5 @@
 // A bead in a nearly incompressible binder, pulled until it debonds: the pressure that cells carry
-// (solver/cell_pressure.h) while their stiffness is lost.
+// (solver/momentum/cell_pressure.h) while their stiffness is lost.
 
 #include "tests/verification/bead.h"
 

@@ -2,7 +2,7 @@
 // the apparent toughness of physics/interface_toughness.h (literature.md 4.1).
 
 #include "physics/interface_toughness.h"
-#include "solver/damage_equation.h"
+#include "solver/fracture/damage_equation.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Coarse forms of the cases sent_tension and sent_shear (Miehe, Hofacker, Welschinger, CMAME 199 (2010) 2765): a square
 // plate of 1 mm with a slit from its left side to its middle.
 
-#include "solver/fracture_run.h"
+#include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

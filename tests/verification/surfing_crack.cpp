@@ -1,8 +1,8 @@
 // A coarse form of the case surfing_crack: a crack in a strip under the displacements of a moving near field of G = Gc
 // (Hossain, Hsueh, Bourdin, Bhattacharya, J. Mech. Phys. Solids 71 (2014) 15).
 
-#include "postproc/energy_release_rate.h"
-#include "solver/fracture_run.h"
+#include "postproc/fields/energy_release_rate.h"
+#include "solver/fracture/fracture_run.h"
 #include "tests/verification/near_field.h"
 #include "tests/verification/support.h"
 

@@ -2,7 +2,7 @@
 // a strain that is held, d = d_end (1 - exp(-t/tau)), tau = eta/(2 psi + Gc/ell), d_end = 2 psi tau/eta.
 
 #include "physics/error.h"
-#include "solver/fracture_run.h"
+#include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // window, and a bead debonds with them as without, in fewer iterations of the whole.
 
 #include "physics/error.h"
+#include "solver/fracture/window.h"
 #include "solver/parallel.h"
-#include "solver/window.h"
 #include "tests/verification/bead.h"
 
 #include <gtest/gtest.h>

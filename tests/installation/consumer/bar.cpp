@@ -1,7 +1,7 @@
 // A bar in tension by the library alone: its force must be E A times the strain.
 
 #include "mesh/box_hexes.h"
-#include "solver/fracture_run.h"
+#include "solver/fracture/fracture_run.h"
 
 #include <cmath>
 #include <cstdio>

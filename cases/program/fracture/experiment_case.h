@@ -1,0 +1,31 @@
+#pragma once
+// Reads [experiment]: the measured curves that a fracture case is compared with.
+
+#include "cases/program/input/config.h"
+#include "postproc/curves/comparison.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// Debonding angles [rad] over displacements [m], measured at one pole.
+struct MeasuredAngle {
+  SampledCurve curve;
+  std::string surface;      ///< a name of cohesive.json; empty: the first
+  bool at_positive = true;  ///< pole, in the direction of the curve's displacement
+};
+
+struct ExperimentSettings {
+  std::vector<SampledCurve> specimens{};            ///< force [N] over displacement [m]
+  double stiffness_from = 0.0, stiffness_to = 0.0;  ///< [m]
+  std::vector<MeasuredAngle> angles{};              ///< all at the same pole of the same surface
+  ConfigTable where;                                ///< for messages
+};
+
+/// Nothing if there is no [experiment]. `root` is the whole case file. Throws InputError that names file and line.
+std::optional<ExperimentSettings> read_experiment(const ConfigTable& root, const std::filesystem::path& case_directory);
+
+}  // namespace pfdm

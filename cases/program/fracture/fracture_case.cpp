@@ -1,0 +1,246 @@
+#include "cases/program/fracture/fracture_case.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr Range above_zero_to_one{std::numeric_limits<double>::min(), 1.0, false, "above 0 and at most 1"};
+// Broken cells beside sound ones leave double precision no more than this.
+constexpr Range solvable{1e-12, 1.0, false, "between 1e-12 and 1"};
+constexpr Range at_least_one{1.0, 1e9, false, "at least 1"};
+constexpr Range count{0.0, 1e9, false, "zero or positive"};
+
+std::string unsuited_split(const FractureModel& model) {
+  std::vector<std::string_view> suited;
+  for (const EnergySplit& split : energy_splits())
+    if (split.secant != nullptr) suited.push_back(split.name);
+  return fmt::format("an endochronic material cannot be combined with the energy split \"{}\"; allowed: {}",
+                     model.split->name, fmt::join(suited, ", "));
+}
+
+template <class Law>
+const Law* find_law(const ConfigTable& table, std::string_view key, const Law& otherwise, std::span<const Law> laws,
+                    std::string_view what) {
+  const auto value = table.find(key);
+  return value ? &choose(*value, laws, what) : &otherwise;
+}
+
+MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
+  const ConfigTable table = root.table("fracture")
+                                .with_keys({"model", "degradation", "softening", "split", "effective_toughness",
+                                            "irreversibility", "length", "residual_stiffness", "viscosity"});
+  model.crack = find_law(table, "model", crack_geometry("AT2"), crack_geometries(), "crack geometric function");
+  model.degradation = find_law(table, "degradation", degradation("quadratic"), degradations(), "degradation function");
+  model.split = find_law(table, "split", energy_split("volumetric_deviatoric"), energy_splits(), "energy split");
+  const std::string ways[] = {"bounds", "history"};
+  const auto irreversibility = table.find("irreversibility");
+  if (irreversibility && irreversibility->one_of(ways, "way of irreversibility") == "history")
+    model.irreversibility = Irreversibility::history;
+  model.residual_stiffness = table.number("residual_stiffness", above_zero_to_one, model.residual_stiffness);
+  if (table.has("viscosity")) model.viscosity = table.quantity("viscosity", dimension::viscosity, range::not_negative);
+  MaterialDefaults defaults;
+  defaults.crack = model.crack;
+  const std::string toughnesses[] = {"corrected", "as_given"};
+  const auto effective = table.find("effective_toughness");
+  defaults.corrects_toughness = !effective || effective->one_of(toughnesses, "effective toughness") == "corrected";
+  if (table.has("length")) defaults.ell = table.quantity("length", dimension::length, range::positive);
+  if (model.degradation->needs_strength)
+    defaults.softening = find_law(table, "softening", softening_law("linear"), softening_laws(), "softening law");
+  return defaults;
+}
+
+/// What endochronic materials ask of the split and of the loading.
+void check_histories(const FractureCase& fracture, const ConfigTable& root) {
+  for (const RegionMaterial& material : fracture.materials.by_region) {
+    if (!material.endochronic) continue;
+    if (fracture.model.split->secant == nullptr) throw material.where.error(unsuited_split(fracture.model));
+    if (material.endochronic->hardening.depends_on_rate() && !(fracture.loading.duration > 0.0))
+      throw material.where.error(
+          "the material's rate factor requires the time in which the load parameter grows by 1: duration = \"1 s\" in "
+          "[loading]");
+    if (std::isfinite(fracture.loading.maximum_dissipation))
+      throw root.table("loading")
+          .at("maximum_dissipation")
+          .error(
+              "it cannot be combined with endochronic materials: their displacements are not proportional to the load");
+  }
+}
+
+void read_time(const ConfigTable& table, const FractureModel& model, LoadingSettings& loading) {
+  loading.duration = table.quantity("duration", dimension::time, range::positive, 0.0);
+  if (!(model.viscosity > 0.0)) return;
+  if (!table.has("duration"))
+    throw table.error(
+        "fracture.viscosity requires the time in which the load parameter grows by 1: duration = \"1 s\"");
+  if (table.has("maximum_dissipation"))
+    throw table.at("maximum_dissipation")
+        .error("it cannot be combined with fracture.viscosity: the load may decrease, time cannot");
+}
+
+LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model) {
+  LoadingSettings loading;
+  if (!root.has("loading")) {
+    if (model.viscosity > 0.0) throw root.error("fracture.viscosity needs the table [loading] with a duration");
+    return loading;
+  }
+  const ConfigTable table =
+      root.table("loading").with_keys({"end", "duration", "initial_increment", "maximum_increment", "minimum_increment",
+                                       "damage_growth", "energy_release", "finest_increment", "maximum_dissipation"});
+  loading.end = table.number("end", range::positive, loading.end);
+  loading.initial_increment = table.number("initial_increment", range::positive, loading.initial_increment);
+  loading.maximum_increment = table.number("maximum_increment", range::positive,
+                                           std::max(loading.maximum_increment, loading.initial_increment));
+  loading.minimum_increment = table.number("minimum_increment", range::positive, loading.minimum_increment);
+  if (loading.minimum_increment > loading.initial_increment || loading.initial_increment > loading.maximum_increment)
+    throw table.error(fmt::format("expected minimum <= initial <= maximum of the increments, found {}, {}, {}",
+                                  loading.minimum_increment, loading.initial_increment, loading.maximum_increment));
+  loading.damage_growth = table.number("damage_growth", above_zero_to_one, loading.damage_growth);
+  loading.energy_release = table.number("energy_release", above_zero_to_one, loading.energy_release);
+  loading.finest_increment = table.number("finest_increment", range::positive, loading.finest_increment);
+  if (table.has("maximum_dissipation"))
+    loading.maximum_dissipation = table.quantity("maximum_dissipation", dimension::energy, range::positive);
+  read_time(table, model, loading);
+  return loading;
+}
+
+StaggeredSettings read_solver(const ConfigTable& root) {
+  StaggeredSettings settings;
+  if (!root.has("solver")) return settings;
+  const ConfigTable table = root.table("solver").with_keys(
+      {"damage_tolerance", "energy_tolerance", "equilibrium_tolerance", "maximum_iterations", "windows"});
+  settings.damage_tolerance = table.number("damage_tolerance", above_zero_to_one, settings.damage_tolerance);
+  settings.energy_tolerance = table.number("energy_tolerance", above_zero_to_one, settings.energy_tolerance);
+  settings.equilibrium_tolerance = table.number("equilibrium_tolerance", solvable, settings.equilibrium_tolerance);
+  settings.maximum_iterations =
+      static_cast<Index>(table.integer("maximum_iterations", at_least_one, settings.maximum_iterations));
+  settings.windows = table.boolean("windows", settings.windows);
+  return settings;
+}
+
+void read_curve(const ConfigTable& output, FractureCase& fracture) {
+  const ConfigTable curve = output.table("curve").with_keys({"patch", "component"});
+  fracture.curve_patch = curve.at("patch");
+  fracture.output.curve.patch = curve.string("patch");
+  const std::vector<std::string> components{"x", "y", "z"};
+  const std::string component = curve.at("component").one_of(components, "component");
+  fracture.output.curve.component = component[0] - 'x';
+}
+
+/// Names that the file uses against those that the mesh has; an empty list means that they are not known yet.
+void check_names(const FractureCase& fracture, std::span<const std::string> regions,
+                 std::span<const std::string> patches) {
+  if (!regions.empty())
+    for (const RegionMaterial& material : fracture.materials.by_region)
+      material.where.one_of(regions, "region of the mesh");
+  if (!regions.empty() && fracture.initial_damage)
+    for (const ConfigValue& region : fracture.initial_damage->regions) region.one_of(regions, "region of the mesh");
+  if (patches.empty()) return;
+  for (const BoundarySettings& boundary : fracture.boundary) boundary.patch.one_of(patches, "patch of the mesh");
+  fracture.curve_patch->one_of(patches, "patch of the mesh");
+}
+
+/// The displacement of the curve's patch along its component at load parameter 1 [m], where it is reached linearly and
+/// is not zero.
+std::optional<double> full_displacement(const FractureCase& fracture) {
+  const CurveSettings& curve = fracture.output.curve;
+  for (const BoundarySettings& boundary : fracture.boundary) {
+    if (boundary.condition.patch != curve.patch) continue;
+    const auto full = boundary.displacement_at_full_load[static_cast<std::size_t>(curve.component)];
+    if (full && *full != 0.0) return full;
+  }
+  return std::nullopt;
+}
+
+/// The load parameter at which the curve's patch has been displaced by `entry`.
+double load_at_displacement(const ConfigValue& entry, const FractureCase& fracture) {
+  if (const auto full = full_displacement(fracture)) return entry.quantity(dimension::length) / *full;
+  throw entry.error(
+      fmt::format("the displacement of patch \"{}\" along the curve's component is not prescribed by a "
+                  "plain quantity; give load parameters, as in 0.78",
+                  fracture.output.curve.patch));
+}
+
+std::vector<double> read_frames(const ConfigTable& output, const FractureCase& fracture) {
+  std::vector<double> loads;
+  const auto frames = output.find("frames_at");
+  if (!frames) return loads;
+  if (std::isfinite(fracture.loading.maximum_dissipation))
+    throw frames->error(
+        "with loading.maximum_dissipation the load may pass a value more than once; use frames_every = 10, for every "
+        "tenth step");
+  for (const ConfigValue& entry : frames->list()) {
+    const double load = entry.is_string() ? load_at_displacement(entry, fracture) : entry.number();
+    if (!(load > 0.0) || load > fracture.loading.end * (1.0 + 1e-12))
+      throw entry.error(fmt::format("this is at load parameter {:.6g}; the loading goes from 0 to {:.6g}", load,
+                                    fracture.loading.end));
+    loads.push_back(std::min(load, fracture.loading.end));
+  }
+  std::sort(loads.begin(), loads.end());
+  loads.erase(std::unique(loads.begin(), loads.end()), loads.end());
+  return loads;
+}
+
+void read_output(const ConfigTable& root, FractureCase& fracture) {
+  const ConfigTable output = root.table("output").with_keys(
+      {"curve", "frames_at", "frames_every", "time_value", "compression", "slices_through", "energy_release_rate"});
+  read_curve(output, fracture);
+  check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);  // the frames need the curve's patch
+  fracture.loading.stops = read_frames(output, fracture);
+  fracture.output.frames = read_frame_settings(output, fracture.loading, full_displacement(fracture));
+  fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", count, 0));
+  if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
+  fracture.output.tips = read_energy_release(output);
+}
+
+/// Expressions are evaluated once where and when they will be, so that one without a value is refused before a run has
+/// taken time, and the place of earlier results.
+void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
+  std::vector<double> loads{0.0, fracture.loading.initial_increment, fracture.loading.end};
+  loads.insert(loads.end(), fracture.loading.stops.begin(), fracture.loading.stops.end());
+  for (const BoundarySettings& boundary : fracture.boundary) {
+    if (!boundary.condition.value) continue;
+    const Patch& patch = mesh.patch(boundary.condition.patch);
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+      for (const double load : loads) boundary.condition.value(mesh.face_centre[f], load);
+  }
+}
+
+}  // namespace
+
+FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+  root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "boundary", "loading",
+                  "solver", "output", "cohesive", "experiment", "fit", "sweep"});
+  FractureCase fracture;
+  fracture.title = root.string("title");
+  fracture.mesh = read_mesh_recipe(root.table("mesh"), case_directory);
+  MaterialDefaults defaults = read_fracture(root, fracture.model);
+  defaults.bands = fracture.mesh.bands;
+  fracture.materials = read_materials(root, defaults);
+  fracture.boundary = read_boundary(root, fracture.materials);
+  for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
+  fracture.initial_damage = read_initial_damage(root, fracture.model);
+  fracture.loading = read_loading(root, fracture.model);
+  check_histories(fracture, root);
+  fracture.staggered = read_solver(root);
+  read_output(root, fracture);
+  fracture.cohesive = read_cohesive(root, fracture.materials.bands, Vector::Unit(fracture.output.curve.component));
+  return fracture;
+}
+
+FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
+  std::vector<std::string> patches;
+  for (const Patch& patch : mesh.patches) patches.push_back(patch.name);
+  check_names(fracture, mesh.region_names, patches);
+  require_boundary_values(fracture, mesh);
+  FractureModel model = fracture.model;
+  place_materials(fracture.materials, mesh, model);
+  if (fracture.initial_damage) model.initial_damage = damage_at_the_start(*fracture.initial_damage, model, mesh);
+  return model;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,56 @@
+#pragma once
+// Reads a case of kind "fracture": mesh, materials, boundary conditions, loading, output.
+
+#include "cases/program/fracture/boundary_reader.h"
+#include "cases/program/fracture/cohesive_case.h"
+#include "cases/program/fracture/energy_release_case.h"
+#include "cases/program/fracture/frame_settings.h"
+#include "cases/program/fracture/initial_damage.h"
+#include "cases/program/fracture/materials.h"
+#include "cases/program/fracture/mesh_recipe.h"
+#include "solver/fracture/fracture_model.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// Whose force and displacement make the curve.
+struct CurveSettings {
+  std::string patch;
+  int component = 2;  ///< 0, 1, 2 for x, y, z
+};
+
+struct FractureOutput {
+  CurveSettings curve;
+  bool figures_only = false;  ///< no frames, and nothing on the disk for the first seconds
+  Index frames_every = 0;     ///< steps; 0 = only LoadingSettings::stops and the last step
+  FrameSettings frames;
+  std::optional<Vector> slices_through;  ///< [m]
+  std::vector<TipRegion> tips;           ///< around which the energy release rate is measured
+};
+
+struct FractureCase {
+  std::string title;
+  MeshRecipe mesh;
+  Materials materials;
+  std::vector<BoundarySettings> boundary;
+  FractureModel model;  ///< what depends on the mesh is filled in by model_on()
+  std::optional<InitialDamage> initial_damage;
+  StaggeredSettings staggered;
+  LoadingSettings loading;
+  FractureOutput output;
+  CohesiveSettings cohesive;
+  std::optional<ConfigValue> curve_patch;  ///< in the file, for messages
+};
+
+/// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
+FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+
+/// The model with its materials and initial damage on the mesh. Throws InputError, with file and line, for patches and
+/// regions that the mesh does not have, for regions without a material and for parameters that are out of range in a
+/// cell.
+FractureModel model_on(const FractureCase& fracture, const Mesh& mesh);
+
+}  // namespace pfdm

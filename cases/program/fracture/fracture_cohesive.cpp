@@ -1,0 +1,73 @@
+#include "cases/program/fracture/fracture_cohesive.h"
+
+#include "cases/program/fracture/fracture_results.h"
+#include "physics/angle.h"
+#include "postproc/cohesive/cohesive_results.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+std::string outcome_of(const CohesiveResult& result) {
+  const CohesiveFigures& f = result.figures;
+  if (f.jump) {
+    const auto separation = [&](std::size_t step) { return result.law.states[step].separation[0]; };
+    return fmt::format(
+        "unstable at step {}: the law from {:.4g} to {:.4g} m is unknown; int T ddelta at least {:.4g} J/m^2", *f.jump,
+        separation(*f.jump - 1), separation(*f.jump), f.energy_at_least);
+  }
+  if (!f.is_traced())
+    return fmt::format("{} {:.4g} Pa at the end; int T ddelta so far at least {:.4g} J/m^2",
+                       f.unloaded ? "unloaded to" : "carries", f.final_traction, f.energy_at_least);
+  const double work = f.normal_energy + f.tangential_energy;
+  const std::string energy =
+      std::isfinite(work)
+          ? fmt::format("int T ddelta {:.6g} J/m^2", work)
+          : fmt::format("int T ddelta at least {:.4g} J/m^2, as some places are unstable", f.energy_at_least);
+  if (result.fits.empty()) return energy + ", too few states for a fit";
+  return fmt::format("{}; nearest to \"{}\", rms {:.2g} % of the strength", energy, result.fits.front().law,
+                     100.0 * result.fits.front().rms);
+}
+
+std::string extent_of(const ColumnRecord& record) {
+  const std::size_t n = record.places.size(), sound = n_never_damaged(record);
+  if (sound == n) return fmt::format("{} places: never damaged (d at most {:g}), no law", n, sound_damage);
+  const std::string left_out = sound > 0 ? fmt::format(" ({} never damaged, left out)", sound) : "";
+  return fmt::format("{} places{}, debonded area {:.4g} m^2", n, left_out, debonding_of(record).back().area);
+}
+
+void say_law(const CohesiveResult& result, SurfaceKind kind, Log& log) {
+  const CohesiveFigures& f = result.figures;
+  const std::string where = kind == SurfaceKind::plane ? std::string("  mean")
+                                                       : fmt::format("  {:3.0f} to {:3.0f} degrees",
+                                                                     result.law.from / degree, result.law.to / degree);
+  if (!(f.strength > 0.0)) return log.say(where + ": always in compression");
+  log.say(fmt::format("{}: largest normal traction {:.4g} Pa at {:.4g} m, {}; surface energy {:.4g} J/m^2", where,
+                      f.strength, f.critical_separation, outcome_of(result), f.surface_energy));
+}
+
+}  // namespace
+
+void write_cohesive_laws(const FractureCase& fracture, const std::string& name, const std::string& hash,
+                         Session& session) {
+  CohesiveReport report{.case_name = name,
+                        .case_hash = hash,
+                        .version = session.version,
+                        .records = read_column_record(session.results, hash),
+                        .results = {},
+                        .curve = read_curve_record(session.results, hash),
+                        .component = fracture.output.curve.component};
+  for (const ColumnRecord& record : report.records) report.results.push_back(evaluate(record));
+  write_cohesive_results(session.results, report);
+  for (std::size_t r = 0; r < report.records.size(); ++r) {
+    const ColumnRecord& record = report.records[r];
+    session.log.say(fmt::format("cohesive law of \"{}\", {}", record.name, extent_of(record)));
+    for (const CohesiveResult& result : report.results[r]) say_law(result, record.kind, session.log);
+  }
+  session.log.say(fmt::format("written to {}", (session.results / "cohesive.json").string()));
+}
+
+}  // namespace pfdm

@@ -1,0 +1,16 @@
+#pragma once
+// pfdm cohesive: the traction-separation laws of a fracture case from its results.
+
+#include "cases/program/fracture/fracture_case.h"
+#include "cases/program/session/session.h"
+
+#include <string>
+
+namespace pfdm {
+
+/// Reads the columns and the curve in session.results, writes the laws beside them and says their figures. Throws
+/// InputError where there is no record.
+void write_cohesive_laws(const FractureCase& fracture, const std::string& name, const std::string& hash,
+                         Session& session);
+
+}  // namespace pfdm

@@ -1,0 +1,94 @@
+#include "cases/program/fracture/fracture_comparison.h"
+
+#include "cases/program/fracture/fracture_results.h"
+#include "physics/angle.h"
+#include "postproc/cohesive/cohesive_law.h"
+#include "postproc/curves/comparison_results.h"
+
+#include <fmt/format.h>
+
+namespace pfdm {
+namespace {
+
+const ColumnRecord& record_of(const std::vector<ColumnRecord>& records, const MeasuredAngle& angle,
+                              const ConfigTable& where) {
+  if (angle.surface.empty()) return records.front();
+  const auto found = std::ranges::find(records, angle.surface, &ColumnRecord::name);
+  if (found == records.end())
+    throw where.error(fmt::format("there is no surface \"{}\" in the results; the first is \"{}\"", angle.surface,
+                                  records.front().name));
+  return *found;
+}
+
+AngleComparison compare_debonding(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
+                                  const std::vector<ColumnRecord>& records) {
+  const MeasuredAngle& first = experiment.angles.front();
+  const std::vector<Debonding> history = debonding_of(record_of(records, first, experiment.where));
+  SampledCurve model{.name = "computed", .x = {}, .y = {}};
+  for (std::size_t i = 0; i < std::min(history.size(), rows.size()); ++i) {
+    model.x.push_back(rows[i].displacement);
+    model.y.push_back(first.at_positive ? history[i].angle_plus : history[i].angle_minus);
+  }
+  std::vector<SampledCurve> measured;
+  for (const MeasuredAngle& angle : experiment.angles) measured.push_back(angle.curve);
+  return compare_angles(model, measured);
+}
+
+void say(const ForceComparison& force, Log& log) {
+  const auto line = [&](const char* what, const char* unit, double model, double measured) {
+    log.say(fmt::format("  {:<22} {:>12.6g} {:<4} measured {:.6g}, {:+.2f} %", what, model, unit, measured,
+                        100.0 * (model / measured - 1.0)));
+  };
+  log.say(fmt::format("force against displacement from {:.4g} to {:.4g} m, specimens: {}", force.curves.x.front(),
+                      force.curves.x.back(), force.names.size()));
+  line("initial stiffness", "N/m", force.model.initial_stiffness, force.mean.initial_stiffness);
+  line("peak", "N", force.model.peak_force, force.mean.peak_force);
+  line("displacement at peak", "m", force.model.displacement_at_peak, force.mean.displacement_at_peak);
+  line("work", "J", force.model.work, force.mean.work);
+  log.say(fmt::format("  difference rms {:.4g} N ({:.2f} % of the largest force), at most {:.4g} N at {:.4g} m",
+                      force.curves.rms, 100.0 * force.curves.rms / force.curves.largest_measured, force.curves.largest,
+                      force.curves.x_of_largest));
+  if (force.curves.share_in_band)
+    log.say(fmt::format("  within two standard deviations over {:.1f} % of the range",
+                        100.0 * *force.curves.share_in_band));
+}
+
+void say(const AngleComparison& angle, Log& log) {
+  const auto onset = [](const std::optional<double>& at) { return at ? fmt::format("{:.4g} m", *at) : "never"; };
+  log.say(
+      fmt::format("debonding angle: difference rms {:.3g} degrees, at most {:.3g} at {:.4g} m; begins at {}, measured "
+                  "{}",
+                  angle.curves.rms / degree, angle.curves.largest / degree, angle.curves.x_of_largest,
+                  onset(angle.model_onset), onset(angle.mean_onset)));
+}
+
+}  // namespace
+
+SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component) {
+  SampledCurve curve{.name = "computed", .x = {}, .y = {}};
+  for (const CurveRow& row : rows) {
+    curve.x.push_back(row.displacement);
+    curve.y.push_back(row.force[component]);
+  }
+  return driven_curve(curve);
+}
+
+void compare_with_experiment(const FractureCase& fracture, const ExperimentSettings& experiment,
+                             const std::string& name, const std::string& hash, Session& session) {
+  const std::vector<CurveRow> rows = read_curve_record(session.results, hash);
+  ComparisonReport report{.case_name = name, .case_hash = hash, .version = session.version, .force = {}, .angle = {}};
+  report.force = experiment.where.in_context([&] {
+    return compare_forces(computed_curve(rows, fracture.output.curve.component), experiment.specimens,
+                          experiment.stiffness_from, experiment.stiffness_to);
+  });
+  if (!experiment.angles.empty()) {
+    const std::vector<ColumnRecord> records = read_column_record(session.results, hash);
+    report.angle = experiment.where.in_context([&] { return compare_debonding(experiment, rows, records); });
+  }
+  write_comparison(session.results, report);
+  say(report.force, session.log);
+  if (report.angle) say(*report.angle, session.log);
+  session.log.say(fmt::format("written to {}", (session.results / "comparison.json").string()));
+}
+
+}  // namespace pfdm

@@ -1,0 +1,354 @@
+#include "cases/program/fracture/fracture_program.h"
+
+#include "cases/program/fracture/experiment_case.h"
+#include "cases/program/fracture/fracture_case.h"
+#include "cases/program/fracture/fracture_cohesive.h"
+#include "cases/program/fracture/fracture_comparison.h"
+#include "cases/program/fracture/fracture_report.h"
+#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/progress.h"
+#include "cases/program/session/earlier_results.h"
+#include "cases/program/session/report_parts.h"
+#include "cases/program/session/stop_signal.h"
+#include "cases/program/session/stopwatch.h"
+#include "cases/program/studies/curve_fit.h"
+#include "mesh/quality.h"
+#include "postproc/files/folder_lock.h"
+#include "solver/fracture/fracture_run.h"
+#include "solver/fracture/resolution.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace pfdm {
+namespace {
+
+/// Tables that say how the load is stepped and the steps are solved, and what they are compared with; not what is
+/// loaded.
+constexpr std::string_view may_change_on_the_way[] = {"solver", "loading", "experiment", "fit", "sweep"};
+
+/// Thrown out of the load stepping when no more steps are wanted.
+struct EnoughSteps {
+  const char* why;
+};
+
+/// Where the wall-clock time of a run goes [s].
+struct RunTimes {
+  Stopwatch whole;
+  double mesh = 0.0;
+  double results = 0.0;
+};
+
+struct FractureProgram {
+  CaseFile file;
+  FractureCase fracture{};
+  std::optional<ExperimentSettings> experiment{};
+  std::optional<CurveFitSettings> fit{};
+  std::string name{};
+  std::string hash{};
+  std::string mesh_hash{};  ///< of what decides the mesh
+};
+
+Mesh make_mesh(const FractureProgram& program, Log& log) {
+  for (const std::string& remark : program.fracture.materials.remarks) log.say(remark);
+  const Stopwatch watch;
+  Mesh mesh = program.fracture.mesh.make();
+  log.say(fmt::format("mesh: {} cells, {} points, {} faces, made in {:.1f} s", mesh.n_cells(), mesh.points.size(),
+                      mesh.n_faces(), watch.seconds()));
+  return mesh;
+}
+
+FractureRun make_run(const FractureProgram& program, const Mesh& mesh, Log& log) {
+  const FractureCase& fracture = program.fracture;
+  FractureModel model = model_on(fracture, mesh);
+  for (const std::string& warning : resolution_warnings(mesh, model, fracture.materials.bands)) log.warn(warning);
+  return FractureRun(mesh, std::move(model), fracture.staggered, fracture.loading);
+}
+
+void say_regions(const Mesh& mesh, Log& log) {
+  std::vector<Index> cells(mesh.region_names.size());
+  for (const Index region : mesh.region) ++cells[as_size(region)];
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    log.say(fmt::format("  region {:<16} {:>9} cells", mesh.region_names[i], cells[i]));
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Peak of the bead benchmark: 193 MB with 98,000 faces (42,000 tetrahedra and prisms), 448 MB with 261,000; 272 MB
+/// with 77,000 faces of 17,000 polyhedra, which VTK's grid holds as triangles.
+double estimated_memory(const Mesh& mesh) {
+  const bool polyhedra = std::ranges::find(mesh.shape, CellShape::polyhedron) != mesh.shape.end();
+  return (polyhedra ? 3.1e3 : 1.9e3) * mesh.n_faces() + 40e6;
+}
+
+void check_fit(const FractureProgram& program, Log& log) {
+  require_start_within_bounds(*program.fit);
+  for (const CurveFitParameter& parameter : program.fit->parameters)
+    log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
+                        parameter.in_case.shown(parameter.in_fit.lower),
+                        parameter.in_case.shown(parameter.in_fit.upper)));
+}
+
+void check(const FractureProgram& program, Session& session) {
+  Log& log = session.log;
+  const LoadingSettings& loading = program.fracture.loading;
+  const Mesh mesh = make_mesh(program, log);
+  const FractureRun run = make_run(program, mesh, log);
+  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh);
+  log.say(fmt::format("{}: {}", program.name, program.fracture.title));
+  log.say(fmt::format("cells {}", mesh.n_cells()));
+  say_regions(mesh, log);
+  log.say(fmt::format("unknowns {} of displacement, {} of damage", run.n_unknowns(), mesh.n_cells()));
+  log.say(fmt::format("memory about {:.0f} MB", 1e-6 * estimated_memory(mesh)));
+  log.say(fmt::format("steps {} or more, up to load {:g}", std::ceil(loading.end / loading.maximum_increment - 1e-9),
+                      loading.end));
+  if (program.fit) check_fit(program, log);
+  for (const ColumnSet& set : columns)
+    log.say(fmt::format("cohesive law of \"{}\" from {} columns", set.name, set.columns.size()));
+  log.say(fmt::format("results go to {}", session.results.string()));
+  log.say("the input is valid");
+}
+
+void mesh_only(const FractureProgram& program, Session& session) {
+  const Mesh mesh = make_mesh(program, session.log);
+  model_on(program.fracture, mesh);
+  const FolderLock lock(session.results);
+  for (const std::string& line : lines_of(describe(mesh_quality(mesh)))) session.log.say(line);
+  write_mesh(session.results, mesh);
+  session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
+}
+
+std::optional<FractureState> state_to_go_on_from(const FractureProgram& program, const FractureState& initial,
+                                                 const Session& session) {
+  if (!session.restart) return std::nullopt;
+  try {
+    auto state = find_checkpoint(session.results, program.hash);
+    if (state &&
+        (state->damage.size() != initial.damage.size() || state->displacement.size() != initial.displacement.size()))
+      throw InputError(fmt::format("{}: the checkpoint belongs to another mesh", session.results.string()));
+    return state;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; without --restart the run starts anew and replaces it", error.what()));
+  }
+}
+
+RunSummary summary_of(const FractureProgram& program, const Session& session, const FractureRun& run,
+                      const RunTimes& times) {
+  RunSummary summary;
+  summary.case_name = program.name;
+  summary.version = session.version;
+  summary.threads = session.threads;
+  summary.unknowns = run.n_unknowns();
+  summary.staggered_iterations = run.staggered_iterations();
+  summary.window_iterations = run.window_iterations();
+  summary.krylov_iterations = run.krylov_iterations();
+  summary.cpu_seconds_by_stage = run.cpu_seconds_by_stage();
+  summary.wall_seconds = times.whole.seconds();
+  summary.wall_seconds_by_stage = {
+      {"mesh", times.mesh}, {"results", times.results}, {"solve", summary.wall_seconds - times.mesh - times.results}};
+  summary.cpu_seconds = cpu_seconds();
+  summary.peak_memory = peak_memory();
+  return summary;
+}
+
+void cohesive(const FractureProgram& program, Session& session) {
+  write_cohesive_laws(program.fracture, program.name, program.hash, session);
+}
+
+/// A run that steps.
+struct RunningCase {
+  const FractureProgram& program;
+  Session& session;
+  RunTimes& times;
+  FractureRun& run;
+  FractureResults& results;
+  FractureState state;   ///< the last one that was reached
+  bool goes_on = false;  ///< from a state that is in the results already
+};
+
+void step_done(RunningCase& c, const FractureState& now, const StepReport& report) {
+  const Stopwatch watch;
+  for (const std::string& warning : c.results.step_done(now, report, [&] { return c.run.output(now); }))
+    c.session.log.warn(warning);
+  c.state = now;
+  c.times.results += watch.seconds();
+}
+
+/// Steps until the end of the load, --max-steps or failure; returns what became of it.
+std::string advance(RunningCase& c) {
+  const double end = c.program.fracture.loading.end;
+  RunProgress progress(c.session.log, c.state.load, end);
+  const Index first_step = c.state.step;
+  RunHooks hooks;
+  const LooksForStop looks;
+  hooks.iterated = [&](const IterationReport& iteration) {
+    progress.iterated(iteration);
+    stop_if_asked();
+  };
+  hooks.warned = [&](const std::string& message) { c.session.log.warn(message); };
+  hooks.step_done = [&](const FractureState& now, const StepReport& report) {
+    step_done(c, now, report);
+    const CurveRow& row = c.results.last_row();
+    progress.step_done(report, row.displacement, row.force[c.program.fracture.output.curve.component]);
+    if (c.session.max_steps && now.step - first_step >= *c.session.max_steps)
+      throw EnoughSteps{"stopped by --max-steps"};
+    if (c.session.until && row.displacement >= *c.session.until && now.load < end)
+      throw EnoughSteps{"stopped at the last displacement needed"};
+  };
+  try {
+    c.goes_on ? c.run.go_on(c.state, hooks) : c.run.run(c.state, hooks);
+    return "complete";
+  } catch (const EnoughSteps& enough) {
+    return enough.why;
+  }
+}
+
+/// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said.
+std::string finish(RunningCase& c, const std::string& status) {
+  RunSummary summary = summary_of(c.program, c.session, c.run, c.times);
+  summary.status = status;
+  c.results.write_summary(summary);
+  return fmt::format("{} at step {}, load {:.6g}, after {:.1f} s; results in {}", status, c.state.step, c.state.load,
+                     c.times.whole.seconds(), c.session.results.string());
+}
+
+std::string earlier_results_stay(const RunningCase& c) {
+  return fmt::format("the earlier results in {} are kept", c.session.results.string());
+}
+
+/// Keeps as much of a run that failed as there is room for.
+void finish_failed(RunningCase& c, const std::string& why) {
+  if (c.results.wait()) return c.session.log.say(earlier_results_stay(c));
+  try {
+    c.results.write_last_frame([&] { return c.run.output(c.state); });
+    c.results.write_what_waits(c.state);
+    c.session.log.say(finish(c, fmt::format("failed: {}", why)));
+  } catch (const ComputationError&) {
+    // A full disk is often what failed in the first place; the first message is the one to show.
+  }
+}
+
+/// Returns what is to be said.
+std::string finish_interrupted(RunningCase& c, const std::string& status) {
+  if (c.results.wait()) return fmt::format("{}; {}", status, earlier_results_stay(c));
+  c.results.write_what_waits(c.state);
+  return finish(c, status);
+}
+
+void solve(RunningCase& c) {
+  try {
+    const std::string status = advance(c);
+    c.results.write_what_waits(c.state);
+    if (c.results.records_columns()) cohesive(c.program, c.session);
+    c.session.log.say(finish(c, status));
+  } catch (const Interrupted& wish) {
+    const std::string told = finish_interrupted(c, wish.what());
+    c.session.log.record(told);
+    throw Interrupted(wish.signal, told);
+  } catch (const ComputationError& error) {
+    finish_failed(c, error.what());
+    throw;
+  }
+}
+
+/// Made, or found where several runs share it.
+const Mesh& find_mesh(const FractureProgram& program, MeshStore& meshes, Log& log) {
+  return meshes.get(program.mesh_hash, [&] { return make_mesh(program, log); });
+}
+
+void prepare(const FractureProgram& program, Session& session) {
+  if (session.meshes) find_mesh(program, *session.meshes, session.log);
+}
+
+void run_case(FractureProgram program, Session& session) {
+  if (session.figures_only) {
+    program.fracture.output.figures_only = true;
+    program.fracture.output.tips.clear();
+    program.fracture.cohesive = {};
+  }
+  session.log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, program.fracture.title,
+                              session.threads));
+  RunTimes times;
+  MeshStore own_mesh;
+  const Mesh& mesh = find_mesh(program, session.meshes ? *session.meshes : own_mesh, session.log);
+  times.mesh = times.whole.seconds();
+  FractureRun run = make_run(program, mesh, session.log);
+  const FractureState initial = run.initial_state();
+  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh);
+  const FolderLock lock(session.results);
+  const auto last = state_to_go_on_from(program, initial, session);
+  if (last && last->load >= program.fracture.loading.end && status_of_earlier(session.results) == "complete") {
+    session.log.say(fmt::format("the run in {} is complete already", session.results.string()));
+    return;
+  }
+  FractureResults results(session.results, mesh, run.model(), program.fracture, columns, program.hash, last);
+  if (!session.figures_only) write_mesh(results.folder(), mesh);
+  session.log.open_file(results.folder() / "run.log", last.has_value());
+  if (session.restart)
+    session.log.say(last ? fmt::format("continuing after step {}, load {:.6g}", last->step, last->load)
+                         : "no checkpoint found: starting from the beginning");
+  else if (results.wait())
+    say_what_is_replaced(session, program.hash, true);
+  RunningCase running{program, session, times, run, results, last ? *last : initial, last.has_value()};
+  solve(running);
+}
+
+void compare(const FractureProgram& program, Session& session) {
+  if (!program.experiment) throw InputError(fmt::format("{}: it names no [experiment] to compare with", program.name));
+  compare_with_experiment(program.fracture, *program.experiment, program.name, program.hash, session);
+}
+
+void fit(const FractureProgram& program, Session& session) {
+  if (!program.experiment)
+    throw InputError(fmt::format("{}: it names no [experiment] that the curve could be fitted to", program.name));
+  const auto read = [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
+    return computed_curve(read_curve(results / curve_file), component);
+  };
+  fit_curve({program.file, *program.fit, program.experiment->specimens, read, program.name, program.hash,
+             program.fracture.title},
+            session);
+}
+
+void report(const FractureProgram& program, Session& session) {
+  write_report(fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
+               session);
+}
+
+}  // namespace
+
+RunnableCase read_fracture_program(const CaseFile& file) {
+  auto program = std::make_shared<FractureProgram>(FractureProgram{.file = file});
+  program->fracture = read_fracture_case(file.config.root(), file.directory);
+  program->experiment = read_experiment(file.config.root(), file.directory);
+  program->fit = read_curve_fit(file);
+  program->name = case_name(file);
+  program->hash = case_hash(file, program->fracture.mesh.data_files, may_change_on_the_way);
+  program->mesh_hash = table_hash(file, "mesh", program->fracture.mesh.data_files);
+  RunnableCase runnable{.title = program->fracture.title,
+                        .check = [program](Session& session) { check(*program, session); },
+                        .mesh = [program](Session& session) { mesh_only(*program, session); },
+                        .run = [program](Session& session) { run_case(*program, session); },
+                        .cohesive = [program](Session& session) { cohesive(*program, session); },
+                        .compare = [program](Session& session) { compare(*program, session); },
+                        .report = [program](Session& session) { report(*program, session); },
+                        .prepare = [program](Session& session) { prepare(*program, session); },
+                        .data_files = program->fracture.mesh.data_files};
+  runnable.goes_on = true;
+  runnable.fit = [program](Session& session) { fit(*program, session); };
+  if (!program->fit)
+    runnable.fit = job_without_table(file, "fit",
+                                     "[[fit.parameters]] that name the values to be estimated with their bounds, and "
+                                     "[experiment] with the measured curve",
+                                     "bar_fit");
+  return runnable;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,273 @@
+#include "cases/program/fracture/fracture_report.h"
+
+#include "cases/program/fracture/fracture_pictures.h"
+#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/session/report_parts.h"
+#include "physics/angle.h"
+#include "physics/traction_separation.h"
+#include "postproc/cohesive/cohesive_results.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+/// All that the page tells of.
+struct FractureStory {
+  const FractureCase& fracture;
+  const std::optional<ExperimentSettings>& experiment;
+  std::vector<CurveRow> curve;
+  std::optional<RunSummary> summary;
+  std::vector<ColumnRecord> records;
+  int component() const { return fracture.output.curve.component; }
+  char direction() const { return "xyz"[component()]; }
+};
+
+template <class Value>
+std::vector<double> column(const std::vector<CurveRow>& rows, const Value& value) {
+  std::vector<double> values;
+  for (const CurveRow& row : rows) values.push_back(value(row));
+  return values;
+}
+
+std::string shown_seconds(const std::map<std::string, double>& stages) {
+  std::vector<std::string> parts;
+  for (const auto& [stage, seconds] : stages) {
+    std::string name = stage;
+    std::ranges::replace(name, '_', ' ');
+    parts.push_back(fmt::format("{} {:.3g}", name, seconds));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+Table run_table(const FractureStory& story) {
+  const FractureModel& model = story.fracture.model;
+  Table table{.caption = "Model and run",
+              .rows = {{"fracture", fmt::format("{}, degradation {}", model.crack->name, model.degradation->name)},
+                       {"split", std::string(model.split->name)}}};
+  const auto add = [&](std::string name, std::string value) {
+    table.rows.push_back({std::move(name), std::move(value)});
+  };
+  if (!story.summary) {
+    add("status", fmt::format("not finished, step {}", story.curve.back().step));
+    return table;
+  }
+  const RunSummary& s = *story.summary;
+  add("cells, unknowns", fmt::format("{}, {}", s.cells, s.unknowns));
+  add("steps, staggered iterations", fmt::format("{}, {}", s.steps, s.staggered_iterations));
+  add("linear iterations", fmt::format("{}", s.krylov_iterations));
+  add("time, threads", fmt::format("{:.3g} s wall, {:.3g} s CPU, {}", s.wall_seconds, s.cpu_seconds, s.threads));
+  add("wall by stage [s]", shown_seconds(s.wall_seconds_by_stage));
+  add("CPU by stage [s]", shown_seconds(s.cpu_seconds_by_stage));
+  add("peak memory", fmt::format("{:.0f} MB", 1e-6 * s.peak_memory));
+  return table;
+}
+
+Table figures_table(const FractureStory& story) {
+  const Headlines f = headlines(story.curve, story.component());
+  return {.caption = "Figures",
+          .rows = {{"peak force", shown(f.peak_force, "N")},
+                   {"its displacement", shown(f.displacement_at_peak, "m")},
+                   {"initial stiffness", shown(f.initial_stiffness, "N") + "/m"},
+                   {"final force", shown(f.final_force, "N")},
+                   {"final displacement", shown(f.final_displacement, "m")},
+                   {"elastic energy", shown(f.final_elastic_energy, "J")},
+                   {"surface energy", shown(f.final_fracture_energy, "J")},
+                   {"work", shown(f.external_work, "J")},
+                   {"energy balance error", fmt::format("{:.3g} %", 100.0 * f.energy_balance_error)},
+                   {"largest release", shown(f.released_energy, "J")},
+                   {"its displacement", shown(f.displacement_at_release, "m")},
+                   {"damaged volume", shown(f.damaged_volume, "m^3")}}};
+}
+
+Table material_table(const FractureCase& fracture) {
+  Table table{.caption = "Materials", .rows = {{"region", "E", "nu", "Gc [J/m²]", "ell"}}, .has_header = true};
+  for (const RegionMaterial& material : fracture.materials.by_region) {
+    if (material.varies) {
+      table.rows.push_back({material.region, "varies", "from", "place", "to place"});
+      continue;
+    }
+    const RegionModel m = material.at(Vector::Zero());
+    table.rows.push_back({material.region, shown(m.elasticity.young_modulus(), "Pa"),
+                          shown(m.elasticity.poisson_ratio()), m.damageable ? shown(m.Gc) : "no damage",
+                          m.damageable ? shown(m.ell, "m") : "-"});
+  }
+  return table;
+}
+
+/// A measured curve, and the band of two standard deviations about it.
+void add_specimens(Chart& chart, const std::vector<SampledCurve>& specimens, const DisplayUnit& x,
+                   const DisplayUnit& y) {
+  int colour = 1;
+  for (const SampledCurve& specimen : specimens) {
+    const std::vector<double> at = in_unit(specimen.x, x), values = in_unit(specimen.y, y);
+    if (!specimen.deviation.empty()) {
+      Series band{.label = "two standard deviations", .x = at, .y = {}, .style = SeriesStyle::band, .colour = 7};
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        band.y.push_back(values[i] - 2.0 * y.factor * specimen.deviation[i]);
+        band.upper.push_back(values[i] + 2.0 * y.factor * specimen.deviation[i]);
+      }
+      chart.series.insert(chart.series.begin(), std::move(band));
+    }
+    chart.series.push_back({.label = "measured, " + specimen.name, .x = at, .y = values, .colour = colour++});
+  }
+}
+
+Chart force_chart(const FractureStory& story) {
+  const int k = story.component();
+  const std::vector<double> u = column(story.curve, [](const CurveRow& row) { return row.displacement; });
+  const std::vector<double> force = column(story.curve, [k](const CurveRow& row) { return row.force[k]; });
+  const DisplayUnit x = common_unit({{u}}, "m"), y = common_unit({{force}}, "N");
+  Chart chart{.caption = "Force against displacement",
+              .x = {.title = fmt::format("displacement {} of {} [{}]", story.direction(),
+                                         story.fracture.output.curve.patch, x.name)},
+              .y = {.title = fmt::format("force {} [{}]", story.direction(), y.name)},
+              .series = {}};
+  if (story.experiment) add_specimens(chart, story.experiment->specimens, x, y);
+  chart.series.push_back({.label = story.experiment ? "computed" : "",
+                          .x = in_unit(u, x),
+                          .y = in_unit(force, y),
+                          .style = SeriesStyle::line_with_points});
+  return chart;
+}
+
+Chart energy_chart(const FractureStory& story) {
+  const std::vector<double> load = column(story.curve, [](const CurveRow& row) { return row.load; });
+  std::vector<std::vector<double>> energies{
+      column(story.curve, [](const CurveRow& row) { return row.external_work; }),
+      column(story.curve, [](const CurveRow& row) { return row.elastic_energy; }),
+      column(story.curve, [](const CurveRow& row) { return row.fracture_energy; })};
+  std::vector<std::string_view> names{"work", "elastic", "surface"};
+  const std::vector<double> heat =
+      column(story.curve, [](const CurveRow& row) { return row.viscous_dissipation + row.plastic_dissipation; });
+  if (heat.back() > 0.0) {
+    energies.push_back(heat);
+    names.push_back("heat");
+  }
+  const DisplayUnit unit = common_unit(energies, "J");
+  Chart chart{.caption = "Energies",
+              .x = {.title = "load parameter t [-]"},
+              .y = {.title = fmt::format("energy [{}]", unit.name)},
+              .series = {}};
+  add_series(chart, load, energies, names, unit);
+  return chart;
+}
+
+Chart iterations_chart(const FractureStory& story) {
+  return {.caption = "Staggered iterations",
+          .x = {.title = "step [-]"},
+          .y = {.title = "iterations [-]", .from = 0.0},
+          .series = {{.label = {},
+                      .x = column(story.curve, [](const CurveRow& row) { return row.step; }),
+                      .y = column(story.curve, [](const CurveRow& row) { return row.staggered_iterations; }),
+                      .style = SeriesStyle::line_with_points}}};
+}
+
+/// Traction over separation; interrupted where the traction jumps down, since the law between is not known.
+Series law_series(const CohesiveResult& result, const DisplayUnit& x, const DisplayUnit& y) {
+  Series series{.label = {}, .x = {}, .y = {}, .style = SeriesStyle::line_with_points};
+  for (std::size_t i = 0; i < result.law.states.size(); ++i) {
+    const ColumnSample& state = result.law.states[i];
+    if (result.figures.jump && i == *result.figures.jump) {
+      series.x.push_back(std::nan(""));
+      series.y.push_back(std::nan(""));
+    }
+    series.x.push_back(x.factor * state.separation[0]);
+    series.y.push_back(y.factor * state.traction[0]);
+  }
+  return series;
+}
+
+/// The analytic law that is nearest.
+Series fitted_series(const CohesiveResult& result, const DisplayUnit& x, const DisplayUnit& y) {
+  const CohesiveFit& fit = result.fits.front();
+  const auto laws = traction_separation_laws();
+  const TractionSeparationLaw& law = *std::ranges::find(laws, fit.law, &TractionSeparationLaw::name);
+  std::vector<double> p;
+  for (const FitEstimate& estimate : fit.result.estimates) p.push_back(estimate.value);
+  Series series{.label = fmt::format("{}: {}, {:.4g} J/m²", fit.law, shown(p[0], "Pa"), p[1]),
+                .x = {},
+                .y = {},
+                .style = SeriesStyle::dashed,
+                .colour = 2};
+  constexpr int n = 200;
+  for (int i = 0; i <= n; ++i) {
+    const double separation = result.figures.final_separation * std::max(1e-6, static_cast<double>(i) / n);
+    series.x.push_back(x.factor * separation);
+    series.y.push_back(y.factor * law.traction(law, separation, p[0], p[1], std::span(p).subspan(2)));
+  }
+  return series;
+}
+
+std::string label_of(const CohesiveResult& result, SurfaceKind kind) {
+  if (kind == SurfaceKind::plane) return "mean of all places";
+  return fmt::format("{:.0f}°–{:.0f}°", result.law.from / degree, result.law.to / degree);
+}
+
+/// Whether the first surface has one.
+bool has_law(const std::vector<ColumnRecord>& records) {
+  return !records.empty() && n_never_damaged(records.front()) < records.front().places.size();
+}
+
+/// Those of the first surface that carry much, by polar angle.
+Chart law_chart(const ColumnRecord& record) {
+  std::vector<CohesiveResult> results = evaluate(record);
+  const auto strength = [](const CohesiveResult& r) {
+    return std::isfinite(r.figures.strength) ? r.figures.strength : 0.0;
+  };
+  double largest = 0.0, widest = 0.0;
+  for (const CohesiveResult& r : results) {
+    largest = std::max(largest, strength(r));
+    for (const ColumnSample& state : r.law.states) widest = std::max(widest, state.separation[0]);
+  }
+  std::erase_if(results, [&](const CohesiveResult& r) { return strength(r) < 0.5 * largest; });
+  const DisplayUnit x = display_unit(widest, "m"), y = display_unit(largest, "Pa");
+  Chart chart{.caption = fmt::format("Cohesive law of \"{}\"", record.name),
+              .x = {.title = fmt::format("normal separation [{}]", x.name)},
+              .y = {.title = fmt::format("normal traction [{}]", y.name)},
+              .series = {}};
+  bool jumps = false;
+  for (const CohesiveResult& r : results) {
+    chart.series.push_back(law_series(r, x, y));
+    chart.series.back().label = label_of(r, record.kind);
+    chart.series.back().colour = static_cast<int>(chart.series.size()) - 1;
+    jumps = jumps || r.figures.jump;
+  }
+  if (results.size() == 1 && !results.front().fits.empty())
+    chart.series.push_back(fitted_series(results.front(), x, y));
+  chart.x.logarithmic = jumps;  // little is opened before a jump, much after it
+  if (jumps) chart.x.from = 1e-4 * x.factor * widest;
+  return chart;
+}
+
+}  // namespace
+
+ReportPage fracture_page(const FractureCase& fracture, const std::optional<ExperimentSettings>& experiment,
+                         const std::string& name, const std::string& hash, const std::filesystem::path& results) {
+  const FractureStory story{.fracture = fracture,
+                            .experiment = experiment,
+                            .curve = read_curve_record(results, hash),
+                            .summary = find_summary(results),
+                            .records = find_column_record(results)};
+  ReportPage page{.title = fmt::format("{}: {}", name, fracture.title),
+                  .subtitle = story.summary ? fmt::format("pfdm {}, case {}, {}", story.summary->version, hash,
+                                                          story.summary->status)
+                                            : fmt::format("case {}, not finished", hash),
+                  .rows = {}};
+  page.rows.push_back(
+      {.blocks = {run_table(story), figures_table(story), material_table(fracture)}, .widths = {1.25, 0.9, 0.95}});
+  std::vector<PageBlock> blocks = damage_pictures(fracture, story.curve, results);
+  blocks.emplace_back(force_chart(story));
+  blocks.emplace_back(energy_chart(story));
+  if (has_law(story.records)) blocks.emplace_back(law_chart(story.records.front()));
+  blocks.emplace_back(iterations_chart(story));
+  for (PageRow& row : in_pairs(std::move(blocks))) page.rows.push_back(std::move(row));
+  for (PageRow& row : warnings_row(results / "run.log")) page.rows.push_back(std::move(row));
+  return page;
+}
+
+}  // namespace pfdm

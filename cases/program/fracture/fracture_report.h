@@ -1,0 +1,19 @@
+#pragma once
+// The page of pfdm report for a case of kind "fracture".
+
+#include "cases/program/fracture/experiment_case.h"
+#include "cases/program/fracture/fracture_case.h"
+#include "postproc/page/report_page.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace pfdm {
+
+/// Of the results in a directory, also of an unfinished run. Throws InputError if there are none, or
+/// if they belong to another case.
+ReportPage fracture_page(const FractureCase& fracture, const std::optional<ExperimentSettings>& experiment,
+                         const std::string& name, const std::string& hash, const std::filesystem::path& results);
+
+}  // namespace pfdm

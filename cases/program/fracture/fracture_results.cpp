@@ -1,0 +1,310 @@
+#include "cases/program/fracture/fracture_results.h"
+
+#include "cases/program/session/report_parts.h"
+#include "mesh/quality.h"
+#include "postproc/cohesive/cohesive_results.h"
+#include "postproc/curves/comparison_results.h"
+#include "postproc/fields/checkpoint.h"
+#include "postproc/fields/frame.h"
+#include "postproc/fields/point_displacement.h"
+#include "postproc/fields/slice.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* checkpoint_file = "checkpoint.bin";
+constexpr const char* frames_file = "fields.pvd";
+constexpr const char* frames_folder = "fields";
+constexpr const char* columns_folder = "columns";
+constexpr const char* energy_release_file = "energy_release_rate.csv";
+
+constexpr double bearable_damaged_share = 0.05;  // of the integrand of an energy release rate
+
+constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of those that leave figures only
+
+/// Of a step, relative to the results; in the order of the steps, so are the names.
+std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", frames_folder, step); }
+
+/// What other commands, and the end of the run, made of the steps that are there.
+void remove_what_was_made_of_them(const fs::path& directory) {
+  std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
+  fs::remove(directory / summary_file, ignored);
+  for (const char* file : cohesive_files) fs::remove(directory / file, ignored);
+  for (const char* file : comparison_files) fs::remove(directory / file, ignored);
+  remove_report(directory);
+}
+
+/// Killed in between it leaves what is complete, what can be continued, or what nobody takes for results.
+void remove_earlier_run(const fs::path& directory) {
+  remove_what_was_made_of_them(directory);
+  std::error_code ignored;
+  for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file})
+    fs::remove(directory / file, ignored);
+  remove_columns(directory / columns_folder);
+  for (const auto& entry : fs::directory_iterator(directory / frames_folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);
+  }
+}
+
+Index patch_number(const Mesh& mesh, const std::string& name) {
+  return static_cast<Index>(&mesh.patch(name) - mesh.patches.data());
+}
+
+void require_results(const fs::path& results, const std::string& case_hash) {
+  const fs::path checkpoint = results / checkpoint_file;
+  if (!fs::exists(checkpoint) || !fs::exists(results / curve_file))
+    throw InputError(fmt::format("{}: there are no results; pfdm run makes them", results.string()));
+  read_checkpoint(checkpoint, case_hash);  // refuses another case's
+}
+
+std::vector<std::string> energy_release_columns(const std::vector<TipRegion>& regions) {
+  std::vector<std::string> names{"step", "load"};
+  for (const TipRegion& region : regions)
+    for (const char* what : {"tip_x_m", "tip_y_m", "tip_z_m", "G_J_per_m2", "damaged_share"})
+      names.push_back(fmt::format("{}_{}", region.name, what));
+  return names;
+}
+
+std::optional<std::string> doubt_about(const EnergyRelease& release, const std::string& region) {
+  if (std::isnan(release.G))
+    return fmt::format(
+        "energy release rate \"{}\": around ({:.4g}, {:.4g}, {:.4g}) m the ring reaches beyond the body; no value",
+        region, release.tip.x(), release.tip.y(), release.tip.z());
+  if (release.damaged_share > bearable_damaged_share)
+    return fmt::format(
+        "energy release rate \"{}\": {:.0f} % of it comes from damaged cells (d > 0.1); it is that of the far field "
+        "only where the ring between inner and outer lies in undamaged material",
+        region, 100.0 * release.damaged_share);
+  return std::nullopt;
+}
+
+bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+}  // namespace
+
+void write_mesh(const fs::path& results, const Mesh& mesh) {
+  make_folder(results);
+  const CellQuality quality = cell_quality(mesh);
+  VtuWriter(mesh).write(results / "mesh.vtu",
+                        {{"material", &mesh.region},
+                         {"volume", &mesh.cell_volume},
+                         {"non_orthogonality", &quality.non_orthogonality},
+                         {"skewness", &quality.skewness},
+                         {"volume_ratio", &quality.volume_ratio},
+                         {"aspect_ratio", &quality.aspect_ratio},
+                         {"min_dihedral_angle", &quality.min_dihedral_angle}},
+                        0.0);
+}
+
+std::optional<FractureState> find_checkpoint(const fs::path& results, const std::string& case_hash) {
+  const fs::path file = results / checkpoint_file;
+  if (!fs::exists(file)) return std::nullopt;
+  return read_checkpoint(file, case_hash);
+}
+
+bool has_results(const fs::path& results) {
+  return fs::exists(results / checkpoint_file) || fs::exists(results / summary_file);
+}
+
+std::vector<CurveRow> read_curve_record(const fs::path& results, const std::string& case_hash) {
+  require_results(results, case_hash);
+  return read_curve(results / curve_file);
+}
+
+std::vector<ColumnRecord> read_column_record(const fs::path& results, const std::string& case_hash) {
+  require_results(results, case_hash);
+  std::vector<ColumnRecord> records = read_columns(results / columns_folder);
+  if (records.empty())
+    throw InputError(
+        fmt::format("{}: the run recorded no columns: name the surfaces in [cohesive] of case.toml, and run it again "
+                    "(particles with layers are recorded without)",
+                    results.string()));
+  return records;
+}
+
+std::vector<ColumnRecord> find_column_record(const fs::path& results) { return read_columns(results / columns_folder); }
+
+std::optional<RunSummary> find_summary(const fs::path& results) {
+  if (!fs::exists(results / summary_file)) return std::nullopt;
+  return read_run_summary(results / summary_file);
+}
+
+std::vector<StoredStep> stored_steps(const fs::path& results) {
+  if (!fs::exists(results / frames_file)) return {};
+  std::vector<StoredStep> steps;
+  for (const Frame& frame : read_pvd(results / frames_file)) {
+    const std::string name = fs::path(frame.file).stem().string();
+    const auto step = parse_int(std::string_view(name).substr(std::min(name.find('_') + 1, name.size())));
+    if (!step)
+      throw InputError(
+          fmt::format("{}: \"{}\" is not a frame that pfdm wrote", (results / frames_file).string(), name));
+    steps.push_back({*step, results / frame.file});
+  }
+  return steps;
+}
+
+FractureResults::Files::Files(const fs::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
+                              std::optional<Index> last_step)
+    : curve(last_step ? CurveFile(folder / curve_file, *last_step) : CurveFile(folder / curve_file)),
+      frames(last_step ? PvdSeries(folder / frames_file,
+                                   [last_step](const Frame& frame) { return frame.file <= frame_file(*last_step); })
+                       : PvdSeries(folder / frames_file)) {
+  if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
+  if (const auto& tips = fracture.output.tips; !tips.empty())
+    energy_release.emplace(folder / energy_release_file, energy_release_columns(tips), last_step);
+}
+
+FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureModel& model,
+                                 const FractureCase& fracture, const std::vector<ColumnSet>& columns,
+                                 std::string case_hash, const std::optional<FractureState>& last)
+    : directory_(std::move(directory)),
+      mesh_(mesh),
+      fracture_(fracture),
+      model_(model),
+      sets_(columns),
+      case_hash_(std::move(case_hash)),
+      curve_patch_(patch_number(mesh, fracture.output.curve.patch)),
+      place_(directory_, !last && has_results(directory_)),
+      writer_(mesh, fracture.output.frames.file),
+      damage_(as_size(mesh.n_cells()), 0.0) {
+  if (!last && !place_.wait()) remove_earlier_run(directory_);  // what a run left that was killed before its first step
+  make_folder(folder() / frames_folder);
+  remove_leftovers(folder() / frames_folder);
+  files_.emplace(folder(), fracture, columns, last ? std::optional(last->step) : std::nullopt);
+  warned_of_tip_.assign(fracture.output.tips.size(), false);
+  if (!last) return;
+  last_step_ = last->step;
+  last_load_ = last->load;
+  damage_ = last->damage;
+}
+
+std::vector<std::string> FractureResults::step_done(const FractureState& state, const StepReport& report,
+                                                    const Output& output) {
+  std::vector<std::string> warnings;
+  if (!has_stepped_) remove_what_was_made_of_them(folder());
+  has_stepped_ = true;
+  last_step_ = state.step;
+  last_load_ = state.load;
+  damage_ = state.damage;
+  files_->curve.add(curve_row(report, curve_patch_, fracture_.output.curve.component));
+  if (may_wait()) {
+    waits_ = true;
+    return warnings;
+  }
+  files_->curve.write();
+  const bool frame = frame_is_due(state);
+  if (frame || files_->columns || files_->energy_release) {
+    const OutputFields fields = output();
+    if (frame) write_frame(state.step, state.load, fields);
+    if (files_->columns) files_->columns->append(state.step, mesh_, model_, fields);
+    if (files_->energy_release) add_energy_release(state, fields, warnings);
+  }
+  write_state(state);
+  if (state.step > 0) take_place(state);
+  return warnings;
+}
+
+void FractureResults::write_state(const FractureState& state) {
+  write_checkpoint(folder() / checkpoint_file, state, case_hash_);
+  since_written_ = {};
+  waits_ = false;
+}
+
+/// Continues with the files in their new place as a restart would.
+void FractureResults::take_place(const FractureState& state) {
+  if (!place_.wait()) return;
+  place_.take_place([this] { remove_earlier_run(directory_); }, checkpoint_file);
+  files_.emplace(folder(), fracture_, sets_, state.step);
+}
+
+void FractureResults::add_energy_release(const FractureState& state, const OutputFields& output,
+                                         std::vector<std::string>& warnings) {
+  std::vector<double> row{static_cast<double>(state.step), state.load};
+  for (std::size_t i = 0; i < fracture_.output.tips.size(); ++i) {
+    const TipRegion& region = fracture_.output.tips[i];
+    const EnergyRelease release = energy_release_rate(mesh_, output, region);
+    row.insert(row.end(), {release.tip.x(), release.tip.y(), release.tip.z(), release.G, release.damaged_share});
+    if (warned_of_tip_[i]) continue;
+    const std::optional<std::string> doubt = doubt_about(release, region.name);
+    if (doubt) warnings.push_back(*doubt);
+    warned_of_tip_[i] = doubt.has_value();
+  }
+  files_->energy_release->append(std::move(row));
+}
+
+/// Many short runs would spend more time on flushing to the disk than on computing.
+bool FractureResults::may_wait() const {
+  return fracture_.output.figures_only && since_written_.seconds() < seconds_at_stake;
+}
+
+void FractureResults::write_what_waits(const FractureState& state) {
+  if (waits_) {
+    files_->curve.write();
+    write_state(state);
+  }
+  take_place(state);
+}
+
+bool FractureResults::frame_is_due(const FractureState& state) const {
+  if (fracture_.output.figures_only) return false;
+  const auto& stops = fracture_.loading.stops;
+  const Index every = fracture_.output.frames_every;
+  return std::ranges::any_of(stops, [&](double stop) { return same_load(stop, state.load); }) ||
+         same_load(state.load, fracture_.loading.end) || (every > 0 && state.step % every == 0);
+}
+
+void FractureResults::write_frame(Index step, double load, const OutputFields& output) {
+  double time = fracture_.output.frames.time(step, load);
+  // ParaView wants times that rise; those of a restart with another [loading] may be measured in something else.
+  if (const auto& before = files_->frames.frames(); !before.empty() && !(time > before.back().time))
+    time = std::max(static_cast<double>(step), std::floor(before.back().time) + 1.0);
+  const SplitPoints points = point_displacement(mesh_, model_.boundary, output, load);
+  writer_.write(folder() / frame_file(step), frame_fields(mesh_, output), time, &points);
+  files_->frames.add(time, frame_file(step));
+}
+
+void FractureResults::write_last_frame(const Output& output) {
+  const auto& frames = files_->frames.frames();
+  if (fracture_.output.figures_only) return;
+  if (frames.empty() || frames.back().file != frame_file(last_step_)) write_frame(last_step_, last_load_, output());
+}
+
+std::map<std::string, double> FractureResults::damaged_areas() const {
+  const auto& through = fracture_.output.slices_through;
+  if (!through) return {};
+  return {{"damaged_area_yz_m2", damaged_area(mesh_, damage_, *through, Vector::UnitX())},
+          {"damaged_area_xz_m2", damaged_area(mesh_, damage_, *through, Vector::UnitY())},
+          {"damaged_area_xy_m2", damaged_area(mesh_, damage_, *through, Vector::UnitZ())}};
+}
+
+std::map<std::string, double> FractureResults::last_energy_release() const {
+  std::map<std::string, double> figures;
+  if (!files_->energy_release || files_->energy_release->rows().empty()) return figures;
+  const std::vector<std::string>& names = files_->energy_release->names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i].ends_with("_G_J_per_m2")) figures["final_" + names[i]] = files_->energy_release->rows().back()[i];
+  return figures;
+}
+
+void FractureResults::write_summary(RunSummary summary) const {
+  summary.case_hash = case_hash_;
+  summary.cells = mesh_.n_cells();
+  summary.steps = last_step_;
+  summary.figures = headlines(files_->curve.rows(), fracture_.output.curve.component);
+  summary.other_figures = damaged_areas();
+  summary.other_figures.merge(last_energy_release());
+  pfdm::write_summary(folder() / summary_file, summary);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,120 @@
+#pragma once
+// The results directory of a fracture run: curve, frames, checkpoint, summary. Files are written whole or not at all;
+// all functions throw ComputationError where they cannot be written.
+
+#include "cases/program/fracture/fracture_case.h"
+#include "cases/program/session/stopwatch.h"
+#include "mesh/mesh.h"
+#include "postproc/cohesive/column_record.h"
+#include "postproc/curves/curve_csv.h"
+#include "postproc/curves/summary.h"
+#include "postproc/fields/pvd.h"
+#include "postproc/fields/vtu_writer.h"
+#include "postproc/files/new_results.h"
+#include "postproc/files/step_table.h"
+#include "solver/fracture/state.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace pfdm {
+
+/// Writes mesh.vtu: material (the number of the region), volume [m^3] and quality figures. Makes the directory.
+void write_mesh(const std::filesystem::path& results, const Mesh& mesh);
+
+/// The state to restart from; none if there is no checkpoint. Throws InputError if it belongs to another case.
+std::optional<FractureState> find_checkpoint(const std::filesystem::path& results, const std::string& case_hash);
+
+/// Whether the directory holds results of a run, complete or not.
+bool has_results(const std::filesystem::path& results);
+
+/// What the columns of a run told. Throws InputError if there is no such record, or if the results belong to another
+/// case.
+std::vector<ColumnRecord> read_column_record(const std::filesystem::path& results, const std::string& case_hash);
+
+/// The force-displacement curve of a run; throws likewise.
+std::vector<CurveRow> read_curve_record(const std::filesystem::path& results, const std::string& case_hash);
+
+/// The record of the columns, or nothing; for a look at results that are known to belong to the case.
+std::vector<ColumnRecord> find_column_record(const std::filesystem::path& results);
+
+/// What the run said of itself when it ended; none while it has not.
+std::optional<RunSummary> find_summary(const std::filesystem::path& results);
+
+struct StoredStep {
+  Index step = 0;
+  std::filesystem::path file;  ///< .vtu
+};
+/// The frames, in the order of their steps; none if there is no list of them.
+std::vector<StoredStep> stored_steps(const std::filesystem::path& results);
+
+class FractureResults {
+ public:
+  /// Continues after `last`, or starts anew: results of an earlier run are kept until the first step is done and
+  /// on the disk. Keeps references to mesh, model, case and columns.
+  FractureResults(std::filesystem::path directory, const Mesh& mesh, const FractureModel& model,
+                  const FractureCase& fracture, const std::vector<ColumnSet>& columns, std::string case_hash,
+                  const std::optional<FractureState>& last);
+
+  /// Where the files are now, in the directory or, as long as earlier results are there, within it.
+  const std::filesystem::path& folder() const { return place_.folder(); }
+  bool wait() const { return place_.wait(); }
+  bool records_columns() const { return files_->columns.has_value(); }
+
+  using Output = std::function<OutputFields()>;
+  /// Appends the row, then writes the frame, if one is due, what the columns tell and the energy release rates, then
+  /// the checkpoint: killed in between, a restart takes what is beyond the checkpoint away and does it again. Returns
+  /// what the user should be warned of.
+  std::vector<std::string> step_done(const FractureState& state, const StepReport& report, const Output& output);
+  /// The curve and the checkpoint of the last state, if step_done() has left them to later; earlier results go away.
+  void write_what_waits(const FractureState& state);
+  /// A frame of the last state, if it has none yet.
+  void write_last_frame(const Output& output);
+  /// Fills in what the curve and the last damage tell.
+  void write_summary(RunSummary summary) const;
+
+  const CurveRow& last_row() const { return files_->curve.rows().back(); }
+
+ private:
+  /// The files that grow with the steps.
+  struct Files {
+    Files(const std::filesystem::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
+          std::optional<Index> last_step);
+    CurveFile curve;
+    PvdSeries frames;
+    std::optional<ColumnFiles> columns;
+    std::optional<StepTable> energy_release;
+  };
+
+  bool frame_is_due(const FractureState& state) const;
+  bool may_wait() const;
+  void write_state(const FractureState& state);
+  void take_place(const FractureState& state);
+  void write_frame(Index step, double load, const OutputFields& output);
+  void add_energy_release(const FractureState& state, const OutputFields& output, std::vector<std::string>& warnings);
+  std::map<std::string, double> damaged_areas() const;
+  std::map<std::string, double> last_energy_release() const;
+
+  std::filesystem::path directory_;
+  const Mesh& mesh_;
+  const FractureCase& fracture_;
+  const FractureModel& model_;
+  const std::vector<ColumnSet>& sets_;
+  std::string case_hash_;
+  Index curve_patch_;
+  NewResults place_;
+  std::optional<Files> files_;
+  VtuWriter writer_;
+  std::vector<bool> warned_of_tip_;  // region by region
+  Index last_step_ = 0;
+  double last_load_ = 0.0;
+  CellField<double> damage_;
+  Stopwatch since_written_;
+  bool has_stepped_ = false;
+  bool waits_ = false;  // curve and checkpoint, for a later step
+};
+
+}  // namespace pfdm

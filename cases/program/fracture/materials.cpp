@@ -1,0 +1,328 @@
+#include "cases/program/fracture/materials.h"
+
+#include "cases/program/input/amount.h"
+#include "cases/program/input/path_reader.h"
+#include "cases/program/point/endochronic_material.h"
+#include "physics/interface_toughness.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+/// Of [materials.NAME] and of [regions.NAME].
+constexpr std::string_view material_keys[] = {"regions",   "young_modulus", "poisson_ratio", "toughness",
+                                              "strength",  "length",        "damageable",    "kernel",
+                                              "hardening", "rate",          "beta"};
+constexpr std::string_view region_keys[] = {"young_modulus", "poisson_ratio", "toughness", "strength",
+                                            "length",        "damageable",    "band"};
+
+/// What a material or a region's override may say.
+struct MaterialKeys {
+  std::optional<Parameter> young_modulus, poisson_ratio, toughness, strength, length;
+  std::optional<bool> damageable;
+  std::shared_ptr<const EndochronicLaw> endochronic{};
+
+  bool varies() const {
+    return std::ranges::any_of(std::array{&young_modulus, &poisson_ratio, &toughness, &strength, &length},
+                               [](const auto* parameter) { return *parameter && (*parameter)->varies; });
+  }
+};
+
+std::optional<double> value_at(const std::optional<Parameter>& parameter, const Vector& x) {
+  return parameter ? std::optional(parameter->at(x)) : std::nullopt;
+}
+
+std::optional<Parameter> find_parameter(const ConfigTable& table, std::string_view key, const Dimension& due,
+                                        const Range& allowed = range::positive) {
+  const auto value = table.find(key);
+  return value ? std::optional(read_parameter(*value, due, allowed)) : std::nullopt;
+}
+
+MaterialKeys read_keys(const ConfigTable& table) {
+  MaterialKeys keys;
+  keys.young_modulus = find_parameter(table, "young_modulus", dimension::stress);
+  keys.poisson_ratio = find_parameter(table, "poisson_ratio", dimension::number, range::poisson_ratio);
+  keys.toughness = find_parameter(table, "toughness", dimension::toughness);
+  keys.strength = find_parameter(table, "strength", dimension::stress);
+  keys.length = find_parameter(table, "length", dimension::length);
+  if (const auto value = table.find("damageable")) keys.damageable = value->boolean();
+  return keys;
+}
+
+MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by) {
+  if (by.young_modulus) base.young_modulus = by.young_modulus;
+  if (by.poisson_ratio) base.poisson_ratio = by.poisson_ratio;
+  if (by.toughness) base.toughness = by.toughness;
+  if (by.strength) base.strength = by.strength;
+  if (by.length) base.length = by.length;
+  if (by.damageable) base.damageable = by.damageable;
+  return base;
+}
+
+// Strength and toughness make the coefficients of the degradation.
+RationalCoefficients make_coefficients(std::optional<double> strength, const RegionModel& model,
+                                       const std::string& region, const SofteningLaw& law, const ConfigTable& table) {
+  if (!strength)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no strength (ft), which the softening law "
+                    "\"{}\" needs; give strength, as in \"{}\", or damageable = false",
+                    region, law.name, dimension::stress.example));
+  const double E = model.elasticity.young_modulus(), longest = longest_length(law, E, model.Gc, *strength);
+  if (model.ell > longest)
+    throw table.error(
+        fmt::format("region \"{}\": the length (ell) is {:.4g} m; with this strength and toughness the "
+                    "\"{}\" law needs one of at most {:.4g} m",
+                    region, model.ell, law.name, longest));
+  return rational_coefficients(law, E, model.Gc, *strength, model.ell);
+}
+
+RegionModel make_model(const MaterialKeys& keys, const std::string& region, const MaterialDefaults& defaults,
+                       const ConfigTable& table, const Vector& x) {
+  RegionModel model;
+  model.elasticity = from_young_poisson(keys.young_modulus->at(x), keys.poisson_ratio->at(x));
+  model.endochronic = keys.endochronic;
+  model.damageable = keys.damageable.value_or(true);
+  model.Gc = value_at(keys.toughness, x).value_or(0.0);
+  model.ell = value_at(keys.length, x).value_or(defaults.ell.value_or(0.0));
+  if (!model.damageable) return model;
+  if (!keys.toughness)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no toughness (Gc); give toughness, as in "
+                    "\"{}\", or damageable = false",
+                    region, dimension::toughness.example));
+  if (model.ell == 0.0)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no length (ell); give it in [fracture] or "
+                    "here, as in \"10 um\"",
+                    region));
+  if (defaults.softening != nullptr)
+    model.rational = make_coefficients(value_at(keys.strength, x), model, region, *defaults.softening, table);
+  return model;
+}
+
+struct RegionOverride {
+  std::string region;
+  ConfigValue value;
+  MaterialKeys keys;
+  std::optional<Band> band;  // where the file tells what the mesh generator does not
+  bool used = false;
+};
+
+std::optional<Band> read_band(const std::string& region, const ConfigTable& table) {
+  if (!table.has("band")) return std::nullopt;
+  const ConfigTable band = table.table("band").with_keys({"width", "between"});
+  const std::vector<ConfigValue> between = band.at("between").list(2);
+  table.in_context([&] { return require_plain_name(region, "a folder"), true; });
+  return Band{
+      region, band.quantity("width", dimension::length, range::positive), {between[0].string(), between[1].string()}};
+}
+
+std::vector<RegionOverride> read_overrides(const ConfigTable& root) {
+  std::vector<RegionOverride> overrides;
+  if (!root.has("regions")) return overrides;
+  for (const auto& [name, value] : root.table("regions").entries()) {
+    const ConfigTable table = value.table().with_keys(region_keys);
+    overrides.push_back({name, value, read_keys(table), read_band(name, table)});
+  }
+  return overrides;
+}
+
+// A region with what its material and its override say of it.
+struct RegionKeys {
+  std::string region;
+  ConfigValue where;
+  ConfigTable table;  // of the material
+  MaterialKeys keys;
+};
+
+// A history begins with the elasticity of its own table.
+void refuse_other_elasticity(const RegionOverride& over, const MaterialKeys& base) {
+  if (base.endochronic && (over.keys.young_modulus || over.keys.poisson_ratio))
+    throw over.value.error(
+        fmt::format("the material of region \"{}\" is endochronic, whose elasticity cannot be overridden; give it a "
+                    "material of its "
+                    "own",
+                    over.region));
+}
+
+RegionKeys read_region(const ConfigValue& where, const ConfigTable& table, const MaterialKeys& base,
+                       std::vector<RegionOverride>& overrides) {
+  RegionKeys entry{where.string(), where, table, base};
+  for (RegionOverride& over : overrides)
+    if (over.region == entry.region) {
+      refuse_other_elasticity(over, base);
+      entry.keys = overridden(entry.keys, over.keys);
+      over.used = true;
+    }
+  return entry;
+}
+
+RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& name) {
+  const auto found = std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.region == name; });
+  return found == regions.end() ? nullptr : &*found;
+}
+
+void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
+                   std::vector<RegionOverride>& overrides, std::vector<RegionKeys>& regions) {
+  table.at("young_modulus"), table.at("poisson_ratio");
+  MaterialKeys base = read_keys(table);
+  if (table.has("kernel")) base.endochronic = std::make_shared<const EndochronicLaw>(read_endochronic_law(table));
+  const bool varies = base.young_modulus->varies || base.poisson_ratio->varies;
+  const Vector anywhere = Vector::Zero();
+  materials.by_name.push_back({name, varies ? std::nullopt
+                                            : std::optional(from_young_poisson(base.young_modulus->at(anywhere),
+                                                                               base.poisson_ratio->at(anywhere)))});
+  for (const ConfigValue& where : table.at("regions").list()) {
+    const std::string region = where.string();
+    if (find_region(regions, region) != nullptr)
+      throw where.error(fmt::format("region \"{}\" already has a material", region));
+    regions.push_back(read_region(where, table, base, overrides));
+  }
+}
+
+BandNeighbour neighbour(const MaterialKeys& keys, const Vector& x) {
+  if (!keys.damageable.value_or(true)) return {std::numeric_limits<double>::infinity()};
+  return {value_at(keys.toughness, x).value_or(0.0)};
+}
+
+// A band with what it needs to know of its neighbours.
+struct BandToughness {
+  const CrackGeometry* crack;
+  double width;
+  Parameter given, ell;
+  MaterialKeys one, other;
+
+  bool varies() const {
+    const auto does = [](const MaterialKeys& keys) { return keys.toughness && keys.toughness->varies; };
+    return given.varies || ell.varies || does(one) || does(other);
+  }
+  double corrected(const Vector& x) const {
+    return band_toughness(*crack, given.at(x), width, ell.at(x), neighbour(one, x), neighbour(other, x));
+  }
+  double apparent(const Vector& x) const {
+    return apparent_toughness(*crack, given.at(x), width, ell.at(x), neighbour(one, x), neighbour(other, x));
+  }
+};
+
+bool lacks_toughness(const MaterialKeys& keys) { return keys.damageable.value_or(true) && !keys.toughness; }
+
+std::string describe(const Band& band, const BandToughness& toughness, bool corrects) {
+  const std::string between = fmt::format("between \"{}\" and \"{}\"", band.neighbours[0], band.neighbours[1]);
+  const Vector anywhere = Vector::Zero();
+  if (toughness.varies())
+    return fmt::format("region \"{}\" ({:.4g} m wide) {}: toughness varies, {}", band.region, band.width, between,
+                       corrects ? "corrected in each cell for its neighbours" : "as given");
+  const std::string words = fmt::format("region \"{}\" ({:.4g} m wide, ell = {:.4g} m) {}", band.region, band.width,
+                                        toughness.ell.at(anywhere), between);
+  const double given = toughness.given.at(anywhere);
+  if (!corrects)
+    return fmt::format("{}: toughness {:.6g} J/m^2 as given; a crack at its middle will dissipate {:.6g}", words, given,
+                       toughness.apparent(anywhere));
+  return fmt::format("{}: toughness {:.6g} J/m^2, so that a crack at its middle dissipates the {:.6g} given", words,
+                     toughness.corrected(anywhere), given);
+}
+
+// Replaces the toughness of a band by the one with which a crack in it dissipates what was given.
+void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const MaterialDefaults& defaults,
+                       std::vector<std::string>& remarks) {
+  RegionKeys* const found = find_region(regions, band.region);
+  const RegionKeys *one = find_region(regions, band.neighbours[0]), *other = find_region(regions, band.neighbours[1]);
+  if (found == nullptr || one == nullptr || other == nullptr)
+    throw InputError(fmt::format("the band \"{}\" lies between \"{}\" and \"{}\", and one of the three has no material",
+                                 band.region, band.neighbours[0], band.neighbours[1]));
+  MaterialKeys& keys = found->keys;
+  if (!keys.damageable.value_or(true) || !keys.toughness || !(keys.length || defaults.ell)) return;
+  if (lacks_toughness(one->keys) || lacks_toughness(other->keys)) return;
+  const Parameter ell = keys.length ? *keys.length : Parameter{.at = [l = *defaults.ell](const Vector&) { return l; }};
+  const BandToughness toughness{defaults.crack, band.width, *keys.toughness, ell, one->keys, other->keys};
+  remarks.push_back(describe(band, toughness, defaults.corrects_toughness));
+  if (!defaults.corrects_toughness) return;
+  keys.toughness->varies = toughness.varies();
+  keys.toughness->at = [toughness](const Vector& x) { return toughness.corrected(x); };
+}
+
+}  // namespace
+
+const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const {
+  std::vector<std::string> names;
+  for (const NamedElasticity& material : by_name) names.push_back(material.material);
+  const std::string wanted = name.one_of(names, "material");
+  const auto found = std::ranges::find(by_name, wanted, &NamedElasticity::material);
+  if (!found->elasticity)
+    throw name.error(fmt::format("the elasticity of material \"{}\" varies; a uniform one is required here", wanted));
+  return *found->elasticity;
+}
+
+Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults) {
+  Materials materials;
+  std::vector<RegionOverride> overrides = read_overrides(root);
+  std::vector<RegionKeys> regions;
+  for (const auto& [name, value] : root.table("materials").entries())
+    read_material(materials, name, value.table().with_keys(material_keys), overrides, regions);
+  for (const RegionOverride& over : overrides)
+    if (!over.used)
+      throw over.value.error(
+          fmt::format("region \"{}\" has no material; name it in some material's regions", over.region));
+  materials.bands = defaults.bands;
+  for (const RegionOverride& over : overrides)
+    if (over.band) materials.bands.push_back(*over.band);
+  for (const Band& band : materials.bands) correct_toughness(band, regions, defaults, materials.remarks);
+  for (const RegionKeys& entry : regions) {
+    const auto at = [entry, defaults](const Vector& x) {
+      return make_model(entry.keys, entry.region, defaults, entry.table, x);
+    };
+    const bool varies = entry.keys.varies();
+    if (!varies) at(Vector::Zero());  // what is wrong with it is wrong everywhere
+    materials.by_region.push_back(
+        {.region = entry.region,
+         .where = entry.where,
+         .at = at,
+         .varies = varies,
+         .elastic_law = fmt::format("{} | {} | {}", entry.keys.young_modulus->text, entry.keys.poisson_ratio->text,
+                                    fmt::ptr(entry.keys.endochronic.get())),
+         .endochronic = entry.keys.endochronic});
+  }
+  return materials;
+}
+
+namespace {
+
+const RegionMaterial& material_of(const Materials& materials, const std::string& region) {
+  const auto& given = materials.by_region;
+  const auto found = std::ranges::find(given, region, &RegionMaterial::region);
+  if (found == given.end())
+    throw InputError(
+        fmt::format("{}: region \"{}\" of the mesh has no material; name it in the regions of one of "
+                    "[materials.*]",
+                    given.empty() ? "case.toml" : given.front().where.file(), region));
+  return *found;
+}
+
+}  // namespace
+
+void place_materials(const Materials& materials, const Mesh& mesh, FractureModel& model) {
+  for (const RegionMaterial& entry : materials.by_region) entry.where.one_of(mesh.region_names, "region of the mesh");
+  std::vector<const RegionMaterial*> of_region;
+  for (const std::string& region : mesh.region_names) of_region.push_back(&material_of(materials, region));
+  std::vector<Vector> example(of_region.size(), Vector::Zero());
+  for (Index c = mesh.n_cells() - 1; c >= 0; --c) example[as_size(mesh.region[c])] = mesh.cell_centre[c];
+  for (std::size_t r = 0; r < of_region.size(); ++r) {
+    model.regions.push_back(of_region[r]->at(example[r]));
+    // Regions of one law share an elastic zone: the example of the first one serves them all.
+    const auto same = std::ranges::find_if(
+        of_region, [&](const RegionMaterial* other) { return other->elastic_law == of_region[r]->elastic_law; });
+    model.regions[r].elasticity = model.regions[static_cast<std::size_t>(same - of_region.begin())].elasticity;
+  }
+  if (std::ranges::none_of(of_region, &RegionMaterial::varies)) return;
+  model.cells = CellField<RegionModel>(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    model.cells[c] = of_region[as_size(mesh.region[c])]->at(mesh.cell_centre[c]);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,56 @@
+#pragma once
+// The materials of a case and the regions that they fill.
+
+#include "cases/program/fracture/mesh_recipe.h"
+#include "cases/program/input/config.h"
+#include "solver/fracture/fracture_model.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct RegionMaterial {
+  std::string region;
+  ConfigValue where;                                  ///< where the region was given its material
+  std::function<RegionModel(const Vector& x)> at;     ///< at x [m]; throws InputError where a parameter is out of range
+  bool varies = false;                                ///< from place to place
+  std::string elastic_law;                            ///< equal texts are equal elasticities and histories
+  std::shared_ptr<const EndochronicLaw> endochronic;  ///< null: linear elastic
+};
+
+struct NamedElasticity {
+  std::string material;
+  std::optional<IsotropicElasticity> elasticity;  ///< none where it varies
+};
+
+struct Materials {
+  std::vector<NamedElasticity> by_name;
+  std::vector<RegionMaterial> by_region;
+  std::vector<Band> bands;           ///< the mesh generator's and those that [regions.*] tell of
+  std::vector<std::string> remarks;  ///< what was made of the numbers given, to be said in the log
+
+  /// The elasticity of the material that `name` holds; throws InputError naming those there are, or if it varies.
+  const IsotropicElasticity& elasticity(const ConfigValue& name) const;
+};
+
+/// What [fracture] and the mesh say about all materials.
+struct MaterialDefaults {
+  const CrackGeometry* crack = nullptr;
+  std::vector<Band> bands{};                ///< whose toughness is corrected for their neighbours'
+  bool corrects_toughness = true;           ///< else it is taken as given
+  std::optional<double> ell;                ///< of those that give no length of their own [m]
+  const SofteningLaw* softening = nullptr;  ///< to which every material needs a strength; null: none is asked for
+};
+
+/// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file.
+Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults);
+
+/// Gives the model its regions, and its cells where a material varies. Throws InputError for a region without a
+/// material, a material whose region is not in the mesh, and a parameter that is out of range in a cell.
+void place_materials(const Materials& materials, const Mesh& mesh, FractureModel& model);
+
+}  // namespace pfdm

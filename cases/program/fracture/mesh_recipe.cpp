@@ -1,0 +1,295 @@
+#include "cases/program/fracture/mesh_recipe.h"
+
+#include "cases/program/input/amount.h"
+#include "cases/program/input/path_reader.h"
+#include "mesh/box_hexes.h"
+#include "mesh/dual.h"
+#include "mesh/import_mesh.h"
+#include "mesh/particles_in_box.h"
+#include "mesh/patch_rules.h"
+#include "mesh/sphere_sector.h"
+#include "postproc/files/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+namespace pfdm {
+namespace {
+
+constexpr Range cell_count{1.0, 1e6, false, "at least 1"};
+constexpr Range azimuth_range{std::numeric_limits<double>::min(), 0.25 * std::numbers::pi + 1e-9, false,
+                              "more than 0 and at most 45 degrees"};
+constexpr Range dihedral_range{0.0, 30.0, false, "between 0 and 30 degrees"};
+constexpr std::string_view box_keys[] = {"name", "lower", "upper"};
+const std::vector<std::string> box_sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+
+AxisBlock read_block(const ConfigTable& block, std::string_view key, const Dimension& due) {
+  return {.length = block.quantity(key, due, range::positive),
+          .n = static_cast<Index>(block.integer("cells", cell_count)),
+          .ratio = block.number("ratio", range::positive, 1.0)};
+}
+
+/// [{ length = ..., cells = ..., ratio = ... }, ...], or with another key for the extent.
+std::vector<AxisBlock> read_axis(const ConfigValue& blocks, std::string_view key, const Dimension& due) {
+  std::vector<AxisBlock> axis;
+  for (const ConfigValue& entry : blocks.list())
+    axis.push_back(read_block(entry.table().with_keys({key, "cells", "ratio"}), key, due));
+  if (axis.empty())
+    throw blocks.error(fmt::format("the list is empty; it needs at least one {{ {} = ..., cells = ... }}", key));
+  return axis;
+}
+
+std::vector<std::string> names_of_regions(const BoxHexesSettings& settings) {
+  std::vector<std::string> names{settings.base_region};
+  for (const SubRegion& region : settings.regions) names.push_back(region.name);
+  return names;
+}
+
+// Something with a name between two corners.
+template <class NamedBox>
+NamedBox read_box(const ConfigTable& table) {
+  return {.name = table.string("name"), .lower = read_point(table.at("lower")), .upper = read_point(table.at("upper"))};
+}
+
+// The same where the name is that of a patch, which joins the others.
+template <class NamedBox>
+NamedBox read_patch_box(const ConfigTable& table, std::vector<std::string>& patches) {
+  NamedBox box = read_box<NamedBox>(table.with_keys(box_keys));
+  if (std::ranges::find(patches, box.name) != patches.end())
+    throw table.at("name").error("another patch has this name already");
+  patches.push_back(box.name);
+  return box;
+}
+
+MeshRecipe read_box_hexes(const ConfigTable& table, const std::filesystem::path&) {
+  table.with_keys({"generator", "cells", "x", "y", "z", "origin", "region", "regions", "slits", "holes", "patches"});
+  BoxHexesSettings settings;
+  if (const auto origin = table.find("origin")) settings.origin = read_point(*origin);
+  for (std::size_t a = 0; a < 3; ++a)
+    settings.axes[a] = read_axis(table.at(std::string(1, "xyz"[a])), "length", dimension::length);
+  settings.base_region = table.string("region", settings.base_region);
+  for (const ConfigTable& region : table.tables("regions"))
+    settings.regions.push_back(read_box<SubRegion>(region.with_keys(box_keys)));
+  std::vector<std::string> patches = box_sides;
+  for (const ConfigTable& slit : table.tables("slits")) settings.slits.push_back(read_patch_box<Slit>(slit, patches));
+  for (const ConfigTable& hole : table.tables("holes"))
+    settings.holes.push_back(read_patch_box<SubRegion>(hole, patches));
+  for (const ConfigTable& part : table.tables("patches"))
+    settings.patches.push_back(read_patch_box<SurfacePart>(part, patches));
+  return {.make = [settings] { return make_box_hexes(settings); },
+          .regions = names_of_regions(settings),
+          .patches = patches,
+          .data_files = {}};
+}
+
+std::vector<Shell> read_shells(const ConfigValue& list) {
+  std::vector<Shell> shells;
+  for (const ConfigValue& entry : list.list()) {
+    const ConfigTable shell = entry.table().with_keys({"length", "cells", "ratio", "region"});
+    shells.push_back({read_block(shell, "length", dimension::length), shell.string("region")});
+  }
+  if (shells.empty())
+    throw list.error("the list is empty; it needs at least one { length = ..., cells = ..., region = ... }");
+  return shells;
+}
+
+MeshRecipe read_sphere_sector(const ConfigTable& table, const std::filesystem::path&) {
+  table.with_keys({"generator", "cells", "azimuth", "inner_radius", "shells", "polar"});
+  const SphereSectorSettings settings{
+      .azimuth = table.quantity("azimuth", dimension::angle, azimuth_range),
+      .inner_radius = table.quantity("inner_radius", dimension::length, range::not_negative, 0.0),
+      .shells = read_shells(table.at("shells")),
+      .polar = read_axis(table.at("polar"), "angle", dimension::angle)};
+  std::vector<std::string> regions;
+  for (const Shell& shell : settings.shells) regions.push_back(shell.region);
+  std::vector<std::string> patches{"front", "back", "outer"};
+  if (settings.inner_radius > 0.0) patches.emplace_back("inner");
+  const auto add = [](double sum, const AxisBlock& block) { return sum + block.length; };
+  if (std::accumulate(settings.polar.begin(), settings.polar.end(), 0.0, add) < 3.0) patches.emplace_back("equator");
+  return {.make = [settings] { return make_sphere_sector(settings); },
+          .regions = regions,
+          .patches = patches,
+          .data_files = {}};
+}
+
+struct Layers {
+  Index count = 0;
+  double thickness = 0.0;  // of each [m]
+  std::string region = "interface";
+};
+
+Layers read_layers(const ConfigTable& table) {
+  table.with_keys({"count", "thickness", "region"});
+  return {.count = static_cast<Index>(table.integer("count", cell_count)),
+          .thickness = table.quantity("thickness", dimension::length, range::positive),
+          .region = table.has("region") ? read_plain_name(table.at("region"), "a folder") : "interface"};
+}
+
+Particle read_particle(const ConfigTable& table, const Layers& common_layers) {
+  table.with_keys({"centre", "diameter", "region", "subdivisions", "surface_size", "angle", "layers"});
+  Particle particle;
+  if (const auto centre = table.find("centre")) particle.centre = read_point(*centre);
+  particle.radius = 0.5 * table.quantity("diameter", dimension::length, range::positive);
+  particle.region = table.string("region", particle.region);
+  if (table.has("subdivisions") == table.has("surface_size"))
+    throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\"");
+  particle.subdivision = static_cast<Index>(table.integer("subdivisions", cell_count, 0));
+  particle.surface_size = table.quantity("surface_size", dimension::length, range::positive, 0.0);
+  particle.angle = table.quantity("angle", dimension::angle, range::any, particle.angle);
+  const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : common_layers;
+  particle.n_layers = layers.count;
+  particle.layer_thickness = layers.count * layers.thickness;
+  particle.layer_region = layers.region;
+  return particle;
+}
+
+std::vector<std::string> names_of_regions(const ParticlesInBoxSettings& settings) {
+  std::vector<std::string> names{settings.matrix_region};
+  for (const Particle& particle : settings.particles) {
+    names.push_back(particle.region);
+    if (particle.n_layers > 0) names.push_back(particle.layer_region);
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::vector<Band> bands_of(const ParticlesInBoxSettings& settings) {
+  std::vector<Band> bands;  // one a region: the first particle's stands for those that share it
+  std::set<std::string> seen;
+  for (const Particle& particle : settings.particles)
+    if (particle.n_layers > 0 && seen.insert(particle.layer_region).second)
+      bands.push_back({particle.layer_region, particle.layer_thickness, {particle.region, settings.matrix_region}});
+  return bands;
+}
+
+MeshRecipe read_particles_in_box(const ConfigTable& table, const std::filesystem::path&) {
+  table.with_keys({"generator", "cells", "size", "centre", "region", "layers", "particles", "size_far", "boundary_size",
+                   "grading", "particle_size_factor", "max_radius_edge_ratio", "min_dihedral_angle"});
+  ParticlesInBoxSettings settings;
+  const Vector size = read_point(table.at("size"), range::positive);
+  const auto centre_value = table.find("centre");
+  const Vector centre = centre_value ? read_point(*centre_value) : Vector::Zero().eval();
+  settings.lower = centre - 0.5 * size;
+  settings.upper = centre + 0.5 * size;
+  settings.matrix_region = table.string("region", settings.matrix_region);
+  const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : Layers{};
+  for (const ConfigTable& particle : table.tables("particles"))
+    settings.particles.push_back(read_particle(particle, layers));
+  settings.size_far = table.quantity("size_far", dimension::length, range::positive, settings.size_far);
+  settings.boundary_size = table.quantity("boundary_size", dimension::length, range::positive, settings.boundary_size);
+  settings.grading = table.number("grading", range::not_negative, settings.grading);
+  settings.particle_size_factor = table.number("particle_size_factor", range::positive, settings.particle_size_factor);
+  settings.max_radius_edge_ratio =
+      table.number("max_radius_edge_ratio", range::positive, settings.max_radius_edge_ratio);
+  settings.min_dihedral_angle = table.number("min_dihedral_angle", dihedral_range, settings.min_dihedral_angle);
+  return {.make = [settings] { return make_particles_in_box(settings); },
+          .regions = names_of_regions(settings),
+          .patches = box_sides,
+          .data_files = {},
+          .bands = bands_of(settings)};
+}
+
+/// { 1 = "bead", 2 = "matrix" }
+std::map<Index, std::string> read_numbered_names(const ConfigTable& table, std::string_view key) {
+  std::map<Index, std::string> names;
+  if (!table.has(key)) return names;
+  for (const auto& [number, name] : table.table(key).entries()) {
+    const auto index = parse_int(number);
+    if (!index) throw name.error(fmt::format("expected a whole number, as in 1 = \"bead\", found \"{}\"", number));
+    names[*index] = name.string();
+  }
+  return names;
+}
+
+// Of faces in a plane, or between two corners.
+PatchRule read_patch(const ConfigTable& patch, double scale) {
+  patch.with_keys({"name", "axis", "at", "tolerance", "lower", "upper"});
+  // A ten-thousandth of the file's unit: more than the rounding of coordinates in single precision.
+  const double tolerance = patch.quantity("tolerance", dimension::length, range::positive, 1e-4 * scale);
+  if (patch.has("lower") || patch.has("upper")) {
+    const auto box = read_box<SurfacePart>(patch);
+    return patch_within(box.name, box.lower, box.upper, tolerance);
+  }
+  const std::vector<std::string> axes{"x", "y", "z"};
+  const int axis = patch.at("axis").one_of(axes, "axis")[0] - 'x';
+  return plane_patch(patch.string("name"), axis, patch.quantity("at", dimension::length), tolerance);
+}
+
+ImportSettings read_import(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  ImportSettings settings;
+  settings.file = read_data_file(table.at("file"), case_directory);
+  const ConfigValue unit = table.at("length_unit");
+  settings.scale = unit.in_context([&] { return unit_in_si(unit.string(), dimension::length); });
+  settings.region_names = read_numbered_names(table, "region_names");
+  settings.face_sets = read_numbered_names(table, "face_sets");
+  settings.merge_tolerance = table.quantity("merge_tolerance", dimension::length, range::not_negative, 0.0);
+  for (const ConfigTable& patch : table.tables("patches"))
+    settings.patches.push_back(read_patch(patch, settings.scale));
+  return settings;
+}
+
+// Regions and patches are known when the file is read.
+MeshRecipe imported(const ImportSettings& settings, Mesh (*import)(const ImportSettings&)) {
+  return {.make = [settings, import] { return import(settings); },
+          .regions = {},
+          .patches = {},
+          .data_files = {settings.file}};
+}
+
+MeshRecipe read_vtk(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  table.with_keys({"generator", "cells", "file", "length_unit", "region_array", "region_names", "face_array",
+                   "face_sets", "merge_tolerance", "patches"});
+  ImportSettings settings = read_import(table, case_directory);
+  settings.region_array = table.string("region_array", "");
+  settings.face_array = table.string("face_array", "");
+  return imported(settings, import_vtk);
+}
+
+MeshRecipe read_gmsh(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  table.with_keys(
+      {"generator", "cells", "file", "length_unit", "region_names", "face_sets", "merge_tolerance", "patches"});
+  return imported(read_import(table, case_directory), import_gmsh);
+}
+
+Mesh as_generated(Mesh mesh) { return mesh; }
+Mesh polyhedra(Mesh mesh) { return barycentric_dual(mesh); }
+
+constexpr CellKind cell_kind_table[] = {
+    {"as_generated", "the generator's own cells", as_generated},
+    {"polyhedra", "the barycentric dual of tetrahedra and prisms: a polyhedron for each of their vertices", polyhedra},
+};
+
+constexpr MeshGenerator table[] = {
+    {"particles_in_box", "a box of tetrahedra with spheres in prism layers", read_particles_in_box},
+    {"box_hexes", "a box of hexahedra, graded along each axis, with regions, slits and holes", read_box_hexes},
+    {"sphere_sector", "concentric shells about the axis z, one cell wide in azimuth: axisymmetric problems",
+     read_sphere_sector},
+    {"vtk", "a mesh from a .vtu or legacy .vtk file", read_vtk},
+    {"gmsh", "a mesh from a .msh file of Gmsh, regions and patches by its physical groups", read_gmsh},
+};
+
+}  // namespace
+
+std::span<const MeshGenerator> mesh_generators() { return table; }
+std::span<const CellKind> cell_kinds() { return cell_kind_table; }
+
+MeshRecipe read_mesh_recipe(const ConfigTable& settings, const std::filesystem::path& case_directory) {
+  const MeshGenerator& generator = choose(settings.at("generator"), mesh_generators(), "mesh generator");
+  MeshRecipe recipe = generator.read(settings, case_directory);
+  const auto cells = settings.find("cells");
+  const CellKind& kind = cells ? choose(*cells, cell_kinds(), "kind of cells") : cell_kind_table[0];
+  recipe.make = [make = recipe.make, turn_into = kind.turn_into, settings] {
+    return settings.in_context([&] { return turn_into(make()); });
+  };
+  return recipe;
+}
+
+}  // namespace pfdm

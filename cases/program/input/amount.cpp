@@ -1,0 +1,80 @@
+#include "cases/program/input/amount.h"
+
+#include "cases/program/input/expression.h"
+
+#include <fmt/format.h>
+
+namespace pfdm {
+namespace {
+
+bool has_unit(const Dimension& due) { return due.name != dimension::number.name; }
+
+struct ExpressionInUnit {
+  Expression expression;
+  double factor;  // one unit in SI
+};
+
+ExpressionInUnit read_expression(const ConfigTable& table, const Dimension& due) {
+  table.with_keys({"expr", "unit"});
+  const ConfigValue text = table.at("expr");
+  double factor = 1.0;
+  if (has_unit(due) || table.has("unit")) {
+    const ConfigValue unit = table.at("unit");
+    factor = unit.in_context([&] { return unit_in_si(unit.string(), due); });
+  }
+  return {text.in_context([&] { return Expression(text.string()); }), factor};
+}
+
+double plain_value(const ConfigValue& value, const Dimension& due, const Range& allowed) {
+  return has_unit(due) ? value.quantity(due, allowed) : value.number(allowed);
+}
+
+}  // namespace
+
+Amount read_amount(const ConfigValue& value, const Dimension& due) {
+  if (value.is_table())
+    return {.value =
+                [value, scaled = read_expression(value.table(), due)](const Vector& x, double t) {
+                  return value.in_context([&] { return scaled.factor * scaled.expression(x, t); });
+                },
+            .at_full_load = std::nullopt};
+  const double full = value.quantity(due);
+  return {.value = [full](const Vector&, double t) { return t * full; }, .at_full_load = full};
+}
+
+Parameter read_parameter(const ConfigValue& value, const Dimension& due, const Range& allowed) {
+  if (!value.is_table()) {
+    const double plain = plain_value(value, due, allowed);
+    return {.at = [plain](const Vector&) { return plain; }, .varies = false, .text = fmt::format("{}", plain)};
+  }
+  const ConfigTable table = value.table();
+  const ExpressionInUnit scaled = read_expression(table, due);
+  if (scaled.expression.uses_load())
+    throw value.error("this may depend on x, y and z (metres) only, not on the load parameter t");
+  const auto at = [value, scaled, due, allowed](const Vector& x) {
+    const double here = value.in_context([&] { return scaled.factor * scaled.expression(x, 0.0); });
+    if (!allowed.holds(here))
+      throw value.error(fmt::format("{:.6g}{} at ({:.6g}, {:.6g}, {:.6g}) m must be {}", here,
+                                    has_unit(due) ? fmt::format(" {}", due.si_unit) : "", x[0], x[1], x[2],
+                                    allowed.words));
+    return here;
+  };
+  return {.at = at, .varies = true, .text = fmt::format("{} * {}", scaled.factor, table.string("expr"))};
+}
+
+Vector read_point(const ConfigValue& value, const Range& allowed) {
+  const auto entries = value.list(3);
+  Vector point;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    point[i] = entries[static_cast<std::size_t>(i)].quantity(dimension::length, allowed);
+  return point;
+}
+
+Vector read_direction(const ConfigValue& value) {
+  const std::vector<ConfigValue> entries = value.list(3);
+  const Vector direction(entries[0].number(), entries[1].number(), entries[2].number());
+  if (!(direction.norm() > 0.0)) throw value.error("a direction must not be zero");
+  return direction;
+}
+
+}  // namespace pfdm

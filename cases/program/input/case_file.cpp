@@ -1,0 +1,135 @@
+#include "cases/program/input/case_file.h"
+
+#include "postproc/files/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace pfdm {
+namespace {
+
+constexpr std::string_view format_version = "pfdm case 2";
+constexpr std::uint64_t hash_of_nothing = 0xcbf29ce484222325ULL;
+
+std::uint64_t add_to_hash(std::uint64_t hash, std::string_view bytes) {
+  for (const char byte : bytes) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash *= 0x100000001b3ULL;
+  }
+  return hash;
+}
+
+// The table that a line opens, as in "material.hardening"; none if it opens none. A multi-line list also has lines that
+// begin with a bracket.
+std::optional<std::string> opened_table(const std::string& line) {
+  static const std::regex header(R"(^\s*\[\[?\s*([A-Za-z_](?:[A-Za-z0-9_.\s-]*[A-Za-z0-9_-])?)\s*\]\]?\s*(#.*)?$)");
+  std::smatch match;
+  return std::regex_match(line, match, header) ? std::optional(match[1].str()) : std::nullopt;
+}
+
+/// As opposed to what is there and cannot be read.
+bool is_not_there(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found;
+}
+
+std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  using std::filesystem::absolute, std::filesystem::weakly_canonical;
+  return std::filesystem::relative(weakly_canonical(absolute(file)), weakly_canonical(absolute(folder))).string();
+}
+
+/// The values that name files, in the order of the text.
+std::vector<const TomlValue*> values_that_name_files(const TomlValue& root) {
+  std::vector<const TomlValue*> found;
+  const auto search = [&found](const auto& self, std::string_view key, const TomlValue& value) -> void {
+    if ((key == "csv" || key == "file") && std::holds_alternative<std::string>(value.value)) found.push_back(&value);
+    if (const auto* list = std::get_if<TomlArray>(&value.value))
+      for (const TomlValue& element : *list) self(self, "", element);
+    if (const auto* table = std::get_if<TomlTable>(&value.value))
+      for (const auto& [name, entry] : *table) self(self, name, entry);
+  };
+  search(search, "", root);
+  std::ranges::sort(found, {}, [](const TomlValue* value) { return std::pair(value->line, value->column); });
+  return found;
+}
+
+}  // namespace
+
+CaseFile open_case(const std::filesystem::path& where) {
+  std::error_code ignored;
+  const bool is_file = where.extension() == ".toml" && !std::filesystem::is_directory(where, ignored);
+  const std::filesystem::path directory = !is_file ? where : where.has_parent_path() ? where.parent_path() : ".";
+  const std::filesystem::path file = is_file ? where : where / "case.toml";
+  if (is_not_there(where)) throw InputError(fmt::format("{}: there is no such case directory", where.string()));
+  if (is_not_there(file)) throw InputError(fmt::format("{}: it contains no case.toml", where.string()));
+  std::string text = read_file(file);
+  Config config(text, file.string());
+  return {.directory = directory, .text = std::move(text), .config = std::move(config)};
+}
+
+std::string case_name(const CaseFile& file) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory)).filename().string();
+}
+
+std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
+                      std::span<const std::string_view> left_out) {
+  std::uint64_t hash = add_to_hash(hash_of_nothing, format_version);
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  for (const auto& [key, value] : std::get<TomlTable>(root.value))
+    if (key != "title" && std::ranges::count(left_out, key) == 0) hash = add_to_hash(hash, key + written(value));
+  for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
+  return fmt::format("{:016x}", hash);
+}
+
+CaseFile with_text(const CaseFile& file, std::string text) {
+  Config config(text, (file.directory / "case.toml").string());
+  return {.directory = file.directory, .text = std::move(text), .config = std::move(config)};
+}
+
+std::string table_hash(const CaseFile& file, std::string_view table,
+                       std::span<const std::filesystem::path> data_files) {
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  std::uint64_t hash = add_to_hash(hash_of_nothing, written(value_at(root, table)));
+  for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
+  return fmt::format("{:016x}", hash);
+}
+
+std::string with_paths(const CaseFile& file, const std::function<std::string(const std::string&)>& renamed) {
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  const std::vector<const TomlValue*> values = values_that_name_files(root);
+  std::vector<std::string> names;
+  for (const TomlValue* value : values) names.push_back(renamed(std::get<std::string>(value->value)));
+  std::string text = file.text;
+  for (std::size_t i = values.size(); i-- > 0;)  // from the end: what stands before stays put
+    text = with_value(text, *values[i], quoted_toml(names[i]));
+  return text;
+}
+
+std::string moved(const CaseFile& file, const std::filesystem::path& folder) {
+  return with_paths(file, [&](const std::string& name) { return seen_from(folder, file.directory / name); });
+}
+
+std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,
+                       const std::filesystem::path& folder) {
+  std::istringstream lines(moved(file, folder));
+  std::string result;
+  bool within = false, written = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (const auto opened = opened_table(line))
+      within = *opened == table || opened->starts_with(std::string(table) + ".");
+    if (within && !written) {
+      result += text;
+      written = true;
+    }
+    if (!within) result += line + "\n";
+  }
+  return result;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,41 @@
+#include "cases/program/input/path_reader.h"
+
+#include "postproc/files/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace pfdm {
+namespace {
+
+constexpr std::size_t longest_name = 100;  // file systems allow 255 bytes, endings and all
+
+bool may_stand_in_a_name(unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; }
+
+}  // namespace
+
+void require_plain_name(std::string_view name, std::string_view use) {
+  if (!name.empty() && name.size() <= longest_name && name.front() != '.' &&
+      std::ranges::all_of(name, may_stand_in_a_name))
+    return;
+  throw InputError(
+      fmt::format("\"{}\" is used as the name of {}; it may have letters, digits, _ and - only, and . but not at the "
+                  "beginning, at most {} characters",
+                  name, use, longest_name));
+}
+
+std::string read_plain_name(const ConfigValue& value, std::string_view use) {
+  std::string name = value.string();
+  value.in_context([&] { return require_plain_name(name, use), true; });
+  return name;
+}
+
+std::filesystem::path read_data_file(const ConfigValue& value, const std::filesystem::path& case_directory) {
+  std::filesystem::path file = case_directory / value.string();
+  value.in_context([&] { return require_file(file), true; });
+  return file;
+}
+
+}  // namespace pfdm

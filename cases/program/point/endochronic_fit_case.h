@@ -1,0 +1,27 @@
+#pragma once
+// [fit] of a case of kind "endochronic": experiments, method, bounds.
+
+#include "cases/program/input/config.h"
+#include "solver/point/endochronic_identification.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct EndochronicFit {
+  const IdentificationMethod* method = nullptr;
+  EndochronicIdentificationSettings settings;
+  std::vector<MaterialExperiment> experiments;
+  std::vector<std::filesystem::path> data_files;
+};
+
+/// The file of the results that has an experiment's curve; names that differ may have the same.
+std::string fit_curve_file(const std::string& experiment);
+
+/// `law`: the first guess. Throws InputError with the place of what is wrong.
+EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw& law,
+                                    const std::filesystem::path& case_directory);
+
+}  // namespace pfdm

@@ -1,0 +1,87 @@
+#include "cases/program/point/endochronic_fit_results.h"
+
+#include "cases/program/point/endochronic_material.h"
+#include "postproc/curves/fit_json.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/csv_table.h"
+
+#include <fmt/format.h>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What was followed, what was measured and what the fitted law answers.
+CsvTable curve(const MaterialExperiment& experiment, const EndochronicLaw& law, const ControlSettings& control) {
+  CsvTable table;
+  table.comments.push_back(fmt::format("experiment {}: measured stress and that of the fitted law", experiment.name));
+  table.add("time_s", experiment.loading.times);
+  const HistoryResult history = run_history(law, {experiment.loading}, control);
+  if (!history.converged) throw ComputationError(fmt::format("experiment {}: {}", experiment.name, history.failure));
+  for (int k = 0; k < n_components; ++k) {
+    const auto name = component_names[static_cast<std::size_t>(k)];
+    if (experiment.loading.conditions[static_cast<std::size_t>(k)].condition.on_strain.isZero()) continue;
+    std::vector<double> strain;
+    for (const HistoryPoint& point : history.points) strain.push_back(point.state.strain[k] / mandel_factor(k));
+    table.add(fmt::format("strain_{}", name), std::move(strain));
+  }
+  for (const MaterialExperiment::Channel& channel : experiment.channels) {
+    const auto name = component_names[static_cast<std::size_t>(channel.component)];
+    std::vector<double> fitted;
+    for (const HistoryPoint& point : history.points)
+      fitted.push_back(point.stress[channel.component] / mandel_factor(channel.component));
+    table.add(fmt::format("measured_stress_{}_Pa", name), channel.stress);
+    table.add(fmt::format("fitted_stress_{}_Pa", name), std::move(fitted));
+  }
+  return table;
+}
+
+std::vector<ExperimentMisfit> misfits(const EndochronicFit& fit, const EndochronicLaw& law) {
+  std::vector<ExperimentMisfit> result;
+  for (const MaterialExperiment& experiment : fit.experiments) {
+    std::size_t n = 0;
+    for (const auto& channel : experiment.channels) n += channel.stress.size();
+    result.push_back({.name = experiment.name,
+                      .n_data = n,
+                      .rms = rms_misfit(law, experiment, fit.settings.control),
+                      .rms_measured = rms_stress({experiment}),
+                      .curve = fit_curve_file(experiment.name)});
+  }
+  return result;
+}
+
+}  // namespace
+
+void write_fit_results(const fs::path& results, const CaseFile& file, const EndochronicFit& fit,
+                       const EndochronicIdentification& found, const FitRun& run) {
+  for (const MaterialExperiment& experiment : fit.experiments)
+    write_csv(results / fit_curve_file(experiment.name), curve(experiment, found.fit.law, fit.settings.control));
+  for (std::size_t i = 0; i < found.transients.size(); ++i) {
+    CsvTable table;
+    std::vector<double> zeta, rate, f, weight;
+    for (const HardeningPoint& p : found.transients[i])
+      zeta.push_back(p.zeta), rate.push_back(p.rate), f.push_back(p.f), weight.push_back(p.weight);
+    table.add("zeta", std::move(zeta));
+    table.add("zeta_rate_per_s", std::move(rate));
+    table.add("f", std::move(f));
+    table.add("weight_Pa", std::move(weight));
+    write_csv(results / ("transient_" + fit_curve_file(fit.experiments[i].name)), table);
+  }
+  write_file(results / "case.fitted.toml",
+             with_table(file, "material", "# estimated by pfdm fit\n" + to_toml(found.fit.law) + "\n", results));
+  write_fit_json(results / "fit.json", {.case_name = run.case_name,
+                                        .case_hash = run.case_hash,
+                                        .version = run.version,
+                                        .method = std::string(fit.method->name),
+                                        .wall_seconds = run.wall_seconds,
+                                        .parameters = found.fit.parameters,
+                                        .result = found.fit.result,
+                                        .experiments = misfits(fit, found.fit.law),
+                                        .tried = found.tried,
+                                        .rounds = found.rounds,
+                                        .stages = {},
+                                        .runs = std::nullopt});
+}
+
+}  // namespace pfdm

@@ -1,0 +1,102 @@
+#include "cases/program/point/endochronic_material.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace pfdm {
+namespace {
+
+Kernel read_kernel(const ConfigTable& material) {
+  Kernel kernel;
+  for (const ConfigTable& term : material.tables("kernel")) {
+    term.with_keys({"C", "alpha"});
+    kernel.push_back(
+        {term.quantity("C", dimension::stress, range::positive), term.number("alpha", range::not_negative)});
+  }
+  if (kernel.empty())
+    throw material.error("\"kernel\" needs at least one term, as in kernel = [{ C = \"60 GPa\", alpha = 3000 }]");
+  return kernel;
+}
+
+std::vector<double> read_points(const ConfigTable& table) {
+  std::vector<double> zeta, f;
+  for (const ConfigValue& point : table.at("points").list()) {
+    const auto pair = point.list(2);
+    zeta.push_back(pair[0].number());
+    f.push_back(pair[1].number());
+  }
+  zeta.insert(zeta.end(), f.begin(), f.end());
+  return zeta;
+}
+
+double read_parameter(const ConfigTable& table, const FactorParameter& due) {
+  const Range& allowed = due.may_be_zero ? range::not_negative : range::positive;
+  const bool has_default = !std::isnan(due.otherwise);
+  if (due.unit == "1")
+    return has_default ? table.number(due.name, allowed, due.otherwise) : table.number(due.name, allowed);
+  return table.quantity(due.name, dimension::rate, allowed);
+}
+
+std::vector<std::string_view> keys_of(const FactorLaw& law) {
+  std::vector<std::string_view> keys{"law"};
+  if (law.tabulated) keys.push_back("points");
+  for (const FactorParameter& parameter : law.parameters) keys.push_back(parameter.name);
+  return keys;
+}
+
+Factor read_factor(const ConfigTable& material, std::string_view key, std::span<const FactorLaw> laws,
+                   const FactorLaw& otherwise, std::string_view what) {
+  if (!material.has(key)) return make_factor(otherwise, {});
+  const ConfigTable table = material.table(key);
+  const FactorLaw& law = choose(table.at("law"), laws, what);
+  table.with_keys(keys_of(law));
+  std::vector<double> p;
+  if (law.tabulated) p = read_points(table);
+  for (const FactorParameter& due : law.parameters) p.push_back(read_parameter(table, due));
+  return table.in_context([&] { return make_factor(law, p); });
+}
+
+std::string factor_toml(std::string_view key, const Factor& factor) {
+  std::string text = fmt::format("\n[material.{}]\nlaw = \"{}\"\n", key, factor.law->name);
+  if (factor.law->tabulated) {
+    const std::size_t n = factor.p.size() / 2;
+    std::vector<std::string> points;
+    for (std::size_t i = 0; i < n; ++i) points.push_back(fmt::format("[{}, {}]", factor.p[i], factor.p[n + i]));
+    return text + fmt::format("points = [{}]\n", fmt::join(points, ", "));
+  }
+  for (std::size_t i = 0; i < factor.p.size(); ++i) {
+    const FactorParameter& due = factor.law->parameters[i];
+    text += due.unit == "1" ? fmt::format("{} = {}\n", due.name, factor.p[i])
+                            : fmt::format("{} = \"{} {}\"\n", due.name, factor.p[i], due.unit);
+  }
+  return text;
+}
+
+}  // namespace
+
+EndochronicLaw read_endochronic_law(const ConfigTable& material) {
+  EndochronicLaw law;
+  const double E = material.quantity("young_modulus", dimension::stress, range::positive);
+  law.elasticity = from_young_poisson(E, material.number("poisson_ratio", range::poisson_ratio));
+  law.kernel = read_kernel(material);
+  law.hardening.with_path =
+      read_factor(material, "hardening", hardening_laws(), hardening_law("constant"), "hardening law");
+  law.hardening.with_rate = read_factor(material, "rate", rate_factors(), rate_factor("none"), "rate factor");
+  law.beta = material.number("beta", range::fraction, law.beta);
+  material.in_context([&] {
+    check(law);
+    return 0;
+  });
+  return law;
+}
+
+std::string to_toml(const EndochronicLaw& law) {
+  std::vector<std::string> terms;
+  for (const auto& [C, alpha] : law.kernel) terms.push_back(fmt::format("{{ C = \"{} Pa\", alpha = {} }}", C, alpha));
+  return fmt::format("[material]\nyoung_modulus = \"{} Pa\"\npoisson_ratio = {}\nbeta = {}\nkernel = [\n  {},\n]\n",
+                     law.elasticity.young_modulus(), law.elasticity.poisson_ratio(), law.beta,
+                     fmt::join(terms, ",\n  ")) +
+         factor_toml("hardening", law.hardening.with_path) + factor_toml("rate", law.hardening.with_rate);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,186 @@
+#include "cases/program/point/endochronic_program.h"
+
+#include "cases/program/point/endochronic_case.h"
+#include "cases/program/point/endochronic_fit_results.h"
+#include "cases/program/point/endochronic_report.h"
+#include "cases/program/session/earlier_results.h"
+#include "cases/program/session/report_parts.h"
+#include "cases/program/session/stopwatch.h"
+#include "postproc/curves/history_csv.h"
+#include "postproc/curves/summary.h"
+#include "postproc/files/folder_lock.h"
+#include "postproc/files/new_results.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+struct EndochronicProgram {
+  CaseFile file;
+  EndochronicCase point;
+  std::string name;
+  std::string hash;
+};
+
+std::size_t n_increments(const EndochronicLoading& loading) {
+  std::size_t n = 0;
+  for (const LoadSegment& segment : loading.segments) n += segment.times.size() - 1;
+  return n;
+}
+
+/// Without a yield surface even the first strain is partly plastic.
+void say_initial_stiffness(const EndochronicLaw& law, Log& log) {
+  double C = 0.0;
+  for (const KernelTerm& term : law.kernel) C += term.C;
+  const double E = law.elasticity.young_modulus();
+  const double slope = E * 3.0 * C / (E + 3.0 * C);
+  log.say(fmt::format("tension begins with a slope of {:.6g} Pa, {:.1f} % of Young's modulus (sum of C: {:.6g} Pa)",
+                      slope, 100.0 * slope / E, C));
+}
+
+void say_law(const EndochronicLaw& law, Log& log) {
+  for (const KernelTerm& term : law.kernel) log.say(fmt::format("  C {:.6g} Pa, alpha {:.6g}", term.C, term.alpha));
+  log.say(fmt::format("hardening {}, rate factor {}", law.hardening.with_path.law->name,
+                      law.hardening.with_rate.law->name));
+  const double radius = saturation_radius(law, 0.0, 0.0);
+  if (std::isfinite(radius))
+    log.say(fmt::format("before hardening tension saturates at {:.6g} Pa", std::sqrt(1.5) * radius));
+  say_initial_stiffness(law, log);
+}
+
+void say_fit(const EndochronicFit& fit, const EndochronicLaw& law, Log& log) {
+  std::vector<std::string> names;
+  for (const FitParameter& p : fit_parameters(law, fit.settings.choice)) names.push_back(p.name);
+  log.say(fmt::format("fit by the method {} to {} experiments of {} stresses, rms {:.6g} Pa; first guess of {}",
+                      fit.method->name, fit.experiments.size(), n_stresses(fit.experiments),
+                      rms_stress(fit.experiments), fmt::join(names, ", ")));
+}
+
+void check(const EndochronicProgram& program, Session& session) {
+  const EndochronicCase& point = program.point;
+  session.log.say(fmt::format("{}: {}", program.name, point.title));
+  session.log.say(fmt::format("a material point; kernel of {} terms", point.law.kernel.size()));
+  say_law(point.law, session.log);
+  session.log.say(
+      fmt::format("{} segments, {} increments", point.loading.segments.size(), n_increments(point.loading)));
+  if (point.fit) say_fit(*point.fit, point.law, session.log);
+  session.log.say(fmt::format("results go to {}", session.results.string()));
+  session.log.say("the input is valid");
+}
+
+constexpr const char* history_file = "history.csv";
+
+bool has_results(const std::filesystem::path& results) {
+  return std::filesystem::exists(results / history_file) || std::filesystem::exists(results / summary_file);
+}
+
+void remove_earlier_run(const std::filesystem::path& results) {
+  std::error_code ignored;
+  for (const char* file : {summary_file, history_file}) std::filesystem::remove(results / file, ignored);
+  remove_report(results);
+}
+
+void write_results(const EndochronicProgram& program, const HistoryResult& history, const Session& session,
+                   const std::filesystem::path& folder, double seconds) {
+  write_csv(folder / history_file, history_table(program.point.law, history));
+  RunSummary summary;
+  summary.case_name = program.name;
+  summary.status = history.converged ? "complete" : "failed: " + history.failure;
+  summary.version = session.version;
+  summary.case_hash = program.hash;
+  summary.threads = session.threads;
+  summary.steps = static_cast<Index>(history.points.size() - 1);
+  summary.wall_seconds = seconds;
+  summary.cpu_seconds = cpu_seconds();
+  summary.peak_memory = peak_memory();
+  summary.other_figures = history_figures(program.point.law, history);
+  summary.other_counts = {{"newton_iterations", newton_iterations(history)}};
+  write_summary(folder / summary_file, summary);
+}
+
+void run_case(const EndochronicProgram& program, Session& session) {
+  const Stopwatch watch;
+  Log& log = session.log;
+  log.say(fmt::format("pfdm {}, case {}: {}", session.version, program.name, program.point.title));
+  const FolderLock lock(session.results);
+  NewResults place(session.results, has_results(session.results));
+  log.open_file(place.folder() / "run.log", false);
+  if (place.wait()) say_what_is_replaced(session, program.hash, false);
+  say_law(program.point.law, log);
+  const EndochronicLoading& loading = program.point.loading;
+  const HistoryResult history = run_history(program.point.law, loading.segments, loading.settings);
+  const double seconds = watch.seconds();
+  write_results(program, history, session, place.folder(), seconds);
+  if (history.points.size() > 1) place.take_place([&] { remove_earlier_run(session.results); }, summary_file);
+  for (const auto& [name, value] : history_figures(program.point.law, history))
+    log.say(fmt::format("  {} = {:.6g}", name, value));
+  log.say(fmt::format("  newton_iterations = {}", newton_iterations(history)));
+  log.say(fmt::format("{} after {} of {} increments and {:.2f} s; results in {}",
+                      history.converged ? "complete" : "failed", history.points.size() - 1, n_increments(loading),
+                      seconds, session.results.string()));
+  if (!history.converged) throw NoConvergence(fmt::format("case {}: {}", program.name, history.failure));
+}
+
+void say_estimates(const LawFit& fit, Log& log) {
+  for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+    const FitEstimate& e = fit.result.estimates[j];
+    log.say(fmt::format("  {:<14} {:.6g} {}, 95 % between {:.6g} and {:.6g}", fit.parameters[j].name, e.value,
+                        fit.parameters[j].unit, e.lower_95, e.upper_95));
+  }
+  for (const std::string& warning : fit.result.warnings) log.warn(warning);
+}
+
+void fit_case(const EndochronicProgram& program, Session& session) {
+  const Stopwatch watch;
+  Log& log = session.log;
+  EndochronicFit fit = *program.point.fit;
+  log.say(fmt::format("pfdm {}, fit of {}: {}", session.version, program.name, program.point.title));
+  const FolderLock lock(session.results);
+  log.say(
+      fmt::format("method {}: {}; {} experiments", fit.method->name, fit.method->description, fit.experiments.size()));
+  fit.settings.say = [&log](const std::string& message) { log.say(message); };
+  const EndochronicIdentification found = fit.method->identify(program.point.law, fit.experiments, fit.settings);
+  const double seconds = watch.seconds();
+  log.open_file(session.results / "fit.log", false);  // not before: it belongs to the estimates that are there
+  write_fit_results(session.results, program.file, fit, found, {program.name, program.hash, session.version, seconds});
+  say_estimates(found.fit, log);
+  log.say(fmt::format("rms misfit {:.6g} Pa of {:.6g} Pa rms stress; {} evaluations, {:.1f} s; {}",
+                      rms_misfit(found.fit.law, fit.experiments, fit.settings.control), rms_stress(fit.experiments),
+                      found.fit.result.evaluations, seconds, found.fit.result.message));
+  log.say(fmt::format("written to {}; run it with: pfdm run {}", session.results.string(),
+                      (session.results / "case.fitted.toml").string()));
+}
+
+}  // namespace
+
+RunnableCase read_endochronic_program(const CaseFile& file) {
+  auto program =
+      std::make_shared<EndochronicProgram>(EndochronicProgram{.file = file, .point = {}, .name = {}, .hash = {}});
+  program->point = read_endochronic_case(file.config.root(), file.directory);
+  program->name = case_name(file);
+  const std::vector<std::filesystem::path>& of_run = program->point.loading.data_files;
+  std::vector<std::filesystem::path> data = of_run;
+  if (program->point.fit)
+    data.insert(data.end(), program->point.fit->data_files.begin(), program->point.fit->data_files.end());
+  program->hash = case_hash(file, data);
+  RunnableCase runnable{
+      .title = program->point.title,
+      .check = [program](Session& session) { check(*program, session); },
+      .run = [program](Session& session) { run_case(*program, session); },
+      .report =
+          [program](Session& session) {
+            write_report(endochronic_page(program->point, program->name, program->hash, session.results), session);
+          },
+      .data_files = of_run};
+  runnable.fit = [program](Session& session) { fit_case(*program, session); };
+  if (!program->point.fit)
+    runnable.fit = job_without_table(file, "fit", "[[fit.experiments]] with the measured strains and stresses",
+                                     "endochronic_calibration");
+  return runnable;
+}
+
+}  // namespace pfdm

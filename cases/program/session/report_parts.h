@@ -1,0 +1,53 @@
+#pragma once
+// What the pages of all kinds of case share.
+
+#include "cases/program/session/session.h"
+#include "postproc/page/display_unit.h"
+#include "postproc/page/report_page.h"
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+/// Numbers in SI in the unit that they are shown in.
+std::vector<double> in_unit(std::span<const double> values, const DisplayUnit& unit);
+
+/// The unit that suits the largest of all the values.
+DisplayUnit common_unit(std::span<const std::vector<double>> columns, std::string_view si_unit);
+
+/// Adds a series for each column over x, in the unit, in the colours in their order.
+void add_series(Chart& chart, const std::vector<double>& x, std::span<const std::vector<double>> columns,
+                std::span<const std::string_view> names, const DisplayUnit& unit);
+
+/// Two blocks to a row.
+std::vector<PageRow> in_pairs(std::vector<PageBlock> blocks);
+
+/// The warnings of a log, each once; nothing where there are none. At most `limit` are told.
+std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t limit = 6);
+
+/// Throws InputError if a file of the results does not have the hash of this case.
+void require_case(const std::filesystem::path& file, const std::string& found, const std::string& due);
+
+/// What `read` makes of a file of the results, which has a case_hash; nothing if there is no such file. Throws like
+/// require_case().
+template <class Read>
+auto find_of_case(const std::filesystem::path& file, const std::string& hash, const Read& read)
+    -> std::optional<decltype(read(file))> {
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  auto found = read(file);
+  require_case(file, found.case_hash, hash);
+  return found;
+}
+
+/// What write_report() made of an earlier run.
+void remove_report(const std::filesystem::path& results);
+
+/// report/report.pdf and report/report.png in the session's results. Throws ComputationError.
+void write_report(const ReportPage& page, Session& session);
+
+}  // namespace pfdm

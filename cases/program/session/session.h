@@ -1,0 +1,31 @@
+#pragma once
+// What the command line asked for, and where to say things.
+
+#include "cases/program/session/log.h"
+#include "cases/program/session/mesh_store.h"
+#include "physics/tensor.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace pfdm {
+
+struct CaseFile;
+struct RunnableCase;
+
+struct Session {
+  std::filesystem::path results;   ///< directory
+  bool restart = false;            ///< continue from the last complete output
+  std::optional<Index> max_steps;  ///< stop after so many steps of this run
+  std::optional<double> until;     ///< stop after the step that brings the curve's displacement here [m]
+  int threads = 1;
+  std::string version;
+  RunnableCase (*read_case)(const CaseFile& file) = nullptr;  ///< of any kind: for jobs that run other cases
+  Log& log;
+  bool slurm = false;           ///< hand the runs of a sweep to Slurm
+  bool figures_only = false;    ///< of many runs: summary and curves, no fields
+  MeshStore* meshes = nullptr;  ///< where meshes are kept that several runs share
+};
+
+}  // namespace pfdm

@@ -1,0 +1,27 @@
+#pragma once
+// pfdm fit of cases whose runs leave a curve: the values of the case with which its curve meets the measured ones.
+
+#include "cases/program/session/session.h"
+#include "cases/program/studies/curve_fit_case.h"
+#include "cases/program/studies/curve_model.h"
+
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct CurveFitJob {
+  const CaseFile& file;
+  const CurveFitSettings& settings;
+  const std::vector<SampledCurve>& specimens;
+  CurveModel::ReadCurve read_curve;
+  std::string name;
+  std::string hash;
+  std::string title;
+};
+
+/// Writes fit.json, fit_curve.csv and case.fitted.toml to session.results, the runs to runs/ there. Killed at any
+/// moment it continues, at the next call, with the runs that it left, to the same result.
+void fit_curve(const CurveFitJob& job, Session& session);
+
+}  // namespace pfdm

@@ -1,0 +1,94 @@
+#include "cases/program/studies/sweep.h"
+
+#include "cases/program/session/stopwatch.h"
+#include "cases/program/studies/case_runs.h"
+#include "cases/program/studies/sweep_on_slurm.h"
+#include "postproc/curves/summary.h"
+#include "postproc/files/csv_table.h"
+#include "postproc/files/folder_lock.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Numbers of a summary that tell what a run cost, in its last session alone, and not what came out.
+constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "window_iterations", "krylov_iterations",
+                                      "wall_seconds", "cpu_seconds",          "peak_memory_bytes"};
+
+/// "regions.interface.toughness_J_per_m2"
+std::string column_name(const CaseParameter& parameter) {
+  if (parameter.unit.empty()) return parameter.name;
+  std::string name = parameter.name + "_";
+  for (const char c : parameter.dimension.si_unit)
+    if (c == '/')
+      name += "_per_";
+    else if (c != '^')
+      name += c;
+  return name;
+}
+
+std::vector<std::optional<ReadSummary>> summaries_of(const std::vector<DoneRun>& runs) {
+  std::vector<std::optional<ReadSummary>> summaries;
+  for (const DoneRun& run : runs)
+    summaries.push_back(run.went_well() ? read_summary(run.folder / summary_file) : std::nullopt);
+  return summaries;
+}
+
+CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& runs, const fs::path& results) {
+  CsvTable table;
+  const auto summaries = summaries_of(runs);
+  std::vector<double> number, converged;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    number.push_back(static_cast<double>(i + 1));
+    converged.push_back(runs[i].went_well() ? 1.0 : 0.0);
+    table.comments.push_back(runs[i].went_well()
+                                 ? fmt::format("run {}: {}", i + 1, fs::relative(runs[i].folder, results).string())
+                                 : fmt::format("run {}: {}", i + 1, runs[i].failure));
+  }
+  table.add("run", number);
+  for (std::size_t j = 0; j < settings.parameters.size(); ++j) {
+    std::vector<double> values;
+    for (const std::vector<double>& point : settings.points) values.push_back(point[j]);
+    table.add(column_name(settings.parameters[j]), std::move(values));
+  }
+  table.add("converged", converged);
+  const auto first = std::ranges::find_if(summaries, [](const auto& summary) { return summary.has_value(); });
+  if (first == summaries.end()) return table;
+  for (const auto& [name, ignored] : (*first)->numbers) {
+    if (std::ranges::count(costs, name) > 0) continue;
+    std::vector<double> values;
+    for (const auto& summary : summaries) values.push_back(summary ? summary->number(name) : Headlines::none);
+    table.add(name, std::move(values));
+  }
+  return table;
+}
+
+}  // namespace
+
+void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& session) {
+  const Stopwatch watch;
+  if (session.slurm) require_slurm();
+  const FolderLock lock(session.results);
+  session.log.say(fmt::format("pfdm {}, sweep of {}: {} runs; {} threads", session.version, case_name(file),
+                              settings.points.size(), session.threads));
+  session.log.open_file(session.results / "sweep.log", true);
+  CaseRuns runs(session.results / "runs", session);
+  std::vector<CaseVariant> variants;
+  for (const std::vector<double>& point : settings.points)
+    variants.push_back({with_values(file, settings.parameters, point), shown(settings.parameters, point)});
+  const std::vector<MissingRun> missing = runs.missing(variants);
+  if (!missing.empty() && session.slurm) return hand_to_slurm(file, settings.slurm, missing, session);
+  if (!missing.empty()) require_no_tasks_of(session);
+  const std::vector<DoneRun> done = runs.run(variants);
+  write_csv(session.results / "sweep.csv", table_of(settings, done, session.results));
+  session.log.say(fmt::format("{} runs made, {} reused, {} of them did not converge; {:.1f} s; written to {}",
+                              runs.n_made(), runs.n_reused(), runs.n_failed(), watch.seconds(),
+                              (session.results / "sweep.csv").string()));
+}
+
+}  // namespace pfdm

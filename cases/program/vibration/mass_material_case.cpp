@@ -1,0 +1,250 @@
+#include "cases/program/vibration/mass_material_case.h"
+
+#include "cases/program/input/path_reader.h"
+#include "cases/program/input/units.h"
+#include "cases/program/vibration/vibration_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Range count{0.0, 1e6, false, "zero or positive"};
+constexpr Range exponent{0.0, 4.0, false, "between 0 and 4"};
+constexpr Range decibel{-20.0, 200.0, false, "between -20 and 200"};
+constexpr Range part{0.0, 0.4, false, "between 0 and 0.4"};
+constexpr Range open_fraction{0.0, 1.0, true, "above 0 and below 1"};
+
+/// Of k_i, i = 1 ...
+constexpr std::array<Dimension, 7> stiffness_dimensions{{{"stiffness", "N/m", "2.8e6 N/m"},
+                                                         {"stiffness of second order", "N/m^2", "1e9 N/m^2"},
+                                                         {"stiffness of third order", "N/m^3", "1e12 N/m^3"},
+                                                         {"stiffness of fourth order", "N/m^4", "1e15 N/m^4"},
+                                                         {"stiffness of fifth order", "N/m^5", "1e19 N/m^5"},
+                                                         {"stiffness of sixth order", "N/m^6", "1e22 N/m^6"},
+                                                         {"stiffness of seventh order", "N/m^7", "1e26 N/m^7"}}};
+constexpr Dimension damping_dimension{"damping coefficient", "N s/m", "70 N s/m"};
+constexpr Dimension rate_dimension{"rate", "s^-1", "400 s^-1"};
+
+Dimension beta_dimension(KernelForcing forcing) {
+  if (forcing == KernelForcing::displacement) return {"kernel weight on z", "N/m/s", "-1e8 N/m/s"};
+  if (forcing == KernelForcing::stiffness) return rate_dimension;
+  return stiffness_dimensions[0];
+}
+
+std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStructure& structure) {
+  std::vector<HereditaryTerm> kernel;
+  for (const ConfigTable& term : model.tables("kernel")) {
+    if (structure.forcing == KernelForcing::none)
+      throw term.error(fmt::format("model \"{}\" has no kernel", structure.name));
+    term.with_keys({"alpha", "alpha_imaginary", "beta", "beta_imaginary"});
+    const Dimension beta = beta_dimension(structure.forcing);
+    const std::complex<double> alpha(term.quantity("alpha", rate_dimension, range::positive),
+                                     term.quantity("alpha_imaginary", rate_dimension, range::any, 0.0));
+    kernel.push_back({alpha, {term.quantity("beta", beta), term.quantity("beta_imaginary", beta, range::any, 0.0)}});
+    if (!kernel.back().is_pair() && kernel.back().beta.imag() != 0.0)
+      throw term.error("a real alpha requires a real beta");
+  }
+  if (structure.kernel_order && static_cast<int>(kernel.size()) != *structure.kernel_order && !kernel.empty())
+    throw model.error(fmt::format("model \"{}\" has {} kernel terms; {} are given", structure.name,
+                                  *structure.kernel_order, kernel.size()));
+  return kernel;
+}
+
+void read_model(const ConfigTable& root, MassMaterialCase& c) {
+  const ConfigTable table = root.table("model").with_keys(
+      {"structure", "mass", "stiffness", "damping", "damping_exponent", "reference_velocity", "kernel"});
+  const ModelStructure& structure = choose(table.at("structure"), model_structures(), "mass-material model");
+  c.structure = structure.name;
+  c.model.mass = table.quantity("mass", dimension::mass, range::positive);
+  c.model.forcing = structure.forcing;
+  c.model.reference_velocity = table.quantity("reference_velocity", dimension::velocity, range::positive, 1.0);
+  if (const auto lambda = table.find("damping_exponent")) {
+    if (!structure.nonlinear_damping) throw lambda->error(fmt::format("model \"{}\" has none", structure.name));
+    c.model.damping_exponent = lambda->number(exponent);
+  }
+  c.has_parameters = table.has("stiffness");
+  if (const auto stiffness = table.find("stiffness")) {
+    const auto list = stiffness->list();
+    if (list.empty() || static_cast<int>(list.size()) > structure.stiffness_order)
+      throw stiffness->error(fmt::format("model \"{}\" has from 1 to {} stiffness coefficients; {} are given",
+                                         structure.name, structure.stiffness_order, list.size()));
+    for (std::size_t i = 0; i < list.size(); ++i)
+      c.model.stiffness.push_back(list[i].quantity(stiffness_dimensions[i]));
+    if (!(c.model.stiffness.front() > 0.0)) throw list.front().error("k_1 must be positive");
+  }
+  c.model.damping = table.quantity("damping", damping_dimension, range::any, 0.0);
+  c.model.kernel = read_kernel(table, structure);
+}
+
+double level(const ConfigTable& table) { return table.quantity("level", dimension::acceleration, range::positive); }
+
+Excitation read_swept_sine(const ConfigTable& table, const fs::path&, double, std::vector<fs::path>&) {
+  table.with_keys({"type", "level", "from", "to", "duration", "law", "ramp"});
+  const std::string laws[] = {"linear", "logarithmic"};
+  const auto law = table.find("law");
+  SweptSine sweep{.amplitude = level(table),
+                  .from = table.quantity("from", dimension::frequency, range::positive),
+                  .to = table.quantity("to", dimension::frequency, range::positive),
+                  .duration = table.quantity("duration", dimension::time, range::positive),
+                  .logarithmic = law && law->one_of(laws, "law of a sweep") == "logarithmic"};
+  sweep.ramp = table.quantity("ramp", dimension::time, range::not_negative, 0.01 * sweep.duration);
+  return swept_sine(sweep);
+}
+
+Excitation read_harmonic(const ConfigTable& table, const fs::path&, double, std::vector<fs::path>&) {
+  table.with_keys({"type", "level", "frequency", "duration", "ramp"});
+  const double duration = table.quantity("duration", dimension::time, range::positive);
+  return harmonic(level(table), table.quantity("frequency", dimension::frequency, range::positive), duration,
+                  table.quantity("ramp", dimension::time, range::not_negative, 0.01 * duration));
+}
+
+Excitation read_random(const ConfigTable& table, const fs::path&, double, std::vector<fs::path>&) {
+  table.with_keys({"type", "density", "from", "to", "duration", "seed"});
+  BandLimitedRandom random{.density = table.quantity("density", dimension::acceleration_density, range::positive),
+                           .low = table.quantity("from", dimension::frequency, range::positive),
+                           .high = table.quantity("to", dimension::frequency, range::positive),
+                           .duration = table.quantity("duration", dimension::time, range::positive)};
+  random.seed = static_cast<std::uint64_t>(table.integer("seed", count, 1));
+  if (random.low >= random.high)
+    throw table.error(
+        fmt::format("the band goes from {} to {} Hz; the first must be the lower", random.low, random.high));
+  return band_limited_random(random);
+}
+
+RecordFile read_record_file(const ConfigTable& table, const fs::path& directory, std::vector<fs::path>& data_files) {
+  RecordFile record;
+  record.file = read_data_file(table.at("file"), directory);
+  record.base = table.string("base", record.base);
+  record.relative = table.string("relative", record.relative);
+  record.time = table.string("time", record.time);
+  if (table.has("unit")) record.unit = table.string("unit");
+  if (table.has("rate")) record.rate = table.quantity("rate", dimension::frequency, range::positive);
+  data_files.push_back(record.file);
+  return record;
+}
+
+Excitation read_measured(const ConfigTable& table, const fs::path& directory, double, std::vector<fs::path>& files) {
+  table.with_keys({"type", "file", "base", "relative", "time", "unit", "rate", "from", "to"});
+  const RecordFile source = read_record_file(table, directory, files);
+  const SampledChannel channel = table.in_context([&] { return read_channel(source); });
+  return sampled_excitation(channel.values, channel.rate, table.quantity("from", dimension::frequency, range::positive),
+                            table.quantity("to", dimension::frequency, range::positive));
+}
+
+constexpr ExcitationType excitations[] = {
+    {"swept_sine", "sine whose frequency goes up or down, linear or logarithmic in time", read_swept_sine},
+    {"harmonic", "sine of one frequency", read_harmonic},
+    {"random", "Gaussian noise of a flat spectral density within a band", read_random},
+    {"measured", "base acceleration from a file", read_measured},
+};
+
+constexpr FitMethod methods[] = {
+    {"output_error", "separable start, then the simulated response fitted to all records; order by BIC; intervals"},
+    {"least_squares", "continuous-time least squares (AFRL-RW-EG-TR-2016-088, A4.2), M = 0 or 1"},
+    {"ten_step", "iteration with a Prony series (AFRL-RW-EG-TR-2016-088, A4.3), of the first record; for comparison"},
+};
+
+VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {
+  table.with_keys({"name", "excitation", "record", "predicted", "schedule"});
+  VibrationTest test;
+  test.where = table.at("name");
+  test.name = read_plain_name(*test.where, "files");
+  if (table.has("excitation")) {
+    const ConfigTable shaker = table.table("excitation");
+    const ExcitationType& type = choose(shaker.at("type"), excitation_types(), "type of excitation");
+    test.excitation = type.read(shaker, directory, c.rate, c.data_files);
+    test.band_low = test.excitation->band_low;
+    test.band_high = test.excitation->band_high;
+    if (test.band_high > 0.38 * c.rate)
+      throw shaker.error(fmt::format("the excitation reaches {} Hz; {} samples per second resolve up to {:.4g} Hz",
+                                     test.band_high, c.rate, 0.38 * c.rate));
+  }
+  if (table.has("record")) {
+    const ConfigTable record =
+        table.table("record").with_keys({"file", "base", "relative", "time", "unit", "rate", "from", "to"});
+    test.record = read_record_file(record, directory, c.data_files);
+    test.band_low = record.quantity("from", dimension::frequency, range::positive, test.band_low);
+    test.band_high = record.quantity("to", dimension::frequency, range::positive, test.band_high);
+  }
+  if (!test.excitation && !test.record) throw table.error("a test requires an excitation, a record or both");
+  if (!(test.band_low > 0.0 && test.band_high >= test.band_low))
+    throw table.error("the excited band is not known: give the record's \"from\" and \"to\"");
+  test.predicted = table.boolean("predicted", false);
+  if (table.has("schedule")) test.schedule = read_scheduled_run(table.table("schedule"));
+  return test;
+}
+
+void read_tests(const ConfigTable& root, const fs::path& directory, MassMaterialCase& c) {
+  for (const ConfigTable& table : root.tables("test")) {
+    VibrationTest test = read_test(table, directory, c);
+    if (std::ranges::count(c.tests, test.name, &VibrationTest::name) > 0)
+      throw test.where->error(fmt::format("there are two tests \"{}\"", test.name));
+    c.tests.push_back(std::move(test));
+  }
+  if (c.tests.empty()) throw root.error("there is no test; at least one [[test]] is required");
+}
+
+void read_fit(const ConfigTable& root, MassMaterialCase& c) {
+  c.fit.structure = c.structure;
+  if (!root.has("fit")) return;
+  const ConfigTable table =
+      root.table("fit").with_keys({"method", "structure", "kernel_order", "maximum_kernel_order", "crop", "replicates",
+                                   "confidence", "seed", "repeatability", "ogden_terms"});
+  MassMaterialFit& fit = c.fit;
+  if (const auto method = table.find("method"))
+    fit.method = choose(*method, fit_methods(), "method of identification").name;
+  if (const auto structure = table.find("structure"))
+    fit.structure = choose(*structure, model_structures(), "mass-material model").name;
+  if (const auto order = table.find("kernel_order"); order && !(order->is_string() && order->string() == "auto"))
+    fit.kernel_order = static_cast<int>(order->integer(Range{0.0, 6.0, false, "\"auto\" or between 0 and 6"}));
+  fit.maximum_kernel_order = static_cast<int>(
+      table.integer("maximum_kernel_order", Range{0.0, 6.0, false, "between 0 and 6"}, fit.maximum_kernel_order));
+  fit.crop = table.number("crop", part, fit.crop);
+  fit.replicates = static_cast<int>(table.integer("replicates", count, fit.replicates));
+  fit.confidence = table.number("confidence", open_fraction, fit.confidence);
+  fit.seed = static_cast<std::uint64_t>(table.integer("seed", count, 1));
+  if (const auto terms = table.find("ogden_terms")) {
+    fit.ogden_terms = static_cast<int>(terms->integer(Range{1.0, 3.0, false, "between 1 and 3"}));
+    if (!root.has("sample")) throw terms->error("Ogden's model needs the sample's length and area: [sample]");
+  }
+  fit.repeatability = table.boolean("repeatability", false);
+  if (fit.repeatability) require_schedule(c, table.at("repeatability"));
+}
+
+void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
+  const ConfigTable table = root.table("sampling").with_keys({"rate", "signal_to_noise_dB", "noise_seed"});
+  c.rate = table.quantity("rate", dimension::frequency, range::positive);
+  if (table.has("signal_to_noise_dB")) c.signal_to_noise = table.number("signal_to_noise_dB", decibel);
+  c.noise_seed = static_cast<std::uint64_t>(table.integer("noise_seed", count, 1));
+}
+
+}  // namespace
+
+MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path& case_directory) {
+  root.with_keys({"kind", "title", "model", "sample", "sampling", "test", "change", "fit", "sweep"});
+  MassMaterialCase c;
+  c.title = root.string("title");
+  read_model(root, c);
+  read_sampling(root, c);
+  read_tests(root, case_directory, c);
+  c.changes = read_sample_changes(root);
+  read_fit(root, c);
+  if (root.has("sample")) {
+    const ConfigTable table = root.table("sample").with_keys({"length", "area"});
+    c.sample = SampleSize{.length = table.quantity("length", dimension::length, range::positive),
+                          .area = table.quantity("area", dimension::area, range::positive)};
+  }
+  return c;
+}
+
+std::span<const ExcitationType> excitation_types() { return excitations; }
+
+std::span<const FitMethod> fit_methods() { return methods; }
+
+}  // namespace pfdm

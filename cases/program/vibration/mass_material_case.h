@@ -1,0 +1,90 @@
+#pragma once
+// Reads a case of kind "mass_material": the model, the vibration tests, what an identification is to do.
+
+#include "cases/program/input/config.h"
+#include "cases/program/vibration/mass_material_schedule.h"
+#include "physics/mass_material.h"
+#include "solver/vibration/vibration_excitation.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+/// Where the record of a test is, and what its columns are called.
+struct RecordFile {
+  std::filesystem::path file;
+  std::string base = "base_acceleration";
+  std::string relative = "relative_acceleration";
+  std::string time = "time";
+  std::optional<std::string> unit;  ///< of both channels, where the file does not say
+  std::optional<double> rate;       ///< [Hz]
+};
+
+struct VibrationTest {
+  std::string name;
+  std::optional<Excitation> excitation;  ///< what run simulates
+  std::optional<RecordFile> record;      ///< what fit reads; none: what run left in the results
+  double band_low = 0.0;                 ///< [Hz]
+  double band_high = 0.0;                ///< [Hz]
+  bool predicted = false;                ///< not fitted but predicted
+  std::optional<ScheduledRun> schedule;  ///< of repeated tests
+  std::optional<ConfigValue> where;
+};
+
+struct SampleSize {
+  double length = 0.0;  ///< [m]
+  double area = 0.0;    ///< [m^2]
+};
+
+struct MassMaterialFit {
+  std::string method = "output_error";
+  std::string structure;
+  std::optional<int> kernel_order;
+  int maximum_kernel_order = 4;
+  double crop = 0.05;
+  int replicates = 500;
+  double confidence = 0.95;
+  std::uint64_t seed = 1;
+  int ogden_terms = 0;         ///< of Ogden's model of the stiffness polynomial; 0: none
+  bool repeatability = false;  ///< each record on its own as well, and how the parameters move over the schedule
+};
+
+struct MassMaterialCase {
+  std::string title;
+  std::string structure;
+  MassMaterial model;
+  bool has_parameters = false;            ///< stiffness and damping are given
+  double rate = 0.0;                      ///< samples per second [Hz]
+  std::optional<double> signal_to_noise;  ///< [dB]
+  std::uint64_t noise_seed = 1;
+  std::optional<SampleSize> sample;
+  std::vector<VibrationTest> tests;
+  std::vector<SampleChange> changes;  ///< of the simulated sample over the schedule
+  MassMaterialFit fit;
+  std::vector<std::filesystem::path> data_files;
+};
+
+MassMaterialCase read_mass_material_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+
+/// [model] with these parameters, as TOML.
+std::string model_text(std::string_view structure, const MassMaterial& model);
+
+struct ExcitationType {
+  std::string_view name;
+  std::string_view description;
+  Excitation (*read)(const ConfigTable& table, const std::filesystem::path& case_directory, double rate,
+                     std::vector<std::filesystem::path>& data_files);
+};
+std::span<const ExcitationType> excitation_types();
+
+struct FitMethod {
+  std::string_view name;
+  std::string_view description;
+};
+std::span<const FitMethod> fit_methods();
+
+}  // namespace pfdm

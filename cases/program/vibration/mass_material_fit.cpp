@@ -1,0 +1,227 @@
+// fit_mass_material() of mass_material_jobs.h.
+
+#include "cases/program/session/stopwatch.h"
+#include "cases/program/vibration/mass_material_jobs.h"
+#include "postproc/curves/vibration_results.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/folder_lock.h"
+#include "solver/vibration/identification.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Records {
+  std::vector<VibrationRecord> fitted;
+  std::vector<VibrationRecord> predicted;
+};
+
+Records read_records(const MassMaterialCase& c, const fs::path& results, Log& log) {
+  Records records;
+  for (const VibrationTest& test : c.tests)
+    (test.predicted ? records.predicted : records.fitted).push_back(record_of(test, results, log));
+  if (records.fitted.empty()) throw InputError("every test is predicted; at least one has to be fitted");
+  return records;
+}
+
+IdentificationSettings settings_of(const MassMaterialCase& c) {
+  return {.mass = c.model.mass,
+          .reference_velocity = c.model.reference_velocity,
+          .kernel_order = c.fit.kernel_order,
+          .maximum_kernel_order = c.fit.maximum_kernel_order,
+          .crop = c.fit.crop,
+          .replicates = c.fit.replicates,
+          .confidence = c.fit.confidence,
+          .seed = c.fit.seed};
+}
+
+/// The structures that the report's continuous-time least squares reaches: no kernel, or one term.
+void require_low_order(const MassMaterialFit& fit, const ModelStructure& structure) {
+  const int order = fit.kernel_order.value_or(structure.kernel_order.value_or(1));
+  if (structure.forcing != KernelForcing::none && order != 1)
+    throw InputError(
+        fmt::format("[fit] \"least_squares\" supports kernels of one term; {} are requested: use \"output_error\" or "
+                    "kernel_order = 1",
+                    order));
+}
+
+/// Found model and what is told about it.
+struct Found {
+  MassMaterial model;
+  VibrationFit report;
+};
+
+/// What the regressions find: no intervals.
+Found without_intervals(const Regression& regression, const Records& records) {
+  Found found;
+  found.model = regression.model;
+  found.report.path = {regression.misfit};
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (Estimate e : named_values(found.model)) {
+    e.lower = e.upper = none;
+    found.report.estimates.push_back(e);
+  }
+  found.report.passivity = passivity_in_band(found.model, records.fitted);
+  return found;
+}
+
+Found by_ten_steps(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+  if (structure.forcing == KernelForcing::none)
+    throw InputError(fmt::format("[fit] \"ten_step\" finds kernels; model \"{}\" has none", structure.name));
+  const int order = c.fit.kernel_order.value_or(structure.kernel_order.value_or(2));
+  return without_intervals(regress_ten_steps(records.fitted, structure, order, settings_of(c)), records);
+}
+
+Found by_least_squares(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+  require_low_order(c.fit, structure);
+  return without_intervals(regress_states(records.fitted, structure, settings_of(c)), records);
+}
+
+Found by_output_error(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+  Found found;
+  Identification id = identify(records.fitted, structure, settings_of(c));
+  found.model = id.fit.model;
+  found.report.estimates = std::move(id.fit.estimates);
+  found.report.correlation = std::move(id.fit.correlation);
+  found.report.path = std::move(id.fit.path);
+  found.report.converged = id.fit.converged;
+  found.report.orders = std::move(id.orders);
+  found.report.passivity = id.passivity;
+  return found;
+}
+
+std::vector<NamedFigures> misfits(const MassMaterial& model, const Records& records, double crop) {
+  std::vector<NamedFigures> tests;
+  for (const VibrationRecord& r : records.fitted)
+    tests.push_back({r.name, {{"fitted", 1.0}, {"relative_misfit", prediction_misfit(model, r, crop)}}});
+  for (const VibrationRecord& r : records.predicted)
+    tests.push_back({r.name, {{"fitted", 0.0}, {"relative_misfit", prediction_misfit(model, r, crop)}}});
+  return tests;
+}
+
+/// E' + j E'' = K L/A: the sample as a bar in uniaxial stress, whose own inertia counts as a third of its mass in m.
+std::vector<ModulusRow> youngs_modulus(const MassMaterial& model, const Records& records, const SampleSize& sample) {
+  const auto [low, high, velocity, displacement] = excited_range(records.fitted);
+  std::vector<ModulusRow> rows;
+  constexpr int n = 25;
+  for (int i = 0; i < n; ++i) {
+    const double f = low * std::pow(high / low, static_cast<double>(i) / (n - 1));
+    const auto E = complex_stiffness(model, 2.0 * std::numbers::pi * f, velocity) * (sample.length / sample.area);
+    rows.push_back({f, E.real(), E.imag()});
+  }
+  return rows;
+}
+
+/// Of the stiffness polynomial, as far as the fitted records went.
+OgdenFit ogden_of(const MassMaterial& model, const Records& records, const MassMaterialCase& c) {
+  return fit_ogden(model.stiffness, c.sample->length, c.sample->area, excited_range(records.fitted).displacement,
+                   c.fit.ogden_terms);
+}
+
+void say_ogden(const OgdenFit& ogden, Log& log) {
+  log.say(fmt::format("Ogden's model of k(z) up to {:.4g} m: shear modulus {:.6g} Pa, misfit {:.3g} of the force",
+                      ogden.largest_displacement, shear_modulus(ogden.terms), ogden.relative_misfit));
+  for (const OgdenTerm& term : ogden.terms)
+    log.say(fmt::format("  mu {:>14.6g} Pa, alpha {:.6g}", term.mu, term.alpha));
+}
+
+/// In per cent of the mean.
+std::string with_interval(const Effect& e, double mean) {
+  const double percent = 100.0 / std::abs(mean);
+  return fmt::format("{} {:+.3g} % ({:+.3g} to {:+.3g})", e.name, percent * e.value, percent * e.lower_95,
+                     percent * e.upper_95);
+}
+
+void say_repeats(const RepeatedIdentification& repeats, Log& log) {
+  log.say(fmt::format("repeatability over {} records, each fitted on its own; in % of the mean, 95 % intervals:",
+                      repeats.records.size()));
+  for (const ParameterRepeatability& p : repeats.parameters) {
+    const Repeatability& r = p.statistics;
+    const double percent = 100.0 / std::abs(r.mean);
+    log.say(fmt::format("  {:<18} mean {:>12.6g}, between repeats {} (noise alone {:.3g} %), about the line {:.3g} %",
+                        p.name, r.mean,
+                        r.repeat_deviation ? fmt::format("{:.3g} %", percent * *r.repeat_deviation) : "-",
+                        percent * p.expected_deviation, percent * r.residual_deviation));
+    for (const Effect& e : r.effects) log.say(fmt::format("  {:<18}   {}", "", with_interval(e, r.mean)));
+  }
+  for (const RecordEstimates& r : repeats.records)
+    if (!r.converged) log.warn(fmt::format("test {}: its own fit did not converge", r.name));
+}
+
+RepeatedIdentification repeats_of(const Found& found, const Records& records, const MassMaterialCase& c) {
+  std::vector<ScheduledRun> schedule;
+  for (const VibrationTest& test : c.tests)
+    if (!test.predicted) schedule.push_back(*test.schedule);
+  return identify_each(records.fitted, schedule, found.model, settings_of(c));
+}
+
+void say_found(const Found& found, Log& log) {
+  for (const Estimate& e : found.report.estimates)
+    log.say(std::isfinite(e.lower)
+                ? fmt::format("  {:<18} {:>14.6g}   {:.6g} to {:.6g}", e.name, e.value, e.lower, e.upper)
+                : fmt::format("  {:<18} {:>14.6g}", e.name, e.value));
+  for (const NamedFigures& test : found.report.tests)
+    log.say(fmt::format("  test {:<16} {}, relative misfit {:.3g}", test.name,
+                        test.figures.at("fitted") > 0.0 ? "fitted" : "predicted", test.figures.at("relative_misfit")));
+  if (found.report.ogden) say_ogden(*found.report.ogden, log);
+  if (found.report.repeats) say_repeats(*found.report.repeats, log);
+  if (!found.report.passivity.passive)
+    log.warn(fmt::format(
+        "the model is not passive: it supplies energy to the shaker (damping {:.3g} N s/m at {:.4g} Hz)",
+        found.report.passivity.least_damping, found.report.passivity.worst_omega / (2.0 * std::numbers::pi)));
+  if (!found.report.converged) log.warn("the iteration did not converge; the estimates may be off");
+}
+
+}  // namespace
+
+VibrationRecord record_of(const VibrationTest& test, const fs::path& results, Log& log) {
+  if (test.record) return read_record(test, *test.record, log);
+  RecordFile simulated;
+  simulated.file = results / (test.name + ".csv");
+  if (!fs::exists(simulated.file))
+    throw test.where->error(
+        fmt::format("the test names no record, and there is no {}; pfdm run simulates one", simulated.file.string()));
+  return read_record(test, simulated, log);
+}
+
+void fit_mass_material(const MassMaterialProgram& program, Session& session) {
+  const MassMaterialCase& c = program.parsed;
+  const Stopwatch watch;
+  const Records records = read_records(c, session.results, session.log);
+  const ModelStructure& structure = model_structure(c.fit.structure);
+  const FolderLock lock(session.results);
+  session.log.say(fmt::format("pfdm {}, case {}: {} of model {} from {} records", session.version, program.name,
+                              c.fit.method, structure.name, records.fitted.size()));
+  const auto method = c.fit.method == "least_squares" ? by_least_squares
+                      : c.fit.method == "ten_step"    ? by_ten_steps
+                                                      : by_output_error;
+  Found found = method(records, structure, c);
+  VibrationFit& report = found.report;
+  report.case_name = program.name;
+  report.version = session.version;
+  report.case_hash = program.hash;
+  report.method = c.fit.method;
+  report.structure = structure.name;
+  report.confidence = c.fit.confidence;
+  report.tests = misfits(found.model, records, c.fit.crop);
+  if (c.sample) report.modulus = youngs_modulus(found.model, records, *c.sample);
+  if (c.fit.ogden_terms > 0) report.ogden = ogden_of(found.model, records, c);
+  if (c.fit.repeatability) report.repeats = repeats_of(found, records, c);
+  report.wall_seconds = watch.seconds();
+  session.log.open_file(session.results / "fit.log", false);
+  write_vibration_fit(session.results / "fit.json", report);
+  write_file(session.results / "case.fitted.toml",
+             with_table(program.file, "model", model_text(structure.name, found.model), session.results));
+  say_found(found, session.log);
+  session.log.say(
+      fmt::format("written to {} after {:.1f} s", (session.results / "fit.json").string(), report.wall_seconds));
+}
+
+}  // namespace pfdm

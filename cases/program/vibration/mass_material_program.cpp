@@ -1,0 +1,259 @@
+#include "cases/program/vibration/mass_material_program.h"
+
+#include "cases/program/session/earlier_results.h"
+#include "cases/program/session/report_parts.h"
+#include "cases/program/session/stopwatch.h"
+#include "cases/program/vibration/mass_material_case.h"
+#include "cases/program/vibration/mass_material_jobs.h"
+#include "cases/program/vibration/mass_material_report.h"
+#include "postproc/curves/summary.h"
+#include "postproc/curves/vibration_results.h"
+#include "postproc/files/folder_lock.h"
+#include "postproc/files/new_results.h"
+#include "postproc/records/signal_table.h"
+#include "solver/vibration/mass_material_simulation.h"
+#include "solver/vibration/signals_filter.h"
+#include "solver/vibration/signals_spectra.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// What a run needs beyond what a fit does.
+void require_parameters(const MassMaterialCase& c) {
+  if (!c.has_parameters)
+    throw InputError("[model] has no \"stiffness\": a run simulates a model with parameters; fit finds them");
+  if (!(static_stiffness(c.model) > 0.0))
+    throw InputError(fmt::format("[model] the static stiffness, kernel included, is {:.4g} N/m; it must be positive",
+                                 static_stiffness(c.model)));
+}
+
+void say_model(const MassMaterialProgram& program, Log& log) {
+  const MassMaterialCase& c = program.parsed;
+  log.say(fmt::format("{}: {}", program.name, c.title));
+  log.say(fmt::format("model {}: {}", c.structure, model_structure(c.structure).description));
+  if (!c.has_parameters) return;
+  const double f0 = std::sqrt(c.model.stiffness.front() / c.model.mass) / (2.0 * std::numbers::pi);
+  log.say(fmt::format("resonance of mass and k1 at {:.4g} Hz", f0));
+  const auto z0 = static_settling_point(c.model, standard_gravity);
+  if (z0)
+    log.say(
+        fmt::format("settles by {:.4g} mm under its weight; the parameters are those about that point", -1e3 * *z0));
+  else
+    log.warn("with the parameters taken about z = 0 the sample does not carry the mass's weight");
+}
+
+void say_passivity(const MassMaterialCase& c, const VibrationTest& test, Log& log) {
+  const Passivity p = passivity(c.model, 2.0 * std::numbers::pi * test.band_low,
+                                2.0 * std::numbers::pi * test.band_high, c.model.reference_velocity);
+  if (!p.passive)
+    log.warn(fmt::format(
+        "test {}: the model is not passive: it supplies energy to the shaker (damping {:.3g} N s/m at {:.4g} Hz)",
+        test.name, p.least_damping, p.worst_omega / (2.0 * std::numbers::pi)));
+}
+
+void check(const MassMaterialProgram& program, Session& session) {
+  const MassMaterialCase& c = program.parsed;
+  Log& log = session.log;
+  say_model(program, log);
+  if (c.has_parameters) require_parameters(c);
+  for (const VibrationTest& test : c.tests) {
+    if (test.excitation)
+      log.say(fmt::format("test {:<16} {:g} s at {:g} samples/s, {:g} to {:g} Hz", test.name, test.excitation->duration,
+                          c.rate, test.band_low, test.band_high));
+    if (test.record) {
+      const VibrationRecord record = read_record(test, *test.record, log);
+      log.say(fmt::format("test {:<16} record of {:g} s at {:g} samples/s", test.name, record.duration(), record.rate));
+    }
+    if (c.has_parameters) say_passivity(c, test, log);
+  }
+  log.say(fmt::format("results go to {}", session.results.string()));
+  log.say("the input is valid");
+}
+
+struct SimulatedTest {
+  VibrationRecord record;
+  Motion motion;
+  double seconds = 0.0;
+};
+
+SimulatedTest simulate_test(const MassMaterialCase& c, std::size_t number) {
+  const VibrationTest& test = c.tests[number];
+  const Stopwatch watch;
+  SimulatedTest result;
+  result.motion = simulate(sample_of_test(c, number), *test.excitation, c.rate);
+  if (!result.motion.bounded)
+    throw ComputationError(fmt::format(
+        "test {}: the motion is unbounded: the restoring force does not hold the mass at this level", test.name));
+  result.seconds = watch.seconds();
+  result.record.name = test.name;
+  result.record.rate = c.rate;
+  result.record.base = result.motion.base;
+  result.record.relative = result.motion.acceleration;
+  result.record.band_low = test.band_low;
+  result.record.band_high = test.band_high;
+  if (c.signal_to_noise) add_noise(result.record, *c.signal_to_noise, c.noise_seed + number);
+  return result;
+}
+
+std::string remark(const MassMaterialProgram& program, const VibrationTest& test) {
+  const MassMaterialCase& c = program.parsed;
+  return fmt::format("synthetic: simulated, not measured; case {}, test {}, model {}{}", program.name, test.name,
+                     c.structure, c.signal_to_noise ? fmt::format(", noise at -{:g} dB", *c.signal_to_noise) : "");
+}
+
+VectorXd sample_times(Index n, double rate) { return VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) / rate; }
+
+void write_record(const fs::path& path, const std::string& remark, const SimulatedTest& test) {
+  write_signals_csv(path, {.remark = remark,
+                           .columns = {{"time", "s", sample_times(test.record.n(), test.record.rate)},
+                                       {"base_acceleration", "m/s^2", test.record.base},
+                                       {"relative_acceleration", "m/s^2", test.record.relative}}});
+}
+
+/// Response at the driving frequency and its second and third multiple along a sweep, forty times a second.
+void write_harmonics(const fs::path& path, const std::string& remark, const VibrationRecord& r,
+                     const Excitation& excitation) {
+  const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
+  const VectorXd phase = driving_phase(r.base, r.rate, band);
+  const double bandwidth = std::min(4.0, 0.4 * r.band_low);
+  const Eigen::MatrixXd response = harmonics(r.relative, r.rate, phase, 3, bandwidth).cwiseAbs();
+  const VectorXd base = harmonics(r.base, r.rate, phase, 1, bandwidth).cwiseAbs();
+  const VectorXd hull = envelope(r.relative);
+  const auto stride = std::max<Index>(1, static_cast<Index>(r.rate / 40.0));
+  const Index n = (r.n() - 1) / stride + 1;
+  const auto thinned = [&](const auto& x) -> VectorXd { return x(Eigen::seqN(0, n, stride)); };
+  const VectorXd t = thinned(sample_times(r.n(), r.rate));
+  const VectorXd frequency = t.unaryExpr([&](double at) { return excitation.frequency(at); });
+  write_signals_csv(path, {.remark = remark,
+                           .columns = {{"time", "s", t},
+                                       {"driving_frequency", "Hz", frequency},
+                                       {"base_amplitude", "m/s^2", thinned(base)},
+                                       {"first_harmonic", "m/s^2", thinned(response.col(0))},
+                                       {"second_harmonic", "m/s^2", thinned(response.col(1))},
+                                       {"third_harmonic", "m/s^2", thinned(response.col(2))},
+                                       {"envelope", "m/s^2", thinned(hull)}}});
+}
+
+/// Densities, H1 from base to relative acceleration with its bounds, coherence; segments of 8192, half overlapping.
+void write_spectra(const fs::path& path, const std::string& remark, const VibrationRecord& r) {
+  SegmentSettings segments;
+  segments.length = std::min<Index>(segments.length, r.n());
+  const Spectra s = spectra(r.base, r.relative, r.rate, segments);
+  const Eigen::VectorXcd H = frequency_response(s, ResponseEstimator::h1);
+  const Bounds bounds = response_bounds(s);
+  write_signals_csv(path, {.remark = remark,
+                           .columns = {{"frequency", "Hz", s.frequency},
+                                       {"base_density", "m^2/s^4/Hz", s.Sxx},
+                                       {"relative_density", "m^2/s^4/Hz", s.Syy},
+                                       {"H1_magnitude", "1", H.cwiseAbs()},
+                                       {"H1_phase", "rad", H.cwiseArg()},
+                                       {"H1_lower", "1", bounds.lower},
+                                       {"H1_upper", "1", bounds.upper},
+                                       {"coherence", "1", coherence(s)}}});
+}
+
+NamedFigures figures_of(const SimulatedTest& t) {
+  const double duration = t.record.duration();
+  return {t.record.name,
+          {{"duration_s", duration},
+           {"rms_base_acceleration_m_per_s2", t.record.base.norm() / std::sqrt(static_cast<double>(t.record.n()))},
+           {"peak_base_acceleration_m_per_s2", t.record.base.lpNorm<Eigen::Infinity>()},
+           {"peak_relative_acceleration_m_per_s2", t.record.relative.lpNorm<Eigen::Infinity>()},
+           {"peak_relative_displacement_m", t.motion.displacement.lpNorm<Eigen::Infinity>()},
+           {"peak_relative_velocity_m_per_s", t.motion.velocity.lpNorm<Eigen::Infinity>()},
+           {"times_real_time", duration / std::max(t.seconds, 1e-9)}},
+          {{"samples", t.record.n()}}};
+}
+
+/// Of tests that the case no longer has as well.
+void remove_earlier_results(const fs::path& results) {
+  std::error_code ignored;
+  const std::vector<std::string> tests = tests_of_vibration_summary(results / summary_file);
+  fs::remove(results / summary_file, ignored);
+  remove_report(results);
+  for (const std::string& test : tests)
+    for (const char* ending : {".csv", "_harmonics.csv", "_spectra.csv"})
+      fs::remove(results / (test + ending), ignored);
+}
+
+void run_tests(const MassMaterialProgram& program, Session& session, const fs::path& folder,
+               VibrationSummary& summary) {
+  const MassMaterialCase& c = program.parsed;
+  for (std::size_t i = 0; i < c.tests.size(); ++i) {
+    const VibrationTest& test = c.tests[i];
+    if (!test.excitation) {
+      session.log.say(fmt::format("test {} has a record and no excitation: nothing to simulate", test.name));
+      continue;
+    }
+    const SimulatedTest simulated = simulate_test(c, i);
+    const std::string says = remark(program, test);
+    write_record(folder / (test.name + ".csv"), says, simulated);
+    if (test.excitation->frequency)
+      write_harmonics(folder / (test.name + "_harmonics.csv"), says, simulated.record, *test.excitation);
+    else
+      write_spectra(folder / (test.name + "_spectra.csv"), says, simulated.record);
+    summary.tests.push_back(figures_of(simulated));
+    session.log.step(fmt::format("test {:<16} {:g} s simulated in {:.2f} s, largest displacement {:.4g} mm", test.name,
+                                 simulated.record.duration(), simulated.seconds,
+                                 1e3 * simulated.motion.displacement.lpNorm<Eigen::Infinity>()));
+  }
+}
+
+void run_case(const MassMaterialProgram& program, Session& session) {
+  const MassMaterialCase& c = program.parsed;
+  require_parameters(c);
+  if (session.restart)
+    session.log.say("a simulation of vibration tests cannot be restarted: starting from the beginning");
+  const Stopwatch watch;
+  const FolderLock lock(session.results);
+  NewResults place(session.results, fs::exists(session.results / summary_file));
+  session.log.open_file(place.folder() / "run.log", false);
+  say_model(program, session.log);
+  if (place.wait()) say_what_is_replaced(session, program.hash, false);
+  VibrationSummary summary{.case_name = program.name,
+                           .status = "complete",
+                           .version = session.version,
+                           .case_hash = program.hash,
+                           .threads = session.threads,
+                           .wall_seconds = 0.0,
+                           .figures = {},
+                           .tests = {}};
+  run_tests(program, session, place.folder(), summary);
+  const auto z0 = static_settling_point(c.model, standard_gravity);
+  summary.figures = {{"mass_kg", c.model.mass},
+                     {"static_stiffness_N_per_m", static_stiffness(c.model)},
+                     {"static_settling_point_m", z0 ? *z0 : std::nan("")}};
+  summary.wall_seconds = watch.seconds();
+  write_vibration_summary(place.folder() / summary_file, summary);
+  place.take_place([&] { remove_earlier_results(session.results); }, summary_file);
+  session.log.say(
+      fmt::format("complete after {:.1f} s; results in {}", summary.wall_seconds, session.results.string()));
+}
+
+}  // namespace
+
+RunnableCase read_mass_material_program(const CaseFile& file) {
+  auto program =
+      std::make_shared<MassMaterialProgram>(MassMaterialProgram{.file = file, .parsed = {}, .name = {}, .hash = {}});
+  program->parsed = read_mass_material_case(file.config.root(), file.directory);
+  program->name = case_name(file);
+  program->hash = case_hash(file, program->parsed.data_files);
+  return {.title = program->parsed.title,
+          .check = [program](Session& session) { check(*program, session); },
+          .run = [program](Session& session) { run_case(*program, session); },
+          .fit = [program](Session& session) { fit_mass_material(*program, session); },
+          .report = [program](Session& session) { write_report(mass_material_page(*program, session), session); },
+
+          .data_files = program->parsed.data_files};
+}
+
+}  // namespace pfdm

@@ -1,0 +1,24 @@
+#pragma once
+// Vibration records from files, in SI units, checked.
+
+#include "cases/program/session/log.h"
+#include "cases/program/vibration/mass_material_case.h"
+#include "solver/vibration/vibration_record.h"
+
+#include <filesystem>
+
+namespace pfdm {
+
+/// The test's record, offsets of the channels taken out. Throws InputError that names the file and the fault; what can
+/// be lived with is said to the log.
+VibrationRecord read_record(const VibrationTest& test, const RecordFile& source, Log& log);
+
+/// One acceleration of a file [m/s^2] and the rate [Hz] by its times or as stated; for base accelerations that were
+/// measured.
+struct SampledChannel {
+  Eigen::VectorXd values;
+  double rate = 0.0;
+};
+SampledChannel read_channel(const RecordFile& source);
+
+}  // namespace pfdm

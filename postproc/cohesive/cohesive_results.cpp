@@ -1,0 +1,203 @@
+#include "postproc/cohesive/cohesive_results.h"
+
+#include "physics/angle.h"
+#include "physics/error.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/csv_table.h"
+#include "postproc/files/json.h"
+
+#include <fmt/format.h>
+
+namespace pfdm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Columns of a table of laws; the first of `numbers` tell which law it is.
+class LawTable {
+ public:
+  explicit LawTable(std::vector<std::string> numbers) {
+    for (const char* name : {"separation_m", "traction_Pa", "separation_1_m", "traction_1_Pa", "separation_2_m",
+                             "traction_2_Pa", "surface_energy_J_per_m2", "largest_damage"})
+      table_.add(name, {});
+    for (std::string& name : numbers) table_.add(std::move(name), {});
+    for (const char* name : {"polar_angle_from_rad", "polar_angle_to_rad", "step", "load"}) table_.add(name, {});
+  }
+
+  void add(const CohesiveLaw& law, const std::vector<double>& numbers, const std::vector<CurveRow>& curve) {
+    for (std::size_t step = 0; step < law.states.size(); ++step) {
+      const ColumnSample& s = law.states[step];
+      std::size_t i = 0;
+      const auto put = [&](double value) { table_.columns[i++].push_back(value); };
+      for (Index k = 0; k < 3; ++k) {
+        put(s.separation[k]);
+        put(s.traction[k]);
+      }
+      put(s.surface_energy);
+      put(s.largest_damage);
+      for (const double number : numbers) put(number);
+      put(law.from);
+      put(law.to);
+      put(static_cast<double>(step));
+      put(curve[step].load);
+    }
+  }
+
+  const CsvTable& table() const { return table_; }
+
+ private:
+  CsvTable table_;
+};
+
+Json to_json(const CohesiveFit& fit) {
+  Json json = {{"law", fit.law},
+               {"rms_misfit_over_strength", fit.rms},
+               {"largest_misfit_over_strength", fit.largest},
+               {"bayesian_information", fit.information}};
+  for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
+    const FitEstimate& e = fit.result.estimates[j];
+    json["parameters"].push_back({{"name", fit.parameters[j].name},
+                                  {"unit", fit.parameters[j].unit},
+                                  {"estimate", e.value},
+                                  {"at_bound", e.at_bound}});
+  }
+  return json;
+}
+
+Json to_json(const CohesiveResult& result) {
+  const CohesiveFigures& f = result.figures;
+  Json json = {{"polar_angle_from_deg", result.law.from / degree},
+               {"polar_angle_to_deg", result.law.to / degree},
+               {"places", result.law.places.size()},
+               {"area_m2", result.law.area},
+               {"strength_Pa", f.strength},
+               {"critical_separation_m", f.critical_separation},
+               {"final_separation_m", f.final_separation},
+               {"final_traction_Pa", f.final_traction},
+               {"initial_stiffness_Pa_per_m", f.initial_stiffness},
+               {"largest_tangential_traction_Pa", f.largest_tangential},
+               {"mode_mixity_at_strength_deg", f.mixity_at_strength / degree},
+               {"fracture_energy_J_per_m2", f.normal_energy + f.tangential_energy},
+               {"fracture_energy_normal_J_per_m2", f.normal_energy},
+               {"fracture_energy_tangential_J_per_m2", f.tangential_energy},
+               {"fracture_energy_at_least_J_per_m2", f.energy_at_least},
+               {"surface_energy_J_per_m2", f.surface_energy},
+               {"bulk_separation_at_strength_m", f.bulk_separation},
+               {"traced", f.is_traced()}};
+  json["jump_at_step"] = f.jump ? Json(*f.jump) : Json();
+  json["best_fit"] = result.fits.empty() ? Json() : Json(result.fits.front().law);
+  json["fits"] = Json::array();
+  for (const CohesiveFit& fit : result.fits) json["fits"].push_back(to_json(fit));
+  return json;
+}
+
+Json to_json(const CohesiveReport& report) {
+  Json json = {{"case", report.case_name}, {"version", report.version}, {"case_hash", report.case_hash}};
+  for (std::size_t r = 0; r < report.records.size(); ++r) {
+    const ColumnRecord& record = report.records[r];
+    Json surface = {{"name", record.name},
+                    {"kind", name_of(record.kind)},
+                    {"places", record.places.size()},
+                    {"never_damaged_places", n_never_damaged(record)},
+                    {"area_m2", record.area()},
+                    {"debonded_area_m2", debonding_of(record).back().area},
+                    {"laws", Json::array()}};
+    for (const CohesiveResult& result : report.results[r]) surface["laws"].push_back(to_json(result));
+    json["surfaces"].push_back(surface);
+  }
+  return json;
+}
+
+CsvTable debonding_table(const CohesiveReport& report) {
+  CsvTable table;
+  for (const char* name : {"surface", "step", "load", "displacement_m", "force_N", "debonded_area_m2",
+                           "debonding_angle_plus_rad", "debonding_angle_minus_rad"})
+    table.add(name, {});
+  for (std::size_t r = 0; r < report.records.size(); ++r) {
+    const std::vector<Debonding> history = debonding_of(report.records[r]);
+    for (std::size_t step = 0; step < history.size(); ++step) {
+      const CurveRow& row = report.curve[step];
+      const Debonding& d = history[step];
+      const double values[] = {static_cast<double>(r),
+                               static_cast<double>(step),
+                               row.load,
+                               row.displacement,
+                               row.force[report.component],
+                               d.area,
+                               d.angle_plus,
+                               d.angle_minus};
+      for (std::size_t i = 0; i < table.columns.size(); ++i) table.columns[i].push_back(values[i]);
+    }
+  }
+  return table;
+}
+
+// Names of the surfaces behind their numbers.
+std::vector<std::string> surface_remarks(const CohesiveReport& report) {
+  std::vector<std::string> lines;
+  for (std::size_t r = 0; r < report.records.size(); ++r) {
+    const ColumnRecord& record = report.records[r];
+    lines.push_back(fmt::format("surface {}: {}", r, record.name));
+    if (const std::size_t sound = n_never_damaged(record); sound > 0)
+      lines.back() += fmt::format("; {} of {} places never damaged (d at most {:g}): no law", sound,
+                                  record.places.size(), sound_damage);
+  }
+  return lines;
+}
+
+// What the columns of a table of laws mean.
+constexpr const char* law_remarks[] = {
+    "separation_m, traction_Pa: normal, from the particle outwards (of a plane: its normal); opening and tension are > "
+    "0",
+    "1: tangent towards growing polar angle, away from the direction of the load; 2: normal x tangent 1",
+    "traction: at the middle of the column (of a plane: on it); separation: of the whole column, beyond elastic strain",
+    "polar angles: of the normal from the direction of the load, in radians (bins of 15 degrees are 0.2618 rad wide)",
+};
+
+void write_table(const std::filesystem::path& file, CsvTable table, std::vector<std::string> remarks) {
+  table.comments = std::move(remarks);
+  write_csv(file, table);
+}
+
+}  // namespace
+
+std::vector<CohesiveResult> evaluate(const ColumnRecord& record) {
+  std::vector<CohesiveResult> results;
+  for (CohesiveLaw& law : averaged_laws(record)) {
+    CohesiveResult result{.law = std::move(law), .figures = {}, .fits = {}};
+    result.figures = figures_of(record, result.law);
+    if (result.figures.is_traced()) {
+      std::vector<double> separation, traction;
+      for (const ColumnSample& s : result.law.states) {
+        separation.push_back(s.separation[0]);
+        traction.push_back(s.traction[0]);
+      }
+      result.fits = fit_laws(separation, traction);
+    }
+    results.push_back(std::move(result));
+  }
+  return results;
+}
+
+void write_cohesive_results(const std::filesystem::path& results, const CohesiveReport& report) {
+  LawTable averaged({"surface"}), places({"surface", "place"});
+  for (std::size_t r = 0; r < report.records.size(); ++r) {
+    const ColumnRecord& record = report.records[r];
+    if (record.steps.size() != report.curve.size())
+      throw InputError(fmt::format("{}: the columns of \"{}\" have {} steps, the curve has {}; run the case again",
+                                   results.string(), record.name, record.steps.size(), report.curve.size()));
+    const auto surface = static_cast<double>(r);
+    for (const CohesiveResult& result : report.results[r]) averaged.add(result.law, {surface}, report.curve);
+    for (std::size_t p = 0; p < record.places.size(); ++p)
+      if (was_damaged(record, p)) places.add(law_at_place(record, p), {surface, static_cast<double>(p)}, report.curve);
+  }
+  const std::vector<std::string> surfaces = surface_remarks(report);
+  std::vector<std::string> laws = surfaces;
+  laws.insert(laws.end(), std::begin(law_remarks), std::end(law_remarks));
+  write_table(results / "cohesive_law.csv", averaged.table(), laws);
+  write_table(results / "cohesive_law_places.csv", places.table(), laws);
+  write_table(results / "debonding.csv", debonding_table(report), surfaces);
+  write_file(results / "cohesive.json", to_json(report).dump(2) + "\n");
+}
+
+}  // namespace pfdm

@@ -1,0 +1,61 @@
+#pragma once
+// The force-displacement curve: rows of numbers, as a file that other tools rely on, and back.
+
+#include "solver/fracture/state.h"
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+/// One load step as seen from the patch that is pulled.
+struct CurveRow {
+  Index step = 0;
+  double load = 0.0;              ///< load parameter t
+  double displacement = 0.0;      ///< one component of the patch's mean displacement [m]
+  Vector force = Vector::Zero();  ///< on the patch [N]
+  double elastic_energy = 0.0;    ///< [J]
+  double fracture_energy = 0.0;   ///< [J]
+  double external_work = 0.0;     ///< [J]
+  double max_damage = 0.0;        ///< [-]
+  double damaged_volume = 0.0;    ///< [m^3]
+  Index staggered_iterations = 0;
+  double viscous_dissipation = 0.0;  ///< [J]
+  double plastic_dissipation = 0.0;  ///< [J]
+  friend bool operator==(const CurveRow&, const CurveRow&) = default;
+};
+
+inline constexpr const char* curve_file = "force_displacement.csv";
+constexpr std::string_view curve_header =
+    "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,external_work_J,"
+    "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J,"
+    "plastic_dissipation_J";
+
+/// Component 0, 1, 2 (x, y, z) of the displacement of the patch with this number in Mesh::patches.
+CurveRow curve_row(const StepReport& report, Index patch, int component);
+
+/// Numbers come back exactly as written. A last line without its line break is torn and is left out. Throws InputError
+/// that names file and line for anything else that is not a row.
+std::vector<CurveRow> read_curve(const std::filesystem::path& path);
+
+/// A curve that is on the disk, whole, after each write().
+class CurveFile {
+ public:
+  /// Starts a curve without rows. Throws ComputationError if the file cannot be written, as write() does.
+  explicit CurveFile(std::filesystem::path path);
+  /// Continues a curve on the disk, of which the rows up to `last_step` are kept; without a file, from none.
+  /// Throws InputError likewise to read_curve.
+  CurveFile(std::filesystem::path path, Index last_step);
+
+  /// The file has the row after write().
+  void add(const CurveRow& row) { rows_.push_back(row); }
+  void write() const;
+  const std::vector<CurveRow>& rows() const { return rows_; }
+
+ private:
+  std::filesystem::path path_;
+  std::vector<CurveRow> rows_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,82 @@
+#include "postproc/curves/curve_misfit.h"
+
+#include "physics/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+constexpr double rounding = 1e-6;  // of a range: a run's last displacement is not exact
+
+}  // namespace
+
+MeasuredPoints points_between(const std::vector<SampledCurve>& specimens, double from, double to) {
+  MeasuredPoints measured{.points = {}, .noise_is_known = true, .rms = 0.0};
+  for (std::size_t s = 0; s < specimens.size(); ++s) {
+    const SampledCurve& curve = specimens[s];
+    measured.noise_is_known = measured.noise_is_known && !curve.deviation.empty();
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      if (curve.x[i] < from || curve.x[i] > to) continue;
+      const double deviation = curve.deviation.empty() ? 0.0 : curve.deviation[i];
+      if (!curve.deviation.empty() && !(deviation > 0.0))
+        throw InputError(
+            fmt::format("the standard deviation of \"{}\" at {:.4g} (SI) is zero: its weight would be infinite",
+                        curve.name, curve.x[i]));
+      measured.points.push_back({s, curve.x[i], curve.y[i], deviation});
+      measured.rms += curve.y[i] * curve.y[i];
+    }
+  }
+  if (measured.points.empty())
+    throw InputError(fmt::format("no measured point lies between {:.4g} and {:.4g} (SI)", from, to));
+  measured.rms = std::sqrt(measured.rms / static_cast<double>(measured.points.size()));
+  return measured;
+}
+
+std::optional<std::vector<double>> residuals_of(const SampledCurve& model, const MeasuredPoints& measured) {
+  const double slack = rounding * (model.x.back() - model.x.front());
+  std::vector<double> residuals;
+  for (const auto& point : measured.points) {
+    if (point.x < model.x.front() - slack || point.x > model.x.back() + slack) return std::nullopt;
+    const double scale = measured.noise_is_known ? point.deviation : measured.rms;
+    residuals.push_back((model.at(point.x) - point.y) / scale);
+  }
+  return residuals;
+}
+
+double rms_residual(const SampledCurve& model, const MeasuredPoints& measured) {
+  const auto residuals = residuals_of(model, measured);
+  if (!residuals) return std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  for (const double r : *residuals) sum += r * r;
+  return std::sqrt(sum / static_cast<double>(residuals->size()));
+}
+
+double neighbour_correlation(std::span<const double> residuals, const MeasuredPoints& measured) {
+  double product = 0.0, square = 0.0;
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    square += residuals[i] * residuals[i];
+    if (i == 0 || measured.points[i].specimen != measured.points[i - 1].specimen) continue;
+    product += residuals[i] * residuals[i - 1];
+    ++pairs;
+  }
+  if (pairs == 0 || square == 0.0) return 0.0;
+  return product / static_cast<double>(pairs) / (square / static_cast<double>(residuals.size()));
+}
+
+double rms_difference(const SampledCurve& model, const MeasuredPoints& measured, std::size_t specimen) {
+  double sum = 0.0, n = 0.0;
+  for (const auto& point : measured.points)
+    if (point.specimen == specimen) {
+      sum += std::pow(model.at(point.x) - point.y, 2);
+      n += 1.0;
+    }
+  return n > 0.0 ? std::sqrt(sum / n) : 0.0;
+}
+
+}  // namespace pfdm

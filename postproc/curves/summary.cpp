@@ -1,0 +1,198 @@
+#include "postproc/curves/summary.h"
+
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/json.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+namespace pfdm {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Of the work that was done since the start, where there may be damage already.
+double left_over(const CurveRow& start, const CurveRow& row) {
+  return row.external_work - row.elastic_energy - (row.fracture_energy - start.fracture_energy) -
+         row.viscous_dissipation - row.plastic_dissipation;
+}
+
+double balance_error(const CurveRow& start, const CurveRow& row) {
+  if (!(row.external_work > 0.0)) return Headlines::none;
+  return std::abs(left_over(start, row)) / row.external_work;
+}
+
+double initial_stiffness(std::span<const CurveRow> rows, int component) {
+  const CurveRow& start = rows.front();
+  const auto loaded =
+      std::ranges::find_if(rows, [&](const CurveRow& row) { return row.displacement != start.displacement; });
+  if (loaded == rows.end()) return Headlines::none;
+  return (loaded->force[component] - start.force[component]) / (loaded->displacement - start.displacement);
+}
+
+double largest_balance_error(std::span<const CurveRow> rows) {
+  double largest = Headlines::none;
+  for (const CurveRow& row : rows) largest = std::fmax(largest, balance_error(rows.front(), row));
+  return largest;
+}
+
+void find_release(std::span<const CurveRow> rows, Headlines& figures) {
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double released = left_over(rows.front(), rows[i]) - left_over(rows.front(), rows[i - 1]);
+    if (figures.released_energy >= released) continue;  // none is no number, which is never so
+    figures.released_energy = released;
+    figures.displacement_at_release = rows[i].displacement;
+  }
+}
+
+Json to_json(const Headlines& f) {
+  return {{"peak_force_N", f.peak_force},
+          {"displacement_at_peak_m", f.displacement_at_peak},
+          {"load_at_peak", f.load_at_peak},
+          {"initial_stiffness_N_per_m", f.initial_stiffness},
+          {"final_force_N", f.final_force},
+          {"final_displacement_m", f.final_displacement},
+          {"final_load", f.final_load},
+          {"final_elastic_energy_J", f.final_elastic_energy},
+          {"final_fracture_energy_J", f.final_fracture_energy},
+          {"external_work_J", f.external_work},
+          {"viscous_dissipation_J", f.viscous_dissipation},
+          {"plastic_dissipation_J", f.plastic_dissipation},
+          {"energy_balance_error", f.energy_balance_error},
+          {"max_energy_balance_error", f.max_energy_balance_error},
+          {"released_energy_J", f.released_energy},
+          {"displacement_at_release_m", f.displacement_at_release},
+          {"max_damage", f.max_damage},
+          {"damaged_volume_m3", f.damaged_volume}};
+}
+
+Json to_json(const RunSummary& s) {
+  Json json = {{"case", s.case_name},
+               {"status", s.status},
+               {"version", s.version},
+               {"case_hash", s.case_hash},
+               {"threads", s.threads},
+               {"cells", s.cells},
+               {"unknowns", s.unknowns},
+               {"steps", s.steps},
+               {"staggered_iterations", s.staggered_iterations},
+               {"window_iterations", s.window_iterations},
+               {"krylov_iterations", s.krylov_iterations},
+               {"wall_seconds", s.wall_seconds},
+               {"cpu_seconds", s.cpu_seconds},
+               {"wall_seconds_by_stage", s.wall_seconds_by_stage},
+               {"cpu_seconds_by_stage", s.cpu_seconds_by_stage},
+               {"peak_memory_bytes", std::llround(s.peak_memory)}};
+  if (s.figures) json.update(to_json(*s.figures));
+  for (const auto& [name, value] : s.other_figures) json[name] = value;
+  for (const auto& [name, count] : s.other_counts) json[name] = count;
+  return json;
+}
+
+rusage usage() {
+  rusage now{};
+  getrusage(RUSAGE_SELF, &now);
+  return now;
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
+Headlines headlines(std::span<const CurveRow> rows, int component) {
+  Headlines figures;
+  if (rows.empty()) return figures;
+  const auto force = [component](const CurveRow& row) { return row.force[component]; };
+  const CurveRow& peak = *std::ranges::max_element(rows, {}, [&](const CurveRow& row) { return std::abs(force(row)); });
+  figures.peak_force = force(peak);
+  figures.displacement_at_peak = peak.displacement;
+  figures.load_at_peak = peak.load;
+  figures.initial_stiffness = initial_stiffness(rows, component);
+  const CurveRow& last = rows.back();
+  figures.final_force = force(last);
+  figures.final_displacement = last.displacement;
+  figures.final_load = last.load;
+  figures.final_elastic_energy = last.elastic_energy;
+  figures.final_fracture_energy = last.fracture_energy;
+  figures.external_work = last.external_work;
+  figures.viscous_dissipation = last.viscous_dissipation;
+  figures.plastic_dissipation = last.plastic_dissipation;
+  figures.max_damage = last.max_damage;
+  figures.damaged_volume = last.damaged_volume;
+  figures.energy_balance_error = balance_error(rows.front(), last);
+  figures.max_energy_balance_error = largest_balance_error(rows);
+  find_release(rows, figures);
+  return figures;
+}
+
+void write_summary(const std::filesystem::path& path, const RunSummary& summary) {
+  write_file(path, to_json(summary).dump(2) + "\n");
+}
+
+double ReadSummary::number(std::string_view name) const {
+  const auto found = std::ranges::find(numbers, name, &std::pair<std::string, double>::first);
+  return found != numbers.end() ? found->second : Headlines::none;
+}
+
+std::optional<ReadSummary> read_summary(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  return read_json(path, "summary of a run", [](const Json& json) {
+    ReadSummary summary{.status = json.at("status"), .case_hash = json.at("case_hash"), .numbers = {}};
+    for (const auto& [name, value] : json.items())
+      if (value.is_number() || value.is_null()) summary.numbers.emplace_back(name, number_of(value));
+    return summary;
+  });
+}
+
+RunSummary read_run_summary(const std::filesystem::path& path) {
+  return read_json(path, "summary of a run", [](const Json& json) {
+    RunSummary s;
+    s.case_name = json.at("case");
+    s.status = json.at("status");
+    s.version = json.at("version");
+    s.case_hash = json.at("case_hash");
+    s.threads = json.at("threads");
+    s.cells = json.at("cells");
+    s.unknowns = json.at("unknowns");
+    s.steps = json.at("steps");
+    s.staggered_iterations = json.at("staggered_iterations");
+    s.window_iterations = json.value("window_iterations", 0.0);
+    s.krylov_iterations = json.at("krylov_iterations");
+    s.wall_seconds = json.at("wall_seconds");
+    s.cpu_seconds = json.at("cpu_seconds");
+    s.wall_seconds_by_stage = json.at("wall_seconds_by_stage");
+    s.cpu_seconds_by_stage = json.at("cpu_seconds_by_stage");
+    s.peak_memory = json.at("peak_memory_bytes");
+    const Json known = to_json(s);
+    for (const auto& [name, value] : json.items()) {
+      if (known.contains(name)) continue;
+      if (value.is_number_integer())
+        s.other_counts[name] = value;
+      else if (value.is_number() || value.is_null())
+        s.other_figures[name] = number_of(value);
+    }
+    return s;
+  });
+}
+
+// getrusage would count the program that has started this one as well.
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return 1024.0 * std::stod(line.substr(6));  // in KiB
+  return 1024.0 * static_cast<double>(usage().ru_maxrss);
+}
+
+double cpu_seconds() {
+  const rusage now = usage();
+  return seconds(now.ru_utime) + seconds(now.ru_stime);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,93 @@
+#pragma once
+// summary.json: what ran, what it cost, and the figures that one asks for first.
+
+#include "postproc/curves/curve_csv.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace pfdm {
+
+/// Figures of a force-displacement curve; NaN where the curve has none.
+struct Headlines {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double peak_force = none;                ///< largest in magnitude, of the force along the displacement [N]
+  double displacement_at_peak = none;      ///< [m]
+  double load_at_peak = none;              ///< load parameter [-]
+  double initial_stiffness = none;         ///< secant from the first row to the first other displacement [N/m]
+  double final_force = none;               ///< [N]
+  double final_displacement = none;        ///< [m]
+  double final_load = none;                ///< load parameter [-]
+  double final_elastic_energy = none;      ///< [J]
+  double final_fracture_energy = none;     ///< [J]
+  double external_work = none;             ///< at the end [J]
+  double viscous_dissipation = none;       ///< until the end [J]
+  double plastic_dissipation = none;       ///< until the end [J]
+  double max_damage = none;                ///< at the end [-]
+  double damaged_volume = none;            ///< at the end [m^3]
+  double energy_balance_error = none;      ///< |W - E_elastic - E_fracture - D| / W at the end [-]
+  double released_energy = none;           ///< the most that one step's work leaves over, as an unstable jump does [J]
+  double displacement_at_release = none;   ///< at the end of that step [m]
+  double max_energy_balance_error = none;  ///< the largest over all rows with W > 0 [-]
+};
+
+/// `component` 0, 1, 2: the direction of the displacement in the rows.
+Headlines headlines(std::span<const CurveRow> rows, int component);
+
+struct RunSummary {
+  std::string case_name;
+  std::string status;  ///< "complete", or why it ended before
+  std::string version;
+  std::string case_hash;
+  int threads = 0;
+  Index cells = 0;
+  Index unknowns = 0;
+  Index steps = 0;
+  Index staggered_iterations = 0;
+  double window_iterations = 0.0;  ///< besides, each counting as its share of the cells
+  Index krylov_iterations = 0;
+  double wall_seconds = 0.0;
+  double cpu_seconds = 0.0;
+  std::map<std::string, double> wall_seconds_by_stage;
+  std::map<std::string, double> cpu_seconds_by_stage;
+  double peak_memory = 0.0;                     ///< [byte]
+  std::optional<Headlines> figures;             ///< of kinds that have a force-displacement curve
+  std::map<std::string, double> other_figures;  ///< a case's own, with the unit in the name
+  std::map<std::string, std::int64_t> other_counts;
+};
+
+/// Written whole or not at all; numbers that are not finite become null. Throws ComputationError if the file cannot be
+/// written.
+void write_summary(const std::filesystem::path& path, const RunSummary& summary);
+
+inline constexpr const char* summary_file = "summary.json";
+
+/// What a summary.json says.
+struct ReadSummary {
+  std::string status;
+  std::string case_hash;
+  std::vector<std::pair<std::string, double>> numbers;  ///< in their order, by name; NaN where it has null
+  double number(std::string_view name) const;           ///< NaN if it has none of this name
+};
+
+/// Nothing if there is no such file. Throws InputError for a file that is no summary.
+std::optional<ReadSummary> read_summary(const std::filesystem::path& path);
+
+/// What write_summary() wrote; all figures are in other_figures and other_counts. Throws InputError that names the file
+/// for what is no summary.
+RunSummary read_run_summary(const std::filesystem::path& path);
+
+/// The most memory that this process has had so far [byte].
+double peak_memory();
+/// Processor time of all threads of this process so far [s].
+double cpu_seconds();
+
+}  // namespace pfdm

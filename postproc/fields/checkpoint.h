@@ -1,0 +1,19 @@
+#pragma once
+// checkpoint.bin: the state of a fracture run, bit for bit, for a restart.
+
+#include "solver/fracture/state.h"
+
+#include <filesystem>
+#include <string>
+
+namespace pfdm {
+
+/// Written whole or not at all; throws ComputationError if the file cannot be written. `case_hash` says which case the
+/// state belongs to.
+void write_checkpoint(const std::filesystem::path& path, const FractureState& state, const std::string& case_hash);
+
+/// Throws InputError if the file cannot be read, is not a checkpoint, is truncated or corrupt (checksum), has another
+/// version's format or belongs to another case.
+FractureState read_checkpoint(const std::filesystem::path& path, const std::string& case_hash);
+
+}  // namespace pfdm

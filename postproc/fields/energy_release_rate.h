@@ -1,0 +1,60 @@
+#pragma once
+// The energy release rate of a crack from the fields around its tip: the J-integral (Rice, J. Appl. Mech. 35 (1968)
+// 379) in its domain form, called G-theta (Destuynder, Djaoua, Math. Methods Appl. Sci. 3 (1981) 70; Li, Shih,
+// Needleman, Eng. Fract. Mech. 21 (1985) 405),
+//
+//   G = (1/B) int sigma : (grad u grad theta) - (1/2) sigma : grad u  div theta  dV,   theta = q(x) e,
+//
+// e the direction in which the crack grows, q = 1 within an inner distance of the tip, falling linearly to 0 at an
+// outer one, B the extent of the body along the crack front. Only the elastic part of the Eshelby tensor takes part:
+// what is measured is the energy that flows into the tip region from the far field, if the ring between the distances
+// lies in sound material but for the crack's wake, which carries nothing.
+
+#include "solver/fracture/state.h"
+
+#include "mesh/mesh.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace pfdm {
+
+/// How the distance from the tip is measured, in the plane across the front.
+struct RegionShape {
+  std::string_view name;
+  std::string_view description;
+  /// Of a place at `along` ahead of the tip and `across` beside it [m].
+  double (*distance)(double along, double across);
+};
+std::span<const RegionShape> region_shapes();
+
+/// The region around a crack tip.
+struct TipRegion {
+  std::string name;
+  Vector point = Vector::Zero();       ///< the tip, or where it is at first [m]
+  Vector direction = Vector::UnitX();  ///< of growth, unit length
+  Vector front = Vector::UnitZ();      ///< along the crack front, unit length, across the direction
+  const RegionShape* shape = nullptr;
+  double inner = 0.0, outer = 0.0;  ///< distances [m]
+  bool follows = false;             ///< the tip is the foremost place with d >= tip_damage, from `point` on
+  double tip_damage = 0.9;
+  double corridor =
+      std::numeric_limits<double>::infinity();  ///< beside the line from `point` [m]; damage beyond is no tip
+};
+
+/// The foremost place along the region's direction where the damage passes the threshold, between cell centres; the
+/// region's point where no damage lies ahead of it.
+Vector crack_tip(const Mesh& mesh, const CellField<double>& damage, const TipRegion& region);
+
+struct EnergyRelease {
+  Vector tip = Vector::Zero();  ///< [m]
+  double G = 0.0;               ///< [J/m^2]; NaN where the ring leaves the body across the direction of growth
+  /// Share of the integrand's magnitude that comes from cells with d > 0.1: the value is the far field's if it is
+  /// small.
+  double damaged_share = 0.0;
+};
+
+EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, const TipRegion& region);
+
+}  // namespace pfdm

@@ -1,0 +1,74 @@
+#include "postproc/fields/pvd.h"
+
+#include "physics/error.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/text_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+namespace pfdm {
+namespace {
+
+constexpr std::string_view head =
+    "<?xml version=\"1.0\"?>\n"
+    "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+    "<Collection>\n";
+constexpr std::string_view foot = "</Collection>\n</VTKFile>\n";
+constexpr std::string_view row_start = "<DataSet timestep=\"";
+constexpr std::string_view row_middle = "\" part=\"0\" file=\"";
+constexpr std::string_view row_end = "\"/>";
+
+std::optional<Frame> parse_row(std::string_view line) {
+  const std::size_t middle = line.find(row_middle);
+  if (!line.starts_with(row_start) || !line.ends_with(row_end) || middle == std::string_view::npos) return std::nullopt;
+  const std::size_t file = middle + row_middle.size();
+  const auto time = parse_double(line.substr(row_start.size(), middle - row_start.size()));
+  if (!time || file + row_end.size() >= line.size()) return std::nullopt;
+  return Frame{*time, std::string(line.substr(file, line.size() - row_end.size() - file))};
+}
+
+}  // namespace
+
+std::vector<Frame> read_pvd(const std::filesystem::path& path) {
+  const std::string content = read_file(path);
+  std::string_view rest = content;
+  if (!rest.starts_with(head) || !rest.ends_with(foot))
+    throw InputError(fmt::format("{} is not a list of frames that this program wrote", path.string()));
+  rest = rest.substr(head.size(), rest.size() - head.size() - foot.size());
+  std::vector<Frame> frames;
+  while (!rest.empty()) {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    const auto frame = parse_row(line);
+    if (!frame) throw InputError(fmt::format("{}: \"{}\" is not a frame", path.string(), line));
+    frames.push_back(*frame);
+    rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+  }
+  return frames;
+}
+
+PvdSeries::PvdSeries(std::filesystem::path path) : path_(std::move(path)) { write(); }
+
+PvdSeries::PvdSeries(std::filesystem::path path, const std::function<bool(const Frame&)>& keeps)
+    : path_(std::move(path)) {
+  if (std::filesystem::exists(path_)) frames_ = read_pvd(path_);
+  std::erase_if(frames_, std::not_fn(keeps));
+  write();
+}
+
+void PvdSeries::add(double time, const std::string& file) {
+  frames_.push_back({time, file});
+  write();
+}
+
+void PvdSeries::write() const {
+  std::string content(head);
+  for (const Frame& frame : frames_)
+    content += fmt::format("{}{}{}{}{}\n", row_start, frame.time, row_middle, frame.file, row_end);
+  write_file(path_, content + std::string(foot));
+}
+
+}  // namespace pfdm

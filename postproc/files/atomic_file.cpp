@@ -1,0 +1,138 @@
+#include "postproc/files/atomic_file.h"
+
+#include "physics/error.h"
+#include "postproc/files/text_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view partial = ".partial";
+
+[[noreturn]] void fail(const fs::path& path, int reason) {
+  throw ComputationError(fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(reason)));
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+
+  int get() const { return fd_; }
+  // Network file systems may report a full disk only here.
+  void sync_and_close(const fs::path& shown) {
+    if (::fsync(fd_) != 0 && errno != EINVAL) fail(shown, errno);
+    const int closed = ::close(std::exchange(fd_, -1));
+    if (closed != 0) fail(shown, errno);
+  }
+
+ private:
+  int fd_;
+};
+
+Descriptor opened(const fs::path& path, int flags, const fs::path& shown) {
+  const int fd = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+  if (fd < 0) fail(shown, errno);
+  return Descriptor(fd);
+}
+
+// Leaves no temporary file behind, whatever happens.
+struct TemporaryFile {
+  fs::path path;  // empty once it has been renamed: the name may be another's by then
+  Descriptor file;
+  TemporaryFile(fs::path p, Descriptor f) : path(std::move(p)), file(std::move(f)) {}
+  ~TemporaryFile() {
+    if (!path.empty()) ::unlink(path.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+};
+
+// Under a name that nothing has: neither another process's file nor a link, whose target it would overwrite.
+TemporaryFile temporary_beside(const fs::path& path) {
+  for (int attempt = 0;; ++attempt) {
+    const std::string name = fmt::format(".{}.{}_{}{}", path.filename().string(), ::getpid(), attempt, partial);
+    const fs::path temporary = path.parent_path() / name;
+    const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (fd >= 0) return {temporary, Descriptor(fd)};
+    if (errno != EEXIST) fail(path, errno);
+  }
+}
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+void sync_folder_of(const fs::path& path) {
+  opened(folder_of(path), O_RDONLY | O_DIRECTORY, path).sync_and_close(path);
+}
+
+void rename_into_place(TemporaryFile& temporary, const fs::path& path) {
+  if (::rename(temporary.path.c_str(), path.c_str()) != 0) fail(path, errno);
+  temporary.path.clear();
+  sync_folder_of(path);
+}
+
+}  // namespace
+
+void write_file(const fs::path& path, std::string_view content) {
+  TemporaryFile temporary = temporary_beside(path);
+  detail::write_all(temporary.file.get(), content, path);
+  temporary.file.sync_and_close(path);
+  rename_into_place(temporary, path);
+}
+
+void replace_file(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  TemporaryFile temporary = temporary_beside(path);
+  write(temporary.path);
+  opened(temporary.path, O_RDONLY, path).sync_and_close(path);
+  rename_into_place(temporary, path);
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+  if (::rename(from.c_str(), to.c_str()) == 0) return sync_folder_of(to);
+  if (errno != EXDEV) fail(to, errno);
+  write_file(to, read_file(from));
+  ::unlink(from.c_str());
+}
+
+void remove_leftovers(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.') && name.ends_with(partial)) fs::remove_all(entry.path(), ignored);
+  }
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw ComputationError(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+}
+
+namespace detail {
+
+void write_all(int descriptor, std::string_view content, const fs::path& path) {
+  while (!content.empty()) {
+    const ssize_t n = ::write(descriptor, content.data(), content.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(path, errno);
+    content.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+}  // namespace detail
+}  // namespace pfdm

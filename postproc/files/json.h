@@ -1,0 +1,40 @@
+#pragma once
+// What several of the JSON files hold, and how they are read.
+
+#include "physics/error.h"
+#include "postproc/files/text_file.h"
+
+#include <fmt/format.h>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+/// A list of rows.
+inline nlohmann::ordered_json to_json(const Eigen::MatrixXd& matrix) {
+  auto rows = nlohmann::ordered_json::array();
+  for (const auto& row : matrix.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return rows;
+}
+
+/// Numbers that are not finite are written as null.
+inline double number_of(const nlohmann::ordered_json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+/// What `take` makes of the file's content. Throws InputError that names the file for what is no `what`, as in "fit".
+template <class Take>
+auto read_json(const std::filesystem::path& path, std::string_view what, const Take& take) {
+  try {
+    return take(nlohmann::ordered_json::parse(read_file(path)));
+  } catch (const nlohmann::ordered_json::exception& error) {
+    throw InputError(fmt::format("{}: this is not a {}: {}", path.string(), what, error.what()));
+  }
+}
+
+}  // namespace pfdm

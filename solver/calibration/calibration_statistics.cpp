@@ -1,0 +1,159 @@
+#include "solver/calibration/calibration_statistics.h"
+
+#include "physics/error.h"
+#include "solver/linear/dense_algebra.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <boost/math/distributions/students_t.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr double unseen = 1e-9;     // sensitivity of the residuals, relative to the largest
+constexpr double dependent = 1e-7;  // smallest singular value of the normalised Jacobian
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+std::vector<std::string> names_of(const ScaledModel& model, const std::vector<std::size_t>& which) {
+  std::vector<std::string> names;
+  for (const std::size_t j : which) names.push_back(model.problem().parameters[j].name);
+  return names;
+}
+
+/// Parameters that the estimate of a covariance can rest on; warns of the others.
+std::vector<std::size_t> visible_parameters(const ScaledModel& model, const Eigen::MatrixXd& J, FitResult& result) {
+  std::vector<std::size_t> visible;
+  const double largest = J.colwise().norm().maxCoeff();
+  for (std::size_t j = 0; j < model.n_parameters(); ++j) {
+    const std::string& name = model.problem().parameters[j].name;
+    if (!(J.col(static_cast<Eigen::Index>(j)).norm() > unseen * largest))
+      result.warnings.push_back(
+          fmt::format("the data do not determine {}: it has no influence on the residuals", name));
+    else if (result.estimates[j].at_bound)
+      result.warnings.push_back(
+          fmt::format("{} is at its bound; the intervals of the others are conditional on it", name));
+    else
+      visible.push_back(j);
+  }
+  return visible;
+}
+
+/// (J^T J)^-1 of the visible columns by singular values of the normalised columns; directions that the data do not
+/// determine are left out and named, their parameters marked.
+Eigen::MatrixXd inverse_normal(const ScaledModel& model, const Eigen::MatrixXd& J,
+                               const std::vector<std::size_t>& visible, std::vector<bool>& undetermined,
+                               FitResult& result) {
+  const auto n = static_cast<Eigen::Index>(visible.size());
+  if (n == 0) return Eigen::MatrixXd::Zero(0, 0);
+  Eigen::MatrixXd A(J.rows(), n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    A.col(k) = J.col(static_cast<Eigen::Index>(visible[static_cast<std::size_t>(k)]));
+  const Eigen::VectorXd size = A.colwise().norm();
+  A = A * size.cwiseInverse().asDiagonal();
+  const SingularValues svd = singular_values(A);
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double sigma = svd.values[k];
+    const Eigen::VectorXd v = svd.V.col(k);
+    if (sigma > dependent * svd.values[0]) {
+      inverse += v * v.transpose() / (sigma * sigma);
+      continue;
+    }
+    std::vector<std::size_t> together;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (std::abs(v[i]) > 0.1) {
+        together.push_back(visible[static_cast<std::size_t>(i)]);
+        undetermined[visible[static_cast<std::size_t>(i)]] = true;
+      }
+    result.warnings.push_back(
+        fmt::format("the data determine only a combination of {}", fmt::join(names_of(model, together), ", ")));
+  }
+  return size.cwiseInverse().asDiagonal() * inverse * size.cwiseInverse().asDiagonal();
+}
+
+void set_interval(const ScaledModel& model, std::size_t j, double u, double error, double t, FitEstimate& estimate) {
+  const double reach = t * error;
+  estimate.lower_95 = model.natural(j, u - reach);
+  estimate.upper_95 = model.natural(j, u + reach);
+  estimate.standard_error = error * (model.is_log(j) ? estimate.value : model.scale(j));
+  if (std::isfinite(error)) return;
+  estimate.lower_95 = model.problem().parameters[j].lower;
+  estimate.upper_95 = model.problem().parameters[j].upper;
+}
+
+void warn_of_poor_estimates(const ScaledModel& model, FitResult& result) {
+  for (std::size_t j = 0; j < model.n_parameters(); ++j) {
+    const FitEstimate& e = result.estimates[j];
+    if (std::isfinite(e.standard_error) && e.standard_error > std::abs(e.value))
+      result.warnings.push_back(fmt::format("{} is poorly determined: standard error {:.3g} of the estimate {:.3g}",
+                                            model.problem().parameters[j].name, e.standard_error, e.value));
+    for (std::size_t i = 0; i < j; ++i) {
+      const double r = result.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      if (std::abs(r) > 0.99)
+        result.warnings.push_back(fmt::format("{} and {} are strongly correlated ({:.4f})",
+                                              model.problem().parameters[i].name, model.problem().parameters[j].name,
+                                              r));
+    }
+  }
+}
+
+void set_correlation(FitResult& result) {
+  const Eigen::VectorXd error = result.covariance.diagonal().cwiseSqrt();
+  result.correlation = Eigen::MatrixXd::Identity(error.size(), error.size());
+  for (Eigen::Index i = 0; i < error.size(); ++i)
+    for (Eigen::Index j = 0; j < error.size(); ++j)
+      if (i != j && error[i] > 0.0 && error[j] > 0.0 && std::isfinite(error[i] * error[j]))
+        result.correlation(i, j) = result.covariance(i, j) / (error[i] * error[j]);
+}
+
+}  // namespace
+
+double student_95(double degrees_of_freedom) {
+  if (!(degrees_of_freedom > 0.0)) return infinite;
+  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+}
+
+void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result) {
+  const auto r = model.residuals(u);
+  const auto J = model.jacobian(u);
+  if (!r || !J) throw ComputationError("the model does not converge at the fitted parameters");
+  const std::size_t n = model.n_residuals(), k = model.n_parameters();
+  result.residuals.assign(r->begin(), r->begin() + static_cast<std::ptrdiff_t>(n));
+  for (const double value : result.residuals) result.sum_of_squares += value * value;
+  result.rms = std::sqrt(result.sum_of_squares / static_cast<double>(n));
+  result.estimates.resize(k);
+  const std::vector<double> values = model.natural(u);
+  for (std::size_t j = 0; j < k; ++j) {
+    result.estimates[j].value = values[j];
+    result.estimates[j].at_bound = model.side_of_bound(j, u[static_cast<Eigen::Index>(j)]) != 0;
+  }
+  const std::vector<std::size_t> visible = visible_parameters(model, *J, result);
+  std::vector<bool> undetermined(k, false);
+  const Eigen::MatrixXd inverse = inverse_normal(model, *J, visible, undetermined, result);
+  const double freedom = static_cast<double>(r->size()) - static_cast<double>(visible.size());
+  double total = 0.0;
+  for (const double value : *r) total += value * value;
+  const double variance = model.problem().noise_is_known ? 1.0 : freedom > 0.0 ? total / freedom : infinite;
+  const double t = model.problem().noise_is_known ? student_95(1e9) : student_95(freedom);
+
+  result.covariance = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k));
+  for (std::size_t a = 0; a < visible.size(); ++a)
+    for (std::size_t b = 0; b < visible.size(); ++b)
+      result.covariance(static_cast<Eigen::Index>(visible[a]), static_cast<Eigen::Index>(visible[b])) =
+          variance * inverse(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) * model.scale(visible[a]) *
+          model.scale(visible[b]);
+  for (std::size_t j = 0; j < k; ++j) {
+    const auto index = static_cast<Eigen::Index>(j);
+    const bool known = std::ranges::count(visible, j) > 0 && !undetermined[j];
+    const double error = known ? std::sqrt(result.covariance(index, index)) / model.scale(j) : infinite;
+    if (!known) result.covariance(index, index) = infinite;
+    set_interval(model, j, u[index], error, t, result.estimates[j]);
+  }
+  set_correlation(result);
+  warn_of_poor_estimates(model, result);
+}
+
+}  // namespace pfdm

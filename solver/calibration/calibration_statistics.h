@@ -1,0 +1,14 @@
+#pragma once
+// Statistics of a fit's estimates from the Jacobian at its end.
+
+#include "solver/calibration/calibration_scale.h"
+
+namespace pfdm {
+
+/// Fills in estimates, covariance, correlation, warnings, residuals and sums at the scaled parameters u.
+void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result);
+
+/// The value that Student's t with so many degrees of freedom exceeds in size with a probability of 5 %.
+double student_95(double degrees_of_freedom);
+
+}  // namespace pfdm

@@ -1,0 +1,64 @@
+#pragma once
+// The stiffness of damaged cells, which depends on the strain where the energy split keeps compression. Within the
+// momentum solve it is linear, taken at the last strain: secant moduli where the split has isotropic ones, else its
+// tangent, which is the secant as well (energies of second degree), so that the solves are Newton's steps. Cells with a
+// history (endochronic) are linearised about it, with a stress of their own.
+
+#include "solver/fracture/endochronic_cells.h"
+#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/state.h"
+#include "solver/momentum/momentum_solver.h"
+
+namespace pfdm {
+
+class CellStiffness {
+ public:
+  CellStiffness(const Mesh& mesh, const FractureModel& model);
+
+  /// At the beginning of a load step, which takes `duration` [s]: clears the memory of how the strains moved in the
+  /// previous one.
+  void start_step(double duration);
+  /// Gives the momentum balance the stiffness that belongs to the damage, closure and tangent strain of the state.
+  void set(const FractureState& state, MomentumSolver& momentum) const;
+  /// Copies the memory of how the strains have moved within the step to the cells of a part of the mesh; and back.
+  void take_out_memory(const CellStiffness& whole, const std::vector<Index>& cells);
+  void put_back_memory(const CellStiffness& part, const std::vector<Index>& cells);
+  /// From now on the stiffness of cells whose entry is not zero does not follow the strain; empty for none.
+  void hold(CellField<char> held) { held_ = std::move(held); }
+  /// Has the closure or the tangent strain of the state follow these strains. Returns the energy error [J]
+  /// of the stiffness that was used.
+  double follow(const CellField<Tensor>& strain, FractureState& state);
+  /// Takes the cells with a history from `start` to these strains. Returns the energy error [J] of the stress that
+  /// was used; NaN where a material's step cannot be solved.
+  double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state);
+
+  /// psi_plus [J/m^3] of a cell at this strain; with a history, at that of the state.
+  double driving_energy(Index cell, const Tensor& strain, const FractureState& state) const;
+  /// What a cell stores [J].
+  double stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
+  /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]
+  /// (residual_stiffness.h).
+  double residual_energy(Index cell, double psi_plus, double d) const;
+  /// Energy dissipated plastically [J] from one state to the other.
+  double plastic_dissipation(const FractureState& from, const FractureState& to) const;
+  const EndochronicCells& endochronic() const { return endochronic_; }
+
+ private:
+  double factor(Index cell, double d) const;  // g, the residual stiffness included
+  CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
+                                     const CellField<IsotropicElasticity>& moduli) const;
+  const IsotropicElasticity& elasticity(Index cell) const;
+  double follow_with_closure(Index cell, const Tensor& strain, double d, double& closure);
+  double follow_with_tangent(Index cell, const Tensor& strain, double d, Tensor& tangent_strain);
+
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  EndochronicCells endochronic_;
+  CellField<char> held_;
+  CellField<float> closing_;  // per cell: last change of the closure, and
+  CellField<Index> turns_;    // number of its reversals within the step
+  CellField<Tensor> move_;    // last change of the tangent strain, and
+  CellField<float> share_;    // the fraction of it that the cell may take
+};
+
+}  // namespace pfdm

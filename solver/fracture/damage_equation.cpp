@@ -1,0 +1,145 @@
+#include "solver/fracture/damage_equation.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+CellField<char> damageable_cells(const Mesh& mesh, const FractureModel& model) {
+  CellField<char> damageable(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c) damageable[c] = model.in_cell(mesh, c).damageable ? 1 : 0;
+  return damageable;
+}
+
+CellField<double> energy_density(const Mesh& mesh, const FractureModel& model) {
+  CellField<double> density(as_size(mesh.n_cells()), 0.0);
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (const RegionModel& region = model.in_cell(mesh, c); region.damageable)
+      density[c] = region.Gc / (model.crack->c0 * region.ell);
+  return density;
+}
+
+// The damage is zero at the faces of undamageable cells.
+TwoPointFlux::Medium medium_of(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal) {
+  TwoPointFlux::Medium medium{
+      .conductance = CellField<double>(as_size(mesh.n_cells()), 0.0), .plane_normal = plane_normal, .limited = true};
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (const RegionModel& region = model.in_cell(mesh, c); region.damageable)
+      medium.conductance[c] = 2.0 * region.Gc * region.ell / model.crack->c0;
+  for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    const bool within_P = model.in_cell(mesh, P).damageable, within_N = model.in_cell(mesh, N).damageable;
+    if (within_P == within_N) continue;
+    medium.exchanges.push_back({.face = f,
+                                .cell = within_P ? P : N,
+                                .coefficient = std::numeric_limits<double>::infinity(),
+                                .value = 0.0,
+                                .corrected = false});
+  }
+  return medium;
+}
+
+}  // namespace
+
+// The damage equation of one solve, as BoundedNewton asks for it.
+struct DamageTerm {
+  const DamageEquation& equation;
+  const CellField<double>& psi_plus;
+  const CellField<double>& lower_bound;
+
+  bool is_free(Index c) const { return equation.is_free(c); }
+  double slope(Index c, double d) const { return equation.local_slope(c, d, psi_plus[c]); }
+  double curvature(Index c, double d) const {
+    return equation.local_curvature(c, std::clamp(d, 0.0, 1.0), psi_plus[c]);
+  }
+  double lower(Index c) const { return lower_bound[c]; }
+  double upper(Index) const { return 1.0; }
+};
+
+DamageEquation::DamageEquation(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal)
+    : mesh_(mesh),
+      model_(model),
+      damageable_(damageable_cells(mesh, model)),
+      density_(energy_density(mesh, model)),
+      flux_(mesh, medium_of(mesh, model, plane_normal)) {}
+
+double DamageEquation::local_slope(Index cell, double d, double psi) const {
+  const RationalCoefficients& rational = model_.in_cell(mesh_, cell).rational;
+  const double slope = density_[cell] * model_.crack->alpha_prime(d) +
+                       (1.0 - model_.residual_stiffness) * model_.degradation->g_prime(d, rational) * psi;
+  const double source = source_.size() > 0 ? source_[cell] : 0.0;
+  const double resistance = resistance_ > 0.0 ? resistance_ * (d - from_[cell]) : 0.0;
+  return mesh_.cell_volume[cell] * (slope + resistance - source);
+}
+
+double DamageEquation::local_curvature(Index cell, double d, double psi) const {
+  const RationalCoefficients& rational = model_.in_cell(mesh_, cell).rational;
+  return mesh_.cell_volume[cell] *
+         (density_[cell] * model_.crack->alpha_second(d) + resistance_ +
+          (1.0 - model_.residual_stiffness) * model_.degradation->g_second(d, rational) * psi);
+}
+
+void DamageEquation::resist_change(double resistance, const CellField<double>& from) {
+  resistance_ = resistance;
+  from_ = from;
+}
+
+double DamageEquation::viscous_dissipation(const CellField<double>& d) const {
+  if (!(resistance_ > 0.0)) return 0.0;
+  return parallel_sum(mesh_.n_cells(), [&](Index c) {
+    const double change = d[c] - from_[c];
+    return mesh_.cell_volume[c] * resistance_ * change * change;
+  });
+}
+
+ScalarSolution DamageEquation::solve(const CellField<double>& psi_plus, const CellField<double>& lower,
+                                     const ScalarTolerance& tolerance, CellField<double>& d) {
+  const DamageTerm term{*this, psi_plus, lower};
+  return BoundedNewton(flux_, term, d).solve(tolerance);
+}
+
+CellField<double> DamageEquation::relaxed(const CellField<double>& given) {
+  constexpr Index most_turns = 100;  // of the deferred correction, and of an active set that has far to go
+  constexpr double precision = 1e-6;
+  const CellField<double> no_energy(as_size(mesh_.n_cells()), 0.0);
+  CellField<double> d = given;
+  for (Index turn = 0; turn < most_turns; ++turn) {
+    const CellField<double> before = d;
+    const ScalarSolution solution = solve(no_energy, given, {}, d);
+    const double change = parallel_max(d.size(), [&](Index c) { return std::abs(d[c] - before[c]); });
+    if (solution.converged && change < precision) break;
+  }
+  return d;
+}
+
+double DamageEquation::local_energy(Index c, double d) const {
+  return mesh_.cell_volume[c] * density_[c] * model_.crack->alpha(d) + 0.5 * flux_.exchanged(c) * d * d;
+}
+
+double DamageEquation::fracture_energy(const CellField<double>& d) const {
+  const double local = parallel_sum(mesh_.n_cells(), [&](Index c) { return local_energy(c, d[c]); });
+  return local + parallel_sum(static_cast<Index>(flux_.links().size()), [&](Index i) { return flux_.energy(i, d); });
+}
+
+CellField<double> DamageEquation::fracture_energy_density(const CellField<double>& d) const {
+  CellField<double> energy(as_size(mesh_.n_cells()));
+  for (Index c = 0; c < mesh_.n_cells(); ++c) energy[c] = local_energy(c, d[c]);
+  for (std::size_t i = 0; i < flux_.links().size(); ++i) {
+    const double half = 0.5 * flux_.energy(static_cast<Index>(i), d);
+    energy[flux_.links()[i].P] += half;
+    energy[flux_.links()[i].N] += half;
+  }
+  for (Index c = 0; c < mesh_.n_cells(); ++c) energy[c] /= mesh_.cell_volume[c];
+  return energy;
+}
+
+double DamageEquation::renewed_fracture_energy(const CellField<double>& d) {
+  flux_.renew_correction(d);
+  return fracture_energy(d);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,69 @@
+#pragma once
+// The damage equation at fixed displacement, from the surface energy (Gc/c0) (alpha(d)/ell + ell |grad d|^2):
+//
+//   (Gc/(c0 ell)) alpha'(d) + (1 - k) g'(d) psi_plus - div((2 Gc ell/c0) grad d) = 0,  lower <= d <= 1,
+//
+// no flux through the boundary, d = 0 in undamageable regions. With a viscosity eta (Ginzburg-Landau; Miehe,
+// Welschinger, Hofacker, Int. J. Numer. Meth. Engng 83 (2010) 1273) the left side has eta (d - d_n)/dt as well.
+// Two-point fluxes, bounds by active set: two_point_flux.h, bounded_newton.h.
+
+#include "solver/fracture/fracture_model.h"
+#include "solver/scalar/bounded_newton.h"
+#include "solver/scalar/two_point_flux.h"
+
+namespace pfdm {
+
+class DamageEquation {
+ public:
+  /// plane_normal: of one-cell-thick meshes, else zero.
+  DamageEquation(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal);
+
+  /// Solves for d [-] from its present value, given psi_plus [J/m^3] and the lower bound.
+  ScalarSolution solve(const CellField<double>& psi_plus, const CellField<double>& lower,
+                       const ScalarTolerance& tolerance, CellField<double>& d);
+
+  /// The damage of least surface energy that is nowhere below `given`: the optimal profile about cracks whose cells are
+  /// given as broken. Their surface energy is then about Gc times their area, whatever was given beside them.
+  CellField<double> relaxed(const CellField<double>& given);
+
+  /// Discrete surface energy [J], with the deferred flux of the last solution; renewed_: with that of d.
+  double fracture_energy(const CellField<double>& d) const;
+  double renewed_fracture_energy(const CellField<double>& d);
+  /// The same per cell volume; half of a face's energy belongs to each of its cells [J/m^3].
+  CellField<double> fracture_energy_density(const CellField<double>& d) const;
+  /// Viscous resistance to changes of the damage from `from` [J/m^3], eta over the time step, from now on.
+  void resist_change(double resistance, const CellField<double>& from);
+  /// Energy that the resistance dissipates up to d [J]: int eta (d - d_n)^2/dt dV.
+  double viscous_dissipation(const CellField<double>& d) const;
+  bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
+  /// Residual of a cell per volume [J/m^3], with the deferred flux of the last solution.
+  double imbalance(Index cell, const CellField<double>& d, double psi_plus) const {
+    return flux_.balance(cell, d, local_slope(cell, d[cell], psi_plus)) / mesh_.cell_volume[cell];
+  }
+
+  /// Holds the damage of cells with a nonzero entry from now on; empty for none.
+  void hold(CellField<char> held) { held_ = std::move(held); }
+  const CellField<char>& held() const { return held_; }
+
+  /// Additional source per volume [J/m^3], for manufactured solutions.
+  void set_source(CellField<double> source) { source_ = std::move(source); }
+
+ private:
+  friend struct DamageTerm;
+  bool is_free(Index cell) const { return is_damageable(cell) && (held_.size() == 0 || held_[cell] == 0); }
+  double local_slope(Index cell, double d, double psi) const;      // of the local terms over the cell [J]
+  double local_curvature(Index cell, double d, double psi) const;  // its derivative [J]
+  double local_energy(Index cell, double d) const;                 // [J]
+
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  CellField<char> damageable_;
+  CellField<double> density_;  // Gc/(c0 ell) [J/m^3]
+  TwoPointFlux flux_;          // of the conductance 2 Gc ell/c0 [J/m]
+  CellField<double> source_;
+  CellField<char> held_;
+  double resistance_ = 0.0;  // [J/m^3]
+  CellField<double> from_;   // empty without resistance
+};
+
+}  // namespace pfdm

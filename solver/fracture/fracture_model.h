@@ -1,0 +1,85 @@
+#pragma once
+// The input of a fracture run besides its mesh: materials by region, boundary conditions, settings.
+
+#include "mesh/mesh.h"
+#include "physics/crack_geometry.h"
+#include "physics/degradation.h"
+#include "physics/endochronic.h"
+#include "physics/energy_split.h"
+#include "solver/momentum/boundary_condition.h"
+#include "solver/momentum/unknowns.h"
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace pfdm {
+
+struct RegionModel {
+  IsotropicElasticity elasticity;
+  double Gc = 0.0;                  ///< fracture toughness [J/m^2]
+  double ell = 0.0;                 ///< regularisation length [m]
+  bool damageable = true;           ///< false pins d = 0 in the region
+  RationalCoefficients rational{};  ///< for the degradations that need a strength
+  /// Of the undamaged material, with the same elasticity; null: linear elastic.
+  std::shared_ptr<const EndochronicLaw> endochronic{};
+};
+
+enum class Irreversibility {
+  bounds,   ///< d_n <= d <= 1, by active set
+  history,  ///< the driving energy is the largest that was seen (Miehe et al., CMAME 199 (2010) 2765, eq. 38)
+};
+
+struct FractureModel {
+  /// One per region of the mesh; of a region that varies, an example. Regions whose elasticities are equal here share
+  /// an elastic zone.
+  std::vector<RegionModel> regions;
+  CellField<RegionModel> cells{};  ///< one per cell where a region varies from cell to cell; else empty
+  const CrackGeometry* crack = nullptr;
+  const Degradation* degradation = nullptr;
+  const EnergySplit* split = nullptr;
+  Irreversibility irreversibility = Irreversibility::bounds;
+  double residual_stiffness = 1e-6;         ///< k of g_k = (1 - k) g + k
+  double viscosity = 0.0;                   ///< eta of the damage equation [Pa s]; 0: rate-independent
+  std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
+  /// At load 0 the damage is nowhere below this, between 0 and 1 [-]: it has the profile of least surface energy.
+  /// Empty: none.
+  CellField<double> initial_damage{};
+
+  const RegionModel& in_cell(const Mesh& mesh, Index cell) const {
+    return cells.size() > 0 ? cells[cell] : regions[as_size(mesh.region[cell])];
+  }
+};
+
+/// Regions of equal elasticity and equal endochronic law are one zone.
+ElasticBody elastic_body(const FractureModel& model);
+
+struct StaggeredSettings {
+  double damage_tolerance = 1e-4;       ///< largest change of d between iterations
+  double energy_tolerance = 1e-4;       ///< change of the total energy over the energy
+  double equilibrium_tolerance = 1e-6;  ///< row-scaled residual of the momentum balance at an accepted step, relative
+  Index maximum_iterations = 500;
+  bool windows = false;  ///< local sub-domain iterations around the cells that still change (window.h)
+};
+
+struct LoadingSettings {
+  double end = 1.0;                 ///< load parameter t at the end
+  double initial_increment = 0.05;  ///< of t
+  double minimum_increment = 1e-5;
+  double maximum_increment = 0.05;
+  /// Increments are chosen so that the damage of no cell grows by more than this within a step. Steps of the finest
+  /// increment or less are not limited.
+  double damage_growth = std::numeric_limits<double>::infinity();
+  /// Likewise, so that no step's cracks release more of the energy, elastic at the step's load and fracture; relative.
+  double energy_release = std::numeric_limits<double>::infinity();
+  double finest_increment = 1e-3;  ///< of t
+  /// Dissipation control: surface energy that a step may dissipate [J], in proportion less while the increment is below
+  /// its maximum. A load that would dissipate more is lowered, also below that of the step before, so that the
+  /// snap-back branch is traced.
+  double maximum_dissipation = std::numeric_limits<double>::infinity();
+  /// Time in which the load parameter grows by 1 [s]; required by a viscosity and by rate-dependent materials.
+  double duration = 0.0;
+  std::vector<double> stops;  ///< values of t that a step must end on (frames)
+};
+
+}  // namespace pfdm

@@ -1,0 +1,350 @@
+#include "solver/fracture/fracture_run.h"
+
+#include "physics/error.h"
+#include "solver/fracture/residual_stiffness.h"
+#include "solver/fracture/staggered.h"
+#include "solver/momentum/rigid_motion.h"
+#include "solver/parallel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+constexpr Index easy_iterations = 12;  // after a step with at most these the increment grows
+constexpr double bearable_share =
+    0.5;  // of the most iterations: after a step with at most these a cut increment recovers
+constexpr double growth = 1.5, cut = 0.5;
+constexpr double aim = 0.7;              // of the limits on damage growth and energy release
+constexpr double load_rounding = 1e-12;  // of the load parameter
+
+void require_complete(const Mesh& mesh, const FractureModel& model) {
+  if (model.regions.size() != mesh.region_names.size())
+    throw InputError(
+        fmt::format("the mesh has {} regions, the model {}", mesh.region_names.size(), model.regions.size()));
+  if (model.crack == nullptr || model.degradation == nullptr || model.split == nullptr)
+    throw InputError("the model names no crack geometric function, degradation or energy split");
+  for (std::size_t r = 0; r < model.regions.size(); ++r) {
+    const RegionModel& region = model.regions[r];
+    if (region.damageable && !(region.Gc > 0.0 && region.ell > 0.0))
+      throw InputError(
+          fmt::format("region \"{}\" can be damaged but has no positive toughness and length", mesh.region_names[r]));
+  }
+}
+
+void add_plasticity(const FractureState& state, OutputFields& fields) {
+  const auto n = as_size(state.endochronic.size());
+  fields.plastic_strain = CellField<Tensor>(n);
+  fields.plastic_path_length = CellField<double>(n);
+  for (Index c = 0; c < state.endochronic.size(); ++c) {
+    fields.plastic_strain[c] = to_tensor(state.endochronic[c].plastic_strain);
+    fields.plastic_path_length[c] = state.endochronic[c].zeta;
+  }
+}
+
+}  // namespace
+
+struct FractureRun::Parts {
+  const Mesh& mesh;
+  FractureModel model;
+  LoadingSettings loading;
+  Unknowns unknowns;
+  Staggered staggered;
+  Index maximum_iterations;
+  ResidualStiffness residual_stiffness;
+  Index krylov_iterations = 0, staggered_iterations = 0;
+  double window_iterations = 0.0;
+
+  Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& settings, LoadingSettings l)
+      : mesh(m),
+        model(std::move(fm)),
+        loading(std::move(l)),
+        unknowns((require_complete(m, model), place_unknowns(m, elastic_body(model)))),
+        staggered(m, model, unknowns, settings),
+        maximum_iterations(settings.maximum_iterations),
+        residual_stiffness(model.residual_stiffness) {
+    if (settings.windows) require_windows(model);
+    require_path(model);
+    relax_initial_damage();
+  }
+
+  // Cracks begin with the optimal profile: the cells given as broken would have several times its energy.
+  void relax_initial_damage() {
+    if (model.initial_damage.size() == 0) return;
+    model.initial_damage = staggered.damage_equation().relaxed(model.initial_damage);
+    require_held(mesh, unknowns, model.initial_damage);
+  }
+
+  void require_windows(const FractureModel& m) const {
+    if (std::isfinite(loading.maximum_dissipation))
+      throw InputError(
+          "windows (solver.windows) cannot be combined with dissipation control (loading.maximum_dissipation): the "
+          "load of a step is not known in advance");
+    if (!unknowns.pressure_cells.empty())
+      throw InputError(
+          "windows (solver.windows) cannot be combined with nearly incompressible materials, whose cells carry a "
+          "pressure");
+    for (const RegionModel& region : m.regions)
+      if (region.endochronic)
+        throw InputError("windows (solver.windows) cannot be combined with endochronic materials");
+  }
+
+  // Dissipation control requires displacements proportional to the load, a dissipation that only grows, and no
+  // dependence on time: the load may decrease.
+  void require_path(const FractureModel& m) const {
+    if (m.viscosity > 0.0 && !(loading.duration > 0.0))
+      throw InputError("viscosity (fracture.viscosity) requires loading.duration, the time in which t grows by 1");
+    for (const RegionModel& region : m.regions)
+      if (region.endochronic) require_history(m, *region.endochronic);
+    if (!std::isfinite(loading.maximum_dissipation)) return;
+    if (m.viscosity > 0.0)
+      throw InputError(
+          "dissipation control (loading.maximum_dissipation) cannot be combined with viscosity: the load may decrease, "
+          "time cannot");
+    if (m.irreversibility != Irreversibility::bounds)
+      throw InputError("dissipation control (loading.maximum_dissipation) requires the irreversibility \"bounds\"");
+    for (const PatchCondition& on : unknowns.conditions) {
+      if (!on.condition.value) continue;
+      const Patch& patch = mesh.patches[as_size(on.patch)];
+      for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+        const Vector full = on.condition.value(mesh.face_centre[f], loading.end);
+        const Vector half = on.condition.value(mesh.face_centre[f], 0.5 * loading.end);
+        if ((full - 2.0 * half).norm() > 1e-9 * full.norm())
+          throw InputError(
+              fmt::format("dissipation control (loading.maximum_dissipation) requires boundary values proportional to "
+                          "t; those of patch \"{}\" are not",
+                          patch.name));
+      }
+    }
+  }
+
+  void require_history(const FractureModel& m, const EndochronicLaw& law) const {
+    if (m.split->secant == nullptr)
+      throw InputError(fmt::format(
+          "the energy split \"{}\" cannot be combined with endochronic materials: it has no isotropic secant moduli",
+          m.split->name));
+    if (law.hardening.depends_on_rate() && !(loading.duration > 0.0))
+      throw InputError(
+          "an endochronic material with a rate factor requires loading.duration, the time in which t grows by 1");
+    if (std::isfinite(loading.maximum_dissipation))
+      throw InputError(
+          "dissipation control (loading.maximum_dissipation) cannot be combined with endochronic materials: their "
+          "displacements are not proportional to the load");
+  }
+
+  // At given damage and with boundary values that are, displacements are proportional to the load.
+  bool is_proportional() const { return !staggered.stiffness().endochronic().any(); }
+
+  double dissipation_of(double increment) const {
+    return loading.maximum_dissipation * std::min(1.0, increment / loading.maximum_increment);
+  }
+
+  double next_stop(double load) const {
+    double stop = loading.end;
+    for (const double s : loading.stops)
+      if (s > load + load_rounding) stop = std::min(stop, s);
+    return stop;
+  }
+
+  double next_increment(double increment, const StepOutcome& outcome) const {
+    const double grown = growth * increment;
+    double next = increment;
+    if (outcome.iterations <= easy_iterations)
+      next = std::min(grown, loading.maximum_increment);
+    else if (double(outcome.iterations) <= bearable_share * double(maximum_iterations) &&
+             increment < loading.initial_increment)
+      next = std::min(grown, loading.initial_increment);
+    // Extrapolates the damage and release per increment of this step.
+    const double broken =
+        std::max({outcome.growth / loading.damage_growth, outcome.energy_release / loading.energy_release, 1e-12});
+    return std::min(next, std::max(aim / broken * increment, loading.finest_increment));
+  }
+
+  StepLimits limits_of(double increment, double planned_increment) const {
+    StepLimits limits{.dissipation = dissipation_of(planned_increment),
+                      .duration = increment * loading.duration,
+                      .may_be_cut = cut * increment >= loading.minimum_increment};
+    const bool may_jump = increment <= loading.finest_increment * (1.0 + load_rounding);
+    if (!may_jump) limits.growth = loading.damage_growth, limits.energy_release = loading.energy_release;
+    return limits;
+  }
+
+  std::vector<Vector> boundary_forces(const FractureState& state) {
+    return staggered.momentum().balance().boundary_forces(state.displacement);
+  }
+
+  double work_increment(const FractureState& from, const FractureState& to) const {
+    double work = 0.0;
+    for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f) {
+      const Index node = unknowns.node_of_face[f];
+      if (node < 0) continue;
+      const auto k = as_size(f - mesh.n_interior_faces());
+      work += 0.5 * (from.boundary_force[k] + to.boundary_force[k])
+                        .dot(to.displacement[as_size(node)] - from.displacement[as_size(node)]);
+    }
+    return work;
+  }
+
+  // held: the last load with equilibrium; load: one at which only the residual stiffness carries the tractions.
+  [[noreturn]] void fail_torn(double held, double load) const {
+    const bool falls_back = std::isfinite(loading.maximum_dissipation);
+    throw NoConvergence(fmt::format(
+        "the body breaks apart between the loads {:.6g} and {:.6g}: beyond, only the residual stiffness of broken "
+        "cells carries its tractions. {}; a smaller loading.maximum_increment locates the load more exactly",
+        held, load,
+        falls_back ? "No intact ligament carries load any more"
+                   : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)"));
+  }
+
+  [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) const {
+    const std::string advice = outcome.settled
+                                   ? fmt::format(
+                                         "its damage and energies have converged, but the momentum balance could not "
+                                         "be solved to better than {:.2g}; increase solver.equilibrium_tolerance",
+                                         outcome.residual)
+                                   : "more iterations (solver.maximum_iterations) or a smaller "
+                                     "loading.minimum_increment may help; where tractions drive unstable crack growth, "
+                                     "prescribe displacements or use dissipation control (loading.maximum_dissipation)";
+    throw NoConvergence(
+        fmt::format("step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load): {}",
+                    trial.step, trial.load, loading.minimum_increment, advice));
+  }
+
+  StepReport report(const FractureState& state, const StepOutcome& outcome, double increment) {
+    StepReport r;
+    r.step = state.step;
+    r.load = state.load;
+    r.reaction = sum_by_patch(state.boundary_force);
+    r.patch_displacement = staggered.momentum().balance().patch_displacements(state.displacement);
+    r.elastic_energy = outcome.elastic_energy;
+    DamageEquation& equation = staggered.damage_equation();
+    r.fracture_energy =
+        state.step == 0 ? equation.renewed_fracture_energy(state.damage) : equation.fracture_energy(state.damage);
+    r.external_work = state.external_work;
+    r.viscous_dissipation = state.viscous_dissipation;
+    r.plastic_dissipation = state.plastic_dissipation;
+    r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return state.damage[c]; });
+    r.damaged_volume =
+        parallel_sum(mesh.n_cells(), [&](Index c) { return state.damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
+    r.staggered_iterations = outcome.iterations;
+    r.krylov_iterations = outcome.krylov_iterations;
+    r.increment = increment;
+    return r;
+  }
+
+  std::vector<Vector> sum_by_patch(const std::vector<Vector>& boundary_force) const {
+    std::vector<Vector> sums(mesh.patches.size(), Vector::Zero());
+    for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+      for (Index f = 0; f < mesh.patches[p].n_faces; ++f)
+        sums[p] += boundary_force[as_size(mesh.patches[p].first_face + f - mesh.n_interior_faces())];
+    return sums;
+  }
+};
+
+FractureRun::FractureRun(const Mesh& mesh, FractureModel model, StaggeredSettings staggered, LoadingSettings loading)
+    : parts_(std::make_unique<Parts>(mesh, std::move(model), staggered, std::move(loading))) {}
+
+FractureRun::~FractureRun() = default;
+
+FractureState FractureRun::initial_state() const {
+  const auto n = as_size(parts_->mesh.n_cells());
+  FractureState state;
+  state.increment = parts_->loading.initial_increment;
+  state.displacement.assign(as_size(parts_->unknowns.n_unknowns()), Vector::Zero());
+  state.damage = parts_->model.initial_damage.size() > 0 ? parts_->model.initial_damage : CellField<double>(n, 0.0);
+  state.driving_energy = CellField<double>(n, 0.0);
+  state.closure = CellField<double>(n, 0.0);
+  state.endochronic = parts_->staggered.stiffness().endochronic().virgin_states();
+  if (parts_->model.split->secant == nullptr) state.tangent_strain = CellField<Tensor>(n);
+  state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
+  return state;
+}
+
+FractureState FractureRun::run(FractureState start, const RunHooks& hooks) {
+  if (hooks.step_done) hooks.step_done(start, parts_->report(start, {}, 0.0));
+  return go_on(std::move(start), hooks);
+}
+
+FractureState FractureRun::go_on(FractureState state, const RunHooks& hooks) {
+  Parts& parts = *parts_;
+  while (state.load < parts.loading.end - load_rounding) {
+    const double stop = parts.next_stop(state.load);
+    FractureState trial = state;
+    trial.step = state.step + 1;
+    trial.load = state.load + state.increment > stop - load_rounding ? stop : state.load + state.increment;
+    double increment = trial.load - state.load;
+    if (state.load > 0.0 && parts.is_proportional())
+      for (Vector& u : trial.displacement) u *= trial.load / state.load;
+    const StepOutcome outcome =
+        parts.staggered.solve_step(state, trial, hooks, parts.limits_of(increment, state.increment));
+    parts.krylov_iterations += outcome.krylov_iterations;
+    parts.staggered_iterations += outcome.iterations;
+    parts.window_iterations += outcome.window_iterations;
+    if (outcome.collapsed) parts.fail_torn(state.load, trial.load);
+    if (outcome.broke_too_much) {
+      state.increment = std::max(cut * increment, parts.loading.finest_increment);
+      continue;
+    }
+    if (!outcome.converged) {
+      state.increment = cut * increment;
+      if (state.increment < parts.loading.minimum_increment) parts.fail_unconverged(trial, outcome);
+      if (hooks.warned)
+        hooks.warned(fmt::format("step {} at load {:.6g} did not converge; the increment is cut to {:.3g}", trial.step,
+                                 trial.load, state.increment));
+      continue;
+    }
+    increment = trial.load - state.load;
+    trial.boundary_force = parts.boundary_forces(trial);
+    trial.external_work = state.external_work + parts.work_increment(state, trial);
+    trial.viscous_dissipation = state.viscous_dissipation + outcome.viscous_dissipation;
+    trial.plastic_dissipation = state.plastic_dissipation + outcome.plastic_dissipation;
+    trial.increment = parts.next_increment(state.increment, outcome);
+    state = std::move(trial);
+    const std::string remark = parts.residual_stiffness.remark(
+        outcome.share, std::max(outcome.starting_energy, state.external_work), state.load);
+    if (!remark.empty() && hooks.warned) hooks.warned(remark);
+    if (hooks.step_done) hooks.step_done(state, parts.report(state, outcome, increment));
+  }
+  return state;
+}
+
+OutputFields FractureRun::output(const FractureState& state) const {
+  Staggered& staggered = parts_->staggered;
+  staggered.degrade(state);
+  const CellMechanics mechanics = staggered.momentum().balance().mechanics(state.displacement);
+  const Mesh& mesh = parts_->mesh;
+  CellField<double> density(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    density[c] = staggered.stiffness().stored_energy(c, mechanics, state) / mesh.cell_volume[c];
+  OutputFields fields{.displacement = CellField<Vector>(
+                          std::vector<Vector>(state.displacement.begin(), state.displacement.begin() + mesh.n_cells())),
+                      .damage = state.damage,
+                      .stress = mechanics.stress,
+                      .strain = mechanics.strain,
+                      .gradient = mechanics.gradient,
+                      .energy_density = density,
+                      .driving_energy = state.driving_energy,
+                      .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),
+                      .traction = staggered.momentum().balance().tractions(state.displacement)};
+  if (parts_->unknowns.plane_stress) fields.plane_stress_normal = parts_->unknowns.plane_normal;
+  add_plasticity(state, fields);
+  return fields;
+}
+
+const FractureModel& FractureRun::model() const { return parts_->model; }
+
+Index FractureRun::n_unknowns() const { return 2 * parts_->unknowns.n_nodes() + parts_->unknowns.n_unknowns(); }
+
+std::map<std::string, double> FractureRun::cpu_seconds_by_stage() const { return parts_->staggered.clock().seconds(); }
+
+Index FractureRun::krylov_iterations() const { return parts_->krylov_iterations; }
+
+Index FractureRun::staggered_iterations() const { return parts_->staggered_iterations; }
+
+double FractureRun::window_iterations() const { return parts_->window_iterations; }
+
+}  // namespace pfdm

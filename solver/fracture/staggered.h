@@ -1,0 +1,113 @@
+#pragma once
+// Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
+// the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797). Optionally with
+// local sub-domain iterations around the cells that still change, between the global iterations (window.h).
+
+#include "solver/fracture/cell_stiffness.h"
+#include "solver/fracture/damage_equation.h"
+#include "solver/fracture/fracture_run.h"
+#include "solver/fracture/relaxation.h"
+#include "solver/fracture/residual_stiffness.h"
+#include "solver/fracture/stage_clock.h"
+#include "solver/momentum/momentum_solver.h"
+
+#include <limits>
+
+namespace pfdm {
+
+struct StepOutcome {
+  bool converged = false;
+  bool failed = false;          ///< abandoned: no finite solution
+  bool broke_too_much = false;  ///< abandoned: a limit on damage or energy was exceeded
+  double growth = 0.0;          ///< largest increase of d in a cell
+  double energy_release = 0.0;  ///< change of elastic energy by damage, over elastic and fracture energy before it
+  Index iterations = 0;
+  double window_iterations = 0.0;  ///< in windows, each weighted by its fraction of the cells
+  Index krylov_iterations = 0;
+  bool collapsed = false;            ///< abandoned: only the residual stiffness carries the loads
+  bool settled = false;              ///< all criteria hold but that of the momentum balance
+  double residual = 0.0;             ///< of the momentum balance, relative
+  double elastic_energy = 0.0;       ///< [J]
+  double starting_energy = 0.0;      ///< elastic, at the load of the step with the damage that it began with [J]
+  ResidualShare share{};             ///< of the residual stiffness
+  double viscous_dissipation = 0.0;  ///< of the step [J]
+  double plastic_dissipation = 0.0;  ///< of the step [J]
+};
+
+/// Limits of a step, and its duration.
+struct StepLimits {
+  double growth = std::numeric_limits<double>::infinity();          ///< of d in a cell
+  double energy_release = std::numeric_limits<double>::infinity();  ///< relative
+  double dissipation = std::numeric_limits<double>::infinity();     ///< [J]
+  double duration = 0.0;                                            ///< of the step [s]; for rate-dependent models
+  bool may_be_cut = false;  ///< a shorter step can be tried instead: a limit cycle ends the step at once
+};
+
+class Staggered {
+ public:
+  Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings);
+
+  /// Brings `state`, whose load is the step's, to equilibrium. The damage of `start` is the lower bound
+  /// (irreversibility). The step is abandoned once a limit on damage or energy release is exceeded. With a limit on the
+  /// dissipation (dissipation control) the load is lowered until the step satisfies it: boundary values must then be
+  /// proportional to the load parameter, and irreversibility be by bounds.
+  StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                         const StepLimits& limits = {});
+
+  /// The loop of solve_step alone; the energies of the outcome are not set.
+  StepOutcome alternate(const FractureState& start, FractureState& state, const RunHooks& hooks,
+                        const StepLimits& limits);
+  /// The driving energy at the displacement of the state, with the present stiffness.
+  void renew_driving_energy(const FractureState& start, FractureState& state) {
+    update_driving_energy(start, state, false);
+  }
+
+  MomentumSolver& momentum() { return momentum_; }
+  DamageEquation& damage_equation() { return damage_; }
+  const DamageEquation& damage_equation() const { return damage_; }
+  CellStiffness& stiffness() { return stiffness_; }
+  const CellStiffness& stiffness() const { return stiffness_; }
+  StageClock& clock() { return clock_; }
+  /// Sets the degraded stiffness of the state in the momentum balance.
+  void degrade(const FractureState& state);
+
+ private:
+  Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
+  struct Energies {
+    double stored = 0.0;     // [J]
+    double residual = 0.0;   // the part of it that the residual stiffness has [J]
+    double unsettled = 0.0;  // error of it by stiffnesses that have not settled [J]
+  };
+  /// With `settles` the stiffness may follow the strain.
+  Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
+  double drive(const FractureState& start, FractureState& state, double scale);
+  ResidualShare residual_share(const FractureState& state, const Energies& energies);
+  bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
+  /// The last iterate of the loop, and the solution of the damage equation for it.
+  struct Turn {
+    const FractureState& from;
+    const CellField<double>& answer;
+    double change;  ///< largest of d
+  };
+  bool settle_windows(const FractureState& start, const Turn& turn, double duration, FractureState& state,
+                      StepOutcome& outcome);
+  struct PathLimit {
+    double load = 0.0;    // largest load of the step
+    double energy = 0.0;  // largest surface energy at the end of the step [J]
+    double step = 0.0;    // largest dissipation of the step [J]
+  };
+  bool follow_path(const FractureState& start, const PathLimit& limit, FractureState& state, CellField<double>& d);
+
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  const Unknowns& unknowns_;
+  StaggeredSettings settings_;
+  MomentumSolver momentum_;
+  CellStiffness stiffness_;
+  DamageEquation damage_;
+  StageClock clock_;
+  CellField<Tensor> strain_;             // of the last equilibrium, as are the displacements
+  FaceField<Vector> face_displacement_;  // [m]
+};
+
+}  // namespace pfdm

@@ -1,0 +1,198 @@
+#include "solver/fracture/window.h"
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+// Rings of cells at the cut whose balances differ from those of the whole mesh: a force depends on the gradients of the
+// next cell, which reach two cells further.
+constexpr int rim = 3;
+
+template <class Visit>
+void for_neighbours(const Mesh& mesh, Index cell, const Visit& visit) {
+  for (const Index f : mesh.faces_of_cell(cell))
+    if (mesh.is_interior(f)) visit(mesh.across(f, cell));
+}
+
+// Of each cell a seed that is within reach; -1 where none is.
+CellField<Index> nearby_seeds(const Mesh& mesh, const std::vector<Index>& seeds, double reach) {
+  CellField<Index> seed(as_size(mesh.n_cells()), -1);
+  std::vector<Index> found = seeds;
+  for (const Index c : seeds) seed[c] = c;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Index nearest = seed[found[i]];
+    for_neighbours(mesh, found[i], [&](Index other) {
+      if (seed[other] >= 0 || (mesh.cell_centre[other] - mesh.cell_centre[nearest]).norm() > reach) return;
+      seed[other] = nearest;
+      found.push_back(other);
+    });
+  }
+  return seed;
+}
+
+void add_rings(const Mesh& mesh, int n_rings, std::vector<Index>& cells) {
+  std::vector<bool> is_in(as_size(mesh.n_cells()), false);
+  for (const Index c : cells) is_in[as_size(c)] = true;
+  for (int ring = 0; ring < n_rings; ++ring)
+    for (std::size_t i = 0, n = cells.size(); i < n; ++i)
+      for_neighbours(mesh, cells[i], [&](Index other) {
+        if (is_in[as_size(other)]) return;
+        is_in[as_size(other)] = true;
+        cells.push_back(other);
+      });
+}
+
+FractureModel model_of_part(const FractureModel& whole, const std::vector<Index>& cells) {
+  FractureModel model = whole;
+  model.cells = take_out(whole.cells, cells);
+  model.boundary.clear();
+  model.initial_damage = {};
+  return model;
+}
+
+}  // namespace
+
+std::vector<std::vector<Index>> window_cells(const Mesh& mesh, const std::vector<Index>& seeds, double reach) {
+  const CellField<Index> seed = nearby_seeds(mesh, seeds, reach);
+  std::vector<bool> is_placed(as_size(mesh.n_cells()), false);
+  std::vector<std::vector<Index>> parts;
+  for (const Index first : seeds) {
+    if (is_placed[as_size(first)]) continue;
+    std::vector<Index> part{first};
+    is_placed[as_size(first)] = true;
+    for (std::size_t i = 0; i < part.size(); ++i)
+      for_neighbours(mesh, part[i], [&](Index other) {
+        if (seed[other] < 0 || is_placed[as_size(other)]) return;
+        is_placed[as_size(other)] = true;
+        part.push_back(other);
+      });
+    add_rings(mesh, rim, part);
+    std::ranges::sort(part);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+Window::Window(const Surroundings& whole, std::vector<Index> cells, const StaggeredSettings& settings)
+    : whole_(whole),
+      part_(part_of(whole.mesh, std::move(cells))),
+      model_(model_of_part(whole.model, part_.cell)),
+      unknowns_(unknowns_of_part(whole.unknowns, part_)),
+      staggered_(part_.mesh, model_, unknowns_, settings),
+      start_(take_out_state(whole.start)) {
+  hold_rim();
+  agree();
+}
+
+// Cells that are held in the whole mesh are held here.
+void Window::hold_rim() {
+  const Mesh& mesh = part_.mesh;
+  std::vector<Index> rings;
+  const Patch& cut = part_.cut_patch();
+  for (Index f = cut.first_face; f < cut.first_face + cut.n_faces; ++f) rings.push_back(mesh.owner[f]);
+  std::ranges::sort(rings);
+  rings.erase(std::ranges::unique(rings).begin(), rings.end());
+  add_rings(mesh, rim - 1, rings);
+  CellField<char> held = take_out(whole_.damage_equation.held(), part_.cell);
+  if (held.size() == 0) held = CellField<char>(part_.cell.size(), 0);
+  for (const Index c : rings) held[c] = 1;
+  staggered_.stiffness().hold(held);
+  staggered_.damage_equation().hold(std::move(held));
+}
+
+// The forces and sources at the cut. Cells that are not held get no force: they would carry the residual of the whole
+// problem also after they break.
+void Window::agree() {
+  const FractureState at = take_out_state(whole_.state);
+  staggered_.stiffness().take_out_memory(whole_.stiffness, part_.cell);
+  staggered_.degrade(at);
+  MomentumSolver& momentum = staggered_.momentum();
+  std::vector<Vector> force(at.displacement.size());
+  momentum.balance().apply(at.displacement, force);
+  const CellField<char>& held = staggered_.damage_equation().held();
+  for (Index c = 0; c < held.size(); ++c)
+    if (held[c] == 0) force[as_size(c)] = Vector::Zero();
+  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
+    const Index f = unknowns_.face_of_node[k];
+    const bool is_held =
+        held[part_.mesh.owner[f]] != 0 || (part_.mesh.is_interior(f) && held[part_.mesh.neighbour[f]] != 0);
+    if (!is_held) force[part_.cell.size() + k] = Vector::Zero();
+  }
+  momentum.set_body_force(std::move(force));
+  momentum.measure_against(whole_.residual_reference);
+
+  FractureState driven = at;
+  staggered_.renew_driving_energy(start_, driven);
+  DamageEquation& equation = staggered_.damage_equation();
+  if (model_.viscosity > 0.0) equation.resist_change(model_.viscosity / whole_.duration, start_.damage);
+  equation.renewed_fracture_energy(at.damage);
+  CellField<double> source(part_.cell.size(), 0.0);
+  for (Index i = 0; i < source.size(); ++i) {
+    if (!equation.is_damageable(i)) continue;
+    const Index c = part_.cell[as_size(i)];
+    source[i] = equation.imbalance(i, at.damage, driven.driving_energy[i]) -
+                whole_.damage_equation.imbalance(c, whole_.state.damage, whole_.state.driving_energy[c]);
+  }
+  equation.set_source(std::move(source));
+}
+
+// With the damage and the stiffness that the forces at the cut belong to: these would displace without limit a cell
+// that has broken or opened since.
+void Window::hold_rim_as_it_was(FractureState& here) const {
+  const CellField<char>& held = staggered_.damage_equation().held();
+  for (Index i = 0; i < held.size(); ++i) {
+    if (held[i] == 0) continue;
+    const Index c = part_.cell[as_size(i)];
+    here.damage[i] = whole_.state.damage[c];
+    here.closure[i] = whole_.state.closure[c];
+    if (here.tangent_strain.size() > 0) here.tangent_strain[i] = whole_.state.tangent_strain[c];
+  }
+}
+
+FractureState Window::take_out_state(const FractureState& whole) const {
+  FractureState here;
+  here.step = whole.step;
+  here.load = whole.load;
+  here.damage = take_out(whole.damage, part_.cell);
+  here.driving_energy = take_out(whole.driving_energy, part_.cell);
+  here.closure = take_out(whole.closure, part_.cell);
+  here.tangent_strain = take_out(whole.tangent_strain, part_.cell);
+  here.displacement.reserve(as_size(unknowns_.n_nodes()));
+  for (const Index c : part_.cell) here.displacement.push_back(whole.displacement[as_size(c)]);
+  for (const Index f : unknowns_.face_of_node) {
+    const Index face = part_.face[as_size(f)], node = whole_.unknowns.node_of_face[face];
+    here.displacement.push_back(node >= 0 ? whole.displacement[as_size(node)] : whole_.face_displacement[face]);
+  }
+  return here;
+}
+
+// Held cells keep their values in the whole mesh.
+void Window::put_back_state(const FractureState& here, FractureState& whole) const {
+  const CellField<char>& held = staggered_.damage_equation().held();
+  for (Index i = 0; i < held.size(); ++i) {
+    if (held[i] != 0) continue;
+    const Index c = part_.cell[as_size(i)];
+    whole.damage[c] = here.damage[i];
+    whole.driving_energy[c] = here.driving_energy[i];
+    whole.closure[c] = here.closure[i];
+    if (here.tangent_strain.size() > 0) whole.tangent_strain[c] = here.tangent_strain[i];
+  }
+  for (std::size_t i = 0; i < part_.cell.size(); ++i) whole.displacement[as_size(part_.cell[i])] = here.displacement[i];
+  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
+    const Index node = whole_.unknowns.node_of_face[part_.face[as_size(unknowns_.face_of_node[k])]];
+    if (node >= 0) whole.displacement[as_size(node)] = here.displacement[part_.cell.size() + k];
+  }
+}
+
+StepOutcome Window::settle(FractureState& state) {
+  FractureState here = take_out_state(state);
+  hold_rim_as_it_was(here);
+  const StepOutcome outcome = staggered_.alternate(start_, here, {}, {.duration = whole_.duration});
+  if (outcome.failed) return outcome;
+  whole_.stiffness.put_back_memory(staggered_.stiffness(), part_.cell);
+  put_back_state(here, state);
+  return outcome;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,54 @@
+#pragma once
+// Local sub-domain iteration: the staggered loop on a part of the mesh, with the displacement around it held. Where a
+// crack front advances cell by cell, only its neighbourhood changes. Near the cut, where the discrete balances involve
+// cells outside the window, the damage is held and the missing contributions act as forces and sources (full
+// approximation scheme: Brandt, Math. Comput. 31 (1977) 333), so that a solution of the whole problem is also one of
+// the window.
+
+#include "solver/fracture/staggered.h"
+
+namespace pfdm {
+
+/// Disjoint, non-adjacent parts of the mesh that contain all cells within `reach` [m] of the seeds, reached through
+/// faces; each with the surrounding rings of cells whose damage is held. Cells in ascending order.
+std::vector<std::vector<Index>> window_cells(const Mesh& mesh, const std::vector<Index>& seeds, double reach);
+
+class Window {
+ public:
+  /// The present iterate of the global loop. The damage equation has just been solved from `state`, whose displacement
+  /// is in equilibrium with its damage.
+  struct Surroundings {
+    const Mesh& mesh;
+    const FractureModel& model;
+    const Unknowns& unknowns;
+    const FractureState& start;  ///< of the step
+    const FractureState& state;
+    const FaceField<Vector>& face_displacement;  ///< [m]
+    const DamageEquation& damage_equation;
+    CellStiffness& stiffness;
+    double residual_reference;  ///< of the momentum balance
+    double duration;            ///< of the step [s]
+  };
+
+  /// `cells` is one of the parts of window_cells. Must not outlive the surroundings.
+  Window(const Surroundings& whole, std::vector<Index> cells, const StaggeredSettings& settings);
+
+  /// Iterates within the window from `state` and writes the result back to it.
+  StepOutcome settle(FractureState& state);
+
+ private:
+  void hold_rim();
+  void agree();
+  void hold_rim_as_it_was(FractureState& here) const;
+  FractureState take_out_state(const FractureState& whole) const;
+  void put_back_state(const FractureState& here, FractureState& whole) const;
+
+  const Surroundings whole_;
+  MeshPart part_;
+  FractureModel model_;
+  Unknowns unknowns_;
+  Staggered staggered_;
+  FractureState start_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,195 @@
+#include "solver/linear/aggregation.h"
+
+#include "mesh/fields.h"
+#include "solver/parallel.h"
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+void invert_diagonal(BlockMatrix& matrix) {
+  matrix.inverse_diagonal.resize(matrix.diagonal.size());
+  parallel_for(matrix.n_rows(), [&](Index i) {
+    matrix.inverse_diagonal[as_size(i)] = to_block(to_tensor(matrix.diagonal[as_size(i)]).inverse());
+  });
+}
+
+// Scalar couplings -trace(a_ij) for the matching, in compressed rows.
+struct Couplings {
+  std::vector<Index> offsets{0};
+  std::vector<Index> columns;
+  std::vector<float> strength;
+
+  Index n_rows() const { return static_cast<Index>(offsets.size()) - 1; }
+};
+
+Couplings couplings_of(const BlockMatrix& matrix) {
+  Couplings c{.offsets = matrix.offsets, .columns = matrix.columns, .strength = {}};
+  c.strength.resize(matrix.blocks.size());
+  for (std::size_t k = 0; k < matrix.blocks.size(); ++k) {
+    const Block& b = matrix.blocks[k];
+    c.strength[k] = -(b.column[0][0] + b.column[1][1] + b.column[2][2]);
+  }
+  return c;
+}
+
+// Each row with its most strongly coupled free neighbour, if that coupling is not weak against its strongest; rows that
+// find none join the pair of their strongest neighbour, one to a pair, lest coarsening stalls.
+std::vector<Index> match_pairs(const Couplings& couplings, Index& count) {
+  constexpr float weak = 0.25F;
+  constexpr Index none = -1;
+  std::vector<Index> pair_of(as_size(couplings.n_rows()), none), size_of_pair;
+  const auto strongest_neighbour = [&](Index i, const auto& qualifies) {
+    std::pair<Index, float> best{none, 0.0F};
+    for (Index k = couplings.offsets[as_size(i)]; k < couplings.offsets[as_size(i) + 1]; ++k)
+      if (couplings.strength[as_size(k)] > best.second && qualifies(couplings.columns[as_size(k)]))
+        best = {couplings.columns[as_size(k)], couplings.strength[as_size(k)]};
+    return best;
+  };
+  for (Index i = 0; i < couplings.n_rows(); ++i) {
+    if (pair_of[as_size(i)] != none) continue;
+    const float strongest = strongest_neighbour(i, [](Index) { return true; }).second;
+    if (strongest == 0.0F) continue;
+    const auto [partner, strength] =
+        strongest_neighbour(i, [&](Index j) { return pair_of[as_size(j)] == none && j != i; });
+    if (partner != none && strength >= weak * strongest) {
+      pair_of[as_size(i)] = pair_of[as_size(partner)] = static_cast<Index>(size_of_pair.size());
+      size_of_pair.push_back(2);
+      continue;
+    }
+    const Index host = strongest_neighbour(i, [&](Index j) {
+                         return pair_of[as_size(j)] != none && size_of_pair[as_size(pair_of[as_size(j)])] <= 2;
+                       }).first;
+    pair_of[as_size(i)] = host != none ? pair_of[as_size(host)] : static_cast<Index>(size_of_pair.size());
+    if (host != none)
+      ++size_of_pair[as_size(pair_of[as_size(host)])];
+    else
+      size_of_pair.push_back(1);
+  }
+  count = static_cast<Index>(size_of_pair.size());
+  return pair_of;
+}
+
+// Rows of each aggregate, in compressed form.
+struct Members {
+  std::vector<Index> offsets, rows;
+};
+
+Members members_of(const std::vector<Index>& aggregate_of, Index count) {
+  Members m{.offsets = std::vector<Index>(as_size(count) + 1, 0), .rows = {}};
+  for (const Index a : aggregate_of)
+    if (a >= 0) ++m.offsets[as_size(a) + 1];
+  for (std::size_t a = 0; a < as_size(count); ++a) m.offsets[a + 1] += m.offsets[a];
+  m.rows.resize(as_size(m.offsets.back()));
+  std::vector<Index> next(m.offsets.begin(), m.offsets.end() - 1);
+  for (std::size_t i = 0; i < aggregate_of.size(); ++i)
+    if (aggregate_of[i] >= 0) m.rows[as_size(next[as_size(aggregate_of[i])]++)] = static_cast<Index>(i);
+  return m;
+}
+
+template <class Value>
+struct Gathered {
+  std::vector<Index> offsets{0}, columns;
+  std::vector<Value> values;
+};
+
+// Adds up the entries of each aggregate's rows by the aggregate of their column; those that stay within go to `inside`.
+template <class Value>
+Gathered<Value> gather(const std::vector<Index>& offsets, const std::vector<Index>& columns,
+                       const std::vector<Value>& values, const std::vector<Index>& aggregate_of, Index count,
+                       std::vector<Value>* inside) {
+  const Members members = members_of(aggregate_of, count);
+  Gathered<Value> result;
+  std::vector<Index> slot(as_size(count), -1);
+  for (Index a = 0; a < count; ++a) {
+    const std::size_t row_begin = result.columns.size();
+    for (Index m = members.offsets[as_size(a)]; m < members.offsets[as_size(a) + 1]; ++m) {
+      const auto i = as_size(members.rows[as_size(m)]);
+      for (Index k = offsets[i]; k < offsets[i + 1]; ++k) {
+        const Index to = aggregate_of[as_size(columns[as_size(k)])];
+        if (to < 0) continue;
+        if (to == a) {
+          if (inside != nullptr) (*inside)[as_size(a)] += values[as_size(k)];
+          continue;
+        }
+        if (slot[as_size(to)] < 0) {
+          slot[as_size(to)] = static_cast<Index>(result.columns.size());
+          result.columns.push_back(to);
+          result.values.push_back(values[as_size(k)]);
+        } else {
+          result.values[as_size(slot[as_size(to)])] += values[as_size(k)];
+        }
+      }
+    }
+    for (std::size_t k = row_begin; k < result.columns.size(); ++k) slot[as_size(result.columns[k])] = -1;
+    result.offsets.push_back(static_cast<Index>(result.columns.size()));
+  }
+  return result;
+}
+
+}  // namespace
+
+BlockMatrix compress(const BlockTriplets& triplets, const std::vector<Index>& position_of_node) {
+  BlockMatrix matrix;
+  const std::size_t n = triplets.diagonal.size();
+  matrix.diagonal.resize(n);
+  for (std::size_t i = 0; i < n; ++i) matrix.diagonal[as_size(position_of_node[i])] = to_block(triplets.diagonal[i]);
+  matrix.offsets.assign(n + 1, 0);
+  for (const auto& entry : triplets.off_diagonal) {
+    ++matrix.offsets[as_size(position_of_node[as_size(entry.row)]) + 1];
+    ++matrix.offsets[as_size(position_of_node[as_size(entry.column)]) + 1];
+  }
+  for (std::size_t i = 0; i < n; ++i) matrix.offsets[i + 1] += matrix.offsets[i];
+  matrix.columns.resize(as_size(matrix.offsets.back()));
+  matrix.blocks.resize(as_size(matrix.offsets.back()));
+  std::vector<Index> next(matrix.offsets.begin(), matrix.offsets.end() - 1);
+  const auto put = [&](Index row, Index column, const Tensor& value) {
+    const auto slot = as_size(next[as_size(row)]++);
+    matrix.columns[slot] = column;
+    matrix.blocks[slot] = to_block(value);
+  };
+  for (const auto& entry : triplets.off_diagonal) {
+    const Index row = position_of_node[as_size(entry.row)], column = position_of_node[as_size(entry.column)];
+    put(row, column, entry.value);
+    put(column, row, entry.value.transpose());
+  }
+  invert_diagonal(matrix);
+  return matrix;
+}
+
+Aggregates aggregate(const BlockMatrix& matrix, int n_passes) {
+  Couplings couplings = couplings_of(matrix);
+  Aggregates result;
+  result.of_row = match_pairs(couplings, result.count);
+  std::vector<Index> last = result.of_row;
+  for (int pass = 1; pass < n_passes; ++pass) {
+    auto gathered =
+        gather<float>(couplings.offsets, couplings.columns, couplings.strength, last, result.count, nullptr);
+    couplings = {std::move(gathered.offsets), std::move(gathered.columns), std::move(gathered.values)};
+    const Index before = result.count;
+    last = match_pairs(couplings, result.count);
+    // An aggregate that has no coupling left stays one by itself.
+    for (Index a = 0; a < before; ++a)
+      if (last[as_size(a)] < 0) last[as_size(a)] = result.count++;
+    for (Index& a : result.of_row)
+      if (a >= 0) a = last[as_size(a)];
+  }
+  return result;
+}
+
+BlockMatrix coarsen(const BlockMatrix& matrix, const Aggregates& aggregates) {
+  BlockMatrix coarse;
+  coarse.diagonal.resize(as_size(aggregates.count));
+  for (std::size_t i = 0; i < aggregates.of_row.size(); ++i)
+    if (aggregates.of_row[i] >= 0) coarse.diagonal[as_size(aggregates.of_row[i])] += matrix.diagonal[i];
+  auto gathered = gather<Block>(matrix.offsets, matrix.columns, matrix.blocks, aggregates.of_row, aggregates.count,
+                                &coarse.diagonal);
+  coarse.offsets = std::move(gathered.offsets);
+  coarse.columns = std::move(gathered.columns);
+  coarse.blocks = std::move(gathered.values);
+  invert_diagonal(coarse);
+  return coarse;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,173 @@
+#include "solver/linear/fgmres.h"
+
+#include "mesh/fields.h"
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+using Single = Eigen::Vector3f;
+
+// The Arnoldi process of one cycle.
+struct Basis {
+  explicit Basis(std::size_t n) : work(n), image(n), size(static_cast<Index>(n)) {}
+
+  std::vector<std::vector<Single>> v, z;
+  std::vector<Vector> work, image;
+  Index size;
+
+  static void push(std::vector<std::vector<Single>>& to, Index k, std::size_t n) {
+    if (to.size() <= as_size(k)) to.emplace_back(n);
+  }
+
+  // Projections of `image` on v_0 ... v_{k-1}, in one pass.
+  Eigen::VectorXd project(Index k) const {
+    return parallel_sum<Eigen::VectorXd>(
+        (size + block - 1) / block,
+        [&](Index b) {
+          Eigen::VectorXd sum = Eigen::VectorXd::Zero(k);
+          const Index from = b * block, length = std::min(block, size - from);
+          const Eigen::Map<const Eigen::VectorXd> w(image[as_size(from)].data(), 3 * length);
+          const Eigen::VectorXf single = w.cast<float>();
+          for (Index j = 0; j < k; ++j)
+            sum[j] = Eigen::Map<const Eigen::VectorXf>(v[as_size(j)][as_size(from)].data(), 3 * length).dot(single);
+          return sum;
+        },
+        Eigen::VectorXd::Zero(k), blocks_per_task);
+  }
+
+  // image -= sum_j h_j v_j; returns its squared norm.
+  double subtract(const Eigen::VectorXd& h) {
+    const auto subtract_block = [&](Index b) {
+      const Index from = b * block, length = std::min(block, size - from);
+      Eigen::Map<Eigen::VectorXd> w(image[as_size(from)].data(), 3 * length);
+      for (Index j = 0; j < h.size(); ++j)
+        w -= h[j] * Eigen::Map<const Eigen::VectorXf>(v[as_size(j)][as_size(from)].data(), 3 * length).cast<double>();
+      return w.squaredNorm();
+    };
+    return parallel_sum((size + block - 1) / block, subtract_block, 0.0, blocks_per_task);
+  }
+
+  static constexpr Index block = 512;  // a few kilobytes of each vector at a time
+  static constexpr Index blocks_per_task = 8;
+};
+
+// Least squares of the Hessenberg matrix by Givens rotations.
+struct Hessenberg {
+  explicit Hessenberg(Index restart_length)
+      : R(Eigen::MatrixXd::Zero(restart_length + 1, restart_length)), rhs(Eigen::VectorXd::Zero(restart_length + 1)) {}
+
+  Eigen::MatrixXd R;
+  Eigen::VectorXd rhs;
+  std::vector<Eigen::JacobiRotation<double>> rotations;
+
+  void append(Index k, const Eigen::VectorXd& column, double below) {
+    R.col(k).head(k + 1) = column;
+    R(k + 1, k) = below;
+    for (Index j = 0; j < k; ++j) R.col(k).applyOnTheLeft(j, j + 1, rotations[as_size(j)].adjoint());
+    Eigen::JacobiRotation<double> rotation;
+    rotation.makeGivens(R(k, k), R(k + 1, k));
+    R.col(k).applyOnTheLeft(k, k + 1, rotation.adjoint());
+    rhs.applyOnTheLeft(k, k + 1, rotation.adjoint());
+    rotations.push_back(rotation);
+  }
+};
+
+double start(const KrylovProblem& problem, const std::vector<Vector>& b, const std::vector<Vector>& x, Basis& basis) {
+  problem.apply(x, basis.image);
+  parallel_for(basis.size, [&](Index i) {
+    basis.image[as_size(i)] = problem.scale[as_size(i)] * (b[as_size(i)] - basis.image[as_size(i)]);
+  });
+  return std::sqrt(parallel_sum(basis.size, [&](Index i) { return basis.image[as_size(i)].squaredNorm(); }));
+}
+
+// One Arnoldi step; returns h_{k+1,k}.
+double extend(const KrylovProblem& problem, Basis& basis, Index k, Eigen::VectorXd& h) {
+  const auto n = as_size(basis.size);
+  parallel_for(basis.size, [&](Index i) {
+    basis.image[as_size(i)] = basis.v[as_size(k)][as_size(i)].cast<double>() / problem.scale[as_size(i)];
+  });
+  problem.precondition(basis.image, basis.work);
+  Basis::push(basis.z, k, n);
+  parallel_for(basis.size, [&](Index i) {
+    Single& z = basis.z[as_size(k)][as_size(i)];
+    z = basis.work[as_size(i)].cast<float>();
+    basis.work[as_size(i)] = z.cast<double>();
+  });
+  problem.apply(basis.work, basis.image);
+  const double before = parallel_sum(basis.size, [&](Index i) {
+    basis.image[as_size(i)] *= problem.scale[as_size(i)];
+    return basis.image[as_size(i)].squaredNorm();
+  });
+  h = basis.project(k + 1);
+  double after = basis.subtract(h);
+  constexpr double cancellation = 0.01;  // then classical Gram-Schmidt is done again
+  if (after < cancellation * before) {
+    const Eigen::VectorXd again = basis.project(k + 1);
+    after = basis.subtract(again);
+    h += again;
+  }
+  return std::sqrt(after);
+}
+
+void normalise(Basis& basis, Index k, double norm) {
+  Basis::push(basis.v, k, as_size(basis.size));
+  parallel_for(basis.size,
+               [&](Index i) { basis.v[as_size(k)][as_size(i)] = (basis.image[as_size(i)] / norm).cast<float>(); });
+}
+
+void add_combination(const Basis& basis, const Hessenberg& hessenberg, Index k, std::vector<Vector>& x) {
+  const Eigen::VectorXd y =
+      hessenberg.R.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(hessenberg.rhs.head(k));
+  parallel_for(basis.size, [&](Index i) {
+    for (Index j = 0; j < k; ++j) x[as_size(i)] += y[j] * basis.z[as_size(j)][as_size(i)].cast<double>();
+  });
+}
+
+}  // namespace
+
+double scaled_norm(const std::vector<Vector>& v, const std::vector<double>& scale) {
+  return std::sqrt(parallel_sum(static_cast<Index>(v.size()),
+                                [&](Index i) { return (scale[as_size(i)] * v[as_size(i)]).squaredNorm(); }));
+}
+
+KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector>& b, std::vector<Vector>& x,
+                          const std::function<double(double initial)>& target_of, Index most_iterations) {
+  constexpr double modest_drop = 1e-4;
+  constexpr double greatest_drop = 1e-5;  // of one cycle: a basis in single precision follows no further
+  Basis basis(x.size());
+  KrylovResult result;
+  double beta = start(problem, b, x, basis);
+  result.initial_residual = result.residual = beta;
+  const double target = target_of(beta);
+  while (true) {
+    result.converged = result.residual <= target;
+    if (result.converged || result.iterations >= most_iterations || !std::isfinite(beta)) return result;
+    normalise(basis, 0, beta);
+    Hessenberg hessenberg(problem.restart_length);
+    hessenberg.rhs[0] = beta;
+    Index k = 0;
+    while (k < problem.restart_length && result.iterations < most_iterations) {
+      Eigen::VectorXd h;
+      const double below = extend(problem, basis, k, h);
+      hessenberg.append(k, h, below);
+      ++result.iterations;
+      ++k;
+      if (below == 0.0 || std::abs(hessenberg.rhs[k]) <= std::max(0.9 * target, greatest_drop * beta)) break;
+      if (k < problem.restart_length) normalise(basis, k, below);
+    }
+    add_combination(basis, hessenberg, k, x);
+    if (problem.constrain) problem.constrain(x);
+    const double estimate = std::abs(hessenberg.rhs[k]);
+    if (estimate <= target && estimate >= modest_drop * beta) {
+      result.residual = estimate;
+      continue;
+    }
+    result.residual = beta = start(problem, b, x, basis);
+  }
+}
+
+}  // namespace pfdm

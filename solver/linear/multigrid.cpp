@@ -1,0 +1,218 @@
+#include "solver/linear/multigrid.h"
+
+#include "mesh/fields.h"
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr Index coarsest_size = 120;  // rows solved directly
+constexpr Index most_direct_rows = 1500;
+constexpr int pairwise_passes = 3;  // aggregates of up to 8
+constexpr int sweeps = 2;           // before, and after, the coarse correction
+constexpr Index group_size = 1024;  // rows of one smoothing task
+
+// Groups of consecutive rows, coloured so that groups of one colour are not coupled.
+std::vector<std::vector<Index>> colour_groups(const BlockMatrix& matrix) {
+  const Index n_groups = (matrix.n_rows() + group_size - 1) / group_size;
+  std::vector<Index> colour(as_size(n_groups), -1);
+  std::vector<std::vector<Index>> by_colour;
+  std::vector<Index> taken;
+  for (Index group = 0; group < n_groups; ++group) {
+    taken.clear();
+    for (Index i = group * group_size; i < std::min(matrix.n_rows(), (group + 1) * group_size); ++i)
+      for (Index k = matrix.offsets[as_size(i)]; k < matrix.offsets[as_size(i) + 1]; ++k) {
+        const Index other = matrix.columns[as_size(k)] / group_size;
+        if (other != group && colour[as_size(other)] >= 0) taken.push_back(colour[as_size(other)]);
+      }
+    Index c = 0;
+    while (std::find(taken.begin(), taken.end(), c) != taken.end()) ++c;
+    colour[as_size(group)] = c;
+    if (as_size(c) == by_colour.size()) by_colour.emplace_back();
+    by_colour[as_size(c)].push_back(group);
+  }
+  return by_colour;
+}
+
+Lane off_diagonal_product(const BlockMatrix& a, Index i, const std::vector<Lane>& x) {
+  Lane sum = Lane::Zero();
+  for (Index k = a.offsets[as_size(i)]; k < a.offsets[as_size(i) + 1]; ++k)
+    sum += a.blocks[as_size(k)] * x[as_size(a.columns[as_size(k)])];
+  return sum;
+}
+
+void smooth_row(const BlockMatrix& a, Index i, const std::vector<Lane>& b, std::vector<Lane>& x) {
+  x[as_size(i)] = a.inverse_diagonal[as_size(i)] * Lane(b[as_size(i)] - off_diagonal_product(a, i, x));
+}
+
+void for_groups(const std::vector<Index>& groups, const auto& body) {
+  detail::run_tasks(static_cast<Index>(groups.size()), [&](Index k) { body(groups[as_size(k)]); });
+}
+
+void sweep_forward(const BlockMatrix& a, const std::vector<std::vector<Index>>& groups_by_colour,
+                   const std::vector<Lane>& b, std::vector<Lane>& x) {
+  for (const auto& groups : groups_by_colour)
+    for_groups(groups, [&](Index group) {
+      for (Index i = group * group_size; i < std::min(a.n_rows(), (group + 1) * group_size); ++i)
+        smooth_row(a, i, b, x);
+    });
+}
+
+void sweep_backward(const BlockMatrix& a, const std::vector<std::vector<Index>>& groups_by_colour,
+                    const std::vector<Lane>& b, std::vector<Lane>& x) {
+  for (auto groups = groups_by_colour.rbegin(); groups != groups_by_colour.rend(); ++groups)
+    for_groups(*groups, [&](Index group) {
+      for (Index i = std::min(a.n_rows(), (group + 1) * group_size) - 1; i >= group * group_size; --i)
+        smooth_row(a, i, b, x);
+    });
+}
+
+void multiply(const BlockMatrix& a, const std::vector<Lane>& x, std::vector<Lane>& y) {
+  parallel_for(a.n_rows(), [&](Index i) {
+    y[as_size(i)] = a.diagonal[as_size(i)] * x[as_size(i)] + off_diagonal_product(a, i, x);
+  });
+}
+
+double dot(const std::vector<Lane>& a, const std::vector<Lane>& b) {
+  return parallel_sum(static_cast<Index>(a.size()),
+                      [&](Index i) { return double((a[as_size(i)] * b[as_size(i)]).sum()); });
+}
+
+// y += factor x.
+void add(double factor, const std::vector<Lane>& x, std::vector<Lane>& y) {
+  const auto f = static_cast<float>(factor);
+  parallel_for(static_cast<Index>(x.size()), [&](Index i) { y[as_size(i)] += f * x[as_size(i)]; });
+}
+
+}  // namespace
+
+Multigrid::Multigrid(BlockMatrix matrix) {
+  levels_.push_back({.matrix = std::move(matrix),
+                     .aggregates = {},
+                     .groups_by_colour = {},
+                     .residual = {},
+                     .coarse_b = {},
+                     .coarse_x = {},
+                     .direction = {},
+                     .image = {},
+                     .k_residual = {}});
+  while (levels_.back().matrix.n_rows() > coarsest_size) {
+    Level& fine = levels_.back();
+    fine.aggregates = aggregate(fine.matrix, pairwise_passes);
+    const bool stalled = fine.aggregates.count > fine.matrix.n_rows() * 4 / 5;
+    if (fine.aggregates.count == 0 || (stalled && fine.matrix.n_rows() <= most_direct_rows)) break;
+    BlockMatrix coarse = coarsen(fine.matrix, fine.aggregates);
+    levels_.push_back({.matrix = std::move(coarse),
+                       .aggregates = {},
+                       .groups_by_colour = {},
+                       .residual = {},
+                       .coarse_b = {},
+                       .coarse_x = {},
+                       .direction = {},
+                       .image = {},
+                       .k_residual = {}});
+  }
+  set_up_work_space();
+}
+
+void Multigrid::set_up_work_space() {
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    level.groups_by_colour = colour_groups(level.matrix);
+    const auto n = as_size(level.matrix.n_rows()), n_coarse = as_size(levels_[l + 1].matrix.n_rows());
+    level.residual.resize(n);
+    level.coarse_b.resize(n_coarse);
+    level.coarse_x.resize(n_coarse);
+    if (l == 0) continue;
+    for (auto* work : {&level.direction[0], &level.direction[1], &level.image[0], &level.image[1], &level.k_residual})
+      work->resize(n);
+  }
+  const BlockMatrix& last = levels_.back().matrix;
+  Eigen::MatrixXf dense = Eigen::MatrixXf::Zero(3 * last.n_rows(), 3 * last.n_rows());
+  for (Index i = 0; i < last.n_rows(); ++i) {
+    dense.block<3, 3>(3 * i, 3 * i) = to_tensor(last.diagonal[as_size(i)]).cast<float>();
+    for (Index k = last.offsets[as_size(i)]; k < last.offsets[as_size(i) + 1]; ++k)
+      dense.block<3, 3>(3 * i, 3 * last.columns[as_size(k)]) += to_tensor(last.blocks[as_size(k)]).cast<float>();
+  }
+  coarsest_.compute(dense);
+  // A part that is hardly held, as the halves of a broken body, is singular to single precision.
+  for (float shift = 1e-6F; coarsest_.info() != Eigen::Success && shift < 1.0F; shift *= 10.0F) {
+    dense.diagonal() *= 1.0F + shift;
+    coarsest_.compute(dense);
+  }
+}
+
+void Multigrid::apply(const std::vector<Lane>& b, std::vector<Lane>& x) { cycle(0, b, x); }
+
+void Multigrid::solve_coarsest(const std::vector<Lane>& b, std::vector<Lane>& x) const {
+  Eigen::VectorXf flat(3 * static_cast<Index>(b.size()));
+  for (std::size_t i = 0; i < b.size(); ++i) flat.segment<3>(3 * static_cast<Index>(i)) = b[i].head<3>();
+  coarsest_.solveInPlace(flat);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    x[i].head<3>() = flat.segment<3>(3 * static_cast<Index>(i));
+    x[i][3] = 0.0F;
+  }
+}
+
+void Multigrid::cycle(std::size_t l, const std::vector<Lane>& b, std::vector<Lane>& x) {
+  if (l + 1 == levels_.size()) {
+    solve_coarsest(b, x);
+    return;
+  }
+  Level& level = levels_[l];
+  const BlockMatrix& a = level.matrix;
+  std::fill(x.begin(), x.end(), Lane::Zero());
+  for (int s = 0; s < sweeps; ++s) sweep_forward(a, level.groups_by_colour, b, x);
+  multiply(a, x, level.residual);
+  std::fill(level.coarse_b.begin(), level.coarse_b.end(), Lane::Zero());
+  for (std::size_t i = 0; i < b.size(); ++i)
+    if (const Index to = level.aggregates.of_row[i]; to >= 0) level.coarse_b[as_size(to)] += b[i] - level.residual[i];
+  k_cycle(l + 1, level.coarse_b, level.coarse_x);
+  parallel_for(a.n_rows(), [&](Index i) {
+    if (const Index from = level.aggregates.of_row[as_size(i)]; from >= 0)
+      x[as_size(i)] += level.coarse_x[as_size(from)];
+  });
+  for (int s = 0; s < sweeps; ++s) sweep_backward(a, level.groups_by_colour, b, x);
+}
+
+// At most two steps of flexible conjugate gradients on the level, preconditioned by its cycle.
+void Multigrid::k_cycle(std::size_t l, const std::vector<Lane>& b, std::vector<Lane>& x) {
+  if (l + 1 == levels_.size()) {
+    solve_coarsest(b, x);
+    return;
+  }
+  Level& level = levels_[l];
+  auto& [c, d] = level.direction;
+  auto& [v, w] = level.image;
+  auto& r = level.k_residual;
+  cycle(l, b, c);
+  multiply(level.matrix, c, v);
+  const double rho = dot(c, v), alpha = dot(c, b);
+  if (!(rho > 0.0)) {
+    x = c;
+    return;
+  }
+  r = b;
+  add(-alpha / rho, v, r);
+  std::fill(x.begin(), x.end(), Lane::Zero());
+  constexpr double enough = 0.25;
+  if (dot(r, r) <= enough * enough * dot(b, b)) {
+    add(alpha / rho, c, x);
+    return;
+  }
+  cycle(l, r, d);
+  multiply(level.matrix, d, w);
+  const double gamma = dot(d, v), beta = dot(d, w), alpha2 = dot(d, r);
+  const double rho2 = beta - gamma * gamma / rho;
+  if (!(rho2 > 0.0)) {
+    add(alpha / rho, c, x);
+    return;
+  }
+  add(alpha / rho - gamma * alpha2 / (rho * rho2), c, x);
+  add(alpha2 / rho2, d, x);
+}
+
+}  // namespace pfdm

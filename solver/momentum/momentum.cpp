@@ -1,0 +1,356 @@
+#include "solver/momentum/momentum.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+Tensor scaling(double along, double across, const Vector& n) {
+  return across * Tensor::Identity() + (along - across) * n * n.transpose();
+}
+
+// A cell whose centre lies almost in the plane of its face would be too stiff.
+double bounded_height(const Vector& d, const Vector& n) { return std::max(std::abs(d.dot(n)), 1e-3 * d.norm()); }
+
+// n.C.n [Pa]: what C makes of v (x) n, as a traction on n.
+Tensor acoustic_tensor(const MandelMatrix& C, const Vector& n) {
+  Eigen::Matrix<double, 6, 3> strain;
+  for (Index k = 0; k < 3; ++k) strain.col(k) = to_mandel(symmetric_part(Vector::Unit(k) * n.transpose()));
+  return strain.transpose() * C * strain;
+}
+
+// (h_P A_P^-1 + h_N A_N^-1)^-1
+Tensor in_series(const Tensor& A_P, double h_P, const Tensor& A_N, double h_N) {
+  return symmetric_part((h_P * A_P.inverse() + h_N * A_N.inverse()).inverse());
+}
+
+CellField<Tensor> closures(const Mesh& mesh) {
+  CellField<Tensor> closure(as_size(mesh.n_cells()));
+  parallel_for(mesh.n_cells(), [&](Index c) {
+    Tensor K = Tensor::Zero();
+    for (const Index f : mesh.faces_of_cell(c)) {
+      const double sign = mesh.owner[f] == c ? 1.0 : -1.0;
+      K += sign * mesh.face_area[f] * (mesh.face_centre[f] - mesh.cell_centre[c]).transpose();
+    }
+    closure[c] = (K / mesh.cell_volume[c]).inverse();
+  });
+  return closure;
+}
+
+// Of axisymmetric meshes; empty of others.
+CellField<Vector> sector_areas(const Mesh& mesh, const Unknowns& unknowns) {
+  if (!unknowns.is_axisymmetric()) return {};
+  CellField<Vector> area(as_size(mesh.n_cells()), Vector::Zero());
+  for (const PatchCondition& on : unknowns.conditions) {
+    if (on.condition.kind != BoundaryCondition::Kind::axisymmetric) continue;
+    const Patch& patch = mesh.patches[as_size(on.patch)];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+      area[mesh.owner[f]] += mesh.face_area[f];
+  }
+  return area;
+}
+
+}  // namespace
+
+MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
+    : mesh_(mesh),
+      unknowns_(unknowns),
+      gradient_(mesh, {.zone = unknowns.zone,
+                       .node_of_face = unknowns.node_of_face,
+                       .plane_normal = unknowns.plane_normal,
+                       .wanted = {}}),
+      moduli_(as_size(mesh.n_cells())),
+      jump_share_(jump_shares(mesh, unknowns)),
+      liquidity_(as_size(mesh.n_cells()), 0.0),
+      force_of_face_(as_size(mesh.n_faces()), -1),
+      second_side_of_node_(unknowns.face_of_node.size(), -1),
+      first_side_of_node_(unknowns.face_of_node.size(), -1),
+      closure_(closures(mesh)),
+      sector_area_(sector_areas(mesh, unknowns)),
+      sector_stress_(sector_area_.size() > 0 ? as_size(mesh.n_cells()) : 0, 0.0),
+      pressure_(mesh, unknowns),
+      gradients_(as_size(mesh.n_cells())) {
+  for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
+    if (unknowns.node_of_face[f] >= 0) continue;
+    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+    force_of_face_[as_size(f)] = static_cast<Index>(links_.size());
+    links_.push_back({.face = f,
+                      .P = P,
+                      .N = N,
+                      .area = mesh.face_area[f].norm(),
+                      .n = mesh.face_area[f].normalized(),
+                      .d_P = mesh.face_centre[f] - mesh.cell_centre[P],
+                      .d_N = mesh.face_centre[f] - mesh.cell_centre[N],
+                      .weight_n = 0.0,
+                      .weight_t = 0.0,
+                      .c_n = 0.0,
+                      .c_t = 0.0,
+                      .jump_n = 0.0,
+                      .jump_t = 0.0});
+  }
+  const auto add_side = [&](Index node, Index f, Index cell, double sign) {
+    sides_.push_back({.face = f,
+                      .cell = cell,
+                      .node = node,
+                      .area = mesh.face_area[f].norm(),
+                      .n = sign * mesh.face_area[f].normalized(),
+                      .d = mesh.face_centre[f] - mesh.cell_centre[cell],
+                      .a_n = 0.0,
+                      .a_t = 0.0});
+    return static_cast<Index>(sides_.size()) - 1;
+  };
+  for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k) {
+    const Index f = unknowns.face_of_node[k], node = unknowns.n_cells + static_cast<Index>(k);
+    first_side_of_node_[k] = add_side(node, f, mesh.owner[f], 1.0);
+    force_of_face_[as_size(f)] = static_cast<Index>(links_.size()) + first_side_of_node_[k];
+    if (mesh.is_interior(f)) second_side_of_node_[k] = add_side(node, f, mesh.neighbour[f], -1.0);
+  }
+  forces_.resize(links_.size() + sides_.size());
+  if (pressure_.any()) flux_.resize(forces_.size());
+  cell_offsets_.push_back(0);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    for (const Index f : mesh.faces_of_cell(c)) {
+      const Index force = force_of_face_[as_size(f)], node = unknowns.node_of_face[f];
+      if (force < 0) continue;
+      if (mesh.owner[f] == c)
+        cell_forces_.push_back({force, 1.0});
+      else if (node < 0)
+        cell_forces_.push_back({force, -1.0});
+      else
+        cell_forces_.push_back(
+            {static_cast<Index>(links_.size()) + second_side_of_node_[as_size(node - unknowns.n_cells)], 1.0});
+    }
+    cell_offsets_.push_back(cell_forces_.size());
+  }
+}
+
+void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
+                                  double part) {
+  moduli_ = moduli;
+  renew_liquidity();
+  condense(moduli_);
+  pressure_.take_over(moduli_, g);
+  stiffness_ = {};
+  linear_stress_ = {};
+  gradient_.update(g, part);
+  parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
+    Link& link = links_[as_size(i)];
+    const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
+    const double h_P = std::abs(link.d_P.dot(link.n)), h_N = std::abs(link.d_N.dot(link.n));
+    const double a_n = P.constrained_modulus() / h_P, b_n = N.constrained_modulus() / h_N;
+    const double a_t = P.mu / h_P, b_t = N.mu / h_N;
+    link.weight_n = b_n / (a_n + b_n);
+    link.weight_t = b_t / (a_t + b_t);
+    link.c_n = a_n * link.weight_n;
+    link.c_t = a_t * link.weight_t;
+    link.jump_n = jump_stiffness(link.P, link.N, h_P, h_N, link.c_n);
+    link.jump_t = slip_stiffness(link.P, link.N, link.c_n, link.c_t);
+  });
+  parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
+    Side& side = sides_[as_size(i)];
+    const double h = std::abs(side.d.dot(side.n));
+    side.a_n = jump_modulus(side.cell) / h;
+    side.a_t = moduli_[side.cell].mu / h;
+  });
+}
+
+void MomentumOperator::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part) {
+  condense(stiffness);
+  stiffness_ = std::move(stiffness);
+  gradient_.update(g, part);
+  link_tensors_.resize(links_.size());
+  side_tensors_.resize(sides_.size());
+  parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
+    const Link& link = links_[as_size(i)];
+    const Tensor a = acoustic_tensor(stiffness_[link.P], link.n) / std::abs(link.d_P.dot(link.n));
+    const Tensor b = acoustic_tensor(stiffness_[link.N], link.n) / std::abs(link.d_N.dot(link.n));
+    const Tensor softness = (a + b).inverse(), weight = b * softness;
+    link_tensors_[as_size(i)] = {.weight = weight, .c = symmetric_part(weight * a), .softness = softness};
+  });
+  parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
+    const Side& side = sides_[as_size(i)];
+    side_tensors_[as_size(i)] = acoustic_tensor(stiffness_[side.cell], side.n) / std::abs(side.d.dot(side.n));
+  });
+}
+
+void MomentumOperator::set_stress(CellField<LinearStress> stress) {
+  condense(stress);
+  linear_stress_ = std::move(stress);
+}
+
+void MomentumOperator::find_gradients(const std::vector<Vector>& u) const {
+  parallel_for(mesh_.n_cells(), [&](Index c) { gradients_[c] = gradient_.of(u.data(), c); });
+  if (pressure_.any()) pressure_.read(u);
+  if (!unknowns_.is_axisymmetric()) return;
+  const Vector &r = unknowns_.radial, &across = unknowns_.plane_normal;
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    gradients_[c] += (r.dot(u[as_size(c)]) / r.dot(mesh_.cell_centre[c])) * across * across.transpose();
+    sector_stress_[c] = across.dot(normal_stress(c, across)) + pressure_.mean(c);
+  });
+}
+
+void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const {
+  find_gradients(u);
+  const auto n_links = static_cast<Index>(links_.size());
+  parallel_for(n_links, [&](Index i) {
+    const Link& link = links_[as_size(i)];
+    const Vector stress_P = normal_stress(link.P, link.n, link.d_P), stress_N = normal_stress(link.N, link.n, link.d_N);
+    const Vector u_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
+    const Vector jump = u[as_size(link.N)] + gradients_[link.N] * link.d_N - u_P;
+    if (!flux_.empty()) flux_[as_size(i)] = link_flux(as_size(i), u_P, jump, stress_N - stress_P);
+    forces_[as_size(i)] = link.area * (stress_N + weigh(as_size(i), stress_P - stress_N) + pull(as_size(i), jump));
+  });
+  parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
+    const Side& side = sides_[as_size(i)];
+    const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - gradients_[side.cell] * side.d;
+    forces_[as_size(n_links + i)] = side.area * (normal_stress(side.cell, side.n, side.d) + hold(as_size(i), gap));
+    if (!flux_.empty()) flux_[as_size(n_links + i)] = side_flux(side, u[as_size(side.node)]);
+  });
+}
+
+void MomentumOperator::add_initial_forces() const {
+  if (!has_linear_stress()) return;
+  const auto traction = [&](Index cell, const Vector& n) -> Vector {
+    return to_tensor(linear_stress_[cell].initial) * n;
+  };
+  const auto n_links = static_cast<Index>(links_.size());
+  parallel_for(n_links, [&](Index i) {
+    const Link& link = links_[as_size(i)];
+    const Vector on_P = traction(link.P, link.n), on_N = traction(link.N, link.n);
+    forces_[as_size(i)] += link.area * (on_N + weigh(as_size(i), on_P - on_N));
+  });
+  parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
+    const Side& side = sides_[as_size(i)];
+    forces_[as_size(n_links + i)] += side.area * traction(side.cell, side.n);
+  });
+  const Vector& across = unknowns_.plane_normal;
+  parallel_for(sector_stress_.size(), [&](Index c) { sector_stress_[c] += across.dot(traction(c, across)); });
+}
+
+void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
+  compute_linear_forces(u);
+  add_initial_forces();
+}
+
+void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& out) const {
+  compute_linear_forces(u);
+  sum_forces(out);
+  balance_pressures(out);
+}
+
+void MomentumOperator::sum_forces(std::vector<Vector>& out) const {
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    Vector sum = Vector::Zero();
+    for (std::size_t k = cell_offsets_[as_size(c)]; k < cell_offsets_[as_size(c) + 1]; ++k)
+      sum += cell_forces_[k].sign * forces_[as_size(cell_forces_[k].force)];
+    if (sector_area_.size() > 0) sum += sector_stress_[c] * sector_area_[c];
+    out[as_size(c)] = -sum;
+  });
+  const std::size_t n_links = links_.size();
+  parallel_for(static_cast<Index>(first_side_of_node_.size()), [&](Index k) {
+    Vector sum = forces_[n_links + as_size(first_side_of_node_[as_size(k)])];
+    if (const Index second = second_side_of_node_[as_size(k)]; second >= 0) sum += forces_[n_links + as_size(second)];
+    out[as_size(unknowns_.n_cells + k)] = unknowns_.free_directions[as_size(k)] * sum;
+  });
+  keep_in_plane(out);
+}
+
+// Plane meshes neither move nor are loaded across their plane.
+void MomentumOperator::keep_in_plane(std::vector<Vector>& v) const {
+  const Vector& n = unknowns_.plane_normal;
+  if (n.isZero()) return;
+  parallel_for(unknowns_.n_nodes(), [&](Index i) { v[as_size(i)] -= n.dot(v[as_size(i)]) * n; });
+}
+
+std::vector<Vector> MomentumOperator::load_vector(double t) const {
+  std::vector<Vector> load(as_size(unknowns_.n_unknowns()), Vector::Zero());
+  for (const PatchCondition& on : unknowns_.conditions) {
+    const BoundaryCondition& condition = on.condition;
+    if (condition.kind != BoundaryCondition::Kind::components || !condition.value) continue;
+    const Patch& patch = mesh_.patches[as_size(on.patch)];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Index node = unknowns_.node_of_face[f];
+      load[as_size(node)] = unknowns_.free_directions[as_size(node - unknowns_.n_cells)] *
+                            condition.value(mesh_.face_centre[f], t) * mesh_.face_area[f].norm();
+    }
+  }
+  keep_in_plane(load);
+  if (has_linear_stress()) take_away_initial_forces(load);
+  return load;
+}
+
+void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
+  for (const PatchCondition& on : unknowns_.conditions) {
+    const BoundaryCondition& condition = on.condition;
+    if (is_front_or_back(condition) || condition.kind == BoundaryCondition::Kind::held) continue;
+    const Patch& patch = mesh_.patches[as_size(on.patch)];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Index node = unknowns_.node_of_face[f];
+      const Tensor& is_free = unknowns_.free_directions[as_size(node - unknowns_.n_cells)];
+      const Vector value = condition.value ? condition.value(mesh_.face_centre[f], t) : Vector::Zero();
+      u[as_size(node)] = is_free * u[as_size(node)] + (Tensor::Identity() - is_free) * value;
+    }
+  }
+  keep_in_plane(u);
+}
+
+void MomentumOperator::take_away_initial_forces(std::vector<Vector>& load) const {
+  std::vector<Vector> initial(load.size());
+  std::fill(forces_.begin(), forces_.end(), Vector::Zero());
+  std::fill(sector_stress_.begin(), sector_stress_.end(), 0.0);
+  add_initial_forces();
+  sum_forces(initial);
+  for (std::size_t i = 0; i < load.size(); ++i) load[i] -= initial[i];
+}
+
+Tensor MomentumOperator::compact_link(const Link& link) const {
+  const double h_P = bounded_height(link.d_P, link.n), h_N = bounded_height(link.d_N, link.n);
+  if (!is_isotropic())
+    return link.area * in_series(acoustic_tensor(stiffness_[link.P], link.n), h_P,
+                                 acoustic_tensor(stiffness_[link.N], link.n), h_N);
+  const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
+  const double full = 1.0 / (h_P / P.constrained_modulus() + h_N / N.constrained_modulus());
+  const double along = jump_stiffness(link.P, link.N, h_P, h_N, full);
+  const double across = slip_stiffness(link.P, link.N, full, 1.0 / (h_P / P.mu + h_N / N.mu));
+  return link.area * scaling(along, across, link.n);
+}
+
+Tensor MomentumOperator::compact_side(const Side& side) const {
+  const double h = bounded_height(side.d, side.n);
+  if (!is_isotropic()) return (side.area / h) * acoustic_tensor(stiffness_[side.cell], side.n);
+  return (side.area / h) * scaling(jump_modulus(side.cell), moduli_[side.cell].mu, side.n);
+}
+
+// What a displacement along r stretches across the sector pulls back.
+Tensor MomentumOperator::compact_sector(Index cell) const {
+  const Vector &r = unknowns_.radial, &across = unknowns_.plane_normal;
+  const double modulus = is_isotropic() ? moduli_[cell].constrained_modulus()
+                                        : across.dot(acoustic_tensor(stiffness_[cell], across) * across);
+  return sector_area_[cell].norm() * modulus / r.dot(mesh_.cell_centre[cell]) * r * r.transpose();
+}
+
+BlockTriplets MomentumOperator::compact_matrix() const {
+  BlockTriplets matrix;
+  matrix.diagonal.assign(as_size(unknowns_.n_nodes()), Tensor::Zero());
+  matrix.off_diagonal.reserve(links_.size() + sides_.size());
+  for (const Link& link : links_) {
+    const Tensor c = compact_link(link);
+    matrix.diagonal[as_size(link.P)] += c;
+    matrix.diagonal[as_size(link.N)] += c;
+    matrix.off_diagonal.push_back({link.P, link.N, -c});
+  }
+  for (const Side& side : sides_) {
+    const Tensor a = compact_side(side);
+    const Tensor& is_free = unknowns_.free_directions[as_size(side.node - unknowns_.n_cells)];
+    matrix.diagonal[as_size(side.cell)] += a;
+    matrix.diagonal[as_size(side.node)] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);
+    if (!is_free.isZero()) matrix.off_diagonal.push_back({side.cell, side.node, -a * is_free});
+  }
+  for (Index c = 0; c < sector_area_.size(); ++c) matrix.diagonal[as_size(c)] += compact_sector(c);
+  return matrix;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,216 @@
+#pragma once
+// The momentum balance on cell-centred finite volumes with two-sided faces. Both cells of a face reconstruct its
+// traction, and the face displacement is the one at which the two agree, so traction is continuous for any moduli:
+//
+//   a = (mu_P I + (lambda+mu)_P n n^T) / h_P,  b likewise for N,  c = a (a+b)^-1 b,
+//   t = b (a+b)^-1 sigma_P n + a (a+b)^-1 sigma_N n + c J,  J = (u_N + G_N d_N) - (u_P + G_P d_P),
+//
+// with G the least-squares gradients and d_P = x_f - x_P. On orthogonal cells the normal gradients cancel and the exact
+// series flux remains: a broken cell (g -> 0) disconnects its neighbours. Faces between elastic zones and on the
+// boundary carry u_f itself: each side has t_c = sigma_c n + a_c (u_f - u_c - G_c d_c).
+//
+// Axisymmetric meshes (a sector one cell wide): the gradient also has the hoop strain u_r / r, and the two faces of the
+// sector act on the cell with the hoop stress sigma_phi: -2 sin(half the angle) A sigma_phi along r.
+//
+// General stiffness C: the same with a = (n.C.n) / h, the acoustic tensor of the face normal, as a full 3x3 tensor.
+//
+// A material with a history is linearised within each solve, sigma = C eps + sigma_0, for the stresses only: a, b and c
+// remain those of its elastic moduli. The converged solution therefore does not depend on C, which may change with the
+// direction of the strain increment.
+//
+// Polyhedra have about 14 faces against three unknowns: with a of the full lambda the jump terms lock as nu -> 0.5.
+// Their c uses lambda_s = min(lambda, 1.5 mu) in the undamaged material, and the same fraction of lambda + 2 mu in a
+// damaged one, blended back to the full one between cells of different damage:
+// c = c(lambda_s) + theta (c(lambda) - c(lambda_s)), theta = 1 - min(mu_P, mu_N)/max(mu_P, mu_N). The weights of
+// sigma_P and sigma_N keep the full lambda. On tetrahedra a smaller c would not converge. Polyhedra of general
+// stiffness C keep the full a.
+//
+// Closed cracks in polyhedra: where the split keeps lambda, a broken cell has no shear stiffness (mu << lambda).
+// Tangential displacements that alternate between such polyhedra have gradients without divergence, but cause forces on
+// skew faces; without stabilisation they grow without bounds. Such cells therefore use the full c, and c_t + 0.05 c_n
+// along the face between two of them in the jump term, which vanishes for a slip that is linear over the cells.
+//
+// Nearly incompressible cells have an additional unknown, a pressure q, which is added to sigma at the face; everywhere
+// else lambda_s replaces lambda (cell_pressure.h).
+//
+// Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
+// are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements.
+
+#include "physics/plane_stress.h"
+#include "solver/linear/block_matrix.h"
+#include "solver/momentum/cell_pressure.h"
+#include "solver/momentum/unknowns.h"
+#include "solver/scalar/gradient.h"
+
+#include <vector>
+
+namespace pfdm {
+
+/// Strain, stress and energy of the cells for a given displacement.
+struct CellMechanics {
+  CellField<Tensor> strain;    ///< from the two-sided face displacements (Green-Gauss) [-]
+  CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if not wanted
+  CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]; empty if not wanted
+  CellField<double> energy;    ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
+  /// By least squares, as used in the tractions of the faces [-]; empty unless some material is linearised.
+  CellField<Tensor> reconstructed_strain{};
+  FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
+};
+
+class MomentumOperator {
+ public:
+  MomentumOperator(const Mesh& mesh, const Unknowns& unknowns);
+
+  /// Secant moduli of every cell, and the stiffness factors g that weight the gradients; the weights are updated only
+  /// where g has changed by more than this fraction.
+  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0);
+  /// The same with any symmetric positive definite stiffness [Pa] in each cell.
+  void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
+  /// Replaces the stress of the moduli in every cell; call after set_moduli(), which removes it.
+  void set_stress(CellField<LinearStress> stress);
+
+  /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
+  /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Without initial stresses.
+  void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
+  /// Forces from prescribed tractions at the load parameter t and from initial stresses, [N].
+  std::vector<Vector> load_vector(double t) const;
+  /// Writes the prescribed components of the boundary nodes at the load parameter t.
+  void prescribe(double t, std::vector<Vector>& u) const;
+  /// Removes the component across the plane of a plane mesh.
+  void keep_in_plane(std::vector<Vector>& v) const;
+
+  /// The compact symmetric matrix for the preconditioner of A: c between cells, a from a cell to its face nodes.
+  BlockTriplets compact_matrix() const;
+  /// Approximate diagonal of the Schur complement, per pressure [m^3/Pa].
+  std::vector<double> pressure_compliance() const;
+  /// r -= the forces of the pressures q (stored among the unknowns) on the nodes.
+  void take_away_pressure_forces(const std::vector<Vector>& q, std::vector<Vector>& r) const;
+
+  enum class Wanted { all, strain_and_energy };
+  CellMechanics mechanics(const std::vector<Vector>& u, Wanted wanted = Wanted::all) const;
+  std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;  ///< per boundary face [N]
+  /// Traction [Pa] on each interior face that carries a node, on its owner.
+  std::vector<std::pair<Index, Vector>> interface_tractions(const std::vector<Vector>& u) const;
+  /// On every face along its normal [Pa]; zero on the faces of plane and axisymmetric patches.
+  FaceField<Vector> tractions(const std::vector<Vector>& u) const;
+  std::vector<Vector> patch_displacements(const std::vector<Vector>& u) const;  ///< per patch, area mean [m]
+
+ private:
+  // An interior face within one elastic zone.
+  struct Link {
+    Index face, P, N;
+    double area;
+    Vector n;                   // from P to N
+    Vector d_P, d_N;            // from the cell centres to the face centre
+    double weight_n, weight_t;  // of sigma_P in the traction; those of sigma_N complete them to 1
+    double c_n, c_t;            // [Pa/m]
+    double jump_n, jump_t;      // c_n and c_t as the jump has them beside polyhedra [Pa/m]
+  };
+  // One side of a face that carries a node.
+  struct Side {
+    Index face, cell, node;
+    double area;
+    Vector n;         // outwards from the cell
+    Vector d;         // from the cell centre to the face centre
+    double a_n, a_t;  // [Pa/m]
+  };
+  // Weight and c of a link whose cells are not isotropic.
+  struct LinkTensors {
+    Tensor weight;    // of sigma_P n in the traction
+    Tensor c;         // [Pa/m]
+    Tensor softness;  // (a + b)^-1 [m/Pa]
+  };
+  struct SignedForce {
+    Index force;
+    double sign;
+  };
+
+  // (across I + (along - across) n n^T) v for a unit normal n.
+  static Vector scale(double along, double across, const Vector& n, const Vector& v) {
+    return across * v + ((along - across) * n.dot(v)) * n;
+  }
+
+  // Forces of the displacements, of the initial stresses, and of both, into forces_.
+  void compute_linear_forces(const std::vector<Vector>& u) const;
+  void add_initial_forces() const;
+  void compute_forces(const std::vector<Vector>& u) const;
+  void sum_forces(std::vector<Vector>& out) const;
+  void take_away_initial_forces(std::vector<Vector>& load) const;
+  double link_flux(std::size_t i, const Vector& u_P, const Vector& jump, const Vector& stress_jump) const;
+  double side_flux(const Side& side, const Vector& u_f) const;
+  void balance_pressures(std::vector<Vector>& out) const;
+  bool has_linear_stress() const { return linear_stress_.size() > 0; }
+  bool is_isotropic() const { return stiffness_.size() == 0; }
+  void find_gradients(const std::vector<Vector>& u) const;
+  Vector normal_stress(Index cell, const Vector& n) const {
+    const Tensor& G = gradients_[cell];
+    if (!is_isotropic()) return to_tensor(stiffness_[cell] * to_mandel(symmetric_part(G))) * n;
+    if (has_linear_stress()) return to_tensor(linear_stress_[cell].C * to_mandel(symmetric_part(G))) * n;
+    const IsotropicElasticity& c = moduli_[cell];
+    return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
+  }
+  // At the distance d from the cell's centre; only the pressure varies within a cell.
+  Vector normal_stress(Index cell, const Vector& n, const Vector& d) const {
+    return pressure_.any() ? (normal_stress(cell, n) + pressure_.at(cell, d) * n).eval() : normal_stress(cell, n);
+  }
+  static CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns);
+  void renew_liquidity();
+  double jump_modulus(Index cell) const;
+  double jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const;
+  double slip_stiffness(Index P, Index N, double c_n, double c_t) const;
+  // The weight of P's side, c and (a + b)^-1 of link i, and a of side i, times v.
+  Vector weigh(std::size_t i, const Vector& v) const {
+    return is_isotropic() ? scale(links_[i].weight_n, links_[i].weight_t, links_[i].n, v) : link_tensors_[i].weight * v;
+  }
+  Vector pull(std::size_t i, const Vector& v) const {
+    return is_isotropic() ? scale(links_[i].jump_n, links_[i].jump_t, links_[i].n, v) : link_tensors_[i].c * v;
+  }
+  Vector give(std::size_t i, const Vector& v) const;
+  Vector hold(std::size_t i, const Vector& v) const {
+    return is_isotropic() ? scale(sides_[i].a_n, sides_[i].a_t, sides_[i].n, v) : side_tensors_[i] * v;
+  }
+  Tensor compact_link(const Link& link) const;
+  Tensor compact_side(const Side& side) const;
+  Tensor compact_sector(Index cell) const;
+  // Stress [Pa] across the plane of a plane mesh, per unit of n (x) n.
+  double stress_across(Index cell, const Tensor& strain) const;
+  // Stores the coefficients of the strain across the plate, and replaces the stiffness by the condensed one.
+  void condense(CellField<IsotropicElasticity>& moduli);
+  void condense(CellField<MandelMatrix>& stiffness);
+  void condense(CellField<LinearStress>& stress);
+  // In plane stress the strain across the plate is added; else the gradient stays as it is.
+  Tensor with_strain_across(Index cell, const Tensor& gradient) const;
+  Vector face_displacement(std::size_t link, const std::vector<Vector>& u) const;
+  FaceField<Vector> face_displacements(const std::vector<Vector>& u) const;
+  Vector seen_from(Index cell, Index face, const FaceField<Vector>& u_face, const std::vector<Vector>& u) const;
+
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+  Gradient gradient_;
+  CellField<IsotropicElasticity> moduli_;
+  CellField<double> jump_share_;           // lambda_s + 2 mu over lambda + 2 mu, undamaged; 1 except in polyhedra
+  CellField<double> liquidity_;            // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is
+  CellField<MandelMatrix> stiffness_;      // empty while all cells are isotropic, as are the tensors of the faces
+  CellField<LinearStress> linear_stress_;  // may be empty
+  CellField<StrainAcross> strain_across_;  // empty but in plane stress
+  std::vector<Link> links_;
+  std::vector<Side> sides_;
+  std::vector<LinkTensors> link_tensors_;
+  std::vector<Tensor> side_tensors_;        // a [Pa/m]
+  std::vector<Index> force_of_face_;        // owner's side; -1 for plane and axisymmetric patches
+  std::vector<Index> second_side_of_node_;  // of interface nodes: the neighbour's side, else -1
+  std::vector<Index> first_side_of_node_;
+  std::vector<std::size_t> cell_offsets_;
+  std::vector<SignedForce> cell_forces_;
+  CellField<Tensor> closure_;  // K^-1 of K = (1/V) sum S (x) (x_f - x_c): the identity where faces are plane
+  // Of axisymmetric meshes, else empty: the sum of the area vectors of the sector's faces of each cell, and the stress
+  // across them [Pa], with which they pull.
+  CellField<Vector> sector_area_;
+  mutable CellField<double> sector_stress_;
+  mutable CellPressure pressure_;
+  mutable std::vector<double> flux_;     // as forces_: u_f.S [m^3]; empty without pressures
+  mutable CellField<Tensor> gradients_;  // work space of apply
+  mutable std::vector<Vector> forces_;   // per link, then per side: A t outwards from P or from the side's cell
+};
+
+}  // namespace pfdm

@@ -1,0 +1,192 @@
+// What a displacement means: strain, stress and energy of the cells, reactions of the patches; plane stress.
+//
+// The strain is that of the face displacements at which the two sides of each face agree (Green-Gauss). It is exact in
+// a laminate however broken a layer is, where the least-squares gradient, which reaches over the layer, is wrong by
+// factors; and with the tractions it closes the energy account: sum over cells of 1/2 sum A t.(u_f - u_c) is half the
+// work of the boundary forces, because t and u_f are one on each face and the forces on a cell cancel.
+
+#include "solver/momentum/momentum.h"
+#include "solver/parallel.h"
+
+namespace pfdm {
+
+// (a + b)^-1 v
+Vector MomentumOperator::give(std::size_t i, const Vector& v) const {
+  if (!is_isotropic()) return link_tensors_[i].softness * v;
+  const Link& link = links_[i];
+  const double sum_n = link.c_n / (link.weight_n * (1.0 - link.weight_n));
+  const double sum_t = link.c_t / (link.weight_t * (1.0 - link.weight_t));
+  return scale(1.0 / sum_n, 1.0 / sum_t, link.n, v);
+}
+
+// Equal tractions on both sides: (a + b) u_f = a (u_P + G_P d_P) + b (u_N + G_N d_N) + (sigma_N - sigma_P) n. In a
+// tensor, (a + b)^-1 b is the transpose of P's weight.
+Vector MomentumOperator::face_displacement(std::size_t i, const std::vector<Vector>& u) const {
+  const Link& link = links_[i];
+  const Vector from_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
+  const Vector from_N = u[as_size(link.N)] + gradients_[link.N] * link.d_N;
+  Vector stress_jump = normal_stress(link.N, link.n, link.d_N) - normal_stress(link.P, link.n, link.d_P);
+  if (has_linear_stress())
+    stress_jump += to_tensor(linear_stress_[link.N].initial - linear_stress_[link.P].initial) * link.n;
+  const Vector towards_N =
+      is_isotropic() ? weigh(i, from_N - from_P) : link_tensors_[i].weight.transpose() * (from_N - from_P);
+  return from_P + towards_N + give(i, stress_jump);
+}
+
+void MomentumOperator::condense(CellField<IsotropicElasticity>& moduli) {
+  if (!unknowns_.plane_stress) return;
+  strain_across_ = CellField<StrainAcross>(as_size(moduli.size()));
+  parallel_for(moduli.size(), [&](Index c) {
+    strain_across_[c] =
+        strain_across({.C = stiffness_matrix(moduli[c]), .initial = Mandel::Zero()}, unknowns_.plane_normal);
+    moduli[c] = plane_stress(moduli[c]);
+  });
+}
+
+void MomentumOperator::condense(CellField<LinearStress>& stress) {
+  if (!unknowns_.plane_stress) return;
+  strain_across_ = CellField<StrainAcross>(as_size(stress.size()));
+  parallel_for(stress.size(), [&](Index c) {
+    strain_across_[c] = strain_across(stress[c], unknowns_.plane_normal);
+    stress[c] = plane_stress(stress[c], unknowns_.plane_normal);
+  });
+}
+
+void MomentumOperator::condense(CellField<MandelMatrix>& stiffness) {
+  if (!unknowns_.plane_stress) return;
+  CellField<LinearStress> stress(as_size(stiffness.size()));
+  parallel_for(stiffness.size(), [&](Index c) { stress[c].C = stiffness[c]; });
+  condense(stress);
+  parallel_for(stiffness.size(), [&](Index c) { stiffness[c] = stress[c].C; });
+}
+
+Tensor MomentumOperator::with_strain_across(Index cell, const Tensor& gradient) const {
+  if (!unknowns_.plane_stress) return gradient;
+  const Vector& n = unknowns_.plane_normal;
+  return gradient + strain_across_[cell](to_mandel(symmetric_part(gradient))) * n * n.transpose();
+}
+
+double MomentumOperator::stress_across(Index cell, const Tensor& strain) const {
+  if (unknowns_.plane_stress) return 0.0;
+  if (is_isotropic() && !has_linear_stress()) return moduli_[cell].lambda * strain.trace() + pressure_.mean(cell);
+  const Vector& normal = unknowns_.plane_normal;
+  const Mandel stress =
+      is_isotropic() ? linear_stress_[cell](to_mandel(strain)) : Mandel(stiffness_[cell] * to_mandel(strain));
+  return normal.dot(to_tensor(stress) * normal);
+}
+
+FaceField<Vector> MomentumOperator::face_displacements(const std::vector<Vector>& u) const {
+  FaceField<Vector> u_face(as_size(mesh_.n_faces()), Vector::Zero());
+  parallel_for(static_cast<Index>(links_.size()),
+               [&](Index i) { u_face[links_[as_size(i)].face] = face_displacement(as_size(i), u); });
+  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k)
+    u_face[unknowns_.face_of_node[k]] = u[as_size(unknowns_.n_cells) + k];
+  return u_face;
+}
+
+// Faces of plane patches carry no unknown: they move with their cell, within the plane. Those of a sector move with its
+// gradient, in themselves.
+Vector MomentumOperator::seen_from(Index cell, Index face, const FaceField<Vector>& u_face,
+                                   const std::vector<Vector>& u) const {
+  if (force_of_face_[as_size(face)] >= 0) return u_face[face];
+  if (unknowns_.is_axisymmetric()) {
+    const Vector along = mesh_.face_area[face].normalized();
+    const Vector moved = u[as_size(cell)] + gradients_[cell] * (mesh_.face_centre[face] - mesh_.cell_centre[cell]);
+    return moved - along.dot(moved) * along;
+  }
+  const Vector& n = unknowns_.plane_normal;
+  return u[as_size(cell)] - n.dot(u[as_size(cell)]) * n;
+}
+
+CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted wanted) const {
+  const bool with_gradient = wanted == Wanted::all, with_stress = with_gradient || has_linear_stress();
+  compute_forces(u);
+  FaceField<Vector> u_face = face_displacements(u);
+  const auto n = as_size(mesh_.n_cells());
+  CellMechanics result{.strain = CellField<Tensor>(n),
+                       .gradient = CellField<Tensor>(with_gradient ? n : 0),
+                       .stress = CellField<Tensor>(with_stress ? n : 0),
+                       .energy = CellField<double>(n)};
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    const double volume = mesh_.cell_volume[c];
+    Tensor gradient = Tensor::Zero(), moment = Tensor::Zero();
+    double work = 0.0;
+    std::size_t k = cell_offsets_[as_size(c)];
+    for (const Index f : mesh_.faces_of_cell(c)) {
+      const Vector area = (mesh_.owner[f] == c ? 1.0 : -1.0) * mesh_.face_area[f];
+      const Vector rise = seen_from(c, f, u_face, u) - u[as_size(c)];
+      gradient += rise * area.transpose();
+      const bool has_node_or_link = force_of_face_[as_size(f)] >= 0;
+      if (!has_node_or_link && !unknowns_.is_axisymmetric()) continue;
+      const Vector force = has_node_or_link ? (cell_forces_[k].sign * forces_[as_size(cell_forces_[k].force)]).eval()
+                                            : (sector_stress_[c] * area).eval();
+      if (with_stress) moment += force * (mesh_.face_centre[f] - mesh_.cell_centre[c]).transpose();
+      work += 0.5 * force.dot(rise);
+      if (has_node_or_link) ++k;
+    }
+    gradient = with_strain_across(c, gradient * closure_[c].transpose() / volume);
+    result.strain[c] = symmetric_part(gradient);
+    result.energy[c] = work;
+    if (with_gradient) result.gradient[c] = gradient;
+    if (!with_stress) return;
+    const Vector& normal = unknowns_.plane_normal;
+    result.stress[c] = symmetric_part((moment * closure_[c]) / volume);
+    if (!unknowns_.is_axisymmetric())
+      result.stress[c] += stress_across(c, result.strain[c]) * normal * normal.transpose();
+  });
+  if (has_linear_stress()) {
+    result.reconstructed_strain = CellField<Tensor>(n);
+    parallel_for(mesh_.n_cells(), [&](Index c) {
+      result.reconstructed_strain[c] = symmetric_part(with_strain_across(c, gradients_[c]));
+    });
+  }
+  result.face_displacement = std::move(u_face);
+  return result;
+}
+
+std::vector<Vector> MomentumOperator::boundary_forces(const std::vector<Vector>& u) const {
+  compute_forces(u);
+  const Index first = mesh_.n_interior_faces();
+  std::vector<Vector> boundary(as_size(mesh_.n_faces() - first), Vector::Zero());
+  for (Index f = first; f < mesh_.n_faces(); ++f)
+    if (const Index force = force_of_face_[as_size(f)]; force >= 0)
+      boundary[as_size(f - first)] = forces_[as_size(force)];
+  return boundary;
+}
+
+std::vector<std::pair<Index, Vector>> MomentumOperator::interface_tractions(const std::vector<Vector>& u) const {
+  compute_forces(u);
+  std::vector<std::pair<Index, Vector>> tractions;
+  for (const Index f : unknowns_.face_of_node)
+    if (mesh_.is_interior(f))
+      tractions.emplace_back(f, forces_[as_size(force_of_face_[as_size(f)])] / mesh_.face_area[f].norm());
+  return tractions;
+}
+
+FaceField<Vector> MomentumOperator::tractions(const std::vector<Vector>& u) const {
+  compute_forces(u);
+  FaceField<Vector> traction(as_size(mesh_.n_faces()));
+  parallel_for(mesh_.n_faces(), [&](Index f) {
+    if (const Index force = force_of_face_[as_size(f)]; force >= 0)
+      traction[f] = forces_[as_size(force)] / mesh_.face_area[f].norm();
+  });
+  return traction;
+}
+
+std::vector<Vector> MomentumOperator::patch_displacements(const std::vector<Vector>& u) const {
+  std::vector<Vector> mean(mesh_.patches.size(), Vector::Zero());
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    const Patch& patch = mesh_.patches[p];
+    double area = 0.0;
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Index node = unknowns_.node_of_face[f];
+      if (node < 0) continue;
+      mean[p] += mesh_.face_area[f].norm() * u[as_size(node)];
+      area += mesh_.face_area[f].norm();
+    }
+    if (area > 0.0) mean[p] /= area;
+  }
+  return mean;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,171 @@
+#include "solver/momentum/momentum_solver.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+// Relative change of g up to which the weights of the gradients are kept.
+constexpr double bearable_lag = 0.01;
+// Factor by which a cell's stiffness may change before the multigrid is rebuilt.
+constexpr double bearable_ratio = 2.0;
+
+std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
+  std::vector<Index> position(as_size(unknowns.n_nodes()));
+  Index next = 0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    position[as_size(c)] = next++;
+    for (const Index f : mesh.faces_of_cell(c))
+      if (unknowns.node_of_face[f] >= 0 && mesh.owner[f] == c) position[as_size(unknowns.node_of_face[f])] = next++;
+  }
+  return position;
+}
+
+}  // namespace
+
+MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns)
+    : unknowns_(unknowns),
+      operator_(mesh, unknowns),
+      position_of_node_(interleave_face_nodes(mesh, unknowns)),
+      b_(as_size(unknowns.n_nodes())),
+      x_(as_size(unknowns.n_nodes())) {}
+
+void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
+  if (starts_afresh_ && !(moduli == moduli_of_multigrid_)) multigrid_.reset();
+  operator_.set_moduli(moduli, g, gradient_lag());
+  if (renew_preconditioner(g, struggled_ && has_moved(moduli))) moduli_of_multigrid_ = moduli;
+}
+
+void MomentumSolver::set_stress(CellField<LinearStress> stress) {
+  operator_.set_stress(std::move(stress));
+  reference_load_.reset();
+}
+
+void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g) {
+  CellField<double> trace(as_size(stiffness.size()));
+  parallel_for(stiffness.size(), [&](Index c) { trace[c] = stiffness[c].trace(); });
+  if (starts_afresh_) multigrid_.reset();
+  operator_.set_stiffness(std::move(stiffness), g, gradient_lag());
+  if (renew_preconditioner(trace, false)) moduli_of_multigrid_ = {};
+}
+
+double MomentumSolver::gradient_lag() {
+  const bool exact = std::exchange(starts_afresh_, false) || !multigrid_;
+  return exact ? 0.0 : bearable_lag;
+}
+
+// Where cracks have closed or opened the stiffness changes at the same g.
+bool MomentumSolver::has_moved(const CellField<IsotropicElasticity>& moduli) const {
+  const CellField<IsotropicElasticity>& built = moduli_of_multigrid_;
+  if (built.size() == 0) return true;
+  return parallel_max(moduli.size(), [&](Index c) {
+           const double now = moduli[c].lambda + 2.0 * moduli[c].mu, then = built[c].lambda + 2.0 * built[c].mu;
+           return std::max(now / then, then / now);
+         }) > bearable_ratio;
+}
+
+// Returns whether it was rebuilt.
+bool MomentumSolver::renew_preconditioner(const CellField<double>& measure, bool must_be) {
+  const CellField<double>& built = measure_of_multigrid_;
+  const bool moved = multigrid_ && parallel_max(measure.size(), [&](Index c) {
+                                     return std::max(measure[c] / built[c], built[c] / measure[c]);
+                                   }) > bearable_ratio;
+  if (multigrid_ && !moved && !must_be) return false;
+  measure_of_multigrid_ = measure;
+  build_preconditioner();
+  return true;
+}
+
+void MomentumSolver::build_preconditioner() {
+  const BlockTriplets compact = operator_.compact_matrix();
+  scale_.resize(compact.diagonal.size());
+  for (std::size_t i = 0; i < scale_.size(); ++i) scale_[i] = 1.0 / std::sqrt(compact.diagonal[i].trace() / 3.0);
+  pressure_compliance_ = operator_.pressure_compliance();
+  for (const double s : pressure_compliance_) scale_.push_back(1.0 / std::sqrt(s));
+  multigrid_.emplace(compress(compact, position_of_node_));
+  reference_load_.reset();
+  ++n_preconditioners_;
+}
+
+void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vector>& z) {
+  const Index n = unknowns_.n_nodes();
+  const bool has_pressures = !pressure_compliance_.empty();
+  if (has_pressures) {
+    parallel_for(static_cast<Index>(pressure_compliance_.size()),
+                 [&](Index k) { z[as_size(n + k)] = r[as_size(n + k)] / pressure_compliance_[as_size(k)]; });
+    rest_ = r;
+    operator_.take_away_pressure_forces(z, rest_);
+  }
+  const std::vector<Vector>& left = has_pressures ? rest_ : r;
+  parallel_for(n, [&](Index i) {
+    Lane& to = b_[as_size(position_of_node_[as_size(i)])];
+    to.head<3>() = left[as_size(i)].cast<float>();
+    to[3] = 0.0F;
+  });
+  multigrid_->apply(b_, x_);
+  parallel_for(n, [&](Index i) {
+    z[as_size(i)] = x_[as_size(position_of_node_[as_size(i)])].head<3>().cast<double>();
+    // Prescribed components stay unchanged.
+    if (i >= unknowns_.n_cells)
+      z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
+  });
+  operator_.keep_in_plane(z);
+}
+
+// The norm that residuals are measured against: that of the prescribed values alone.
+double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load) {
+  if (fixed_reference_) return *fixed_reference_;
+  if (reference_load_ == t) return reference_;
+  std::vector<Vector> prescribed(load.size(), Vector::Zero()), image(load.size());
+  operator_.prescribe(t, prescribed);
+  operator_.apply(prescribed, image);
+  for (std::size_t i = 0; i < load.size(); ++i) image[i] = load[i] - image[i];
+  reference_load_ = t;
+  reference_ = scaled_norm(image, scale_);
+  return reference_;
+}
+
+void MomentumSolver::set_body_force(std::vector<Vector> force) {
+  assert(force.empty() || force.size() == as_size(unknowns_.n_cells) || force.size() == as_size(unknowns_.n_nodes()));
+  body_force_ = std::move(force);
+  reference_load_.reset();
+}
+
+std::vector<Vector> MomentumSolver::load_vector(double t) const {
+  std::vector<Vector> load = operator_.load_vector(t);
+  for (std::size_t c = 0; c < body_force_.size(); ++c) load[c] += body_force_[c];
+  return load;
+}
+
+Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vector<Vector>& u) {
+  const std::vector<Vector> load = load_vector(t);
+  const double reference = reference_norm(t, load);
+  operator_.prescribe(t, u);
+  if (reference == 0.0) {
+    std::fill(u.begin(), u.end(), Vector::Zero());
+    return {.converged = true};
+  }
+  const KrylovProblem problem{
+      .apply = [this](const std::vector<Vector>& x, std::vector<Vector>& y) { operator_.apply(x, y); },
+      .precondition = [this](const std::vector<Vector>& r, std::vector<Vector>& z) { precondition(r, z); },
+      .constrain = [&](std::vector<Vector>& x) { operator_.prescribe(t, x); },
+      .scale = scale_,
+      .restart_length = pressure_compliance_.empty() ? 40 : 80};
+  const auto target = [&](double initial) {
+    return std::max(tolerance.floor * reference,
+                    std::min(tolerance.ceiling * reference, tolerance.reduction * initial));
+  };
+  const KrylovResult result = solve_fgmres(problem, load, u, target, tolerance.most_iterations);
+  struggled_ = !result.converged;
+  return {.converged = result.converged,
+          .iterations = result.iterations,
+          .initial_residual = result.initial_residual / reference,
+          .residual = result.residual / reference};
+}
+
+}  // namespace pfdm

@@ -1,0 +1,88 @@
+#pragma once
+// Equilibrium at fixed damage: flexible GMRES on the traction operator, preconditioned by multigrid on its compact
+// matrix; with pressures by the block triangle [A B; 0 S], multigrid for A and a diagonal for the Schur complement S.
+// Residuals are row-scaled by (tr D / 3)^-1/2: without scaling the stiffest cells dominate the norm and broken cells do
+// not contribute.
+
+#include "solver/linear/fgmres.h"
+#include "solver/linear/multigrid.h"
+#include "solver/momentum/momentum.h"
+
+#include <optional>
+
+namespace pfdm {
+
+struct Equilibrium {
+  bool converged = false;
+  Index iterations = 0;
+  double initial_residual = 0.0;  ///< relative to that of the prescribed displacements and tractions alone
+  double residual = 0.0;          ///< at the end, relative likewise
+};
+
+class MomentumSolver {
+ public:
+  MomentumSolver(const Mesh& mesh, const Unknowns& unknowns);
+
+  /// New secant moduli. The multigrid is rebuilt when the stiffness factor g of some cell has changed by more than a
+  /// factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights
+  /// of the gradients where g has changed by more than a hundredth.
+  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+  /// Replaces the stresses of the moduli that were just set (see MomentumOperator).
+  void set_stress(CellField<LinearStress> stress);
+  /// The same with a general stiffness [Pa]; the multigrid is rebuilt by changes of its trace.
+  void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
+  /// Makes the next set_moduli rebuild everything that could differ, so that the results do not depend on earlier
+  /// states.
+  void start_afresh() {
+    starts_afresh_ = true;
+    struggled_ = false;
+  }
+
+  /// Writes the prescribed values at t into u and solves to a residual of
+  /// max(floor, min(ceiling, reduction x initial)).
+  struct Tolerance {
+    double reduction = 0.0;
+    double ceiling = 1e-8;
+    double floor = 1e-8;
+    Index most_iterations = 2000;  ///< of FGMRES
+  };
+  Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
+  /// Forces [N] on the cells, or on all nodes, at every load parameter from now on; empty for none.
+  void set_body_force(std::vector<Vector> force);
+  /// Sets the reference of relative residuals, in place of that of the prescribed displacements and tractions.
+  void measure_against(double reference) { fixed_reference_ = reference; }
+  double residual_reference() const { return fixed_reference_.value_or(reference_); }
+
+  MomentumOperator& balance() { return operator_; }
+  const MomentumOperator& balance() const { return operator_; }
+  Index n_preconditioners() const { return n_preconditioners_; }
+
+ private:
+  void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
+  void build_preconditioner();
+  bool has_moved(const CellField<IsotropicElasticity>& moduli) const;
+  bool renew_preconditioner(const CellField<double>& measure, bool must_be);
+  double gradient_lag();
+  std::vector<Vector> load_vector(double t) const;
+  double reference_norm(double t, const std::vector<Vector>& load);
+
+  const Unknowns& unknowns_;
+  MomentumOperator operator_;
+  std::vector<Vector> body_force_;       // on the cells [N]; may be empty
+  std::vector<Index> position_of_node_;  // multigrid row of each node: face nodes follow a cell of theirs
+  std::optional<Multigrid> multigrid_;
+  CellField<double> measure_of_multigrid_;              // of the cells' stiffness: any measure, but always the same
+  CellField<IsotropicElasticity> moduli_of_multigrid_;  // empty for a general stiffness
+  bool starts_afresh_ = false;
+  bool struggled_ = false;  // the last solve did not converge
+  std::vector<double> scale_;
+  std::vector<double> pressure_compliance_;  // per pressure [m^3/Pa]
+  std::vector<Vector> rest_;                 // residual without the forces of the pressures; work space
+  std::optional<double> reference_load_;     // load parameter that reference_ belongs to
+  double reference_ = 0.0;
+  std::optional<double> fixed_reference_;  // if it was given
+  std::vector<Lane> b_, x_;
+  Index n_preconditioners_ = 0;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,57 @@
+#pragma once
+// Placement of the displacement unknowns: one node per cell, then one per face between two elastic zones or on the
+// boundary. Faces of plane and axisymmetric patches (one-cell-thick meshes) carry none. Nearly incompressible cells
+// also have a pressure (cell_pressure.h): unknowns after the nodes, each in the first component of a vector.
+
+#include "mesh/mesh_part.h"
+#include "physics/elasticity.h"
+#include "solver/momentum/boundary_condition.h"
+
+#include <vector>
+
+namespace pfdm {
+
+/// What the momentum balance is about.
+struct ElasticBody {
+  std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh, undamaged
+  /// Of each region: the first one with the same law. Faces between different laws carry unknowns.
+  std::vector<Index> zone;
+  std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
+  /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
+  bool has_pressure = true;
+};
+
+/// One boundary condition, found on its patch.
+struct PatchCondition {
+  Index patch = 0;
+  BoundaryCondition condition;
+};
+
+struct Unknowns {
+  CellField<Index> zone;                   ///< cells of one law share a zone
+  std::vector<IsotropicElasticity> sound;  ///< elasticity of each zone, undamaged
+  FaceField<Index> node_of_face;           ///< -1 where a face carries no unknown
+  std::vector<Index> face_of_node;         ///< entry k is the face of node n_cells + k
+  std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free by default
+  std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
+  /// Across the one cell of plane and axisymmetric meshes; zero in three-dimensional ones.
+  Vector plane_normal = Vector::Zero();
+  bool plane_stress = false;       ///< across the plane patches; else plane strain
+  Vector radial = Vector::Zero();  ///< of axisymmetric meshes: from the axis z along the middle of the sector
+  Index n_cells = 0;
+  std::vector<Index> pressure_cells;  ///< entry k is the cell of unknown n_nodes() + k
+
+  bool is_axisymmetric() const { return radial != Vector::Zero(); }
+  Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }
+  Index n_unknowns() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }  ///< vectors
+};
+
+/// Throws InputError for a condition on an unknown patch, two conditions on one patch, a symmetry patch that is not
+/// plane, plane stress together with plane strain, a plane mesh without a front or a back, or a part of the body that
+/// nothing holds against a rigid motion.
+Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body);
+
+/// Unknowns of a part of a mesh without pressures; displacements on the cut are held.
+Unknowns unknowns_of_part(const Unknowns& whole, const MeshPart& part);
+
+}  // namespace pfdm

@@ -1,0 +1,71 @@
+#pragma once
+// The endochronic law as a forward model: measured strains drive it, its stresses are compared with measured ones.
+
+#include "solver/calibration/calibration.h"
+#include "solver/point/mixed_control.h"
+
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// A test on a material point that began as virgin material.
+struct MaterialExperiment {
+  struct Channel {
+    int component = 0;           ///< 0 ... 5
+    std::vector<double> stress;  ///< measured, at the times of the loading [Pa]
+    double noise = 0.0;          ///< standard deviation [Pa]; 0: not known
+  };
+  std::string name;
+  LoadSegment loading;  ///< measured strains that are followed; the other pairs are free of stress
+  std::vector<Channel> channels;
+};
+
+/// What is estimated; f_0 is not, so that the scale of the intrinsic time is fixed by f(0) = f_0.
+struct FitChoice {
+  bool kernel = true;
+  bool hardening = true;  ///< parameters of the hardening law; of a table, f at all points but the first
+  bool rate = false;      ///< parameters of the rate factor but for its reference rate
+  bool young_modulus = false;
+};
+
+/// The chosen parameters of the law, all on a logarithmic scale: C_1 [Pa], alpha_1, ..., f_inf, b ...
+std::vector<FitParameter> fit_parameters(const EndochronicLaw& law, const FitChoice& choice);
+/// The law with these values; nothing if they make no law.
+std::optional<EndochronicLaw> with_values(const EndochronicLaw& law, const FitChoice& choice,
+                                          std::span<const double> values);
+
+/// Stress of the channels of one experiment [Pa]; nothing where the law cannot follow the strains.
+std::optional<std::vector<std::vector<double>>> respond(const EndochronicLaw& law, const MaterialExperiment& experiment,
+                                                        const ControlSettings& settings = {});
+
+/// Whether every channel says how noisy it is.
+bool noise_is_known(const std::vector<MaterialExperiment>& experiments);
+
+/// Model less measurement over the noise, or over the rms of all measured stresses where the noise is not known.
+std::optional<std::vector<double>> stress_residuals(const EndochronicLaw& law,
+                                                    const std::vector<MaterialExperiment>& experiments,
+                                                    const ControlSettings& settings = {});
+
+/// How many stresses were measured in all.
+std::size_t n_stresses(const std::vector<MaterialExperiment>& experiments);
+/// Rms of all measured stresses [Pa].
+double rms_stress(const std::vector<MaterialExperiment>& experiments);
+/// Rms of model less measurement of one experiment [Pa]; infinite where the law cannot follow.
+double rms_misfit(const EndochronicLaw& law, const MaterialExperiment& experiment,
+                  const ControlSettings& settings = {});
+
+struct LawFit {
+  EndochronicLaw law;
+  FitChoice choice;
+  std::vector<FitParameter> parameters;
+  FitResult result;
+};
+
+/// Least squares over all experiments from the values of `law` on; kernel terms come back with falling alpha.
+/// `limits`: parameters whose bounds replace those by default, found by name.
+LawFit fit_law(const EndochronicLaw& law, const FitChoice& choice, const std::vector<MaterialExperiment>& experiments,
+               const std::vector<FitParameter>& limits, const FitSettings& settings,
+               const ControlSettings& control = {});
+
+}  // namespace pfdm

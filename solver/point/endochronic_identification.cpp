@@ -1,0 +1,165 @@
+#include "solver/point/endochronic_identification.h"
+
+#include "physics/registry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+using Experiments = std::vector<MaterialExperiment>;
+
+LawFit fit_chosen(const EndochronicLaw& law, const FitChoice& choice, const Experiments& experiments,
+                  const EndochronicIdentificationSettings& settings) {
+  return fit_law(law, choice, experiments, settings.limits, settings.fit, settings.control);
+}
+
+/// Fits every wanted number of terms; the least Bayesian information decides.
+EndochronicIdentification select(const EndochronicLaw& law, const FitChoice& choice, const Experiments& experiments,
+                                 const EndochronicIdentificationSettings& settings) {
+  EndochronicIdentification best;
+  if (settings.least_terms == 0) {
+    best.fit = fit_chosen(law, choice, experiments, settings);
+    return best;
+  }
+  std::vector<TriedKernel> tried;
+  const double negligible = 1e-9 * (noise_is_known(experiments) ? 1e3 : 1.0);
+  for (int n = settings.least_terms; n <= settings.most_terms; ++n) {
+    EndochronicLaw first = law;
+    first.kernel = first_kernel(law, experiments, n);
+    LawFit fitted;
+    try {
+      fitted = fit_chosen(first, choice, experiments, settings);
+    } catch (const ComputationError& error) {
+      settings.say(fmt::format("{} terms: {}", n, error.what()));
+      continue;
+    }
+    const FitResult& result = fitted.result;
+    tried.push_back(
+        {n, rms_misfit(fitted.law, experiments, settings.control),
+         bayesian_information(result.sum_of_squares, n_stresses(experiments), fitted.parameters.size(), negligible)});
+    settings.say(fmt::format("{} terms: rms misfit {:.6g} Pa, Bayesian information {:.6g}", n, tried.back().rms,
+                             tried.back().information));
+    const bool better = std::ranges::all_of(
+        tried, [&](const TriedKernel& other) { return tried.back().information <= other.information; });
+    if (better) best.fit = std::move(fitted);
+  }
+  if (tried.empty()) throw ComputationError("no number of kernel terms could be fitted");
+  best.tried = std::move(tried);
+  return best;
+}
+
+EndochronicIdentification identify_joint(const EndochronicLaw& law, const Experiments& experiments,
+                                         const EndochronicIdentificationSettings& settings) {
+  return select(law, settings.choice, experiments, settings);
+}
+
+EndochronicIdentification identify_kernel(const EndochronicLaw& law, const Experiments& experiments,
+                                          const EndochronicIdentificationSettings& settings) {
+  return select(law, {.kernel = true, .hardening = false, .rate = false, .young_modulus = false}, experiments,
+                settings);
+}
+
+/// Rms weight of the points, which scales them.
+double rms_weight(const std::vector<std::vector<HardeningPoint>>& transients) {
+  double sum = 0.0, n = 0.0;
+  for (const auto& points : transients)
+    for (const HardeningPoint& point : points) sum += point.weight * point.weight, n += 1.0;
+  return n > 0.0 ? std::sqrt(sum / n) : 1.0;
+}
+
+/// The law of f that runs best through the points, each with the weight of its influence on the stress. With a kernel
+/// that is not yet right the points lie on another level than f(0) = 1: the level is estimated too, and alpha divided
+/// by it, which is the same material (gauge).
+LawFit fit_hardening(const EndochronicLaw& law, const std::vector<std::vector<HardeningPoint>>& transients,
+                     const EndochronicIdentificationSettings& settings) {
+  const FitChoice choice{.kernel = false, .hardening = true, .rate = settings.choice.rate, .young_modulus = false};
+  const double scale = rms_weight(transients);
+  LawFit fitted{.law = law, .choice = choice, .parameters = fit_parameters(law, choice), .result = {}};
+  fitted.parameters.push_back(
+      {.name = "level", .unit = "1", .first = 1.0, .lower = 0.02, .upper = 50.0, .log_scale = true});
+  const auto residuals = [&](std::span<const double> values) -> std::optional<std::vector<double>> {
+    const auto trial = with_values(law, choice, values.first(values.size() - 1));
+    if (!trial) return std::nullopt;
+    std::vector<double> result;
+    for (const auto& points : transients)
+      for (const HardeningPoint& p : points)
+        result.push_back(p.weight / scale * std::log(values.back() * trial->hardening(p.zeta, p.rate).f / p.f));
+    return result;
+  };
+  FitSettings robust = settings.fit;
+  robust.robust_scale = 0.05;  // points just after reversals may be on another root
+  fitted.result = fit({.parameters = fitted.parameters, .residuals = residuals}, robust);
+  const std::vector<double> values = fitted.result.values();
+  fitted.law = *with_values(law, choice, std::span(values).first(values.size() - 1));
+  for (KernelTerm& term : fitted.law.kernel) term.alpha /= values.back();
+  return fitted;
+}
+
+std::vector<std::vector<HardeningPoint>> transients_of(const EndochronicLaw& law, const Experiments& experiments) {
+  std::vector<std::vector<HardeningPoint>> transients;
+  for (const MaterialExperiment& experiment : experiments) transients.push_back(transient_hardening(law, experiment));
+  return transients;
+}
+
+EndochronicIdentification identify_hardening(const EndochronicLaw& law, const Experiments& experiments,
+                                             const EndochronicIdentificationSettings& settings) {
+  EndochronicIdentification result;
+  result.transients = transients_of(law, experiments);
+  result.fit = fit_hardening(law, result.transients, settings);
+  return result;
+}
+
+EndochronicIdentification identify_staggered(const EndochronicLaw& start, const Experiments& experiments,
+                                             const EndochronicIdentificationSettings& settings) {
+  EndochronicIdentification result;
+  EndochronicLaw law = start;
+  if (settings.least_terms > 0) law.kernel = first_kernel(law, experiments, settings.least_terms);
+  double last = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < settings.maximum_rounds; ++round) {
+    result.transients = transients_of(law, experiments);
+    law = fit_hardening(law, result.transients, settings).law;
+    const double after_hardening = rms_misfit(law, experiments, settings.control);
+    result.fit = fit_chosen(law, {.kernel = true, .hardening = false}, experiments, settings);
+    law = result.fit.law;
+    const double now = rms_misfit(law, experiments, settings.control);
+    result.rounds.push_back({after_hardening, now});
+    settings.say(fmt::format("iteration {}: rms misfit {:.6g} Pa after the hardening, {:.6g} Pa after the kernel",
+                             round + 1, after_hardening, now));
+    if (std::abs(last - now) <= settings.round_tolerance * now) break;
+    last = now;
+  }
+  return result;
+}
+
+constexpr IdentificationMethod table[] = {
+    {"joint", "kernel and hardening at once by least squares", identify_joint},
+    {"kernel", "the kernel by least squares, the hardening fixed", identify_kernel},
+    {"hardening", "the hardening from the transient response, the kernel fixed", identify_hardening},
+    {"staggered", "alternately the hardening from the transient response and the kernel by least squares",
+     identify_staggered},
+};
+
+}  // namespace
+
+std::span<const IdentificationMethod> identification_methods() { return table; }
+
+const IdentificationMethod& identification_method(std::string_view name) {
+  return find_by_name(identification_methods(), name, "method of identification");
+}
+
+double rms_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                  const ControlSettings& control) {
+  double sum = 0.0, n = 0.0;
+  for (const MaterialExperiment& experiment : experiments) {
+    double here = 0.0;
+    for (const MaterialExperiment::Channel& channel : experiment.channels)
+      here += static_cast<double>(channel.stress.size());
+    sum += here * std::pow(rms_misfit(law, experiment, control), 2);
+    n += here;
+  }
+  return std::sqrt(sum / n);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,58 @@
+#pragma once
+// Ways to identify the endochronic law from experiments: kernel alone, hardening alone from the transient response, the
+// two alternately (the staggered scheme of AFRL-RW-EG-TR-2016-088, A5.2.3), and both at once by least squares.
+
+#include "solver/point/endochronic_transient.h"
+
+#include <functional>
+
+namespace pfdm {
+
+struct EndochronicIdentificationSettings {
+  /// The stresses are exact to rounding, so that short one-sided differences do.
+  FitSettings fit{.maximum_iterations = 60, .tolerance = 1e-9, .differences = Differences::forward, .step = 1e-7};
+  ControlSettings control{};
+  FitChoice choice{};
+  std::vector<FitParameter> limits{};  ///< bounds and priors by name
+  int least_terms = 0;                 ///< 0: as many as the law has, from its values
+  int most_terms = 0;
+  int maximum_rounds = 30;        ///< of the staggered scheme
+  double round_tolerance = 1e-4;  ///< relative change of the rms misfit between rounds
+  std::function<void(const std::string&)> say = [](const std::string&) {};
+};
+
+/// A number of kernel terms that was tried.
+struct TriedKernel {
+  int n_terms = 0;
+  double rms = 0.0;          ///< [Pa]
+  double information = 0.0;  ///< Bayesian; the least is chosen
+};
+
+/// A round of the staggered scheme.
+struct StaggeredRound {
+  double rms_after_hardening = 0.0;  ///< [Pa]
+  double rms_after_kernel = 0.0;     ///< [Pa]
+};
+
+struct EndochronicIdentification {
+  LawFit fit;
+  std::vector<TriedKernel> tried;
+  std::vector<StaggeredRound> rounds;
+  std::vector<std::vector<HardeningPoint>> transients;  ///< of each experiment, where the method uses them
+};
+
+struct IdentificationMethod {
+  std::string_view name;
+  std::string_view description;
+  EndochronicIdentification (*identify)(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                                        const EndochronicIdentificationSettings& settings);
+};
+std::span<const IdentificationMethod> identification_methods();
+/// Throws InputError naming those there are.
+const IdentificationMethod& identification_method(std::string_view name);
+
+/// Rms of model less measurement over all experiments [Pa].
+double rms_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                  const ControlSettings& control);
+
+}  // namespace pfdm

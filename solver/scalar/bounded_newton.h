@@ -1,0 +1,126 @@
+#pragma once
+// Newton's method for a scalar field u between bounds, with a non-linear local term f and the fluxes of a medium:
+//
+//   f_c(u_c) + (flux out of cell c) = 0,  lower_c <= u_c <= upper_c.
+//
+// Bounds by a primal-dual active set (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13 (2002) 865), linear systems by
+// conjugate gradients.
+
+#include "solver/linear/conjugate_gradients.h"
+#include "solver/parallel.h"
+#include "solver/scalar/two_point_flux.h"
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <vector>
+
+namespace pfdm {
+
+struct ScalarSolution {
+  Index active_set_iterations = 0;
+  Index krylov_iterations = 0;
+  bool converged = true;
+};
+
+struct ScalarTolerance {
+  Index corrections = 1;    ///< number of updates of the deferred flux; an outer loop updates it at each iteration
+  double reduction = 1e-9;  ///< of the initial value of the largest step of a cell by itself
+  double least_step = 1e-10;
+};
+
+/// What stands in a cell besides the fluxes.
+template <class Local>
+concept LocalTerm = requires(const Local& local, Index cell, double u) {
+  { local.is_free(cell) } -> std::same_as<bool>;         ///< else u stays as it is
+  { local.slope(cell, u) } -> std::same_as<double>;      ///< f, integrated over the cell
+  { local.curvature(cell, u) } -> std::same_as<double>;  ///< df/du
+  { local.lower(cell) } -> std::same_as<double>;
+  { local.upper(cell) } -> std::same_as<double>;
+};
+
+template <LocalTerm Local>
+class BoundedNewton {
+ public:
+  BoundedNewton(TwoPointFlux& flux, const Local& local, CellField<double>& u)
+      : flux_(flux),
+        local_(local),
+        u_(u),
+        n_(u.size()),
+        linear_(flux.coupling()),
+        held_(as_size(n_), 0),
+        diagonal_(as_size(n_)),
+        residual_(as_size(n_)),
+        step_(as_size(n_)) {}
+
+  /// Changes u.
+  ScalarSolution solve(const ScalarTolerance& tolerance) {
+    for (Index correction = 0; correction < tolerance.corrections; ++correction) {
+      flux_.renew_correction(u_);
+      iterate(tolerance);
+      parallel_for(n_, [&](Index c) {
+        if (local_.is_free(c)) u_[c] = std::clamp(u_[c], local_.lower(c), local_.upper(c));
+      });
+    }
+    return account_;
+  }
+
+ private:
+  void iterate(const ScalarTolerance& tolerance) {
+    constexpr Index most_changes = 50;  // of the active set
+    account_.converged = false;
+    double target = 0.0;  // of the step that each cell would still take
+    parallel_for(n_, [&](Index c) { held_[as_size(c)] = local_.is_free(c) ? 0 : 1; });
+    for (Index change = 0; change < most_changes; ++change) {
+      parallel_for(n_, [&](Index c) { diagonal_[as_size(c)] = diagonal(c); });
+      choose_active();
+      parallel_for(n_, [&](Index c) {
+        residual_[as_size(c)] = held_[as_size(c)] != 0 ? 0.0 : -balance(c);
+        step_[as_size(c)] = 0.0;
+      });
+      const double wanted =
+          parallel_max(n_, [&](Index c) { return std::abs(residual_[as_size(c)]) / diagonal_[as_size(c)]; });
+      if (change == 0) target = std::max(tolerance.reduction * wanted, tolerance.least_step);
+      account_.converged = wanted <= target;
+      if (account_.converged) return;
+      account_.krylov_iterations +=
+          linear_.solve(diagonal_, held_, {.least = 0.1 * tolerance.least_step}, residual_, step_);
+      parallel_for(n_, [&](Index c) { u_[c] += step_[as_size(c)]; });
+      ++account_.active_set_iterations;
+    }
+  }
+
+  double balance(Index c) const { return flux_.balance(c, u_, local_.slope(c, u_[c])); }
+
+  // Where f falls, cells in which it outweighs the fluxes would have a negative diagonal.
+  double diagonal(Index c) const {
+    constexpr double least = 0.1;  // of the fluxes' part
+    const double fluxes = flux_.diagonal(c);
+    const double sum = fluxes + local_.curvature(c, u_[c]);
+    return fluxes > 0.0 ? std::max(sum, least * fluxes) : sum;
+  }
+
+  // Cells that a Newton step of their own would carry beyond a bound are put on it.
+  void choose_active() {
+    parallel_for(n_, [&](Index c) {
+      if (!local_.is_free(c)) return;
+      const double wanted = u_[c] - balance(c) / diagonal_[as_size(c)];
+      held_[as_size(c)] = wanted < local_.lower(c) ? -1 : (wanted > local_.upper(c) ? 1 : 0);
+    });
+    parallel_for(n_, [&](Index c) {
+      if (local_.is_free(c) && held_[as_size(c)] != 0)
+        u_[c] = held_[as_size(c)] < 0 ? local_.lower(c) : local_.upper(c);
+    });
+  }
+
+  TwoPointFlux& flux_;
+  const Local& local_;
+  CellField<double>& u_;
+  Index n_;
+  ConjugateGradients linear_;
+  ConjugateGradients::Held held_;  // -1 at the lower bound, 1 at the upper or held, 0 free
+  std::vector<double> diagonal_, residual_, step_;
+  ScalarSolution account_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,65 @@
+#pragma once
+// Diffusion of a scalar field u, as of heat: steady, -div(k grad u) = q(u), and transient, c du/dt - div(k grad u) =
+// q(u), by backward Euler. u is the temperature [K], say, with k [W/(m K)], c [J/(m^3 K)] and q [W/m^3]; nothing here
+// depends on that. Non-linear sources by Newton's method.
+
+#include "mesh/mesh.h"
+#include "solver/scalar/bounded_newton.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// What is prescribed on a patch; patches that are not named are insulated.
+struct DiffusionBoundary {
+  enum class Kind {
+    value,     ///< u
+    flux,      ///< per area, into the body
+    exchange,  ///< Robin: per area, out of the body, coefficient (u - value), as by convection
+  };
+  std::string patch;
+  Kind kind = Kind::value;
+  double value = 0.0;        ///< of u at the face or beyond it; of the flux [W/m^2]
+  double coefficient = 0.0;  ///< of an exchange [W/(m^2 K)], positive
+};
+
+/// A source and its derivative.
+struct DiffusionSource {
+  double value = 0.0;  ///< [W/m^3]
+  double slope = 0.0;  ///< d value/du, at most zero for a unique solution [W/(m^3 K)]
+};
+
+struct DiffusionProblem {
+  CellField<double> conductivity;  ///< k, positive
+  CellField<double> capacity{};    ///< c; transient problems only
+  std::vector<DiffusionBoundary> boundary;
+  std::function<DiffusionSource(Index cell, double u)> source{};  ///< empty: none
+  Vector plane_normal = Vector::Zero();                           ///< of one-cell-thick meshes
+};
+
+class Diffusion {
+ public:
+  /// Throws InputError for an unknown patch, one that is named twice, an exchange whose coefficient is not positive, or
+  /// fields that are not positive or not of the mesh.
+  Diffusion(const Mesh& mesh, DiffusionProblem problem);
+  ~Diffusion();
+
+  /// Changes u, the first guess, to the steady solution. Throws InputError if nothing fixes its level.
+  ScalarSolution solve_steady(CellField<double>& u);
+
+  /// Changes u to its value a time dt [s] later.
+  ScalarSolution step(double dt, CellField<double>& u);
+
+  /// Through a patch, out of the body [W].
+  double outflow(const std::string& patch, const CellField<double>& u) const;
+
+ private:
+  struct Parts;
+  ScalarSolution solve(double rate, CellField<double>& u);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,160 @@
+#include "solver/scalar/gradient.h"
+
+#include "physics/error.h"
+#include "solver/parallel.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+// Face neighbours of the same zone and face nodes, ring by ring.
+class Neighbourhood {
+ public:
+  Neighbourhood(const Mesh& mesh, const CellField<Index>& zone, const FaceField<Index>& node_of_face)
+      : mesh_(mesh), zone_(zone), node_of_face_(node_of_face) {}
+
+  std::vector<Index> around(Index cell, int n_rings) const {
+    std::vector<Index> cells{cell}, nodes;
+    std::size_t ring_begin = 0;
+    for (int ring = 0; ring < n_rings; ++ring) {
+      const std::size_t ring_end = cells.size();
+      for (std::size_t i = ring_begin; i < ring_end; ++i) extend(cells[i], cells, nodes);
+      ring_begin = ring_end;
+    }
+    cells.erase(cells.begin());
+    std::sort(cells.begin(), cells.end());
+    std::sort(nodes.begin(), nodes.end());
+    cells.insert(cells.end(), nodes.begin(), nodes.end());
+    return cells;
+  }
+
+ private:
+  void extend(Index cell, std::vector<Index>& cells, std::vector<Index>& nodes) const {
+    for (const Index face : mesh_.faces_of_cell(cell)) {
+      const Index node = node_of_face_.size() > 0 ? node_of_face_[face] : -1;
+      if (node >= 0) {
+        if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+      } else if (mesh_.is_interior(face)) {
+        const Index other = mesh_.across(face, cell);
+        if (zone_[other] == zone_[cell] && std::find(cells.begin(), cells.end(), other) == cells.end())
+          cells.push_back(other);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const CellField<Index>& zone_;
+  const FaceField<Index>& node_of_face_;
+};
+
+std::vector<Vector> node_positions(const Mesh& mesh, const FaceField<Index>& node_of_face) {
+  std::vector<Vector> position(mesh.cell_centre.begin(), mesh.cell_centre.end());
+  for (Index f = 0; f < node_of_face.size(); ++f) {
+    const auto node = as_size(node_of_face[f]);
+    if (node_of_face[f] < 0) continue;
+    if (position.size() <= node) position.resize(node + 1);
+    position[node] = mesh.face_centre[f];
+  }
+  return position;
+}
+
+}  // namespace
+
+Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
+    : node_(node_positions(mesh, settings.node_of_face)),
+      wide_(as_size(mesh.n_cells())),
+      polyhedron_(as_size(mesh.n_cells())),
+      g_(as_size(mesh.n_cells()), 1.0),
+      plane_normal_(settings.plane_normal) {
+  const Neighbourhood neighbourhood(mesh, settings.zone, settings.node_of_face);
+  offsets_.push_back(0);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    if (!settings.wanted.empty() && settings.wanted[as_size(c)] == 0) {
+      offsets_.push_back(sample_.size());
+      continue;
+    }
+    const bool wide = mesh.shape[c] == CellShape::tetrahedron;
+    wide_[as_size(c)] = wide;
+    polyhedron_[as_size(c)] = mesh.shape[c] == CellShape::polyhedron;
+    constexpr int most_rings = 5;
+    int n_rings = wide ? 2 : 1;
+    std::vector<Index> samples = neighbourhood.around(c, n_rings);
+    while (!has_full_rank(c, samples) && ++n_rings <= most_rings) samples = neighbourhood.around(c, n_rings);
+    if (n_rings > most_rings && settings.zero_if_deficient) samples.clear();
+    if (n_rings > most_rings && !settings.zero_if_deficient)
+      throw InputError(
+          fmt::format("the gradient of cell {} at ({:.4g}, {:.4g}, {:.4g}) m cannot be reconstructed: the cell has too "
+                      "few neighbours of its own material; refine the mesh there",
+                      c, node_[as_size(c)][0], node_[as_size(c)][1], node_[as_size(c)][2]));
+    sample_.insert(sample_.end(), samples.begin(), samples.end());
+    offsets_.push_back(sample_.size());
+  }
+  coefficient_.resize(sample_.size());
+  parallel_for(n_cells(), [&](Index c) { build(c, nullptr); });
+}
+
+bool Gradient::has_full_rank(Index cell, const std::vector<Index>& samples) const {
+  Tensor moment = plane_normal_ * plane_normal_.transpose();
+  for (const Index s : samples) {
+    const Vector d = (node_[as_size(s)] - node_[as_size(cell)]).normalized();
+    moment += d * d.transpose();
+  }
+  constexpr double least = 1e-3;
+  // The product of the other two eigenvalues is at most (trace/2)^2: most cells need no eigenvalues.
+  if (4.0 * moment.determinant() > 1.01 * least * moment.trace() * moment.trace()) return true;
+  const Eigen::SelfAdjointEigenSolver<Tensor> eigen(moment, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[0] > least;
+}
+
+double Gradient::trust(Index cell, Index neighbour, const CellField<double>& g) const {
+  const double ratio = g[neighbour] / g[cell];
+  if (polyhedron_[as_size(cell)]) return std::min(ratio, 1.0 / ratio);
+  return std::min(1.0, ratio);
+}
+
+void Gradient::build(Index cell, const CellField<double>* g) {
+  const Vector here = node_[as_size(cell)];
+  Tensor moment = Tensor::Zero();
+  double trace = 0.0;
+  for (std::size_t s = begin(cell); s < end(cell); ++s) {
+    const Index j = sample_[s];
+    const Vector d = node_[as_size(j)] - here;
+    const double length2 = d.squaredNorm();
+    double weight = 1.0 / length2;
+    if (!wide_[as_size(cell)]) weight /= std::sqrt(length2);
+    trace += weight * length2;
+    constexpr double least = 1e-9;
+    if (j < n_cells()) weight *= (g != nullptr ? trust(cell, j, *g) : 1.0) + least;
+    coefficient_[s] = weight * d;
+    moment.noalias() += coefficient_[s] * d.transpose();
+  }
+  moment += trace * plane_normal_ * plane_normal_.transpose();
+  const Eigen::LLT<Tensor> factor(moment);
+  for (std::size_t s = begin(cell); s < end(cell); ++s) factor.solveInPlace(coefficient_[s]);
+}
+
+void Gradient::update(const CellField<double>& g, double part) {
+  const CellField<double> before = g_;
+  parallel_for(n_cells(), [&](Index c) {
+    if (std::abs(g[c] - before[c]) > part * before[c]) g_[c] = g[c];
+  });
+  parallel_for(n_cells(), [&](Index c) {
+    bool changed = g_[c] != before[c];
+    bool flat = true;
+    for (std::size_t s = begin(c); s < end(c); ++s) {
+      const Index j = sample_[s];
+      if (j >= n_cells()) continue;
+      changed = changed || g_[j] != before[j];
+      flat = flat && trust(c, j, g_) == 1.0 && trust(c, j, before) == 1.0;
+    }
+    if (changed && !flat) build(c, &g_);
+  });
+}
+
+}  // namespace pfdm

@@ -1,0 +1,178 @@
+#include "solver/scalar/two_point_flux.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+constexpr double orthogonal = 1e-3;    // deviation of unit vectors
+constexpr double smooth_ratio = 1.25;  // of the conductances of neighbours, below which they vary; above they jump
+
+Vector unit_normal(const Mesh& mesh, Index face) { return mesh.face_area[face] / mesh.face_area[face].norm(); }
+
+/// The part of a centre-to-face vector that lies in the face: it is not in the two-point flux.
+Vector within_face(const Mesh& mesh, Index face, Index cell, const Vector& normal) {
+  const Vector d = mesh.face_centre[face] - mesh.cell_centre[cell];
+  return d - d.dot(normal) * normal;
+}
+
+// Whether u has no kink between two cells: equal conductances, or of a region's own cells nearly equal ones.
+bool is_smooth(const Mesh& mesh, const CellField<double>& conductance, Index a, Index b) {
+  const auto [least, most] = std::minmax(conductance[a], conductance[b]);
+  return most == least || (mesh.region[a] == mesh.region[b] && most < smooth_ratio * least);
+}
+
+// Cells that may enter each other's gradient of u: those connected by faces without a kink.
+CellField<Index> smooth_zones(const Mesh& mesh, const CellField<double>& conductance) {
+  CellField<Index> zone(as_size(mesh.n_cells()), -1);
+  std::vector<Index> front;
+  for (Index first = 0; first < mesh.n_cells(); ++first) {
+    if (zone[first] >= 0) continue;
+    zone[first] = first;
+    front.assign(1, first);
+    while (!front.empty()) {
+      const Index c = front.back();
+      front.pop_back();
+      for (const Index f : mesh.faces_of_cell(c)) {
+        if (!mesh.is_interior(f)) continue;
+        const Index other = mesh.across(f, c);
+        if (zone[other] >= 0 || !is_smooth(mesh, conductance, c, other)) continue;
+        zone[other] = first;
+        front.push_back(other);
+      }
+    }
+  }
+  return zone;
+}
+
+SymmetricCoupling coupling_of(const Mesh& mesh, const std::vector<TwoPointFlux::Link>& links) {
+  std::vector<SymmetricCoupling::Pair> pairs;
+  pairs.reserve(links.size());
+  for (const TwoPointFlux::Link& link : links) pairs.push_back({link.P, link.N, link.coefficient});
+  return {mesh.n_cells(), pairs};
+}
+
+}  // namespace
+
+TwoPointFlux::TwoPointFlux(const Mesh& mesh, Medium medium)
+    : mesh_(mesh),
+      medium_(std::move(medium)),
+      exchanged_(as_size(mesh.n_cells()), 0.0),
+      coupling_((build_links(), coupling_of(mesh, links_))),
+      gradient_(build_gradient()),
+      gradients_(as_size(mesh.n_cells()), Vector::Zero()),
+      range_(as_size(mesh.n_cells()), std::numeric_limits<double>::infinity()),
+      correction_(links_.size(), 0.0),
+      exchange_correction_(medium_.exchanges.size(), 0.0),
+      deferred_(as_size(mesh.n_cells()), 0.0) {
+  build_exchanges();
+}
+
+void TwoPointFlux::build_links() {
+  for (Exchange& exchange : medium_.exchanges) exchange.corrected = exchange.corrected && is_oblique(exchange);
+  const CellField<double>& k = medium_.conductance;
+  for (Index f = 0; f < mesh_.n_interior_faces(); ++f) {
+    const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
+    if (!(k[P] > 0.0 && k[N] > 0.0)) continue;
+    const double area = mesh_.face_area[f].norm();
+    const Vector n = mesh_.face_area[f] / area;
+    const double h_P = std::abs((mesh_.face_centre[f] - mesh_.cell_centre[P]).dot(n));
+    const double h_N = std::abs((mesh_.face_centre[f] - mesh_.cell_centre[N]).dot(n));
+    const Vector centre_line = (mesh_.cell_centre[N] - mesh_.cell_centre[P]).normalized();
+    links_.push_back({.face = f,
+                      .P = P,
+                      .N = N,
+                      .coefficient = area / (h_P / k[P] + h_N / k[N]),
+                      .corrected = (centre_line - n).norm() > orthogonal});
+  }
+}
+
+bool TwoPointFlux::is_oblique(const Exchange& exchange) const {
+  const Vector d = mesh_.face_centre[exchange.face] - mesh_.cell_centre[exchange.cell];
+  const Vector n = unit_normal(mesh_, exchange.face);
+  return (d - d.dot(n) * n).norm() > orthogonal * d.norm();
+}
+
+void TwoPointFlux::build_exchanges() {
+  for (const Exchange& exchange : medium_.exchanges) {
+    const Index c = exchange.cell;
+    const Vector n = unit_normal(mesh_, exchange.face);
+    const double h = std::abs((mesh_.face_centre[exchange.face] - mesh_.cell_centre[c]).dot(n));
+    const double resistance = h / medium_.conductance[c] + 1.0 / exchange.coefficient;
+    const double coefficient = mesh_.face_area[exchange.face].norm() / resistance;
+    exchange_coefficient_.push_back(coefficient);
+    exchanged_[c] += coefficient;
+    deferred_[as_size(c)] += coefficient * exchange.value;
+  }
+}
+
+Gradient TwoPointFlux::build_gradient() const {
+  std::vector<char> wanted(as_size(mesh_.n_cells()), 0);
+  for (const Link& link : links_)
+    if (link.corrected) wanted[as_size(link.P)] = wanted[as_size(link.N)] = 1;
+  for (const Exchange& exchange : medium_.exchanges)
+    if (exchange.corrected) wanted[as_size(exchange.cell)] = 1;
+  return Gradient(mesh_, {.zone = smooth_zones(mesh_, medium_.conductance),
+                          .node_of_face = {},
+                          .plane_normal = medium_.plane_normal,
+                          .wanted = std::move(wanted),
+                          .zero_if_deficient = true});
+}
+
+// The two-sided flux is c (u_N + grad_N.d_N - u_P - grad_P.d_P) plus the averaged normal gradients; what is beyond
+// c (u_N - u_P) is deferred. Where it is limited it never moves either side by more than u ranges over around it: at
+// the corner of a front the gradients overshoot, and an active set would flip for ever.
+void TwoPointFlux::renew_correction(const CellField<double>& u) {
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    gradients_[as_size(c)] = gradient_.of(u.data(), c);
+    if (!medium_.limited) return;
+    double least = u[c], most = u[c];
+    for (const std::int32_t neighbour : coupling_.columns(c)) {
+      least = std::min(least, u[neighbour]);
+      most = std::max(most, u[neighbour]);
+    }
+    range_[as_size(c)] = most - least;
+  });
+  parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
+    const Link& link = links_[as_size(i)];
+    if (!link.corrected) return;
+    const Vector n = unit_normal(mesh_, link.face);
+    const double beyond = gradients_[as_size(link.N)].dot(within_face(mesh_, link.face, link.N, n)) -
+                          gradients_[as_size(link.P)].dot(within_face(mesh_, link.face, link.P, n));
+    const double most = std::min(range_[as_size(link.P)], range_[as_size(link.N)]);
+    correction_[as_size(i)] = link.coefficient * std::clamp(beyond, -most, most);
+  });
+  std::fill(deferred_.begin(), deferred_.end(), 0.0);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    deferred_[as_size(links_[i].P)] += correction_[i];
+    deferred_[as_size(links_[i].N)] -= correction_[i];
+  }
+  for (std::size_t k = 0; k < medium_.exchanges.size(); ++k) {
+    const Exchange& exchange = medium_.exchanges[k];
+    const Index c = exchange.cell;
+    if (exchange.corrected) {
+      const Vector across = within_face(mesh_, exchange.face, c, unit_normal(mesh_, exchange.face));
+      const double most = range_[as_size(c)];
+      exchange_correction_[k] = -exchange_coefficient_[k] * std::clamp(gradients_[as_size(c)].dot(across), -most, most);
+    }
+    deferred_[as_size(c)] += exchange_coefficient_[k] * exchange.value + exchange_correction_[k];
+  }
+}
+
+double TwoPointFlux::energy(Index i, const CellField<double>& u) const {
+  const Link& link = links_[as_size(i)];
+  const double jump = u[link.N] - u[link.P];
+  return 0.5 * jump * (link.coefficient * jump + correction_[as_size(i)]);
+}
+
+double TwoPointFlux::exchange_flux(std::size_t k, const CellField<double>& u) const {
+  const Exchange& exchange = medium_.exchanges[k];
+  return exchange_coefficient_[k] * (u[exchange.cell] - exchange.value) - exchange_correction_[k];
+}
+
+}  // namespace pfdm

@@ -1,0 +1,254 @@
+// refine_output and prediction_misfit of identification.h.
+
+#include "solver/linear/dense_algebra.h"
+#include "solver/vibration/identification.h"
+#include "solver/vibration/identification_coordinates.h"
+#include "solver/vibration/identification_least_squares.h"
+#include "solver/vibration/identification_responses.h"
+#include "solver/vibration/mass_material_simulation.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace pfdm {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Residuals as a function of the coordinates. Remembers the last response: the Jacobian starts from it.
+class OutputError {
+ public:
+  OutputError(const Responses& responses, const ParameterCoordinates& coordinates, const Drives& drives)
+      : responses_(responses), coordinates_(coordinates), drives_(drives) {}
+
+  VectorXd residuals(const VectorXd& x) { return responses_.residuals(response(x)); }
+
+  MatrixXd jacobian(const VectorXd& x) {
+    constexpr double h = 1e-6;
+    std::vector<MassMaterial> moved;
+    for (Index k = 0; k < x.size(); ++k) moved.push_back(coordinates_.model(x + h * VectorXd::Unit(x.size(), k)));
+    const MatrixXd y = responses_.simulated(moved, drives_);
+    return (y.colwise() - response(x)) / h;
+  }
+
+  LeastSquaresProblem problem(Index n_parameters) {
+    return {.n_residuals = responses_.size(),
+            .n_parameters = n_parameters,
+            .residuals = [this](const VectorXd& x, VectorXd& r) { r = residuals(x); },
+            .jacobian = [this](const VectorXd& x, MatrixXd& J) { J = jacobian(x); }};
+  }
+
+ private:
+  const VectorXd& response(const VectorXd& x) {
+    if (x.size() != at_.size() || x != at_) {
+      const MassMaterial model = coordinates_.model(x);
+      response_ = responses_.simulated(std::span(&model, 1), drives_).col(0);
+      at_ = x;
+    }
+    return response_;
+  }
+
+  const Responses& responses_;
+  const ParameterCoordinates& coordinates_;
+  const Drives& drives_;
+  VectorXd at_;
+  VectorXd response_;
+};
+
+/// A regression may overshoot what holds the mass: softer in its nonlinear part, it starts from somewhere.
+VectorXd bounded_start(OutputError& error, const ParameterCoordinates& coordinates, MassMaterial start) {
+  for (int i = 0; i < 8; ++i) {
+    const VectorXd x = coordinates.from(start);
+    if (error.residuals(x).allFinite()) return x;
+    for (std::size_t k = 1; k < start.stiffness.size(); ++k) start.stiffness[k] *= i < 6 ? 0.5 : 0.0;
+  }
+  return coordinates.from(start);
+}
+
+/// Where the sum of squares is least, the residuals there, and the Jacobian there or nearby.
+struct Minimum {
+  VectorXd x;
+  VectorXd residuals;
+  MatrixXd jacobian;
+  std::vector<double> path;  // norms of the residuals
+  bool converged = false;
+};
+
+constexpr double tolerance = 1e-10;  // of the sum of squares and of the parameters
+
+/// Gauss-Newton steps with the Jacobian of a cheaper simulation near the minimum: one simulation a step. Not converged
+/// if they do not contract.
+Minimum follow_fixed_jacobian(OutputError& error, VectorXd x, MatrixXd jacobian) {
+  const VectorXd norms = jacobian.colwise().norm().cwiseMax(1e-300);
+  const auto solve = least_squares_solver(jacobian * norms.cwiseInverse().asDiagonal());
+  Minimum best{.x = x, .residuals = error.residuals(x), .jacobian = std::move(jacobian), .path = {}};
+  VectorXd r = best.residuals;
+  double last_step = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 12 && r.allFinite(); ++i) {
+    best.x = x;
+    best.residuals = r;
+    best.path.push_back(r.norm());
+    const VectorXd step = solve(r);
+    const double gain = (best.jacobian * step.cwiseQuotient(norms)).norm();
+    if (gain * gain <= tolerance * r.squaredNorm()) {
+      best.converged = true;
+      break;
+    }
+    if (gain > 0.5 * last_step) break;
+    last_step = gain;
+    x -= step.cwiseQuotient(norms);
+    r = error.residuals(x);
+  }
+  return best;
+}
+
+Minimum minimise_fully(OutputError& error, const VectorXd& x0) {
+  const LeastSquaresResult found = minimise(error.problem(x0.size()), x0, tolerance);
+  return {.x = found.parameters,
+          .residuals = error.residuals(found.parameters),
+          .jacobian = error.jacobian(found.parameters),
+          .path = found.path,
+          .converged = found.converged};
+}
+
+/// Where the record with the strongest response alone has its minimum: from a start that is far off it is the cheaper
+/// way. `start` if that does not bring all records nearer.
+VectorXd approached_by_one(const VibrationRecord& strongest, double crop, OutputError& all,
+                           const ParameterCoordinates& coordinates, const MassMaterial& start, const VectorXd& x0) {
+  constexpr double roughly = 1e-4;
+  const Responses one(std::span(&strongest, 1), crop);
+  const Drives drives = one.reduced_drives(start);
+  OutputError error(one, coordinates, drives);
+  const VectorXd x = minimise(error.problem(x0.size()), x0, roughly).parameters;
+  const double before = all.residuals(x0).squaredNorm(), after = all.residuals(x).squaredNorm();
+  return after < before ? x : x0;
+}
+
+/// First with as few samples as the compared band needs, then to the end with all of them.
+Minimum least_output_error(std::span<const VibrationRecord> records, const Responses& responses,
+                           const ParameterCoordinates& coordinates, const MassMaterial& start, double crop) {
+  constexpr double near = 1e-6;
+  const Drives reduced = responses.reduced_drives(start);
+  OutputError coarse(responses, coordinates, reduced);
+  VectorXd x0 = bounded_start(coarse, coordinates, start);
+  const auto strength = [](const VibrationRecord& r) { return r.relative.squaredNorm() / static_cast<double>(r.n()); };
+  if (records.size() > 1)
+    x0 = approached_by_one(*std::ranges::max_element(records, {}, strength), crop, coarse, coordinates, start, x0);
+  const LeastSquaresResult approached = minimise(coarse.problem(x0.size()), x0, near);
+  const VectorXd& x = approached.parameters;
+  const Drives full = responses.full_drives(coordinates.model(x));
+  OutputError error(responses, coordinates, full);
+  Minimum found = follow_fixed_jacobian(error, x, coarse.jacobian(x));
+  std::vector<double> path = approached.path;
+  path.insert(path.end(), found.path.begin(), found.path.end());
+  if (!found.converged) {
+    found = minimise_fully(error, found.x);
+    path.insert(path.end(), found.path.begin(), found.path.end());
+  }
+  found.path = std::move(path);
+  return found;
+}
+
+/// Replicates of the parameters: blocks of residuals drawn with replacement, one Gauss-Newton step from the estimate
+/// for each draw. Blocks keep what neighbouring residuals have in common; white-noise intervals would be several times
+/// too narrow because the residuals are band-limited.
+MatrixXd bootstrap(const Responses& responses, const VectorXd& x, const VectorXd& r, const MatrixXd& J,
+                   const IdentificationSettings& settings) {
+  const auto blocks = responses.blocks();
+  const Index p = x.size();
+  std::vector<MatrixXd> normal;
+  std::vector<VectorXd> gradient;
+  for (const auto& [begin, end] : blocks) {
+    const auto part = J.middleRows(begin, end - begin);
+    normal.emplace_back(part.transpose() * part);
+    gradient.emplace_back(part.transpose() * r.segment(begin, end - begin));
+  }
+  std::mt19937_64 engine(settings.seed);
+  MatrixXd replicates(p, settings.replicates);
+  for (int i = 0; i < settings.replicates; ++i) {
+    MatrixXd A = MatrixXd::Zero(p, p);
+    VectorXd g = VectorXd::Zero(p);
+    for (std::size_t draw = 0; draw < blocks.size(); ++draw) {
+      const std::size_t k = engine() % blocks.size();
+      A += normal[k];
+      g += gradient[k];
+    }
+    A.diagonal().array() += 1e-14 * A.diagonal().maxCoeff();
+    replicates.col(i) = x - solve_symmetric(A, g);
+  }
+  return replicates;
+}
+
+/// Percentiles of the replicates of each value, and their correlations.
+void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates, const MatrixXd& replicates,
+                   const IdentificationSettings& settings) {
+  const auto n = static_cast<Index>(fit.estimates.size());
+  MatrixXd values(n, replicates.cols());
+  for (Index i = 0; i < replicates.cols(); ++i) {
+    const auto named = named_values(coordinates.model(replicates.col(i)));
+    for (Index k = 0; k < n; ++k) values(k, i) = named[static_cast<std::size_t>(k)].value;
+  }
+  for (Index k = 0; k < n; ++k) {
+    VectorXd sorted = values.row(k);
+    std::ranges::sort(sorted);
+    const auto at = [&](double part) {
+      return sorted[static_cast<Index>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
+    };
+    fit.estimates[static_cast<std::size_t>(k)].lower = at(0.5 - 0.5 * settings.confidence);
+    fit.estimates[static_cast<std::size_t>(k)].upper = at(0.5 + 0.5 * settings.confidence);
+  }
+  const MatrixXd centred = values.colwise() - values.rowwise().mean();
+  const VectorXd norms = centred.rowwise().norm().cwiseMax(1e-300);
+  fit.correlation =
+      norms.cwiseInverse().asDiagonal() * (centred * centred.transpose()) * norms.cwiseInverse().asDiagonal();
+}
+
+/// The fastest term first would be as good: a convention, so that estimates can be compared.
+void sort_terms(MassMaterial& m) {
+  std::ranges::sort(m.kernel, {}, [](const HereditaryTerm& term) { return term.alpha.real(); });
+}
+
+}  // namespace
+
+OutputErrorFit refine_output(std::span<const VibrationRecord> records, const MassMaterial& start,
+                             const IdentificationSettings& settings) {
+  MassMaterial sorted = start;
+  sort_terms(sorted);
+  const Responses responses(records, settings.crop);
+  const ParameterCoordinates coordinates(sorted, excited_range(records));
+  const Minimum found = least_output_error(records, responses, coordinates, sorted, settings.crop);
+
+  OutputErrorFit fit;
+  fit.converged = found.converged;
+  fit.model = coordinates.model(found.x);
+  fit.estimates = named_values(fit.model);
+  const double n = static_cast<double>(responses.size());
+  for (const double norm : found.path) fit.path.push_back(norm / std::sqrt(n));
+  if (!found.residuals.allFinite()) return fit;
+  fit.record_misfit = responses.misfits(found.residuals);
+  fit.bic = n * std::log(found.residuals.squaredNorm() / n) + static_cast<double>(found.x.size()) * std::log(n);
+  if (settings.replicates > 1)
+    set_intervals(fit, coordinates, bootstrap(responses, found.x, found.residuals, found.jacobian, settings), settings);
+  return fit;
+}
+
+VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record) {
+  const BaseNodes base = nodes_of(record.base, record.rate, substeps_for(model, record.rate));
+  return simulate_batch(std::span(&model, 1), base).col(0);
+}
+
+double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop) {
+  const Conditioner condition = output_condition(record, crop);
+  const VectorXd z = predicted_response(model, record);
+  if (!z.allFinite()) return std::numeric_limits<double>::infinity();
+  const VectorXd measured = condition(record.relative);
+  return (condition(z) - measured).norm() / measured.norm();
+}
+
+}  // namespace pfdm

@@ -1,0 +1,58 @@
+#pragma once
+// What a fit of the output compares: the conditioned responses of the recorded tests, measured and simulated from the
+// recorded base acceleration, all records one below the other.
+
+#include "physics/mass_material.h"
+#include "solver/vibration/identification_conditioning.h"
+#include "solver/vibration/vibration_excitation.h"
+#include "solver/vibration/vibration_record.h"
+
+#include <Eigen/Core>
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace pfdm {
+
+/// The base accelerations of all records at the nodes of an integration.
+using Drives = std::vector<BaseNodes>;
+
+class Responses {
+ public:
+  Responses(std::span<const VibrationRecord> records, double crop);
+  Eigen::Index size() const { return size_; }
+
+  /// To simulate at the records' own rates. Steps as short as the model needs them; likewise in reduced_drives.
+  Drives full_drives(const MassMaterial& model) const;
+  /// To simulate with no more samples than the conditioned signals have. Harmonics beyond the compared band are folded
+  /// back into it, which is little; where next to nothing is saved, the same as full_drives.
+  Drives reduced_drives(const MassMaterial& model) const;
+
+  /// Weighted conditioned responses of the models, a column each; NaN in a record where one is unbounded.
+  Eigen::MatrixXd simulated(std::span<const MassMaterial> models, const Drives& drives) const;
+  /// Subtracts what was measured.
+  Eigen::VectorXd residuals(Eigen::VectorXd response) const;
+
+  /// Norm of the residuals of each record over that of its measured output.
+  std::vector<double> misfits(const Eigen::VectorXd& residuals) const;
+  /// First and last residual of blocks, within a record each, longer than what residuals have in common.
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> blocks() const;
+
+ private:
+  struct Output {
+    Conditioner condition;
+    Eigen::VectorXd base;  // that drives
+    double rate = 0.0;
+    Eigen::VectorXd measured;
+    double weight = 1.0;
+    Eigen::Index first = 0;
+  };
+  std::vector<Output> outputs_;
+  Eigen::Index size_ = 0;
+};
+
+/// What is compared of a record: the excited band and three harmonics of it.
+Conditioner output_condition(const VibrationRecord& record, double crop);
+
+}  // namespace pfdm

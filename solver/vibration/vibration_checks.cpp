@@ -1,0 +1,181 @@
+#include "solver/vibration/vibration_checks.h"
+
+#include "solver/vibration/signals_filter.h"
+#include "solver/vibration/signals_spectra.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using Faults = std::vector<RecordFault>;
+
+constexpr double least_periods = 20.0;  // of the lowest frequency, in a record
+
+double median(VectorXd values) {
+  const Index middle = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + middle, values.end());
+  return values[middle];
+}
+
+double rms(const VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
+
+void check_lengths(const RawRecord& r, Faults& faults) {
+  if (r.base.size() != r.relative.size() || (r.time && r.time->size() != r.base.size()))
+    faults.push_back(
+        {"unequal_lengths", fmt::format("the channels differ in length: {} and {} samples{}", r.base.size(),
+                                        r.relative.size(), r.time ? fmt::format(", time {}", r.time->size()) : "")});
+  if (r.base.size() < 16) faults.push_back({"too_short", fmt::format("the record has {} samples", r.base.size())});
+}
+
+void check_finite(const char* channel, const VectorXd& x, Faults& faults) {
+  const auto bad = std::ranges::find_if(x, [](double v) { return !std::isfinite(v); });
+  if (bad == x.end()) return;
+  const auto count = std::ranges::count_if(x, [](double v) { return !std::isfinite(v); });
+  faults.push_back({"not_finite", fmt::format("{} has {} samples that are not finite, the first at sample {}", channel,
+                                              count, bad - x.begin())});
+}
+
+void check_time(const RawRecord& r, Faults& faults) {
+  if (!r.time) {
+    if (!r.rate) faults.push_back({"no_rate", "there is neither a column of times nor a sampling rate"});
+    return;
+  }
+  const VectorXd& t = *r.time;
+  const VectorXd dt = t.tail(t.size() - 1) - t.head(t.size() - 1);
+  const double step = median(dt);
+  for (Index i = 0; i < dt.size(); ++i) {
+    if (dt[i] > 0.0) continue;
+    faults.push_back({"time_runs_backwards",
+                      fmt::format("time does not increase: from {} s to {} s at sample {}", t[i], t[i + 1], i + 1)});
+    return;
+  }
+  for (Index i = 0; i < dt.size(); ++i) {
+    if (dt[i] <= 1.5 * step) continue;
+    faults.push_back({"gap", fmt::format("{:.3g} s are missing after {} s", dt[i] - step, t[i])});
+    return;
+  }
+  // Times are printed with few digits: the criterion is the distance of samples from an even grid.
+  const auto n = static_cast<double>(t.size() - 1);
+  const double even = (t[t.size() - 1] - t[0]) / n;
+  double stray = 0.0;
+  for (Index i = 0; i < t.size(); ++i) stray = std::max(stray, std::abs(t[i] - t[0] - even * static_cast<double>(i)));
+  if (stray > 0.1 * even)
+    faults.push_back({"uneven_sampling",
+                      fmt::format("samples are up to {:.2g} of the sampling interval off an even grid", stray / even)});
+  if (r.rate && std::abs(*r.rate * even - 1.0) > 1e-3)
+    faults.push_back({"wrong_rate", fmt::format("the sampling rate is given as {} Hz; the times give {:.6g} Hz",
+                                                *r.rate, 1.0 / even)});
+}
+
+void check_extent(const RawRecord& r, double rate, Faults& faults) {
+  const double duration = static_cast<double>(r.base.size()) / rate;
+  if (duration * r.band_low < least_periods)
+    faults.push_back({"too_short", fmt::format("{:.3g} s contain {:.2g} periods of {} Hz; at least {} are required",
+                                               duration, duration * r.band_low, r.band_low, least_periods)});
+  if (r.band_high > 0.38 * rate)
+    faults.push_back({"sampled_too_slowly",
+                      fmt::format("the excitation reaches {} Hz; {:.6g} samples per second resolve up to {:.4g} Hz",
+                                  r.band_high, rate, 0.38 * rate)});
+}
+
+void check_dead(const char* channel, const VectorXd& x, Faults& faults) {
+  if (x.maxCoeff() - x.minCoeff() <= 1e-9 * std::abs(x.mean()) || x.isZero(0.0))
+    faults.push_back({"dead_channel", fmt::format("{} is constant, {}", channel, x[0])});
+}
+
+/// Several successive samples at the same extreme value: an analogue-digital converter at the end of its range.
+void check_clipped(const char* channel, const VectorXd& x, Faults& faults) {
+  for (const double extreme : {x.maxCoeff(), x.minCoeff()}) {
+    Index runs = 0;
+    Index length = 0;
+    for (Index i = 0; i < x.size(); ++i) {
+      length = x[i] == extreme ? length + 1 : 0;
+      runs += length == 3;
+    }
+    if (runs < 3) continue;
+    faults.push_back({"clipped",
+                      fmt::format("{} may be clipped: it stays at {:.6g} m/s^2 for three samples or more, {} times",
+                                  channel, extreme, runs),
+                      false});
+    return;
+  }
+}
+
+/// An offset is removed later; a drift is not an acceleration of the test.
+void check_drift(const char* channel, const VectorXd& x, double rate, double band_low, Faults& faults) {
+  const PassBand slow{.low = 0.0, .high = 0.1 * band_low, .skirt = 0.5};
+  const double wandering = rms(filtered((x.array() - x.mean()).matrix(), rate, slow));
+  if (wandering > 0.05 * rms((x.array() - x.mean()).matrix()))
+    faults.push_back(
+        {"drift", fmt::format("{} drifts, with an rms of {:.3g} m/s^2 below {:.3g} Hz", channel, wandering, slow.high),
+         false});
+}
+
+/// Single samples far off the line between their neighbours.
+void check_spikes(const char* channel, const VectorXd& x, Faults& faults) {
+  const Index n = x.size() - 2;
+  const VectorXd off = (x.segment(1, n) - 0.5 * (x.head(n) + x.tail(n))).cwiseAbs();
+  const double usual = median(off);
+  Index where = 0;
+  const double largest = off.maxCoeff(&where);
+  // A sweep's own curvature grows with frequency and through resonance; a spike is beyond its neighbours too.
+  const double nearby = std::max(off[std::max<Index>(where - 3, 0)], off[std::min<Index>(where + 3, n - 1)]);
+  if (usual > 0.0 && largest > 30.0 * usual && largest > 5.0 * nearby)
+    faults.push_back({"spikes", fmt::format("{} has a spike at sample {}", channel, where + 1), false});
+}
+
+void check_band(const RawRecord& r, double rate, Faults& faults) {
+  const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
+  const double within = rms(filtered(r.base, rate, band));
+  const double all = rms((r.base.array() - r.base.mean()).matrix());
+  if (within < 0.5 * all)
+    faults.push_back({"outside_the_band",
+                      fmt::format("only {:.0f} % of the base's motion lies between {} and {} Hz", 100.0 * within / all,
+                                  r.band_low, r.band_high),
+                      false});
+}
+
+bool any_refused(const Faults& faults) {
+  return std::ranges::any_of(faults, [](const RecordFault& f) { return f.refused; });
+}
+
+}  // namespace
+
+double sampling_rate(const RawRecord& r) {
+  if (!r.time) return r.rate.value_or(0.0);
+  const VectorXd& t = *r.time;
+  const double by_time = static_cast<double>(t.size() - 1) / (t[t.size() - 1] - t[0]);
+  return r.rate ? *r.rate : by_time;
+}
+
+std::vector<RecordFault> check_record(const RawRecord& r) {
+  Faults faults;
+  check_lengths(r, faults);
+  if (any_refused(faults)) return faults;
+  const std::pair<const char*, const VectorXd*> channels[] = {{"the base's acceleration", &r.base},
+                                                              {"the relative acceleration", &r.relative}};
+  if (r.time) check_finite("the time", *r.time, faults);
+  for (const auto& [name, x] : channels) check_finite(name, *x, faults);
+  if (any_refused(faults)) return faults;
+  check_time(r, faults);
+  for (const auto& [name, x] : channels) check_dead(name, *x, faults);
+  if (any_refused(faults)) return faults;
+  const double rate = sampling_rate(r);
+  check_extent(r, rate, faults);
+  if (any_refused(faults)) return faults;
+  for (const auto& [name, x] : channels) {
+    check_clipped(name, *x, faults);
+    check_drift(name, *x, rate, r.band_low, faults);
+    check_spikes(name, *x, faults);
+  }
+  check_band(r, rate, faults);
+  return faults;
+}
+
+}  // namespace pfdm
