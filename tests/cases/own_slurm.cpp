@@ -19,6 +19,7 @@
 #include <functional>
 #include <random>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 namespace pfdm {
@@ -59,9 +60,10 @@ bool comes_true(const std::function<bool()>& condition) {
 std::string said_by(const std::vector<std::string>& words) { return run_external(words).out; }
 
 void look_in_sbin_too() {
+  constexpr std::string_view sbin = ":/usr/sbin";
   const char* path = getenv("PATH");
-  const std::string wanted = std::string(path ? path : "") + ":/usr/sbin";
-  if (!wanted.ends_with(":/usr/sbin:/usr/sbin")) setenv("PATH", wanted.c_str(), 1);
+  const std::string now = path ? path : "";
+  if (!now.ends_with(sbin)) setenv("PATH", (now + std::string(sbin)).c_str(), 1);
 }
 
 }  // namespace

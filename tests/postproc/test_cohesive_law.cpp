@@ -74,7 +74,7 @@ TEST(CohesiveLaw, tells_unloading_from_a_jump) {
   EXPECT_FALSE(figures.jump);
   EXPECT_TRUE(figures.unloaded);
   EXPECT_FALSE(figures.is_traced());
-  EXPECT_DOUBLE_EQ(figures.normal_energy, 2e-6 + 0.405e-6 - 2.1e-6);
+  EXPECT_NEAR(figures.normal_energy, 2e-6 + 0.405e-6 - 2.1e-6, 1e-18);
 }
 
 }  // namespace

@@ -116,8 +116,10 @@ TEST(Relaxation, NoticesCirclesThatHaveNoMiddle) {
   };
   go_on(191);
   EXPECT_FALSE(relaxation.goes_in_circles());
-  go_on(1);
-  EXPECT_TRUE(relaxation.goes_in_circles());
+  // Two stretches of 48 must make no way in a row; by rounding, Anderson's may make some.
+  int stretches = 0;
+  for (go_on(1); !relaxation.goes_in_circles() && stretches < 10; ++stretches) go_on(48);
+  EXPECT_LE(stretches, 4);
 }
 
 TEST(Relaxation, DoesNotTakeAFrontForCircles) { EXPECT_FALSE(take_turns(480, false).relaxation.goes_in_circles()); }

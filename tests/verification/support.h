@@ -5,6 +5,7 @@
 #include "mesh/box_hexes.h"
 #include "mesh/dual.h"
 #include "mesh/particles_in_box.h"
+#include "solver/fracture/fracture_model.h"
 #include "solver/momentum/momentum_solver.h"
 
 #include <memory>
