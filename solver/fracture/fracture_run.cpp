@@ -3,6 +3,7 @@
 #include "physics/error.h"
 #include "solver/fracture/residual_stiffness.h"
 #include "solver/fracture/staggered.h"
+#include "solver/fracture/window.h"
 #include "solver/momentum/rigid_motion.h"
 #include "solver/parallel.h"
 
@@ -46,6 +47,13 @@ void add_plasticity(const FractureState& state, OutputFields& fields) {
   }
 }
 
+/// An increment that was tried.
+struct Trial {
+  FractureState state;
+  StepOutcome outcome;
+  double increment = 0.0;  // of the load, before dissipation control lowered it
+};
+
 }  // namespace
 
 struct FractureRun::Parts {
@@ -64,7 +72,7 @@ struct FractureRun::Parts {
         model(std::move(fm)),
         loading(std::move(l)),
         unknowns((require_complete(m, model), place_unknowns(m, elastic_body(model)))),
-        staggered(m, model, unknowns, settings),
+        staggered(m, model, unknowns, settings, settings.windows ? std::make_unique<Windows>() : nullptr),
         maximum_iterations(settings.maximum_iterations),
         residual_stiffness(model.residual_stiffness) {
     if (settings.windows) require_windows(model);
@@ -214,6 +222,39 @@ struct FractureRun::Parts {
                     trial.step, trial.load, loading.minimum_increment, advice));
   }
 
+  Trial attempt(const FractureState& state, double planned, const IterationWatch& watch) {
+    const double stop = next_stop(state.load);
+    Trial trial{.state = state, .outcome = {}};
+    trial.state.step = state.step + 1;
+    trial.state.load = state.load + planned > stop - load_rounding ? stop : state.load + planned;
+    trial.increment = trial.state.load - state.load;
+    if (state.load > 0.0 && is_proportional())
+      for (Vector& u : trial.state.displacement) u *= trial.state.load / state.load;
+    trial.outcome = staggered.solve_step(state, trial.state, limits_of(trial.increment, planned), watch);
+    krylov_iterations += trial.outcome.krylov_iterations;
+    staggered_iterations += trial.outcome.iterations;
+    window_iterations += trial.outcome.window_iterations;
+    return trial;
+  }
+
+  StepReport accept(Trial trial, double planned, std::vector<std::string> remarks, FractureState& state) {
+    FractureState& next = trial.state;
+    const StepOutcome& outcome = trial.outcome;
+    const double increment = next.load - state.load;
+    next.boundary_force = boundary_forces(next);
+    next.external_work = state.external_work + work_increment(state, next);
+    next.viscous_dissipation = state.viscous_dissipation + outcome.viscous_dissipation;
+    next.plastic_dissipation = state.plastic_dissipation + outcome.plastic_dissipation;
+    next.increment = next_increment(planned, outcome);
+    state = std::move(next);
+    const std::string remark =
+        residual_stiffness.remark(outcome.share, std::max(outcome.starting_energy, state.external_work), state.load);
+    if (!remark.empty()) remarks.push_back(remark);
+    StepReport result = report(state, outcome, increment);
+    result.remarks = std::move(remarks);
+    return result;
+  }
+
   StepReport report(const FractureState& state, const StepOutcome& outcome, double increment) {
     StepReport r;
     r.step = state.step;
@@ -264,55 +305,32 @@ FractureState FractureRun::initial_state() const {
   return state;
 }
 
-FractureState FractureRun::run(FractureState start, const RunHooks& hooks) {
-  if (hooks.step_done) hooks.step_done(start, parts_->report(start, {}, 0.0));
-  return go_on(std::move(start), hooks);
+bool FractureRun::is_complete(const FractureState& state) const {
+  return state.load >= parts_->loading.end - load_rounding;
 }
 
-FractureState FractureRun::go_on(FractureState state, const RunHooks& hooks) {
-  Parts& parts = *parts_;
-  while (state.load < parts.loading.end - load_rounding) {
-    const double stop = parts.next_stop(state.load);
-    FractureState trial = state;
-    trial.step = state.step + 1;
-    trial.load = state.load + state.increment > stop - load_rounding ? stop : state.load + state.increment;
-    double increment = trial.load - state.load;
-    if (state.load > 0.0 && parts.is_proportional())
-      for (Vector& u : trial.displacement) u *= trial.load / state.load;
-    const StepOutcome outcome =
-        parts.staggered.solve_step(state, trial, hooks, parts.limits_of(increment, state.increment));
-    parts.krylov_iterations += outcome.krylov_iterations;
-    parts.staggered_iterations += outcome.iterations;
-    parts.window_iterations += outcome.window_iterations;
-    if (outcome.collapsed) parts.fail_torn(state.load, trial.load);
+StepReport FractureRun::report_of(const FractureState& start) { return parts_->report(start, {}, 0.0); }
+
+StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) {
+  std::vector<std::string> remarks;
+  double planned = state.increment;
+  for (;;) {
+    Trial trial = parts_->attempt(state, planned, watch);
+    const StepOutcome& outcome = trial.outcome;
+    if (outcome.collapsed) parts_->fail_torn(state.load, trial.state.load);
+    if (outcome.converged) return parts_->accept(std::move(trial), planned, std::move(remarks), state);
     if (outcome.broke_too_much) {
-      state.increment = std::max(cut * increment, parts.loading.finest_increment);
+      planned = std::max(cut * trial.increment, parts_->loading.finest_increment);
       continue;
     }
-    if (!outcome.converged) {
-      state.increment = cut * increment;
-      if (state.increment < parts.loading.minimum_increment) parts.fail_unconverged(trial, outcome);
-      if (hooks.warned)
-        hooks.warned(fmt::format("step {} at load {:.6g} did not converge; the increment is cut to {:.3g}", trial.step,
-                                 trial.load, state.increment));
-      continue;
-    }
-    increment = trial.load - state.load;
-    trial.boundary_force = parts.boundary_forces(trial);
-    trial.external_work = state.external_work + parts.work_increment(state, trial);
-    trial.viscous_dissipation = state.viscous_dissipation + outcome.viscous_dissipation;
-    trial.plastic_dissipation = state.plastic_dissipation + outcome.plastic_dissipation;
-    trial.increment = parts.next_increment(state.increment, outcome);
-    state = std::move(trial);
-    const std::string remark = parts.residual_stiffness.remark(
-        outcome.share, std::max(outcome.starting_energy, state.external_work), state.load);
-    if (!remark.empty() && hooks.warned) hooks.warned(remark);
-    if (hooks.step_done) hooks.step_done(state, parts.report(state, outcome, increment));
+    planned = cut * trial.increment;
+    if (planned < parts_->loading.minimum_increment) parts_->fail_unconverged(trial.state, outcome);
+    remarks.push_back(fmt::format("step {} at load {:.6g} did not converge; the increment is cut to {:.3g}",
+                                  trial.state.step, trial.state.load, planned));
   }
-  return state;
 }
 
-OutputFields FractureRun::output(const FractureState& state) const {
+OutputFields FractureRun::output(const FractureState& state) {
   Staggered& staggered = parts_->staggered;
   staggered.degrade(state);
   const CellMechanics mechanics = staggered.momentum().balance().mechanics(state.displacement);

@@ -1,33 +1,19 @@
 #pragma once
-// A fracture run from its mesh and model: the load stepping, with hooks for the output of results.
+// A fracture run from its mesh and model: the load stepping, a step at a time.
+//
+//   FractureState state = run.initial_state();
+//   while (!run.is_complete(state)) use(state, run.step(state));
 
 #include "mesh/mesh.h"
 #include "solver/fracture/fracture_model.h"
+#include "solver/fracture/iteration_report.h"
 #include "solver/fracture/state.h"
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 
 namespace pfdm {
-
-/// Progress of the solution of a step.
-struct IterationReport {
-  Index step = 0;
-  Index iteration = 0;
-  double load = 0.0;
-  double damage_change = 0.0;
-  double energy_change = 0.0;
-  Index krylov_iterations = 0;
-};
-
-struct RunHooks {
-  /// After every accepted step; in run() once for the state before the first one as well (step 0).
-  std::function<void(const FractureState&, const StepReport&)> step_done;
-  std::function<void(const IterationReport&)> iterated;
-  std::function<void(const std::string& message)> warned;
-};
 
 class FractureRun {
  public:
@@ -36,13 +22,16 @@ class FractureRun {
   ~FractureRun();
 
   FractureState initial_state() const;
-  /// From a start, as initial_state() is one, to the end of the load. Throws ComputationError when the smallest
-  /// increment does not converge; all accepted steps have then been reported.
-  FractureState run(FractureState start, const RunHooks& hooks);
-  /// Likewise from a state that a run has reported, which is not reported again.
-  FractureState go_on(FractureState state, const RunHooks& hooks);
+  /// Whether the load has reached its end.
+  bool is_complete(const FractureState& state) const;
+  /// Advances the state by one accepted step; increments are cut back until one is accepted. Throws ComputationError,
+  /// with the state as it was, when the smallest does not converge. `watch` sees every iteration, also of increments
+  /// that are cut, and may throw to give up.
+  StepReport step(FractureState& state, const IterationWatch& watch = {});
+  /// The report of a state from which a run starts (step 0).
+  StepReport report_of(const FractureState& start);
 
-  OutputFields output(const FractureState& state) const;
+  OutputFields output(const FractureState& state);
   const FractureModel& model() const;
   Index n_unknowns() const;  ///< of displacement
   std::map<std::string, double> cpu_seconds_by_stage() const;

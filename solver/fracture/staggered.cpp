@@ -1,6 +1,5 @@
 #include "solver/fracture/staggered.h"
 
-#include "solver/fracture/window.h"
 #include "solver/parallel.h"
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -19,36 +18,24 @@ constexpr Index torn_at_most = 5;
 // Relative residual of the last solve, if no smaller one is required.
 constexpr double last_tolerance = 3e-8;
 
-// Windows are around the cells whose damage changes by more than this share of the largest change,
-constexpr double changing_share = 0.3;
-// reach this number of lengths ell from them, and have at most this share of the cells.
-constexpr double window_reach = 2.0, largest_window = 0.4, most_changing = 0.1;
-// They iterate until the change has fallen to this share of itself, or
-constexpr double window_fall = 0.1;
-// to this share of the tolerance.
-constexpr double window_precision = 0.5;
-constexpr Index window_iterations = 10;
-constexpr Index least_cells = 1500;  // of a mesh that has windows
-
 }  // namespace
 
 Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
-                     const StaggeredSettings& settings)
+                     const StaggeredSettings& settings, std::unique_ptr<LocalIterations> local)
     : mesh_(mesh),
       model_(model),
       unknowns_(unknowns),
       settings_(settings),
+      local_(std::move(local)),
       momentum_(mesh, unknowns),
       stiffness_(mesh, model),
-      damage_(mesh, model, unknowns.plane_normal) {
-  settings_.windows = settings.windows && mesh.n_cells() >= least_cells;
-}
+      damage_(mesh, model, unknowns.plane_normal) {}
 
-StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
-                                  const StepLimits& limits) {
+StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
+                                  const IterationWatch& watch) {
   stiffness_.start_step(limits.duration);
   momentum_.start_afresh();  // as a restarted run does
-  StepOutcome outcome = alternate(start, state, hooks, limits);
+  StepOutcome outcome = alternate(start, state, limits, watch);
   if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);
@@ -67,116 +54,115 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   return outcome;
 }
 
-StepOutcome Staggered::alternate(const FractureState& start, FractureState& state, const RunHooks& hooks,
-                                 const StepLimits& limits) {
-  StepOutcome outcome;
-  const bool path_is_followed = std::isfinite(limits.dissipation);
-  const double fracture_energy = damage_.renewed_fracture_energy(start.damage);
-  PathLimit limit;
-  if (path_is_followed) limit = {state.load, fracture_energy + limits.dissipation, limits.dissipation};
-  Relaxation relaxation;
-  if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / limits.duration, start.damage);
-  double energy_before = 0.0, stored_at_unit_load = 0.0;
+/// The loop of one step.
+struct Staggered::Loop {
+  Staggered& s;
+  const FractureState& start;
+  FractureState& state;
+  const StepLimits& limits;
+  double fracture_energy;  // at the start [J]
+  PathLimit path{};
+  Relaxation relaxation{};
+  FractureState from{};  // the state in equilibrium, for local iterations
+  Energies energies{};   // of it
+  double stored_at_unit_load = 0.0, energy_before = 0.0;
   Index torn = 0;  // successive iterations in which only the residual stiffness carried the loads
-  while (outcome.iterations < settings_.maximum_iterations && !outcome.converged) {
-    degrade(state);
+  StepOutcome outcome{};
+  IterationReport report{};
+
+  Loop(Staggered& staggered, const FractureState& first, FractureState& trial, const StepLimits& step_limits)
+      : s(staggered),
+        start(first),
+        state(trial),
+        limits(step_limits),
+        fracture_energy(s.damage_.renewed_fracture_energy(first.damage)) {
+    if (follows_path()) path = {state.load, fracture_energy + limits.dissipation, limits.dissipation};
+    if (s.model_.viscosity > 0.0) s.damage_.resist_change(s.model_.viscosity / limits.duration, start.damage);
+  }
+
+  bool follows_path() const { return std::isfinite(limits.dissipation); }
+  bool ends() const {
+    return outcome.converged || outcome.failed || outcome.collapsed || outcome.broke_too_much ||
+           outcome.iterations >= s.settings_.maximum_iterations || (limits.may_be_cut && relaxation.goes_in_circles());
+  }
+
+  void iterate() {
+    find_equilibrium();
+    if (!outcome.failed) renew_driving_energy();
+    if (!outcome.failed && !outcome.collapsed) renew_damage();
+  }
+
+  void find_equilibrium() {
+    s.degrade(state);
     // Loose while the damage still changes; as tight as the step requires once it has converged.
-    const double floor = 0.1 * settings_.equilibrium_tolerance;
-    const double ceiling = outcome.settled ? settings_.equilibrium_tolerance : 1e-4;
+    const double required = s.settings_.equilibrium_tolerance;
     // A crack that is closed and sheared is nearly incompressible and takes many Krylov iterations: the remaining
     // residual is left to the next iteration of the loop.
-    const Equilibrium equilibrium = solve_momentum(
-        state, {.reduction = 0.1, .ceiling = ceiling, .floor = floor, .most_iterations = inner_iterations});
+    const Equilibrium equilibrium = s.solve_momentum(state, {.reduction = 0.1,
+                                                             .ceiling = outcome.settled ? required : 1e-4,
+                                                             .floor = 0.1 * required,
+                                                             .most_iterations = inner_iterations});
     outcome.failed = !std::isfinite(equilibrium.residual);
-    if (outcome.failed) return outcome;
-    FractureState from;
-    if (settings_.windows) from = state;
-    const Energies energies = update_driving_energy(start, state, true);
+    outcome.residual = equilibrium.residual;
+    report.krylov_iterations = equilibrium.iterations;
+  }
+
+  void renew_driving_energy() {
+    if (s.local_) from = state;
+    energies = s.update_driving_energy(start, state, true);
     outcome.failed = !std::isfinite(energies.unsettled);
-    if (outcome.failed) return outcome;
-    if (settings_.windows) from.driving_energy = state.driving_energy;
+    if (outcome.failed) return;
+    if (s.local_) from.driving_energy = state.driving_energy;
     if (outcome.iterations == 0) stored_at_unit_load = energies.stored / (state.load * state.load);
-    torn = has_collapsed(residual_share(state, energies)) ? torn + 1 : 0;
+    torn = has_collapsed(s.residual_share(state, energies)) ? torn + 1 : 0;
     outcome.collapsed = torn > torn_at_most;
-    if (outcome.collapsed) return outcome;
-    const double undamaged = stored_at_unit_load * state.load * state.load;
-    outcome.starting_energy = undamaged;
-    outcome.energy_release = std::abs(energies.stored - undamaged) / std::max(undamaged + fracture_energy, 1e-300);
+    outcome.starting_energy = stored_at_unit_load * state.load * state.load;
+    outcome.energy_release = std::abs(energies.stored - outcome.starting_energy) /
+                             std::max(outcome.starting_energy + fracture_energy, 1e-300);
+  }
+
+  void renew_damage() {
     CellField<double> answer = state.damage;
     const double load = state.load;
-    const bool damage_solved =
-        path_is_followed ? follow_path(start, limit, state, answer) : solve_damage(start, state, answer);
+    const bool solved =
+        follows_path() ? s.follow_path(start, path, state, answer) : s.solve_damage(start, state, answer);
     const double load_scale = state.load / load;
     const double change = parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
-    const double energy = load_scale * load_scale * energies.stored + damage_.fracture_energy(answer);
+    const double energy = load_scale * load_scale * energies.stored + s.damage_.fracture_energy(answer);
     const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
-    outcome.krylov_iterations += equilibrium.iterations;
-    outcome.settled = damage_solved && change < settings_.damage_tolerance &&
-                      energy_change < settings_.energy_tolerance &&
-                      std::abs(load_scale - 1.0) < settings_.damage_tolerance;
-    outcome.residual = equilibrium.residual;
-    outcome.converged = outcome.settled && equilibrium.residual <= settings_.equilibrium_tolerance;
-    if (outcome.converged)
-      state.damage = answer;
-    else
-      state.damage = relaxation.next(state.damage, answer, start.damage);
-    const bool moved_on =
-        !outcome.converged && settle_windows(start, {from, answer, change}, limits.duration, state, outcome);
-    if (moved_on) relaxation = {};
+    outcome.krylov_iterations += report.krylov_iterations;
+    outcome.settled = solved && change < s.settings_.damage_tolerance && energy_change < s.settings_.energy_tolerance &&
+                      std::abs(load_scale - 1.0) < s.settings_.damage_tolerance;
+    outcome.converged = outcome.settled && outcome.residual <= s.settings_.equilibrium_tolerance;
+    move_to(answer, change);
     outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
     outcome.broke_too_much = outcome.growth > limits.growth || outcome.energy_release > limits.energy_release;
-    if (hooks.iterated)
-      hooks.iterated({state.step, outcome.iterations, state.load, change, energy_change, equilibrium.iterations});
-    if (outcome.broke_too_much) {
-      outcome.converged = false;
-      return outcome;
-    }
-    if (limits.may_be_cut && !outcome.converged && relaxation.goes_in_circles()) return outcome;
+    if (outcome.broke_too_much) outcome.converged = false;
+    report = {state.step, outcome.iterations, state.load, change, energy_change, report.krylov_iterations};
   }
-  return outcome;
-}
 
-// Whether there were any.
-bool Staggered::settle_windows(const FractureState& start, const Turn& turn, double duration, FractureState& state,
-                               StepOutcome& outcome) {
-  if (!settings_.windows) return false;
-  const Index n = mesh_.n_cells();
-  const auto lap = clock_.lap("windows");
-  const double least = std::max(changing_share * turn.change, window_precision * settings_.damage_tolerance);
-  std::vector<Index> changing;
-  double ell = 0.0;
-  for (Index c = 0; c < n; ++c) {
-    if (!(std::abs(turn.answer[c] - turn.from.damage[c]) > least)) continue;
-    changing.push_back(c);
-    ell = std::max(ell, model_.in_cell(mesh_, c).ell);
+  void move_to(const CellField<double>& answer, double change) {
+    if (outcome.converged) {
+      state.damage = answer;
+      return;
+    }
+    state.damage = relaxation.next(state.damage, answer, start.damage);
+    if (s.local_ && s.local_->iterate(s, {start, from, answer, change, limits.duration}, state, outcome))
+      relaxation = {};
   }
-  if (double(changing.size()) > most_changing * double(n)) return false;
-  StaggeredSettings settings = settings_;
-  settings.windows = false;
-  settings.damage_tolerance = std::max(window_precision * settings_.damage_tolerance, window_fall * turn.change);
-  settings.energy_tolerance = std::numeric_limits<double>::infinity();
-  settings.maximum_iterations = window_iterations;
-  const Window::Surroundings whole{.mesh = mesh_,
-                                   .model = model_,
-                                   .unknowns = unknowns_,
-                                   .start = start,
-                                   .state = turn.from,
-                                   .face_displacement = face_displacement_,
-                                   .damage_equation = damage_,
-                                   .stiffness = stiffness_,
-                                   .residual_reference = momentum_.residual_reference(),
-                                   .duration = duration};
-  bool any = false;
-  for (std::vector<Index>& cells : window_cells(mesh_, changing, window_reach * ell)) {
-    const double share = double(cells.size()) / double(n);
-    if (share > largest_window) continue;
-    any = true;
-    const StepOutcome inner = Window(whole, std::move(cells), settings).settle(state);
-    outcome.window_iterations += share * double(inner.iterations);
+};
+
+StepOutcome Staggered::alternate(const FractureState& start, FractureState& state, const StepLimits& limits,
+                                 const IterationWatch& watch) {
+  Loop loop(*this, start, state, limits);
+  while (!loop.ends()) {
+    const Index iterations = loop.outcome.iterations;
+    loop.iterate();
+    if (watch && loop.outcome.iterations > iterations) watch(loop.report);
   }
-  return any;
+  return loop.outcome;
 }
 
 void Staggered::degrade(const FractureState& state) {

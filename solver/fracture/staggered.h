@@ -1,17 +1,20 @@
 #pragma once
 // Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
 // the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797). Optionally with
-// local sub-domain iterations around the cells that still change, between the global iterations (window.h).
+// local iterations around the cells that still change, between the global ones (window.h).
 
 #include "solver/fracture/cell_stiffness.h"
 #include "solver/fracture/damage_equation.h"
-#include "solver/fracture/fracture_run.h"
+#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/iteration_report.h"
 #include "solver/fracture/relaxation.h"
 #include "solver/fracture/residual_stiffness.h"
 #include "solver/fracture/stage_clock.h"
+#include "solver/fracture/state.h"
 #include "solver/momentum/momentum_solver.h"
 
 #include <limits>
+#include <memory>
 
 namespace pfdm {
 
@@ -43,25 +46,50 @@ struct StepLimits {
   bool may_be_cut = false;  ///< a shorter step can be tried instead: a limit cycle ends the step at once
 };
 
+class Staggered;
+
+/// Iterations on parts of the mesh between two global ones.
+class LocalIterations {
+ public:
+  /// The last iterate of the loop, and the solution of the damage equation for it.
+  struct Turn {
+    const FractureState& start;  ///< of the step
+    const FractureState& from;
+    const CellField<double>& answer;
+    double change;    ///< largest of d
+    double duration;  ///< of the step [s]
+  };
+  virtual ~LocalIterations() = default;
+  /// Whether there were any; `state`, the next iterate, has then moved on.
+  virtual bool iterate(Staggered& whole, const Turn& turn, FractureState& state, StepOutcome& outcome) = 0;
+};
+
 class Staggered {
  public:
-  Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings);
+  /// `local` may be null.
+  Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings,
+            std::unique_ptr<LocalIterations> local = nullptr);
 
   /// Brings `state`, whose load is the step's, to equilibrium. The damage of `start` is the lower bound
   /// (irreversibility). The step is abandoned once a limit on damage or energy release is exceeded. With a limit on the
   /// dissipation (dissipation control) the load is lowered until the step satisfies it: boundary values must then be
   /// proportional to the load parameter, and irreversibility be by bounds.
-  StepOutcome solve_step(const FractureState& start, FractureState& state, const RunHooks& hooks,
-                         const StepLimits& limits = {});
+  StepOutcome solve_step(const FractureState& start, FractureState& state, const StepLimits& limits = {},
+                         const IterationWatch& watch = {});
 
   /// The loop of solve_step alone; the energies of the outcome are not set.
-  StepOutcome alternate(const FractureState& start, FractureState& state, const RunHooks& hooks,
-                        const StepLimits& limits);
+  StepOutcome alternate(const FractureState& start, FractureState& state, const StepLimits& limits,
+                        const IterationWatch& watch = {});
   /// The driving energy at the displacement of the state, with the present stiffness.
   void renew_driving_energy(const FractureState& start, FractureState& state) {
     update_driving_energy(start, state, false);
   }
 
+  const Mesh& mesh() const { return mesh_; }
+  const FractureModel& model() const { return model_; }
+  const Unknowns& unknowns() const { return unknowns_; }
+  const StaggeredSettings& settings() const { return settings_; }
+  const FaceField<Vector>& face_displacement() const { return face_displacement_; }  ///< of the last equilibrium [m]
   MomentumSolver& momentum() { return momentum_; }
   DamageEquation& damage_equation() { return damage_; }
   const DamageEquation& damage_equation() const { return damage_; }
@@ -72,6 +100,7 @@ class Staggered {
   void degrade(const FractureState& state);
 
  private:
+  struct Loop;
   Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
   struct Energies {
     double stored = 0.0;     // [J]
@@ -83,14 +112,6 @@ class Staggered {
   double drive(const FractureState& start, FractureState& state, double scale);
   ResidualShare residual_share(const FractureState& state, const Energies& energies);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
-  /// The last iterate of the loop, and the solution of the damage equation for it.
-  struct Turn {
-    const FractureState& from;
-    const CellField<double>& answer;
-    double change;  ///< largest of d
-  };
-  bool settle_windows(const FractureState& start, const Turn& turn, double duration, FractureState& state,
-                      StepOutcome& outcome);
   struct PathLimit {
     double load = 0.0;    // largest load of the step
     double energy = 0.0;  // largest surface energy at the end of the step [J]
@@ -102,6 +123,7 @@ class Staggered {
   const FractureModel& model_;
   const Unknowns& unknowns_;
   StaggeredSettings settings_;
+  std::unique_ptr<LocalIterations> local_;
   MomentumSolver momentum_;
   CellStiffness stiffness_;
   DamageEquation damage_;

@@ -4,6 +4,7 @@
 #include "mesh/fields.h"
 #include "physics/endochronic.h"
 
+#include <string>
 #include <vector>
 
 namespace pfdm {
@@ -41,7 +42,8 @@ struct StepReport {
   double damaged_volume = 0.0;             ///< volume with d > 0.5 [m^3]
   Index staggered_iterations = 0;
   Index krylov_iterations = 0;
-  double increment = 0.0;  ///< of the load parameter
+  double increment = 0.0;            ///< of the load parameter
+  std::vector<std::string> remarks;  ///< increments that were cut, a residual stiffness that distorts
 };
 
 /// Fields for output at a converged state.

@@ -9,6 +9,17 @@ namespace {
 // next cell, which reach two cells further.
 constexpr int rim = 3;
 
+// Windows are around the cells whose damage changes by more than this share of the largest change,
+constexpr double changing_share = 0.3;
+// reach this number of lengths ell from them, and have at most this share of the cells.
+constexpr double window_reach = 2.0, largest_window = 0.4, most_changing = 0.1;
+// They iterate until the change has fallen to this share of itself, or
+constexpr double window_fall = 0.1;
+// to this share of the tolerance.
+constexpr double window_precision = 0.5;
+constexpr Index window_iterations = 10;
+constexpr Index least_cells = 1500;  // of a mesh that has windows
+
 template <class Visit>
 void for_neighbours(const Mesh& mesh, Index cell, const Visit& visit) {
   for (const Index f : mesh.faces_of_cell(cell))
@@ -74,13 +85,15 @@ std::vector<std::vector<Index>> window_cells(const Mesh& mesh, const std::vector
   return parts;
 }
 
-Window::Window(const Surroundings& whole, std::vector<Index> cells, const StaggeredSettings& settings)
+Window::Window(Staggered& whole, const LocalIterations::Turn& turn, std::vector<Index> cells,
+               const StaggeredSettings& settings)
     : whole_(whole),
-      part_(part_of(whole.mesh, std::move(cells))),
-      model_(model_of_part(whole.model, part_.cell)),
-      unknowns_(unknowns_of_part(whole.unknowns, part_)),
+      turn_(turn),
+      part_(part_of(whole.mesh(), std::move(cells))),
+      model_(model_of_part(whole.model(), part_.cell)),
+      unknowns_(unknowns_of_part(whole.unknowns(), part_)),
       staggered_(part_.mesh, model_, unknowns_, settings),
-      start_(take_out_state(whole.start)) {
+      start_(take_out_state(turn.start)) {
   hold_rim();
   agree();
 }
@@ -94,7 +107,7 @@ void Window::hold_rim() {
   std::ranges::sort(rings);
   rings.erase(std::ranges::unique(rings).begin(), rings.end());
   add_rings(mesh, rim - 1, rings);
-  CellField<char> held = take_out(whole_.damage_equation.held(), part_.cell);
+  CellField<char> held = take_out(whole_.damage_equation().held(), part_.cell);
   if (held.size() == 0) held = CellField<char>(part_.cell.size(), 0);
   for (const Index c : rings) held[c] = 1;
   staggered_.stiffness().hold(held);
@@ -104,8 +117,8 @@ void Window::hold_rim() {
 // The forces and sources at the cut. Cells that are not held get no force: they would carry the residual of the whole
 // problem also after they break.
 void Window::agree() {
-  const FractureState at = take_out_state(whole_.state);
-  staggered_.stiffness().take_out_memory(whole_.stiffness, part_.cell);
+  const FractureState at = take_out_state(turn_.from);
+  staggered_.stiffness().take_out_memory(whole_.stiffness(), part_.cell);
   staggered_.degrade(at);
   MomentumSolver& momentum = staggered_.momentum();
   std::vector<Vector> force(at.displacement.size());
@@ -120,19 +133,19 @@ void Window::agree() {
     if (!is_held) force[part_.cell.size() + k] = Vector::Zero();
   }
   momentum.set_body_force(std::move(force));
-  momentum.measure_against(whole_.residual_reference);
+  momentum.measure_against(whole_.momentum().residual_reference());
 
   FractureState driven = at;
   staggered_.renew_driving_energy(start_, driven);
   DamageEquation& equation = staggered_.damage_equation();
-  if (model_.viscosity > 0.0) equation.resist_change(model_.viscosity / whole_.duration, start_.damage);
+  if (model_.viscosity > 0.0) equation.resist_change(model_.viscosity / turn_.duration, start_.damage);
   equation.renewed_fracture_energy(at.damage);
   CellField<double> source(part_.cell.size(), 0.0);
   for (Index i = 0; i < source.size(); ++i) {
     if (!equation.is_damageable(i)) continue;
     const Index c = part_.cell[as_size(i)];
     source[i] = equation.imbalance(i, at.damage, driven.driving_energy[i]) -
-                whole_.damage_equation.imbalance(c, whole_.state.damage, whole_.state.driving_energy[c]);
+                whole_.damage_equation().imbalance(c, turn_.from.damage, turn_.from.driving_energy[c]);
   }
   equation.set_source(std::move(source));
 }
@@ -144,9 +157,9 @@ void Window::hold_rim_as_it_was(FractureState& here) const {
   for (Index i = 0; i < held.size(); ++i) {
     if (held[i] == 0) continue;
     const Index c = part_.cell[as_size(i)];
-    here.damage[i] = whole_.state.damage[c];
-    here.closure[i] = whole_.state.closure[c];
-    if (here.tangent_strain.size() > 0) here.tangent_strain[i] = whole_.state.tangent_strain[c];
+    here.damage[i] = turn_.from.damage[c];
+    here.closure[i] = turn_.from.closure[c];
+    if (here.tangent_strain.size() > 0) here.tangent_strain[i] = turn_.from.tangent_strain[c];
   }
 }
 
@@ -161,8 +174,8 @@ FractureState Window::take_out_state(const FractureState& whole) const {
   here.displacement.reserve(as_size(unknowns_.n_nodes()));
   for (const Index c : part_.cell) here.displacement.push_back(whole.displacement[as_size(c)]);
   for (const Index f : unknowns_.face_of_node) {
-    const Index face = part_.face[as_size(f)], node = whole_.unknowns.node_of_face[face];
-    here.displacement.push_back(node >= 0 ? whole.displacement[as_size(node)] : whole_.face_displacement[face]);
+    const Index face = part_.face[as_size(f)], node = whole_.unknowns().node_of_face[face];
+    here.displacement.push_back(node >= 0 ? whole.displacement[as_size(node)] : whole_.face_displacement()[face]);
   }
   return here;
 }
@@ -180,7 +193,7 @@ void Window::put_back_state(const FractureState& here, FractureState& whole) con
   }
   for (std::size_t i = 0; i < part_.cell.size(); ++i) whole.displacement[as_size(part_.cell[i])] = here.displacement[i];
   for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
-    const Index node = whole_.unknowns.node_of_face[part_.face[as_size(unknowns_.face_of_node[k])]];
+    const Index node = whole_.unknowns().node_of_face[part_.face[as_size(unknowns_.face_of_node[k])]];
     if (node >= 0) whole.displacement[as_size(node)] = here.displacement[part_.cell.size() + k];
   }
 }
@@ -188,11 +201,40 @@ void Window::put_back_state(const FractureState& here, FractureState& whole) con
 StepOutcome Window::settle(FractureState& state) {
   FractureState here = take_out_state(state);
   hold_rim_as_it_was(here);
-  const StepOutcome outcome = staggered_.alternate(start_, here, {}, {.duration = whole_.duration});
+  const StepOutcome outcome = staggered_.alternate(start_, here, {.duration = turn_.duration});
   if (outcome.failed) return outcome;
-  whole_.stiffness.put_back_memory(staggered_.stiffness(), part_.cell);
+  whole_.stiffness().put_back_memory(staggered_.stiffness(), part_.cell);
   put_back_state(here, state);
   return outcome;
+}
+
+bool Windows::iterate(Staggered& whole, const Turn& turn, FractureState& state, StepOutcome& outcome) {
+  const Mesh& mesh = whole.mesh();
+  const Index n = mesh.n_cells();
+  if (n < least_cells) return false;
+  const auto lap = whole.clock().lap("windows");
+  StaggeredSettings settings = whole.settings();
+  const double least = std::max(changing_share * turn.change, window_precision * settings.damage_tolerance);
+  std::vector<Index> changing;
+  double ell = 0.0;
+  for (Index c = 0; c < n; ++c) {
+    if (!(std::abs(turn.answer[c] - turn.from.damage[c]) > least)) continue;
+    changing.push_back(c);
+    ell = std::max(ell, whole.model().in_cell(mesh, c).ell);
+  }
+  if (double(changing.size()) > most_changing * double(n)) return false;
+  settings.damage_tolerance = std::max(window_precision * settings.damage_tolerance, window_fall * turn.change);
+  settings.energy_tolerance = std::numeric_limits<double>::infinity();
+  settings.maximum_iterations = window_iterations;
+  bool any = false;
+  for (std::vector<Index>& cells : window_cells(mesh, changing, window_reach * ell)) {
+    const double share = double(cells.size()) / double(n);
+    if (share > largest_window) continue;
+    any = true;
+    const StepOutcome inner = Window(whole, turn, std::move(cells), settings).settle(state);
+    outcome.window_iterations += share * double(inner.iterations);
+  }
+  return any;
 }
 
 }  // namespace pfdm

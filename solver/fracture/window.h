@@ -15,23 +15,10 @@ std::vector<std::vector<Index>> window_cells(const Mesh& mesh, const std::vector
 
 class Window {
  public:
-  /// The present iterate of the global loop. The damage equation has just been solved from `state`, whose displacement
-  /// is in equilibrium with its damage.
-  struct Surroundings {
-    const Mesh& mesh;
-    const FractureModel& model;
-    const Unknowns& unknowns;
-    const FractureState& start;  ///< of the step
-    const FractureState& state;
-    const FaceField<Vector>& face_displacement;  ///< [m]
-    const DamageEquation& damage_equation;
-    CellStiffness& stiffness;
-    double residual_reference;  ///< of the momentum balance
-    double duration;            ///< of the step [s]
-  };
-
-  /// `cells` is one of the parts of window_cells. Must not outlive the surroundings.
-  Window(const Surroundings& whole, std::vector<Index> cells, const StaggeredSettings& settings);
+  /// The damage equation of `whole` has just been solved from `turn.from`, whose displacement is in equilibrium with
+  /// its damage. `cells` is one of the parts of window_cells. Must not outlive what it is given.
+  Window(Staggered& whole, const LocalIterations::Turn& turn, std::vector<Index> cells,
+         const StaggeredSettings& settings);
 
   /// Iterates within the window from `state` and writes the result back to it.
   StepOutcome settle(FractureState& state);
@@ -43,12 +30,19 @@ class Window {
   FractureState take_out_state(const FractureState& whole) const;
   void put_back_state(const FractureState& here, FractureState& whole) const;
 
-  const Surroundings whole_;
+  Staggered& whole_;
+  const LocalIterations::Turn turn_;
   MeshPart part_;
   FractureModel model_;
   Unknowns unknowns_;
   Staggered staggered_;
   FractureState start_;
+};
+
+/// Windows around the cells whose damage changes most.
+class Windows : public LocalIterations {
+ public:
+  bool iterate(Staggered& whole, const Turn& turn, FractureState& state, StepOutcome& outcome) override;
 };
 
 }  // namespace pfdm

@@ -66,7 +66,7 @@ class Bar {
     double end;
     Index n_steps;
   };
-  using Seen = std::function<void(const FractureRun&, const FractureState&)>;
+  using Seen = std::function<void(FractureRun&, const FractureState&)>;
   std::vector<BarState> run(const std::vector<Leg>& legs, const Seen& seen = {}) const;
 
   /// To the end of the load, by steps that dissipate no more than `dissipation` times Gc on the bar's section: past
@@ -97,7 +97,7 @@ class Bar {
   static Mesh make_mesh(const BarSettings& settings);
   FractureModel make_model() const;
   BarState state_of(const FractureState& state, double force, double fracture_energy) const;
-  RunHooks recorder(std::vector<BarState>& states) const;
+  StepSeen recorder(std::vector<BarState>& states) const;
   std::vector<BarState> run_with(LoadingSettings loading) const;
   StaggeredSettings staggered() const {
     return {
@@ -173,37 +173,31 @@ inline BarState Bar::state_of(const FractureState& state, double force, double f
           .damage = state.damage};
 }
 
-inline RunHooks Bar::recorder(std::vector<BarState>& states) const {
+inline StepSeen Bar::recorder(std::vector<BarState>& states) const {
   const auto pulled = static_cast<std::size_t>(&mesh_.patch("xmax") - mesh_.patches.data());
-  RunHooks hooks;
-  hooks.step_done = [this, pulled, &states](const FractureState& state, const StepReport& report) {
+  return [this, pulled, &states](const FractureState& state, const StepReport& report) {
+    for (const std::string& remark : report.remarks) ADD_FAILURE() << remark;
     if (report.step == 0) return;
     states.push_back(state_of(state, report.reaction[pulled][0], report.fracture_energy));
     states.back().imbalance =
         (report.external_work - report.elastic_energy - report.fracture_energy) / report.external_work;
   };
-  hooks.warned = [](const std::string& message) { ADD_FAILURE() << message; };
-  return hooks;
 }
 
 inline std::vector<BarState> Bar::run(const std::vector<Leg>& legs, const Seen& seen) const {
   std::vector<BarState> states;
-  const FractureRun* running = nullptr;
-  RunHooks hooks = recorder(states);
-  if (seen)
-    hooks.step_done = [&, record = hooks.step_done](const FractureState& state, const StepReport& report) {
-      record(state, report);
-      if (report.step > 0) seen(*running, state);
-    };
+  const StepSeen record = recorder(states);
   FractureState state;
   for (const auto& [end, n_steps] : legs) {
     const double increment = (end - state.load) / n_steps;
     FractureRun leg(mesh_, model_, staggered(),
                     {.end = end, .initial_increment = increment, .maximum_increment = increment, .stops = {}});
-    running = &leg;
     if (state.step == 0) state = leg.initial_state();
     state.increment = increment;
-    state = leg.run(state, hooks);
+    state = advance_to_end(leg, std::move(state), [&](const FractureState& now, const StepReport& report) {
+      record(now, report);
+      if (seen) seen(leg, now);
+    });
   }
   return states;
 }
@@ -228,7 +222,7 @@ inline std::vector<BarState> Bar::resolve(double end, double increment, double e
 inline std::vector<BarState> Bar::run_with(LoadingSettings loading) const {
   std::vector<BarState> states;
   FractureRun run(mesh_, model_, staggered(), std::move(loading));
-  run.run(run.initial_state(), recorder(states));
+  run_to_end(run, recorder(states));
   return states;
 }
 

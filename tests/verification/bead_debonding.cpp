@@ -41,13 +41,12 @@ FractureModel bead_model(const Mesh& mesh, double radius, double stress) {
 double load_of_growth(FractureRun& run, double energy) {
   double at_start = 0.0, load = 0.0;
   bool has_grown = false;
-  RunHooks hooks;
-  hooks.step_done = [&](const FractureState&, const StepReport& now) {
+  const auto step_done = [&](const FractureState&, const StepReport& now) {
     if (now.step == 1) at_start = now.fracture_energy;
     has_grown = has_grown || (now.step > 1 && now.fracture_energy > at_start + energy);
     if (!has_grown) load = now.load;
   };
-  run.run(run.initial_state(), hooks);
+  run_to_end(run, step_done);
   EXPECT_TRUE(has_grown);
   return load;
 }

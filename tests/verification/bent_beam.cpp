@@ -56,13 +56,12 @@ TEST(BentBeam, BreaksPartOfTheWayInOneJump) {
     double displacement, force, balance;
   };
   std::vector<Row> rows;
-  RunHooks hooks;
-  hooks.step_done = [&](const FractureState&, const StepReport& r) {
+  const auto step_done = [&](const FractureState&, const StepReport& r) {
     Vector sum = Vector::Zero();
     for (const Vector& reaction : r.reaction) sum += reaction;
     rows.push_back({0.1 * r.load, -r.reaction[load].y(), sum.norm()});
   };
-  const CellField<double> damage = run.run(run.initial_state(), hooks).damage;
+  const CellField<double> damage = run_to_end(run, step_done).damage;
   const auto peak =
       std::max_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.force < b.force; });
   ASSERT_NE(std::next(peak), rows.end());

@@ -177,11 +177,10 @@ Measured pulled(double a, Index n_steps) {
                     {.end = load, .initial_increment = increment, .maximum_increment = increment, .stops = {}});
     FractureState start = from ? *from : run.initial_state();
     start.increment = increment;
-    RunHooks hooks;
-    hooks.step_done = [&](const FractureState& state, const StepReport&) {
+    const auto step_done = [&](const FractureState& state, const StepReport&) {
       measured.add(state.load * end, sample_columns(mesh, model, run.output(state), set).front());
     };
-    return from ? run.go_on(start, hooks) : run.run(start, hooks);
+    return from ? advance_to_end(run, start, step_done) : run_to_end(run, start, step_done);
   };
   const double elastic = 0.97 * compliance.load_at(0.0) / end;
   const FractureState broken =

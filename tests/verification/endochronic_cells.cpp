@@ -55,11 +55,10 @@ std::vector<Step> steps_of(const Mesh& mesh, const FractureModel& model, const L
                            const StaggeredSettings& settings = tight) {
   FractureRun run(mesh, model, settings, loading);
   std::vector<Step> steps;
-  RunHooks hooks;
-  hooks.step_done = [&](const FractureState& state, const StepReport& report) {
+  const auto step_done = [&](const FractureState& state, const StepReport& report) {
     if (report.step > 0) steps.push_back({report, run.output(state)});
   };
-  run.run(run.initial_state(), hooks);
+  run_to_end(run, step_done);
   return steps;
 }
 

@@ -36,9 +36,8 @@ double bead_imbalance(const Mesh& mesh, const std::string& split, Index n_steps)
   FractureRun run(mesh, bead_model(mesh, split, 0.17), {},
                   {.initial_increment = 1.0 / n_steps, .maximum_increment = 1.0 / n_steps, .stops = {}});
   StepReport last;
-  RunHooks hooks;
-  hooks.step_done = [&](const FractureState&, const StepReport& report) { last = report; };
-  run.run(run.initial_state(), hooks);
+  const auto step_done = [&](const FractureState&, const StepReport& report) { last = report; };
+  run_to_end(run, step_done);
   EXPECT_GT(last.max_damage, 0.2);
   EXPECT_LT(last.max_damage, 0.9);
   return (last.external_work - last.elastic_energy - last.fracture_energy) / last.external_work;

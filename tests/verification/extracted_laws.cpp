@@ -53,10 +53,10 @@ TEST_P(ExtractedFromBar, IsTheProducedLaw) {
   const std::string softening = GetParam();
   const Bar bar(cohesive_bar(softening, 20.0));
   Extraction extraction(bar, 4.0 * Bar::ell);
-  const FractureRun sound(bar.mesh(), bar.model(), {}, {});
+  FractureRun sound(bar.mesh(), bar.model(), {}, {});
   extraction.add(sound.output(sound.initial_state()));
   bar.run({{0.99, 1}, {1.05, 6}, {4.3, 50}},
-          [&](const FractureRun& run, const FractureState& state) { extraction.add(run.output(state)); });
+          [&](FractureRun& run, const FractureState& state) { extraction.add(run.output(state)); });
 
   const CohesiveLaw law = extraction.law();
   const CohesiveFigures figures = figures_of(extraction.record(), law);

@@ -16,9 +16,8 @@ TEST(IncompressibleBinder, Debonds) {
   FractureRun run(mesh, bead_model(mesh, "none", 0.32, 0.4999), {},
                   {.initial_increment = 0.2, .maximum_increment = 0.2, .stops = {}});
   std::vector<StepReport> steps;
-  RunHooks hooks;
-  hooks.step_done = [&](const FractureState&, const StepReport& report) { steps.push_back(report); };
-  const FractureState end = run.run(run.initial_state(), hooks);
+  const auto step_done = [&](const FractureState&, const StepReport& report) { steps.push_back(report); };
+  const FractureState end = run_to_end(run, step_done);
   const double krylov = double(run.krylov_iterations()) / run.staggered_iterations();
   const double before = steps[3].external_work, stored = steps[3].elastic_energy + steps[3].fracture_energy;
   report_row(fmt::format("{} cells", mesh.n_cells()), {{"largest d", steps.back().max_damage},

@@ -68,14 +68,9 @@ Broken load(Plate plate, int component, bool held, double end, const LoadingSett
   const auto top = static_cast<std::size_t>(&plate.mesh.patch("ymax") - plate.mesh.patches.data());
   Broken broken;
   broken.damage =
-      run.run(run.initial_state(), {.step_done =
-                                        [&](const FractureState&, const StepReport& report) {
-                                          broken.rows.push_back({report.load * end, report.reaction[top][component],
-                                                                 report.staggered_iterations});
-                                        },
-                                    .iterated = {},
-                                    .warned = {}})
-          .damage;
+      run_to_end(run, [&](const FractureState&, const StepReport& report) {
+        broken.rows.push_back({report.load * end, report.reaction[top][component], report.staggered_iterations});
+      }).damage;
   broken.iterations = run.staggered_iterations();
   report_row("peak", {{"displacement, mm", broken.peak().displacement / mm},
                       {"force, N", broken.peak().force},

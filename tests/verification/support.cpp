@@ -60,6 +60,21 @@ FractureModel elastic_model(std::vector<IsotropicElasticity> by_region, std::vec
   return model;
 }
 
+FractureState advance_to_end(FractureRun& run, FractureState state, const StepSeen& seen) {
+  while (!run.is_complete(state)) {
+    const StepReport report = run.step(state);
+    seen(state, report);
+  }
+  return state;
+}
+
+FractureState run_to_end(FractureRun& run, FractureState start, const StepSeen& seen) {
+  seen(start, run.report_of(start));
+  return advance_to_end(run, std::move(start), seen);
+}
+
+FractureState run_to_end(FractureRun& run, const StepSeen& seen) { return run_to_end(run, run.initial_state(), seen); }
+
 std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureModel& model, const CellField<double>& g,
                                                double residual, const DisplacementField& body_force, double closure) {
   auto solution = std::make_unique<ElasticSolution>();

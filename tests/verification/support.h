@@ -5,7 +5,7 @@
 #include "mesh/box_hexes.h"
 #include "mesh/dual.h"
 #include "mesh/particles_in_box.h"
-#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/fracture_run.h"
 #include "solver/momentum/momentum_solver.h"
 
 #include <memory>
@@ -26,6 +26,12 @@ std::vector<BoundaryCondition> displacement_on_all(const Mesh& mesh, const Displ
 
 /// One elasticity per region, undamageable, no split.
 FractureModel elastic_model(std::vector<IsotropicElasticity> by_region, std::vector<BoundaryCondition> boundary);
+
+using StepSeen = std::function<void(const FractureState&, const StepReport&)>;
+/// Steps to the end of the load; `seen` is called after each. run_to_end calls it for the start as well.
+FractureState advance_to_end(FractureRun& run, FractureState state, const StepSeen& seen);
+FractureState run_to_end(FractureRun& run, FractureState start, const StepSeen& seen);
+FractureState run_to_end(FractureRun& run, const StepSeen& seen);
 
 /// Equilibrium with the stiffness factors g (all 1 if empty) and a body force [N/m^3] (none if empty), to a relative
 /// residual.

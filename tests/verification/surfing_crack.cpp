@@ -59,8 +59,7 @@ TEST(SurfingCrack, FollowsTheFieldAndDissipatesItsToughness) {
     double load, tip, G, fracture, left_over;
   };
   std::vector<Row> rows;
-  RunHooks hooks;
-  hooks.step_done = [&](const FractureState& state, const StepReport& report) {
+  const auto step_done = [&](const FractureState& state, const StepReport& report) {
     if (report.load < 0.395) return;  // the ring has left the notch behind
     const EnergyRelease release = energy_release_rate(mesh, run.output(state), region);
     rows.push_back({report.load, release.tip.x(), release.G, report.fracture_energy,
@@ -68,7 +67,7 @@ TEST(SurfingCrack, FollowsTheFieldAndDissipatesItsToughness) {
     EXPECT_LT(release.damaged_share, 0.02);
     EXPECT_NEAR(release.tip.y(), 0.0, 1e-9);
   };
-  run.run(run.initial_state(), hooks);
+  run_to_end(run, step_done);
   const Row &first = rows.front(), &last = rows.back();
   const double advance = last.tip - first.tip, area = advance * thickness;
   const double dissipated = (last.fracture - first.fracture) / (Gc * area);

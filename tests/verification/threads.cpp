@@ -21,8 +21,7 @@ Outcome debond(const Mesh& mesh, int threads) {
   FractureRun run(mesh, bead_model(mesh, "volumetric_deviatoric", 0.2), {},
                   {.initial_increment = 0.25, .maximum_increment = 0.25, .stops = {}});
   Outcome outcome;
-  RunHooks hooks;
-  hooks.step_done = [&](const FractureState&, const StepReport& report) {
+  const auto step_done = [&](const FractureState&, const StepReport& report) {
     if (report.step == 0) return;
     outcome.reactions.push_back(report.reaction);
     Vector sum = Vector::Zero();
@@ -33,7 +32,7 @@ Outcome debond(const Mesh& mesh, int threads) {
     }
     outcome.largest_imbalance = std::max(outcome.largest_imbalance, sum.norm() / largest);
   };
-  outcome.state = run.run(run.initial_state(), hooks);
+  outcome.state = run_to_end(run, step_done);
   report_row(std::to_string(threads) + " threads",
              {{"staggered iterations", run.staggered_iterations()},
               {"krylov iterations", run.krylov_iterations()},

@@ -40,13 +40,12 @@ std::vector<Row> stretch(const std::function<double(double)>& strain, double vis
   const auto pulled = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
   const double volume = side * side * side;
   std::vector<Row> rows;
-  RunHooks hooks;
-  hooks.step_done = [&](const FractureState&, const StepReport& r) {
+  const auto step_done = [&](const FractureState&, const StepReport& r) {
     if (r.step > 0)
       rows.push_back({r.max_damage, r.reaction[pulled][0] / (side * side), r.elastic_energy / volume,
                       r.fracture_energy / volume, r.external_work / volume, r.viscous_dissipation / volume});
   };
-  run.run(run.initial_state(), hooks);
+  run_to_end(run, step_done);
   return rows;
 }
 

@@ -28,13 +28,12 @@ Outcome debond(const Mesh& mesh, bool windows) {
   FractureRun run(mesh, bead_model(mesh, split, 0.2), {.maximum_iterations = 1000, .windows = windows},
                   {.initial_increment = 0.25, .maximum_increment = 0.25, .stops = {}});
   Outcome outcome;
-  RunHooks hooks;
-  hooks.step_done = [&](const FractureState&, const StepReport& report) {
+  const auto step_done = [&](const FractureState&, const StepReport& report) {
     const auto top = &mesh.patch("zmax") - mesh.patches.data();
     outcome.force.push_back(report.reaction[static_cast<std::size_t>(top)].z());
     outcome.fracture_energy.push_back(report.fracture_energy);
   };
-  outcome.state = run.run(run.initial_state(), hooks);
+  outcome.state = run_to_end(run, step_done);
   outcome.iterations = run.staggered_iterations();
   outcome.window_iterations = run.window_iterations();
   return outcome;
@@ -80,10 +79,9 @@ class AtRest {
     state = start_;
     state.load = 1.0;
     // Twice, as the weights of its gradients may lag behind the damage, which those of a window do not.
-    for (int turn = 0; turn < 2; ++turn) is_settled = whole_.solve_step(start_, state, {}, {}).converged;
+    for (int turn = 0; turn < 2; ++turn) is_settled = whole_.solve_step(start_, state).converged;
     whole_.renew_driving_energy(start_, state);
     whole_.damage_equation().renewed_fracture_energy(state.damage);
-    face_displacement_ = whole_.momentum().balance().mechanics(state.displacement).face_displacement;
   }
 
   std::vector<std::vector<Index>> windows_at_front() const {
@@ -95,17 +93,8 @@ class AtRest {
 
   // Whether it converged.
   bool settle(const std::vector<Index>& cells, FractureState& after) {
-    Window window({.mesh = mesh,
-                   .model = model_,
-                   .unknowns = unknowns_,
-                   .start = start_,
-                   .state = state,
-                   .face_displacement = face_displacement_,
-                   .damage_equation = whole_.damage_equation(),
-                   .stiffness = whole_.stiffness(),
-                   .residual_reference = whole_.momentum().residual_reference(),
-                   .duration = 0.0},
-                  cells, {.damage_tolerance = 1e-6, .equilibrium_tolerance = 1e-7, .maximum_iterations = 50});
+    Window window(whole_, {start_, state, state.damage, 0.0, 0.0}, cells,
+                  {.damage_tolerance = 1e-6, .equilibrium_tolerance = 1e-7, .maximum_iterations = 50});
     return window.settle(after).converged;
   }
 
@@ -129,7 +118,6 @@ class AtRest {
       .damage_tolerance = 1e-7, .energy_tolerance = 1e-9, .equilibrium_tolerance = 1e-8, .maximum_iterations = 5000};
   Staggered whole_{mesh, model_, unknowns_, tight_};
   FractureState start_ = FractureRun(mesh, model_, tight_, {}).initial_state();
-  FaceField<Vector> face_displacement_;
 };
 
 // With broken cells at the cut.

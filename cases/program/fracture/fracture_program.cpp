@@ -30,11 +30,6 @@ namespace {
 /// loaded.
 constexpr std::string_view may_change_on_the_way[] = {"solver", "loading", "experiment", "fit", "sweep"};
 
-/// Thrown out of the load stepping when no more steps are wanted.
-struct EnoughSteps {
-  const char* why;
-};
-
 /// Where the wall-clock time of a run goes [s].
 struct RunTimes {
   Stopwatch whole;
@@ -174,41 +169,50 @@ struct RunningCase {
   bool goes_on = false;  ///< from a state that is in the results already
 };
 
-void step_done(RunningCase& c, const FractureState& now, const StepReport& report) {
+void record(RunningCase& c, const FractureState& now, const StepReport& report) {
   const Stopwatch watch;
+  for (const std::string& remark : report.remarks) c.session.log.warn(remark);
   for (const std::string& warning : c.results.step_done(now, report, [&] { return c.run.output(now); }))
     c.session.log.warn(warning);
   c.state = now;
   c.times.results += watch.seconds();
 }
 
+/// Why the run ends after this step; empty if it continues.
+std::string reason_to_end(const RunningCase& c, Index first_step) {
+  if (c.run.is_complete(c.state)) return "complete";
+  if (c.session.max_steps && c.state.step - first_step >= *c.session.max_steps) return "stopped by --max-steps";
+  if (c.session.until && c.results.last_row().displacement >= *c.session.until)
+    return "stopped at the last displacement needed";
+  return "";
+}
+
 /// Steps until the end of the load, --max-steps or failure; returns what became of it.
 std::string advance(RunningCase& c) {
-  const double end = c.program.fracture.loading.end;
-  RunProgress progress(c.session.log, c.state.load, end);
-  const Index first_step = c.state.step;
-  RunHooks hooks;
+  RunProgress progress(c.session.log, c.state.load, c.program.fracture.loading.end);
   const LooksForStop looks;
-  hooks.iterated = [&](const IterationReport& iteration) {
+  const auto iterated = [&](const IterationReport& iteration) {
     progress.iterated(iteration);
     stop_if_asked();
   };
-  hooks.warned = [&](const std::string& message) { c.session.log.warn(message); };
-  hooks.step_done = [&](const FractureState& now, const StepReport& report) {
-    step_done(c, now, report);
+  const auto recorded = [&](const FractureState& now, const StepReport& report) {
+    record(c, now, report);
     const CurveRow& row = c.results.last_row();
     progress.step_done(report, row.displacement, row.force[c.program.fracture.output.curve.component]);
-    if (c.session.max_steps && now.step - first_step >= *c.session.max_steps)
-      throw EnoughSteps{"stopped by --max-steps"};
-    if (c.session.until && row.displacement >= *c.session.until && now.load < end)
-      throw EnoughSteps{"stopped at the last displacement needed"};
   };
-  try {
-    c.goes_on ? c.run.go_on(c.state, hooks) : c.run.run(c.state, hooks);
-    return "complete";
-  } catch (const EnoughSteps& enough) {
-    return enough.why;
+  const Index first_step = c.state.step;
+  FractureState next = c.state;
+  std::string reason = c.run.is_complete(next) ? "complete" : "";
+  if (!c.goes_on) {
+    recorded(next, c.run.report_of(next));
+    reason = reason_to_end(c, first_step);
   }
+  while (reason.empty()) {
+    const StepReport report = c.run.step(next, iterated);
+    recorded(next, report);
+    reason = reason_to_end(c, first_step);
+  }
+  return reason;
 }
 
 /// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said.
