@@ -279,7 +279,7 @@ const BadInput bad_experiments[] = {
     {"file_that_is_not_there", "data/one.csv", "data/won.csv", {"case.toml:54: [experiment.specimens] csv", "won.csv"}},
     {"column_that_is_not_there", "\"f\"", "\"g\"", {"there is no column \"g\" (available: u, f, back)"}},
     {"unit_of_another_dimension", "\"kN\"", "\"kPa\"", {"is a stress; expected a force"}},
-    {"displacements_that_fall", "column = \"u\"", "column = \"back\"", {"the displacements fall"}},
+    {"displacements_that_fall", "column = \"u\"", "column = \"back\"", {"the displacements decrease"}},
     {"range_that_is_empty", "[\"1 um\", \"5 um\"]", "[\"5 um\", \"1 um\"]", {"must be the larger"}},
     {"range_without_unit", "[\"1 um\", \"5 um\"]", "[1, 5]", {"has no unit"}},
     {"misspelt_key", "stiffness_between", "stiffness_betwen", {"did you mean \"stiffness_between\"?"}},

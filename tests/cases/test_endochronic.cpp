@@ -147,7 +147,7 @@ const BadInput bad_inputs[] = {
     {"unknown_hardening",
      "\"saturating\"",
      "\"saturated\"",
-     {"no hardening law; did you mean \"saturating\"?", "table"}},
+     {"is not a hardening law; did you mean \"saturating\"?", "table"}},
     {"hardening_without_parameter", "f_inf = 2.0\n", "", {"[material.hardening] \"f_inf\" is missing"}},
     {"parameter_of_another_law", "b = 6.0", "b = 6.0\nn = 1", {"[material.hardening] \"n\" is not known here"}},
     {"rate_of_another_dimension", "\"1e-4 1/s\"", "\"1e-4 s\"", {"is a time; expected a rate"}},

@@ -125,7 +125,7 @@ TEST_P(BadFitCase, IsRefusedWithOneMessage) {
 }
 
 const BadFit bad_fits[] = {
-    {"unknown_method", "\"joint\"", "\"join\"", "no method of identification; did you mean \"joint\"?"},
+    {"unknown_method", "\"joint\"", "\"join\"", "is not a method of identification; did you mean \"joint\"?"},
     {"unknown_part", "\"hardening\"]", "\"softening\"]",
      "\"softening\" is not a part of the law that can be estimated"},
     {"bound_of_no_parameter", "f_inf = [0.5, 10]", "f_0 = [0.5, 10]", "\"f_0\" is not estimated (available: C_1"},

@@ -68,7 +68,7 @@ const BadInput bad_frames[] = {
      "maximum_increment = 0.1\n\n[output]\ncurve = { patch = \"xmax\", component = \"x\" }\nframes_at = [\"0.006 mm\"]",
      "maximum_dissipation = \"4 uJ\"\n\n[output]\ncurve = { patch = \"xmax\", component = \"x\" }\ntime_value = "
      "\"load\"",
-     {"[output] time_value: with loading.maximum_dissipation the load may fall"}},
+     {"[output] time_value: with loading.maximum_dissipation the load may decrease"}},
     {"unknown_compression", frames_at, "compression = \"gzip\"", {"[output] compression: ", "zlib, lz4, none"}},
 };
 

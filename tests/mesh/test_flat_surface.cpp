@@ -104,7 +104,7 @@ TEST(FlatSurface, ThatIsNoneIsRefused) {
                 polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.1}});
               }),
               HasSubstr("off the plane"));
-  EXPECT_THAT(message_of<InputError>([] { polygon({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}); }), HasSubstr("on a line"));
+  EXPECT_THAT(message_of<InputError>([] { polygon({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}); }), HasSubstr("collinear"));
   EXPECT_THAT(message_of<InputError>([] { strip({0, 0, 0}, {0, 0, 1}, Vector::UnitZ()); }), HasSubstr("no surface"));
 }
 

@@ -160,7 +160,8 @@ TEST_F(ImportVtk, RegionsByTheUsualOrTheGivenArray) {
   settings.region_names = {{2, "all"}};
   EXPECT_EQ(import_vtk(settings).region_names, std::vector<std::string>{"all"});
   settings.region_names = {{7, "nowhere"}};
-  EXPECT_THAT(message_of<InputError>([&] { import_vtk(settings); }), AllOf(HasSubstr("number 7"), HasSubstr("are: 2")));
+  EXPECT_THAT(message_of<InputError>([&] { import_vtk(settings); }),
+              AllOf(HasSubstr("number 7"), HasSubstr("available: 2")));
   settings.region_array = "load";
   EXPECT_THAT(message_of<InputError>([&] { import_vtk(settings); }),
               AllOf(HasSubstr("\"load\""), HasSubstr("colour, gmsh:physical")));

@@ -92,18 +92,21 @@ TEST(SurfaceChecks, NameWhatIsWrong) {
 
   TriangleSurface twisted = sphere;
   std::swap(twisted.triangles[4][0], twisted.triangles[4][1]);
-  EXPECT_THAT(message_of<InputError>([&] { check_surfaces({{"bead 7", twisted}}); }), HasSubstr("not a surface"));
+  EXPECT_THAT(message_of<InputError>([&] {
+                check_surfaces({{"bead 7", twisted}});
+              }),
+              HasSubstr("not an orientable manifold"));
 
   TriangleSurface shifted = sphere;
   for (Vector& x : shifted.points) x[0] += 1.5;
   EXPECT_THAT(message_of<InputError>([&] {
                 check_surfaces({{"bead 7", sphere}, {"bead 8", shifted}});
               }),
-              ::testing::AllOf(HasSubstr("bead 7"), HasSubstr("bead 8"), HasSubstr("cross")));
+              ::testing::AllOf(HasSubstr("bead 7"), HasSubstr("bead 8"), HasSubstr("intersect")));
 
   TriangleSurface dented = sphere;
   dented.points[0] *= -1.5;
-  EXPECT_THAT(message_of<InputError>([&] { check_surfaces({{"bead 7", dented}}); }), HasSubstr("cross"));
+  EXPECT_THAT(message_of<InputError>([&] { check_surfaces({{"bead 7", dented}}); }), HasSubstr("intersect"));
 }
 
 }  // namespace

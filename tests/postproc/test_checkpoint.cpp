@@ -86,11 +86,11 @@ TEST(Checkpoint, every_shortened_file_is_refused) {
   const std::string whole = content_of(folder / "c.bin");
   for (std::size_t n = 0; n < whole.size(); ++n) {
     put(folder / "short.bin", whole.substr(0, n));
-    EXPECT_THAT(message_of<InputError>([&] { read_checkpoint(folder / "short.bin", hash); }), HasSubstr("cut short"))
+    EXPECT_THAT(message_of<InputError>([&] { read_checkpoint(folder / "short.bin", hash); }), HasSubstr("truncated"))
         << n;
   }
   put(folder / "long.bin", whole + "x");
-  EXPECT_THAT(message_of<InputError>([&] { read_checkpoint(folder / "long.bin", hash); }), HasSubstr("added to"));
+  EXPECT_THAT(message_of<InputError>([&] { read_checkpoint(folder / "long.bin", hash); }), HasSubstr("extended"));
 }
 
 TEST(Checkpoint, every_flipped_bit_is_noticed) {

@@ -45,7 +45,7 @@ TEST(CsvTable, takes_blanks_comments_and_foreign_line_ends) {
 
 TEST(CsvTable, says_what_is_wrong_and_where) {
   using testing::HasSubstr;
-  EXPECT_THAT(complaint("a,b\n1,2\n3\n"), HasSubstr("line 3: 1 entries in a table of 2 columns"));
+  EXPECT_THAT(complaint("a,b\n1,2\n3\n"), HasSubstr("line 3: found 1 entries in a table of 2 columns"));
   EXPECT_THAT(complaint("a,b\n1,x\n"), HasSubstr("line 2: \"x\" in column \"b\" is not a number"));
   EXPECT_THAT(complaint("a,b\n1,nan\n"), HasSubstr("is not a number"));
   EXPECT_THAT(complaint("1,2\n3,4\n"),

@@ -173,13 +173,13 @@ TEST_F(UniversalFiles, SayWhatIsWrongWithThem) {
   f.data_type = 5;
   EXPECT_THAT(refused(f.text()), HasSubstr("complex"));
   f.data_type = 3;
-  EXPECT_THAT(refused(f.text()), HasSubstr("data type 3 is not known"));
+  EXPECT_THAT(refused(f.text()), HasSubstr("data type 3 is not supported"));
   f = {};
   f.abscissa = "  0.00000E+00  0.00000E+00  0.00000E+00";
-  EXPECT_THAT(refused(f.text()), HasSubstr("abscissa grows by 0"));
+  EXPECT_THAT(refused(f.text()), HasSubstr("abscissa increment is 0"));
   f = {};
   f.end = "";
-  EXPECT_THAT(refused(f.text()), HasSubstr("cut short"));
+  EXPECT_THAT(refused(f.text()), HasSubstr("truncated"));
   f.values = "";
   EXPECT_THAT(refused(f.text()), HasSubstr("the file ends where a data value is expected"));
   f = {};
@@ -218,7 +218,8 @@ TEST(Hdf5, SaysWhatIsWrongWithAFile) {
   const TemporaryFolder folder;
   EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "none.h5"); }), HasSubstr("none.h5"));
   put(folder / "bad.hdf5", "no such thing");
-  EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "bad.hdf5"); }), HasSubstr("no HDF5 file"));
+  EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "bad.hdf5"); }),
+              HasSubstr("not a readable HDF5 file"));
   std::string half = content_of(data / "records.h5");
   half.resize(half.size() / 2);
   put(folder / "half.h5", half);
