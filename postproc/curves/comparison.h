@@ -18,7 +18,7 @@ struct SampledCurve {
 };
 
 /// The curve of a test that is driven by its displacement: where the computed one falls back (path-following), the
-/// force drops at the largest displacement so far to the branch that goes on from there.
+/// force drops at the largest displacement so far to the branch that continues there.
 SampledCurve driven_curve(const SampledCurve& followed);
 
 /// At points evenly spaced over the common range.

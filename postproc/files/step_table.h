@@ -12,7 +12,7 @@ namespace pfdm {
 
 class StepTable {
  public:
-  /// `names` are those of all columns, the first being the step's. Starts a table without rows, or goes on from the one
+  /// `names` are those of all columns, the first being the step's. Starts a table without rows, or continues the one
   /// on the disk, of which the rows up to `last_step` are kept. Throws ComputationError if the file cannot be written,
   /// as append() does; InputError that names file and line for what is not such a table.
   StepTable(std::filesystem::path path, std::vector<std::string> names, std::optional<Index> last_step);

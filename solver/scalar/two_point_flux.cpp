@@ -126,7 +126,7 @@ Gradient TwoPointFlux::build_gradient() const {
 
 // The two-sided flux is c (u_N + grad_N.d_N - u_P - grad_P.d_P) plus the averaged normal gradients; what is beyond
 // c (u_N - u_P) is deferred. Where it is limited it never moves either side by more than u ranges over around it: at
-// the corner of a front the gradients overshoot, and an active set would flip for ever.
+// the corner of a front the gradients overshoot, and an active set would not converge.
 void TwoPointFlux::renew_correction(const CellField<double>& u) {
   parallel_for(mesh_.n_cells(), [&](Index c) {
     gradients_[as_size(c)] = gradient_.of(u.data(), c);

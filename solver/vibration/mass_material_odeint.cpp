@@ -64,7 +64,7 @@ double absolute_tolerance(const Excitation& excitation, double tolerance) {
   return tolerance * std::max(largest, 1e-12) / (omega * omega);
 }
 
-/// Steps a state from sample to sample; the step goes on beyond a sample that cut it short.
+/// Steps a state from sample to sample; the step continues beyond a sample that cut it short.
 class Marcher {
  public:
   Marcher(const MassMaterial& model, const Excitation& excitation, double rate, double tolerance)

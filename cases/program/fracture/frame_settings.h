@@ -20,7 +20,7 @@ struct FrameSettings {
 };
 
 /// time_value and compression of [output]. `full_displacement` is that of the curve's patch at load parameter 1 [m], if
-/// it is reached linearly. Times must rise: throws InputError for a time_value that would not, or is not known.
+/// it is reached linearly. Times must increase: throws InputError for a time_value that would not, or is not known.
 FrameSettings read_frame_settings(const ConfigTable& output, const LoadingSettings& loading,
                                   const std::optional<double>& full_displacement);
 

@@ -35,7 +35,8 @@ inline constexpr Dimension angle{"angle", "radian", "30 degree"};
 inline constexpr Dimension number{"number without a unit", "1", "0.3"};
 }  // namespace dimension
 
-/// The value in due.si_unit of a text such as "20 um". Throws InputError that says what was found and what is due.
+/// The value in due.si_unit of a text such as "20 um". Throws InputError that says what was found and what was
+/// expected.
 double parse_quantity(std::string_view text, const Dimension& due);
 
 /// How many due.si_unit one `unit` is; for expressions that carry their unit beside them. Throws like parse_quantity.
