@@ -269,7 +269,7 @@ class DualBuilder {
     }
     for (std::size_t c = 0; c < points.size(); ++c) {
       std::ranges::sort(points[c]);
-      points[c].erase(std::ranges::unique(points[c]).begin(), points[c].end());
+      points[c].erase(std::unique(points[c].begin(), points[c].end()), points[c].end());
       soup_.add_cell(CellShape::polyhedron, points[c], region_of_dual_[c]);
     }
   }

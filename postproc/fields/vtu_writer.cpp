@@ -119,7 +119,7 @@ void insert_cell(vtkUnstructuredGrid& grid, const Mesh& mesh, const GridPoints& 
   for (auto at = faces.entries.begin(); at != faces.entries.end(); at += *at + 1)
     all.insert(all.end(), at + 1, at + 1 + *at);
   std::ranges::sort(all);
-  all.erase(std::ranges::unique(all).begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   grid.InsertNextCell(type, static_cast<vtkIdType>(all.size()), all.data(), faces.n_faces, faces.entries.data());
 }
 

@@ -255,6 +255,7 @@ class UffReader {
 std::vector<std::string> names_of(const std::vector<UffFunction>& functions) {
   for (const auto member : {&UffFunction::id, &UffFunction::place, &UffFunction::label}) {
     std::vector<std::string> names;
+    names.reserve(functions.size());
     for (const UffFunction& f : functions) names.push_back(f.*member);
     const std::set<std::string> different(names.begin(), names.end());
     if (different.size() == names.size() && !different.contains("")) return names;

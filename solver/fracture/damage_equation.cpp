@@ -103,7 +103,7 @@ ScalarSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
 }
 
 CellField<double> DamageEquation::relaxed(const CellField<double>& given) {
-  constexpr Index most_turns = 100;  // of the deferred correction, and of an active set that has far to go
+  constexpr Index most_turns = 100;  // of the deferred correction, and of an active set far from its solution
   constexpr double precision = 1e-6;
   const CellField<double> no_energy(as_size(mesh_.n_cells()), 0.0);
   CellField<double> d = given;

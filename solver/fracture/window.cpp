@@ -105,7 +105,7 @@ void Window::hold_rim() {
   const Patch& cut = part_.cut_patch();
   for (Index f = cut.first_face; f < cut.first_face + cut.n_faces; ++f) rings.push_back(mesh.owner[f]);
   std::ranges::sort(rings);
-  rings.erase(std::ranges::unique(rings).begin(), rings.end());
+  rings.erase(std::unique(rings.begin(), rings.end()), rings.end());
   add_rings(mesh, rim - 1, rings);
   CellField<char> held = take_out(whole_.damage_equation().held(), part_.cell);
   if (held.size() == 0) held = CellField<char>(part_.cell.size(), 0);

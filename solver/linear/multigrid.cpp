@@ -63,8 +63,8 @@ void sweep_forward(const BlockMatrix& a, const std::vector<std::vector<Index>>& 
 
 void sweep_backward(const BlockMatrix& a, const std::vector<std::vector<Index>>& groups_by_colour,
                     const std::vector<Lane>& b, std::vector<Lane>& x) {
-  for (auto groups = groups_by_colour.rbegin(); groups != groups_by_colour.rend(); ++groups)
-    for_groups(*groups, [&](Index group) {
+  for (std::size_t colour = groups_by_colour.size(); colour-- > 0;)
+    for_groups(groups_by_colour[colour], [&](Index group) {
       for (Index i = std::min(a.n_rows(), (group + 1) * group_size) - 1; i >= group * group_size; --i)
         smooth_row(a, i, b, x);
     });

@@ -119,7 +119,7 @@ void OwnSlurm::configure() const {
   fs::permissions(folder_ / "munge.key", fs::perms(0600));
   fs::create_directory(folder_ / "state");
   fs::create_directory(folder_ / "spool");
-  std::ofstream(folder_ / "cgroup.conf");
+  std::ofstream(folder_ / "cgroup.conf") << "";
   std::ofstream(folder_ / "slurm.conf") << fmt::format(
       R"(ClusterName=pfdm
 SlurmctldHost={host}(127.0.0.1)
@@ -158,6 +158,7 @@ PartitionName=all Nodes={host} Default=YES MaxTime=INFINITE State=UP
 void OwnSlurm::start(const std::vector<std::string>& words) {
   std::vector<std::string> copy = words;
   std::vector<char*> arguments;
+  arguments.reserve(copy.size() + 1);
   for (std::string& word : copy) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const std::string log = (folder_ / "daemons.log").string();

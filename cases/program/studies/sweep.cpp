@@ -34,6 +34,7 @@ std::string column_name(const CaseParameter& parameter) {
 
 std::vector<std::optional<ReadSummary>> summaries_of(const std::vector<DoneRun>& runs) {
   std::vector<std::optional<ReadSummary>> summaries;
+  summaries.reserve(runs.size());
   for (const DoneRun& run : runs)
     summaries.push_back(run.went_well() ? read_summary(run.folder / summary_file) : std::nullopt);
   return summaries;
@@ -62,6 +63,7 @@ CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& run
   for (const auto& [name, ignored] : (*first)->numbers) {
     if (std::ranges::count(costs, name) > 0) continue;
     std::vector<double> values;
+    values.reserve(summaries.size());
     for (const auto& summary : summaries) values.push_back(summary ? summary->number(name) : Headlines::none);
     table.add(name, std::move(values));
   }
