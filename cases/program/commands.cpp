@@ -72,7 +72,7 @@ struct Parser {
   void add(const CommandText& text) {
     app.add_subcommand(text.name, text.description)->footer(fmt::format("\n{}\n\n{}", text.writes, exit_statuses));
   }
-  CLI::App& command(const std::string& name) { return *app.get_subcommand(name); }
+  CLI::App& command(const std::string& name) const { return *app.get_subcommand(name); }
   void add_case_options();
   void add_other_options();
 };

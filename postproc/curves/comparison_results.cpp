@@ -17,6 +17,7 @@ SampledCurve mean_curve(const ComparedCurves& curves) { return {.name = "mean", 
 
 std::vector<std::string> names_of(const std::vector<SampledCurve>& curves) {
   std::vector<std::string> names;
+  names.reserve(curves.size());
   for (const SampledCurve& curve : curves) names.push_back(curve.name);
   return names;
 }

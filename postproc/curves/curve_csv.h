@@ -4,7 +4,7 @@
 #include "solver/fracture/state.h"
 
 #include <filesystem>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace pfdm {
@@ -15,22 +15,15 @@ struct CurveRow {
   double load = 0.0;              ///< load parameter t
   double displacement = 0.0;      ///< one component of the patch's mean displacement [m]
   Vector force = Vector::Zero();  ///< on the patch [N]
-  double elastic_energy = 0.0;    ///< [J]
-  double fracture_energy = 0.0;   ///< [J]
-  double external_work = 0.0;     ///< [J]
+  EnergyAccount energy;           ///< [J]
   double max_damage = 0.0;        ///< [-]
   double damaged_volume = 0.0;    ///< [m^3]
   Index staggered_iterations = 0;
-  double viscous_dissipation = 0.0;  ///< [J]
-  double plastic_dissipation = 0.0;  ///< [J]
   friend bool operator==(const CurveRow&, const CurveRow&) = default;
 };
 
 inline constexpr const char* curve_file = "force_displacement.csv";
-constexpr std::string_view curve_header =
-    "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,external_work_J,"
-    "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J,"
-    "plastic_dissipation_J";
+std::string curve_header();
 
 /// Component 0, 1, 2 (x, y, z) of the displacement of the patch with this number in Mesh::patches.
 CurveRow curve_row(const StepReport& report, Index patch, int component);

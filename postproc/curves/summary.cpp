@@ -16,15 +16,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of the work that was done since the start, where there may be damage already.
-double left_over(const CurveRow& start, const CurveRow& row) {
-  return row.external_work - row.elastic_energy - (row.fracture_energy - start.fracture_energy) -
-         row.viscous_dissipation - row.plastic_dissipation;
-}
-
 double balance_error(const CurveRow& start, const CurveRow& row) {
-  if (!(row.external_work > 0.0)) return Headlines::none;
-  return std::abs(left_over(start, row)) / row.external_work;
+  if (!(row.energy.external_work > 0.0)) return Headlines::none;
+  return std::abs(left_over(start.energy, row.energy)) / row.energy.external_work;
 }
 
 double initial_stiffness(std::span<const CurveRow> rows, int component) {
@@ -43,7 +37,8 @@ double largest_balance_error(std::span<const CurveRow> rows) {
 
 void find_release(std::span<const CurveRow> rows, Headlines& figures) {
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const double released = left_over(rows.front(), rows[i]) - left_over(rows.front(), rows[i - 1]);
+    const double released =
+        left_over(rows.front().energy, rows[i].energy) - left_over(rows.front().energy, rows[i - 1].energy);
     if (figures.released_energy >= released) continue;  // none is no number, which is never so
     figures.released_energy = released;
     figures.displacement_at_release = rows[i].displacement;
@@ -51,24 +46,18 @@ void find_release(std::span<const CurveRow> rows, Headlines& figures) {
 }
 
 Json to_json(const Headlines& f) {
-  return {{"peak_force_N", f.peak_force},
-          {"displacement_at_peak_m", f.displacement_at_peak},
-          {"load_at_peak", f.load_at_peak},
-          {"initial_stiffness_N_per_m", f.initial_stiffness},
-          {"final_force_N", f.final_force},
-          {"final_displacement_m", f.final_displacement},
-          {"final_load", f.final_load},
-          {"final_elastic_energy_J", f.final_elastic_energy},
-          {"final_fracture_energy_J", f.final_fracture_energy},
-          {"external_work_J", f.external_work},
-          {"viscous_dissipation_J", f.viscous_dissipation},
-          {"plastic_dissipation_J", f.plastic_dissipation},
-          {"energy_balance_error", f.energy_balance_error},
-          {"max_energy_balance_error", f.max_energy_balance_error},
-          {"released_energy_J", f.released_energy},
-          {"displacement_at_release_m", f.displacement_at_release},
-          {"max_damage", f.max_damage},
-          {"damaged_volume_m3", f.damaged_volume}};
+  Json json = {{"peak_force_N", f.peak_force},   {"displacement_at_peak_m", f.displacement_at_peak},
+               {"load_at_peak", f.load_at_peak}, {"initial_stiffness_N_per_m", f.initial_stiffness},
+               {"final_force_N", f.final_force}, {"final_displacement_m", f.final_displacement},
+               {"final_load", f.final_load}};
+  for (const EnergyEntry& entry : energy_entries) json[fmt::format("{}_J", entry.figure)] = f.energy.*entry.value;
+  json.update(Json{{"energy_balance_error", f.energy_balance_error},
+                   {"max_energy_balance_error", f.max_energy_balance_error},
+                   {"released_energy_J", f.released_energy},
+                   {"displacement_at_release_m", f.displacement_at_release},
+                   {"max_damage", f.max_damage},
+                   {"damaged_volume_m3", f.damaged_volume}});
+  return json;
 }
 
 Json to_json(const RunSummary& s) {
@@ -119,11 +108,7 @@ Headlines headlines(std::span<const CurveRow> rows, int component) {
   figures.final_force = force(last);
   figures.final_displacement = last.displacement;
   figures.final_load = last.load;
-  figures.final_elastic_energy = last.elastic_energy;
-  figures.final_fracture_energy = last.fracture_energy;
-  figures.external_work = last.external_work;
-  figures.viscous_dissipation = last.viscous_dissipation;
-  figures.plastic_dissipation = last.plastic_dissipation;
+  figures.energy = last.energy;
   figures.max_damage = last.max_damage;
   figures.damaged_volume = last.damaged_volume;
   figures.energy_balance_error = balance_error(rows.front(), last);

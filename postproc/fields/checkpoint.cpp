@@ -17,7 +17,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view magic = "PFDMCKPT";
-constexpr std::uint32_t format_version = 4;
+constexpr std::uint32_t format_version = 5;
 constexpr std::size_t size_position = magic.size() + sizeof(format_version);
 constexpr std::size_t header_size = size_position + sizeof(std::uint64_t);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -117,10 +117,11 @@ class Reader {
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
   auto& [step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, endochronic,
-         boundary_force, external_work, viscous_dissipation, plastic_dissipation] = state;
+         boundary_force, energy] = state;
   const auto each = [&](auto&... members) { (archive(members), ...); };
   each(step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, endochronic,
-       boundary_force, external_work, viscous_dissipation, plastic_dissipation);
+       boundary_force);
+  for (const EnergyEntry& entry : energy_entries) archive(energy.*entry.value);
 }
 
 template <class T>

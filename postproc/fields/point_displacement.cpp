@@ -173,6 +173,7 @@ class PointMover {
     for (std::size_t i = 0; i < around.size(); ++i)
       if (!is_broken(around[i])) sides[sets.least_with(i)].push_back(around[i]);
     std::vector<Cells> list;
+    list.reserve(sides.size());
     for (auto& [first, cells] : sides) list.push_back(std::move(cells));
     return list;
   }

@@ -158,7 +158,7 @@ class PaperDevice : public vtkContextDevice2D {
     std::vector<PaperPoint> corners;
     for (int i = 0; i < n; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / n;
-      corners.push_back(centre + radius * PaperPoint(std::cos(angle), std::sin(angle)));
+      corners.emplace_back(centre + radius * PaperPoint(std::cos(angle), std::sin(angle)));
     }
     return corners;
   }

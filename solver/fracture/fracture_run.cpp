@@ -242,13 +242,15 @@ struct FractureRun::Parts {
     const StepOutcome& outcome = trial.outcome;
     const double increment = next.load - state.load;
     next.boundary_force = boundary_forces(next);
-    next.external_work = state.external_work + work_increment(state, next);
-    next.viscous_dissipation = state.viscous_dissipation + outcome.viscous_dissipation;
-    next.plastic_dissipation = state.plastic_dissipation + outcome.plastic_dissipation;
+    next.energy = outcome.energy;
+    next.energy.fracture = staggered.damage_equation().fracture_energy(next.damage);
+    next.energy.external_work = state.energy.external_work + work_increment(state, next);
+    for (const EnergyEntry& entry : energy_entries)
+      if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
     next.increment = next_increment(planned, outcome);
     state = std::move(next);
-    const std::string remark =
-        residual_stiffness.remark(outcome.share, std::max(outcome.starting_energy, state.external_work), state.load);
+    const std::string remark = residual_stiffness.remark(
+        outcome.share, std::max(outcome.starting_energy, state.energy.external_work), state.load);
     if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);
     result.remarks = std::move(remarks);
@@ -261,13 +263,7 @@ struct FractureRun::Parts {
     r.load = state.load;
     r.reaction = sum_by_patch(state.boundary_force);
     r.patch_displacement = staggered.momentum().balance().patch_displacements(state.displacement);
-    r.elastic_energy = outcome.elastic_energy;
-    DamageEquation& equation = staggered.damage_equation();
-    r.fracture_energy =
-        state.step == 0 ? equation.renewed_fracture_energy(state.damage) : equation.fracture_energy(state.damage);
-    r.external_work = state.external_work;
-    r.viscous_dissipation = state.viscous_dissipation;
-    r.plastic_dissipation = state.plastic_dissipation;
+    r.energy = state.energy;
     r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return state.damage[c]; });
     r.damaged_volume =
         parallel_sum(mesh.n_cells(), [&](Index c) { return state.damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
@@ -309,7 +305,11 @@ bool FractureRun::is_complete(const FractureState& state) const {
   return state.load >= parts_->loading.end - load_rounding;
 }
 
-StepReport FractureRun::report_of(const FractureState& start) { return parts_->report(start, {}, 0.0); }
+StepReport FractureRun::report_of(const FractureState& start) {
+  StepReport report = parts_->report(start, {}, 0.0);
+  report.energy.fracture = parts_->staggered.damage_equation().renewed_fracture_energy(start.damage);
+  return report;
+}
 
 StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) {
   std::vector<std::string> remarks;

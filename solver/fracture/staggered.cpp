@@ -46,11 +46,11 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   outcome.residual = equilibrium.residual;
   outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
   const Energies energies = update_driving_energy(start, state, false);
-  outcome.elastic_energy = energies.stored;
+  outcome.energy.elastic = energies.stored;
   outcome.share = residual_share(state, energies);
   outcome.collapsed = outcome.converged && has_collapsed(outcome.share);
-  outcome.viscous_dissipation = damage_.viscous_dissipation(state.damage);
-  outcome.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
+  outcome.energy.viscous_dissipation = damage_.viscous_dissipation(state.damage);
+  outcome.energy.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
   return outcome;
 }
 

@@ -27,14 +27,12 @@ struct StepOutcome {
   Index iterations = 0;
   double window_iterations = 0.0;  ///< in windows, each weighted by its fraction of the cells
   Index krylov_iterations = 0;
-  bool collapsed = false;            ///< abandoned: only the residual stiffness carries the loads
-  bool settled = false;              ///< all criteria hold but that of the momentum balance
-  double residual = 0.0;             ///< of the momentum balance, relative
-  double elastic_energy = 0.0;       ///< [J]
-  double starting_energy = 0.0;      ///< elastic, at the load of the step with the damage that it began with [J]
-  ResidualShare share{};             ///< of the residual stiffness
-  double viscous_dissipation = 0.0;  ///< of the step [J]
-  double plastic_dissipation = 0.0;  ///< of the step [J]
+  bool collapsed = false;        ///< abandoned: only the residual stiffness carries the loads
+  bool settled = false;          ///< all criteria hold but that of the momentum balance
+  double residual = 0.0;         ///< of the momentum balance, relative
+  EnergyAccount energy{};        ///< elastic at the end, dissipated within the step
+  double starting_energy = 0.0;  ///< elastic, at the load of the step with the damage that it began with [J]
+  ResidualShare share{};         ///< of the residual stiffness
 };
 
 /// Limits of a step, and its duration.

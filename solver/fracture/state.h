@@ -3,6 +3,7 @@
 
 #include "mesh/fields.h"
 #include "physics/endochronic.h"
+#include "solver/fracture/energy_account.h"
 
 #include <string>
 #include <vector>
@@ -22,9 +23,7 @@ struct FractureState {
   CellField<Tensor> tangent_strain;
   CellField<EndochronicState> endochronic;  ///< of the effective material; empty without such cells
   std::vector<Vector> boundary_force;       ///< on each boundary face [N], in the mesh's face order
-  double external_work = 0.0;               ///< [J]
-  double viscous_dissipation = 0.0;         ///< by the viscosity of the damage equation [J]
-  double plastic_dissipation = 0.0;         ///< by endochronic materials [J]
+  EnergyAccount energy;
 };
 
 /// One row of the force-displacement curve.
@@ -33,13 +32,9 @@ struct StepReport {
   double load = 0.0;
   std::vector<Vector> reaction;            ///< force on each patch [N]
   std::vector<Vector> patch_displacement;  ///< area mean of each patch's displacement [m]
-  double elastic_energy = 0.0;             ///< [J]
-  double fracture_energy = 0.0;            ///< [J]
-  double external_work = 0.0;              ///< [J]
-  double viscous_dissipation = 0.0;        ///< [J]
-  double plastic_dissipation = 0.0;        ///< [J]
-  double max_damage = 0.0;                 ///< [-]
-  double damaged_volume = 0.0;             ///< volume with d > 0.5 [m^3]
+  EnergyAccount energy;
+  double max_damage = 0.0;      ///< [-]
+  double damaged_volume = 0.0;  ///< volume with d > 0.5 [m^3]
   Index staggered_iterations = 0;
   Index krylov_iterations = 0;
   double increment = 0.0;            ///< of the load parameter

@@ -10,7 +10,7 @@ namespace pfdm {
 
 using Lane = Eigen::Array4f;  ///< three components and a zero
 
-struct Block {
+struct Block {  // NOLINT(bugprone-reserved-identifier): clang-tidy 14 takes a name of an intrinsic for its
   Lane column[3];
   Block() { column[0] = column[1] = column[2] = Lane::Zero(); }
   Block& operator+=(const Block& b) {

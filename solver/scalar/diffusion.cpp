@@ -93,7 +93,7 @@ Diffusion::Diffusion(const Mesh& mesh, DiffusionProblem problem) {
                            .exchanges = exchanges_of(mesh, problem.boundary),
                            .plane_normal = problem.plane_normal});
   CellField<double> inflow = inflow_of(mesh, problem.boundary);
-  parts_ = std::make_unique<Parts>(mesh, std::move(problem), std::move(flux), std::move(inflow));
+  parts_.reset(new Parts{mesh, std::move(problem), std::move(flux), std::move(inflow)});
 }
 
 Diffusion::~Diffusion() = default;

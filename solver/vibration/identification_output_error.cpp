@@ -64,7 +64,7 @@ class OutputError {
 /// A regression may overshoot what holds the mass: softer in its nonlinear part, it starts from somewhere.
 VectorXd bounded_start(OutputError& error, const ParameterCoordinates& coordinates, MassMaterial start) {
   for (int i = 0; i < 8; ++i) {
-    const VectorXd x = coordinates.from(start);
+    VectorXd x = coordinates.from(start);
     if (error.residuals(x).allFinite()) return x;
     for (std::size_t k = 1; k < start.stiffness.size(); ++k) start.stiffness[k] *= i < 6 ? 0.5 : 0.0;
   }

@@ -51,7 +51,7 @@ class ImportGmsh : public ::testing::Test {
 
   // What is said of a file of that content.
   std::string refusal(const std::string& content) const {
-    const std::string message = message_of<InputError>([&] { import_gmsh(write(content)); });
+    std::string message = message_of<InputError>([&] { import_gmsh(write(content)); });
     EXPECT_THAT(message, HasSubstr((folder_ / "mesh.msh").string()));
     return message;
   }
@@ -131,7 +131,7 @@ TEST_F(ImportGmsh, ElementsOfSecondOrderAreRefused) {
   std::vector<Vector> points = corners;
   for (const Index a : {0, 1, 2})
     for (const Index b : {1, 2, 3})
-      if (a < b) points.push_back(0.5 * (corners[as_size(a)] + corners[as_size(b)]));
+      if (a < b) points.emplace_back(0.5 * (corners[as_size(a)] + corners[as_size(b)]));
   EXPECT_THAT(refusal(msh22(points, {"11 2 0 1 1 2 3 4 5 8 6 7 10 9"})),
               AllOf(HasSubstr("element 100"), HasSubstr("type 11"), HasSubstr("Mesh.ElementOrder = 1")));
 }

@@ -13,7 +13,7 @@ namespace pfdm {
 namespace {
 
 std::filesystem::path table_in(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / name;
+  std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / name;
   std::filesystem::remove(path);
   return path;
 }
@@ -42,7 +42,7 @@ TEST(StepTable, RefusesWhatIsNoSuchTable) {
                                          std::pair("step,G\n0,one\n", "line 2")}) {
     std::ofstream(path) << content;
     try {
-      StepTable(path, {"step", "G"}, 9);
+      const StepTable table(path, {"step", "G"}, 9);
       ADD_FAILURE() << content;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), ::testing::HasSubstr(message));

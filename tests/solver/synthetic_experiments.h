@@ -11,8 +11,8 @@
 namespace pfdm {
 
 /// Stress of the channels of a loading, with normal noise added.
-inline MaterialExperiment measured(const EndochronicLaw& law, const LoadSegment& loading, std::vector<int> components,
-                                   double noise, unsigned seed) {
+inline MaterialExperiment measured(const EndochronicLaw& law, const LoadSegment& loading,
+                                   const std::vector<int>& components, double noise, unsigned seed) {
   MaterialExperiment experiment{.name = "synthetic", .loading = loading, .channels = {}};
   for (const int k : components) experiment.channels.push_back({.component = k, .stress = {}, .noise = 0.0});
   const auto stresses = respond(law, experiment);

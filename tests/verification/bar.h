@@ -178,9 +178,9 @@ inline StepSeen Bar::recorder(std::vector<BarState>& states) const {
   return [this, pulled, &states](const FractureState& state, const StepReport& report) {
     for (const std::string& remark : report.remarks) ADD_FAILURE() << remark;
     if (report.step == 0) return;
-    states.push_back(state_of(state, report.reaction[pulled][0], report.fracture_energy));
+    states.push_back(state_of(state, report.reaction[pulled][0], report.energy.fracture));
     states.back().imbalance =
-        (report.external_work - report.elastic_energy - report.fracture_energy) / report.external_work;
+        (report.energy.external_work - report.energy.elastic - report.energy.fracture) / report.energy.external_work;
   };
 }
 

@@ -42,8 +42,8 @@ double load_of_growth(FractureRun& run, double energy) {
   double at_start = 0.0, load = 0.0;
   bool has_grown = false;
   const auto step_done = [&](const FractureState&, const StepReport& now) {
-    if (now.step == 1) at_start = now.fracture_energy;
-    has_grown = has_grown || (now.step > 1 && now.fracture_energy > at_start + energy);
+    if (now.step == 1) at_start = now.energy.fracture;
+    has_grown = has_grown || (now.step > 1 && now.energy.fracture > at_start + energy);
     if (!has_grown) load = now.load;
   };
   run_to_end(run, step_done);

@@ -140,8 +140,8 @@ TEST(EndochronicCells, OneOfThemIsTheMaterialPoint) {
     EXPECT_LE(most_iterations(steps), 12);
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const EndochronicState& state = point[i].state;
-      EXPECT_NEAR(steps[i].report.elastic_energy, free_energy(law, state), 1e-9 * free_energy(law, point.back().state));
-      EXPECT_NEAR(steps[i].report.plastic_dissipation, state.dissipation, 1e-9 * point.back().state.dissipation);
+      EXPECT_NEAR(steps[i].report.energy.elastic, free_energy(law, state), 1e-9 * free_energy(law, point.back().state));
+      EXPECT_NEAR(steps[i].report.energy.plastic_dissipation, state.dissipation, 1e-9 * point.back().state.dissipation);
       EXPECT_NEAR(steps[i].fields.plastic_path_length[0], state.zeta, 1e-10);
     }
   }
@@ -206,9 +206,9 @@ TEST(EndochronicCells, DamageDegradesTheEffectiveStress) {
       EXPECT_LE((to_mandel(steps[i].fields.stress[0]) - due).norm(), 1e-9 * K * 0.01) << split << ", step " << i;
       const double kept = closed ? 0.5 * K * strain * strain : 0.0;
       EXPECT_NEAR(steps[i].fields.driving_energy[0], free_energy(law, state) - kept, 1e-9 * free_energy(law, state));
-      EXPECT_NEAR(steps[i].report.elastic_energy, g * (free_energy(law, state) - kept) + kept,
+      EXPECT_NEAR(steps[i].report.energy.elastic, g * (free_energy(law, state) - kept) + kept,
                   1e-9 * free_energy(law, state));
-      EXPECT_NEAR(steps[i].report.plastic_dissipation, g * state.dissipation, 1e-9 * state.dissipation);
+      EXPECT_NEAR(steps[i].report.energy.plastic_dissipation, g * state.dissipation, 1e-9 * state.dissipation);
     }
   }
 }
@@ -264,8 +264,9 @@ Loop cycle_plate(Index n, Index n_steps) {
     loop.reverse = std::min(loop.reverse, step.report.reaction[top][1]);
   }
   const StepReport& last = steps.back().report;
-  loop.heat = last.plastic_dissipation;
-  loop.imbalance = std::abs(last.external_work - last.elastic_energy - last.plastic_dissipation) / last.external_work;
+  loop.heat = last.energy.plastic_dissipation;
+  loop.imbalance = std::abs(last.energy.external_work - last.energy.elastic - last.energy.plastic_dissipation) /
+                   last.energy.external_work;
   loop.most_iterations = most_iterations(steps);
   return loop;
 }

@@ -40,7 +40,7 @@ double bead_imbalance(const Mesh& mesh, const std::string& split, Index n_steps)
   run_to_end(run, step_done);
   EXPECT_GT(last.max_damage, 0.2);
   EXPECT_LT(last.max_damage, 0.9);
-  return (last.external_work - last.elastic_energy - last.fracture_energy) / last.external_work;
+  return (last.energy.external_work - last.energy.elastic - last.energy.fracture) / last.energy.external_work;
 }
 
 // Between tetrahedra the driving energy is not exactly the slope of the discrete elastic energy: what is left does not

@@ -19,7 +19,7 @@ TEST(IncompressibleBinder, Debonds) {
   const auto step_done = [&](const FractureState&, const StepReport& report) { steps.push_back(report); };
   const FractureState end = run_to_end(run, step_done);
   const double krylov = double(run.krylov_iterations()) / run.staggered_iterations();
-  const double before = steps[3].external_work, stored = steps[3].elastic_energy + steps[3].fracture_energy;
+  const double before = steps[3].energy.external_work, stored = steps[3].energy.elastic + steps[3].energy.fracture;
   report_row(fmt::format("{} cells", mesh.n_cells()), {{"largest d", steps.back().max_damage},
                                                        {"damaged volume", steps.back().damaged_volume},
                                                        {"staggered iterations", run.staggered_iterations()},

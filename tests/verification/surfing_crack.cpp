@@ -62,8 +62,8 @@ TEST(SurfingCrack, FollowsTheFieldAndDissipatesItsToughness) {
   const auto step_done = [&](const FractureState& state, const StepReport& report) {
     if (report.load < 0.395) return;  // the ring has left the notch behind
     const EnergyRelease release = energy_release_rate(mesh, run.output(state), region);
-    rows.push_back({report.load, release.tip.x(), release.G, report.fracture_energy,
-                    report.external_work - report.elastic_energy - report.fracture_energy});
+    rows.push_back({report.load, release.tip.x(), release.G, report.energy.fracture,
+                    report.energy.external_work - report.energy.elastic - report.energy.fracture});
     EXPECT_LT(release.damaged_share, 0.02);
     EXPECT_NEAR(release.tip.y(), 0.0, 1e-9);
   };

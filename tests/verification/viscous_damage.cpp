@@ -42,8 +42,9 @@ std::vector<Row> stretch(const std::function<double(double)>& strain, double vis
   std::vector<Row> rows;
   const auto step_done = [&](const FractureState&, const StepReport& r) {
     if (r.step > 0)
-      rows.push_back({r.max_damage, r.reaction[pulled][0] / (side * side), r.elastic_energy / volume,
-                      r.fracture_energy / volume, r.external_work / volume, r.viscous_dissipation / volume});
+      rows.push_back({r.max_damage, r.reaction[pulled][0] / (side * side), r.energy.elastic / volume,
+                      r.energy.fracture / volume, r.energy.external_work / volume,
+                      r.energy.viscous_dissipation / volume});
   };
   run_to_end(run, step_done);
   return rows;

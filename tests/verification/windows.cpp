@@ -31,7 +31,7 @@ Outcome debond(const Mesh& mesh, bool windows) {
   const auto step_done = [&](const FractureState&, const StepReport& report) {
     const auto top = &mesh.patch("zmax") - mesh.patches.data();
     outcome.force.push_back(report.reaction[static_cast<std::size_t>(top)].z());
-    outcome.fracture_energy.push_back(report.fracture_energy);
+    outcome.fracture_energy.push_back(report.energy.fracture);
   };
   outcome.state = run_to_end(run, step_done);
   outcome.iterations = run.staggered_iterations();

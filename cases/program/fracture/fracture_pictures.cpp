@@ -31,10 +31,10 @@ std::vector<FrameOfCurve> frames_of(const std::filesystem::path& results, const 
 
 /// The frame, before the last, by which about half of the last one's surface energy was dissipated.
 const FrameOfCurve* frame_half_way(const std::vector<FrameOfCurve>& frames) {
-  const double half = 0.5 * frames.back().row.fracture_energy;
+  const double half = 0.5 * frames.back().row.energy.fracture;
   const FrameOfCurve* best = nullptr;
   for (std::size_t i = 0; i + 1 < frames.size(); ++i)
-    if (best == nullptr || std::abs(frames[i].row.fracture_energy - half) < std::abs(best->row.fracture_energy - half))
+    if (best == nullptr || std::abs(frames[i].row.energy.fracture - half) < std::abs(best->row.energy.fracture - half))
       best = &frames[i];
   return best;
 }

@@ -69,19 +69,23 @@ Table run_table(const FractureStory& story) {
 
 Table figures_table(const FractureStory& story) {
   const Headlines f = headlines(story.curve, story.component());
-  return {.caption = "Figures",
-          .rows = {{"peak force", shown(f.peak_force, "N")},
-                   {"its displacement", shown(f.displacement_at_peak, "m")},
-                   {"initial stiffness", shown(f.initial_stiffness, "N") + "/m"},
-                   {"final force", shown(f.final_force, "N")},
-                   {"final displacement", shown(f.final_displacement, "m")},
-                   {"elastic energy", shown(f.final_elastic_energy, "J")},
-                   {"surface energy", shown(f.final_fracture_energy, "J")},
-                   {"work", shown(f.external_work, "J")},
-                   {"energy balance error", fmt::format("{:.3g} %", 100.0 * f.energy_balance_error)},
-                   {"largest release", shown(f.released_energy, "J")},
-                   {"its displacement", shown(f.displacement_at_release, "m")},
-                   {"damaged volume", shown(f.damaged_volume, "m^3")}}};
+  Table table{.caption = "Figures",
+              .rows = {{"peak force", shown(f.peak_force, "N")},
+                       {"its displacement", shown(f.displacement_at_peak, "m")},
+                       {"initial stiffness", shown(f.initial_stiffness, "N") + "/m"},
+                       {"final force", shown(f.final_force, "N")},
+                       {"final displacement", shown(f.final_displacement, "m")}}};
+  const auto add = [&](std::string_view what, std::string value) {
+    table.rows.push_back({std::string(what), std::move(value)});
+  };
+  for (const EnergyEntry& entry : energy_entries)
+    if (entry.role != EnergyEntry::Role::dissipated || f.energy.*entry.value != 0.0)
+      add(entry.label, shown(f.energy.*entry.value, "J"));
+  add("energy balance error", fmt::format("{:.3g} %", 100.0 * f.energy_balance_error));
+  add("largest release", shown(f.released_energy, "J"));
+  add("its displacement", shown(f.displacement_at_release, "m"));
+  add("damaged volume", shown(f.damaged_volume, "m^3"));
+  return table;
 }
 
 Table material_table(const FractureCase& fracture) {
@@ -138,12 +142,11 @@ Chart force_chart(const FractureStory& story) {
 Chart energy_chart(const FractureStory& story) {
   const std::vector<double> load = column(story.curve, [](const CurveRow& row) { return row.load; });
   std::vector<std::vector<double>> energies{
-      column(story.curve, [](const CurveRow& row) { return row.external_work; }),
-      column(story.curve, [](const CurveRow& row) { return row.elastic_energy; }),
-      column(story.curve, [](const CurveRow& row) { return row.fracture_energy; })};
+      column(story.curve, [](const CurveRow& row) { return row.energy.external_work; }),
+      column(story.curve, [](const CurveRow& row) { return row.energy.elastic; }),
+      column(story.curve, [](const CurveRow& row) { return row.energy.fracture; })};
   std::vector<std::string_view> names{"work", "elastic", "surface"};
-  const std::vector<double> heat =
-      column(story.curve, [](const CurveRow& row) { return row.viscous_dissipation + row.plastic_dissipation; });
+  const std::vector<double> heat = column(story.curve, [](const CurveRow& row) { return dissipated(row.energy); });
   if (heat.back() > 0.0) {
     energies.push_back(heat);
     names.push_back("heat");

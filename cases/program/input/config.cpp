@@ -159,7 +159,7 @@ double ConfigValue::quantity(const Dimension& due, const Range& allowed) const {
 }
 
 std::string ConfigValue::one_of(std::span<const std::string> allowed, std::string_view what) const {
-  const std::string value = string();
+  std::string value = string();
   if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
   const auto meant = nearest(value, allowed);
   throw error(fmt::format("\"{}\" is not {}{} (allowed: {})", value, with_article(what),

@@ -26,12 +26,12 @@ TomlArray plain_array(const toml::array& array, const std::string& file) {
 TomlTable plain_table(const toml::table& table, const std::string& file) {
   TomlTable result;
   for (const auto& [key, node] : table) {
-    result.emplace_back(std::string(key.str()), plain(node, file));
-    result.back().second.key_line = line_of(key.source());
+    result.push_back({std::string(key.str()), plain(node, file)});
+    result.back().value.key_line = line_of(key.source());
   }
   // toml++ keeps them by name.
   std::stable_sort(result.begin(), result.end(),
-                   [](const auto& a, const auto& b) { return a.second.key_line < b.second.key_line; });
+                   [](const auto& a, const auto& b) { return a.value.key_line < b.value.key_line; });
   return result;
 }
 

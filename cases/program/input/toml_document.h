@@ -4,22 +4,27 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
 namespace pfdm {
 
 struct TomlValue;
+struct TomlEntry;
 using TomlArray = std::vector<TomlValue>;
 /// In the order of the lines.
-using TomlTable = std::vector<std::pair<std::string, TomlValue>>;
+using TomlTable = std::vector<TomlEntry>;
 
 struct TomlValue {
   std::variant<std::string, bool, std::int64_t, double, TomlArray, TomlTable> value;
   int line = 0;      ///< where the value stands
   int column = 0;    ///< likewise, in characters; the first is 1
   int key_line = 0;  ///< where its key stands, or the same
+};
+
+struct TomlEntry {
+  std::string key;
+  TomlValue value;
 };
 
 /// The value that a path leads to, as in "materials.glass.young_modulus" or "mesh.particles[0].diameter". Throws

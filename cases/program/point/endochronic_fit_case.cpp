@@ -28,7 +28,7 @@ LoadSegment read_followed_strains(const ConfigTable& table, const std::filesyste
   }
   const ConfigTable strains = table.table("strain");
   for (const auto& [key, value] : strains.entries()) {
-    const ControlledComponent component = value.in_context([&] { return controlled_component(key); });
+    const ControlledComponent component = value.in_context([&name = key] { return controlled_component(name); });
     if (component.is_stress) throw value.error("expected a strain; stresses belong in [fit.experiments.stress]");
     segment.conditions[static_cast<std::size_t>(component.pair)] = {
         component.condition, Pace::follow,
@@ -39,7 +39,7 @@ LoadSegment read_followed_strains(const ConfigTable& table, const std::filesyste
 }
 
 MaterialExperiment::Channel read_channel(const std::string& key, const ConfigValue& value, const CsvTable& file) {
-  const ControlledComponent component = value.in_context([&] { return controlled_component(key); });
+  const ControlledComponent component = value.in_context([&name = key] { return controlled_component(name); });
   if (!component.is_stress) throw value.error("expected a stress; strains belong in [fit.experiments.strain]");
   const ConfigTable table = value.table().with_keys({"column", "unit", "noise"});
   return {.component = component.pair,

@@ -39,7 +39,7 @@ double read_parameter(const ConfigTable& table, const FactorParameter& due) {
 
 std::vector<std::string_view> keys_of(const FactorLaw& law) {
   std::vector<std::string_view> keys{"law"};
-  if (law.tabulated) keys.push_back("points");
+  if (law.tabulated) keys.emplace_back("points");
   for (const FactorParameter& parameter : law.parameters) keys.push_back(parameter.name);
   return keys;
 }

@@ -1,0 +1,63 @@
+#pragma once
+// The energies of a fracture run. One more is a member, a row of the table, and the place where it is computed: the
+// checkpoint, the curve, the summary, the energy balance and the report visit the table.
+
+#include <string_view>
+
+namespace pfdm {
+
+/// At a step; external work and dissipated energies since the start. [J]
+struct EnergyAccount {
+  double elastic = 0.0;
+  double fracture = 0.0;  ///< surface energy
+  double external_work = 0.0;
+  double viscous_dissipation = 0.0;  ///< by the viscosity of the damage equation
+  double plastic_dissipation = 0.0;  ///< by endochronic materials
+  friend bool operator==(const EnergyAccount&, const EnergyAccount&) = default;
+};
+
+struct EnergyEntry {
+  enum class Role { stored, surface, supplied, dissipated };
+  double EnergyAccount::*value;
+  Role role;
+  std::string_view column;  ///< of force_displacement.csv, less its unit
+  std::string_view figure;  ///< of summary.json, less its unit
+  std::string_view label;   ///< in reports
+};
+
+/// In the order of the columns: the first three stand together in force_displacement.csv, the others at its end.
+inline constexpr EnergyEntry energy_entries[] = {
+    {&EnergyAccount::elastic, EnergyEntry::Role::stored, "elastic_energy", "final_elastic_energy", "elastic energy"},
+    {&EnergyAccount::fracture, EnergyEntry::Role::surface, "fracture_energy", "final_fracture_energy",
+     "surface energy"},
+    {&EnergyAccount::external_work, EnergyEntry::Role::supplied, "external_work", "external_work", "work"},
+    {&EnergyAccount::viscous_dissipation, EnergyEntry::Role::dissipated, "viscous_dissipation", "viscous_dissipation",
+     "dissipated by viscosity"},
+    {&EnergyAccount::plastic_dissipation, EnergyEntry::Role::dissipated, "plastic_dissipation", "plastic_dissipation",
+     "dissipated plastically"},
+};
+
+/// The work that is neither stored nor dissipated, nor in the surface energy gained since `start`, where there may be
+/// cracks already.
+inline double left_over(const EnergyAccount& start, const EnergyAccount& now) {
+  double sum = 0.0;
+  for (const EnergyEntry& entry : energy_entries) {
+    if (entry.role == EnergyEntry::Role::supplied)
+      sum += now.*entry.value;
+    else if (entry.role == EnergyEntry::Role::surface)
+      sum -= now.*entry.value - start.*entry.value;
+    else
+      sum -= now.*entry.value;
+  }
+  return sum;
+}
+
+/// All dissipation besides the surface energy.
+inline double dissipated(const EnergyAccount& account) {
+  double sum = 0.0;
+  for (const EnergyEntry& entry : energy_entries)
+    if (entry.role == EnergyEntry::Role::dissipated) sum += account.*entry.value;
+  return sum;
+}
+
+}  // namespace pfdm
