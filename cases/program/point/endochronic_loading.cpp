@@ -53,7 +53,7 @@ void read_components(Draft& draft) {
   const auto control = control_table(draft);
   if (!control) return;
   for (const auto& [key, value] : control->entries()) {
-    const ControlledComponent component = value.in_context([&] { return controlled_component(key); });
+    const ControlledComponent component = value.in_context([&name = key] { return controlled_component(name); });
     LoadSegment::Condition condition{.condition = component.condition, .pace = Pace::ramp, .values = {}};
     read_control_value(value, component.is_stress, draft.segment.times, draft.directory, draft.files, condition);
     draft.conditions.push_back(std::move(condition));
@@ -68,7 +68,7 @@ void read_linear_condition(Draft& draft, const ConfigTable& table) {
   const bool has_stress = std::ranges::any_of(terms, [](const auto& term) { return term.first.starts_with("stress"); });
   LoadSegment::Condition condition{.condition = {}, .pace = Pace::increment, .values = {}};
   for (const auto& [key, value] : terms) {
-    const ControlledComponent component = value.in_context([&] { return controlled_component(key); });
+    const ControlledComponent component = value.in_context([&name = key] { return controlled_component(name); });
     const bool modulus = has_stress && !component.is_stress;
     const double factor = modulus ? value.quantity(dimension::stress) : value.number();
     condition.condition.on_stress += factor * component.condition.on_stress;

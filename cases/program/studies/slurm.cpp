@@ -86,7 +86,7 @@ std::string array_script(const SlurmSettings& settings, const std::string& name,
   if (!settings.memory.empty()) ask("mem=" + settings.memory);
   // Slurm reads no option behind the first command.
   std::vector<std::string> lines = settings.lines;
-  std::ranges::stable_partition(lines, [](const std::string& line) { return line.starts_with("#SBATCH"); });
+  std::stable_partition(lines.begin(), lines.end(), [](const auto& line) { return line.starts_with("#SBATCH"); });
   for (const std::string& line : lines) text += fmt::format("{}\n", line);
   return text + commands;
 }
