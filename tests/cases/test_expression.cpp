@@ -19,7 +19,7 @@ TEST(Expression, IsAFunctionOfPlaceAndLoad) {
 
 TEST(Expression, SaysWhatIsWrong) {
   try {
-    Expression("0.1*q");
+    const Expression f("0.1*q");
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("\"0.1*q\""), std::string::npos);
@@ -40,6 +40,7 @@ TEST(Expression, MayBeCalledFromSeveralThreads) {
   const Expression f("2*x");
   std::atomic<int> wrong = 0;
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int k = 0; k < 4; ++k)
     threads.emplace_back([&, k] {
       for (int i = 0; i < 2000; ++i)

@@ -18,8 +18,7 @@ Mesh notched_beam() {
   const std::vector<AxisBlock> half{{0.1 * mm, 1, 1.0}, {2.75 * mm, 14, 1.0}, {0.88 * mm, 8, 0.33}};
   std::vector<AxisBlock> x = half;
   x.push_back({0.54 * mm, 9, 1.0});
-  for (auto block = half.rbegin(); block != half.rend(); ++block)
-    x.push_back({block->length, block->n, 1.0 / block->ratio});
+  for (std::size_t i = half.size(); i-- > 0;) x.push_back({half[i].length, half[i].n, 1.0 / half[i].ratio});
   return make_box_hexes({.origin = {-4.0 * mm, 0.0, 0.0},
                          .axes = {x, {{0.4 * mm, 7, 1.0}, {1.6 * mm, 27, 1.0}}, {{1.0 * mm, 1, 1.0}}},
                          .regions = {},
