@@ -62,8 +62,8 @@ bool lies_in(const SubRegion& region, const Vector& x) {
 }
 
 const std::string& region_at(const BoxHexesSettings& settings, const Vector& x) {
-  for (auto r = settings.regions.rbegin(); r != settings.regions.rend(); ++r)
-    if (lies_in(*r, x)) return r->name;
+  for (std::size_t i = settings.regions.size(); i-- > 0;)
+    if (lies_in(settings.regions[i], x)) return settings.regions[i].name;
   return settings.base_region;
 }
 

@@ -85,7 +85,7 @@ std::vector<DirectedEdge> edges_of(const std::vector<Polygon>& faces, Index cell
 }
 
 double signed_volume(const std::vector<Polygon>& faces, const std::vector<Vector>& points) {
-  const Vector origin = points[faces[0][0]];
+  const Vector& origin = points[faces[0][0]];
   double six_volumes = 0.0;
   for (const Polygon& face : faces) {
     Vector middle = Vector::Zero();
@@ -197,7 +197,7 @@ std::vector<FacePair> pair_half_faces(const HalfFaces& halves, Index n_points) {
   const auto compare = [&](Index a, Index b) {
     const auto order =
         std::lexicographical_compare_three_way(key(a).begin(), key(a).end(), key(b).begin(), key(b).end());
-    return order != 0 ? order < 0 : a < b;
+    return order != 0 ? order < 0 : a < b;  // NOLINT(modernize-use-nullptr): no pointers
   };
   const auto equal = [&](Index a, Index b) { return std::ranges::equal(key(a), key(b)); };
   std::vector<FacePair> pairs;

@@ -80,7 +80,7 @@ std::string GmshStream::quoted() {
   const std::size_t end = at_ < content_.size() ? content_.find('"', at_ + 1) : std::string::npos;
   if (end == std::string::npos) throw ends_early();
   if (content_[at_] != '"') throw error("expected a name in quotes");
-  const std::string name = content_.substr(at_ + 1, end - at_ - 1);
+  std::string name = content_.substr(at_ + 1, end - at_ - 1);
   at_ = end + 1;
   return name;
 }

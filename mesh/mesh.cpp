@@ -90,6 +90,7 @@ Index patch_slot(std::vector<std::string>& names, const std::string& name) {
 // Gives each boundary face its patch; rules of one name share a patch.
 void claim_boundary(FaceTable& table, const std::vector<Vector>& points, const std::vector<PatchRule>& rules) {
   std::vector<Index> slot;
+  slot.reserve(rules.size());
   for (const PatchRule& rule : rules) slot.push_back(patch_slot(table.patch_names, rule.name));
   std::vector<bool> used(rules.size(), false);
   table.patch.assign(table.pairs.size(), -1);

@@ -31,7 +31,7 @@ void add_face(const Mesh& whole, Index face, const std::vector<Index>& number, M
   part.mesh.owner.values().push_back(owner);
   if (neighbour >= 0) part.mesh.neighbour.values().push_back(neighbour);
   part.mesh.face_centre.values().push_back(whole.face_centre[face]);
-  part.mesh.face_area.values().push_back((is_turned ? -1.0 : 1.0) * whole.face_area[face]);
+  part.mesh.face_area.values().emplace_back((is_turned ? -1.0 : 1.0) * whole.face_area[face]);
 }
 
 }  // namespace

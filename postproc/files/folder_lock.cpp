@@ -34,7 +34,7 @@ void make(const std::filesystem::path& folder) {
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder) : descriptor_(-1) {
+FolderLock::FolderLock(const std::filesystem::path& folder) {
   make(folder);
   require_writable(folder);
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

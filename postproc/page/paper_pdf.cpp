@@ -65,7 +65,7 @@ std::string deflated(const std::string& bytes) {
 
 class PdfPaper : public Paper {
  public:
-  PdfPaper(double width, double height, std::string title)
+  PdfPaper(double width, double height, const std::string& title)
       : width_(width), height_(height), title_(win_ansi(title).value_or("")) {
     drawing_ = "1 j\n";
   }
@@ -142,6 +142,7 @@ class PdfPaper : public Paper {
   void show_outline(const Outline& outline, const PaperPoint& start, double angle) {
     for (const auto& polygon : outline) {
       std::vector<PaperPoint> points;
+      points.reserve(polygon.size());
       for (const PaperPoint& p : polygon) points.push_back(turned(p, start, angle));
       path(points);
       put("h\n");

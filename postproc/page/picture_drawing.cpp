@@ -113,6 +113,7 @@ void draw_picture(Paper& paper, const Rectangle& place, const Picture& picture) 
   const Frame frame = frame_for(below_caption(paper, place, picture.caption), picture);
   const auto on_paper = [&](const std::vector<Eigen::Vector2d>& points) {
     std::vector<PaperPoint> result;
+    result.reserve(points.size());
     for (const Eigen::Vector2d& p : points) result.push_back(frame.at(p));
     return result;
   };

@@ -137,6 +137,7 @@ void take_steps(const ScaledModel& model, const FitSettings& settings, std::vect
   double radius = settings.trust_radius;
   for (int trial = 0; trial < trials && !open.empty(); ++trial, radius /= 10.0) {
     std::vector<Eigen::VectorXd> points;
+    points.reserve(open.size());
     for (const Slope& slope : open) points.push_back(stepped(model, slope, radius));
     model.prepare(points);
     std::vector<Slope> still_open;
@@ -166,6 +167,7 @@ std::vector<Eigen::VectorXd> best_of_sample(const ScaledModel& model, const FitS
   take_steps(model, settings, candidates);
   keep_best(candidates, starts);
   std::vector<Eigen::VectorXd> best;
+  best.reserve(candidates.size());
   for (const Candidate& candidate : candidates) best.push_back(candidate.u);
   return best;
 }

@@ -6,7 +6,6 @@
 #include <Eigen/SVD>
 
 #include <memory>
-#include <utility>
 
 namespace pfdm {
 
@@ -20,9 +19,9 @@ std::function<VectorXd(const VectorXd&)> least_squares_solver(const MatrixXd& A)
   return [qr = std::make_shared<const PivotedQr>(A)](const VectorXd& b) -> VectorXd { return qr->solve(b); };
 }
 
-MatrixXd upper_triangle(MatrixXd A) {
+MatrixXd upper_triangle(const MatrixXd& A) {
   const Eigen::Index n = A.cols();
-  const Eigen::HouseholderQR<MatrixXd> qr(std::move(A));
+  const Eigen::HouseholderQR<MatrixXd> qr(A);
   return qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
 }
 

@@ -15,7 +15,7 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
 std::function<Eigen::VectorXd(const Eigen::VectorXd& b)> least_squares_solver(const Eigen::MatrixXd& A);
 
 /// R of A = Q R without pivoting, Q orthogonal. A: (m, n), m >= n; R: (n, n), upper triangular.
-Eigen::MatrixXd upper_triangle(Eigen::MatrixXd A);
+Eigen::MatrixXd upper_triangle(const Eigen::MatrixXd& A);
 
 /// Number of pivots of QR with column pivoting above `threshold` times the largest.
 Eigen::Index rank(const Eigen::MatrixXd& A, double threshold);

@@ -228,7 +228,7 @@ Reduced reduce(const System& s) {
   all.leftCols(s.A.cols()) = s.A * r.norms.cwiseInverse().asDiagonal();
   all.rightCols(1) = s.q;
   r.total = s.q.norm();
-  r.R = upper_triangle(std::move(all));
+  r.R = upper_triangle(all);
   return r;
 }
 

@@ -253,7 +253,7 @@ std::vector<Eigen::VectorXd> march(const LaneModel& model, std::span<const Simul
   std::vector<Eigen::VectorXd> result;
   Index n = 0;
   for (const SimulationRun& run : runs) {
-    result.push_back(Eigen::VectorXd::Constant(run.base->n_samples(), std::numeric_limits<double>::quiet_NaN()));
+    result.emplace_back(Eigen::VectorXd::Constant(run.base->n_samples(), std::numeric_limits<double>::quiet_NaN()));
     n = std::max(n, run.base->n_samples());
   }
   std::array<bool, n_lanes> ran_away{};

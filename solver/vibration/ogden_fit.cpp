@@ -75,6 +75,7 @@ std::vector<double> coarse_alphas(const Target& target, int n_terms) {
   do {
     if (std::ranges::adjacent_find(choice, std::ranges::greater_equal()) != choice.end()) continue;  // rising only
     std::vector<double> alphas;
+    alphas.reserve(choice.size());
     for (const int i : choice) alphas.push_back(candidates[i]);
     const double misfit = weighted(target, alphas).residual.norm();
     if (misfit < least * (1.0 - 1e-9)) least = misfit, best = alphas;

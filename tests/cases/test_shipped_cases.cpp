@@ -39,7 +39,7 @@ TEST(ShippedCases, QuickBeadDebondsAsItsReadmeSays) {
   EXPECT_NEAR(u(1), 31.2e-6, 1e-12);
   EXPECT_NEAR(force(1), 2.20, 0.01);
   EXPECT_NEAR(force(6), 12.91, 0.02);
-  EXPECT_NEAR(force(7), 13.11, 0.02);
+  EXPECT_NEAR(force(7), 13.11, 0.1);  // after a jump, which ends elsewhere with another rounding: 13.06 N without FMA
 
   // More than a block of Sylgard under uniform stress (a bound); by little: rigid spheres of this volume, 4.2 %, add
   // 2.5 times as much, and the glued bottom a few per cent.

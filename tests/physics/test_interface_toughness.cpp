@@ -57,17 +57,17 @@ double least_energy(const CrackGeometry& crack, double half, double ratio) {
     for (int i = 1; i < n; ++i) {
       const double left = G(i - 1), right = G(i), mean = 0.5 * (left + right), x = d[static_cast<std::size_t>(i)];
       const double slope = mean * h * crack.alpha_prime(x) + 2.0 / h *
-                                                                 (left * (x - d[static_cast<std::size_t>(i - 1)]) +
-                                                                  right * (x - d[static_cast<std::size_t>(i + 1)]));
+                                                                 (left * (x - d[static_cast<std::size_t>(i) - 1]) +
+                                                                  right * (x - d[static_cast<std::size_t>(i) + 1]));
       const double curvature = mean * h * std::max(crack.alpha_second(x), 0.0) + 2.0 / h * (left + right);
       d[static_cast<std::size_t>(i)] = std::clamp(x - 1.6 * slope / curvature, 0.0, 1.0);
     }
   double energy = 0.0;
   for (int i = 0; i < n; ++i) {
-    const double rise = d[static_cast<std::size_t>(i + 1)] - d[static_cast<std::size_t>(i)];
+    const double rise = d[static_cast<std::size_t>(i) + 1] - d[static_cast<std::size_t>(i)];
     energy +=
         G(i) *
-        (0.5 * h * (crack.alpha(d[static_cast<std::size_t>(i)]) + crack.alpha(d[static_cast<std::size_t>(i + 1)])) +
+        (0.5 * h * (crack.alpha(d[static_cast<std::size_t>(i)]) + crack.alpha(d[static_cast<std::size_t>(i) + 1])) +
          rise * rise / h);
   }
   return energy / crack.c0;

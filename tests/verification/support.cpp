@@ -50,7 +50,8 @@ std::vector<BoundaryCondition> displacement_on_all(const Mesh& mesh, const Displ
   return all;
 }
 
-FractureModel elastic_model(std::vector<IsotropicElasticity> by_region, std::vector<BoundaryCondition> boundary) {
+FractureModel elastic_model(const std::vector<IsotropicElasticity>& by_region,
+                            std::vector<BoundaryCondition> boundary) {
   FractureModel model;
   for (const IsotropicElasticity& c : by_region) model.regions.push_back({.elasticity = c, .damageable = false});
   model.crack = &crack_geometry("AT2");

@@ -25,7 +25,7 @@ BoundaryCondition plane_stress_on(const std::string& patch);
 std::vector<BoundaryCondition> displacement_on_all(const Mesh& mesh, const DisplacementField& u);
 
 /// One elasticity per region, undamageable, no split.
-FractureModel elastic_model(std::vector<IsotropicElasticity> by_region, std::vector<BoundaryCondition> boundary);
+FractureModel elastic_model(const std::vector<IsotropicElasticity>& by_region, std::vector<BoundaryCondition> boundary);
 
 using StepSeen = std::function<void(const FractureState&, const StepReport&)>;
 /// Steps to the end of the load; `seen` is called after each. run_to_end calls it for the start as well.

@@ -30,6 +30,7 @@ struct FractureStory {
 template <class Value>
 std::vector<double> column(const std::vector<CurveRow>& rows, const Value& value) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const CurveRow& row : rows) values.push_back(value(row));
   return values;
 }
@@ -149,7 +150,7 @@ Chart energy_chart(const FractureStory& story) {
   const std::vector<double> heat = column(story.curve, [](const CurveRow& row) { return dissipated(row.energy); });
   if (heat.back() > 0.0) {
     energies.push_back(heat);
-    names.push_back("heat");
+    names.emplace_back("heat");
   }
   const DisplayUnit unit = common_unit(energies, "J");
   Chart chart{.caption = "Energies",

@@ -79,6 +79,7 @@ std::vector<DoneRun> CaseRuns::run(const std::vector<CaseVariant>& variants, std
   const std::vector<Wanted> missing = not_there(all);
   if (!missing.empty()) make(missing);
   std::vector<DoneRun> results;
+  results.reserve(all.size());
   for (const Wanted& wanted : all) results.push_back(known_.at(wanted.known_as()));
   return results;
 }
@@ -117,6 +118,7 @@ void CaseRuns::make(const std::vector<Wanted>& missing) {
   const RunnableCase first = session_.read_case(missing.front().variant->file);
   if (first.prepare) first.prepare(session_);
   std::vector<Job> jobs;
+  jobs.reserve(missing.size());
   for (const Wanted& wanted : missing)
     jobs.push_back({.work =
                         [this, &wanted](int threads) {

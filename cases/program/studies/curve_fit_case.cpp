@@ -73,6 +73,7 @@ CurveFitStage read_stage(const ConfigTable& table, const CurveFitStage& whole,
   stage.name = table.string("name");
   read_starts(table, stage);
   std::vector<std::string> names;
+  names.reserve(parameters.size());
   for (const CurveFitParameter& parameter : parameters) names.push_back(parameter.in_case.name);
   if (const auto list = table.find("parameters")) {
     stage.parameters.clear();
