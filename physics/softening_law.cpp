@@ -49,7 +49,8 @@ constexpr SofteningLaw cornelissen{
     .traction =
         [](double w) {
           const double r = std::min(w / 5.1361, 1.0);
-          return (1.0 + 27.0 * r * r * r) * std::exp(-6.93 * r) - 28.0 * r * std::exp(-6.93);
+          const double t = (1.0 + 27.0 * r * r * r) * std::exp(-6.93 * r) - 28.0 * r * std::exp(-6.93);
+          return std::max(t, 0.0);  // rounding, at wc
         },
 };
 

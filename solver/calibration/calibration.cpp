@@ -64,7 +64,8 @@ class Recorder : public ceres::IterationCallback {
       path_.push_back({model_.rms(summary.cost), model_.natural(u_)});
       if (settings_.iterated) settings_.iterated(path_.back());
     }
-    const bool was_tried = summary.iteration > 0 && summary.step_is_valid;
+    // Before the first successful step Ceres 2.2 leaves the norm at zero.
+    const bool was_tried = summary.iteration > 0 && summary.step_is_valid && summary.step_norm > 0.0;
     return was_tried && summary.step_norm < settings_.least_step ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
                                                                  : ceres::SOLVER_CONTINUE;
   }
