@@ -86,7 +86,8 @@ TEST(EndochronicControl, TellsConditionsThatDependOnEachOther) {
   conditions[5] = on_strain(0);
   EXPECT_THAT(dependent_conditions(law, conditions).value_or(""), testing::HasSubstr("rank 5 of 6"));
   conditions[5] = {};
-  EXPECT_THAT(dependent_conditions(law, conditions).value_or(""), testing::HasSubstr("condition 6 contains neither stress nor strain"));
+  EXPECT_THAT(dependent_conditions(law, conditions).value_or(""),
+              testing::HasSubstr("condition 6 contains neither stress nor strain"));
 }
 
 TEST(EndochronicControl, LinearConditionBetweenIncrements) {
