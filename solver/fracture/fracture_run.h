@@ -2,7 +2,10 @@
 // A fracture run from its mesh and model: the load stepping, a step at a time.
 //
 //   FractureState state = run.initial_state();
-//   while (!run.is_complete(state)) use(state, run.step(state));
+//   while (!run.is_complete(state)) {
+//     const StepReport report = run.step(state);
+//     ...
+//   }
 
 #include "mesh/mesh.h"
 #include "solver/fracture/fracture_model.h"
