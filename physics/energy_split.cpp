@@ -3,6 +3,7 @@
 #include "physics/registry.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -11,14 +12,16 @@ double largest_principal_value(const Tensor& a) {
   return Eigen::SelfAdjointEigenSolver<Tensor>().computeDirect(a, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
-IsotropicElasticity degrade_all(const IsotropicElasticity& c, double g, double) { return {g * c.lambda, g * c.mu}; }
+IsotropicElasticity degrade_all(const IsotropicElasticity& c, double g, double, const LawParameters&) {
+  return {g * c.lambda, g * c.mu};
+}
 
-constexpr EnergySplit none{
+constexpr SplitLaw none{
     .name = "none",
     .description = "the whole elastic energy is degraded, also in compression: cracks do not close",
     .variational = true,
     .energy =
-        [](const IsotropicElasticity& c, const Tensor& eps) {
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters&) {
           return SplitEnergy{energy_density(c, eps), 0.0};
         },
     .closure = [](const Tensor&) { return 0.0; },
@@ -26,12 +29,12 @@ constexpr EnergySplit none{
 };
 
 // Amor, Marigo, Maurini, J. Mech. Phys. Solids 57 (2009) 1209, eqs. 25-26: compression of the volume is kept.
-constexpr EnergySplit volumetric_deviatoric{
+constexpr SplitLaw volumetric_deviatoric{
     .name = "volumetric_deviatoric",
     .description = "shear and expansion are degraded, compression is not (Amor 2009)",
     .variational = true,
     .energy =
-        [](const IsotropicElasticity& c, const Tensor& eps) {
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters&) {
           const double trace = eps.trace();
           const double expansion = std::max(trace, 0.0);
           const double compression = std::min(trace, 0.0);
@@ -42,22 +45,48 @@ constexpr EnergySplit volumetric_deviatoric{
         },
     .closure = [](const Tensor& eps) { return eps.trace() < 0.0 ? 1.0 : 0.0; },
     .secant =
-        [](const IsotropicElasticity& c, double g, double closure) {
+        [](const IsotropicElasticity& c, double g, double closure, const LawParameters&) {
           const double K = (g + closure * (1.0 - g)) * c.bulk_modulus();
           return IsotropicElasticity{K - 2.0 * g * c.mu / 3.0, g * c.mu};
         },
 };
 
+// Vicentini, Zolesi, Carrara, Maurini, De Lorenzis, Int. J. Fract. 247 (2024) 291: compression of the volume is kept
+// and lowers the energy that drives damage, so that the ratio of compressive to tensile strength is a parameter.
+constexpr LawParameter star_convex_parameters[] = {{"gamma", "1", true}};
+constexpr SplitLaw star_convex{
+    .name = "star_convex",
+    .description =
+        "as volumetric_deviatoric; compression lowers the driving energy by gamma K/2 <-tr eps>^2 "
+        "(Vicentini 2024)",
+    .variational = true,
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters& p) {
+          const double expansion = std::max(eps.trace(), 0.0), compression = std::min(eps.trace(), 0.0);
+          const Tensor shear = deviator(eps);
+          const double half_K = 0.5 * c.bulk_modulus(), pressed = half_K * compression * compression;
+          return SplitEnergy{half_K * expansion * expansion + c.mu * contract(shear, shear) - p[0] * pressed,
+                             (1.0 + p[0]) * pressed};
+        },
+    .closure = [](const Tensor& eps) { return eps.trace() < 0.0 ? 1.0 : 0.0; },
+    .secant =
+        [](const IsotropicElasticity& c, double g, double closure, const LawParameters& p) {
+          const double K = (g + closure * (1.0 - g) * (1.0 + p[0])) * c.bulk_modulus();
+          return IsotropicElasticity{K - 2.0 * g * c.mu / 3.0, g * c.mu};
+        },
+    .parameters = star_convex_parameters,
+};
+
 // Wu, J. Mech. Phys. Solids 103 (2017) 72, eq. 2.44: the largest effective principal stress drives, all stiffness is
 // degraded. Not variational: the energies do not balance where the stress is not uniaxial.
-constexpr EnergySplit rankine{
+constexpr SplitLaw rankine{
     .name = "rankine",
     .description =
         "<sigma_1>^2/(2E) drives damage, the whole stiffness is degraded: cracks do not close (PF-CZM; not "
         "variational)",
     .variational = false,
     .energy =
-        [](const IsotropicElasticity& c, const Tensor& eps) {
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters&) {
           const double tension = std::max(largest_principal_value(stress(c, eps)), 0.0);
           return SplitEnergy{0.5 * tension * tension / c.young_modulus(), 0.0};
         },
@@ -66,15 +95,15 @@ constexpr EnergySplit rankine{
 };
 
 // Splits that say what is kept: psi_minus = 1/2 kept stress : eps, as for any energy of second degree.
-template <PrincipalStress (*kept)(const IsotropicElasticity&, const Vector&)>
-SplitEnergy energy_less_kept(const IsotropicElasticity& c, const Tensor& eps) {
+template <PrincipalStress (*kept)(const IsotropicElasticity&, const Vector&, const LawParameters&)>
+SplitEnergy energy_less_kept(const IsotropicElasticity& c, const Tensor& eps, const LawParameters& p) {
   const Vector principal = principal_axes(eps).value;
-  const double psi_minus = 0.5 * kept(c, principal).stress.dot(principal);
+  const double psi_minus = 0.5 * kept(c, principal, p).stress.dot(principal);
   return {std::max(energy_density(c, eps) - psi_minus, 0.0), psi_minus};
 }
 
 // Miehe, Hofacker, Welschinger, CMAME 199 (2010) 2765, eqs. 19-23: lambda/2 <-tr eps>^2 + mu sum <-eps_i>^2 is kept.
-PrincipalStress kept_by_spectral(const IsotropicElasticity& c, const Vector& eps) {
+PrincipalStress kept_by_spectral(const IsotropicElasticity& c, const Vector& eps, const LawParameters&) {
   PrincipalStress kept;
   if (eps.sum() < 0.0) kept.slope.setConstant(c.lambda);
   for (Index i = 0; i < 3; ++i)
@@ -83,7 +112,7 @@ PrincipalStress kept_by_spectral(const IsotropicElasticity& c, const Vector& eps
   return kept;
 }
 
-constexpr EnergySplit spectral{
+constexpr SplitLaw spectral{
     .name = "spectral",
     .description = "positive principal strains and expansion are degraded (Miehe 2010)",
     .variational = true,
@@ -94,7 +123,7 @@ constexpr EnergySplit spectral{
 // Del Piero, Meccanica 24 (1989) 150; Freddi, Royer-Carfagni, J. Mech. Phys. Solids 58 (2010) 1154, sec. 3.3: what a
 // material without tensile strength stores. Crack strains open freely in the principal directions whose stress would be
 // tensile; from the smallest strain upwards none, one, two or all three directions stay under compression.
-PrincipalStress kept_by_no_tension(const IsotropicElasticity& c, const Vector& eps) {
+PrincipalStress kept_by_no_tension(const IsotropicElasticity& c, const Vector& eps, const LawParameters&) {
   const double E = c.young_modulus(), nu = c.poisson_ratio();
   PrincipalStress kept;
   if (eps[0] >= 0.0) return kept;
@@ -110,7 +139,7 @@ PrincipalStress kept_by_no_tension(const IsotropicElasticity& c, const Vector& e
   return kept;
 }
 
-constexpr EnergySplit no_tension{
+constexpr SplitLaw no_tension{
     .name = "no_tension",
     .description = "what a no-tension material (masonry) carries is kept (Del Piero 1989, Freddi 2010)",
     .variational = true,
@@ -118,12 +147,12 @@ constexpr EnergySplit no_tension{
     .kept = kept_by_no_tension,
 };
 
-constexpr EnergySplit table[] = {none, volumetric_deviatoric, spectral, no_tension, rankine};
+constexpr SplitLaw table[] = {none, volumetric_deviatoric, star_convex, spectral, no_tension, rankine};
 
 }  // namespace
 
 MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps) {
-  if (split.secant != nullptr) return stiffness_matrix(split.secant(c, g, split.closure(eps)));
+  if (split.has_secant()) return stiffness_matrix(split.secant(c, g, split.closure(eps)));
   if (g == 1.0) return stiffness_matrix(c);
   const PrincipalAxes axes = principal_axes(eps);
   return g * stiffness_matrix(c) + (1.0 - g) * tangent(axes, split.kept(c, axes.value));
@@ -133,8 +162,16 @@ Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, d
   return to_tensor(degraded_tangent(split, c, g, eps) * to_mandel(eps));
 }
 
-std::span<const EnergySplit> energy_splits() { return table; }
+std::span<const SplitLaw> energy_splits() { return table; }
 
-const EnergySplit& energy_split(std::string_view name) { return find_by_name(energy_splits(), name, "energy split"); }
+const SplitLaw& split_law(std::string_view name) { return find_by_name(energy_splits(), name, "energy split"); }
+
+EnergySplit energy_split(std::string_view name) {
+  const SplitLaw& law = split_law(name);
+  for (const LawParameter& parameter : law.parameters)
+    if (std::isnan(parameter.otherwise))
+      throw InputError(fmt::format("the energy split \"{}\" needs its parameter {}", name, parameter.name));
+  return EnergySplit(law);
+}
 
 }  // namespace pfdm

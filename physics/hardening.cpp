@@ -8,11 +8,11 @@
 namespace pfdm {
 namespace {
 
-constexpr FactorParameter saturating_parameters[] = {{"f_inf", "1"}, {"b", "1"}, {"f_0", "1", false, 1.0}};
-constexpr FactorParameter linear_parameters[] = {{"b", "1", true}, {"f_0", "1", false, 1.0}};
-constexpr FactorParameter power_parameters[] = {{"zeta_0", "1"}, {"n", "1", true}, {"f_0", "1", false, 1.0}};
-constexpr FactorParameter logarithmic_parameters[] = {{"c", "1", true}, {"reference_rate", "1/s"}};
-constexpr FactorParameter rate_power_parameters[] = {{"m", "1", true}, {"reference_rate", "1/s"}};
+constexpr LawParameter saturating_parameters[] = {{"f_inf", "1"}, {"b", "1"}, {"f_0", "1", false, 1.0}};
+constexpr LawParameter linear_parameters[] = {{"b", "1", true}, {"f_0", "1", false, 1.0}};
+constexpr LawParameter power_parameters[] = {{"zeta_0", "1"}, {"n", "1", true}, {"f_0", "1", false, 1.0}};
+constexpr LawParameter logarithmic_parameters[] = {{"c", "1", true}, {"reference_rate", "1/s"}};
+constexpr LawParameter rate_power_parameters[] = {{"m", "1", true}, {"reference_rate", "1/s"}};
 
 FactorValue one(std::span<const double>, double) { return {1.0, 0.0}; }
 
@@ -91,7 +91,7 @@ Factor make_factor(const FactorLaw& law, std::vector<double> p) {
   if (p.size() != law.parameters.size())
     throw InputError(fmt::format("{}: expected {} parameters, found {}", law.name, law.parameters.size(), p.size()));
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const FactorParameter& due = law.parameters[i];
+    const LawParameter& due = law.parameters[i];
     if (p[i] < 0.0 || (p[i] == 0.0 && !due.may_be_zero))
       throw InputError(fmt::format("{}: {} = {} must be {}", law.name, due.name, p[i],
                                    due.may_be_zero ? "zero or positive" : "positive"));

@@ -3,7 +3,8 @@
 // Stresses saturate in proportion to f: f > 1 hardens, f < 1 softens. (f, alpha_r) and (l f, l alpha_r) are the same
 // material, so f(0) = 1 is what the laws take unless told otherwise.
 
-#include <limits>
+#include "physics/law_parameters.h"
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,20 +17,12 @@ struct FactorValue {
   double slope = 0.0;  ///< with respect to zeta [-] or zeta_dot [s]
 };
 
-struct FactorParameter {
-  static constexpr double required = std::numeric_limits<double>::quiet_NaN();
-  std::string_view name;
-  std::string_view unit;  ///< SI, "1" for pure numbers
-  bool may_be_zero = false;
-  double otherwise = required;
-};
-
 /// F(zeta) or R(zeta_dot), a row of a table. `p`: the parameters in their order; of a tabulated factor first the
 /// arguments, then as many values.
 struct FactorLaw {
   std::string_view name;
   std::string_view description;
-  std::span<const FactorParameter> parameters;
+  std::span<const LawParameter> parameters;
   bool tabulated = false;
   FactorValue (*value)(std::span<const double> p, double argument);
 };

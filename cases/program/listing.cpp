@@ -1,6 +1,7 @@
 #include "cases/program/listing.h"
 
 #include "cases/program/fracture/boundary_reader.h"
+#include "cases/program/fracture/material_laws.h"
 #include "cases/program/fracture/mesh_recipe.h"
 #include "cases/program/input/case_file.h"
 #include "cases/program/kinds.h"
@@ -110,6 +111,7 @@ void list_laws(std::ostream& out) {
   list_table(out, "kinds of case (kind)", case_kinds());
   list_table(out, "mesh generators ([mesh] generator)", mesh_generators());
   list_table(out, "cells ([mesh] cells)", cell_kinds());
+  list_table(out, "laws of materials ([materials.NAME] law)", material_laws());
   list_table(out, "crack geometric functions ([fracture] model)", crack_geometries());
   list_table(out, "degradation functions ([fracture] degradation)", degradations());
   list_table(out, "softening laws of the rational degradation ([fracture] softening)", softening_laws());

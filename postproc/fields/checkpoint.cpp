@@ -17,7 +17,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view magic = "PFDMCKPT";
-constexpr std::uint32_t format_version = 5;
+constexpr std::uint32_t format_version = 6;
 constexpr std::size_t size_position = magic.size() + sizeof(format_version);
 constexpr std::size_t header_size = size_position + sizeof(std::uint64_t);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -27,14 +27,6 @@ std::uint64_t fnv1a(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
   return hash;
-}
-
-// What is in a history, for both directions; it does not compile any more when that gets a member.
-template <class Archive, class History>
-void archive_history(Archive& archive, History& history) {
-  auto& [strain, plastic_strain, s, z, zeta, dissipation] = history;
-  const auto each = [&](auto&... members) { (archive(members), ...); };
-  each(strain, plastic_strain, s, z, zeta, dissipation);
 }
 
 class Writer {
@@ -49,11 +41,6 @@ class Writer {
     (*this)(std::uint64_t{list.size()});
     append(list.data(), list.size() * sizeof(T));
   }
-  void operator()(const std::vector<EndochronicState>& list) {
-    (*this)(std::uint64_t{list.size()});
-    for (const EndochronicState& state : list) archive_history(*this, state);
-  }
-  void operator()(const Mandel& v) { append(v.data(), sizeof(Mandel)); }
   template <class T, class Place>
   void operator()(const Field<T, Place>& field) {
     (*this)(field.values());
@@ -82,14 +69,6 @@ class Reader {
     list.resize(n);
     take(list.data(), list.size() * sizeof(T));
   }
-  void operator()(std::vector<EndochronicState>& list) {
-    std::uint64_t n = 0;
-    (*this)(n);
-    if (n > rest_.size() / (2 * sizeof(Mandel))) fail();
-    list.resize(n);
-    for (EndochronicState& state : list) archive_history(*this, state);
-  }
-  void operator()(Mandel& v) { take(v.data(), sizeof(Mandel)); }
   template <class T, class Place>
   void operator()(Field<T, Place>& field) {
     (*this)(field.values());
@@ -116,11 +95,11 @@ class Reader {
 // The one list of what is in a state, for both directions; it does not compile any more when the state gets a member.
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
-  auto& [step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, endochronic,
+  auto& [step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, histories,
          boundary_force, energy] = state;
   const auto each = [&](auto&... members) { (archive(members), ...); };
-  each(step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, endochronic,
-       boundary_force);
+  each(step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, histories.first,
+       histories.values, boundary_force);
   for (const EnergyEntry& entry : energy_entries) archive(energy.*entry.value);
 }
 

@@ -11,9 +11,11 @@ std::vector<NamedField> frame_fields(const Mesh& mesh, const OutputFields& outpu
                                  {"material", &mesh.region, double_precision},
                                  {"energy_density", &output.energy_density, single_precision, "J/m^3"},
                                  {"driving_energy", &output.driving_energy, single_precision, "J/m^3"}};
-  if (output.plastic_strain.size() > 0) {
-    fields.push_back({"plastic_strain", &output.plastic_strain, single_precision, "1"});
-    fields.push_back({"plastic_path_length", &output.plastic_path_length, single_precision, "1"});
+  for (const OutputHistory& history : output.history) {
+    if (history.tensor.size() > 0)
+      fields.push_back({history.name, &history.tensor, single_precision, std::string(history.unit)});
+    else
+      fields.push_back({history.name, &history.scalar, single_precision, std::string(history.unit)});
   }
   return fields;
 }

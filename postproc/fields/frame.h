@@ -10,7 +10,7 @@
 namespace pfdm {
 
 /// damage, displacement [m], stress [Pa], strain, material, energy_density [J/m^3], driving_energy [J/m^3];
-/// with endochronic cells plastic_strain and plastic_path_length besides.
+/// besides, what the histories of the materials show, as plastic_strain.
 /// Points into both arguments.
 std::vector<NamedField> frame_fields(const Mesh& mesh, const OutputFields& output);
 

@@ -2,10 +2,10 @@
 // The stiffness of damaged cells, which depends on the strain where the energy split keeps compression. Within the
 // momentum solve it is linear, taken at the last strain: secant moduli where the split has isotropic ones, else its
 // tangent, which is the secant as well (energies of second degree), so that the solves are Newton's steps. Cells with a
-// history (endochronic) are linearised about it, with a stress of their own.
+// history are linearised about it, with a stress of their own.
 
-#include "solver/fracture/endochronic_cells.h"
 #include "solver/fracture/fracture_model.h"
+#include "solver/fracture/material_cells.h"
 #include "solver/fracture/state.h"
 #include "solver/momentum/momentum_solver.h"
 
@@ -39,21 +39,24 @@ class CellStiffness {
   /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]
   /// (residual_stiffness.h).
   double residual_energy(Index cell, double psi_plus, double d) const;
-  /// Energy dissipated plastically [J] from one state to the other.
+  /// Energy dissipated by the materials [J] from one state to the other.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
-  const EndochronicCells& endochronic() const { return endochronic_; }
+  const MaterialCells& materials() const { return materials_; }
 
  private:
   double factor(Index cell, double d) const;  // g, the residual stiffness included
   CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
                                      const CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
+  const EnergySplit& split(Index cell) const;
+  MandelMatrix stiffness(Index cell, double g, const FractureState& state) const;
   double follow_with_closure(Index cell, const Tensor& strain, double d, double& closure);
   double follow_with_tangent(Index cell, const Tensor& strain, double d, Tensor& tangent_strain);
 
   const Mesh& mesh_;
   const FractureModel& model_;
-  EndochronicCells endochronic_;
+  MaterialCells materials_;
+  bool is_isotropic_;  // every split has isotropic secant moduli
   CellField<char> held_;
   CellField<float> closing_;  // per cell: last change of the closure, and
   CellField<Index> turns_;    // number of its reversals within the step

@@ -68,19 +68,18 @@ DamageEquation::DamageEquation(const Mesh& mesh, const FractureModel& model, con
       flux_(mesh, medium_of(mesh, model, plane_normal)) {}
 
 double DamageEquation::local_slope(Index cell, double d, double psi) const {
-  const RationalCoefficients& rational = model_.in_cell(mesh_, cell).rational;
-  const double slope = density_[cell] * model_.crack->alpha_prime(d) +
-                       (1.0 - model_.residual_stiffness) * model_.degradation->g_prime(d, rational) * psi;
+  const Degradation& degradation = model_.degradation_of(model_.in_cell(mesh_, cell));
+  const double slope =
+      density_[cell] * model_.crack->alpha_prime(d) + (1.0 - model_.residual_stiffness) * degradation.g_prime(d) * psi;
   const double source = source_.size() > 0 ? source_[cell] : 0.0;
   const double resistance = resistance_ > 0.0 ? resistance_ * (d - from_[cell]) : 0.0;
   return mesh_.cell_volume[cell] * (slope + resistance - source);
 }
 
 double DamageEquation::local_curvature(Index cell, double d, double psi) const {
-  const RationalCoefficients& rational = model_.in_cell(mesh_, cell).rational;
-  return mesh_.cell_volume[cell] *
-         (density_[cell] * model_.crack->alpha_second(d) + resistance_ +
-          (1.0 - model_.residual_stiffness) * model_.degradation->g_second(d, rational) * psi);
+  const Degradation& degradation = model_.degradation_of(model_.in_cell(mesh_, cell));
+  return mesh_.cell_volume[cell] * (density_[cell] * model_.crack->alpha_second(d) + resistance_ +
+                                    (1.0 - model_.residual_stiffness) * degradation.g_second(d) * psi);
 }
 
 void DamageEquation::resist_change(double resistance, const CellField<double>& from) {

@@ -12,7 +12,7 @@ struct EnergyAccount {
   double fracture = 0.0;  ///< surface energy
   double external_work = 0.0;
   double viscous_dissipation = 0.0;  ///< by the viscosity of the damage equation
-  double plastic_dissipation = 0.0;  ///< by endochronic materials
+  double plastic_dissipation = 0.0;  ///< by materials with a history
   friend bool operator==(const EnergyAccount&, const EnergyAccount&) = default;
 };
 

@@ -4,18 +4,23 @@
 
 namespace pfdm {
 
+bool FractureModel::is_isotropic() const {
+  const auto has_secant = [](const EnergySplit& s) { return !s.is_chosen() || s.has_secant(); };
+  return has_secant(split) &&
+         std::ranges::all_of(regions, [&](const RegionModel& region) { return has_secant(region.split); });
+}
+
 ElasticBody elastic_body(const FractureModel& model) {
   ElasticBody body{.elasticity = {}, .zone = {}, .boundary = model.boundary};
   for (const RegionModel& region : model.regions) {
     const auto same = std::ranges::find_if(model.regions, [&](const RegionModel& other) {
-      return other.elasticity == region.elasticity && other.endochronic == region.endochronic;
+      return other.elasticity == region.elasticity && other.material == region.material;
     });
     body.zone.push_back(static_cast<Index>(same - model.regions.begin()));
     body.elasticity.push_back(region.elasticity);
   }
-  const bool is_isotropic = model.split == nullptr || model.split->secant != nullptr;
   body.has_pressure =
-      is_isotropic && std::ranges::none_of(model.regions, [](const auto& r) { return r.endochronic != nullptr; });
+      model.is_isotropic() && std::ranges::none_of(model.regions, [](const auto& r) { return r.material != nullptr; });
   return body;
 }
 

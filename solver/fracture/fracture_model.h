@@ -4,8 +4,8 @@
 #include "mesh/mesh.h"
 #include "physics/crack_geometry.h"
 #include "physics/degradation.h"
-#include "physics/endochronic.h"
 #include "physics/energy_split.h"
+#include "physics/materials/material.h"
 #include "solver/momentum/boundary_condition.h"
 #include "solver/momentum/unknowns.h"
 
@@ -17,12 +17,13 @@ namespace pfdm {
 
 struct RegionModel {
   IsotropicElasticity elasticity;
-  double Gc = 0.0;                  ///< fracture toughness [J/m^2]
-  double ell = 0.0;                 ///< regularisation length [m]
-  bool damageable = true;           ///< false pins d = 0 in the region
-  RationalCoefficients rational{};  ///< for the degradations that need a strength
-  /// Of the undamaged material, with the same elasticity; null: linear elastic.
-  std::shared_ptr<const EndochronicLaw> endochronic{};
+  double Gc = 0.0;            ///< fracture toughness [J/m^2]
+  double ell = 0.0;           ///< regularisation length [m]
+  bool damageable = true;     ///< false pins d = 0 in the region
+  EnergySplit split{};        ///< if none is chosen, the model's
+  Degradation degradation{};  ///< likewise
+  /// The undamaged material, with the same elasticity; null: linear elastic.
+  std::shared_ptr<const Material> material{};
 };
 
 enum class Irreversibility {
@@ -36,8 +37,8 @@ struct FractureModel {
   std::vector<RegionModel> regions;
   CellField<RegionModel> cells{};  ///< one per cell where a region varies from cell to cell; else empty
   const CrackGeometry* crack = nullptr;
-  const Degradation* degradation = nullptr;
-  const EnergySplit* split = nullptr;
+  Degradation degradation{};
+  EnergySplit split{};
   Irreversibility irreversibility = Irreversibility::bounds;
   double residual_stiffness = 1e-6;         ///< k of g_k = (1 - k) g + k
   double viscosity = 0.0;                   ///< eta of the damage equation [Pa s]; 0: rate-independent
@@ -49,9 +50,17 @@ struct FractureModel {
   const RegionModel& in_cell(const Mesh& mesh, Index cell) const {
     return cells.size() > 0 ? cells[cell] : regions[as_size(mesh.region[cell])];
   }
+  const EnergySplit& split_of(const RegionModel& region) const {
+    return region.split.is_chosen() ? region.split : split;
+  }
+  const Degradation& degradation_of(const RegionModel& region) const {
+    return region.degradation.is_chosen() ? region.degradation : degradation;
+  }
+  /// Whether every split has isotropic secant moduli.
+  bool is_isotropic() const;
 };
 
-/// Regions of equal elasticity and equal endochronic law are one zone.
+/// Regions of equal elasticity and equal material are one zone.
 ElasticBody elastic_body(const FractureModel& model);
 
 struct StaggeredSettings {

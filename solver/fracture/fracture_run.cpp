@@ -27,23 +27,13 @@ void require_complete(const Mesh& mesh, const FractureModel& model) {
   if (model.regions.size() != mesh.region_names.size())
     throw InputError(
         fmt::format("the mesh has {} regions, the model {}", mesh.region_names.size(), model.regions.size()));
-  if (model.crack == nullptr || model.degradation == nullptr || model.split == nullptr)
+  if (model.crack == nullptr || !model.degradation.is_chosen() || !model.split.is_chosen())
     throw InputError("the model names no crack geometric function, degradation or energy split");
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
     const RegionModel& region = model.regions[r];
     if (region.damageable && !(region.Gc > 0.0 && region.ell > 0.0))
       throw InputError(
           fmt::format("region \"{}\" can be damaged but has no positive toughness and length", mesh.region_names[r]));
-  }
-}
-
-void add_plasticity(const FractureState& state, OutputFields& fields) {
-  const auto n = as_size(state.endochronic.size());
-  fields.plastic_strain = CellField<Tensor>(n);
-  fields.plastic_path_length = CellField<double>(n);
-  for (Index c = 0; c < state.endochronic.size(); ++c) {
-    fields.plastic_strain[c] = to_tensor(state.endochronic[c].plastic_strain);
-    fields.plastic_path_length[c] = state.endochronic[c].zeta;
   }
 }
 
@@ -97,8 +87,10 @@ struct FractureRun::Parts {
           "windows (solver.windows) cannot be combined with nearly incompressible materials, whose cells carry a "
           "pressure");
     for (const RegionModel& region : m.regions)
-      if (region.endochronic)
-        throw InputError("windows (solver.windows) cannot be combined with endochronic materials");
+      if (region.material)
+        throw InputError(
+            fmt::format("windows (solver.windows) cannot be combined with materials that have a history (law \"{}\")",
+                        region.material->name()));
   }
 
   // Dissipation control requires displacements proportional to the load, a dissipation that only grows, and no
@@ -107,7 +99,7 @@ struct FractureRun::Parts {
     if (m.viscosity > 0.0 && !(loading.duration > 0.0))
       throw InputError("viscosity (fracture.viscosity) requires loading.duration, the time in which t grows by 1");
     for (const RegionModel& region : m.regions)
-      if (region.endochronic) require_history(m, *region.endochronic);
+      if (region.material) require_history(m, *region.material);
     if (!std::isfinite(loading.maximum_dissipation)) return;
     if (m.viscosity > 0.0)
       throw InputError(
@@ -130,22 +122,26 @@ struct FractureRun::Parts {
     }
   }
 
-  void require_history(const FractureModel& m, const EndochronicLaw& law) const {
-    if (m.split->secant == nullptr)
-      throw InputError(fmt::format(
-          "the energy split \"{}\" cannot be combined with endochronic materials: it has no isotropic secant moduli",
-          m.split->name));
-    if (law.hardening.depends_on_rate() && !(loading.duration > 0.0))
+  void require_history(const FractureModel& m, const Material& law) const {
+    if (!m.is_isotropic())
       throw InputError(
-          "an endochronic material with a rate factor requires loading.duration, the time in which t grows by 1");
+          fmt::format("materials of the law \"{}\" can only be combined with energy splits that have isotropic secant "
+                      "moduli: none, volumetric_deviatoric, star_convex, rankine",
+                      law.name()));
+    if (law.depends_on_rate() && !(loading.duration > 0.0))
+      throw InputError(
+          fmt::format("a material of the law \"{}\" that depends on the rate requires loading.duration, the time in "
+                      "which t grows by 1",
+                      law.name()));
     if (std::isfinite(loading.maximum_dissipation))
       throw InputError(
-          "dissipation control (loading.maximum_dissipation) cannot be combined with endochronic materials: their "
-          "displacements are not proportional to the load");
+          fmt::format("dissipation control (loading.maximum_dissipation) cannot be combined with materials of the law "
+                      "\"{}\": their displacements are not proportional to the load",
+                      law.name()));
   }
 
   // At given damage and with boundary values that are, displacements are proportional to the load.
-  bool is_proportional() const { return !staggered.stiffness().endochronic().any(); }
+  bool is_proportional() const { return !staggered.stiffness().materials().any(); }
 
   double dissipation_of(double increment) const {
     return loading.maximum_dissipation * std::min(1.0, increment / loading.maximum_increment);
@@ -295,8 +291,8 @@ FractureState FractureRun::initial_state() const {
   state.damage = parts_->model.initial_damage.size() > 0 ? parts_->model.initial_damage : CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
-  state.endochronic = parts_->staggered.stiffness().endochronic().virgin_states();
-  if (parts_->model.split->secant == nullptr) state.tangent_strain = CellField<Tensor>(n);
+  state.histories = parts_->staggered.stiffness().materials().virgin_histories();
+  if (!parts_->model.is_isotropic()) state.tangent_strain = CellField<Tensor>(n);
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
   return state;
 }
@@ -349,7 +345,7 @@ OutputFields FractureRun::output(const FractureState& state) {
                       .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),
                       .traction = staggered.momentum().balance().tractions(state.displacement)};
   if (parts_->unknowns.plane_stress) fields.plane_stress_normal = parts_->unknowns.plane_normal;
-  add_plasticity(state, fields);
+  fields.history = staggered.stiffness().materials().output(state.histories);
   return fields;
 }
 

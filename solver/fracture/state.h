@@ -2,10 +2,11 @@
 // The state of a fracture run is a value: it can be copied, written, and restarted from.
 
 #include "mesh/fields.h"
-#include "physics/endochronic.h"
+#include "solver/fracture/cell_histories.h"
 #include "solver/fracture/energy_account.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pfdm {
@@ -21,8 +22,8 @@ struct FractureState {
   CellField<double> closure;         ///< of the energy split: 1 where cracks are closed, 0 where open
   /// Strain in whose direction the tangent stiffness is taken [-]; empty for splits with isotropic secant moduli.
   CellField<Tensor> tangent_strain;
-  CellField<EndochronicState> endochronic;  ///< of the effective material; empty without such cells
-  std::vector<Vector> boundary_force;       ///< on each boundary face [N], in the mesh's face order
+  CellHistories histories;             ///< of the effective materials
+  std::vector<Vector> boundary_force;  ///< on each boundary face [N], in the mesh's face order
   EnergyAccount energy;
 };
 
@@ -41,6 +42,14 @@ struct StepReport {
   std::vector<std::string> remarks;  ///< increments that were cut, a residual stiffness that distorts
 };
 
+/// What the histories of the materials show, one of both fields; zero in the cells of other materials.
+struct OutputHistory {
+  std::string name;
+  std::string_view unit;
+  CellField<double> scalar{};
+  CellField<Tensor> tensor{};
+};
+
 /// Fields for output at a converged state.
 struct OutputFields {
   CellField<Vector> displacement;    ///< [m]
@@ -52,8 +61,7 @@ struct OutputFields {
   CellField<double> driving_energy;  ///< [J/m^3]
   /// Discrete surface energy over the cell's volume, half of a face's to each of its cells [J/m^3].
   CellField<double> fracture_energy_density;
-  CellField<Tensor> plastic_strain{};       ///< [-]; empty without endochronic cells, as is
-  CellField<double> plastic_path_length{};  ///< zeta [-]
+  std::vector<OutputHistory> history{};  ///< of materials that have one
   /// On each face along its normal, sigma n [Pa]; zero on the front and back of a plate, which carry none.
   FaceField<Vector> traction;
   Vector plane_stress_normal = Vector::Zero();  ///< of a plate in plane stress; else zero

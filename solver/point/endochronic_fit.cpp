@@ -31,7 +31,7 @@ void visit_factor(FactorType& factor, const Visit& visit) {
     return;
   }
   for (std::size_t i = 0; i < factor.p.size(); ++i) {
-    const FactorParameter& info = factor.law->parameters[i];
+    const LawParameter& info = factor.law->parameters[i];
     if (info.name != "f_0" && info.name != "reference_rate") visit(std::string(info.name), info.unit, factor.p[i]);
   }
 }

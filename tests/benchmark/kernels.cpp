@@ -52,8 +52,8 @@ FractureModel pulled(const Mesh& mesh) {
          .ell = 0.2,
          .damageable = name != "bead"});
   model.crack = &crack_geometry("AT2");
-  model.degradation = &degradation("quadratic");
-  model.split = &energy_split("none");
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
   for (const Patch& patch : mesh.patches)
     model.boundary.push_back({.patch = patch.name,
                               .displacement_prescribed = {true, true, true},

@@ -26,13 +26,10 @@ FractureState awkward_state() {
   s.driving_energy = CellField<double>(std::vector<double>{1e300, 0.0, -0.0});
   s.closure = CellField<double>({1.0, 1.0 / 7.0, 0.0});
   s.tangent_strain = CellField<Tensor>(std::vector<Tensor>(3, Tensor::Constant(1.0 / 3.0)));
-  s.endochronic = CellField<EndochronicState>(3);
-  s.endochronic[1] = {.strain = Mandel::Constant(0.1),
-                      .plastic_strain = Mandel::Constant(1.0 / 3.0),
-                      .s = {Mandel::Constant(-0.0), Mandel::Constant(1e300)},
-                      .z = 0.7,
-                      .zeta = 0.8,
-                      .dissipation = std::nextafter(1.0, 0.0)};
+  s.histories = CellHistories({0, 3, 2});
+  s.histories.gradient(1) = Tensor::Constant(0.1);
+  s.histories.of(1)[1] = std::nextafter(1.0, 0.0);
+  s.histories.of(2)[0] = -0.0;
   s.boundary_force = {Vector(1, 2, 3), Vector(4, 5, 6)};
   s.energy = {std::exp(2.0), std::exp(0.5), std::exp(1.0), std::exp(-1.0), std::exp(-2.0)};
   return s;
@@ -55,16 +52,10 @@ TEST(Checkpoint, state_comes_back_bit_for_bit) {
   EXPECT_TRUE(std::signbit(r.driving_energy[2]));
   EXPECT_EQ(r.closure, s.closure);
   EXPECT_EQ(r.tangent_strain, s.tangent_strain);
-  ASSERT_EQ(r.endochronic.size(), 3);
-  EXPECT_TRUE(r.endochronic[0].s.empty());
-  const EndochronicState &history = r.endochronic[1], &due = s.endochronic[1];
-  EXPECT_EQ(history.strain, due.strain);
-  EXPECT_EQ(history.plastic_strain, due.plastic_strain);
-  EXPECT_EQ(history.s, due.s);
-  EXPECT_TRUE(std::signbit(history.s[0][0]));
-  EXPECT_EQ(history.z, due.z);
-  EXPECT_EQ(history.zeta, due.zeta);
-  EXPECT_TRUE(same_bits(history.dissipation, due.dissipation));
+  EXPECT_EQ(r.histories, s.histories);
+  EXPECT_EQ(r.histories.of(0).size(), 0u);
+  EXPECT_TRUE(same_bits(r.histories.of(1)[1], std::nextafter(1.0, 0.0)));
+  EXPECT_TRUE(std::signbit(r.histories.of(2)[0]));
   EXPECT_EQ(r.boundary_force, s.boundary_force);
   for (const EnergyEntry& entry : energy_entries)
     EXPECT_TRUE(same_bits(r.energy.*entry.value, s.energy.*entry.value)) << entry.column;
@@ -114,7 +105,7 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
   other[8] = 9;
-  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 5"));
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 6"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
   EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));

@@ -18,8 +18,8 @@ FractureModel model_of(const Mesh& mesh, std::string_view law) {
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r)
     model.regions.push_back({.elasticity = {}, .Gc = Gc, .ell = ell});
   model.crack = &crack_geometry(law);
-  model.degradation = &degradation("quadratic");
-  model.split = &energy_split("none");
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
   return model;
 }
 
@@ -71,8 +71,9 @@ TEST(DamageEquation, HomogeneousResponseOfAt1HasAThreshold) {
 TEST(DamageEquation, SoundCellsWiderThanTheirLengthStaySound) {
   const Mesh mesh = row(9, 20.0 * ell);
   FractureModel model = model_of(mesh, "Wu");
-  model.degradation = &degradation("rational");
-  model.regions.front().rational = rational_coefficients(softening_law("linear"), 30e9, Gc, 30e6, ell);
+  model.degradation = degradation("rational");
+  model.regions.front().degradation =
+      rational_degradation(rational_coefficients(softening_law("linear"), 30e9, Gc, 30e6, ell));
   DamageEquation equation(mesh, model, Vector::Zero());
   CellField<double> d = uniform(mesh, 0.0);
   EXPECT_TRUE(equation.solve(uniform(mesh, 0.0), uniform(mesh, 0.0), {}, d).converged);
@@ -124,7 +125,7 @@ TEST(DamageEquation, IsTheMinimumOfItsEnergyWithinTheBounds) {
     const auto energy = [&] {
       double sum = equation.fracture_energy(d);
       for (Index c = 0; c < mesh.n_cells(); ++c)
-        sum += (1.0 - model.residual_stiffness) * model.degradation->g(d[c], {}) * psi[c] * mesh.cell_volume[c];
+        sum += (1.0 - model.residual_stiffness) * model.degradation.g(d[c]) * psi[c] * mesh.cell_volume[c];
       return sum;
     };
     const double least = energy();

@@ -142,14 +142,15 @@ inline FractureModel Bar::make_model() const {
                              .damageable = name != "end"});
   model.crack = &crack_geometry(settings_.law);
   model.residual_stiffness = settings_.residual_stiffness;
-  model.degradation = &degradation(settings_.softening.empty() ? "quadratic" : "rational");
+  model.degradation = degradation(settings_.softening.empty() ? "quadratic" : "rational");
   if (!settings_.softening.empty())
     for (std::size_t r = 0; r < model.regions.size(); ++r) {
       const double ft = strength() * (mesh_.region_names[r] == "weak" ? 1.0 - settings_.weakness : 1.0);
       model.regions[r].Gc = Gc;
-      model.regions[r].rational = rational_coefficients(softening_law(settings_.softening), E, Gc, ft, ell);
+      model.regions[r].degradation =
+          rational_degradation(rational_coefficients(softening_law(settings_.softening), E, Gc, ft, ell));
     }
-  model.split = &energy_split(settings_.split);
+  model.split = energy_split(settings_.split);
   BoundaryCondition pulled = displacement_on("xmax", {});
   pulled.value = [elongation = strength() / E * length()](const Vector&, double t) {
     return Vector(elongation * t, 0.0, 0.0);

@@ -18,8 +18,8 @@ inline FractureModel bead_model(const Mesh& mesh, const std::string& split, doub
   for (const std::string& name : mesh.region_names)
     model.regions.push_back({.elasticity = name == "bead" ? glass : sylgard, .Gc = toughness.at(name), .ell = 0.2});
   model.crack = &crack_geometry("AT2");
-  model.degradation = &degradation("quadratic");
-  model.split = &energy_split(split);
+  model.degradation = degradation("quadratic");
+  model.split = energy_split(split);
   BoundaryCondition pulled{.patch = "zmax", .displacement_prescribed = {false, false, true}, .value = {}};
   pulled.value = [elongation](const Vector&, double t) { return Vector(0.0, 0.0, elongation * t); };
   model.boundary = {displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }), pulled};

@@ -28,7 +28,7 @@ FractureModel bead_model(const Mesh& mesh, double radius, double stress) {
     model.regions.push_back({.elasticity = name == "bead" ? glass() : sylgard(),
                              .Gc = toughness,
                              .damageable = name != "bead" && name != "matrix"});
-  model.split = &energy_split("volumetric_deviatoric");
+  model.split = energy_split("volumetric_deviatoric");
   model.boundary = {axisymmetric_on("front"),
                     axisymmetric_on("back"),
                     {.patch = "outer",
@@ -70,7 +70,7 @@ double debond_stress(const Cap& cap) {
        .polar = {{27.0 * degree, 12, 0.1}, {12.0 * degree, cap.cells_at_front, 1.0}, {141.0 * degree, 16, 20.0}}});
   FractureModel model = bead_model(mesh, R, cap.end);
   model.crack = &crack_geometry("AT1");
-  model.degradation = &degradation("quadratic");
+  model.degradation = degradation("quadratic");
   const BandNeighbour hard{std::numeric_limits<double>::infinity()};
   for (RegionModel& region : model.regions) {
     region.ell = ell;

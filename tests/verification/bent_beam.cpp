@@ -34,7 +34,7 @@ FractureModel pressed_beam() {
       elastic_model({}, {plane_on("zmin"), plane_on("zmax"),
                          displacement_on("left", [](const Vector&) -> Vector { return Vector::Zero(); })});
   model.regions = {{.elasticity = from_young_poisson(20.8e9, 0.3), .Gc = 500.0, .ell = ell}};
-  model.split = &energy_split("spectral");
+  model.split = energy_split("spectral");
   for (const char* patch : {"right", "load"}) {
     const double end = std::string(patch) == "load" ? -0.1 * mm : 0.0;
     model.boundary.push_back({.patch = patch,

@@ -121,7 +121,7 @@ struct ShellErrors {
 
 ShellErrors errors_of(const Shell& shell) {
   const IsotropicElasticity glass = from_young_poisson(70e9, 0.3), sylgard = from_young_poisson(75e6, 0.44);
-  const EnergySplit& split = energy_split("volumetric_deviatoric");
+  const EnergySplit split = energy_split("volumetric_deviatoric");
   const double closure = shell.closed ? 1.0 : 0.0;
   const IsotropicElasticity broken = split.secant(sylgard, shell.g, closure);
   const ConcentricLayers exact({1.0, shell.lower(), shell.upper()}, {glass, sylgard, broken, sylgard}, 1e-3);
@@ -134,7 +134,7 @@ ShellErrors errors_of(const Shell& shell) {
   for (const std::string& name : mesh.region_names) by_region.push_back(name == "bead" ? glass : sylgard);
   const CellField<double> g = stiffness_factors(mesh, shell);
   FractureModel model = elastic_model(by_region, displacement_on_all(mesh, u));
-  model.split = &split;
+  model.split = split;
   const auto solution = solve_elastic(mesh, model, g, shell.closed ? 1e-8 : 1e-10, {}, closure);
   EXPECT_TRUE(solution->equilibrium.converged);
   const Index n_in_layer =

@@ -118,7 +118,8 @@ RegionModel band_model(double strength) {
           .Gc = Gc,
           .ell = ell,
           .damageable = true,
-          .rational = rational_coefficients(softening_law("linear"), band_modulus, Gc, strength, ell)};
+          .degradation =
+              rational_degradation(rational_coefficients(softening_law("linear"), band_modulus, Gc, strength, ell))};
 }
 
 /// The strength falls outwards as the traction does, and a little more at the band's middle, so that the crack is
@@ -137,8 +138,8 @@ FractureModel model_on(const Mesh& mesh, const Layers& layers, double largest_lo
     model.cells[c] = band_model(std::abs(r - layers.crack()) < 0.7 * ell ? 0.997 * strength : strength);
   }
   model.crack = &crack_geometry("Wu");
-  model.degradation = &degradation("rational");
-  model.split = &energy_split("none");
+  model.degradation = degradation("rational");
+  model.split = energy_split("none");
   model.residual_stiffness = 1e-9;
   BoundaryCondition pulled = traction_on("xmax", {});
   pulled.value = [largest_load](const Vector&, double t) { return Vector(largest_load * t, 0.0, 0.0); };

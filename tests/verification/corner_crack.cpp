@@ -30,14 +30,15 @@ FractureModel concrete(const Mesh& mesh) {
       elastic_model({}, {plane_stress_on("zmin"), plane_stress_on("zmax"),
                          displacement_on("ymin", [](const Vector&) -> Vector { return Vector::Zero(); })});
   for (const std::string& name : mesh.region_names)
-    model.regions.push_back({.elasticity = from_young_poisson(E, 0.18),
-                             .Gc = Gc,
-                             .ell = ell,
-                             .damageable = name != "loaded",
-                             .rational = rational_coefficients(softening_law("cornelissen"), E, Gc, ft, ell)});
+    model.regions.push_back(
+        {.elasticity = from_young_poisson(E, 0.18),
+         .Gc = Gc,
+         .ell = ell,
+         .damageable = name != "loaded",
+         .degradation = rational_degradation(rational_coefficients(softening_law("cornelissen"), E, Gc, ft, ell))});
   model.crack = &crack_geometry("Wu");
-  model.degradation = &degradation("rational");
-  model.split = &energy_split("rankine");
+  model.degradation = degradation("rational");
+  model.split = energy_split("rankine");
   model.boundary.push_back({.patch = "load",
                             .kind = BoundaryCondition::Kind::components,
                             .displacement_prescribed = {false, true, false},

@@ -26,8 +26,8 @@ FractureModel model_of(const Mesh& mesh, const std::string& law) {
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r)
     model.regions.push_back({.elasticity = {}, .Gc = Gc, .ell = ell});
   model.crack = &crack_geometry(law);
-  model.degradation = &degradation("quadratic");
-  model.split = &energy_split("none");
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
   return model;
 }
 
@@ -37,7 +37,7 @@ CellField<double> source_of(const Mesh& mesh, const FractureModel& model, const 
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const double d = exact.d(mesh.cell_centre[c]);
     source[c] = Gc / (model.crack->c0 * ell) * model.crack->alpha_prime(d) +
-                (1.0 - model.residual_stiffness) * model.degradation->g_prime(d, {}) * psi -
+                (1.0 - model.residual_stiffness) * model.degradation.g_prime(d) * psi -
                 2.0 * Gc * ell / model.crack->c0 * exact.laplacian(mesh.cell_centre[c]);
   }
   return source;

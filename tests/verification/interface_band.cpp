@@ -37,8 +37,8 @@ BandedBar banded_bar(const std::string& law, double half_width, Index cells_per_
                                  .ell = ell,
                                  .damageable = !(glass && name == "left")});
   bar.model.crack = &crack_geometry(law);
-  bar.model.degradation = &degradation("quadratic");
-  bar.model.split = &energy_split("none");
+  bar.model.degradation = degradation("quadratic");
+  bar.model.split = energy_split("none");
   for (Index c = 0; c < bar.mesh.n_cells(); ++c)
     if (std::abs(bar.mesh.cell_centre[c][0]) < 0.25 * h) bar.crack = c;
   return bar;

@@ -37,7 +37,7 @@ Plate notched_plate(const std::string& split, double ell, std::vector<AxisBlock>
   plate.model = elastic_model({}, {plane_on("zmin"), plane_on("zmax"),
                                    displacement_on("ymin", [](const Vector&) -> Vector { return Vector::Zero(); })});
   plate.model.regions = {{.elasticity = from_young_poisson(210e9, 0.3), .Gc = 2700.0, .ell = ell}};
-  plate.model.split = &energy_split(split);
+  plate.model.split = energy_split(split);
   return plate;
 }
 

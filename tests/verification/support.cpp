@@ -55,8 +55,8 @@ FractureModel elastic_model(const std::vector<IsotropicElasticity>& by_region,
   FractureModel model;
   for (const IsotropicElasticity& c : by_region) model.regions.push_back({.elasticity = c, .damageable = false});
   model.crack = &crack_geometry("AT2");
-  model.degradation = &degradation("quadratic");
-  model.split = &energy_split("none");
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
   model.boundary = std::move(boundary);
   return model;
 }
@@ -86,7 +86,7 @@ std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureM
   const CellField<double> factors = g.size() > 0 ? g : CellField<double>(as_size(mesh.n_cells()), 1.0);
   std::vector<Vector> force_on_cells;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    moduli[c] = model.split->secant(model.regions[as_size(mesh.region[c])].elasticity, factors[c], closure);
+    moduli[c] = model.split.secant(model.regions[as_size(mesh.region[c])].elasticity, factors[c], closure);
     if (body_force) force_on_cells.emplace_back(mesh.cell_volume[c] * body_force(mesh.cell_centre[c]));
   }
   solution->solver->set_moduli(moduli, factors);

@@ -15,12 +15,12 @@ constexpr Range solvable{1e-12, 1.0, false, "between 1e-12 and 1"};
 constexpr Range at_least_one{1.0, 1e9, false, "at least 1"};
 constexpr Range count{0.0, 1e9, false, "zero or positive"};
 
-std::string unsuited_split(const FractureModel& model) {
+std::string unsuited_split(const Material& material, const EnergySplit& split) {
   std::vector<std::string_view> suited;
-  for (const EnergySplit& split : energy_splits())
-    if (split.secant != nullptr) suited.push_back(split.name);
-  return fmt::format("an endochronic material cannot be combined with the energy split \"{}\"; allowed: {}",
-                     model.split->name, fmt::join(suited, ", "));
+  for (const SplitLaw& law : energy_splits())
+    if (law.secant != nullptr) suited.push_back(law.name);
+  return fmt::format("a material of the law \"{}\" cannot be combined with the energy split \"{}\"; allowed: {}",
+                     material.name(), split.name(), fmt::join(suited, ", "));
 }
 
 template <class Law>
@@ -35,8 +35,9 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
                                 .with_keys({"model", "degradation", "softening", "split", "effective_toughness",
                                             "irreversibility", "length", "residual_stiffness", "viscosity"});
   model.crack = find_law(table, "model", crack_geometry("AT2"), crack_geometries(), "crack geometric function");
-  model.degradation = find_law(table, "degradation", degradation("quadratic"), degradations(), "degradation function");
-  model.split = find_law(table, "split", energy_split("volumetric_deviatoric"), energy_splits(), "energy split");
+  const auto degrading = table.find("degradation"), split = table.find("split");
+  model.degradation = degrading ? read_degradation(*degrading) : degradation("quadratic");
+  model.split = split ? read_split(*split) : energy_split("volumetric_deviatoric");
   const std::string ways[] = {"bounds", "history"};
   const auto irreversibility = table.find("irreversibility");
   if (irreversibility && irreversibility->one_of(ways, "way of irreversibility") == "history")
@@ -49,25 +50,31 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   const auto effective = table.find("effective_toughness");
   defaults.corrects_toughness = !effective || effective->one_of(toughnesses, "effective toughness") == "corrected";
   if (table.has("length")) defaults.ell = table.quantity("length", dimension::length, range::positive);
-  if (model.degradation->needs_strength)
+  defaults.degradation = model.degradation;
+  if (model.degradation.law().needs_strength)
     defaults.softening = find_law(table, "softening", softening_law("linear"), softening_laws(), "softening law");
   return defaults;
 }
 
-/// What endochronic materials ask of the split and of the loading.
+/// What materials with a history ask of the splits and of the loading.
 void check_histories(const FractureCase& fracture, const ConfigTable& root) {
-  for (const RegionMaterial& material : fracture.materials.by_region) {
-    if (!material.endochronic) continue;
-    if (fracture.model.split->secant == nullptr) throw material.where.error(unsuited_split(fracture.model));
-    if (material.endochronic->hardening.depends_on_rate() && !(fracture.loading.duration > 0.0))
-      throw material.where.error(
+  std::vector<EnergySplit> splits{fracture.model.split};
+  for (const RegionMaterial& region : fracture.materials.by_region)
+    if (region.split.is_chosen()) splits.push_back(region.split);
+  const auto unsuited = std::ranges::find_if(splits, [](const EnergySplit& split) { return !split.has_secant(); });
+  for (const RegionMaterial& region : fracture.materials.by_region) {
+    if (!region.material) continue;
+    if (unsuited != splits.end()) throw region.where.error(unsuited_split(*region.material, *unsuited));
+    if (region.material->depends_on_rate() && !(fracture.loading.duration > 0.0))
+      throw region.where.error(
           "the material's rate factor requires the time in which the load parameter grows by 1: duration = \"1 s\" in "
           "[loading]");
     if (std::isfinite(fracture.loading.maximum_dissipation))
       throw root.table("loading")
           .at("maximum_dissipation")
-          .error(
-              "it cannot be combined with endochronic materials: their displacements are not proportional to the load");
+          .error(fmt::format("it cannot be combined with materials of the law \"{}\": their displacements are not "
+                             "proportional to the load",
+                             region.material->name()));
   }
 }
 

@@ -48,8 +48,8 @@ std::string shown_seconds(const std::map<std::string, double>& stages) {
 Table run_table(const FractureStory& story) {
   const FractureModel& model = story.fracture.model;
   Table table{.caption = "Model and run",
-              .rows = {{"fracture", fmt::format("{}, degradation {}", model.crack->name, model.degradation->name)},
-                       {"split", std::string(model.split->name)}}};
+              .rows = {{"fracture", fmt::format("{}, degradation {}", model.crack->name, model.degradation.name())},
+                       {"split", std::string(model.split.name())}}};
   const auto add = [&](std::string name, std::string value) {
     table.rows.push_back({std::move(name), std::move(value)});
   };

@@ -1,8 +1,9 @@
 #include "cases/program/fracture/materials.h"
 
+#include "cases/program/fracture/material_laws.h"
 #include "cases/program/input/amount.h"
+#include "cases/program/input/law_reader.h"
 #include "cases/program/input/path_reader.h"
-#include "cases/program/point/endochronic_material.h"
 #include "physics/interface_toughness.h"
 
 #include <fmt/format.h>
@@ -16,23 +17,32 @@ namespace pfdm {
 namespace {
 
 /// Of [materials.NAME] and of [regions.NAME].
-constexpr std::string_view material_keys[] = {"regions",   "young_modulus", "poisson_ratio", "toughness",
-                                              "strength",  "length",        "damageable",    "kernel",
-                                              "hardening", "rate",          "beta"};
-constexpr std::string_view region_keys[] = {"young_modulus", "poisson_ratio", "toughness", "strength",
-                                            "length",        "damageable",    "band"};
+constexpr std::string_view material_keys[] = {"regions",   "law",         "young_modulus", "poisson_ratio",
+                                              "toughness", "strength",    "length",        "damageable",
+                                              "split",     "degradation", "softening"};
+constexpr std::string_view region_keys[] = {"young_modulus", "poisson_ratio", "toughness",   "strength",  "length",
+                                            "damageable",    "split",         "degradation", "softening", "band"};
 
 /// What a material or a region's override may say.
 struct MaterialKeys {
   std::optional<Parameter> young_modulus, poisson_ratio, toughness, strength, length;
   std::optional<bool> damageable;
-  std::shared_ptr<const EndochronicLaw> endochronic{};
+  EnergySplit split{};
+  Degradation degradation{};
+  const SofteningLaw* softening = nullptr;
+  std::shared_ptr<const Material> material{};
 
   bool varies() const {
     return std::ranges::any_of(std::array{&young_modulus, &poisson_ratio, &toughness, &strength, &length},
                                [](const auto* parameter) { return *parameter && (*parameter)->varies; });
   }
 };
+
+std::vector<std::string_view> keys_of(const MaterialLaw& law) {
+  std::vector<std::string_view> keys(std::begin(material_keys), std::end(material_keys));
+  keys.insert(keys.end(), law.keys.begin(), law.keys.end());
+  return keys;
+}
 
 std::optional<double> value_at(const std::optional<Parameter>& parameter, const Vector& x) {
   return parameter ? std::optional(parameter->at(x)) : std::nullopt;
@@ -52,6 +62,9 @@ MaterialKeys read_keys(const ConfigTable& table) {
   keys.strength = find_parameter(table, "strength", dimension::stress);
   keys.length = find_parameter(table, "length", dimension::length);
   if (const auto value = table.find("damageable")) keys.damageable = value->boolean();
+  if (const auto value = table.find("split")) keys.split = read_split(*value);
+  if (const auto value = table.find("degradation")) keys.degradation = read_degradation(*value);
+  if (const auto value = table.find("softening")) keys.softening = &choose(*value, softening_laws(), "softening law");
   return keys;
 }
 
@@ -62,6 +75,9 @@ MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by) {
   if (by.strength) base.strength = by.strength;
   if (by.length) base.length = by.length;
   if (by.damageable) base.damageable = by.damageable;
+  if (by.split.is_chosen()) base.split = by.split;
+  if (by.degradation.is_chosen()) base.degradation = by.degradation;
+  if (by.softening != nullptr) base.softening = by.softening;
   return base;
 }
 
@@ -86,7 +102,8 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, cons
                        const ConfigTable& table, const Vector& x) {
   RegionModel model;
   model.elasticity = from_young_poisson(keys.young_modulus->at(x), keys.poisson_ratio->at(x));
-  model.endochronic = keys.endochronic;
+  model.material = keys.material;
+  model.split = keys.split;
   model.damageable = keys.damageable.value_or(true);
   model.Gc = value_at(keys.toughness, x).value_or(0.0);
   model.ell = value_at(keys.length, x).value_or(defaults.ell.value_or(0.0));
@@ -101,8 +118,12 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, cons
         fmt::format("region \"{}\" can be damaged but has no length (ell); give it in [fracture] or "
                     "here, as in \"10 um\"",
                     region));
-  if (defaults.softening != nullptr)
-    model.rational = make_coefficients(value_at(keys.strength, x), model, region, *defaults.softening, table);
+  model.degradation = keys.degradation;
+  if (!(keys.degradation.is_chosen() ? keys.degradation : defaults.degradation).law().needs_strength) return model;
+  const SofteningLaw* const given = keys.softening != nullptr ? keys.softening : defaults.softening;
+  const SofteningLaw& softening = given != nullptr ? *given : softening_law("linear");
+  model.degradation =
+      rational_degradation(make_coefficients(value_at(keys.strength, x), model, region, softening, table));
   return model;
 }
 
@@ -143,12 +164,11 @@ struct RegionKeys {
 
 // A history begins with the elasticity of its own table.
 void refuse_other_elasticity(const RegionOverride& over, const MaterialKeys& base) {
-  if (base.endochronic && (over.keys.young_modulus || over.keys.poisson_ratio))
-    throw over.value.error(
-        fmt::format("the material of region \"{}\" is endochronic, whose elasticity cannot be overridden; give it a "
-                    "material of its "
-                    "own",
-                    over.region));
+  if (base.material && (over.keys.young_modulus || over.keys.poisson_ratio))
+    throw over.value.error(fmt::format(
+        "the material of region \"{}\" has the law \"{}\", whose elasticity cannot be overridden; give it a "
+        "material of its own",
+        over.region, base.material->name()));
 }
 
 RegionKeys read_region(const ConfigValue& where, const ConfigTable& table, const MaterialKeys& base,
@@ -168,11 +188,13 @@ RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& nam
   return found == regions.end() ? nullptr : &*found;
 }
 
-void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
+void read_material(Materials& materials, const std::string& name, const ConfigTable& given,
                    std::vector<RegionOverride>& overrides, std::vector<RegionKeys>& regions) {
+  const MaterialLaw& law = law_of_material(given);
+  const ConfigTable table = given.with_keys(keys_of(law));
   table.at("young_modulus"), table.at("poisson_ratio");
   MaterialKeys base = read_keys(table);
-  if (table.has("kernel")) base.endochronic = std::make_shared<const EndochronicLaw>(read_endochronic_law(table));
+  base.material = law.read(table);
   const bool varies = base.young_modulus->varies || base.poisson_ratio->varies;
   const Vector anywhere = Vector::Zero();
   materials.by_name.push_back({name, varies ? std::nullopt
@@ -249,6 +271,16 @@ void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const
 
 }  // namespace
 
+EnergySplit read_split(const ConfigValue& value) {
+  const auto [law, p] = choose_law(value, energy_splits(), "energy split");
+  return {*law, p};
+}
+
+Degradation read_degradation(const ConfigValue& value) {
+  const auto [law, p] = choose_law(value, degradations(), "degradation function");
+  return {*law, p};
+}
+
 const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const {
   std::vector<std::string> names;
   for (const NamedElasticity& material : by_name) names.push_back(material.material);
@@ -264,7 +296,7 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
   std::vector<RegionOverride> overrides = read_overrides(root);
   std::vector<RegionKeys> regions;
   for (const auto& [name, value] : root.table("materials").entries())
-    read_material(materials, name, value.table().with_keys(material_keys), overrides, regions);
+    read_material(materials, name, value.table(), overrides, regions);
   for (const RegionOverride& over : overrides)
     if (!over.used)
       throw over.value.error(
@@ -285,8 +317,9 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
          .at = at,
          .varies = varies,
          .elastic_law = fmt::format("{} | {} | {}", entry.keys.young_modulus->text, entry.keys.poisson_ratio->text,
-                                    fmt::ptr(entry.keys.endochronic.get())),
-         .endochronic = entry.keys.endochronic});
+                                    fmt::ptr(entry.keys.material.get())),
+         .material = entry.keys.material,
+         .split = entry.keys.split});
   }
   return materials;
 }

@@ -15,11 +15,12 @@ namespace pfdm {
 
 struct RegionMaterial {
   std::string region;
-  ConfigValue where;                                  ///< where the region was given its material
-  std::function<RegionModel(const Vector& x)> at;     ///< at x [m]; throws InputError where a parameter is out of range
-  bool varies = false;                                ///< from place to place
-  std::string elastic_law;                            ///< equal texts are equal elasticities and histories
-  std::shared_ptr<const EndochronicLaw> endochronic;  ///< null: linear elastic
+  ConfigValue where;                               ///< where the region was given its material
+  std::function<RegionModel(const Vector& x)> at;  ///< at x [m]; throws InputError where a parameter is out of range
+  bool varies = false;                             ///< from place to place
+  std::string elastic_law;                         ///< equal texts are equal elasticities and histories
+  std::shared_ptr<const Material> material;        ///< null: linear elastic
+  EnergySplit split;                               ///< of its own, if one is chosen
 };
 
 struct NamedElasticity {
@@ -43,8 +44,13 @@ struct MaterialDefaults {
   std::vector<Band> bands{};                ///< whose toughness is corrected for their neighbours'
   bool corrects_toughness = true;           ///< else it is taken as given
   std::optional<double> ell;                ///< of those that give no length of their own [m]
-  const SofteningLaw* softening = nullptr;  ///< to which every material needs a strength; null: none is asked for
+  Degradation degradation{};                ///< of materials that name none
+  const SofteningLaw* softening = nullptr;  ///< likewise; for degradations that need a strength
 };
+
+/// "name", or { law = "name", parameter = ... }.
+EnergySplit read_split(const ConfigValue& value);
+Degradation read_degradation(const ConfigValue& value);
 
 /// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file.
 Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults);

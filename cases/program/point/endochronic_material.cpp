@@ -1,5 +1,7 @@
 #include "cases/program/point/endochronic_material.h"
 
+#include "cases/program/input/law_reader.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,18 +31,9 @@ std::vector<double> read_points(const ConfigTable& table) {
   return zeta;
 }
 
-double read_parameter(const ConfigTable& table, const FactorParameter& due) {
-  const Range& allowed = due.may_be_zero ? range::not_negative : range::positive;
-  const bool has_default = !std::isnan(due.otherwise);
-  if (due.unit == "1")
-    return has_default ? table.number(due.name, allowed, due.otherwise) : table.number(due.name, allowed);
-  return table.quantity(due.name, dimension::rate, allowed);
-}
-
 std::vector<std::string_view> keys_of(const FactorLaw& law) {
-  std::vector<std::string_view> keys{"law"};
+  std::vector<std::string_view> keys = keys_of_law(law.parameters);
   if (law.tabulated) keys.emplace_back("points");
-  for (const FactorParameter& parameter : law.parameters) keys.push_back(parameter.name);
   return keys;
 }
 
@@ -52,7 +45,7 @@ Factor read_factor(const ConfigTable& material, std::string_view key, std::span<
   table.with_keys(keys_of(law));
   std::vector<double> p;
   if (law.tabulated) p = read_points(table);
-  for (const FactorParameter& due : law.parameters) p.push_back(read_parameter(table, due));
+  for (const LawParameter& due : law.parameters) p.push_back(read_law_parameter(table, due));
   return table.in_context([&] { return make_factor(law, p); });
 }
 
@@ -65,7 +58,7 @@ std::string factor_toml(std::string_view key, const Factor& factor) {
     return text + fmt::format("points = [{}]\n", fmt::join(points, ", "));
   }
   for (std::size_t i = 0; i < factor.p.size(); ++i) {
-    const FactorParameter& due = factor.law->parameters[i];
+    const LawParameter& due = factor.law->parameters[i];
     text += due.unit == "1" ? fmt::format("{} = {}\n", due.name, factor.p[i])
                             : fmt::format("{} = \"{} {}\"\n", due.name, factor.p[i], due.unit);
   }

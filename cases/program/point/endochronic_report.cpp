@@ -103,7 +103,7 @@ Table parameter_table(const EndochronicLaw& law) {
        {std::pair("hardening", law.hardening.with_path), std::pair("rate factor", law.hardening.with_rate)}) {
     std::string text(factor.law->name);
     for (std::size_t i = 0; !factor.law->tabulated && i < factor.p.size(); ++i) {
-      const FactorParameter& due = factor.law->parameters[i];
+      const LawParameter& due = factor.law->parameters[i];
       text +=
           fmt::format(", {} = {}{}", due.name, shown(factor.p[i]), due.unit == "1" ? "" : fmt::format(" {}", due.unit));
     }

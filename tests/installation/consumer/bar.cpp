@@ -17,8 +17,8 @@ int main() {
   FractureModel model;
   model.regions = {RegionModel{.elasticity = from_young_poisson(E, 0.3), .damageable = false}};
   model.crack = &crack_geometry("AT2");
-  model.degradation = &degradation("quadratic");
-  model.split = &energy_split("none");
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
   for (const char* side : {"xmin", "ymin", "zmin"})
     model.boundary.push_back({.patch = side, .kind = BoundaryCondition::Kind::symmetry});
   model.boundary.push_back({.patch = "xmax",

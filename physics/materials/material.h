@@ -1,0 +1,79 @@
+#pragma once
+// A material as the field solver sees it: from deformation and history of a point to stress, tangent and energies, all
+// of the undamaged material. What damage degrades, and what the energy split keeps, is the solver's. Deformations are
+// displacement gradients H = F - 1 and stresses first Piola-Kirchhoff stresses P, so that finite strain has the same
+// interface; laws of small strain look at the symmetric part of H (small_strain_material.h).
+//
+// A history is a list of numbers whose meaning is the law's own; the solver copies and stores it.
+
+#include "physics/energy_split.h"
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+/// d P_iJ / d H_kL [Pa] in row 3 i + J and column 3 k + L. It has no minor symmetries, and no major one where the law
+/// is not associated.
+using GradientTangent = Eigen::Matrix<double, 9, 9>;
+
+struct MaterialStep {
+  Tensor from;                      ///< H at the start of the step [-]
+  Tensor to;                        ///< H at its end [-]
+  double duration = 0.0;            ///< of the step [s]
+  std::span<const double> history;  ///< at its start
+};
+
+struct MaterialResponse {
+  Tensor stress = Tensor::Zero();                     ///< P at the end of the step [Pa]
+  GradientTangent tangent = GradientTangent::Zero();  ///< consistent with the step
+  bool solved = true;                                 ///< false: no finite solution
+};
+
+/// Energies per volume [J/m^3].
+struct MaterialEnergy {
+  double driving = 0.0;               ///< psi_plus: what drives damage
+  double locked = 0.0;                ///< stored besides the elastic energy, as by hardening
+  double dissipated = 0.0;            ///< as heat, since the virgin state
+  Tensor inelastic = Tensor::Zero();  ///< the part of H that is not elastic [-]; zero at finite strain
+};
+
+/// Numbers of a history that results show, by their name there: a symmetric tensor in Mandel components if there are
+/// six.
+struct HistoryField {
+  std::string_view name;
+  std::string_view unit;
+  std::size_t first = 0;
+  std::size_t size = 1;
+};
+
+class Material {
+ public:
+  Material(std::string_view name, const IsotropicElasticity& elasticity) : name_(name), elasticity_(elasticity) {}
+  Material(const Material&) = delete;
+  Material& operator=(const Material&) = delete;
+  virtual ~Material() = default;
+
+  std::string_view name() const { return name_; }                        ///< of the law
+  const IsotropicElasticity& elasticity() const { return elasticity_; }  ///< of the virgin state
+  /// Whether the response depends on the duration of a step, which must then be positive.
+  virtual bool depends_on_rate() const { return false; }
+
+  virtual std::size_t history_size() const = 0;
+  virtual void start(std::span<double> history) const { std::ranges::fill(history, 0.0); }  ///< the virgin state
+  virtual std::vector<HistoryField> history_fields() const { return {}; }
+
+  /// Writes the history at the end of the step.
+  virtual MaterialResponse update(const MaterialStep& step, std::span<double> history) const = 0;
+  /// Stress, and the tangent of a step that begins elastically.
+  virtual MaterialResponse elastic(const Tensor& H, std::span<const double> history) const = 0;
+  virtual MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const = 0;
+
+ private:
+  std::string_view name_;
+  IsotropicElasticity elasticity_;
+};
+
+}  // namespace pfdm

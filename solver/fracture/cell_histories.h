@@ -1,0 +1,40 @@
+#pragma once
+// What the materials of the cells remember: for each cell with a history the displacement gradient that it has reached,
+// then the numbers of its law (physics/materials/material.h).
+
+#include "mesh/fields.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pfdm {
+
+struct CellHistories {
+  static constexpr std::size_t n_gradient = 9;
+  std::vector<std::uint64_t> first;  ///< of each cell among the values, and the end; empty without any history
+  std::vector<double> values;
+
+  CellHistories() = default;
+  /// A virgin gradient and as many zeros as each cell's law asks for; cells without a history have size 0.
+  explicit CellHistories(const std::vector<std::size_t>& sizes) : first{0} {
+    for (const std::size_t n : sizes) first.push_back(first.back() + (n > 0 ? n_gradient + n : 0));
+    values.assign(first.back(), 0.0);
+  }
+
+  Eigen::Map<Tensor> gradient(Index cell) { return Eigen::Map<Tensor>(values.data() + first[as_size(cell)]); }
+  Eigen::Map<const Tensor> gradient(Index cell) const {
+    return Eigen::Map<const Tensor>(values.data() + first[as_size(cell)]);
+  }
+  /// The numbers of the cell's law.
+  std::span<double> of(Index cell) { return std::span(values).subspan(begin(cell), size(cell)); }
+  std::span<const double> of(Index cell) const { return std::span(values).subspan(begin(cell), size(cell)); }
+  friend bool operator==(const CellHistories&, const CellHistories&) = default;
+
+ private:
+  bool has(Index cell) const { return first[as_size(cell) + 1] > first[as_size(cell)]; }
+  std::size_t begin(Index cell) const { return first[as_size(cell)] + (has(cell) ? n_gradient : 0); }
+  std::size_t size(Index cell) const { return first[as_size(cell) + 1] - begin(cell); }
+};
+
+}  // namespace pfdm

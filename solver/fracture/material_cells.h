@@ -1,0 +1,49 @@
+#pragma once
+// The cells whose material is a law with a history (physics/materials/material.h). Damage degrades their effective
+// stress sigma_0(eps, history), which does not depend on damage: sigma = g sigma_0, plus the elastic stress that the
+// energy split keeps in compression. Damage is driven by the energy that the effective material stores, psi_plus of the
+// elastic strain and what the law locks up; so work = stored energy + surface energy + g times the plastic dissipation
+// of the effective material.
+//
+// Within a load step each equilibrium is linear, with the stress linearised at the last strain eps_k by the consistent
+// tangent T: sigma_0 = sigma_0(eps_k) + T (eps - eps_k). The first of a step is elastic, as the load may reverse. The
+// strain is the least-squares one, which also enters the tractions of the faces: with any other, the converged solution
+// would depend on T, which changes with the direction of the increment, and the iteration would not converge.
+
+#include "mesh/mesh.h"
+#include "physics/linear_stress.h"
+#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/state.h"
+
+namespace pfdm {
+
+class MaterialCells {
+ public:
+  MaterialCells(const Mesh& mesh, const FractureModel& model);
+
+  bool any() const { return any_; }
+  bool has(Index cell) const { return any_ && material_[cell] != nullptr; }
+
+  /// At the beginning of a load step, which takes `duration` [s].
+  void start_step(double duration);
+  /// Takes a cell from its history at the start of the step to this strain. Returns the error [J/m^3] of its energy
+  /// density with the previous linearised stress; NaN if the material's step cannot be solved.
+  double advance(Index cell, const Tensor& strain, const CellHistories& from, CellHistories& to);
+  /// The undamaged stress about the cell's state.
+  LinearStress linearised(Index cell, const CellHistories& histories) const;
+  /// Of the undamaged material.
+  MaterialEnergy energy(Index cell, const CellHistories& histories) const;
+
+  CellHistories virgin_histories() const;
+  std::vector<OutputHistory> output(const CellHistories& histories) const;
+
+ private:
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  bool any_ = false;
+  double duration_ = 0.0;
+  CellField<const Material*> material_;  // null: elastic
+  CellField<MandelMatrix> tangent_;      // [Pa]; empty without such cells
+};
+
+}  // namespace pfdm

@@ -1,0 +1,131 @@
+// Laws of materials, splits and degradations with parameters in a case of kind "fracture".
+
+#include "physics/degradation.h"
+#include "postproc/files/csv_table.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string j2 = R"(law = "j2_plasticity"
+yield_stress = "2 MPa"
+isotropic_hardening = "3 GPa"
+)";
+
+std::string with_material(const std::string& keys) {
+  return replaced(bar_case(), "toughness = \"100 J/m^2\"\n", "toughness = \"100 J/m^2\"\n" + keys);
+}
+
+CsvTable curve_of(const std::string& text) {
+  const TemporaryCase directory(text);
+  const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return read_csv(directory.results() / "force_displacement.csv");
+}
+
+// Plane strain, held sideways: beyond yield the bar's modulus is K + 4 mu_t/3, mu_t = mu h/(3 mu + h), and plastic work
+// turns into heat.
+TEST(MaterialLaws, AnUndamageableBarOfJ2PlasticityHardensAsItsLawSays) {
+  const CsvTable curve = curve_of(with_material(j2 + "damageable = false\n"));
+  const auto &force = curve.column("force_x_N"), &u = curve.column("displacement_m");
+  const double E = 30e9, nu = 0.2, K = E / (3.0 - 6.0 * nu), mu = E / (2.0 + 2.0 * nu), h = 3e9, Y = 2e6;
+  const double mu_t = mu * h / (3.0 * mu + h), first_yield = Y / (2.0 * mu);
+  const auto stress = [&](double e) {
+    return e < first_yield ? (K + 4.0 / 3.0 * mu) * e
+                           : (K + 4.0 / 3.0 * mu) * first_yield + (K + 4.0 / 3.0 * mu_t) * (e - first_yield);
+  };
+  for (std::size_t i = 1; i < u.size(); ++i)
+    EXPECT_NEAR(force[i], stress(u[i] / 20e-3) * 1e-6, 1e-4 * stress(u.back() / 20e-3) * 1e-6) << i;
+  EXPECT_GT(curve.column("plastic_dissipation_J").back(), 0.0);
+}
+
+TEST(MaterialLaws, FramesShowTheHistory) {
+  const TemporaryCase directory(with_material(j2));
+  ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
+  bool shown = false;
+  for (const auto& entry : std::filesystem::directory_iterator(directory.results() / "fields"))
+    shown = shown || content_of(entry.path()).find("equivalent_plastic_strain") != std::string::npos;
+  EXPECT_TRUE(shown);
+}
+
+// The homogeneous solution of AT2 (ell small against the bar, so that it breaks at its peak): psi = (2 Gc d/(2 ell)) /
+// -g'(d), and the stress g(d) E eps; here in uniaxial strain.
+TEST(MaterialLaws, ABarOfTheCubicDegradationBreaksAtItsPeak) {
+  constexpr double s = 0.2;
+  std::string text =
+      replaced(bar_case(), "model = \"AT1\"", "model = \"AT2\"\ndegradation = { law = \"cubic\", s = 0.2 }");
+  text = replaced(text, "length = \"4 mm\"", "length = \"2 mm\"");
+  text = replaced(text, "cells = 21", "cells = 41");
+  text = replaced(text, "[regions.weak]\ntoughness = \"80 J/m^2\"", "[regions.weak]\ntoughness = \"99.99 J/m^2\"");
+  text = replaced(text, "initial_increment = 0.1\nmaximum_increment = 0.1",
+                  "initial_increment = 0.02\nmaximum_increment = 0.02");
+  text = replaced(text, "0.015 mm", "0.06 mm");
+  text = replaced(text, "frames_at = [\"0.006 mm\"]", "frames_every = 0");
+  const CsvTable curve = curve_of(text);
+  const Degradation law(degradation_law("cubic"), {s});
+  const double E = 30e9, nu = 0.2, M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+  double peak = 0.0;
+  for (double d = 1e-4; d < 0.9; d += 1e-4) {
+    const double psi = 100.0 / 2e-3 * d / -law.g_prime(d);
+    peak = std::max(peak, law.g(d) * std::sqrt(2.0 * M * psi));
+  }
+  EXPECT_NEAR(std::ranges::max(curve.column("force_x_N")), peak * 1e-6, 0.02 * peak * 1e-6);
+  EXPECT_LT(curve.column("force_x_N").back(), 0.01 * peak * 1e-6);
+}
+
+TEST(MaterialLaws, ASplitOfTheMaterialIsThatOfTheModel) {
+  const std::string in_model =
+      replaced(bar_case(), "split = \"none\"", "split = { law = \"star_convex\", gamma = 3.0 }");
+  const std::string in_material = with_material("split = { law = \"star_convex\", gamma = 3.0 }\n");
+  EXPECT_EQ(curve_of(in_model).column("force_x_N"), curve_of(in_material).column("force_x_N"));
+}
+
+class RefusedLaw : public ::testing::TestWithParam<BadInput> {};
+
+TEST_P(RefusedLaw, IsNamed) {
+  const BadInput& input = GetParam();
+  expect_refused(TemporaryCase(replaced(with_material(j2), input.good, input.bad)), input);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    MaterialLaws, RefusedLaw,
+    ::testing::Values(
+        BadInput{"Law", "j2_plasticity", "j3_plasticity", {"j3_plasticity", "law of a material", "j2_plasticity"}},
+        BadInput{"NoYieldStress", "yield_stress = \"2 MPa\"\n", "", {"[materials.concrete]", "yield_stress"}},
+        BadInput{"NegativeHardening", "\"3 GPa\"", "\"-3 GPa\"", {"isotropic_hardening", "zero or positive"}},
+        BadInput{"KeyOfAnotherLaw", "yield_stress", "beta = 0.5\nyield_stress", {"beta"}},
+        BadInput{"LawOfARegion", "[regions.weak]\n", "[regions.weak]\nlaw = \"linear_elastic\"\n", {"law"}},
+        BadInput{
+            "Split", "split = \"none\"", "split = \"no_tension\"", {"j2_plasticity", "no_tension", "allowed: none"}},
+        BadInput{"SplitOfARegion",
+                 "[regions.weak]\n",
+                 "[regions.weak]\nsplit = \"spectral\"\n",
+                 {"j2_plasticity", "spectral"}},
+        BadInput{"NoParameter", "split = \"none\"", "split = \"star_convex\"", {"star_convex", "gamma"}},
+        BadInput{
+            "WrongParameter", "split = \"none\"", "split = { law = \"star_convex\", gama = 1.0 }", {"gama", "gamma"}},
+        BadInput{"ParameterOfNone", "split = \"none\"", "split = { law = \"none\", gamma = 1.0 }", {"gamma"}},
+        BadInput{"NegativeParameter",
+                 "split = \"none\"",
+                 "split = { law = \"star_convex\", gamma = -1.0 }",
+                 {"gamma", "zero or positive"}},
+        BadInput{"Degradation",
+                 "split = \"none\"",
+                 "split = \"none\"\ndegradation = { law = \"cubic\", s = 0.0 }",
+                 {"s", "positive"}},
+        BadInput{"Dissipation",
+                 "initial_increment = 0.1\n",
+                 "initial_increment = 0.1\nmaximum_dissipation = \"1 uJ\"\n",
+                 {"maximum_dissipation", "j2_plasticity"}}),
+    [](const auto& input) { return input.param.name; });
+
+}  // namespace
+}  // namespace pfdm

@@ -1,0 +1,151 @@
+// J2 plasticity in the field solver: a bar in uniaxial stress with its unloading, a thick-walled sphere under internal
+// pressure (Hill, The Mathematical Theory of Plasticity, 1950, ch. V.2), and the account of work, stored energy and
+// heat.
+
+#include "mesh/sphere_sector.h"
+#include "physics/materials/j2_plasticity.h"
+#include "solver/fracture/fracture_run.h"
+#include "tests/verification/support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pfdm::verification {
+namespace {
+
+const IsotropicElasticity steel = from_young_poisson(210e9, 0.3);
+constexpr double Y = 250e6;
+
+FractureModel plastic_model(const J2Parameters& law, std::vector<BoundaryCondition> boundary) {
+  FractureModel model = elastic_model({steel}, std::move(boundary));
+  model.regions[0].material = make_j2_plasticity(steel, law);
+  return model;
+}
+
+BoundaryCondition moved(const std::string& patch, std::array<bool, 3> components,
+                        std::function<Vector(const Vector&, double)> displacement) {
+  return {.patch = patch,
+          .kind = BoundaryCondition::Kind::components,
+          .displacement_prescribed = components,
+          .value = std::move(displacement)};
+}
+
+LoadingSettings in_steps(Index n) {
+  const double increment = 1.0 / double(n);
+  return {.initial_increment = increment, .maximum_increment = increment, .stops = {}};
+}
+
+constexpr StaggeredSettings tight{.damage_tolerance = 1e-9, .energy_tolerance = 1e-12, .equilibrium_tolerance = 1e-11};
+
+// Pulled to 1 %, back to zero and on to 2 %, free on the sides: stress by the tangent modulus E h/(E + h), h = K.
+TEST(PlasticCells, ABarUnloadsElasticallyAndYieldsWhereItLeftOff) {
+  constexpr double h = 5e9;
+  const double E = steel.young_modulus(), E_t = E * h / (E + h), first_yield = Y / E;
+  const auto strain = [](double t) {
+    return t <= 0.25 ? 0.04 * t : t <= 0.3 ? 0.01 - 0.02 * (t - 0.25) : 0.009 + 0.011 * (t - 0.3) / 0.7;
+  };
+  const auto due = [&](double t) {
+    const auto loading = [&](double e) { return e < first_yield ? E * e : Y + E_t * (e - first_yield); };
+    return std::min(loading(strain(t)), t > 0.25 ? loading(0.01) + E * (strain(t) - 0.01) : loading(strain(t)));
+  };
+  for (const double share : {0.0, 1.0}) {
+    const Mesh mesh =
+        make_box_hexes({.axes = {{{{1.0, 3, 1.0}}, {{1.0, 2, 1.0}}, {{1.0, 2, 1.0}}}}, .regions = {}, .slits = {}});
+    FractureRun run(
+        mesh,
+        plastic_model({.yield_stress = Y, .isotropic_hardening = share * h, .kinematic_hardening = (1.0 - share) * h},
+                      {symmetry_on("xmin"), symmetry_on("ymin"), symmetry_on("zmin"),
+                       moved("xmax", {true, false, false},
+                             [&](const Vector&, double t) { return Vector(strain(t), 0.0, 0.0); })}),
+        tight, in_steps(40));
+    const auto patch = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+    run_to_end(run, [&](const FractureState&, const StepReport& report) {
+      if (report.step == 0) return;
+      EXPECT_NEAR(report.reaction[patch].x(), due(report.load), 1e-7 * Y) << report.load;
+      // A step that crosses the yield point is the only one whose trapezoid is not the work.
+      if (report.load == 1.0) {
+        EXPECT_NEAR(left_over({}, report.energy), 0.0, 4e-3 * report.energy.external_work);
+      }
+    });
+  }
+}
+
+/// Of a sphere with the radii a and b, perfectly plastic out to c.
+struct HillSphere {
+  double a, b, c;
+
+  double pressure() const { return 2.0 * Y * std::log(c / a) + 2.0 / 3.0 * Y * (1.0 - std::pow(c / b, 3)); }
+  double displacement(double r) const {
+    const double E = steel.young_modulus(), nu = steel.poisson_ratio();
+    const double ratio = std::pow(c / b, 3);
+    if (r < c)
+      return Y / E *
+             ((1.0 - nu) * c * c * c / (r * r) -
+              2.0 / 3.0 * (1.0 - 2.0 * nu) * (1.0 + 3.0 * std::log(c / r) - ratio) * r);
+    const double radial = -2.0 / 3.0 * Y * ratio * (std::pow(b / r, 3) - 1.0);
+    const double hoop = 2.0 / 3.0 * Y * ratio * (0.5 * std::pow(b / r, 3) + 1.0);
+    return r / E * ((1.0 - nu) * hoop - nu * radial);
+  }
+};
+
+struct SphereErrors {
+  double pressure = 0.0, displacement = 0.0, radius = 0.0;
+};
+
+SphereErrors sphere_errors(Index n) {
+  const HillSphere hill{.a = 1.0, .b = 2.0, .c = 1.5};
+  const Mesh mesh = make_sphere_sector({.azimuth = std::numbers::pi / (4.0 * double(n)),
+                                        .inner_radius = hill.a,
+                                        .shells = {{{hill.b - hill.a, 4 * n, 1.0}, "wall"}},
+                                        .polar = {{std::numbers::pi / 2.0, 2 * n, 1.0}}});
+  const auto widened = [&](const Vector& x, double t) -> Vector {
+    return t * hill.displacement(hill.a) * x.normalized();
+  };
+  FractureModel model = plastic_model({.yield_stress = Y},
+                                      {{.patch = "front", .kind = BoundaryCondition::Kind::axisymmetric, .value = {}},
+                                       {.patch = "back", .kind = BoundaryCondition::Kind::axisymmetric, .value = {}},
+                                       symmetry_on("equator"),
+                                       moved("inner", {true, true, true}, widened)});
+  FractureRun run(mesh, model, {.energy_tolerance = 1e-8, .equilibrium_tolerance = 1e-8}, in_steps(20));
+  FractureState state = run.initial_state();
+  while (!run.is_complete(state)) run.step(state);
+  const OutputFields fields = run.output(state);
+  SphereErrors errors;
+  double force = 0.0, area = 0.0;
+  const Patch& inner = mesh.patch("inner");
+  for (Index f = inner.first_face; f < inner.first_face + inner.n_faces; ++f) {
+    const double A = mesh.face_area[f].norm();
+    force += fields.traction[f].dot(mesh.face_area[f].normalized()) * A;
+    area += A;
+  }
+  errors.pressure = std::abs(-force / area / hill.pressure() - 1.0);
+  const OutputHistory& path = *std::ranges::find(fields.history, "equivalent_plastic_strain", &OutputHistory::name);
+  double elastic_from = hill.b, squares = 0.0, whole = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const double r = mesh.cell_centre[c].norm();
+    const double wrong = fields.displacement[c].norm() - hill.displacement(r);
+    squares += mesh.cell_volume[c] * wrong * wrong;
+    whole += mesh.cell_volume[c] * hill.displacement(r) * hill.displacement(r);
+    if (path.scalar[c] == 0.0) elastic_from = std::min(elastic_from, r);
+  }
+  errors.displacement = std::sqrt(squares / whole);
+  errors.radius = std::abs(elastic_from - hill.c);
+  return errors;
+}
+
+TEST(PlasticCells, AThickWalledSphereIsHills) {
+  const SphereErrors coarse = sphere_errors(4), fine = sphere_errors(8);
+  report_row("sphere, n = 4", {{"pressure", coarse.pressure}, {"displacement", coarse.displacement}});
+  report_row("sphere, n = 8", {{"pressure", fine.pressure}, {"displacement", fine.displacement}});
+  EXPECT_LE(fine.pressure, 2e-3);
+  EXPECT_LE(fine.displacement, 3e-3);
+  EXPECT_LE(fine.pressure, 0.4 * coarse.pressure);
+  EXPECT_LE(fine.displacement, 0.4 * coarse.displacement);
+  EXPECT_LE(fine.radius, 1.0 / 32.0);  // a cell
+}
+
+}  // namespace
+}  // namespace pfdm::verification
