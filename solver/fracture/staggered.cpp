@@ -165,6 +165,28 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
   return loop.outcome;
 }
 
+Staggered::Residuals Staggered::residuals(const FractureState& start, const FractureState& at, double duration) {
+  Residuals result{.force = std::vector<Vector>(at.displacement.size()),
+                   .damage = CellField<double>(as_size(mesh_.n_cells()), 0.0)};
+  degrade(at);
+  momentum_.balance().apply(at.displacement, result.force);
+  FractureState driven = at;
+  update_driving_energy(start, driven, false);
+  if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / duration, start.damage);
+  damage_.renewed_fracture_energy(at.damage);
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    if (damage_.is_damageable(c)) result.damage[c] = damage_.imbalance(c, at.damage, driven.driving_energy[c]);
+  return result;
+}
+
+void Staggered::agree(Agreement agreement) {
+  stiffness_.hold(agreement.held);
+  damage_.hold(std::move(agreement.held));
+  momentum_.set_body_force(std::move(agreement.force));
+  momentum_.measure_against(agreement.residual_reference);
+  damage_.set_source(std::move(agreement.source));
+}
+
 void Staggered::degrade(const FractureState& state) {
   const auto lap = clock_.lap("moduli_and_preconditioner");
   stiffness_.set(state, momentum_);

@@ -78,10 +78,22 @@ class Staggered {
   /// The loop of solve_step alone; the energies of the outcome are not set.
   StepOutcome alternate(const FractureState& start, FractureState& state, const StepLimits& limits,
                         const IterationWatch& watch = {});
-  /// The driving energy at the displacement of the state, with the present stiffness.
-  void renew_driving_energy(const FractureState& start, FractureState& state) {
-    update_driving_energy(start, state, false);
-  }
+  /// Residuals of both equations at a state of a step that takes `duration` [s].
+  struct Residuals {
+    std::vector<Vector> force;  ///< of the momentum balance on each node, without those of the loads [N]
+    CellField<double> damage;   ///< of the damage equation per volume [J/m^3]
+  };
+  Residuals residuals(const FractureState& start, const FractureState& at, double duration);
+
+  /// What makes a part of a mesh agree with the whole: cells held as they are, and what the discrete balances lack at
+  /// the cut.
+  struct Agreement {
+    CellField<char> held;             ///< not zero where damage and stiffness do not change
+    std::vector<Vector> force{};      ///< on each node [N]
+    CellField<double> source{};       ///< of the damage equation [J/m^3]
+    double residual_reference = 0.0;  ///< of relative residuals of the momentum balance
+  };
+  void agree(Agreement agreement);
 
   const Mesh& mesh() const { return mesh_; }
   const FractureModel& model() const { return model_; }

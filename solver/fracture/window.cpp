@@ -93,13 +93,13 @@ Window::Window(Staggered& whole, const LocalIterations::Turn& turn, std::vector<
       model_(model_of_part(whole.model(), part_.cell)),
       unknowns_(unknowns_of_part(whole.unknowns(), part_)),
       staggered_(part_.mesh, model_, unknowns_, settings),
-      start_(take_out_state(turn.start)) {
-  hold_rim();
+      start_(take_out_state(turn.start)),
+      held_(held_cells()) {
   agree();
 }
 
-// Cells that are held in the whole mesh are held here.
-void Window::hold_rim() {
+// The rings of cells next to the cut. Cells that are held in the whole mesh are held here.
+CellField<char> Window::held_cells() const {
   const Mesh& mesh = part_.mesh;
   std::vector<Index> rings;
   const Patch& cut = part_.cut_patch();
@@ -110,52 +110,42 @@ void Window::hold_rim() {
   CellField<char> held = take_out(whole_.damage_equation().held(), part_.cell);
   if (held.size() == 0) held = CellField<char>(part_.cell.size(), 0);
   for (const Index c : rings) held[c] = 1;
-  staggered_.stiffness().hold(held);
-  staggered_.damage_equation().hold(std::move(held));
+  return held;
 }
 
-// The forces and sources at the cut. Cells that are not held get no force: they would carry the residual of the whole
-// problem also after they break.
-void Window::agree() {
-  const FractureState at = take_out_state(turn_.from);
-  staggered_.stiffness().take_out_memory(whole_.stiffness(), part_.cell);
-  staggered_.degrade(at);
-  MomentumSolver& momentum = staggered_.momentum();
-  std::vector<Vector> force(at.displacement.size());
-  momentum.balance().apply(at.displacement, force);
-  const CellField<char>& held = staggered_.damage_equation().held();
-  for (Index c = 0; c < held.size(); ++c)
-    if (held[c] == 0) force[as_size(c)] = Vector::Zero();
+// Cells that are not held get no force: they would carry the residual of the whole problem also after they break.
+void Window::take_away_free_forces(std::vector<Vector>& force) const {
+  for (Index c = 0; c < held_.size(); ++c)
+    if (held_[c] == 0) force[as_size(c)] = Vector::Zero();
   for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
     const Index f = unknowns_.face_of_node[k];
     const bool is_held =
-        held[part_.mesh.owner[f]] != 0 || (part_.mesh.is_interior(f) && held[part_.mesh.neighbour[f]] != 0);
+        held_[part_.mesh.owner[f]] != 0 || (part_.mesh.is_interior(f) && held_[part_.mesh.neighbour[f]] != 0);
     if (!is_held) force[part_.cell.size() + k] = Vector::Zero();
   }
-  momentum.set_body_force(std::move(force));
-  momentum.measure_against(whole_.momentum().residual_reference());
+}
 
-  FractureState driven = at;
-  staggered_.renew_driving_energy(start_, driven);
-  DamageEquation& equation = staggered_.damage_equation();
-  if (model_.viscosity > 0.0) equation.resist_change(model_.viscosity / turn_.duration, start_.damage);
-  equation.renewed_fracture_energy(at.damage);
-  CellField<double> source(part_.cell.size(), 0.0);
-  for (Index i = 0; i < source.size(); ++i) {
-    if (!equation.is_damageable(i)) continue;
+// The forces and sources at the cut: what the balances of the part lack against those of the whole.
+void Window::agree() {
+  staggered_.stiffness().take_out_memory(whole_.stiffness(), part_.cell);
+  Staggered::Residuals lack = staggered_.residuals(start_, take_out_state(turn_.from), turn_.duration);
+  take_away_free_forces(lack.force);
+  for (Index i = 0; i < lack.damage.size(); ++i) {
+    if (!staggered_.damage_equation().is_damageable(i)) continue;
     const Index c = part_.cell[as_size(i)];
-    source[i] = equation.imbalance(i, at.damage, driven.driving_energy[i]) -
-                whole_.damage_equation().imbalance(c, turn_.from.damage, turn_.from.driving_energy[c]);
+    lack.damage[i] -= whole_.damage_equation().imbalance(c, turn_.from.damage, turn_.from.driving_energy[c]);
   }
-  equation.set_source(std::move(source));
+  staggered_.agree({.held = held_,
+                    .force = std::move(lack.force),
+                    .source = std::move(lack.damage),
+                    .residual_reference = whole_.momentum().residual_reference()});
 }
 
 // With the damage and the stiffness that the forces at the cut belong to: these would displace without limit a cell
 // that has broken or opened since.
 void Window::hold_rim_as_it_was(FractureState& here) const {
-  const CellField<char>& held = staggered_.damage_equation().held();
-  for (Index i = 0; i < held.size(); ++i) {
-    if (held[i] == 0) continue;
+  for (Index i = 0; i < held_.size(); ++i) {
+    if (held_[i] == 0) continue;
     const Index c = part_.cell[as_size(i)];
     here.damage[i] = turn_.from.damage[c];
     here.closure[i] = turn_.from.closure[c];
@@ -182,9 +172,8 @@ FractureState Window::take_out_state(const FractureState& whole) const {
 
 // Held cells keep their values in the whole mesh.
 void Window::put_back_state(const FractureState& here, FractureState& whole) const {
-  const CellField<char>& held = staggered_.damage_equation().held();
-  for (Index i = 0; i < held.size(); ++i) {
-    if (held[i] != 0) continue;
+  for (Index i = 0; i < held_.size(); ++i) {
+    if (held_[i] != 0) continue;
     const Index c = part_.cell[as_size(i)];
     whole.damage[c] = here.damage[i];
     whole.driving_energy[c] = here.driving_energy[i];

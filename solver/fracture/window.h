@@ -24,7 +24,8 @@ class Window {
   StepOutcome settle(FractureState& state);
 
  private:
-  void hold_rim();
+  CellField<char> held_cells() const;
+  void take_away_free_forces(std::vector<Vector>& force) const;
   void agree();
   void hold_rim_as_it_was(FractureState& here) const;
   FractureState take_out_state(const FractureState& whole) const;
@@ -37,6 +38,7 @@ class Window {
   Unknowns unknowns_;
   Staggered staggered_;
   FractureState start_;
+  CellField<char> held_;  // not zero in the rim
 };
 
 /// Windows around the cells whose damage changes most.

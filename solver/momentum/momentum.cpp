@@ -73,55 +73,59 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
       sector_stress_(sector_area_.size() > 0 ? as_size(mesh.n_cells()) : 0, 0.0),
       pressure_(mesh, unknowns),
       gradients_(as_size(mesh.n_cells())) {
-  for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
-    if (unknowns.node_of_face[f] >= 0) continue;
-    const Index P = mesh.owner[f], N = mesh.neighbour[f];
+  add_links();
+  add_sides();
+  forces_.resize(links_.size() + sides_.size());
+  if (pressure_.any()) flux_.resize(forces_.size());
+  list_forces_of_cells();
+}
+
+void MomentumOperator::add_links() {
+  for (Index f = 0; f < mesh_.n_interior_faces(); ++f) {
+    if (unknowns_.node_of_face[f] >= 0) continue;
+    const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
     force_of_face_[as_size(f)] = static_cast<Index>(links_.size());
     links_.push_back({.face = f,
                       .P = P,
                       .N = N,
-                      .area = mesh.face_area[f].norm(),
-                      .n = mesh.face_area[f].normalized(),
-                      .d_P = mesh.face_centre[f] - mesh.cell_centre[P],
-                      .d_N = mesh.face_centre[f] - mesh.cell_centre[N],
-                      .weight_n = 0.0,
-                      .weight_t = 0.0,
-                      .c_n = 0.0,
-                      .c_t = 0.0,
-                      .jump_n = 0.0,
-                      .jump_t = 0.0});
+                      .area = mesh_.face_area[f].norm(),
+                      .n = mesh_.face_area[f].normalized(),
+                      .d_P = mesh_.face_centre[f] - mesh_.cell_centre[P],
+                      .d_N = mesh_.face_centre[f] - mesh_.cell_centre[N]});
   }
-  const auto add_side = [&](Index node, Index f, Index cell, double sign) {
+}
+
+void MomentumOperator::add_sides() {
+  const auto add = [&](Index node, Index f, Index cell, double sign) {
     sides_.push_back({.face = f,
                       .cell = cell,
                       .node = node,
-                      .area = mesh.face_area[f].norm(),
-                      .n = sign * mesh.face_area[f].normalized(),
-                      .d = mesh.face_centre[f] - mesh.cell_centre[cell],
-                      .a_n = 0.0,
-                      .a_t = 0.0});
+                      .area = mesh_.face_area[f].norm(),
+                      .n = sign * mesh_.face_area[f].normalized(),
+                      .d = mesh_.face_centre[f] - mesh_.cell_centre[cell]});
     return static_cast<Index>(sides_.size()) - 1;
   };
-  for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k) {
-    const Index f = unknowns.face_of_node[k], node = unknowns.n_cells + static_cast<Index>(k);
-    first_side_of_node_[k] = add_side(node, f, mesh.owner[f], 1.0);
+  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
+    const Index f = unknowns_.face_of_node[k], node = unknowns_.n_cells + static_cast<Index>(k);
+    first_side_of_node_[k] = add(node, f, mesh_.owner[f], 1.0);
     force_of_face_[as_size(f)] = static_cast<Index>(links_.size()) + first_side_of_node_[k];
-    if (mesh.is_interior(f)) second_side_of_node_[k] = add_side(node, f, mesh.neighbour[f], -1.0);
+    if (mesh_.is_interior(f)) second_side_of_node_[k] = add(node, f, mesh_.neighbour[f], -1.0);
   }
-  forces_.resize(links_.size() + sides_.size());
-  if (pressure_.any()) flux_.resize(forces_.size());
+}
+
+void MomentumOperator::list_forces_of_cells() {
   cell_offsets_.push_back(0);
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    for (const Index f : mesh.faces_of_cell(c)) {
-      const Index force = force_of_face_[as_size(f)], node = unknowns.node_of_face[f];
+  for (Index c = 0; c < mesh_.n_cells(); ++c) {
+    for (const Index f : mesh_.faces_of_cell(c)) {
+      const Index force = force_of_face_[as_size(f)], node = unknowns_.node_of_face[f];
       if (force < 0) continue;
-      if (mesh.owner[f] == c)
+      if (mesh_.owner[f] == c)
         cell_forces_.push_back({force, 1.0});
       else if (node < 0)
         cell_forces_.push_back({force, -1.0});
       else
         cell_forces_.push_back(
-            {static_cast<Index>(links_.size()) + second_side_of_node_[as_size(node - unknowns.n_cells)], 1.0});
+            {static_cast<Index>(links_.size()) + second_side_of_node_[as_size(node - unknowns_.n_cells)], 1.0});
     }
     cell_offsets_.push_back(cell_forces_.size());
   }

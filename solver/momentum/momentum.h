@@ -100,19 +100,19 @@ class MomentumOperator {
   struct Link {
     Index face, P, N;
     double area;
-    Vector n;                   // from P to N
-    Vector d_P, d_N;            // from the cell centres to the face centre
-    double weight_n, weight_t;  // of sigma_P in the traction; those of sigma_N complete them to 1
-    double c_n, c_t;            // [Pa/m]
-    double jump_n, jump_t;      // c_n and c_t as the jump has them beside polyhedra [Pa/m]
+    Vector n;                               // from P to N
+    Vector d_P, d_N;                        // from the cell centres to the face centre
+    double weight_n = 0.0, weight_t = 0.0;  // of sigma_P in the traction; those of sigma_N complete them to 1
+    double c_n = 0.0, c_t = 0.0;            // [Pa/m]
+    double jump_n = 0.0, jump_t = 0.0;      // c_n and c_t as the jump has them beside polyhedra [Pa/m]
   };
   // One side of a face that carries a node.
   struct Side {
     Index face, cell, node;
     double area;
-    Vector n;         // outwards from the cell
-    Vector d;         // from the cell centre to the face centre
-    double a_n, a_t;  // [Pa/m]
+    Vector n;                     // outwards from the cell
+    Vector d;                     // from the cell centre to the face centre
+    double a_n = 0.0, a_t = 0.0;  // [Pa/m]
   };
   // Weight and c of a link whose cells are not isotropic.
   struct LinkTensors {
@@ -130,6 +130,9 @@ class MomentumOperator {
     return across * v + ((along - across) * n.dot(v)) * n;
   }
 
+  void add_links();
+  void add_sides();
+  void list_forces_of_cells();
   // Forces of the displacements, of the initial stresses, and of both, into forces_.
   void compute_linear_forces(const std::vector<Vector>& u) const;
   void add_initial_forces() const;

@@ -80,7 +80,6 @@ class AtRest {
     state.load = 1.0;
     // Twice, as the weights of its gradients may lag behind the damage, which those of a window do not.
     for (int turn = 0; turn < 2; ++turn) is_settled = whole_.solve_step(start_, state).converged;
-    whole_.renew_driving_energy(start_, state);
     whole_.damage_equation().renewed_fracture_energy(state.damage);
   }
 
