@@ -1,5 +1,7 @@
 #include "cases/program/fracture/fracture_case.h"
 
+#include "cases/program/fracture/material_keys.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

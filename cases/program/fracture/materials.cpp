@@ -1,8 +1,7 @@
 #include "cases/program/fracture/materials.h"
 
+#include "cases/program/fracture/material_keys.h"
 #include "cases/program/fracture/material_laws.h"
-#include "cases/program/input/amount.h"
-#include "cases/program/input/law_reader.h"
 #include "cases/program/input/path_reader.h"
 #include "physics/interface_toughness.h"
 
@@ -15,71 +14,6 @@
 
 namespace pfdm {
 namespace {
-
-/// Of [materials.NAME] and of [regions.NAME].
-constexpr std::string_view material_keys[] = {"regions",   "law",         "young_modulus", "poisson_ratio",
-                                              "toughness", "strength",    "length",        "damageable",
-                                              "split",     "degradation", "softening"};
-constexpr std::string_view region_keys[] = {"young_modulus", "poisson_ratio", "toughness",   "strength",  "length",
-                                            "damageable",    "split",         "degradation", "softening", "band"};
-
-/// What a material or a region's override may say.
-struct MaterialKeys {
-  std::optional<Parameter> young_modulus, poisson_ratio, toughness, strength, length;
-  std::optional<bool> damageable;
-  EnergySplit split{};
-  Degradation degradation{};
-  const SofteningLaw* softening = nullptr;
-  std::shared_ptr<const Material> material{};
-
-  bool varies() const {
-    return std::ranges::any_of(std::array{&young_modulus, &poisson_ratio, &toughness, &strength, &length},
-                               [](const auto* parameter) { return *parameter && (*parameter)->varies; });
-  }
-};
-
-std::vector<std::string_view> keys_of(const MaterialLaw& law) {
-  std::vector<std::string_view> keys(std::begin(material_keys), std::end(material_keys));
-  keys.insert(keys.end(), law.keys.begin(), law.keys.end());
-  return keys;
-}
-
-std::optional<double> value_at(const std::optional<Parameter>& parameter, const Vector& x) {
-  return parameter ? std::optional(parameter->at(x)) : std::nullopt;
-}
-
-std::optional<Parameter> find_parameter(const ConfigTable& table, std::string_view key, const Dimension& due,
-                                        const Range& allowed = range::positive) {
-  const auto value = table.find(key);
-  return value ? std::optional(read_parameter(*value, due, allowed)) : std::nullopt;
-}
-
-MaterialKeys read_keys(const ConfigTable& table) {
-  MaterialKeys keys;
-  keys.young_modulus = find_parameter(table, "young_modulus", dimension::stress);
-  keys.poisson_ratio = find_parameter(table, "poisson_ratio", dimension::number, range::poisson_ratio);
-  keys.toughness = find_parameter(table, "toughness", dimension::toughness);
-  keys.strength = find_parameter(table, "strength", dimension::stress);
-  keys.length = find_parameter(table, "length", dimension::length);
-  if (const auto value = table.find("damageable")) keys.damageable = value->boolean();
-  if (const auto value = table.find("split")) keys.split = read_split(*value);
-  if (const auto value = table.find("degradation")) keys.degradation = read_degradation(*value);
-  if (const auto value = table.find("softening")) keys.softening = &choose(*value, softening_laws(), "softening law");
-  return keys;
-}
-
-MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by) {
-  if (by.young_modulus) base.young_modulus = by.young_modulus;
-  if (by.poisson_ratio) base.poisson_ratio = by.poisson_ratio;
-  if (by.toughness) base.toughness = by.toughness;
-  if (by.strength) base.strength = by.strength;
-  if (by.length) base.length = by.length;
-  if (by.damageable) base.damageable = by.damageable;
-  if (by.split.is_chosen()) base.split = by.split;
-  if (by.degradation.is_chosen()) base.degradation = by.degradation;
-  if (by.softening != nullptr) base.softening = by.softening;
-  return base;
-}
 
 // Strength and toughness make the coefficients of the degradation.
 RationalCoefficients make_coefficients(std::optional<double> strength, const RegionModel& model,
@@ -103,7 +37,7 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, cons
   RegionModel model;
   model.elasticity = from_young_poisson(keys.young_modulus->at(x), keys.poisson_ratio->at(x));
   model.material = keys.material;
-  model.split = keys.split;
+  model.split = keys.split.value_or(EnergySplit());
   model.damageable = keys.damageable.value_or(true);
   model.Gc = value_at(keys.toughness, x).value_or(0.0);
   model.ell = value_at(keys.length, x).value_or(defaults.ell.value_or(0.0));
@@ -118,9 +52,9 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, cons
         fmt::format("region \"{}\" can be damaged but has no length (ell); give it in [fracture] or "
                     "here, as in \"10 um\"",
                     region));
-  model.degradation = keys.degradation;
-  if (!(keys.degradation.is_chosen() ? keys.degradation : defaults.degradation).law().needs_strength) return model;
-  const SofteningLaw* const given = keys.softening != nullptr ? keys.softening : defaults.softening;
+  if (keys.degradation) model.degradation = *keys.degradation;
+  if (!keys.degradation.value_or(defaults.degradation).law().needs_strength) return model;
+  const SofteningLaw* const given = keys.softening.value_or(defaults.softening);
   const SofteningLaw& softening = given != nullptr ? *given : softening_law("linear");
   model.degradation =
       rational_degradation(make_coefficients(value_at(keys.strength, x), model, region, softening, table));
@@ -148,7 +82,7 @@ std::vector<RegionOverride> read_overrides(const ConfigTable& root) {
   std::vector<RegionOverride> overrides;
   if (!root.has("regions")) return overrides;
   for (const auto& [name, value] : root.table("regions").entries()) {
-    const ConfigTable table = value.table().with_keys(region_keys);
+    const ConfigTable table = value.table().with_keys(keys_with({"band"}));
     overrides.push_back({name, value, read_keys(table), read_band(name, table)});
   }
   return overrides;
@@ -191,7 +125,9 @@ RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& nam
 void read_material(Materials& materials, const std::string& name, const ConfigTable& given,
                    std::vector<RegionOverride>& overrides, std::vector<RegionKeys>& regions) {
   const MaterialLaw& law = law_of_material(given);
-  const ConfigTable table = given.with_keys(keys_of(law));
+  std::vector<std::string_view> allowed = keys_with({"regions", "law"});
+  allowed.insert(allowed.end(), law.keys.begin(), law.keys.end());
+  const ConfigTable table = given.with_keys(allowed);
   table.at("young_modulus"), table.at("poisson_ratio");
   MaterialKeys base = read_keys(table);
   base.material = law.read(table);
@@ -271,16 +207,6 @@ void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const
 
 }  // namespace
 
-EnergySplit read_split(const ConfigValue& value) {
-  const auto [law, p] = choose_law(value, energy_splits(), "energy split");
-  return {*law, p};
-}
-
-Degradation read_degradation(const ConfigValue& value) {
-  const auto [law, p] = choose_law(value, degradations(), "degradation function");
-  return {*law, p};
-}
-
 const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const {
   std::vector<std::string> names;
   for (const NamedElasticity& material : by_name) names.push_back(material.material);
@@ -309,7 +235,7 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
     const auto at = [entry, defaults](const Vector& x) {
       return make_model(entry.keys, entry.region, defaults, entry.table, x);
     };
-    const bool varies = entry.keys.varies();
+    const bool varies = any_varies(entry.keys);
     if (!varies) at(Vector::Zero());  // what is wrong with it is wrong everywhere
     materials.by_region.push_back(
         {.region = entry.region,
@@ -319,7 +245,7 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
          .elastic_law = fmt::format("{} | {} | {}", entry.keys.young_modulus->text, entry.keys.poisson_ratio->text,
                                     fmt::ptr(entry.keys.material.get())),
          .material = entry.keys.material,
-         .split = entry.keys.split});
+         .split = entry.keys.split.value_or(EnergySplit())});
   }
   return materials;
 }

@@ -48,10 +48,6 @@ struct MaterialDefaults {
   const SofteningLaw* softening = nullptr;  ///< likewise; for degradations that need a strength
 };
 
-/// "name", or { law = "name", parameter = ... }.
-EnergySplit read_split(const ConfigValue& value);
-Degradation read_degradation(const ConfigValue& value);
-
 /// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file.
 Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults);
 

@@ -1,0 +1,78 @@
+#include "cases/program/fracture/material_keys.h"
+
+#include "cases/program/input/law_reader.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace pfdm {
+namespace {
+
+/// A quantity of a material, which may vary in space.
+struct Quantity {
+  std::string_view key;
+  std::optional<Parameter> MaterialKeys::*value;
+  const Dimension& due;
+  const Range& allowed = range::positive;
+};
+const Quantity quantities[] = {
+    {"young_modulus", &MaterialKeys::young_modulus, dimension::stress},
+    {"poisson_ratio", &MaterialKeys::poisson_ratio, dimension::number, range::poisson_ratio},
+    {"toughness", &MaterialKeys::toughness, dimension::toughness},
+    {"strength", &MaterialKeys::strength, dimension::stress},
+    {"length", &MaterialKeys::length, dimension::length},
+};
+constexpr std::string_view choices[] = {"damageable", "split", "degradation", "softening"};
+
+template <class T>
+void override_by(const std::optional<T>& by, std::optional<T>& value) {
+  if (by) value = by;
+}
+
+}  // namespace
+
+std::vector<std::string_view> keys_with(std::initializer_list<std::string_view> others) {
+  std::vector<std::string_view> keys(others);
+  for (const Quantity& quantity : quantities) keys.push_back(quantity.key);
+  keys.insert(keys.end(), std::begin(choices), std::end(choices));
+  return keys;
+}
+
+bool any_varies(const MaterialKeys& keys) {
+  return std::ranges::any_of(quantities, [&](const Quantity& quantity) {
+    const std::optional<Parameter>& value = keys.*quantity.value;
+    return value && value->varies;
+  });
+}
+
+MaterialKeys read_keys(const ConfigTable& table) {
+  MaterialKeys keys;
+  for (const auto& [key, member, due, allowed] : quantities)
+    if (const auto value = table.find(key)) keys.*member = read_parameter(*value, due, allowed);
+  if (const auto value = table.find("damageable")) keys.damageable = value->boolean();
+  if (const auto value = table.find("split")) keys.split = read_split(*value);
+  if (const auto value = table.find("degradation")) keys.degradation = read_degradation(*value);
+  if (const auto value = table.find("softening")) keys.softening = &choose(*value, softening_laws(), "softening law");
+  return keys;
+}
+
+MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by) {
+  for (const Quantity& quantity : quantities) override_by(by.*quantity.value, base.*quantity.value);
+  override_by(by.damageable, base.damageable);
+  override_by(by.split, base.split);
+  override_by(by.degradation, base.degradation);
+  override_by(by.softening, base.softening);
+  return base;
+}
+
+EnergySplit read_split(const ConfigValue& value) {
+  const auto [law, p] = choose_law(value, energy_splits(), "energy split");
+  return {*law, p};
+}
+
+Degradation read_degradation(const ConfigValue& value) {
+  const auto [law, p] = choose_law(value, degradations(), "degradation function");
+  return {*law, p};
+}
+
+}  // namespace pfdm
