@@ -15,10 +15,13 @@ double round_step(double rough) {
   return power * (digit < 1.5 ? 1.0 : digit < 3.5 ? 2.0 : digit < 7.5 ? 5.0 : 10.0);
 }
 
+constexpr double level = 1e-9;  // what differs by less beside its size differs by rounding
+
 /// A hair of room, so that no curve runs along the frame.
 void widen(double& least, double& most) {
-  if (least == most) {
-    const double half = least == 0.0 ? 1.0 : 0.5 * std::abs(least);
+  const double size = std::max(std::abs(least), std::abs(most));
+  if (most - least <= level * size) {
+    const double half = size == 0.0 ? 1.0 : 0.5 * size;
     least -= half;
     most += half;
     return;
@@ -36,10 +39,13 @@ AxisTicks linear_ticks(const ChartAxis& axis, double least, double most, int cou
   const double step = round_step((ticks.to - ticks.from) / count);
   const int digits = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   const double slack = 1e-9 * (ticks.to - ticks.from);
+  const double size = std::max(std::abs(ticks.from), std::abs(ticks.to));
+  const int significant =
+      std::max(6, static_cast<int>(std::floor(std::log10(size)) - std::floor(std::log10(step))) + 1);
   for (double k = std::ceil((ticks.from - slack) / step); k * step <= ticks.to + slack; ++k) {
     ticks.positions.push_back(k * step);
-    ticks.labels.push_back(std::abs(k * step) >= 1e5 || (digits > 4) ? fmt::format("{:g}", k * step)
-                                                                     : fmt::format("{:.{}f}", k * step, digits));
+    ticks.labels.push_back(std::abs(k * step) >= 1e5 || digits > 4 ? fmt::format("{:.{}g}", k * step, significant)
+                                                                   : fmt::format("{:.{}f}", k * step, digits));
   }
   for (std::string& label : ticks.labels)
     if (label.front() == '-' && label.find_first_of("123456789") == std::string::npos) label.erase(0, 1);

@@ -2,7 +2,6 @@
 
 #include "postproc/files/atomic_file.h"
 #include "postproc/page/chart_drawing.h"
-#include "postproc/page/lettering.h"
 #include "postproc/page/page_text.h"
 #include "postproc/page/picture_drawing.h"
 

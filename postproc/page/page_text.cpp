@@ -1,7 +1,6 @@
 #include "postproc/page/page_text.h"
 
 #include "postproc/page/chart_drawing.h"
-#include "postproc/page/lettering.h"
 
 #include <algorithm>
 #include <numeric>
@@ -14,12 +13,6 @@ constexpr double line_height = 10.5, caption_height = 13.0, key_height = 10.0;  
 constexpr double column_gap = 10.0;                                                            // [pt]
 constexpr double least_last_column = 0.35;                                                     // of a table's width
 constexpr Colour grey{0.35, 0.35, 0.35};
-
-/// The largest size, up to the given, at which the text is not wider.
-double fitting_size(const std::string& text, double size, double width, bool bold = false) {
-  const double natural = text_width(text, size, bold);
-  return natural > width ? size * width / natural : size;
-}
 
 /// Words in as many lines as they take.
 std::vector<std::string> broken(const std::string& text, double size, double width) {
@@ -79,20 +72,13 @@ std::size_t lines_of(const std::vector<std::string>& row, const std::vector<doub
 }
 
 void draw_swatch(Paper& paper, const PaperPoint& left, double width, const Series& series) {
+  constexpr double half_band = 2.5, line_width = 1.2, dot_width = 2.4;  // [pt]
   const Colour colour = series_colour(series.colour);
-  const PaperPoint right = left + PaperPoint(width, 0.0), middle = 0.5 * (left + right);
-  const double half = series.style == SeriesStyle::band ? 2.5 : 1.2;
-  const auto box = [&](double from, double to) {
-    return std::vector<PaperPoint>{
-        {from, left.y() - half}, {to, left.y() - half}, {to, left.y() + half}, {from, left.y() + half}};
-  };
-  if (series.style == SeriesStyle::band) return paper.fill(box(left.x(), right.x()), colour);
-  const bool line = series.style != SeriesStyle::points,
-             points = series.style == SeriesStyle::line_with_points || !line;
-  const std::vector<double> dashes =
-      series.style == SeriesStyle::dashed ? std::vector{4.0, 2.0} : std::vector<double>{};
-  if (line) paper.stroke(std::vector{left, right}, {colour, 1.2, dashes});
-  if (points) paper.fill(box(middle.x() - half, middle.x() + half), colour);
+  const PaperPoint right = left + PaperPoint(width, 0.0), up(0.0, half_band);
+  if (series.style == SeriesStyle::band)
+    paper.fill(std::vector<PaperPoint>{left - up, right - up, right + up, left + up}, colour);
+  if (has_line(series)) paper.stroke(std::vector{left, right}, series_pen(series, line_width));
+  if (has_dots(series)) paper.stroke(std::vector<PaperPoint>{0.5 * (left + right)}, {colour, dot_width});
 }
 
 }  // namespace

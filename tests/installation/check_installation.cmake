@@ -24,7 +24,7 @@ foreach(file share/bash-completion/completions/pfdm share/zsh/vendor-completions
 endforeach()
 
 file(STRINGS ${BUILD}/CPackConfig.cmake depends REGEX "DEVELOPMENT_PACKAGE_DEPENDS")
-foreach(library libeigen3-dev nlohmann-json3-dev libtet1.5-dev libfreetype-dev)
+foreach(library libeigen3-dev nlohmann-json3-dev libtet1.5-dev libcairo2-dev libfreetype-dev)
   if(NOT depends MATCHES "[ \"]${library}[,\"]")
     message(FATAL_ERROR "libpfdm-dev does not depend on ${library}: ${depends}")
   endif()

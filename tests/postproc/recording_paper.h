@@ -1,7 +1,6 @@
 #pragma once
 // A paper that remembers what was drawn on it.
 
-#include "postproc/page/lettering.h"
 #include "postproc/page/paper.h"
 
 #include <Eigen/Geometry>
@@ -15,7 +14,7 @@ struct RecordingPaper : Paper {
   };
   struct Text {
     std::string text;
-    Eigen::AlignedBox2d box;  // about its letters
+    Eigen::AlignedBox2d box;  // from the lowest to the highest letters of the font
   };
   struct Fill {
     std::vector<PaperPoint> polygon;
@@ -28,11 +27,14 @@ struct RecordingPaper : Paper {
   void fill(std::span<const PaperPoint> polygon, const Colour& colour) override {
     fills.push_back({{polygon.begin(), polygon.end()}, colour});
   }
-  void text(const std::string& text, const PaperPoint& start, const TextStyle& style) override {
+  void text(const std::string& text, const PaperPoint& point, const TextStyle& style) override {
+    if (text.empty()) return;
+    const double width = text_width(text, style.size, style.bold), left = -style.alignment * width;
     Text entry{text, {}};
-    for (const auto& polygon : text_outline(text, style.size, style.bold))
-      for (const PaperPoint& p : polygon) entry.box.extend(turned(p, start, style.angle));
-    if (!entry.box.isEmpty()) texts.push_back(entry);
+    for (const double x : {left, left + width})
+      for (const double y : {-0.21 * style.size, 0.73 * style.size})
+        entry.box.extend(point + Eigen::Rotation2Dd(style.angle) * PaperPoint(x, y));
+    texts.push_back(entry);
   }
   void clip(const std::optional<Rectangle>&) override {}
   std::string content() override { return {}; }
