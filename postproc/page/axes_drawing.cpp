@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 
 namespace pfdm {
@@ -23,10 +24,14 @@ void line(Paper& paper, const PaperPoint& from, const PaperPoint& to, const Pen&
 
 void draw_x_axis(Paper& paper, const Axes& axes) {
   const Rectangle& w = axes.window;
+  double free_from = -std::numeric_limits<double>::infinity();  // numbers that would touch are left out
   line(paper, {w.left, w.bottom}, {w.right(), w.bottom}, frame_pen);
   for (std::size_t i = 0; i < axes.x.positions.size(); ++i) {
     const double x = axes.at(axes.x.positions[i], 0.0).x();
     line(paper, {x, w.bottom}, {x, w.bottom - tick_length}, frame_pen);
+    const double half_width = 0.5 * text_width(axes.x.labels[i], label_size);
+    if (x - half_width < free_from) continue;
+    if (half_width > 0.0) free_from = x + half_width + 2.0;
     paper.text(axes.x.labels[i], {x, w.bottom - label_offset - 2.0 * half_a_digit},
                {.size = label_size, .alignment = 0.5});
   }
@@ -36,15 +41,19 @@ void draw_x_axis(Paper& paper, const Axes& axes) {
 
 void draw_y_axis(Paper& paper, const Axes& axes) {
   const Rectangle& w = axes.window;
+  double free_from = -std::numeric_limits<double>::infinity();
   line(paper, {w.left, w.bottom}, {w.left, w.top()}, frame_pen);
   for (std::size_t i = 0; i < axes.y.positions.size(); ++i) {
     const double y = axes.at(0.0, axes.y.positions[i]).y();
     line(paper, {w.left, y}, {w.left - tick_length, y}, frame_pen);
+    if (y < free_from) continue;
+    if (!axes.y.labels[i].empty()) free_from = y + label_size;
     paper.text(axes.y.labels[i], {w.left - label_offset, y - half_a_digit}, {.size = label_size, .alignment = 1.0});
   }
-  paper.text(
-      axes.y_title, {w.left - label_offset - widest_label(axes.y) - 5.0, w.bottom + 0.5 * w.height},
-      {.size = fitting_size(axes.y_title, title_size, w.height), .angle = 0.5 * std::numbers::pi, .alignment = 0.5});
+  paper.text(axes.y_title, {w.left - label_offset - widest_label(axes.y) - 5.0, w.bottom + 0.5 * w.height},
+             {.size = fitting_size(axes.y_title, title_size, std::max(w.height, least_height_of_titles)),
+              .angle = 0.5 * std::numbers::pi,
+              .alignment = 0.5});
 }
 
 }  // namespace

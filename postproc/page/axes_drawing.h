@@ -18,6 +18,7 @@ struct Axes {
 /// What numbers and titles take beside the window [pt].
 double room_left_of(const AxisTicks& y);
 constexpr double room_below_axes = 24.0;
+constexpr double least_height_of_titles = 48.0;  ///< beside a window that is flatter
 
 /// Lines across the window at the marks.
 void draw_grid(Paper& paper, const Axes& axes);

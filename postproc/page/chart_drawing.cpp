@@ -10,7 +10,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double line_width = 0.9, dot_width = 1.8;  // [pt]
+constexpr double line_width = 0.9, dot_width = 2.2;  // [pt]
 
 struct Range {
   double least = std::numeric_limits<double>::infinity();

@@ -50,7 +50,8 @@ Axes axes_for(const Rectangle& place, const Picture& picture) {
     return axis_ticks({.title = {}, .from = box.min()[axis], .to = box.max()[axis]}, 0.0, 0.0,
                       std::max(2, static_cast<int>(size[axis] / spacing)));
   };
-  return {.window = {place.left + room_left, place.top() - room_above - size.y(), size.x(), size.y()},
+  const double middle = place.top() - room_above - 0.5 * std::max(size.y(), least_height_of_titles);
+  return {.window = {place.left + room_left, middle - 0.5 * size.y(), size.x(), size.y()},
           .x = ticks(0, 40.0),
           .y = ticks(1, 25.0),
           .x_title = picture.x_title,
@@ -59,7 +60,8 @@ Axes axes_for(const Rectangle& place, const Picture& picture) {
 
 void draw_colours(Paper& paper, const Rectangle& window, const Picture& picture) {
   constexpr int steps = 64;
-  const Rectangle bar{window.right() + 8.0, window.bottom, 7.0, window.height};
+  const double height = std::max(window.height, least_height_of_titles);
+  const Rectangle bar{window.right() + 8.0, window.bottom + 0.5 * (window.height - height), 7.0, height};
   for (int i = 0; i < steps; ++i) {
     const double y0 = bar.bottom + bar.height * i / steps, y1 = bar.bottom + bar.height * (i + 1) / steps;
     paper.fill(std::array<PaperPoint, 4>{{{bar.left, y0}, {bar.right(), y0}, {bar.right(), y1}, {bar.left, y1}}},

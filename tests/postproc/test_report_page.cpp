@@ -6,6 +6,7 @@
 #include "postproc/page/display_unit.h"
 #include "postproc/page/page_drawing.h"
 #include "postproc/page/page_text.h"
+#include "postproc/page/picture_drawing.h"
 #include "tests/postproc/pixels.h"
 #include "tests/postproc/recording_paper.h"
 #include "tests/postproc/temporary_folder.h"
@@ -196,7 +197,7 @@ TEST(ChartDrawing, MakesLongTitlesSmaller) {
 }
 
 TEST(ChartDrawing, KeepsTextsApartAndWithinTheirPlace) {
-  for (const double scale : {1e-7, 1.0, 3.3e6})
+  for (const double scale : {1e-7, 1.0, 3.3e6, -1.7e300})
     for (const bool logarithmic : {false, true}) {
       Chart chart = line_chart({scale, 4 * scale, 900 * scale}, {-2 * scale, 7 * scale, 5 * scale});
       chart.x.logarithmic = logarithmic;
@@ -212,6 +213,26 @@ TEST(ChartDrawing, KeepsTextsApartAndWithinTheirPlace) {
           EXPECT_FALSE(box.intersects(paper.texts[k].box)) << paper.texts[i].text << " over " << paper.texts[k].text;
       }
     }
+}
+
+TEST(PictureDrawing, KeepsTheTextsOfAFlatPictureApart) {
+  Picture picture{.caption = "Damage",
+                  .x_title = "x [mm]",
+                  .y_title = "y [mm]",
+                  .value_title = "damage d [-]",
+                  .cells = {},
+                  .lines = {}};
+  picture.cells.push_back({{{0.0, -2.5}, {200.0, -2.5}, {200.0, 2.5}, {0.0, 2.5}}, 0.5});
+  RecordingPaper paper;
+  draw_picture(paper, place, picture);
+  EXPECT_GE(paper.texts.size(), 9u);
+  for (std::size_t i = 0; i < paper.texts.size(); ++i) {
+    EXPECT_LE(paper.texts[i].box.max().y(), place.top() + 0.5) << paper.texts[i].text;
+    EXPECT_GE(paper.texts[i].box.sizes().maxCoeff(), 6.0) << paper.texts[i].text;
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_FALSE(paper.texts[i].box.intersects(paper.texts[k].box))
+          << paper.texts[i].text << " over " << paper.texts[k].text;
+  }
 }
 
 TEST(PageText, BreaksLongCellsAndTellsTheHeight) {
