@@ -11,8 +11,9 @@
 
 namespace pfdm {
 
-/// A line for each region whose cells are too thick for ell (more than ell/2 across their thinnest direction) and for
-/// each band that is too narrow for its crack's profile. A crack there would not dissipate its toughness.
+/// A line for each region whose cells are too thick for ell (more than ell/2 across their thinnest direction), and for
+/// each band whose cells are too wide for ell (more than ell along it in the mean) or that is too narrow for its
+/// crack's profile. A crack there would not dissipate its toughness, or its front would not be resolved.
 std::vector<std::string> resolution_warnings(const Mesh& mesh, const FractureModel& model, std::span<const Band> bands);
 
 }  // namespace pfdm

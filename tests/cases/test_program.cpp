@@ -236,6 +236,45 @@ curve = { patch = "ymax", component = "y" }
   EXPECT_EQ(outcome.out.find("would not be resolved"), std::string::npos) << outcome.out;
 }
 
+// A band is as thin as wanted, but its columns are two ell wide.
+TEST(Program, WarnsOfCellsThatAreTooWideAlongABand) {
+  const auto bead = [](const std::string& size) {
+    return R"(kind = "fracture"
+title = "a bead"
+boundary = [{ patch = "zmin", displacement = ["0 um", "0 um", "0 um"] },
+            { patch = "zmax", displacement = ["free", "free", "1 um"] }]
+[mesh]
+generator = "particles_in_box"
+size = ["200 um", "200 um", "200 um"]
+particles = [{ diameter = "80 um", surface_size = )" +
+           size + R"( }]
+layers = { count = 4, thickness = "4 um" }
+[materials.sylgard]
+regions = ["matrix", "interface", "bead"]
+young_modulus = "75 MPa"
+poisson_ratio = 0.44
+toughness = "400 J/m^2"
+[fracture]
+length = "10 um"
+effective_toughness = "as_given"
+[output]
+curve = { patch = "zmax", component = "z" }
+)";
+  };
+  const auto check_of = [&](const std::string& size) {
+    const TemporaryCase directory(bead(size));
+    const Outcome outcome = run({"check", directory.path().string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_NE(check_of("\"20 um\"").find("wide along the band"), std::string::npos);
+  EXPECT_EQ(check_of("\"9 um\"").find("wide along the band"), std::string::npos);
+  const auto cells_of = [](const std::string& text) { return text.substr(text.find("\ncells "), 20); };
+  EXPECT_EQ(cells_of(check_of("{ ell = 0.9 }")), cells_of(check_of("\"9 um\"")));
+  expect_refused(TemporaryCase(replaced(bead("{ ell = 0.9 }"), "length = \"10 um\"\n", "")),
+                 {"NoEll", "", "", {"surface_size", "[fracture]"}});
+}
+
 TEST(Program, WarnsOfCellsThatAreTooThickForTheLength) {
   const TemporaryCase fine(bar_case()), coarse(replaced(bar_case(), "\"4 mm\"", "\"0.6 mm\""));
   EXPECT_EQ(run({"check", fine.path().string()}).out.find("would not be resolved"), std::string::npos);

@@ -226,8 +226,8 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
                   "solver", "output", "cohesive", "experiment", "fit", "sweep"});
   FractureCase fracture;
   fracture.title = root.string("title");
-  fracture.mesh = read_mesh_recipe(root.table("mesh"), case_directory);
   MaterialDefaults defaults = read_fracture(root, fracture.model);
+  fracture.mesh = read_mesh_recipe(root.table("mesh"), {case_directory, defaults.ell});
   defaults.bands = fracture.mesh.bands;
   fracture.materials = read_materials(root, defaults);
   fracture.boundary = read_boundary(root, fracture.materials);

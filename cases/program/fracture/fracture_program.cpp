@@ -336,6 +336,7 @@ RunnableCase read_fracture_program(const CaseFile& file) {
   program->name = case_name(file);
   program->hash = case_hash(file, program->fracture.mesh.data_files, may_change_on_the_way);
   program->mesh_hash = table_hash(file, "mesh", program->fracture.mesh.data_files);
+  if (const auto ell = program->fracture.mesh.ell) program->mesh_hash += fmt::format(" ell {}", *ell);
   RunnableCase runnable{.title = program->fracture.title,
                         .check = [program](Session& session) { check(*program, session); },
                         .mesh = [program](Session& session) { mesh_only(*program, session); },

@@ -68,7 +68,7 @@ NamedBox read_patch_box(const ConfigTable& table, std::vector<std::string>& patc
   return box;
 }
 
-MeshRecipe read_box_hexes(const ConfigTable& table, const std::filesystem::path&) {
+MeshRecipe read_box_hexes(const ConfigTable& table, const MeshSurroundings&) {
   table.with_keys({"generator", "cells", "x", "y", "z", "origin", "region", "regions", "slits", "holes", "patches"});
   BoxHexesSettings settings;
   if (const auto origin = table.find("origin")) settings.origin = read_point(*origin);
@@ -100,7 +100,7 @@ std::vector<Shell> read_shells(const ConfigValue& list) {
   return shells;
 }
 
-MeshRecipe read_sphere_sector(const ConfigTable& table, const std::filesystem::path&) {
+MeshRecipe read_sphere_sector(const ConfigTable& table, const MeshSurroundings&) {
   table.with_keys({"generator", "cells", "azimuth", "inner_radius", "shells", "polar"});
   const SphereSectorSettings settings{
       .azimuth = table.quantity("azimuth", dimension::angle, azimuth_range),
@@ -132,16 +132,28 @@ Layers read_layers(const ConfigTable& table) {
           .region = table.has("region") ? read_plain_name(table.at("region"), "a folder") : "interface"};
 }
 
-Particle read_particle(const ConfigTable& table, const Layers& common_layers) {
+/// "20 um", or { ell = 1.0 } in multiples of the length ell.
+double read_size(const ConfigValue& value, std::optional<double> ell) {
+  if (!value.is_table()) return value.quantity(dimension::length, range::positive);
+  const double multiple = value.table().with_keys({"ell"}).number("ell", range::positive);
+  if (!ell) throw value.error("multiples of ell require a length in [fracture], as in length = \"20 um\"");
+  return multiple * *ell;
+}
+
+Particle read_particle(const ConfigTable& table, const Layers& common_layers, MeshRecipe& recipe,
+                       const MeshSurroundings& around) {
   table.with_keys({"centre", "diameter", "region", "subdivisions", "surface_size", "angle", "layers"});
   Particle particle;
   if (const auto centre = table.find("centre")) particle.centre = read_point(*centre);
   particle.radius = 0.5 * table.quantity("diameter", dimension::length, range::positive);
   particle.region = table.string("region", particle.region);
   if (table.has("subdivisions") == table.has("surface_size"))
-    throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\"");
+    throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\" or { ell = 1.0 }");
   particle.subdivision = static_cast<Index>(table.integer("subdivisions", cell_count, 0));
-  particle.surface_size = table.quantity("surface_size", dimension::length, range::positive, 0.0);
+  if (const auto size = table.find("surface_size")) {
+    particle.surface_size = read_size(*size, around.ell);
+    if (size->is_table()) recipe.ell = around.ell;
+  }
   particle.angle = table.quantity("angle", dimension::angle, range::any, particle.angle);
   const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : common_layers;
   particle.n_layers = layers.count;
@@ -170,7 +182,7 @@ std::vector<Band> bands_of(const ParticlesInBoxSettings& settings) {
   return bands;
 }
 
-MeshRecipe read_particles_in_box(const ConfigTable& table, const std::filesystem::path&) {
+MeshRecipe read_particles_in_box(const ConfigTable& table, const MeshSurroundings& around) {
   table.with_keys({"generator", "cells", "size", "centre", "region", "layers", "particles", "size_far", "boundary_size",
                    "grading", "particle_size_factor", "max_radius_edge_ratio", "min_dihedral_angle"});
   ParticlesInBoxSettings settings;
@@ -181,8 +193,9 @@ MeshRecipe read_particles_in_box(const ConfigTable& table, const std::filesystem
   settings.upper = centre + 0.5 * size;
   settings.matrix_region = table.string("region", settings.matrix_region);
   const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : Layers{};
+  MeshRecipe recipe;
   for (const ConfigTable& particle : table.tables("particles"))
-    settings.particles.push_back(read_particle(particle, layers));
+    settings.particles.push_back(read_particle(particle, layers, recipe, around));
   settings.size_far = table.quantity("size_far", dimension::length, range::positive, settings.size_far);
   settings.boundary_size = table.quantity("boundary_size", dimension::length, range::positive, settings.boundary_size);
   settings.grading = table.number("grading", range::not_negative, settings.grading);
@@ -190,11 +203,11 @@ MeshRecipe read_particles_in_box(const ConfigTable& table, const std::filesystem
   settings.max_radius_edge_ratio =
       table.number("max_radius_edge_ratio", range::positive, settings.max_radius_edge_ratio);
   settings.min_dihedral_angle = table.number("min_dihedral_angle", dihedral_range, settings.min_dihedral_angle);
-  return {.make = [settings] { return make_particles_in_box(settings); },
-          .regions = names_of_regions(settings),
-          .patches = box_sides,
-          .data_files = {},
-          .bands = bands_of(settings)};
+  recipe.make = [settings] { return make_particles_in_box(settings); };
+  recipe.regions = names_of_regions(settings);
+  recipe.patches = box_sides;
+  recipe.bands = bands_of(settings);
+  return recipe;
 }
 
 /// { 1 = "bead", 2 = "matrix" }
@@ -244,19 +257,19 @@ MeshRecipe imported(const ImportSettings& settings, Mesh (*import)(const ImportS
           .data_files = {settings.file}};
 }
 
-MeshRecipe read_vtk(const ConfigTable& table, const std::filesystem::path& case_directory) {
+MeshRecipe read_vtk(const ConfigTable& table, const MeshSurroundings& around) {
   table.with_keys({"generator", "cells", "file", "length_unit", "region_array", "region_names", "face_array",
                    "face_sets", "merge_tolerance", "patches"});
-  ImportSettings settings = read_import(table, case_directory);
+  ImportSettings settings = read_import(table, around.case_directory);
   settings.region_array = table.string("region_array", "");
   settings.face_array = table.string("face_array", "");
   return imported(settings, import_vtk);
 }
 
-MeshRecipe read_gmsh(const ConfigTable& table, const std::filesystem::path& case_directory) {
+MeshRecipe read_gmsh(const ConfigTable& table, const MeshSurroundings& around) {
   table.with_keys(
       {"generator", "cells", "file", "length_unit", "region_names", "face_sets", "merge_tolerance", "patches"});
-  return imported(read_import(table, case_directory), import_gmsh);
+  return imported(read_import(table, around.case_directory), import_gmsh);
 }
 
 Mesh as_generated(Mesh mesh) { return mesh; }
@@ -281,9 +294,9 @@ constexpr MeshGenerator table[] = {
 std::span<const MeshGenerator> mesh_generators() { return table; }
 std::span<const CellKind> cell_kinds() { return cell_kind_table; }
 
-MeshRecipe read_mesh_recipe(const ConfigTable& settings, const std::filesystem::path& case_directory) {
+MeshRecipe read_mesh_recipe(const ConfigTable& settings, const MeshSurroundings& around) {
   const MeshGenerator& generator = choose(settings.at("generator"), mesh_generators(), "mesh generator");
-  MeshRecipe recipe = generator.read(settings, case_directory);
+  MeshRecipe recipe = generator.read(settings, around);
   const auto cells = settings.find("cells");
   const CellKind& kind = cells ? choose(*cells, cell_kinds(), "kind of cells") : cell_kind_table[0];
   recipe.make = [make = recipe.make, turn_into = kind.turn_into, settings] {
