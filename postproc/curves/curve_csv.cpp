@@ -1,16 +1,13 @@
 #include "postproc/curves/curve_csv.h"
 
-#include "physics/error.h"
 #include "postproc/files/atomic_file.h"
-#include "postproc/files/text_file.h"
+#include "postproc/files/csv_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <array>
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace pfdm {
 namespace {
@@ -18,7 +15,6 @@ namespace {
 constexpr std::span<const EnergyEntry> energies{energy_entries};
 constexpr auto first_energies = energies.first(3), later_energies = energies.subspan(3);
 constexpr std::size_t n_before = 6, n_between = 3;  // columns that are no energies
-constexpr std::size_t n_columns = n_before + n_between + energies.size();
 
 // Shortest digits that give the same number back.
 std::string to_line(const CurveRow& r) {
@@ -30,38 +26,27 @@ std::string to_line(const CurveRow& r) {
   return line + "\n";
 }
 
-std::optional<std::array<std::string_view, n_columns>> split(std::string_view line) {
-  std::array<std::string_view, n_columns> columns;
-  for (std::size_t i = 0; i < n_columns; ++i) {
-    const std::size_t comma = line.find(',');
-    if ((comma == std::string_view::npos) != (i + 1 == n_columns)) return std::nullopt;
-    columns[i] = line.substr(0, comma);
-    line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
-  }
-  return columns;
+const std::vector<std::string>& column_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"step", "load", "displacement_m", "force_x_N", "force_y_N", "force_z_N"};
+    for (const EnergyEntry& entry : first_energies) all.push_back(fmt::format("{}_J", entry.column));
+    all.insert(all.end(), {"max_damage", "damaged_volume_m3", "staggered_iterations"});
+    for (const EnergyEntry& entry : later_energies) all.push_back(fmt::format("{}_J", entry.column));
+    return all;
+  }();
+  return names;
 }
 
-std::optional<CurveRow> parse_row(std::string_view line) {
+CurveRow row_of(const std::vector<double>& v) {
   constexpr std::size_t between = n_before + first_energies.size(), later = between + n_between;
-  const auto columns = split(line);
-  if (!columns) return std::nullopt;
-  const auto step = parse_int(columns->front());
-  const auto iterations = parse_int((*columns)[later - 1]);
-  std::array<double, n_columns> v{};
-  for (std::size_t i = 1; i < n_columns; ++i) {
-    const auto number = parse_double((*columns)[i]);
-    if (!number) return std::nullopt;
-    v[i] = *number;
-  }
-  if (!step || !iterations) return std::nullopt;
-  CurveRow row{.step = *step,
+  CurveRow row{.step = static_cast<Index>(v[0]),
                .load = v[1],
                .displacement = v[2],
                .force = Vector(v[3], v[4], v[5]),
                .energy = {},
                .max_damage = v[between],
                .damaged_volume = v[between + 1],
-               .staggered_iterations = *iterations};
+               .staggered_iterations = static_cast<Index>(v[later - 1])};
   for (std::size_t i = 0; i < first_energies.size(); ++i) row.energy.*first_energies[i].value = v[n_before + i];
   for (std::size_t i = 0; i < later_energies.size(); ++i) row.energy.*later_energies[i].value = v[later + i];
   return row;
@@ -69,13 +54,7 @@ std::optional<CurveRow> parse_row(std::string_view line) {
 
 }  // namespace
 
-std::string curve_header() {
-  std::string header = "step,load,displacement_m,force_x_N,force_y_N,force_z_N";
-  for (const EnergyEntry& entry : first_energies) header += fmt::format(",{}_J", entry.column);
-  header += ",max_damage,damaged_volume_m3,staggered_iterations";
-  for (const EnergyEntry& entry : later_energies) header += fmt::format(",{}_J", entry.column);
-  return header;
-}
+std::string curve_header() { return fmt::format("{}", fmt::join(column_names(), ",")); }
 
 CurveRow curve_row(const StepReport& report, Index patch, int component) {
   CurveRow row;
@@ -91,24 +70,13 @@ CurveRow curve_row(const StepReport& report, Index patch, int component) {
 }
 
 std::vector<CurveRow> read_curve(const std::filesystem::path& path) {
-  const std::string content = read_file(path);
-  std::string_view rest = content;
+  const CsvTable table =
+      read_csv(path, {.whole_numbers = {"step", "staggered_iterations"}, .own_names = column_names()});
   std::vector<CurveRow> rows;
-  // Only lines with their line break count: of a torn one even the last number may lack digits.
-  for (std::size_t line_number = 1, end; (end = rest.find('\n')) != std::string_view::npos; ++line_number) {
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(end + 1);
-    if (line_number == 1) {
-      if (line != curve_header())
-        throw InputError(
-            fmt::format("{}, line 1: found \"{}\" instead of \"{}\"", path.string(), line, curve_header()));
-      continue;
-    }
-    const auto row = parse_row(line);
-    if (!row)
-      throw InputError(
-          fmt::format("{}, line {}: \"{}\" is not a row of {} numbers", path.string(), line_number, line, n_columns));
-    rows.push_back(*row);
+  for (std::size_t i = 0; i < table.n_rows(); ++i) {
+    std::vector<double> values;
+    for (const std::vector<double>& column : table.columns) values.push_back(column[i]);
+    rows.push_back(row_of(values));
   }
   return rows;
 }

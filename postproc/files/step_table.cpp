@@ -1,8 +1,7 @@
 #include "postproc/files/step_table.h"
 
-#include "physics/error.h"
 #include "postproc/files/atomic_file.h"
-#include "postproc/files/text_file.h"
+#include "postproc/files/csv_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,20 +15,11 @@ StepTable::StepTable(std::filesystem::path path, std::vector<std::string> names,
 }
 
 void StepTable::read(Index last_step) {
-  const std::string content = read_file(path_);
-  std::string_view rest = content;
-  const std::string header = fmt::format("{}", fmt::join(names_, ","));
-  if (const std::string_view line = take_line(rest); line != header)
-    throw InputError(fmt::format("{}, line 1: found \"{}\" instead of \"{}\"", path_.string(), line, header));
-  for (int number = 2; !rest.empty(); ++number) {
-    const std::string_view line = take_line(rest);
-    std::vector<double> row;
-    for (const std::string_view word : split_at_commas(line))
-      if (const auto value = parse_double(word)) row.push_back(*value);
-    if (row.size() != names_.size())
-      throw InputError(
-          fmt::format("{}, line {}: \"{}\" is not a row of {} numbers", path_.string(), number, line, names_.size()));
-    if (row.front() <= static_cast<double>(last_step)) rows_.push_back(std::move(row));
+  const CsvTable table = read_csv(path_, {.own_names = names_});
+  for (std::size_t i = 0; i < table.n_rows(); ++i) {
+    if (!(table.columns.front()[i] <= static_cast<double>(last_step))) continue;
+    std::vector<double>& row = rows_.emplace_back();
+    for (const std::vector<double>& column : table.columns) row.push_back(column[i]);
   }
 }
 

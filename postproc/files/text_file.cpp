@@ -60,16 +60,6 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-std::vector<std::string_view> split_at_commas(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    words.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return words;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 std::string_view take_line(std::string_view& rest) {
   const std::size_t end = rest.find('\n');
   const std::string_view line = trimmed(rest.substr(0, end));

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace pfdm {
 
@@ -18,8 +17,6 @@ std::string read_file(const std::filesystem::path& path);
 
 /// Without the blanks at either end.
 std::string_view trimmed(std::string_view text);
-/// What stands between the commas of a line, trimmed; one entry more than there are commas.
-std::vector<std::string_view> split_at_commas(std::string_view line);
 /// Takes the first line off the front of `rest`; trimmed.
 std::string_view take_line(std::string_view& rest);
 

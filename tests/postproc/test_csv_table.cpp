@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 
 namespace pfdm::test {
 namespace {
@@ -43,11 +45,33 @@ TEST(CsvTable, takes_blanks_comments_and_foreign_line_ends) {
   EXPECT_EQ(table.column("b"), (std::vector<double>{2.0, 4.0}));
 }
 
+TEST(CsvTable, takes_a_byte_order_mark) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "x.csv") << "\xEF\xBB\xBF"
+                                     "a,b\r\n1,2\r\n";
+  EXPECT_EQ(read_csv(folder / "x.csv").names, (std::vector<std::string>{"a", "b"}));
+  std::ofstream(folder / "x.csv") << "\xEF\xBB\xBF# of a spreadsheet\na\n1\n";
+  EXPECT_EQ(read_csv(folder / "x.csv").comments, (std::vector<std::string>{"of a spreadsheet"}));
+}
+
+TEST(CsvTable, has_units_and_gaps_where_they_may_be) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "x.csv") << "t,a\ns,m/s^2\n0,\n1,-inf\n";
+  const CsvTable table = read_csv(folder / "x.csv", {.has_units = true, .has_gaps = true});
+  EXPECT_EQ(table.units, (std::vector<std::string>{"s", "m/s^2"}));
+  EXPECT_TRUE(std::isnan(table.column("a")[0]));
+  EXPECT_EQ(table.column("a")[1], -std::numeric_limits<double>::infinity());
+  write_csv(folder / "y.csv", table);
+  EXPECT_EQ(content_of(folder / "y.csv"), "t,a\ns,m/s^2\n0,nan\n1,-inf\n");
+  EXPECT_THAT(complaint("t,a\ns,m/s^2\n0,1\n"), testing::HasSubstr("line 2: \"s\" in column \"t\" is not a number"));
+}
+
 TEST(CsvTable, says_what_is_wrong_and_where) {
   using testing::HasSubstr;
   EXPECT_THAT(complaint("a,b\n1,2\n3\n"), HasSubstr("line 3: found 1 entries in a table of 2 columns"));
   EXPECT_THAT(complaint("a,b\n1,x\n"), HasSubstr("line 2: \"x\" in column \"b\" is not a number"));
-  EXPECT_THAT(complaint("a,b\n1,nan\n"), HasSubstr("is not a number"));
+  EXPECT_THAT(complaint("a,b\n1,nan\n"), HasSubstr("\"nan\" in column \"b\" is not a number, as 0.5 or -2e6"));
+  EXPECT_THAT(complaint("a,b\n1,\n"), HasSubstr("\"\" in column \"b\" is not a number"));
   EXPECT_THAT(complaint("1,2\n3,4\n"),
               HasSubstr("line 1: expected the names of the columns, as in time_s,strain_xx, found \"1,2\""));
   EXPECT_THAT(complaint("a,a\n3,4\n"), HasSubstr("two columns are called \"a\""));

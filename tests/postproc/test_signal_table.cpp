@@ -58,7 +58,7 @@ TEST(SignalTable, NamesFileAndLineOfWhatIsNoTable) {
     return message_of<InputError>([&] { read_signals(folder / "bad.csv"); });
   };
   EXPECT_THAT(message(head + "1,2,3\n"), HasSubstr("bad.csv, line 4: found 3 entries in a table of 2 columns"));
-  EXPECT_THAT(message(head + "1,two\n"), HasSubstr("bad.csv, line 4: \"two\" is not a number"));
+  EXPECT_THAT(message(head + "1,two\n"), HasSubstr("bad.csv, line 4: \"two\" in column \"x\" is not a number"));
   EXPECT_THAT(message("time,x\n0,1\n"), HasSubstr("row of units"));
   EXPECT_THAT(message("time,x\n"), HasSubstr("row of units"));
   EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "a.wav"); }), HasSubstr(".csv, .mat, .uff"));
