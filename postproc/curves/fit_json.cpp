@@ -5,132 +5,204 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace pfdm {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json estimates(const std::vector<FitParameter>& parameters, const FitResult& result) {
+constexpr int format = 1;
+// In the order of FitReport::own. Each is also the name of the object that has what only this kind tells.
+const std::array<std::string, 3> kinds{"fracture", "endochronic", "mass_material"};
+
+Json to_json(const std::vector<FittedParameter>& parameters) {
   Json list = Json::array();
-  for (std::size_t j = 0; j < parameters.size(); ++j) {
-    const FitParameter& p = parameters[j];
-    const FitEstimate& e = result.estimates[j];
+  for (const FittedParameter& p : parameters)
     list.push_back({{"name", p.name},
                     {"unit", p.unit},
-                    {"estimate", e.value},
-                    {"standard_error", e.standard_error},
-                    {"lower_95", e.lower_95},
-                    {"upper_95", e.upper_95},
-                    {"first_guess", p.first},
-                    {"lower_bound", p.lower},
-                    {"upper_bound", p.upper},
-                    {"at_bound", e.at_bound},
+                    {"estimate", p.estimate},
+                    {"standard_error", p.standard_error},
+                    {"lower", p.lower},
+                    {"upper", p.upper},
+                    {"first_guess", p.first_guess},
+                    {"lower_bound", p.lower_bound},
+                    {"upper_bound", p.upper_bound},
+                    {"at_bound", p.at_bound},
                     {"log_scale", p.log_scale}});
-  }
   return list;
 }
 
-Json path(const std::vector<FitIteration>& iterations) {
+Json to_json(const std::vector<FitIteration>& iterations) {
   Json list = Json::array();
   for (const FitIteration& i : iterations) list.push_back({{"rms_residual", i.rms}, {"parameters", i.parameters}});
   return list;
 }
 
-Json experiments(const FitReport& report) {
+Json to_json(const FitFindings& found) {
+  Json json = {{"converged", found.converged},
+               {"message", found.message},
+               {"evaluations", found.evaluations},
+               {"residuals", found.n_residuals},
+               {"rms_residual", found.rms},
+               {"noise_is_known", found.noise_is_known},
+               {"parameters", to_json(found.parameters)},
+               {"correlation", pfdm::to_json(found.correlation)},
+               {"warnings", found.warnings},
+               {"start_rms_residual", found.start_rms},
+               {"path", to_json(found.path)}};
+  if (found.first_rms) json["first_guess_rms_residual"] = *found.first_rms;
+  if (!found.screened.empty()) json["screened"] = to_json(found.screened);
+  return json;
+}
+
+Json to_json(const std::vector<ExperimentMisfit>& experiments) {
   Json list = Json::array();
-  for (const ExperimentMisfit& e : report.experiments)
-    list.push_back({{"name", e.name},
-                    {"data", e.n_data},
-                    {"quantity", e.quantity},
-                    {"unit", e.unit},
-                    {fmt::format("rms_misfit_{}", e.unit), e.rms},
-                    {fmt::format("rms_{}_{}", e.quantity, e.unit), e.rms_measured},
-                    {"relative_misfit", e.rms / e.rms_measured},
-                    {"curve", e.curve}});
+  for (const ExperimentMisfit& e : experiments) {
+    Json& entry = list.emplace_back(
+        Json{{"name", e.name}, {"fitted", e.fitted}, {"data", e.n_data}, {"relative_misfit", e.relative}});
+    if (const auto& a = e.absolute) {
+      entry["quantity"] = a->quantity;
+      entry["unit"] = a->unit;
+      entry[fmt::format("rms_misfit_{}", a->unit)] = a->rms;
+      entry[fmt::format("rms_{}_{}", a->quantity, a->unit)] = a->rms_measured;
+    }
+    if (!e.curve.empty()) entry["curve"] = e.curve;
+  }
   return list;
 }
 
-void read_estimates(const Json& list, FitReport& report) {
-  for (const Json& p : list) {
-    report.parameters.push_back({.name = p.at("name"), .unit = p.at("unit"), .first = number_of(p.at("first_guess"))});
-    report.result.estimates.push_back({.value = number_of(p.at("estimate")),
-                                       .standard_error = number_of(p.at("standard_error")),
-                                       .lower_95 = number_of(p.at("lower_95")),
-                                       .upper_95 = number_of(p.at("upper_95")),
-                                       .at_bound = p.at("at_bound")});
+Json to_json(const FractureFindings& own) {
+  Json stages = Json::array();
+  for (const FitStage& s : own.earlier_stages) {
+    stages.push_back({{"name", s.name}, {"from_m", s.from}, {"to_m", s.to}});
+    stages.back().update(to_json(s.found));
   }
+  return {{"earlier_stages", stages},
+          {"runs", {{"made", own.runs.made}, {"reused", own.runs.reused}, {"not_converged", own.runs.failed}}}};
 }
 
-void read_experiment(const Json& e, FitReport& report) {
+Json to_json(const EndochronicFindings& own) {
+  Json json = Json::object();
+  for (const TriedKernel& t : own.tried)
+    json["kernel_terms_tried"].push_back(
+        {{"terms", t.n_terms}, {"rms_misfit_Pa", t.rms}, {"bayesian_information", t.information}});
+  for (const StaggeredRound& r : own.rounds)
+    json["staggered_rounds"].push_back(
+        {{"rms_misfit_after_hardening_Pa", r.rms_after_hardening}, {"rms_misfit_after_kernel_Pa", r.rms_after_kernel}});
+  return json;
+}
+
+std::vector<FittedParameter> parameters_in(const Json& list) {
+  std::vector<FittedParameter> parameters;
+  for (const Json& p : list)
+    parameters.push_back({.name = p.at("name"),
+                          .unit = p.at("unit"),
+                          .estimate = number_of(p.at("estimate")),
+                          .standard_error = number_of(p.at("standard_error")),
+                          .lower = number_of(p.at("lower")),
+                          .upper = number_of(p.at("upper")),
+                          .first_guess = number_of(p.at("first_guess")),
+                          .at_bound = p.at("at_bound")});
+  return parameters;
+}
+
+ExperimentMisfit experiment_in(const Json& e) {
+  ExperimentMisfit misfit{.name = e.at("name"),
+                          .fitted = e.at("fitted"),
+                          .n_data = e.at("data"),
+                          .relative = number_of(e.at("relative_misfit")),
+                          .curve = e.value("curve", "")};
+  if (!e.contains("unit")) return misfit;
   const std::string quantity = e.at("quantity"), unit = e.at("unit");
-  report.experiments.push_back({.name = e.at("name"),
-                                .n_data = e.at("data"),
-                                .rms = number_of(e.at(fmt::format("rms_misfit_{}", unit))),
-                                .rms_measured = number_of(e.at(fmt::format("rms_{}_{}", quantity, unit))),
-                                .curve = e.at("curve"),
-                                .quantity = quantity,
-                                .unit = unit});
+  misfit.absolute = {.rms = number_of(e.at(fmt::format("rms_misfit_{}", unit))),
+                     .rms_measured = number_of(e.at(fmt::format("rms_{}_{}", quantity, unit))),
+                     .quantity = quantity,
+                     .unit = unit};
+  return misfit;
+}
+
+FitReport report_in(const Json& json) {
+  FitReport report{.case_name = json.at("case"),
+                   .case_hash = json.at("case_hash"),
+                   .version = json.at("version"),
+                   .method = json.at("method"),
+                   .wall_seconds = json.at("wall_seconds"),
+                   .confidence = json.at("confidence"),
+                   .found = {.converged = json.at("converged"),
+                             .message = json.at("message"),
+                             .parameters = parameters_in(json.at("parameters"))},
+                   .experiments = {},
+                   .own = {}};
+  for (const Json& e : json.at("experiments")) report.experiments.push_back(experiment_in(e));
+  if (json.at("kind").get<std::string>() == kinds[2]) report.own = vibration_findings_in(json.at(kinds[2]));
+  return report;
 }
 
 }  // namespace
 
+FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result) {
+  FitFindings found{.converged = result.converged,
+                    .message = result.message,
+                    .parameters = {},
+                    .correlation = result.correlation,
+                    .n_residuals = result.residuals.size(),
+                    .rms = result.rms,
+                    .noise_is_known = result.noise_is_known,
+                    .evaluations = result.evaluations,
+                    .warnings = result.warnings,
+                    .start_rms = result.start_rms,
+                    .path = result.path,
+                    .screened = result.screened};
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const FitParameter& p = parameters[j];
+    const FitEstimate& e = result.estimates[j];
+    found.parameters.push_back({.name = p.name,
+                                .unit = p.unit,
+                                .estimate = e.value,
+                                .standard_error = e.standard_error,
+                                .lower = e.lower_95,
+                                .upper = e.upper_95,
+                                .first_guess = p.first,
+                                .lower_bound = p.lower,
+                                .upper_bound = p.upper,
+                                .at_bound = e.at_bound,
+                                .log_scale = p.log_scale});
+  }
+  return found;
+}
+
+ExperimentMisfit experiment_misfit(std::string name, std::size_t n_data, const ExperimentMisfit::Absolute& absolute,
+                                   std::string curve) {
+  return {.name = std::move(name),
+          .n_data = n_data,
+          .relative = absolute.rms / absolute.rms_measured,
+          .absolute = absolute,
+          .curve = std::move(curve)};
+}
+
 void write_fit_json(const std::filesystem::path& file, const FitReport& report) {
-  const FitResult& result = report.result;
-  Json json = {{"case", report.case_name},
+  const std::string& kind = kinds[report.own.index()];
+  Json json = {{"format", format},
+               {"kind", kind},
+               {"case", report.case_name},
                {"version", report.version},
                {"case_hash", report.case_hash},
                {"method", report.method},
-               {"converged", result.converged},
-               {"message", result.message},
                {"wall_seconds", report.wall_seconds},
-               {"evaluations", result.evaluations},
-               {"residuals", result.residuals.size()},
-               {"rms_residual", result.rms},
-               {"parameters", estimates(report.parameters, result)},
-               {"warnings", result.warnings},
-               {"experiments", experiments(report)},
-               {"correlation", to_json(result.correlation)},
-               {"start_rms_residual", result.start_rms},
-               {"path", path(result.path)}};
-  if (report.first_rms) json["first_guess_rms_residual"] = *report.first_rms;
-  if (!result.screened.empty()) json["screened"] = path(result.screened);
-  for (const TriedKernel& t : report.tried)
-    json["kernel_terms_tried"].push_back(
-        {{"terms", t.n_terms}, {"rms_misfit_Pa", t.rms}, {"bayesian_information", t.information}});
-  for (const StaggeredRound& r : report.rounds)
-    json["staggered_rounds"].push_back(
-        {{"rms_misfit_after_hardening_Pa", r.rms_after_hardening}, {"rms_misfit_after_kernel_Pa", r.rms_after_kernel}});
-  for (const FitStageReport& s : report.stages)
-    json["earlier_stages"].push_back({{"name", s.name},
-                                      {"from_m", s.from},
-                                      {"to_m", s.to},
-                                      {"converged", s.result.converged},
-                                      {"message", s.result.message},
-                                      {"residuals", s.result.residuals.size()},
-                                      {"rms_residual", s.result.rms},
-                                      {"first_guess_rms_residual", s.first_rms},
-                                      {"parameters", estimates(s.parameters, s.result)},
-                                      {"correlation", to_json(s.result.correlation)},
-                                      {"path", path(s.result.path)}});
-  if (report.runs)
-    json["runs"] = {
-        {"made", report.runs->made}, {"reused", report.runs->reused}, {"not_converged", report.runs->failed}};
+               {"confidence", report.confidence}};
+  json.update(to_json(report.found));
+  json["experiments"] = to_json(report.experiments);
+  json[kind] = std::visit([](const auto& own) { return to_json(own); }, report.own);
   write_file(file, json.dump(2) + "\n");
 }
 
 FitReport read_fit_json(const std::filesystem::path& path) {
-  return read_json(path, "fit", [](const Json& json) {
-    FitReport report;
-    report.case_name = json.at("case");
-    report.case_hash = json.at("case_hash");
-    report.version = json.at("version");
-    report.method = json.at("method");
-    report.wall_seconds = json.at("wall_seconds");
-    report.result.converged = json.at("converged");
-    report.result.message = json.at("message");
-    read_estimates(json.at("parameters"), report);
-    for (const Json& e : json.at("experiments")) read_experiment(e, report);
-    return report;
+  return read_json(path, "fit", [&](const Json& json) {
+    if (const int found = json.value("format", 0); found != format)
+      throw InputError(fmt::format("{}: the file has format {}, this version reads format {}; run pfdm fit again",
+                                   path.string(), found, format));
+    return report_in(json);
   });
 }
 

@@ -1,37 +1,91 @@
 #pragma once
-// fit.json: what a fit found, how sure it is, and how it came there.
+// fit.json of every kind of case: what a fit found, how sure it is, and how it came there. What is to be said of all
+// fits belongs in FitReport and write_fit_json(); cases/README.md lists the fields.
 
+#include "postproc/curves/vibration_fit.h"
+#include "solver/calibration/calibration.h"
 #include "solver/point/endochronic_identification.h"
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace pfdm {
 
-struct ExperimentMisfit {
+struct FittedParameter {
   std::string name;
-  std::size_t n_data = 0;
-  double rms = 0.0;                 ///< of model less measurement [unit]
-  double rms_measured = 0.0;        ///< [unit]
-  std::string curve;                ///< file
-  std::string quantity = "stress";  ///< that was measured
-  std::string unit = "Pa";
+  std::string unit;
+  double estimate = 0.0;
+  double standard_error = 0.0;  ///< not finite where it is not known, as the interval
+  double lower = 0.0, upper = 0.0;
+  double first_guess = std::numeric_limits<double>::quiet_NaN();  ///< NaN if there was none
+  double lower_bound = -std::numeric_limits<double>::infinity();
+  double upper_bound = std::numeric_limits<double>::infinity();
+  bool at_bound = false;
+  bool log_scale = false;
 };
 
+/// What a fit, or a stage of one, found.
+struct FitFindings {
+  bool converged = false;
+  std::string message{};  ///< what ended the fit
+  std::vector<FittedParameter> parameters{};
+  Eigen::MatrixXd correlation{};  ///< empty if not known
+  std::size_t n_residuals = 0;
+  double rms = 0.0;                                ///< of the residuals
+  std::optional<double> first_rms = std::nullopt;  ///< with the first guess
+  bool noise_is_known = false;                     ///< and the residuals are divided by its standard deviation
+  int evaluations = 0;                             ///< of the model
+  std::vector<std::string> warnings{};
+  std::vector<double> start_rms{};       ///< what each start came to
+  std::vector<FitIteration> path{};      ///< of the best start
+  std::vector<FitIteration> screened{};  ///< points of a sample
+};
+FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result);
+
+/// Data and how well the estimates meet them.
+struct ExperimentMisfit {
+  struct Absolute {
+    double rms = 0.0;           ///< of model less measurement [unit]
+    double rms_measured = 0.0;  ///< [unit]
+    std::string quantity;       ///< that was measured
+    std::string unit;
+  };
+  std::string name;
+  bool fitted = true;  ///< false: predicted only
+  std::size_t n_data = 0;
+  double relative = 0.0;                            ///< of the measured rms
+  std::optional<Absolute> absolute = std::nullopt;  ///< where it is known
+  std::string curve{};                              ///< file with both curves, if there is one
+};
+ExperimentMisfit experiment_misfit(std::string name, std::size_t n_data, const ExperimentMisfit::Absolute& absolute,
+                                   std::string curve);
+
 /// A part of a fit, with some of the parameters and of the data.
-struct FitStageReport {
+struct FitStage {
   std::string name;
   double from = 0.0, to = 0.0;  ///< displacements [m]
-  std::vector<FitParameter> parameters;
-  double first_rms = 0.0;  ///< of the residuals with the first guess of all parameters
-  FitResult result;
+  FitFindings found;
 };
 
 /// How many runs of the model a fit took.
 struct RunCounts {
   int made = 0, reused = 0, failed = 0;
+};
+
+// What only one kind of case tells.
+
+struct FractureFindings {
+  std::vector<FitStage> earlier_stages;
+  RunCounts runs;
+};
+
+struct EndochronicFindings {
+  std::vector<TriedKernel> tried;
+  std::vector<StaggeredRound> rounds;
 };
 
 struct FitReport {
@@ -40,21 +94,17 @@ struct FitReport {
   std::string version;
   std::string method;
   double wall_seconds = 0.0;
-  std::vector<FitParameter> parameters;
-  std::optional<double> first_rms = std::nullopt;  ///< of the residuals with the first guess
-  FitResult result;
+  double confidence = 0.95;  ///< of the intervals
+  FitFindings found;
   std::vector<ExperimentMisfit> experiments;
-  std::vector<TriedKernel> tried;
-  std::vector<StaggeredRound> rounds;
-  std::vector<FitStageReport> stages;  ///< those before the last, which is `result`
-  std::optional<RunCounts> runs;
+  std::variant<FractureFindings, EndochronicFindings, VibrationFindings> own;
 };
 
 /// Written whole or not at all; numbers that are not finite become null. Throws ComputationError.
 void write_fit_json(const std::filesystem::path& path, const FitReport& report);
 
-/// What write_fit_json() wrote: names, units, estimates with their intervals, misfits, method and time. Throws
-/// InputError that names the file for what is no such fit.
+/// What reports show of it: parameters, experiments, method and time, and what a mass-material fit tells of its own.
+/// Throws InputError that names the file for what is no such fit, or one of another format.
 FitReport read_fit_json(const std::filesystem::path& path);
 
 }  // namespace pfdm

@@ -1,7 +1,7 @@
 #pragma once
 // Least squares: the parameters of any model with which it meets data. The model is a function from parameters to
 // residuals; the estimates come with confidence intervals, correlations, and the names of parameters that the data
-// do not determine. Ceres is used in calibration.cpp only.
+// do not determine.
 
 #include <cstdint>
 #include <functional>
@@ -99,6 +99,7 @@ struct FitResult {
   double sum_of_squares = 0.0;         ///< of the residuals
   std::vector<double> start_rms;       ///< what each start came to; infinite where the model did not converge
   int evaluations = 0;                 ///< of the model
+  bool noise_is_known = false;         ///< as in the problem
 
   std::vector<double> values() const;
 };

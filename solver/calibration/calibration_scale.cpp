@@ -60,12 +60,6 @@ std::pair<double, double> ScaledModel::bounds(std::size_t j) const {
   return {scaled(j, problem_.parameters[j].lower), scaled(j, problem_.parameters[j].upper)};
 }
 
-int ScaledModel::side_of_bound(std::size_t j, double u) const {
-  const auto [lower, upper] = bounds(j);
-  const double near = 1e-9 * std::max(1.0, std::abs(u));
-  return u - lower <= near ? -1 : upper - u <= near ? 1 : 0;
-}
-
 std::optional<std::vector<double>> ScaledModel::residuals(const Eigen::VectorXd& u) const {
   ++evaluations_;
   auto r = problem_.residuals(natural(u));

@@ -26,8 +26,6 @@ class ScaledModel {
   std::vector<double> natural(const Eigen::VectorXd& u) const;
   double natural(std::size_t j, double u) const;
   std::pair<double, double> bounds(std::size_t j) const;
-  /// -1 at the lower bound, 1 at the upper one, 0 between.
-  int side_of_bound(std::size_t j, double u) const;
   double scale(std::size_t j) const { return scale_[j]; }  ///< parameter over scaled one; 1 on a logarithmic scale
 
   /// Of the data, then of the priors.

@@ -1,6 +1,7 @@
 #include "solver/calibration/calibration_statistics.h"
 
 #include "physics/error.h"
+#include "solver/calibration/levenberg_marquardt.h"
 #include "solver/linear/dense_algebra.h"
 
 #include <fmt/format.h>
@@ -128,7 +129,7 @@ void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResul
   const std::vector<double> values = model.natural(u);
   for (std::size_t j = 0; j < k; ++j) {
     result.estimates[j].value = values[j];
-    result.estimates[j].at_bound = model.side_of_bound(j, u[static_cast<Eigen::Index>(j)]) != 0;
+    result.estimates[j].at_bound = side_of_bound(u[static_cast<Eigen::Index>(j)], model.bounds(j)) != 0;
   }
   const std::vector<std::size_t> visible = visible_parameters(model, *J, result);
   std::vector<bool> undetermined(k, false);

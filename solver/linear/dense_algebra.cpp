@@ -5,18 +5,18 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-#include <memory>
-
 namespace pfdm {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using PivotedQr = Eigen::ColPivHouseholderQR<MatrixXd>;
 
-VectorXd least_squares(const MatrixXd& A, const VectorXd& b) { return least_squares_solver(A)(b); }
+VectorXd least_squares(const MatrixXd& A, const VectorXd& b) { return PivotedQr(A).solve(b); }
 
-std::function<VectorXd(const VectorXd&)> least_squares_solver(const MatrixXd& A) {
-  return [qr = std::make_shared<const PivotedQr>(A)](const VectorXd& b) -> VectorXd { return qr->solve(b); };
+VectorXd scaled_least_squares(const MatrixXd& A, const VectorXd& b) {
+  const VectorXd norms = A.colwise().norm().cwiseMax(1e-300);
+  const VectorXd scaled = least_squares(A * norms.cwiseInverse().asDiagonal(), b);
+  return scaled.cwiseQuotient(norms);  // A/s (s p) = b: to get p, divide; the report (A4.3, step 4) says multiply
 }
 
 MatrixXd upper_triangle(const MatrixXd& A) {

@@ -4,15 +4,13 @@
 
 #include <Eigen/Core>
 
-#include <functional>
-
 namespace pfdm {
 
 /// The x that minimises |A x - b|, by QR with column pivoting. A: (m, n), m >= n; b: (m).
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
-/// b -> least_squares(A, b), with A decomposed once.
-std::function<Eigen::VectorXd(const Eigen::VectorXd& b)> least_squares_solver(const Eigen::MatrixXd& A);
+/// The same minimum with all columns of A brought to norm one first, for columns of very different size.
+Eigen::VectorXd scaled_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// R of A = Q R without pivoting, Q orthogonal. A: (m, n), m >= n; R: (n, n), upper triangular.
 Eigen::MatrixXd upper_triangle(const Eigen::MatrixXd& A);

@@ -11,6 +11,7 @@
 //   identify           the whole: separable start, output error, order of the kernel by BIC, intervals by bootstrap
 
 #include "physics/mass_material.h"
+#include "solver/calibration/calibration.h"
 #include "solver/vibration/vibration_record.h"
 
 #include <Eigen/Core>
@@ -55,16 +56,20 @@ Regression regress_ten_steps(std::span<const VibrationRecord> records, const Mod
 
 struct Estimate {
   std::string name;  ///< "k1_N_per_m", "alpha1_per_s" ...
+  std::string unit;  ///< "N/m", "1/s" ...
   double value = 0.0;
   double lower = 0.0;  ///< of the interval
   double upper = 0.0;
+  double standard_error = 0.0;
 };
 
 struct OutputErrorFit {
   MassMaterial model;
   std::vector<Estimate> estimates;
-  Eigen::MatrixXd correlation;        ///< of the estimates, from the bootstrap
-  std::vector<double> path;           ///< relative misfit after each iteration
+  Eigen::MatrixXd correlation;     ///< of the estimates, from the bootstrap
+  std::vector<FitIteration> path;  ///< values in the order of the estimates; rms relative to that of the records
+  int evaluations = 0;             ///< simulated responses to all records
+  std::size_t n_residuals = 0;
   std::vector<double> record_misfit;  ///< of each record: norm of simulated minus measured z'' over that of measured
   double bic = 0.0;
   bool converged = false;
@@ -97,7 +102,7 @@ Eigen::VectorXd predicted_response(const MassMaterial& model, const VibrationRec
 /// of the measured one, within the excited band and its harmonics.
 double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop);
 
-/// The values that a user asks for, units in their names; bounds equal to the value.
+/// The values that a user asks for, units in their names too; bounds equal to the value.
 std::vector<Estimate> named_values(const MassMaterial& model);
 
 /// What records excite together.

@@ -1,9 +1,9 @@
 // refine_output and prediction_misfit of identification.h.
 
+#include "solver/calibration/levenberg_marquardt.h"
 #include "solver/linear/dense_algebra.h"
 #include "solver/vibration/identification.h"
 #include "solver/vibration/identification_coordinates.h"
-#include "solver/vibration/identification_least_squares.h"
 #include "solver/vibration/identification_responses.h"
 #include "solver/vibration/mass_material_simulation.h"
 
@@ -21,34 +21,46 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Residuals as a function of the coordinates. Remembers the last response: the Jacobian starts from it.
+/// Residuals as a function of the coordinates. Remembers the last response, from which the Jacobian starts, and
+/// the last Jacobian, which is asked for again where a search has ended.
 class OutputError {
  public:
-  OutputError(const Responses& responses, const ParameterCoordinates& coordinates, const Drives& drives)
-      : responses_(responses), coordinates_(coordinates), drives_(drives) {}
+  /// `evaluations` counts the simulated responses to all records.
+  OutputError(const Responses& responses, const ParameterCoordinates& coordinates, const Drives& drives,
+              int& evaluations)
+      : responses_(responses), coordinates_(coordinates), drives_(drives), evaluations_(evaluations) {}
 
   VectorXd residuals(const VectorXd& x) { return responses_.residuals(response(x)); }
 
-  MatrixXd jacobian(const VectorXd& x) {
+  const MatrixXd& jacobian(const VectorXd& x) {
+    if (x.size() == jacobian_at_.size() && x == jacobian_at_) return jacobian_;
     constexpr double h = 1e-6;
     std::vector<MassMaterial> moved;
     for (Index k = 0; k < x.size(); ++k) moved.push_back(coordinates_.model(x + h * VectorXd::Unit(x.size(), k)));
-    const MatrixXd y = responses_.simulated(moved, drives_);
-    return (y.colwise() - response(x)) / h;
+    const MatrixXd y = simulated(moved);
+    jacobian_ = (y.colwise() - response(x)) / h;
+    // A neighbour with unbounded motion gives no information on this parameter.
+    for (Index k = 0; k < x.size(); ++k)
+      if (!jacobian_.col(k).allFinite()) jacobian_.col(k).setZero();
+    jacobian_at_ = x;
+    return jacobian_;
   }
 
-  LeastSquaresProblem problem(Index n_parameters) {
-    return {.n_residuals = responses_.size(),
-            .n_parameters = n_parameters,
-            .residuals = [this](const VectorXd& x, VectorXd& r) { r = residuals(x); },
-            .jacobian = [this](const VectorXd& x, MatrixXd& J) { J = jacobian(x); }};
+  LeastSquaresProblem problem() {
+    return {.residuals = [this](const VectorXd& x) { return std::optional(residuals(x)); },
+            .jacobian = [this](const VectorXd& x) { return std::optional(jacobian(x)); }};
   }
 
  private:
+  MatrixXd simulated(std::span<const MassMaterial> models) {
+    evaluations_ += static_cast<int>(models.size());
+    return responses_.simulated(models, drives_);
+  }
+
   const VectorXd& response(const VectorXd& x) {
     if (x.size() != at_.size() || x != at_) {
       const MassMaterial model = coordinates_.model(x);
-      response_ = responses_.simulated(std::span(&model, 1), drives_).col(0);
+      response_ = simulated(std::span(&model, 1)).col(0);
       at_ = x;
     }
     return response_;
@@ -57,8 +69,11 @@ class OutputError {
   const Responses& responses_;
   const ParameterCoordinates& coordinates_;
   const Drives& drives_;
+  int& evaluations_;
   VectorXd at_;
   VectorXd response_;
+  VectorXd jacobian_at_;
+  MatrixXd jacobian_;
 };
 
 /// A regression may overshoot what holds the mass: softer in its nonlinear part, it starts from somewhere.
@@ -71,30 +86,39 @@ VectorXd bounded_start(OutputError& error, const ParameterCoordinates& coordinat
   return coordinates.from(start);
 }
 
+/// Little damping of the first steps: terms of a kernel are nearly collinear, and a step back costs one simulation.
+LeastSquaresSettings until(double tolerance) {
+  return {.tolerance = tolerance, .cost_tolerance = tolerance, .trust_radius = 1e6};
+}
+
 /// Where the sum of squares is least, the residuals there, and the Jacobian there or nearby.
 struct Minimum {
   VectorXd x;
   VectorXd residuals;
   MatrixXd jacobian;
-  std::vector<double> path;  // norms of the residuals
+  std::vector<LeastSquaresPoint> path;
   bool converged = false;
 };
 
 constexpr double tolerance = 1e-10;  // of the sum of squares and of the parameters
 
+constexpr double damping = 1e-8;  // of columns of norm one: for directions that the records do not determine
+
 /// Gauss-Newton steps with the Jacobian of a cheaper simulation near the minimum: one simulation a step. Not converged
 /// if they do not contract.
 Minimum follow_fixed_jacobian(OutputError& error, VectorXd x, MatrixXd jacobian) {
   const VectorXd norms = jacobian.colwise().norm().cwiseMax(1e-300);
-  const auto solve = least_squares_solver(jacobian * norms.cwiseInverse().asDiagonal());
+  const MatrixXd scaled = jacobian * norms.cwiseInverse().asDiagonal();
+  MatrixXd normal = scaled.transpose() * scaled;
+  normal.diagonal().array() += damping;
   Minimum best{.x = x, .residuals = error.residuals(x), .jacobian = std::move(jacobian), .path = {}};
   VectorXd r = best.residuals;
   double last_step = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 12 && r.allFinite(); ++i) {
     best.x = x;
     best.residuals = r;
-    best.path.push_back(r.norm());
-    const VectorXd step = solve(r);
+    best.path.push_back({x, 0.5 * r.squaredNorm()});
+    const VectorXd step = solve_symmetric(normal, scaled.transpose() * r);
     const double gain = (best.jacobian * step.cwiseQuotient(norms)).norm();
     if (gain * gain <= tolerance * r.squaredNorm()) {
       best.converged = true;
@@ -109,10 +133,10 @@ Minimum follow_fixed_jacobian(OutputError& error, VectorXd x, MatrixXd jacobian)
 }
 
 Minimum minimise_fully(OutputError& error, const VectorXd& x0) {
-  const LeastSquaresResult found = minimise(error.problem(x0.size()), x0, tolerance);
-  return {.x = found.parameters,
-          .residuals = error.residuals(found.parameters),
-          .jacobian = error.jacobian(found.parameters),
+  const LeastSquaresResult found = minimise(error.problem(), x0, until(tolerance));
+  return {.x = found.x,
+          .residuals = error.residuals(found.x),
+          .jacobian = error.jacobian(found.x),
           .path = found.path,
           .converged = found.converged};
 }
@@ -120,32 +144,35 @@ Minimum minimise_fully(OutputError& error, const VectorXd& x0) {
 /// Where the record with the strongest response alone has its minimum: from a start that is far off it is the cheaper
 /// way. `start` if that does not bring all records nearer.
 VectorXd approached_by_one(const VibrationRecord& strongest, double crop, OutputError& all,
-                           const ParameterCoordinates& coordinates, const MassMaterial& start, const VectorXd& x0) {
+                           const ParameterCoordinates& coordinates, const MassMaterial& start, const VectorXd& x0,
+                           int& evaluations) {
   constexpr double roughly = 1e-4;
   const Responses one(std::span(&strongest, 1), crop);
   const Drives drives = one.reduced_drives(start);
-  OutputError error(one, coordinates, drives);
-  const VectorXd x = minimise(error.problem(x0.size()), x0, roughly).parameters;
+  OutputError error(one, coordinates, drives, evaluations);
+  const VectorXd x = minimise(error.problem(), x0, until(roughly)).x;
   const double before = all.residuals(x0).squaredNorm(), after = all.residuals(x).squaredNorm();
   return after < before ? x : x0;
 }
 
 /// First with as few samples as the compared band needs, then to the end with all of them.
 Minimum least_output_error(std::span<const VibrationRecord> records, const Responses& responses,
-                           const ParameterCoordinates& coordinates, const MassMaterial& start, double crop) {
+                           const ParameterCoordinates& coordinates, const MassMaterial& start, double crop,
+                           int& evaluations) {
   constexpr double near = 1e-6;
   const Drives reduced = responses.reduced_drives(start);
-  OutputError coarse(responses, coordinates, reduced);
+  OutputError coarse(responses, coordinates, reduced, evaluations);
   VectorXd x0 = bounded_start(coarse, coordinates, start);
   const auto strength = [](const VibrationRecord& r) { return r.relative.squaredNorm() / static_cast<double>(r.n()); };
   if (records.size() > 1)
-    x0 = approached_by_one(*std::ranges::max_element(records, {}, strength), crop, coarse, coordinates, start, x0);
-  const LeastSquaresResult approached = minimise(coarse.problem(x0.size()), x0, near);
-  const VectorXd& x = approached.parameters;
+    x0 = approached_by_one(*std::ranges::max_element(records, {}, strength), crop, coarse, coordinates, start, x0,
+                           evaluations);
+  const LeastSquaresResult approached = minimise(coarse.problem(), x0, until(near));
+  const VectorXd& x = approached.x;
   const Drives full = responses.full_drives(coordinates.model(x));
-  OutputError error(responses, coordinates, full);
+  OutputError error(responses, coordinates, full, evaluations);
   Minimum found = follow_fixed_jacobian(error, x, coarse.jacobian(x));
-  std::vector<double> path = approached.path;
+  std::vector<LeastSquaresPoint> path = approached.path;
   path.insert(path.end(), found.path.begin(), found.path.end());
   if (!found.converged) {
     found = minimise_fully(error, found.x);
@@ -197,14 +224,18 @@ void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates,
   for (Index k = 0; k < n; ++k) {
     VectorXd sorted = values.row(k);
     std::ranges::sort(sorted);
+    Estimate& estimate = fit.estimates[static_cast<std::size_t>(k)];
     const auto at = [&](double part) {
       return sorted[static_cast<Index>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
     };
-    fit.estimates[static_cast<std::size_t>(k)].lower = at(0.5 - 0.5 * settings.confidence);
-    fit.estimates[static_cast<std::size_t>(k)].upper = at(0.5 + 0.5 * settings.confidence);
+    estimate.lower = at(0.5 - 0.5 * settings.confidence);
+    estimate.upper = at(0.5 + 0.5 * settings.confidence);
   }
   const MatrixXd centred = values.colwise() - values.rowwise().mean();
   const VectorXd norms = centred.rowwise().norm().cwiseMax(1e-300);
+  for (Index k = 0; k < n; ++k)
+    fit.estimates[static_cast<std::size_t>(k)].standard_error =
+        norms[k] / std::sqrt(static_cast<double>(replicates.cols() - 1));
   fit.correlation =
       norms.cwiseInverse().asDiagonal() * (centred * centred.transpose()) * norms.cwiseInverse().asDiagonal();
 }
@@ -222,14 +253,17 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   sort_terms(sorted);
   const Responses responses(records, settings.crop);
   const ParameterCoordinates coordinates(sorted, excited_range(records));
-  const Minimum found = least_output_error(records, responses, coordinates, sorted, settings.crop);
-
   OutputErrorFit fit;
+  const Minimum found = least_output_error(records, responses, coordinates, sorted, settings.crop, fit.evaluations);
   fit.converged = found.converged;
   fit.model = coordinates.model(found.x);
   fit.estimates = named_values(fit.model);
   const double n = static_cast<double>(responses.size());
-  for (const double norm : found.path) fit.path.push_back(norm / std::sqrt(n));
+  fit.n_residuals = static_cast<std::size_t>(responses.size());
+  for (const LeastSquaresPoint& point : found.path) {
+    fit.path.push_back({.rms = std::sqrt(2.0 * point.cost / n), .parameters = {}});
+    for (const Estimate& e : named_values(coordinates.model(point.x))) fit.path.back().parameters.push_back(e.value);
+  }
   if (!found.residuals.allFinite()) return fit;
   fit.record_misfit = responses.misfits(found.residuals);
   fit.bic = n * std::log(found.residuals.squaredNorm() / n) + static_cast<double>(found.x.size()) * std::log(n);

@@ -4,7 +4,6 @@
 #include "solver/parallel.h"
 #include "solver/vibration/identification.h"
 #include "solver/vibration/identification_conditioning.h"
-#include "solver/vibration/identification_least_squares.h"
 
 #include <Eigen/Core>
 
@@ -162,7 +161,7 @@ Regression plain_fit(std::span<const Prepared> prepared, const ModelStructure& s
   const System s = assemble(prepared, [&](const Prepared& p) {
     return plain_columns(p, shaped_velocity(p, lambda, settings.reference_velocity));
   });
-  const VectorXd x = solve_scaled(s.A, s.q);
+  const VectorXd x = scaled_least_squares(s.A, s.q);
   Regression result{.model = bare_model(structure, lambda, settings), .misfit = relative_misfit(s, x)};
   result.model.damping = x[0];
   result.model.stiffness.assign(x.data() + 1, x.data() + x.size());
@@ -189,7 +188,7 @@ Regression third_order_fit(std::span<const Prepared> prepared, const ModelStruct
     if (!linear_damping) a.push_back(p.condition.samples(shaped));
     return std::pair{std::move(a), p.condition.samples(derivative(p, p.force))};
   });
-  const VectorXd x = solve_scaled(s.A, s.q);
+  const VectorXd x = scaled_least_squares(s.A, s.q);
   const auto n = static_cast<Index>(structure.stiffness_order);
   Regression result{.model = bare_model(structure, lambda, settings), .misfit = relative_misfit(s, x)};
   MassMaterial& m = result.model;

@@ -1,7 +1,7 @@
 #include "solver/vibration/identification_stiffness.h"
 
 #include "physics/error.h"
-#include "solver/vibration/identification_least_squares.h"
+#include "solver/calibration/levenberg_marquardt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Leakage of Hann's window near the resonance: a part of |H| that averaging does not make smaller.
@@ -66,20 +65,7 @@ VectorXd residuals(const VectorXd& x, const Band& band, double mass) {
 }
 
 LeastSquaresResult refine(const Band& band, double mass, const VectorXd& start) {
-  LeastSquaresProblem problem{
-      .n_residuals = 2 * band.omega.size(), .n_parameters = start.size(), .residuals = {}, .jacobian = {}};
-  problem.residuals = [&](const VectorXd& x, VectorXd& r) { r = residuals(x, band, mass); };
-  problem.jacobian = [&](const VectorXd& x, MatrixXd& J) {
-    constexpr double h = 1e-6;
-    for (Index k = 0; k < x.size(); ++k) {
-      VectorXd ahead = x;
-      VectorXd behind = x;
-      ahead[k] += h;
-      behind[k] -= h;
-      J.col(k) = (residuals(ahead, band, mass) - residuals(behind, band, mass)) / (2.0 * h);
-    }
-  };
-  return minimise(problem, start, 1e-10, 100);
+  return minimise({.residuals = [&](const VectorXd& x) { return std::optional(residuals(x, band, mass)); }}, start);
 }
 
 /// Stiffness where |H| is largest, 5 % of critical damping.
@@ -146,8 +132,8 @@ Best best_of_order(const Band& band, double mass, int order) {
   if (order > 0) tried = starts(band, mass, best_of_order(band, mass, order - 1).x);
   for (const VectorXd& start : tried) {
     const LeastSquaresResult found = refine(band, mass, start);
-    const double norm = residuals(found.parameters, band, mass).norm();
-    if (norm < best.norm) best = {found.parameters, norm, found.converged};
+    const double norm = std::sqrt(2.0 * found.cost);
+    if (norm < best.norm) best = {found.x, norm, found.converged};
   }
   return best;
 }

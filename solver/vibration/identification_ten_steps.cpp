@@ -6,7 +6,6 @@
 #include "solver/linear/dense_algebra.h"
 #include "solver/vibration/identification.h"
 #include "solver/vibration/identification_conditioning.h"
-#include "solver/vibration/identification_least_squares.h"
 #include "solver/vibration/signals_spectra.h"
 
 #include <Eigen/Core>
@@ -93,7 +92,7 @@ VectorXcd prony_poles(const VectorXcd& G, const VectorXd& angle, int order) {
       X(k, i) = -G[k] * std::polar(1.0, -angle[k] * (i + 1));
       X(k, order + i) = std::polar(1.0, -angle[k] * i);
     }
-  const VectorXd p = solve_scaled(stacked(X), stacked(G));
+  const VectorXd p = scaled_least_squares(stacked(X), stacked(G));
   return roots(p.head(order));
 }
 
@@ -135,7 +134,7 @@ std::vector<HereditaryTerm> reduced_kernel(const Signals& s, const VectorXd& v, 
       basis(k, 2 * i) = one + other;
       basis(k, 2 * i + 1) = Complex(0.0, 1.0) * (term.is_pair() ? one - other : Complex(0.0));
     }
-  const VectorXd beta = solve_scaled(stacked(basis), stacked(G));
+  const VectorXd beta = scaled_least_squares(stacked(basis), stacked(G));
   for (std::size_t i = 0; i < terms.size(); ++i)
     terms[i].beta = {beta[static_cast<Index>(2 * i)], terms[i].is_pair() ? beta[static_cast<Index>(2 * i) + 1] : 0.0};
   const double t2 = 0.02;
@@ -186,8 +185,8 @@ Regression regress_ten_steps(std::span<const VibrationRecord> records, const Mod
   VectorXd p;
   VectorXd kernel;
   for (int i = 0; i < maximum_iterations; ++i) {
-    const VectorXd now = solve_scaled(s.A, s.q - v);  // step 4
-    const VectorXd rest = s.q - s.A * now;            // step 5
+    const VectorXd now = scaled_least_squares(s.A, s.q - v);  // step 4
+    const VectorXd rest = s.q - s.A * now;                    // step 5
     m.kernel = reduced_kernel(s, rest, order, prony_order);
     v = hereditary(s, m);
     result.misfit = (s.A * now + v - s.q).norm() / s.q.norm();

@@ -2,7 +2,7 @@
 
 #include "physics/error.h"
 #include "solver/calibration/calibration.h"
-#include "solver/vibration/identification_least_squares.h"
+#include "solver/linear/dense_algebra.h"
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ ImpulseFit with_weights(const VectorXd& g, double rate, const std::vector<Comple
   ImpulseFit fit{.terms = {}, .order = order, .misfit = 1.0};
   if (alphas.empty()) return fit;
   const MatrixXd basis = basis_of(alphas, g.size(), rate);
-  const VectorXd weights = solve_scaled(basis, g);
+  const VectorXd weights = scaled_least_squares(basis, g);
   Index column = 0;
   for (const Complex alpha : alphas) {
     const bool pair = alpha.imag() != 0.0;
@@ -93,7 +93,7 @@ ImpulseFit refined(const VectorXd& g, double rate, const ImpulseFit& start) {
   }
   problem.residuals = [&](std::span<const double> p) -> std::optional<std::vector<double>> {
     const MatrixXd basis = basis_of(alphas_of(p, alphas), g.size(), rate);
-    const VectorXd residual = g - basis * solve_scaled(basis, g);
+    const VectorXd residual = g - basis * scaled_least_squares(basis, g);
     return std::vector<double>(residual.begin(), residual.end());
   };
   const std::vector<double> found = fit(problem, {.maximum_iterations = 100, .side_by_side = false}).values();

@@ -17,7 +17,7 @@ set(rooms
     "solver/vibration: physics solver solver/linear solver/calibration"
     "postproc/files: physics"
     "postproc/fields: physics mesh solver solver/momentum solver/fracture postproc/files"
-    "postproc/curves: physics solver/fracture solver/point solver/vibration postproc/files"
+    "postproc/curves: physics solver/fracture solver/calibration solver/point solver/vibration postproc/files"
     "postproc/cohesive: physics mesh solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"
     "postproc/page: physics postproc/files"
     "postproc/records: physics postproc/files"

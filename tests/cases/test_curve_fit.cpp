@@ -97,12 +97,14 @@ TEST(CurveFit, FindsTheValuesThatMadeACurve) {
   const auto json = fit_in(fit.directory.results());
   EXPECT_NEAR(estimate(json, modulus), 33e9, 1e-3 * 33e9);
   EXPECT_NEAR(estimate(json, toughness), 110.0, 1.0);
+  EXPECT_EQ(json["kind"], "fracture");
+  EXPECT_EQ(json["confidence"], 0.95);
   EXPECT_TRUE(json["converged"].get<bool>());
   EXPECT_EQ(json["correlation"].size(), 2u);
   EXPECT_GT(json["path"].size(), 1u);
   EXPECT_LT(json["experiments"][0]["relative_misfit"].get<double>(), 2e-2);
   EXPECT_GT(json["experiments"][0]["rms_force_N"].get<double>(), 0.0);
-  EXPECT_EQ(json["runs"]["reused"], 0);
+  EXPECT_EQ(json["fracture"]["runs"]["reused"], 0);
   EXPECT_GT(json["first_guess_rms_residual"].get<double>(), 5.0 * json["rms_residual"].get<double>());
   const CsvTable curve = read_csv(fit.directory.results() / "fit_curve.csv");
   for (const char* column : {"displacement_m", "measured_force_N", "first_force_N", "model_force_N"})
@@ -131,7 +133,7 @@ TEST(CurveFit, WritesACaseThatRunsToTheFittedCurve) {
 nlohmann::json findings(const fs::path& results) {
   auto json = fit_in(results);
   json.erase("wall_seconds");
-  json.erase("runs");
+  json["fracture"].erase("runs");
   return json;
 }
 
@@ -139,11 +141,11 @@ TEST(CurveFit, ReusesRunsAndDoesNotDependOnThreads) {
   const BarFit fit;
   ASSERT_EQ(run({"fit", fit.path(), "--threads", "1"}).status, 0);
   const auto first = findings(fit.directory.results());
-  const int made = fit_in(fit.directory.results())["runs"]["made"];
+  const int made = fit_in(fit.directory.results())["fracture"]["runs"]["made"];
   ASSERT_EQ(run({"fit", fit.path()}).status, 0);
   EXPECT_EQ(findings(fit.directory.results()), first);
-  EXPECT_EQ(fit_in(fit.directory.results())["runs"]["made"], 0);
-  EXPECT_EQ(fit_in(fit.directory.results())["runs"]["reused"], made);
+  EXPECT_EQ(fit_in(fit.directory.results())["fracture"]["runs"]["made"], 0);
+  EXPECT_EQ(fit_in(fit.directory.results())["fracture"]["runs"]["reused"], made);
   const fs::path other = fit.directory.path() / "other";
   ASSERT_EQ(run({"fit", fit.path(), "--threads", "3", "--output", other.string()}).status, 0);
   EXPECT_EQ(findings(other), first);
@@ -174,7 +176,7 @@ TEST(CurveFit, GoesOnAfterAKillToTheSameResult) {
   const BarFit whole;
   ASSERT_EQ(run({"fit", whole.path()}).status, 0);
   const auto expected = findings(whole.directory.results());
-  const int made = fit_in(whole.directory.results())["runs"]["made"];
+  const int made = fit_in(whole.directory.results())["fracture"]["runs"]["made"];
   const double seconds = fit_in(whole.directory.results())["wall_seconds"];
   std::mt19937 engine(7);
   for (int i = 0; i < 3; ++i) {
@@ -190,7 +192,7 @@ TEST(CurveFit, GoesOnAfterAKillToTheSameResult) {
     EXPECT_EQ(findings(results), expected);
     const auto after = complete_runs(results);
     for (const auto& [name, time] : before) EXPECT_EQ(after.at(name), time) << name << " was run again";
-    const auto runs = fit_in(results)["runs"];
+    const auto runs = fit_in(results)["fracture"]["runs"];
     EXPECT_EQ(runs["made"].get<int>() + runs["reused"].get<int>(), made);
   }
 }
@@ -200,12 +202,12 @@ TEST(CurveFit, GoesOnInTheSecondStageWithTheRunsOfTheFirst) {
   const Outcome outcome = run({"fit", fit.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = fit_in(fit.directory.results());
-  EXPECT_EQ(json["earlier_stages"][0]["name"], "elastic");
+  EXPECT_EQ(json["fracture"]["earlier_stages"][0]["name"], "elastic");
   EXPECT_NEAR(estimate(json, modulus), 33e9, 1e-4 * 33e9);
   EXPECT_NEAR(estimate(json, toughness), 110.0, 1.0);
   EXPECT_NE(json["warnings"].dump().find("was estimated in stage \\\"elastic\\\""), std::string::npos);
   EXPECT_NE(outcome.out.find("continued"), std::string::npos) << outcome.out;
-  const auto& elastic = json["earlier_stages"][0];
+  const auto& elastic = json["fracture"]["earlier_stages"][0];
   EXPECT_GT(elastic["first_guess_rms_residual"].get<double>(), 100.0 * elastic["rms_residual"].get<double>());
 }
 
@@ -233,7 +235,7 @@ TEST(CurveFit, ScreensInTheStageThatAsksForIt) {
   EXPECT_NEAR(estimate(json, toughness), 110.0, 2.0);
   EXPECT_NEAR(estimate(json, modulus), 33e9, 5e-3 * 33e9);
   EXPECT_EQ(json["start_rms_residual"].size(), 2u);
-  EXPECT_FALSE(json["earlier_stages"][0].contains("screened"));
+  EXPECT_FALSE(json["fracture"]["earlier_stages"][0].contains("screened"));
   ASSERT_EQ(json["screened"].size(), 9u);
   const double rounded = 30e9 * std::exp(0.02 * std::round(50.0 * std::log(33.0 / 30.0)));
   std::set<double> values;
@@ -262,7 +264,7 @@ TEST(CurveFit, FitsToOtherDataReuseTheRunsOfTheSample) {
   ASSERT_EQ(run({"fit", fit.path()}).status, 0);
   const auto second = fit_in(fit.directory.results());
   EXPECT_NE(estimate(first, modulus), estimate(second, modulus));
-  const int made = second["runs"]["made"], reused = second["runs"]["reused"];
+  const int made = second["fracture"]["runs"]["made"], reused = second["fracture"]["runs"]["reused"];
   EXPECT_GT(reused, made) << made << " made, " << reused << " reused";
 }
 
@@ -286,7 +288,7 @@ TEST(CurveFit, SurvivesRunsThatDoNotConverge) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("did not converge: concrete.young_modulus"), std::string::npos) << outcome.out;
   const auto json = fit_in(directory.results());
-  EXPECT_GT(json["runs"]["not_converged"].get<int>(), 0);
+  EXPECT_GT(json["fracture"]["runs"]["not_converged"].get<int>(), 0);
   // The bar is held on all sides: it is stiffer by (1 - nu)/((1 + nu)(1 - 2 nu)) = 1/0.9.
   EXPECT_NEAR(estimate(json, modulus), 0.9 * 33e9, 1e-3 * 33e9);
 }
@@ -346,8 +348,8 @@ TEST(CurveFit, FindsStrengthAndToughnessOfACohesiveCrack) {
     const auto& [truth, best] = values;
     const auto& found = parameter(json, name);
     EXPECT_NEAR(found["estimate"].get<double>(), best, 0.01 * best) << name;
-    EXPECT_LT(found["lower_95"].get<double>(), truth) << name;
-    EXPECT_GT(found["upper_95"].get<double>(), truth) << name;
+    EXPECT_LT(found["lower"].get<double>(), truth) << name;
+    EXPECT_GT(found["upper"].get<double>(), truth) << name;
   }
 }
 

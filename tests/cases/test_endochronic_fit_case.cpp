@@ -64,6 +64,7 @@ TEST(EndochronicFitCase, FindsTheLawAndWritesACaseThatRuns) {
   const Outcome outcome = run({"fit", fit.directory.path().string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+  EXPECT_EQ(json["kind"], "endochronic");
   EXPECT_EQ(json["method"], "joint");
   ASSERT_EQ(json["parameters"].size(), 6u);
   EXPECT_EQ(json["parameters"][0]["name"], "C_1");
@@ -92,7 +93,7 @@ TEST(EndochronicFitCase, EveryMethodRuns) {
     EXPECT_EQ(outcome.status, 0) << method << ": " << outcome.err;
     const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
     EXPECT_EQ(json["method"], method);
-    EXPECT_EQ(json.contains("staggered_rounds"), method == "staggered");
+    EXPECT_EQ(json["endochronic"].contains("staggered_rounds"), method == "staggered");
     EXPECT_EQ(std::filesystem::exists(fit.directory.results() / "transient_fit_cycles_0_5__.csv"), method != "kernel");
   }
 }

@@ -96,7 +96,7 @@ TEST(MassMaterialProgram, FitsOgdensModelToTheStiffness) {
   const Outcome outcome = run({"fit", directory.path().string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("Ogden's model of k(z)"), std::string::npos) << outcome.out;
-  const json ogden = parsed(directory.results() / "fit.json")["ogden"];
+  const json ogden = parsed(directory.results() / "fit.json")["mass_material"]["ogden"];
   // Three times the shear modulus is Young's, k1 L/A.
   EXPECT_NEAR(3.0 * ogden["shear_modulus_Pa"].get<double>(), 54e3 * 0.0762 / 45.6e-4, 0.01 * 54e3 * 0.0762 / 45.6e-4);
   EXPECT_LT(ogden["relative_misfit"].get<double>(), 0.01);
@@ -129,17 +129,29 @@ TEST(MassMaterialProgram, FindsItsOwnParametersAgain) {
   const json fit = parsed(directory.results() / "fit.json");
   const double expected[] = {54e3, -1.0e6, 1.3e8};
   for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_NEAR(fit["estimates"][i]["value"].get<double>(), expected[i], 0.02 * std::abs(expected[i])) << i;
-  EXPECT_NEAR(fit["estimates"][5]["value"].get<double>(), 40.0, 0.02);
-  EXPECT_EQ(fit["estimates"][5]["name"], "c_N_s_per_m");
-  EXPECT_LT(fit["estimates"][5]["lower"].get<double>(), fit["estimates"][5]["value"].get<double>());
-  EXPECT_EQ(fit["tests"][1]["name"], "down");
-  EXPECT_EQ(fit["tests"][1]["fitted"], 0.0);
-  EXPECT_LT(fit["tests"][1]["relative_misfit"].get<double>(), 1e-3);
-  EXPECT_TRUE(fit["passive"].get<bool>());
+    EXPECT_NEAR(fit["parameters"][i]["estimate"].get<double>(), expected[i], 0.02 * std::abs(expected[i])) << i;
+  EXPECT_EQ(fit["format"], 1);
+  EXPECT_EQ(fit["kind"], "mass_material");
+  const json& damping = fit["parameters"][5];
+  EXPECT_NEAR(damping["estimate"].get<double>(), 40.0, 0.02);
+  EXPECT_EQ(damping["name"], "c_N_s_per_m");
+  EXPECT_EQ(damping["unit"], "N s/m");
+  EXPECT_LT(damping["lower"].get<double>(), damping["estimate"].get<double>());
+  EXPECT_NEAR(damping["first_guess"].get<double>(), 40.0, 10.0);
+  // The interval of 95 % is 3.92 standard deviations of the replicates wide.
+  EXPECT_NEAR(
+      (damping["upper"].get<double>() - damping["lower"].get<double>()) / damping["standard_error"].get<double>(), 3.92,
+      1.2);
+  EXPECT_GT(fit["evaluations"].get<int>(), 10);
+  EXPECT_EQ(fit["path"].back()["parameters"][5], damping["estimate"]);
+  EXPECT_EQ(fit["experiments"][0]["fitted"], true);
+  EXPECT_EQ(fit["experiments"][1]["name"], "down");
+  EXPECT_EQ(fit["experiments"][1]["fitted"], false);
+  EXPECT_LT(fit["experiments"][1]["relative_misfit"].get<double>(), 1e-3);
+  EXPECT_TRUE(fit["mass_material"]["passive"].get<bool>());
   EXPECT_EQ(fit["correlation"].size(), 6u);
   // E = k1 L/A, and E'' = omega c L/A.
-  const json& modulus = fit["youngs_modulus"][0];
+  const json& modulus = fit["mass_material"]["youngs_modulus"][0];
   EXPECT_NEAR(modulus["frequency_Hz"].get<double>(), 10.0, 1e-6);
   EXPECT_NEAR(modulus["storage_modulus_Pa"].get<double>(), 54e3 * 0.0762 / 45.6e-4, 1e3);
   EXPECT_NEAR(modulus["loss_modulus_Pa"].get<double>(), 62.8319 * 40 * 0.0762 / 45.6e-4, 50.0);
@@ -195,7 +207,7 @@ TEST(MassMaterialProgram, TellsSpreadAndDriftOverASchedule) {
   const Outcome outcome = run({"fit", directory.path().string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("repeatability over 12 records"), std::string::npos) << outcome.out;
-  const json repeats = parsed(directory.results() / "fit.json")["repeatability"];
+  const json repeats = parsed(directory.results() / "fit.json")["mass_material"]["repeatability"];
   EXPECT_EQ(repeats["records"].size(), 12u);
   EXPECT_EQ(repeats["records"][7]["name"], "day12_2");
   EXPECT_EQ(repeats["records"][7]["run"], 2);
@@ -289,8 +301,8 @@ TEST(MassMaterialProgram, OffersTheReportsLeastSquares) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json fit = parsed(directory.results() / "fit.json");
   EXPECT_EQ(fit["method"], "least_squares");
-  EXPECT_NEAR(fit["estimates"][0]["value"].get<double>(), 54e3, 0.05 * 54e3);
-  EXPECT_TRUE(fit["estimates"][0]["lower"].is_null());
+  EXPECT_NEAR(fit["parameters"][0]["estimate"].get<double>(), 54e3, 0.05 * 54e3);
+  EXPECT_TRUE(fit["parameters"][0]["lower"].is_null());
 }
 
 TEST(MassMaterialProgram, FitsARecordFromAFile) {
@@ -305,7 +317,7 @@ TEST(MassMaterialProgram, FitsARecordFromAFile) {
   directory.write("case.toml", text);
   const Outcome outcome = run({"fit", directory.path().string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NEAR(parsed(directory.results() / "fit.json")["estimates"][5]["value"].get<double>(), 40.0, 0.02);
+  EXPECT_NEAR(parsed(directory.results() / "fit.json")["parameters"][5]["estimate"].get<double>(), 40.0, 0.02);
   // A bad one is refused by file and name of the fault.
   std::string spoilt = content_of(directory.path() / "data/a.csv");
   const std::size_t line = spoilt.find("\n3,");

@@ -5,7 +5,6 @@
 
 #include "physics/error.h"
 #include "solver/vibration/identification_conditioning.h"
-#include "solver/vibration/identification_least_squares.h"
 #include "solver/vibration/identification_stiffness.h"
 #include "solver/vibration/signals_filter.h"
 
@@ -154,25 +153,6 @@ TEST(Regression, PowersAreFilteredLikeTheRest) {
   const VectorXd right = condition(z.cwiseProduct(z));
   const VectorXd filtered_z = condition(z);
   EXPECT_GT((right - filtered_z.cwiseProduct(filtered_z)).norm(), 0.1 * right.norm());
-}
-
-TEST(LeastSquares, FindsAMinimumAndTellsItsPath) {
-  // Rosenbrock's valley.
-  LeastSquaresProblem problem{.n_residuals = 2, .n_parameters = 2, .residuals = {}, .jacobian = {}};
-  problem.residuals = [](const VectorXd& x, VectorXd& r) { r << 10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]; };
-  problem.jacobian = [](const VectorXd& x, Eigen::MatrixXd& J) { J << -20.0 * x[0], 10.0, -1.0, 0.0; };
-  const LeastSquaresResult found = minimise(problem, Eigen::Vector2d(-1.2, 1.0));
-  EXPECT_TRUE(found.converged);
-  EXPECT_LT((found.parameters - Eigen::Vector2d(1.0, 1.0)).norm(), 1e-8);
-  EXPECT_LT(found.path.back(), found.path.front());
-}
-
-TEST(LeastSquares, ScalesColumnsByDividing) {
-  Eigen::MatrixXd A = Eigen::MatrixXd::Random(50, 3);
-  A.col(1) *= 1e-7;
-  A.col(2) *= 1e9;
-  const Eigen::Vector3d p(2.0, 5e6, -3e-7);
-  EXPECT_LT(((solve_scaled(A, A * p) - p).array() / p.array()).matrix().norm(), 1e-12);
 }
 
 }  // namespace

@@ -93,15 +93,15 @@ class Count:
         self.truth, self.held, self.errors, self.stated, self.runs = truth, {}, {}, {}, []
 
     def add(self, seed, fit):
-        self.runs.append(fit["runs"]["made"])
-        print(f"seed {seed}: rms residual {fit['rms_residual']:.4f}, {fit['runs']['made']} runs made", flush=True)
+        self.runs.append(fit["fracture"]["runs"]["made"])
+        print(f"seed {seed}: rms residual {fit['rms_residual']:.4f}, {fit['fracture']['runs']['made']} runs made", flush=True)
         for p in fit["parameters"]:
             true = next(value for name, value in self.truth.items() if name.startswith(p["name"]))
-            held = p["lower_95"] <= true <= p["upper_95"]
+            held = p["lower"] <= true <= p["upper"]
             self.held.setdefault(p["name"], []).append(held)
             self.errors.setdefault(p["name"], []).append(p["estimate"] / true - 1.0)
             self.stated.setdefault(p["name"], []).append(p["standard_error"] / p["estimate"])
-            print(f"    {p['name']}: {p['estimate']:.6g}, {p['lower_95']:.6g} to {p['upper_95']:.6g}"
+            print(f"    {p['name']}: {p['estimate']:.6g}, {p['lower']:.6g} to {p['upper']:.6g}"
                   f"{'' if held else ' MISSES'}", flush=True)
 
     def show(self):

@@ -7,8 +7,8 @@
 //   identification_statistics models SECONDS DB [THREADS NAME ...]
 //                                                models of Table A2, all or these: errors and CPU seconds, three levels
 
+#include "solver/linear/dense_algebra.h"
 #include "solver/parallel.h"
-#include "solver/vibration/identification_least_squares.h"
 #include "solver/vibration/identification_stiffness.h"
 #include "solver/vibration/impulse_response.h"
 #include "solver/vibration/vibration_excitation.h"
@@ -118,7 +118,7 @@ Samples prony(const Samples& g, int order, double rate) {
   const Eigen::Index n = g.size() - order;
   Eigen::MatrixXd past(n, order);
   for (int i = 0; i < order; ++i) past.col(i) = g.segment(order - 1 - i, n);
-  const Eigen::VectorXd a = solve_scaled(past, g.tail(n));
+  const Eigen::VectorXd a = scaled_least_squares(past, g.tail(n));
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
   companion.row(0) = a.transpose();
   companion.diagonal(-1).setOnes();
@@ -133,7 +133,7 @@ Samples prony(const Samples& g, int order, double rate) {
           std::exp(-alphas[static_cast<std::size_t>(i)] * (static_cast<double>(k) / rate));
       basis(k, 2 * i) = decay.real(), basis(k, 2 * i + 1) = -decay.imag();
     }
-  const Eigen::VectorXd x = solve_scaled(basis, g);
+  const Eigen::VectorXd x = scaled_least_squares(basis, g);
   std::vector<std::pair<double, std::size_t>> by_energy;
   for (std::size_t i = 0; i < alphas.size(); ++i) {
     const auto column = 2 * static_cast<Eigen::Index>(i);

@@ -42,11 +42,12 @@ std::vector<ExperimentMisfit> misfits(const EndochronicFit& fit, const Endochron
   for (const MaterialExperiment& experiment : fit.experiments) {
     std::size_t n = 0;
     for (const auto& channel : experiment.channels) n += channel.stress.size();
-    result.push_back({.name = experiment.name,
-                      .n_data = n,
-                      .rms = rms_misfit(law, experiment, fit.settings.control),
-                      .rms_measured = rms_stress({experiment}),
-                      .curve = fit_curve_file(experiment.name)});
+    result.push_back(experiment_misfit(experiment.name, n,
+                                       {.rms = rms_misfit(law, experiment, fit.settings.control),
+                                        .rms_measured = rms_stress({experiment}),
+                                        .quantity = "stress",
+                                        .unit = "Pa"},
+                                       fit_curve_file(experiment.name)));
   }
   return result;
 }
@@ -75,13 +76,9 @@ void write_fit_results(const fs::path& results, const CaseFile& file, const Endo
                                         .version = run.version,
                                         .method = std::string(fit.method->name),
                                         .wall_seconds = run.wall_seconds,
-                                        .parameters = found.fit.parameters,
-                                        .result = found.fit.result,
+                                        .found = findings_of(found.fit.parameters, found.fit.result),
                                         .experiments = misfits(fit, found.fit.law),
-                                        .tried = found.tried,
-                                        .rounds = found.rounds,
-                                        .stages = {},
-                                        .runs = std::nullopt});
+                                        .own = EndochronicFindings{found.tried, found.rounds}});
 }
 
 }  // namespace pfdm

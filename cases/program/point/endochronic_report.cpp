@@ -206,16 +206,14 @@ std::vector<PageRow> run_rows(const EndochronicCase& point, const CsvTable& hist
 
 Table estimates_table(const FitReport& fit) {
   Table table{.caption = fmt::format("Fit, method {}", fit.method),
-              .rows = {{"parameter", "estimate", "95 % interval"}},
+              .rows = {{"parameter", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
               .has_header = true};
-  for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
-    const FitEstimate& e = fit.result.estimates[j];
-    const FitParameter& p = fit.parameters[j];
-    const DisplayUnit unit = p.unit == "Pa" ? display_unit(e.value, "Pa") : DisplayUnit{.factor = 1.0, .name = p.unit};
+  for (const FittedParameter& p : fit.found.parameters) {
+    const DisplayUnit unit =
+        p.unit == "Pa" ? display_unit(p.estimate, "Pa") : DisplayUnit{.factor = 1.0, .name = p.unit};
     const auto text = [&](double value) { return shown(unit.factor * value); };
-    table.rows.push_back(
-        {unit.name == "1" ? p.name : fmt::format("{} [{}]", p.name, unit.name), text(e.value),
-         fmt::format("{} to {}{}", text(e.lower_95), text(e.upper_95), e.at_bound ? ", at a bound" : "")});
+    table.rows.push_back({unit.name == "1" ? p.name : fmt::format("{} [{}]", p.name, unit.name), text(p.estimate),
+                          fmt::format("{} to {}{}", text(p.lower), text(p.upper), p.at_bound ? ", at a bound" : "")});
   }
   return table;
 }
@@ -238,11 +236,11 @@ Chart fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve) {
   const bool over_strain =
       components.size() == 1 && std::ranges::find(curve.names, "strain_" + components[0]) != curve.names.end();
   const std::vector<double> x = over_strain ? plotted_strain(curve, components[0]) : curve.column("time_s");
-  Chart chart{.caption = fmt::format("Fit to \"{}\", rms misfit {:.2g} %", experiment.name,
-                                     100.0 * experiment.rms / experiment.rms_measured),
-              .x = {.title = over_strain ? strain_title(components[0]) : "time [s]"},
-              .y = {.title = fmt::format("stress [{}]", unit.name)},
-              .series = {}};
+  Chart chart{
+      .caption = fmt::format("Fit to \"{}\", rms misfit {:.2g} %", experiment.name, 100.0 * experiment.relative),
+      .x = {.title = over_strain ? strain_title(components[0]) : "time [s]"},
+      .y = {.title = fmt::format("stress [{}]", unit.name)},
+      .series = {}};
   for (std::size_t i = 0; i < components.size(); ++i) {
     const int colour = 2 * static_cast<int>(i);
     chart.series.push_back({.label = "measured " + components[i],

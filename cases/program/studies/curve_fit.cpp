@@ -32,7 +32,7 @@ class CurveFit {
 
   void run() {
     const Stopwatch watch;
-    std::vector<FitStageReport> stages;
+    std::vector<FitStage> stages;
     for (const CurveFitStage& stage : job_.settings.stages) stages.push_back(fit_stage(stage));
     const SampledCurve fitted = curve_at(values_, std::nullopt);
     const CurveFitFindings found{.values = values_,
@@ -100,7 +100,7 @@ class CurveFit {
     return problem;
   }
 
-  FitStageReport fit_stage(const CurveFitStage& stage) {
+  FitStage fit_stage(const CurveFitStage& stage) {
     const auto until = std::isfinite(stage.to) ? std::optional(stage.to) : std::nullopt;
     const SampledCurve first_curve = curve_at(first_, until);
     const MeasuredPoints points = points_of(stage, first_curve);
@@ -113,16 +113,16 @@ class CurveFit {
       session_.log.say(fmt::format("  rms residual {:.5g} at {}", iteration.rms,
                                    model_.shown(with_stage(stage, iteration.parameters))));
     };
-    FitStageReport report{.name = stage.name,
-                          .from = points.points.front().x,
-                          .to = points.points.back().x,
-                          .parameters = problem.parameters,
-                          .first_rms = rms_residual(first_curve, points),
-                          .result = fit(problem, settings)};
-    warn_of_correlated_residuals(points, report.result);
-    values_ = with_stage(stage, report.result.values());
+    FitResult result = fit(problem, settings);
+    warn_of_correlated_residuals(points, result);
+    values_ = with_stage(stage, result.values());
     for (const std::size_t j : stage.parameters) is_estimated_[j] = true;
-    return report;
+    FitStage found{.name = stage.name,
+                   .from = points.points.front().x,
+                   .to = points.points.back().x,
+                   .found = findings_of(problem.parameters, result)};
+    found.found.first_rms = rms_residual(first_curve, points);
+    return found;
   }
 
   static void warn_of_correlated_residuals(const MeasuredPoints& points, FitResult& result) {

@@ -17,18 +17,15 @@ constexpr const char* fitted_curve_file = "fit_curve.csv";
 
 /// The last stage's result, to which the estimates of parameters that it left alone are added, from the last stage that
 /// had them; their correlation with the others is not known.
-FitStageReport merged(const std::vector<FitStageReport>& stages) {
-  FitStageReport whole = stages.back();
-  FitResult& result = whole.result;
+FitFindings merged(const std::vector<FitStage>& stages) {
+  FitFindings whole = stages.back().found;
   for (auto stage = stages.rbegin() + 1; stage != stages.rend(); ++stage)
-    for (std::size_t j = 0; j < stage->parameters.size(); ++j) {
-      const FitParameter& p = stage->parameters[j];
-      if (std::ranges::count(whole.parameters, p.name, &FitParameter::name) > 0) continue;
+    for (const FittedParameter& p : stage->found.parameters) {
+      if (std::ranges::count(whole.parameters, p.name, &FittedParameter::name) > 0) continue;
       whole.parameters.push_back(p);
-      result.estimates.push_back(stage->result.estimates[j]);
-      const Eigen::Index n = result.correlation.rows();
-      result.correlation.conservativeResizeLike(Eigen::MatrixXd::Identity(n + 1, n + 1));
-      result.warnings.push_back(fmt::format(
+      const Eigen::Index n = whole.correlation.rows();
+      whole.correlation.conservativeResizeLike(Eigen::MatrixXd::Identity(n + 1, n + 1));
+      whole.warnings.push_back(fmt::format(
           "{} was estimated in stage \"{}\"; the intervals of the others are conditional on it", p.name, stage->name));
     }
   return whole;
@@ -56,52 +53,45 @@ std::vector<ExperimentMisfit> misfits(const CurveFitJob& job, const CurveFitFind
   std::vector<ExperimentMisfit> result;
   for (const SampledCurve& specimen : job.specimens) {
     const MeasuredPoints points = points_between({specimen}, found.fitted_curve.x.front(), found.fitted_curve.x.back());
-    result.push_back({.name = specimen.name,
-                      .n_data = points.points.size(),
-                      .rms = rms_difference(found.fitted_curve, points, 0),
-                      .rms_measured = points.rms,
-                      .curve = fitted_curve_file,
-                      .quantity = "force",
-                      .unit = "N"});
+    result.push_back(experiment_misfit(specimen.name, points.points.size(),
+                                       {.rms = rms_difference(found.fitted_curve, points, 0),
+                                        .rms_measured = points.rms,
+                                        .quantity = "force",
+                                        .unit = "N"},
+                                       fitted_curve_file));
   }
   return result;
 }
 
-void say_estimates(const FitStageReport& whole, const std::vector<CaseParameter>& parameters, Log& log) {
-  log.say(fmt::format("rms residual of {} points {:.4g}, with the first guess {:.4g}", whole.result.residuals.size(),
-                      whole.result.rms, whole.first_rms));
-  for (std::size_t j = 0; j < whole.parameters.size(); ++j) {
-    const FitEstimate& e = whole.result.estimates[j];
-    const CaseParameter& p = *std::ranges::find(parameters, whole.parameters[j].name, &CaseParameter::name);
+void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& parameters, Log& log) {
+  log.say(fmt::format("rms residual of {} points {:.4g}, with the first guess {:.4g}", whole.n_residuals, whole.rms,
+                      *whole.first_rms));
+  for (const FittedParameter& found : whole.parameters) {
+    const CaseParameter& p = *std::ranges::find(parameters, found.name, &CaseParameter::name);
     log.say(fmt::format("  {} = {:.5g} {}, 95 % between {:.5g} and {:.5g}, first guess {:.5g}", p.name,
-                        p.in_file_units(e.value), p.unit, p.in_file_units(e.lower_95), p.in_file_units(e.upper_95),
-                        p.in_file_units(whole.parameters[j].first)));
+                        p.in_file_units(found.estimate), p.unit, p.in_file_units(found.lower),
+                        p.in_file_units(found.upper), p.in_file_units(found.first_guess)));
   }
   for (std::size_t j = 0; j < whole.parameters.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)
       log.say(fmt::format("  correlation of {} and {}: {:.3f}", whole.parameters[i].name, whole.parameters[j].name,
-                          whole.result.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
-  for (const std::string& warning : whole.result.warnings) log.warn(warning);
+                          whole.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+  for (const std::string& warning : whole.warnings) log.warn(warning);
 }
 
 }  // namespace
 
 void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Session& session) {
   const fs::path& results = session.results;
-  const FitStageReport whole = merged(found.stages);
-  const FitReport report{.case_name = job.name,
-                         .case_hash = job.hash,
-                         .version = session.version,
-                         .method = "force_displacement",
-                         .wall_seconds = found.seconds,
-                         .parameters = whole.parameters,
-                         .first_rms = whole.first_rms,
-                         .result = whole.result,
-                         .experiments = misfits(job, found),
-                         .tried = {},
-                         .rounds = {},
-                         .stages = {found.stages.begin(), found.stages.end() - 1},
-                         .runs = found.runs};
+  const FitReport report{
+      .case_name = job.name,
+      .case_hash = job.hash,
+      .version = session.version,
+      .method = "force_displacement",
+      .wall_seconds = found.seconds,
+      .found = merged(found.stages),
+      .experiments = misfits(job, found),
+      .own = FractureFindings{.earlier_stages = {found.stages.begin(), found.stages.end() - 1}, .runs = found.runs}};
   write_csv(results / fitted_curve_file, curve_table(job, found));
   const CaseFile fitted = with_values(job.file, found.parameters, found.values);
   write_file(results / "case.fitted.toml",
@@ -109,12 +99,12 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
                          job.name) +
                  moved(fitted, results));
   write_fit_json(results / "fit.json", report);
-  say_estimates(whole, found.parameters, session.log);
+  say_estimates(report.found, found.parameters, session.log);
   for (const ExperimentMisfit& e : report.experiments)
-    session.log.say(fmt::format("rms difference from {}: {:.4g} N, {:.2f} % of its rms force", e.name, e.rms,
-                                100.0 * e.rms / e.rms_measured));
+    session.log.say(fmt::format("rms difference from {}: {:.4g} N, {:.2f} % of its rms force", e.name, e.absolute->rms,
+                                100.0 * e.relative));
   session.log.say(fmt::format("{} runs made, {} reused, {} of them did not converge; {:.1f} s; {}", found.runs.made,
-                              found.runs.reused, found.runs.failed, found.seconds, whole.result.message));
+                              found.runs.reused, found.runs.failed, found.seconds, report.found.message));
   session.log.say(fmt::format("written to {}; run it with: pfdm run {}", results.string(),
                               (results / "case.fitted.toml").string()));
 }

@@ -9,8 +9,8 @@
 namespace pfdm {
 
 struct CurveFitFindings {
-  std::vector<double> values;          ///< of all parameters [SI]
-  std::vector<FitStageReport> stages;  ///< all of them, in their order
+  std::vector<double> values;    ///< of all parameters [SI]
+  std::vector<FitStage> stages;  ///< all of them, in their order
   const std::vector<CaseParameter>& parameters;
   SampledCurve first_curve;  ///< with the case's own values
   SampledCurve fitted_curve;

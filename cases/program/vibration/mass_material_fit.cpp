@@ -2,21 +2,25 @@
 
 #include "cases/program/session/stopwatch.h"
 #include "cases/program/vibration/mass_material_jobs.h"
-#include "postproc/curves/vibration_results.h"
+#include "postproc/curves/fit_json.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
 #include "solver/vibration/identification.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* not_converged = "the iteration did not converge; the estimates may be off";
 
 struct Records {
   std::vector<VibrationRecord> fitted;
@@ -55,20 +59,39 @@ void require_low_order(const MassMaterialFit& fit, const ModelStructure& structu
 /// Found model and what is told about it.
 struct Found {
   MassMaterial model;
-  VibrationFit report;
+  FitReport report{};
+  VibrationFindings own{};
 };
+
+/// Units of the values are also in their names.
+std::vector<FittedParameter> fitted_parameters(const std::vector<Estimate>& estimates) {
+  std::vector<FittedParameter> parameters;
+  for (const Estimate& e : estimates)
+    parameters.push_back({.name = e.name,
+                          .unit = e.unit,
+                          .estimate = e.value,
+                          .standard_error = e.standard_error,
+                          .lower = e.lower,
+                          .upper = e.upper});
+  return parameters;
+}
 
 /// What the regressions find: no intervals.
 Found without_intervals(const Regression& regression, const Records& records) {
-  Found found;
-  found.model = regression.model;
-  found.report.path = {regression.misfit};
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  for (Estimate e : named_values(found.model)) {
-    e.lower = e.upper = none;
-    found.report.estimates.push_back(e);
+  Found found{.model = regression.model};
+  std::vector<Estimate> estimates = named_values(found.model);
+  FitIteration only{.rms = regression.misfit, .parameters = {}};
+  for (Estimate& e : estimates) {
+    e.lower = e.upper = e.standard_error = none;
+    only.parameters.push_back(e.value);
   }
-  found.report.passivity = passivity_in_band(found.model, records.fitted);
+  found.report.found = {.converged = true,
+                        .message = "solved without iterating on the simulated response",
+                        .parameters = fitted_parameters(estimates),
+                        .rms = regression.misfit,
+                        .path = {only}};
+  found.own.passivity = passivity_in_band(found.model, records.fitted);
   return found;
 }
 
@@ -85,24 +108,34 @@ Found by_least_squares(const Records& records, const ModelStructure& structure, 
 }
 
 Found by_output_error(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
-  Found found;
   Identification id = identify(records.fitted, structure, settings_of(c));
-  found.model = id.fit.model;
-  found.report.estimates = std::move(id.fit.estimates);
-  found.report.correlation = std::move(id.fit.correlation);
-  found.report.path = std::move(id.fit.path);
-  found.report.converged = id.fit.converged;
-  found.report.orders = std::move(id.orders);
-  found.report.passivity = id.passivity;
+  Found found{.model = id.fit.model};
+  found.report.found = {.converged = id.fit.converged,
+                        .message = id.fit.converged ? "the output error is least" : not_converged,
+                        .parameters = fitted_parameters(id.fit.estimates),
+                        .correlation = std::move(id.fit.correlation),
+                        .n_residuals = id.fit.n_residuals,
+                        .rms = id.fit.path.back().rms,
+                        .first_rms = id.fit.path.front().rms,
+                        .evaluations = id.fit.evaluations,
+                        .path = std::move(id.fit.path)};
+  const std::vector<Estimate> start = named_values(id.start.model);
+  for (FittedParameter& p : found.report.found.parameters)
+    if (const auto first = std::ranges::find(start, p.name, &Estimate::name); first != start.end())
+      p.first_guess = first->value;
+  found.own.orders = std::move(id.orders);
+  found.own.passivity = id.passivity;
   return found;
 }
 
-std::vector<NamedFigures> misfits(const MassMaterial& model, const Records& records, double crop) {
-  std::vector<NamedFigures> tests;
-  for (const VibrationRecord& r : records.fitted)
-    tests.push_back({r.name, {{"fitted", 1.0}, {"relative_misfit", prediction_misfit(model, r, crop)}}});
-  for (const VibrationRecord& r : records.predicted)
-    tests.push_back({r.name, {{"fitted", 0.0}, {"relative_misfit", prediction_misfit(model, r, crop)}}});
+std::vector<ExperimentMisfit> misfits(const MassMaterial& model, const Records& records, double crop) {
+  std::vector<ExperimentMisfit> tests;
+  for (const auto& [all, fitted] : {std::pair(&records.fitted, true), std::pair(&records.predicted, false)})
+    for (const VibrationRecord& r : *all)
+      tests.push_back({.name = r.name,
+                       .fitted = fitted,
+                       .n_data = static_cast<std::size_t>(r.n()),
+                       .relative = prediction_misfit(model, r, crop)});
   return tests;
 }
 
@@ -163,20 +196,27 @@ RepeatedIdentification repeats_of(const Found& found, const Records& records, co
 }
 
 void say_found(const Found& found, Log& log) {
-  for (const Estimate& e : found.report.estimates)
-    log.say(std::isfinite(e.lower)
-                ? fmt::format("  {:<18} {:>14.6g}   {:.6g} to {:.6g}", e.name, e.value, e.lower, e.upper)
-                : fmt::format("  {:<18} {:>14.6g}", e.name, e.value));
-  for (const NamedFigures& test : found.report.tests)
-    log.say(fmt::format("  test {:<16} {}, relative misfit {:.3g}", test.name,
-                        test.figures.at("fitted") > 0.0 ? "fitted" : "predicted", test.figures.at("relative_misfit")));
-  if (found.report.ogden) say_ogden(*found.report.ogden, log);
-  if (found.report.repeats) say_repeats(*found.report.repeats, log);
-  if (!found.report.passivity.passive)
-    log.warn(fmt::format(
-        "the model is not passive: it supplies energy to the shaker (damping {:.3g} N s/m at {:.4g} Hz)",
-        found.report.passivity.least_damping, found.report.passivity.worst_omega / (2.0 * std::numbers::pi)));
-  if (!found.report.converged) log.warn("the iteration did not converge; the estimates may be off");
+  for (const FittedParameter& p : found.report.found.parameters)
+    log.say(std::isfinite(p.lower)
+                ? fmt::format("  {:<18} {:>14.6g}   {:.6g} to {:.6g}", p.name, p.estimate, p.lower, p.upper)
+                : fmt::format("  {:<18} {:>14.6g}", p.name, p.estimate));
+  for (const ExperimentMisfit& test : found.report.experiments)
+    log.say(fmt::format("  test {:<16} {}, relative misfit {:.3g}", test.name, test.fitted ? "fitted" : "predicted",
+                        test.relative));
+  if (found.own.ogden) say_ogden(*found.own.ogden, log);
+  if (found.own.repeats) say_repeats(*found.own.repeats, log);
+  for (const std::string& warning : found.report.found.warnings) log.warn(warning);
+}
+
+/// What keeps the estimates from being taken at their word.
+std::vector<std::string> warnings_of(const Found& found) {
+  std::vector<std::string> warnings;
+  if (const Passivity& p = found.own.passivity; !p.passive)
+    warnings.push_back(
+        fmt::format("the model is not passive: it supplies energy to the shaker (damping {:.3g} N s/m at {:.4g} Hz)",
+                    p.least_damping, p.worst_omega / (2.0 * std::numbers::pi)));
+  if (!found.report.found.converged) warnings.emplace_back(not_converged);
+  return warnings;
 }
 
 }  // namespace
@@ -203,20 +243,22 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
                       : c.fit.method == "ten_step"    ? by_ten_steps
                                                       : by_output_error;
   Found found = method(records, structure, c);
-  VibrationFit& report = found.report;
+  if (c.sample) found.own.modulus = youngs_modulus(found.model, records, *c.sample);
+  if (c.fit.ogden_terms > 0) found.own.ogden = ogden_of(found.model, records, c);
+  if (c.fit.repeatability) found.own.repeats = repeats_of(found, records, c);
+  found.own.structure = structure.name;
+  FitReport& report = found.report;
   report.case_name = program.name;
   report.version = session.version;
   report.case_hash = program.hash;
   report.method = c.fit.method;
-  report.structure = structure.name;
   report.confidence = c.fit.confidence;
-  report.tests = misfits(found.model, records, c.fit.crop);
-  if (c.sample) report.modulus = youngs_modulus(found.model, records, *c.sample);
-  if (c.fit.ogden_terms > 0) report.ogden = ogden_of(found.model, records, c);
-  if (c.fit.repeatability) report.repeats = repeats_of(found, records, c);
+  report.experiments = misfits(found.model, records, c.fit.crop);
+  report.found.warnings = warnings_of(found);
+  report.own = found.own;
   report.wall_seconds = watch.seconds();
   session.log.open_file(session.results / "fit.log", false);
-  write_vibration_fit(session.results / "fit.json", report);
+  write_fit_json(session.results / "fit.json", report);
   write_file(session.results / "case.fitted.toml",
              with_table(program.file, "model", model_text(structure.name, found.model), session.results));
   say_found(found, session.log);

@@ -1,7 +1,7 @@
 #include "cases/program/vibration/mass_material_report.h"
 
 #include "cases/program/session/report_parts.h"
-#include "postproc/curves/vibration_results.h"
+#include "postproc/curves/fit_json.h"
 #include "solver/vibration/identification.h"
 #include "solver/vibration/signals_spectra.h"
 
@@ -12,6 +12,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <variant>
 
 namespace pfdm {
 namespace {
@@ -31,10 +32,11 @@ struct VibrationStory {
   const MassMaterialProgram& program;
   std::vector<VibrationRecord> records;
   std::size_t shown = 0;  // the record with the largest level
-  std::optional<VibrationFit> fit{};
+  std::optional<FitReport> fit{};
   std::optional<Model> model{};
   std::optional<VectorXd> predicted{};  // z'' [m/s^2]
   const VibrationRecord& record() const { return records[shown]; }
+  const VibrationFindings* findings() const { return fit ? &std::get<VibrationFindings>(fit->own) : nullptr; }
 };
 
 double rms(const VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
@@ -51,7 +53,7 @@ std::optional<Model> model_of(const MassMaterialCase& c, bool fitted, const fs::
 VibrationStory story_of(const MassMaterialProgram& program, Session& session) {
   VibrationStory story{.program = program,
                        .records = {},
-                       .fit = find_of_case(session.results / "fit.json", program.hash, read_vibration_fit)};
+                       .fit = find_of_case(session.results / "fit.json", program.hash, read_fit_json)};
   for (const VibrationTest& test : program.parsed.tests)
     story.records.push_back(record_of(test, session.results, session.log));
   const auto level = [](const VibrationRecord& r) { return rms(r.base); };
@@ -78,12 +80,11 @@ Table sample_table(const VibrationStory& story) {
   return table;
 }
 
-std::string misfit_of(const std::optional<VibrationFit>& fit, const std::string& test) {
+std::string misfit_of(const std::optional<FitReport>& fit, const std::string& test) {
   if (!fit) return "-";
-  const auto found = std::ranges::find(fit->tests, test, &NamedFigures::name);
-  if (found == fit->tests.end()) return "-";
-  const bool fitted = found->figures.contains("fitted") && found->figures.at("fitted") > 0.0;
-  return fmt::format("{:.3g} %, {}", 100.0 * found->figures.at("relative_misfit"), fitted ? "fitted" : "predicted");
+  const auto found = std::ranges::find(fit->experiments, test, &ExperimentMisfit::name);
+  if (found == fit->experiments.end()) return "-";
+  return fmt::format("{:.3g} %, {}", 100.0 * found->relative, found->fitted ? "fitted" : "predicted");
 }
 
 Table tests_table(const VibrationStory& story) {
@@ -111,15 +112,15 @@ std::string with_bracketed_unit(const std::string& name) {
 }
 
 Table model_table(const VibrationStory& story) {
-  const std::string structure = story.fit ? story.fit->structure : story.program.parsed.structure;
+  const std::string structure = story.fit ? story.findings()->structure : story.program.parsed.structure;
   Table table{.caption = fmt::format("Model {}", structure), .rows = {}, .has_header = true};
   if (story.fit) {
     table.rows.push_back({"parameter", "value", fmt::format("{:g} % interval", 100.0 * story.fit->confidence)});
-    for (const Estimate& e : story.fit->estimates)
-      table.rows.push_back({with_bracketed_unit(e.name), shown(e.value),
-                            std::isfinite(e.lower) ? fmt::format("{} to {}", shown(e.lower), shown(e.upper)) : "-"});
-    if (story.fit->ogden)
-      for (const OgdenTerm& term : story.fit->ogden->terms)
+    for (const FittedParameter& p : story.fit->found.parameters)
+      table.rows.push_back({with_bracketed_unit(p.name), shown(p.estimate),
+                            std::isfinite(p.lower) ? fmt::format("{} to {}", shown(p.lower), shown(p.upper)) : "-"});
+    if (const auto& ogden = story.findings()->ogden)
+      for (const OgdenTerm& term : ogden->terms)
         table.rows.push_back({"Ogden: mu, alpha", shown(term.mu, "Pa"), shown(term.alpha)});
   } else if (story.model) {
     table.rows.push_back({"parameter", "value"});
@@ -285,9 +286,9 @@ Chart phase_chart(const VibrationStory& story, const BandSpectra& s, const std::
   return chart;
 }
 
-Chart modulus_chart(const VibrationFit& fit) {
+Chart modulus_chart(const std::vector<ModulusRow>& modulus) {
   std::vector<double> f, storage, loss;
-  for (const ModulusRow& row : fit.modulus) {
+  for (const ModulusRow& row : modulus) {
     f.push_back(row.frequency);
     storage.push_back(row.storage);
     loss.push_back(row.loss);
@@ -376,9 +377,10 @@ ReportPage mass_material_page(const MassMaterialProgram& program, Session& sessi
   page.rows.push_back({.blocks = {base_chart(record), response_chart(record), excerpt_chart(story)}});
   page.rows.push_back({.blocks = {magnitude_chart(story, measured, model), phase_chart(story, measured, model)}});
   PageRow last{.blocks = {density_chart(record, measured), coherence_chart(record, measured)}};
-  if (story.fit && !story.fit->modulus.empty()) last.blocks.emplace_back(modulus_chart(*story.fit));
+  const VibrationFindings* findings = story.findings();
+  if (findings != nullptr && !findings->modulus.empty()) last.blocks.emplace_back(modulus_chart(findings->modulus));
   page.rows.push_back(std::move(last));
-  if (story.fit && story.fit->repeats) add_repeats(page, *story.fit->repeats);
+  if (findings != nullptr && findings->repeats) add_repeats(page, *findings->repeats);
   for (const char* log : {"run.log", "fit.log"})
     for (PageRow& row : warnings_row(session.results / log)) page.rows.push_back(std::move(row));
   return page;

@@ -1,0 +1,35 @@
+#pragma once
+// What fit.json tells of the mass-material model alone. SI units, units in the names.
+
+#include "solver/vibration/identification_repeats.h"
+#include "solver/vibration/ogden_fit.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// Young's modulus of the sample at a frequency: K L/A.
+struct ModulusRow {
+  double frequency = 0.0;  ///< [Hz]
+  double storage = 0.0;    ///< E' [Pa]
+  double loss = 0.0;       ///< E'' [Pa]
+};
+
+struct VibrationFindings {
+  std::string structure;
+  Passivity passivity;
+  std::vector<OrderTrial> orders;
+  std::vector<ModulusRow> modulus;
+  std::optional<OgdenFit> ogden;  ///< of the stiffness polynomial
+  std::optional<RepeatedIdentification> repeats;
+};
+
+nlohmann::ordered_json to_json(const VibrationFindings& findings);
+/// Without what no report shows: passivity and orders.
+VibrationFindings vibration_findings_in(const nlohmann::ordered_json& json);
+
+}  // namespace pfdm

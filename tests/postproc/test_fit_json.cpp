@@ -1,0 +1,114 @@
+#include "physics/error.h"
+#include "postproc/curves/fit_json.h"
+#include "tests/postproc/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <set>
+
+namespace pfdm::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+FitReport example() {
+  FitReport report{.case_name = "a case",
+                   .case_hash = "0123",
+                   .version = "1.0",
+                   .method = "joint",
+                   .wall_seconds = 2.5,
+                   .confidence = 0.9,
+                   .found = {.converged = true,
+                             .message = "done",
+                             .parameters = {{.name = "E",
+                                             .unit = "Pa",
+                                             .estimate = 3e9,
+                                             .standard_error = 1e8,
+                                             .lower = 2.8e9,
+                                             .upper = 3.2e9,
+                                             .first_guess = 1e9,
+                                             .at_bound = true}}},
+                   .experiments = {},
+                   .own = {}};
+  report.experiments.push_back(
+      experiment_misfit("one", 12, {.rms = 0.5, .rms_measured = 10.0, .quantity = "force", .unit = "N"}, "c.csv"));
+  report.experiments.push_back({.name = "two", .fitted = false, .n_data = 3, .relative = 0.25});
+  return report;
+}
+
+nlohmann::json written(const FitReport& report) {
+  const TemporaryFolder folder;
+  write_fit_json(folder / "fit.json", report);
+  return nlohmann::json::parse(content_of(folder / "fit.json"));
+}
+
+TEST(FitJson, ComesBackAsItWasWritten) {
+  const TemporaryFolder folder;
+  FitReport report = example();
+  report.own = VibrationFindings{.structure = "4b",
+                                 .passivity = {},
+                                 .orders = {},
+                                 .modulus = {{100.0, 3e6, 2e5}},
+                                 .ogden = OgdenFit{.terms = {{1e5, 2.0}}},
+                                 .repeats = {}};
+  write_fit_json(folder / "fit.json", report);
+  const FitReport back = read_fit_json(folder / "fit.json");
+  EXPECT_EQ(back.case_hash, "0123");
+  EXPECT_EQ(back.confidence, 0.9);
+  ASSERT_EQ(back.found.parameters.size(), 1U);
+  EXPECT_EQ(back.found.parameters[0].upper, 3.2e9);
+  EXPECT_TRUE(back.found.parameters[0].at_bound);
+  ASSERT_EQ(back.experiments.size(), 2U);
+  EXPECT_EQ(back.experiments[0].relative, 0.05);
+  EXPECT_EQ(back.experiments[0].absolute->rms, 0.5);
+  EXPECT_FALSE(back.experiments[1].fitted);
+  EXPECT_FALSE(back.experiments[1].absolute);
+  const auto& own = std::get<VibrationFindings>(back.own);
+  EXPECT_EQ(own.structure, "4b");
+  EXPECT_EQ(own.modulus[0].loss, 2e5);
+  EXPECT_EQ(own.ogden->terms[0].alpha, 2.0);
+}
+
+TEST(FitJson, HasTheSameFieldsForEveryKind) {
+  FitReport report = example();
+  std::vector<std::set<std::string>> fields;
+  for (const decltype(report.own)& own :
+       {decltype(report.own)(FractureFindings{}), decltype(report.own)(EndochronicFindings{}),
+        decltype(report.own)(VibrationFindings{})}) {
+    report.own = own;
+    const nlohmann::json json = written(report);
+    const std::string kind = json["kind"];
+    EXPECT_TRUE(json[kind].is_object()) << kind;
+    std::set<std::string>& names = fields.emplace_back();
+    for (const auto& [name, value] : json.items())
+      if (name != kind) names.insert(name);
+  }
+  EXPECT_EQ(fields[0], fields[1]);
+  EXPECT_EQ(fields[0], fields[2]);
+}
+
+TEST(FitJson, WritesWhatIsNotKnownAsNull) {
+  FitReport report = example();
+  report.found.parameters[0].first_guess = std::nan("");
+  const auto parameter = written(report)["parameters"][0];
+  EXPECT_TRUE(parameter["first_guess"].is_null());
+  EXPECT_TRUE(parameter["upper_bound"].is_null());
+}
+
+TEST(FitJson, RefusesAnotherFormat) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& text) {
+    put(folder / "fit.json", text);
+    return message_of<InputError>([&] { read_fit_json(folder / "fit.json"); });
+  };
+  EXPECT_THAT(message("{\"case\": \"old\"}"),
+              HasSubstr("fit.json: the file has format 0, this version reads format 1"));
+  EXPECT_THAT(message("{\"format\": 1}"), HasSubstr("this is not a fit"));
+  EXPECT_THAT(message("no such thing"), HasSubstr("this is not a fit"));
+}
+
+}  // namespace
+}  // namespace pfdm::test
