@@ -35,8 +35,10 @@ Couplings couplings_of(const BlockMatrix& matrix) {
 }
 
 // Each row with its most strongly coupled free neighbour, if that coupling is not weak against its strongest; rows that
-// find none join the pair of their strongest neighbour, one to a pair, lest coarsening stalls.
-std::vector<Index> match_pairs(const Couplings& couplings, Index& count) {
+// find none join the pair of their strongest neighbour, one to a pair, or also all those that hang on this neighbour
+// alone: the smoother is exact for them.
+enum class Joining { one_to_a_pair, all_that_hang };
+std::vector<Index> match_pairs(const Couplings& couplings, Joining joining, Index& count) {
   constexpr float weak = 0.25F;
   constexpr Index none = -1;
   std::vector<Index> pair_of(as_size(couplings.n_rows()), none), size_of_pair;
@@ -58,8 +60,11 @@ std::vector<Index> match_pairs(const Couplings& couplings, Index& count) {
       size_of_pair.push_back(2);
       continue;
     }
+    const bool hangs =
+        joining == Joining::all_that_hang && couplings.offsets[as_size(i) + 1] - couplings.offsets[as_size(i)] == 1;
     const Index host = strongest_neighbour(i, [&](Index j) {
-                         return pair_of[as_size(j)] != none && size_of_pair[as_size(pair_of[as_size(j)])] <= 2;
+                         const Index pair = pair_of[as_size(j)];
+                         return pair != none && (hangs || size_of_pair[as_size(pair)] <= 2);
                        }).first;
     pair_of[as_size(i)] = host != none ? pair_of[as_size(host)] : static_cast<Index>(size_of_pair.size());
     if (host != none)
@@ -128,6 +133,26 @@ Gathered<Value> gather(const std::vector<Index>& offsets, const std::vector<Inde
   return result;
 }
 
+Aggregates aggregate(const BlockMatrix& matrix, int n_passes, Joining joining) {
+  Couplings couplings = couplings_of(matrix);
+  Aggregates result;
+  result.of_row = match_pairs(couplings, joining, result.count);
+  std::vector<Index> last = result.of_row;
+  for (int pass = 1; pass < n_passes; ++pass) {
+    auto gathered =
+        gather<float>(couplings.offsets, couplings.columns, couplings.strength, last, result.count, nullptr);
+    couplings = {std::move(gathered.offsets), std::move(gathered.columns), std::move(gathered.values)};
+    const Index before = result.count;
+    last = match_pairs(couplings, joining, result.count);
+    // An aggregate that has no coupling left stays one by itself.
+    for (Index a = 0; a < before; ++a)
+      if (last[as_size(a)] < 0) last[as_size(a)] = result.count++;
+    for (Index& a : result.of_row)
+      if (a >= 0) a = last[as_size(a)];
+  }
+  return result;
+}
+
 }  // namespace
 
 BlockMatrix compress(const BlockTriplets& triplets, const std::vector<Index>& position_of_node) {
@@ -158,24 +183,11 @@ BlockMatrix compress(const BlockTriplets& triplets, const std::vector<Index>& po
   return matrix;
 }
 
+// On the free sides of plates most nodes hang on one cell, and the cells do not have room for them.
 Aggregates aggregate(const BlockMatrix& matrix, int n_passes) {
-  Couplings couplings = couplings_of(matrix);
-  Aggregates result;
-  result.of_row = match_pairs(couplings, result.count);
-  std::vector<Index> last = result.of_row;
-  for (int pass = 1; pass < n_passes; ++pass) {
-    auto gathered =
-        gather<float>(couplings.offsets, couplings.columns, couplings.strength, last, result.count, nullptr);
-    couplings = {std::move(gathered.offsets), std::move(gathered.columns), std::move(gathered.values)};
-    const Index before = result.count;
-    last = match_pairs(couplings, result.count);
-    // An aggregate that has no coupling left stays one by itself.
-    for (Index a = 0; a < before; ++a)
-      if (last[as_size(a)] < 0) last[as_size(a)] = result.count++;
-    for (Index& a : result.of_row)
-      if (a >= 0) a = last[as_size(a)];
-  }
-  return result;
+  Aggregates result = aggregate(matrix, n_passes, Joining::one_to_a_pair);
+  const bool stalls = result.count > matrix.n_rows() / 4;
+  return stalls ? aggregate(matrix, n_passes, Joining::all_that_hang) : result;
 }
 
 BlockMatrix coarsen(const BlockMatrix& matrix, const Aggregates& aggregates) {
