@@ -1,6 +1,7 @@
 #include "cases/program/listing.h"
 
 #include "cases/program/fracture/boundary_reader.h"
+#include "cases/program/fracture/fracture_case.h"
 #include "cases/program/fracture/material_laws.h"
 #include "cases/program/fracture/mesh_recipe.h"
 #include "cases/program/input/case_file.h"
@@ -120,6 +121,7 @@ void list_laws(std::ostream& out) {
   list_table(out, "hardening of the endochronic law ([material.hardening] law)", hardening_laws());
   list_table(out, "rate factors of the endochronic law ([material.rate] law)", rate_factors());
   list_table(out, "identification of the endochronic law ([fit] method)", identification_methods());
+  list_table(out, "linear solvers ([solver] linear)", linear_solvers());
   list_table(out, "boundary conditions ([[boundary]] type)", boundary_types());
   list_table(out, "displacement fields (displacement = { field = ... })", displacement_fields());
   list_table(out, "energy release rate of a crack ([[output.energy_release_rate]] shape)", region_shapes());

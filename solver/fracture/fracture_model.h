@@ -7,6 +7,7 @@
 #include "physics/energy_split.h"
 #include "physics/materials/material.h"
 #include "solver/momentum/boundary_condition.h"
+#include "solver/momentum/preconditioner.h"
 #include "solver/momentum/unknowns.h"
 
 #include <limits>
@@ -68,7 +69,8 @@ struct StaggeredSettings {
   double energy_tolerance = 1e-4;       ///< change of the total energy over the energy
   double equilibrium_tolerance = 1e-6;  ///< row-scaled residual of the momentum balance at an accepted step, relative
   Index maximum_iterations = 500;
-  bool windows = false;  ///< local sub-domain iterations around the cells that still change (window.h)
+  const LinearSolver* linear = nullptr;  ///< of the momentum balance; null: the automatic choice
+  bool windows = false;                  ///< local sub-domain iterations around the cells that still change (window.h)
 };
 
 struct LoadingSettings {

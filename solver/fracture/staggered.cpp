@@ -16,7 +16,7 @@ constexpr Index inner_iterations = 80, last_iterations = 400;
 // Successive iterations in which only the residual stiffness may carry the loads: the first ones are inexact.
 constexpr Index torn_at_most = 5;
 // Relative residual of the last solve, if no smaller one is required.
-constexpr double last_tolerance = 3e-8;
+constexpr double last_tolerance = 1e-8;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       unknowns_(unknowns),
       settings_(settings),
       local_(std::move(local)),
-      momentum_(mesh, unknowns),
+      momentum_(mesh, unknowns, settings.linear),
       stiffness_(mesh, model),
       damage_(mesh, model, unknowns.plane_normal) {}
 

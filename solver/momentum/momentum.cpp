@@ -27,6 +27,16 @@ Tensor in_series(const Tensor& A_P, double h_P, const Tensor& A_N, double h_N) {
   return symmetric_part((h_P * A_P.inverse() + h_N * A_N.inverse()).inverse());
 }
 
+// Makes the matrix diagonal in the direction n. Nothing else may hold the body there, so it could be singular.
+void decouple(const Vector& n, BlockTriplets& matrix) {
+  const Tensor along = n * n.transpose(), across = Tensor::Identity() - along;
+  for (Tensor& block : matrix.diagonal) {
+    const Tensor kept = across * block * across;
+    block = kept + (block.trace() - kept.trace()) * along;
+  }
+  for (auto& entry : matrix.off_diagonal) entry.value = across * entry.value * across;
+}
+
 CellField<Tensor> closures(const Mesh& mesh) {
   CellField<Tensor> closure(as_size(mesh.n_cells()));
   parallel_for(mesh.n_cells(), [&](Index c) {
@@ -354,6 +364,7 @@ BlockTriplets MomentumOperator::compact_matrix() const {
     if (!is_free.isZero()) matrix.off_diagonal.push_back({side.cell, side.node, -a * is_free});
   }
   for (Index c = 0; c < sector_area_.size(); ++c) matrix.diagonal[as_size(c)] += compact_sector(c);
+  if (!unknowns_.plane_normal.isZero()) decouple(unknowns_.plane_normal, matrix);
   return matrix;
 }
 

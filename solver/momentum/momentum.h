@@ -79,7 +79,8 @@ class MomentumOperator {
   /// Removes the component across the plane of a plane mesh.
   void keep_in_plane(std::vector<Vector>& v) const;
 
-  /// The compact symmetric matrix for the preconditioner of A: c between cells, a from a cell to its face nodes.
+  /// The compact symmetric matrix for the preconditioner of A: c between cells, a from a cell to its face nodes. It is
+  /// diagonal in what is prescribed and in the direction across a plane mesh.
   BlockTriplets compact_matrix() const;
   /// Approximate diagonal of the Schur complement, per pressure [m^3/Pa].
   std::vector<double> pressure_compliance() const;

@@ -12,33 +12,20 @@ namespace {
 
 // Relative change of g up to which the weights of the gradients are kept.
 constexpr double bearable_lag = 0.01;
-// Factor by which a cell's stiffness may change before the multigrid is rebuilt.
+// Factor by which a cell's stiffness may change before the preconditioner is rebuilt.
 constexpr double bearable_ratio = 2.0;
-
-std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
-  std::vector<Index> position(as_size(unknowns.n_nodes()));
-  Index next = 0;
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    position[as_size(c)] = next++;
-    for (const Index f : mesh.faces_of_cell(c))
-      if (unknowns.node_of_face[f] >= 0 && mesh.owner[f] == c) position[as_size(unknowns.node_of_face[f])] = next++;
-  }
-  return position;
-}
 
 }  // namespace
 
-MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns)
+MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns, const LinearSolver* linear)
     : unknowns_(unknowns),
       operator_(mesh, unknowns),
-      position_of_node_(interleave_face_nodes(mesh, unknowns)),
-      b_(as_size(unknowns.n_nodes())),
-      x_(as_size(unknowns.n_nodes())) {}
+      preconditioner_((linear != nullptr ? *linear : linear_solvers().front()).make(mesh, unknowns)) {}
 
 void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
-  if (starts_afresh_ && !(moduli == moduli_of_multigrid_)) multigrid_.reset();
+  if (starts_afresh_ && !(moduli == built_moduli_)) is_built_ = false;
   operator_.set_moduli(moduli, g, gradient_lag());
-  if (renew_preconditioner(g, struggled_ && has_moved(moduli))) moduli_of_multigrid_ = moduli;
+  if (renew_preconditioner(g, struggled_ && has_moved(moduli))) built_moduli_ = moduli;
 }
 
 void MomentumSolver::set_stress(CellField<LinearStress> stress) {
@@ -49,19 +36,19 @@ void MomentumSolver::set_stress(CellField<LinearStress> stress) {
 void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g) {
   CellField<double> trace(as_size(stiffness.size()));
   parallel_for(stiffness.size(), [&](Index c) { trace[c] = stiffness[c].trace(); });
-  if (starts_afresh_) multigrid_.reset();
+  if (starts_afresh_) is_built_ = false;
   operator_.set_stiffness(std::move(stiffness), g, gradient_lag());
-  if (renew_preconditioner(trace, false)) moduli_of_multigrid_ = {};
+  if (renew_preconditioner(trace, false)) built_moduli_ = {};
 }
 
 double MomentumSolver::gradient_lag() {
-  const bool exact = std::exchange(starts_afresh_, false) || !multigrid_;
+  const bool exact = std::exchange(starts_afresh_, false) || !is_built_;
   return exact ? 0.0 : bearable_lag;
 }
 
 // Where cracks have closed or opened the stiffness changes at the same g.
 bool MomentumSolver::has_moved(const CellField<IsotropicElasticity>& moduli) const {
-  const CellField<IsotropicElasticity>& built = moduli_of_multigrid_;
+  const CellField<IsotropicElasticity>& built = built_moduli_;
   if (built.size() == 0) return true;
   return parallel_max(moduli.size(), [&](Index c) {
            const double now = moduli[c].lambda + 2.0 * moduli[c].mu, then = built[c].lambda + 2.0 * built[c].mu;
@@ -71,12 +58,12 @@ bool MomentumSolver::has_moved(const CellField<IsotropicElasticity>& moduli) con
 
 // Returns whether it was rebuilt.
 bool MomentumSolver::renew_preconditioner(const CellField<double>& measure, bool must_be) {
-  const CellField<double>& built = measure_of_multigrid_;
-  const bool moved = multigrid_ && parallel_max(measure.size(), [&](Index c) {
-                                     return std::max(measure[c] / built[c], built[c] / measure[c]);
-                                   }) > bearable_ratio;
-  if (multigrid_ && !moved && !must_be) return false;
-  measure_of_multigrid_ = measure;
+  const CellField<double>& built = built_measure_;
+  const bool moved = is_built_ && parallel_max(measure.size(), [&](Index c) {
+                                    return std::max(measure[c] / built[c], built[c] / measure[c]);
+                                  }) > bearable_ratio;
+  if (is_built_ && !moved && !must_be) return false;
+  built_measure_ = measure;
   build_preconditioner();
   return true;
 }
@@ -87,7 +74,8 @@ void MomentumSolver::build_preconditioner() {
   for (std::size_t i = 0; i < scale_.size(); ++i) scale_[i] = 1.0 / std::sqrt(compact.diagonal[i].trace() / 3.0);
   pressure_compliance_ = operator_.pressure_compliance();
   for (const double s : pressure_compliance_) scale_.push_back(1.0 / std::sqrt(s));
-  multigrid_.emplace(compress(compact, position_of_node_));
+  preconditioner_->build(compact);
+  is_built_ = true;
   reference_load_.reset();
   ++n_preconditioners_;
 }
@@ -101,15 +89,8 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
     rest_ = r;
     operator_.take_away_pressure_forces(z, rest_);
   }
-  const std::vector<Vector>& left = has_pressures ? rest_ : r;
+  preconditioner_->apply(has_pressures ? rest_ : r, z);
   parallel_for(n, [&](Index i) {
-    Lane& to = b_[as_size(position_of_node_[as_size(i)])];
-    to.head<3>() = left[as_size(i)].cast<float>();
-    to[3] = 0.0F;
-  });
-  multigrid_->apply(b_, x_);
-  parallel_for(n, [&](Index i) {
-    z[as_size(i)] = x_[as_size(position_of_node_[as_size(i)])].head<3>().cast<double>();
     // Prescribed components stay unchanged.
     if (i >= unknowns_.n_cells)
       z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];

@@ -1,12 +1,13 @@
 #pragma once
-// Equilibrium at fixed damage: flexible GMRES on the traction operator, preconditioned by multigrid on its compact
-// matrix; with pressures by the block triangle [A B; 0 S], multigrid for A and a diagonal for the Schur complement S.
+// Equilibrium at fixed damage: flexible GMRES on the traction operator, preconditioned by multigrid or Cholesky factors
+// of its compact matrix; with pressures by the block triangle [A B; 0 S], these for A and a diagonal for the Schur
+// complement S.
 // Residuals are row-scaled by (tr D / 3)^-1/2: without scaling the stiffest cells dominate the norm and broken cells do
 // not contribute.
 
 #include "solver/linear/fgmres.h"
-#include "solver/linear/multigrid.h"
 #include "solver/momentum/momentum.h"
+#include "solver/momentum/preconditioner.h"
 
 #include <optional>
 
@@ -21,15 +22,16 @@ struct Equilibrium {
 
 class MomentumSolver {
  public:
-  MomentumSolver(const Mesh& mesh, const Unknowns& unknowns);
+  /// `linear` null: the automatic choice.
+  MomentumSolver(const Mesh& mesh, const Unknowns& unknowns, const LinearSolver* linear = nullptr);
 
-  /// New secant moduli. The multigrid is rebuilt when the stiffness factor g of some cell has changed by more than a
-  /// factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights
+  /// New secant moduli. The preconditioner is rebuilt when the stiffness factor g of some cell has changed by more than
+  /// a factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights
   /// of the gradients where g has changed by more than a hundredth.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
   /// Replaces the stresses of the moduli that were just set (see MomentumOperator).
   void set_stress(CellField<LinearStress> stress);
-  /// The same with a general stiffness [Pa]; the multigrid is rebuilt by changes of its trace.
+  /// The same with a general stiffness [Pa]; the preconditioner is rebuilt by changes of its trace.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
   /// Makes the next set_moduli rebuild everything that could differ, so that the results do not depend on earlier
   /// states.
@@ -68,11 +70,11 @@ class MomentumSolver {
 
   const Unknowns& unknowns_;
   MomentumOperator operator_;
-  std::vector<Vector> body_force_;       // on the cells [N]; may be empty
-  std::vector<Index> position_of_node_;  // multigrid row of each node: face nodes follow a cell of theirs
-  std::optional<Multigrid> multigrid_;
-  CellField<double> measure_of_multigrid_;              // of the cells' stiffness: any measure, but always the same
-  CellField<IsotropicElasticity> moduli_of_multigrid_;  // empty for a general stiffness
+  std::vector<Vector> body_force_;  // on the cells [N]; may be empty
+  std::unique_ptr<Preconditioner> preconditioner_;
+  bool is_built_ = false;                        // the preconditioner
+  CellField<double> built_measure_;              // of the cells' stiffness: any measure, but always the same
+  CellField<IsotropicElasticity> built_moduli_;  // empty for a general stiffness
   bool starts_afresh_ = false;
   bool struggled_ = false;  // the last solve did not converge
   std::vector<double> scale_;
@@ -81,7 +83,6 @@ class MomentumSolver {
   std::optional<double> reference_load_;     // load parameter that reference_ belongs to
   double reference_ = 0.0;
   std::optional<double> fixed_reference_;  // if it was given
-  std::vector<Lane> b_, x_;
   Index n_preconditioners_ = 0;
 };
 

@@ -121,12 +121,13 @@ StaggeredSettings read_solver(const ConfigTable& root) {
   StaggeredSettings settings;
   if (!root.has("solver")) return settings;
   const ConfigTable table = root.table("solver").with_keys(
-      {"damage_tolerance", "energy_tolerance", "equilibrium_tolerance", "maximum_iterations", "windows"});
+      {"damage_tolerance", "energy_tolerance", "equilibrium_tolerance", "maximum_iterations", "linear", "windows"});
   settings.damage_tolerance = table.number("damage_tolerance", above_zero_to_one, settings.damage_tolerance);
   settings.energy_tolerance = table.number("energy_tolerance", above_zero_to_one, settings.energy_tolerance);
   settings.equilibrium_tolerance = table.number("equilibrium_tolerance", solvable, settings.equilibrium_tolerance);
   settings.maximum_iterations =
       static_cast<Index>(table.integer("maximum_iterations", at_least_one, settings.maximum_iterations));
+  if (table.has("linear")) settings.linear = &choose(table.at("linear"), linear_solvers(), "linear solver");
   settings.windows = table.boolean("windows", settings.windows);
   return settings;
 }
