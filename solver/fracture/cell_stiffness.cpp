@@ -61,8 +61,7 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
   if (is_isotropic_) {
     CellField<IsotropicElasticity> moduli(n);
     parallel_for(mesh_.n_cells(), [&](Index c) { moduli[c] = split(c).secant(elasticity(c), g[c], state.closure[c]); });
-    momentum.set_moduli(moduli, g);
-    if (materials_.any()) momentum.set_stress(linearised(state, g, moduli));
+    momentum.set_moduli(moduli, g, materials_.any() ? linearised(state, g, moduli) : CellField<LinearStress>());
   } else {
     CellField<MandelMatrix> C(n);
     parallel_for(mesh_.n_cells(), [&](Index c) { C[c] = stiffness(c, g[c], state); });

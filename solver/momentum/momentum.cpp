@@ -141,14 +141,15 @@ void MomentumOperator::list_forces_of_cells() {
   }
 }
 
-void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                                  double part) {
+void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,
+                                  CellField<LinearStress> stress) {
   moduli_ = moduli;
   renew_liquidity();
   condense(moduli_);
   pressure_.take_over(moduli_, g);
   stiffness_ = {};
-  linear_stress_ = {};
+  linear_stress_ = std::move(stress);
+  if (has_linear_stress()) condense(linear_stress_);
   gradient_.update(g, part);
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     Link& link = links_[as_size(i)];
@@ -188,11 +189,6 @@ void MomentumOperator::set_stiffness(CellField<MandelMatrix> stiffness, const Ce
     const Side& side = sides_[as_size(i)];
     side_tensors_[as_size(i)] = acoustic_tensor(stiffness_[side.cell], side.n) / std::abs(side.d.dot(side.n));
   });
-}
-
-void MomentumOperator::set_stress(CellField<LinearStress> stress) {
-  condense(stress);
-  linear_stress_ = std::move(stress);
 }
 
 void MomentumOperator::find_gradients(const std::vector<Vector>& u) const {

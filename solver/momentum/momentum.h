@@ -63,11 +63,11 @@ class MomentumOperator {
 
   /// Secant moduli of every cell, and the stiffness factors g that weight the gradients; the weights are updated only
   /// where g has changed by more than this fraction.
-  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0);
+  /// Where `stress` is given, it replaces the stress of the moduli in every cell.
+  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0,
+                  CellField<LinearStress> stress = {});
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
-  /// Replaces the stress of the moduli in every cell; call after set_moduli(), which removes it.
-  void set_stress(CellField<LinearStress> stress);
 
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
   /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Without initial stresses.

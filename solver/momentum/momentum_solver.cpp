@@ -22,15 +22,12 @@ MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns, const
       operator_(mesh, unknowns),
       preconditioner_((linear != nullptr ? *linear : linear_solvers().front()).make(mesh, unknowns)) {}
 
-void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
+void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
+                                CellField<LinearStress> stress) {
   if (starts_afresh_ && !(moduli == built_moduli_)) is_built_ = false;
-  operator_.set_moduli(moduli, g, gradient_lag());
+  if (stress.size() > 0) reference_load_.reset();
+  operator_.set_moduli(moduli, g, gradient_lag(), std::move(stress));
   if (renew_preconditioner(g, struggled_ && has_moved(moduli))) built_moduli_ = moduli;
-}
-
-void MomentumSolver::set_stress(CellField<LinearStress> stress) {
-  operator_.set_stress(std::move(stress));
-  reference_load_.reset();
 }
 
 void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g) {

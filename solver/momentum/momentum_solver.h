@@ -27,10 +27,10 @@ class MomentumSolver {
 
   /// New secant moduli. The preconditioner is rebuilt when the stiffness factor g of some cell has changed by more than
   /// a factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights
-  /// of the gradients where g has changed by more than a hundredth.
-  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
-  /// Replaces the stresses of the moduli that were just set (see MomentumOperator).
-  void set_stress(CellField<LinearStress> stress);
+  /// of the gradients where g has changed by more than a hundredth. Where `stress` is given, it replaces the stress of
+  /// the moduli in every cell.
+  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
+                  CellField<LinearStress> stress = {});
   /// The same with a general stiffness [Pa]; the preconditioner is rebuilt by changes of its trace.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
   /// Makes the next set_moduli rebuild everything that could differ, so that the results do not depend on earlier

@@ -180,11 +180,20 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
   return test;
 }
 
+bool share_a_file(const std::string& one, const std::string& other) {
+  return std::ranges::any_of(result_endings,
+                             [&](std::string_view ending) { return one == other + std::string(ending); });
+}
+
 void read_tests(const ConfigTable& root, const fs::path& directory, MassMaterialCase& c) {
   for (const ConfigTable& table : root.tables("test")) {
     VibrationTest test = read_test(table, directory, c);
     if (std::ranges::count(c.tests, test.name, &VibrationTest::name) > 0)
       throw test.where->error(fmt::format("there are two tests \"{}\"", test.name));
+    for (const VibrationTest& other : c.tests)
+      if (share_a_file(test.name, other.name) || share_a_file(other.name, test.name))
+        throw test.where->error(fmt::format("the tests \"{}\" and \"{}\" would have results in files of the same name",
+                                            other.name, test.name));
     c.tests.push_back(std::move(test));
   }
   if (c.tests.empty()) throw root.error("there is no test; at least one [[test]] is required");

@@ -14,6 +14,9 @@
 
 namespace pfdm {
 
+/// Results have a file NAME.csv of each test, and one of its harmonics (sine) or spectra with these endings.
+inline constexpr std::string_view result_endings[] = {"_harmonics", "_spectra"};
+
 /// Where the record of a test is, and what its columns are called.
 struct RecordFile {
   std::filesystem::path file;

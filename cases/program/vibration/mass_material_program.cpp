@@ -181,8 +181,8 @@ void remove_earlier_results(const fs::path& results) {
   fs::remove(results / summary_file, ignored);
   remove_report(results);
   for (const std::string& test : tests)
-    for (const char* ending : {".csv", "_harmonics.csv", "_spectra.csv"})
-      fs::remove(results / (test + ending), ignored);
+    for (const std::string_view ending : {std::string_view(), result_endings[0], result_endings[1]})
+      fs::remove(results / fmt::format("{}{}.csv", test, ending), ignored);
 }
 
 void run_tests(const MassMaterialProgram& program, Session& session, const fs::path& folder,
@@ -198,9 +198,10 @@ void run_tests(const MassMaterialProgram& program, Session& session, const fs::p
     const std::string says = remark(program, test);
     write_record(folder / (test.name + ".csv"), says, simulated);
     if (test.excitation->frequency)
-      write_harmonics(folder / (test.name + "_harmonics.csv"), says, simulated.record, *test.excitation);
+      write_harmonics(folder / fmt::format("{}{}.csv", test.name, result_endings[0]), says, simulated.record,
+                      *test.excitation);
     else
-      write_spectra(folder / (test.name + "_spectra.csv"), says, simulated.record);
+      write_spectra(folder / fmt::format("{}{}.csv", test.name, result_endings[1]), says, simulated.record);
     summary.tests.push_back(figures_of(simulated));
     session.log.step(fmt::format("test {:<16} {:g} s simulated in {:.2f} s, largest displacement {:.4g} mm", test.name,
                                  simulated.record.duration(), simulated.seconds,
