@@ -33,7 +33,7 @@ void expect_law(const std::string& softening, double irwin_lengths) {
   const LawError error = law_error(softening + ", E Gc/(ft^2 ell) = " + std::to_string(int(irwin_lengths)),
                                    cohesive_bar(softening, irwin_lengths));
   EXPECT_LE(error.largest, 0.01);
-  EXPECT_NEAR(error.peak, 1.0, 0.01);
+  EXPECT_NEAR(error.peak, 1.0, 0.01 + 1e-9);  // the last elastic state is at 0.99
   EXPECT_LE(error.lowest_stress, softening == "linear" ? 0.01 : 0.15);
 }
 
@@ -56,7 +56,7 @@ TEST_P(CohesiveBarsInPlaneStress, HaveTheStrengthOfTheLaw) {
   settings.split = GetParam();
   const double nu = settings.poisson_ratio;
   const LawError error = law_error("linear, plane stress, split " + settings.split, settings, 1.0 - nu * nu);
-  EXPECT_NEAR(error.peak, 1.0, 0.01);
+  EXPECT_NEAR(error.peak, 1.0, 0.01 + 1e-9);  // the last elastic state is at 0.99
   EXPECT_LE(error.largest, 0.01);
   EXPECT_LE(error.lowest_stress, 0.01);
 }

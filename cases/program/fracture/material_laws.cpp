@@ -19,7 +19,7 @@ constexpr MaterialLaw linear_elastic{
     .read = [](const ConfigTable&) { return std::shared_ptr<const Material>(); },
 };
 
-constexpr std::string_view endochronic_keys[] = {"kernel", "hardening", "rate", "beta"};
+constexpr std::string_view endochronic_keys[] = {"hardening", "rate", "beta"};
 constexpr MaterialLaw endochronic{
     .name = "endochronic",
     .description = "plasticity without a yield surface (Valanis 1971); kernel, hardening, rate, beta",

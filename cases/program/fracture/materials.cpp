@@ -125,7 +125,7 @@ RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& nam
 void read_material(Materials& materials, const std::string& name, const ConfigTable& given,
                    std::vector<RegionOverride>& overrides, std::vector<RegionKeys>& regions) {
   const MaterialLaw& law = law_of_material(given);
-  std::vector<std::string_view> allowed = keys_with({"regions", "law"});
+  std::vector<std::string_view> allowed = keys_with({"regions", "law", "kernel"});
   allowed.insert(allowed.end(), law.keys.begin(), law.keys.end());
   const ConfigTable table = given.with_keys(allowed);
   table.at("young_modulus"), table.at("poisson_ratio");
