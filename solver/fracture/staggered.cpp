@@ -15,6 +15,9 @@ namespace {
 constexpr Index inner_iterations = 80, last_iterations = 400;
 // Successive iterations in which only the residual stiffness may carry the loads: the first ones are inexact.
 constexpr Index torn_at_most = 5;
+// Iterations of a step between which there are local ones. What has not settled by then goes in circles, which only the
+// relaxation of the whole ends; local iterations start it anew.
+constexpr Index local_at_most = 100;
 // Relative residual of the last solve, if no smaller one is required.
 constexpr double last_tolerance = 1e-8;
 
@@ -149,7 +152,8 @@ struct Staggered::Loop {
       return;
     }
     state.damage = relaxation.next(state.damage, answer, start.damage);
-    if (s.local_ && s.local_->iterate(s, {start, from, answer, change, limits.duration}, state, outcome))
+    if (s.local_ && outcome.iterations <= local_at_most &&
+        s.local_->iterate(s, {start, from, answer, change, limits.duration}, state, outcome))
       relaxation = {};
   }
 };
