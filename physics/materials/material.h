@@ -67,8 +67,7 @@ class Material {
 
   /// Writes the history at the end of the step.
   virtual MaterialResponse update(const MaterialStep& step, std::span<double> history) const = 0;
-  /// Stress, and the tangent of a step that begins elastically.
-  virtual MaterialResponse elastic(const Tensor& H, std::span<const double> history) const = 0;
+  virtual Tensor stress(const Tensor& H, std::span<const double> history) const = 0;  ///< P [Pa]
   virtual MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const = 0;
 
  private:

@@ -1,33 +1,32 @@
 #include "physics/materials/small_strain_material.h"
 
+#include <numbers>
+
 namespace pfdm {
 namespace {
 
-// Mandel components of a displacement gradient's symmetric part.
-Eigen::Matrix<double, 6, 9> make_symmetriser() {
-  Eigen::Matrix<double, 6, 9> B;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      Tensor H = Tensor::Zero();
-      H(i, j) = 1.0;
-      B.col(3 * i + j) = to_mandel(symmetric_part(H));
-    }
-  return B;
-}
-
-const Eigen::Matrix<double, 6, 9>& symmetriser() {
-  static const Eigen::Matrix<double, 6, 9> B = make_symmetriser();
-  return B;
-}
+// The Mandel component that each component of a displacement gradient (row 3 i + j) belongs to, and its share of it.
+constexpr Index component[9] = {0, 5, 4, 5, 1, 3, 4, 3, 2};
+constexpr double half_root = 0.5 * std::numbers::sqrt2;
+constexpr double share[9] = {1.0, half_root, half_root, half_root, 1.0, half_root, half_root, half_root, 1.0};
 
 Mandel strain_of(const Tensor& H) { return to_mandel(symmetric_part(H)); }
 
 }  // namespace
 
-GradientTangent by_gradient(const MandelMatrix& C) { return symmetriser().transpose() * C * symmetriser(); }
+GradientTangent by_gradient(const MandelMatrix& C) {
+  GradientTangent A;
+  for (Index k = 0; k < 9; ++k)
+    for (Index i = 0; i < 9; ++i) A(i, k) = share[i] * share[k] * C(component[i], component[k]);
+  return A;
+}
 
-// The columns of the symmetriser's transpose are orthonormal.
-MandelMatrix by_strain(const GradientTangent& A) { return symmetriser() * A * symmetriser().transpose(); }
+MandelMatrix by_strain(const GradientTangent& A) {
+  MandelMatrix C = MandelMatrix::Zero();
+  for (Index k = 0; k < 9; ++k)
+    for (Index i = 0; i < 9; ++i) C(component[i], component[k]) += share[i] * share[k] * A(i, k);
+  return C;
+}
 
 MaterialResponse SmallStrainMaterial::update(const MaterialStep& step, std::span<double> history) const {
   const Response response =
@@ -35,9 +34,8 @@ MaterialResponse SmallStrainMaterial::update(const MaterialStep& step, std::span
   return {.stress = to_tensor(response.stress), .tangent = by_gradient(response.tangent), .solved = response.solved};
 }
 
-MaterialResponse SmallStrainMaterial::elastic(const Tensor& H, std::span<const double> history) const {
-  const MandelMatrix C = stiffness_matrix(elasticity());
-  return {.stress = to_tensor(C * (strain_of(H) - inelastic(history).strain)), .tangent = by_gradient(C)};
+Tensor SmallStrainMaterial::stress(const Tensor& H, std::span<const double> history) const {
+  return pfdm::stress(elasticity(), symmetric_part(H) - to_tensor(inelastic(history).strain));
 }
 
 MaterialEnergy SmallStrainMaterial::energy(const Tensor& H, std::span<const double> history,

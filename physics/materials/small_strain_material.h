@@ -16,7 +16,7 @@ class SmallStrainMaterial : public Material {
   using Material::Material;
 
   MaterialResponse update(const MaterialStep& step, std::span<double> history) const final;
-  MaterialResponse elastic(const Tensor& H, std::span<const double> history) const final;
+  Tensor stress(const Tensor& H, std::span<const double> history) const final;
   /// The energy that is locked up drives damage too, and no split keeps it: shear makes it. A split that is not
   /// variational has a driving energy of its own.
   MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const final;

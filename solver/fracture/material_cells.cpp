@@ -54,7 +54,7 @@ double MaterialCells::advance(Index cell, const Tensor& strain, const CellHistor
 LinearStress MaterialCells::linearised(Index cell, const CellHistories& histories) const {
   const MandelMatrix& T = tangent_[cell];
   const Tensor strain = histories.gradient(cell);
-  return {T, to_mandel(material_[cell]->elastic(strain, histories.of(cell)).stress) - T * to_mandel(strain)};
+  return {T, to_mandel(material_[cell]->stress(strain, histories.of(cell))) - T * to_mandel(strain)};
 }
 
 MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories) const {
