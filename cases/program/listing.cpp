@@ -100,6 +100,7 @@ std::optional<std::string> nearest_case(const fs::path& where, const fs::path& c
   std::vector<fs::path> cases = cases_in(beside);
   std::ranges::copy(cases_in(cases_directory), std::back_inserter(cases));
   std::vector<std::string> names;
+  names.reserve(cases.size());
   for (const fs::path& directory : cases) names.push_back(directory.filename().string());
   const auto name = nearest(plain.filename().string(), names);
   if (!name) return std::nullopt;

@@ -52,6 +52,7 @@ class EndochronicMaterial final : public SmallStrainMaterial {
                            .z = history[z],
                            .zeta = history[zeta],
                            .dissipation = history[dissipation]};
+    state.s.reserve(law_.kernel.size());
     for (std::size_t r = 0; r < law_.kernel.size(); ++r) state.s.push_back(mandel_at(history, terms + 6 * r));
     return state;
   }

@@ -18,6 +18,7 @@ struct CellHistories {
   CellHistories() = default;
   /// A virgin gradient and as many zeros as each cell's law asks for; cells without a history have size 0.
   explicit CellHistories(const std::vector<std::size_t>& sizes) : first{0} {
+    first.reserve(sizes.size() + 1);
     for (const std::size_t n : sizes) first.push_back(first.back() + (n > 0 ? n_gradient + n : 0));
     values.assign(first.back(), 0.0);
   }

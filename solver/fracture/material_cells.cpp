@@ -65,6 +65,7 @@ MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories)
 CellHistories MaterialCells::virgin_histories() const {
   if (!any_) return {};
   std::vector<std::size_t> sizes;
+  sizes.reserve(as_size(mesh_.n_cells()));
   for (Index c = 0; c < mesh_.n_cells(); ++c) sizes.push_back(has(c) ? material_[c]->history_size() : 0);
   CellHistories histories(sizes);
   for (Index c = 0; c < mesh_.n_cells(); ++c)

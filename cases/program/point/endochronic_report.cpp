@@ -153,6 +153,7 @@ Chart strain_chart(const CsvTable& history, const std::vector<std::string_view>&
 Chart stress_chart(const std::string& caption, const CsvTable& history,
                    const std::vector<std::string_view>& components) {
   std::vector<std::vector<double>> columns;
+  columns.reserve(components.size());
   for (const std::string_view c : components) columns.push_back(history.column(stress_name(c)));
   const DisplayUnit unit = common_unit(columns, "Pa");
   Chart chart{.caption = caption,
@@ -231,6 +232,7 @@ std::vector<std::string> channels(const CsvTable& curve) {
 Chart fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve) {
   const std::vector<std::string> components = channels(curve);
   std::vector<std::vector<double>> stresses;
+  stresses.reserve(components.size());
   for (const std::string& c : components) stresses.push_back(curve.column(fmt::format("measured_stress_{}_Pa", c)));
   const DisplayUnit unit = common_unit(stresses, "Pa");
   const bool over_strain =

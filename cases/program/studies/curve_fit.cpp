@@ -94,6 +94,7 @@ class CurveFit {
     };
     problem.prepare = [this, &stage, until](const std::vector<std::vector<double>>& all) {
       std::vector<std::vector<double>> full;
+      full.reserve(all.size());
       for (const std::vector<double>& values : all) full.push_back(with_stage(stage, values));
       model_.prepare(full, until);
     };

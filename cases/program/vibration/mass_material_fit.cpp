@@ -66,6 +66,7 @@ struct Found {
 /// Units of the values are also in their names.
 std::vector<FittedParameter> fitted_parameters(const std::vector<Estimate>& estimates) {
   std::vector<FittedParameter> parameters;
+  parameters.reserve(estimates.size());
   for (const Estimate& e : estimates)
     parameters.push_back({.name = e.name,
                           .unit = e.unit,
