@@ -158,6 +158,15 @@ MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticit
   return g * stiffness_matrix(c) + (1.0 - g) * tangent(axes, split.kept(c, axes.value));
 }
 
+double degraded_tangent_product(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& at,
+                                const Tensor& eps) {
+  if (split.has_secant()) return 2.0 * energy_density(split.secant(c, g, split.closure(at)), eps);
+  const double whole = 2.0 * energy_density(c, eps);
+  if (g == 1.0) return whole;
+  const PrincipalAxes axes = principal_axes(at);
+  return g * whole + (1.0 - g) * tangent_product(axes, split.kept(c, axes.value), to_mandel(eps));
+}
+
 Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps) {
   return to_tensor(degraded_tangent(split, c, g, eps) * to_mandel(eps));
 }

@@ -69,6 +69,10 @@ class EnergySplit {
 /// influence. At eps = 0 cracks are open.
 MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
 
+/// eps . degraded_tangent(split, c, g, at) eps [J/m^3]: twice the energy density that it gives the strain eps.
+double degraded_tangent_product(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& at,
+                                const Tensor& eps);
+
 /// sigma [Pa] of the material degraded to g.
 Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
 

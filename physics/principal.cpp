@@ -11,6 +11,27 @@ double shear_slope(const PrincipalAxes& strain, const PrincipalStress& sigma, In
   return 0.5 * (sigma.slope(i, i) + sigma.slope(j, j)) - sigma.slope(i, j);
 }
 
+// Of the pairs 23, 13 and 12.
+Vector shear_slopes(const PrincipalAxes& strain, const PrincipalStress& sigma) {
+  return {shear_slope(strain, sigma, 1, 2), shear_slope(strain, sigma, 0, 2), shear_slope(strain, sigma, 0, 1)};
+}
+
+// Orthonormal: n_i (x) n_i, and the symmetric parts of n_i (x) n_j times the square root of 2, in the same order.
+struct Directions {
+  Eigen::Matrix<double, 6, 3> normal, shear;
+};
+
+Directions directions(const PrincipalAxes& strain) {
+  const Tensor& n = strain.direction;
+  Directions axes;
+  for (Index i = 0; i < 3; ++i) {
+    const Vector one = n.col((i + 1) % 3), other = n.col((i + 2) % 3);
+    axes.normal.col(i) = to_mandel(n.col(i) * n.col(i).transpose());
+    axes.shear.col(i) = to_mandel((one * other.transpose() + other * one.transpose()) / std::numbers::sqrt2);
+  }
+  return axes;
+}
+
 }  // namespace
 
 PrincipalAxes principal_axes(const Tensor& a) {
@@ -19,20 +40,15 @@ PrincipalAxes principal_axes(const Tensor& a) {
 }
 
 MandelMatrix tangent(const PrincipalAxes& strain, const PrincipalStress& sigma) {
-  const auto pair = [&](Index i, Index j) {
-    const Vector n = strain.direction.col(i), m = strain.direction.col(j);
-    return to_mandel(i == j ? Tensor(n * n.transpose())
-                            : Tensor((n * m.transpose() + m * n.transpose()) / std::numbers::sqrt2));
-  };
-  MandelMatrix result = MandelMatrix::Zero();
-  for (Index i = 0; i < 3; ++i) {
-    for (Index j = 0; j < 3; ++j) result += sigma.slope(i, j) * pair(i, i) * pair(j, j).transpose();
-    for (Index j = i + 1; j < 3; ++j) {
-      const Mandel shear = pair(i, j);
-      result += shear_slope(strain, sigma, i, j) * shear * shear.transpose();
-    }
-  }
-  return result;
+  const Directions axes = directions(strain);
+  return axes.normal * sigma.slope * axes.normal.transpose() +
+         axes.shear * shear_slopes(strain, sigma).asDiagonal() * axes.shear.transpose();
+}
+
+double tangent_product(const PrincipalAxes& strain, const PrincipalStress& sigma, const Mandel& v) {
+  const Directions axes = directions(strain);
+  const Vector normal = axes.normal.transpose() * v, shear = axes.shear.transpose() * v;
+  return normal.dot(sigma.slope * normal) + shear.dot(shear_slopes(strain, sigma).cwiseProduct(shear));
 }
 
 }  // namespace pfdm

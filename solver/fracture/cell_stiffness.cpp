@@ -161,9 +161,8 @@ double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, doub
 double CellStiffness::follow_with_tangent(Index cell, const Tensor& strain, double d, Tensor& tangent_strain) {
   const double g = factor(cell, d);
   if (g == 1.0) return 0.0;
-  const Mandel eps = to_mandel(strain);
-  const double used = eps.dot(degraded_tangent(split(cell), elasticity(cell), g, tangent_strain) * eps);
-  const double due = eps.dot(degraded_tangent(split(cell), elasticity(cell), g, strain) * eps);
+  const double used = degraded_tangent_product(split(cell), elasticity(cell), g, tangent_strain, strain);
+  const double due = degraded_tangent_product(split(cell), elasticity(cell), g, strain, strain);
   const Tensor move = strain - tangent_strain;
   const bool turned = contract(move, move_[cell]) < 0.0;
   share_[cell] = turned ? std::max(0.5F * share_[cell], least_share) : std::min(recovery * share_[cell], 1.0F);

@@ -125,6 +125,17 @@ TEST(EnergySplit, TangentIsAsGoodWhereTheLimitTakesOver) {
   }
 }
 
+TEST(EnergySplit, TangentProductIsThatOfTheTangent) {
+  RandomTensors random;
+  for_splits_and_strains([&](const EnergySplit& split, const Tensor& at) {
+    const Tensor eps = random.symmetric(1e-2);
+    const Mandel v = to_mandel(eps);
+    for (const double g : {1.0, 0.3, 1e-6})
+      EXPECT_NEAR(degraded_tangent_product(split, glass, g, at, eps), v.dot(degraded_tangent(split, glass, g, at) * v),
+                  1e-12 * 2.0 * energy_density(glass, eps));
+  });
+}
+
 TEST(EnergySplit, TangentTimesStrainIsTheStressWhateverTheLength) {
   for_splits_and_strains([](const EnergySplit& split, const Tensor& eps) {
     const MandelMatrix one = degraded_tangent(split, glass, 0.3, eps),
