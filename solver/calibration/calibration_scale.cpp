@@ -106,6 +106,7 @@ std::optional<Eigen::MatrixXd> ScaledModel::given_jacobian(const Eigen::VectorXd
 void ScaledModel::prepare(const std::vector<Eigen::VectorXd>& points) const {
   if (!problem_.prepare) return;
   std::vector<std::vector<double>> parameters;
+  parameters.reserve(points.size());
   for (const Eigen::VectorXd& u : points) parameters.push_back(natural(u));
   problem_.prepare(parameters);
 }

@@ -20,6 +20,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::vector<std::string> names_of(const ScaledModel& model, const std::vector<std::size_t>& which) {
   std::vector<std::string> names;
+  names.reserve(which.size());
   for (const std::size_t j : which) names.push_back(model.problem().parameters[j].name);
   return names;
 }
