@@ -32,14 +32,6 @@ FractureModel endochronic_model(const EndochronicLaw& law, std::vector<BoundaryC
   return model;
 }
 
-BoundaryCondition moved(const std::string& patch, std::array<bool, 3> components,
-                        std::function<Vector(const Vector&, double)> displacement) {
-  return {.patch = patch,
-          .kind = BoundaryCondition::Kind::components,
-          .displacement_prescribed = components,
-          .value = std::move(displacement)};
-}
-
 constexpr StaggeredSettings tight{.damage_tolerance = 1e-9, .energy_tolerance = 1e-14, .equilibrium_tolerance = 1e-13};
 
 LoadingSettings in_steps(Index n, double duration = 1.0) {

@@ -25,14 +25,6 @@ FractureModel plastic_model(const J2Parameters& law, std::vector<BoundaryConditi
   return model;
 }
 
-BoundaryCondition moved(const std::string& patch, std::array<bool, 3> components,
-                        std::function<Vector(const Vector&, double)> displacement) {
-  return {.patch = patch,
-          .kind = BoundaryCondition::Kind::components,
-          .displacement_prescribed = components,
-          .value = std::move(displacement)};
-}
-
 LoadingSettings in_steps(Index n) {
   const double increment = 1.0 / double(n);
   return {.initial_increment = increment, .maximum_increment = increment, .stops = {}};
@@ -104,11 +96,9 @@ SphereErrors sphere_errors(Index n) {
   const auto widened = [&](const Vector& x, double t) -> Vector {
     return t * hill.displacement(hill.a) * x.normalized();
   };
-  FractureModel model = plastic_model({.yield_stress = Y},
-                                      {{.patch = "front", .kind = BoundaryCondition::Kind::axisymmetric, .value = {}},
-                                       {.patch = "back", .kind = BoundaryCondition::Kind::axisymmetric, .value = {}},
-                                       symmetry_on("equator"),
-                                       moved("inner", {true, true, true}, widened)});
+  FractureModel model =
+      plastic_model({.yield_stress = Y}, {axisymmetric_on("front"), axisymmetric_on("back"), symmetry_on("equator"),
+                                          moved("inner", {true, true, true}, widened)});
   FractureRun run(mesh, model, {.energy_tolerance = 1e-8, .equilibrium_tolerance = 1e-8}, in_steps(20));
   FractureState state = run.initial_state();
   while (!run.is_complete(state)) run.step(state);

@@ -44,6 +44,14 @@ BoundaryCondition plane_on(const std::string& patch) {
   return {.patch = patch, .kind = BoundaryCondition::Kind::plane, .value = {}};
 }
 
+BoundaryCondition moved(const std::string& patch, std::array<bool, 3> components,
+                        std::function<Vector(const Vector&, double)> displacement) {
+  return {.patch = patch,
+          .kind = BoundaryCondition::Kind::components,
+          .displacement_prescribed = components,
+          .value = std::move(displacement)};
+}
+
 std::vector<BoundaryCondition> displacement_on_all(const Mesh& mesh, const DisplacementField& u) {
   std::vector<BoundaryCondition> all;
   for (const Patch& patch : mesh.patches) all.push_back(displacement_on(patch.name, u));

@@ -8,6 +8,8 @@
 #include "solver/fracture/fracture_run.h"
 #include "solver/momentum/momentum_solver.h"
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -22,6 +24,9 @@ BoundaryCondition symmetry_on(const std::string& patch);
 BoundaryCondition axisymmetric_on(const std::string& patch);
 BoundaryCondition plane_on(const std::string& patch);
 BoundaryCondition plane_stress_on(const std::string& patch);
+/// These components of the displacement follow a function of the place and the load parameter.
+BoundaryCondition moved(const std::string& patch, std::array<bool, 3> components,
+                        std::function<Vector(const Vector&, double)> displacement);
 std::vector<BoundaryCondition> displacement_on_all(const Mesh& mesh, const DisplacementField& u);
 
 /// One elasticity per region, undamageable, no split.
