@@ -173,6 +173,13 @@ Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, d
 
 std::span<const SplitLaw> energy_splits() { return table; }
 
+std::string splits_with_secant() {
+  std::vector<std::string_view> names;
+  for (const SplitLaw& law : table)
+    if (law.secant != nullptr) names.push_back(law.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 const SplitLaw& split_law(std::string_view name) { return find_by_name(energy_splits(), name, "energy split"); }
 
 EnergySplit energy_split(std::string_view name) {

@@ -11,6 +11,7 @@
 #include "physics/principal.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace pfdm {
@@ -77,6 +78,8 @@ double degraded_tangent_product(const EnergySplit& split, const IsotropicElastic
 Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
 
 std::span<const SplitLaw> energy_splits();
+/// The names of those with isotropic secant moduli, for messages: "none, volumetric_deviatoric ...".
+std::string splits_with_secant();
 /// Throws InputError naming those there are.
 const SplitLaw& split_law(std::string_view name);
 /// With the default values of its parameters. Throws InputError naming those there are, or if it has a parameter

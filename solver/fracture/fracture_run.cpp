@@ -126,8 +126,8 @@ struct FractureRun::Parts {
     if (!m.is_isotropic())
       throw InputError(
           fmt::format("materials of the law \"{}\" can only be combined with energy splits that have isotropic secant "
-                      "moduli: none, volumetric_deviatoric, star_convex, rankine",
-                      law.name()));
+                      "moduli: {}",
+                      law.name(), splits_with_secant()));
     if (law.depends_on_rate() && !(loading.duration > 0.0))
       throw InputError(
           fmt::format("a material of the law \"{}\" that depends on the rate requires loading.duration, the time in "

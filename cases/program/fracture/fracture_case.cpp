@@ -3,7 +3,6 @@
 #include "cases/program/fracture/material_keys.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,11 +17,8 @@ constexpr Range at_least_one{1.0, 1e9, false, "at least 1"};
 constexpr Range count{0.0, 1e9, false, "zero or positive"};
 
 std::string unsuited_split(const Material& material, const EnergySplit& split) {
-  std::vector<std::string_view> suited;
-  for (const SplitLaw& law : energy_splits())
-    if (law.secant != nullptr) suited.push_back(law.name);
   return fmt::format("a material of the law \"{}\" cannot be combined with the energy split \"{}\"; allowed: {}",
-                     material.name(), split.name(), fmt::join(suited, ", "));
+                     material.name(), split.name(), splits_with_secant());
 }
 
 template <class Law>
