@@ -69,6 +69,24 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
   }
 }
 
+bool CellStiffness::has_degradable_part(Index cell) const {
+  const EnergySplit& law = split(cell);
+  return model_.in_cell(mesh_, cell).damageable && !materials_.has(cell) && law.has_secant() && law.is_variational();
+}
+
+// The secant moduli are linear in g.
+CellField<IsotropicElasticity> CellStiffness::degradable_part(const FractureState& state) const {
+  CellField<IsotropicElasticity> part(as_size(mesh_.n_cells()), {});
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    if (!has_degradable_part(c)) return;
+    const EnergySplit& law = split(c);
+    const IsotropicElasticity whole = law.secant(elasticity(c), 1.0, state.closure[c]);
+    const IsotropicElasticity kept = law.secant(elasticity(c), 0.0, state.closure[c]);
+    part[c] = {.lambda = whole.lambda - kept.lambda, .mu = whole.mu - kept.mu};
+  });
+  return part;
+}
+
 // Where the splits of the regions differ in kind.
 MandelMatrix CellStiffness::stiffness(Index cell, double g, const FractureState& state) const {
   const EnergySplit& law = split(cell);
@@ -99,9 +117,10 @@ double CellStiffness::integrate(const CellMechanics& mechanics, const FractureSt
   });
 }
 
-double CellStiffness::driving_energy(Index cell, const Tensor& strain, const FractureState& state) const {
+double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
   if (materials_.has(cell)) return materials_.energy(cell, state.histories).driving;
-  return split(cell).energy(elasticity(cell), strain).psi_plus;
+  return has_degradable_part(cell) ? mechanics.part_energy[cell]
+                                   : split(cell).energy(elasticity(cell), mechanics.strain[cell]).psi_plus;
 }
 
 // Half the work on the elastic strain, and what is locked up.
@@ -130,20 +149,32 @@ double CellStiffness::plastic_dissipation(const FractureState& from, const Fract
   });
 }
 
-double CellStiffness::follow(const CellField<Tensor>& strain, FractureState& state) {
+double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     if (held_.size() > 0 && held_[c] != 0) return 0.0;
-    return split(c).has_secant() ? follow_with_closure(c, strain[c], state.damage[c], state.closure[c])
-                                 : follow_with_tangent(c, strain[c], state.damage[c], state.tangent_strain[c]);
+    return split(c).has_secant() ? follow_with_closure(c, closing_strain(c, mechanics, state), state)
+                                 : follow_with_tangent(c, mechanics.strain[c], state);
   });
+}
+
+// The strain with the volume change that belongs to the cell's mean stress. The tractions hold a closed crack; the
+// volume change of the face displacements may have the other sign where the strain varies within a cell, and the crack
+// would open and close for ever.
+Tensor CellStiffness::closing_strain(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
+  const Tensor& strain = mechanics.strain[cell];
+  if (materials_.has(cell)) return strain;
+  const double g = factor(cell, state.damage[cell]);
+  const double K = split(cell).secant(elasticity(cell), g, state.closure[cell]).bulk_modulus();
+  return deviator(strain) + mechanics.stress[cell].trace() / (9.0 * K) * Tensor::Identity();
 }
 
 // The closure follows the strain with steps that shorten at each reversal. With full steps, cells at the edge of a
 // crack would open and close alternately without converging.
-double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, double d, double& closure) {
+double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, FractureState& state) {
+  double& closure = state.closure[cell];
   const double lag = split(cell).closure(strain) - closure;
   if (lag == 0.0) return 0.0;
-  const double g = factor(cell, d);
+  const double g = factor(cell, state.damage[cell]);
   const double wrong = energy_density(split(cell).secant(elasticity(cell), g, closure + lag), strain) -
                        energy_density(split(cell).secant(elasticity(cell), g, closure), strain);
   if (lag * closing_[cell] < 0.0) ++turns_[cell];
@@ -158,8 +189,9 @@ double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, doub
 }
 
 // Newton's step; a cell whose strain oscillates takes a fraction of it that decreases with each reversal.
-double CellStiffness::follow_with_tangent(Index cell, const Tensor& strain, double d, Tensor& tangent_strain) {
-  const double g = factor(cell, d);
+double CellStiffness::follow_with_tangent(Index cell, const Tensor& strain, FractureState& state) {
+  Tensor& tangent_strain = state.tangent_strain[cell];
+  const double g = factor(cell, state.damage[cell]);
   if (g == 1.0) return 0.0;
   const double used = degraded_tangent_product(split(cell), elasticity(cell), g, tangent_strain, strain);
   const double due = degraded_tangent_product(split(cell), elasticity(cell), g, strain, strain);

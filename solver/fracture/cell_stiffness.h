@@ -20,20 +20,25 @@ class CellStiffness {
   void start_step(double duration);
   /// Gives the momentum balance the stiffness that belongs to the damage, closure and tangent strain of the state.
   void set(const FractureState& state, MomentumSolver& momentum) const;
+  /// The part of the stiffness that damage degrades, by cell; zero where it is not given by isotropic moduli, and where
+  /// nothing is degraded.
+  CellField<IsotropicElasticity> degradable_part(const FractureState& state) const;
   /// Copies the memory of how the strains have moved within the step to the cells of a part of the mesh; and back.
   void take_out_memory(const CellStiffness& whole, const std::vector<Index>& cells);
   void put_back_memory(const CellStiffness& part, const std::vector<Index>& cells);
   /// From now on the stiffness of cells whose entry is not zero does not follow the strain; empty for none.
   void hold(CellField<char> held) { held_ = std::move(held); }
-  /// Has the closure or the tangent strain of the state follow these strains. Returns the energy error [J]
+  /// Has the closure or the tangent strain of the state follow the stress and the strain. Returns the energy error [J]
   /// of the stiffness that was used.
-  double follow(const CellField<Tensor>& strain, FractureState& state);
+  double follow(const CellMechanics& mechanics, FractureState& state);
   /// Takes the cells with a history from `start` to these strains. Returns the energy error [J] of the stress that
   /// was used; NaN where a material's step cannot be solved.
   double integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state);
 
-  /// psi_plus [J/m^3] of a cell at this strain; with a history, at that of the state.
-  double driving_energy(Index cell, const Tensor& strain, const FractureState& state) const;
+  /// psi_plus [J/m^3] of a cell, the derivative of its energy by the stiffness factor g: the energy of the part of the
+  /// stiffness that is degraded, which `mechanics` has to have; where there is none, that of the strain; with a
+  /// history, that of the state.
+  double driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   /// What a cell stores [J].
   double stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]
@@ -50,8 +55,10 @@ class CellStiffness {
   const IsotropicElasticity& elasticity(Index cell) const;
   const EnergySplit& split(Index cell) const;
   MandelMatrix stiffness(Index cell, double g, const FractureState& state) const;
-  double follow_with_closure(Index cell, const Tensor& strain, double d, double& closure);
-  double follow_with_tangent(Index cell, const Tensor& strain, double d, Tensor& tangent_strain);
+  bool has_degradable_part(Index cell) const;
+  Tensor closing_strain(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
+  double follow_with_closure(Index cell, const Tensor& strain, FractureState& state);
+  double follow_with_tangent(Index cell, const Tensor& strain, FractureState& state);
 
   const Mesh& mesh_;
   const FractureModel& model_;

@@ -32,7 +32,8 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       local_(std::move(local)),
       momentum_(mesh, unknowns, settings.linear),
       stiffness_(mesh, model),
-      damage_(mesh, model, unknowns.plane_normal) {}
+      damage_(mesh, model, unknowns.plane_normal),
+      psi_plus_(as_size(mesh.n_cells())) {}
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
                                   const IterationWatch& watch) {
@@ -203,23 +204,24 @@ Equilibrium Staggered::solve_momentum(FractureState& state, const MomentumSolver
 
 Staggered::Energies Staggered::update_driving_energy(const FractureState& start, FractureState& state, bool settles) {
   const auto lap = clock_.lap("driving_energy");
-  CellMechanics mechanics =
-      momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::strain_and_energy);
+  CellMechanics mechanics = momentum_.balance().mechanics(
+      state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
   Energies energies{.unsettled = stiffness_.integrate(mechanics, start, state)};
   energies.stored =
       parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
-  strain_ = std::move(mechanics.strain);
-  face_displacement_ = std::move(mechanics.face_displacement);
+  parallel_for(mesh_.n_cells(), [&](Index c) { psi_plus_[c] = stiffness_.driving_energy(c, mechanics, state); });
   energies.residual = drive(start, state, 1.0);
-  if (settles) energies.unsettled += stiffness_.follow(strain_, state);
+  if (settles) energies.unsettled += stiffness_.follow(mechanics, state);
+  face_displacement_ = std::move(mechanics.face_displacement);
   return energies;
 }
 
-// The driving energy of the last equilibrium's strain times `scale`. Returns what the residual stiffness stores [J].
+// The driving energy of the last equilibrium with its displacements times `scale`. Returns what the residual stiffness
+// stores [J].
 double Staggered::drive(const FractureState& start, FractureState& state, double scale) {
   const bool history = model_.irreversibility == Irreversibility::history;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    const double psi = stiffness_.driving_energy(c, scale * strain_[c], state);
+    const double psi = scale * scale * psi_plus_[c];
     state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
     return stiffness_.residual_energy(c, psi, state.damage[c]);
   });

@@ -138,7 +138,7 @@ class Staggered {
   CellStiffness stiffness_;
   DamageEquation damage_;
   StageClock clock_;
-  CellField<Tensor> strain_;             // of the last equilibrium, as are the displacements
+  CellField<double> psi_plus_;           // [J/m^3] of the last equilibrium, as are the displacements
   FaceField<Vector> face_displacement_;  // [m]
 };
 

@@ -9,10 +9,6 @@
 namespace pfdm {
 namespace {
 
-// lambda_s / mu. Measured on Goodier's sphere: 1.5 doubles the pole's error, 7 does so on polyhedra and takes up to
-// twice the iterations.
-constexpr double moderate_lambda = 2.5;
-
 std::vector<char> with_pressure(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<char> has(as_size(mesh.n_cells()), 0);
   for (const Index c : unknowns.pressure_cells) has[as_size(c)] = 1;

@@ -12,9 +12,6 @@ Tensor scaling(double along, double across, const Vector& n) {
   return across * Tensor::Identity() + (along - across) * n * n.transpose();
 }
 
-// A cell whose centre lies almost in the plane of its face would be too stiff.
-double bounded_height(const Vector& d, const Vector& n) { return std::max(std::abs(d.dot(n)), 1e-3 * d.norm()); }
-
 // n.C.n [Pa]: what C makes of v (x) n, as a traction on n.
 Tensor acoustic_tensor(const MandelMatrix& C, const Vector& n) {
   Eigen::Matrix<double, 6, 3> strain;

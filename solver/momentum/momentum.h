@@ -42,6 +42,8 @@
 #include "solver/momentum/unknowns.h"
 #include "solver/scalar/gradient.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace pfdm {
@@ -50,8 +52,15 @@ namespace pfdm {
 struct CellMechanics {
   CellField<Tensor> strain;    ///< from the two-sided face displacements (Green-Gauss) [-]
   CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if not wanted
-  CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]; empty if not wanted
+  CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]
   CellField<double> energy;    ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
+  /// Of a part of the stiffness: its share in `energy`, per volume [J/m^3],
+  ///
+  ///   (1/2V) sum A (u_f - u_c).(part : eps_f) n,  eps_f = sym(G + (u_f - u_c - G d) n^T / h),
+  ///
+  /// eps_f being the strain from which a face's traction is computed; it varies between the faces of a cell. Never of
+  /// the other sign than the energy of `strain`. Empty if none is given, zero where the part has no shear modulus.
+  CellField<double> part_energy{};
   /// By least squares, as used in the tractions of the faces [-]; empty unless some material is linearised.
   CellField<Tensor> reconstructed_strain{};
   FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
@@ -87,8 +96,10 @@ class MomentumOperator {
   /// r -= the forces of the pressures q (stored among the unknowns) on the nodes.
   void take_away_pressure_forces(const std::vector<Vector>& q, std::vector<Vector>& r) const;
 
-  enum class Wanted { all, strain_and_energy };
-  CellMechanics mechanics(const std::vector<Vector>& u, Wanted wanted = Wanted::all) const;
+  enum class Wanted { all, without_gradient };
+  /// `part`: of the stiffness of each cell, whose energy is wanted.
+  CellMechanics mechanics(const std::vector<Vector>& u, Wanted wanted = Wanted::all,
+                          const CellField<IsotropicElasticity>& part = {}) const;
   std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;  ///< per boundary face [N]
   /// Traction [Pa] on each interior face that carries a node, on its owner.
   std::vector<std::pair<Index, Vector>> interface_tractions(const std::vector<Vector>& u) const;
@@ -131,6 +142,11 @@ class MomentumOperator {
     return across * v + ((along - across) * n.dot(v)) * n;
   }
 
+  // A cell whose centre lies almost in the plane of its face would be too stiff.
+  static double bounded_height(const Vector& d, const Vector& n) {
+    return std::max(std::abs(d.dot(n)), 1e-3 * d.norm());
+  }
+
   void add_links();
   void add_sides();
   void list_forces_of_cells();
@@ -160,6 +176,7 @@ class MomentumOperator {
   static CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns);
   void renew_liquidity();
   double jump_modulus(Index cell) const;
+  IsotropicElasticity with_jump_modulus(Index cell, IsotropicElasticity part) const;
   double jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const;
   double slip_stiffness(Index P, Index N, double c_n, double c_t) const;
   // The weight of P's side, c and (a + b)^-1 of link i, and a of side i, times v.
@@ -186,6 +203,8 @@ class MomentumOperator {
   Tensor with_strain_across(Index cell, const Tensor& gradient) const;
   Vector face_displacement(std::size_t link, const std::vector<Vector>& u) const;
   FaceField<Vector> face_displacements(const std::vector<Vector>& u) const;
+  double part_energy(Index cell, const IsotropicElasticity& part, const Tensor& strain, const FaceField<Vector>& u_face,
+                     const std::vector<Vector>& u) const;
   Vector seen_from(Index cell, Index face, const FaceField<Vector>& u_face, const std::vector<Vector>& u) const;
 
   const Mesh& mesh_;

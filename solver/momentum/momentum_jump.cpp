@@ -46,6 +46,15 @@ double MomentumOperator::jump_modulus(Index cell) const {
   return share * moduli_[cell].constrained_modulus();
 }
 
+// A part of the stiffness with the same share of lambda + 2 mu as the jump has of the whole. A pressure carries what is
+// beyond lambda_s; it hardly varies within a cell.
+IsotropicElasticity MomentumOperator::with_jump_modulus(Index cell, IsotropicElasticity part) const {
+  if (part.lambda <= 0.0) return part;
+  part.lambda = jump_share_[cell] * part.constrained_modulus() - 2.0 * part.mu;
+  if (pressure_.modulus(cell) > 0.0) part.lambda = std::min(part.lambda, pressure_.moderate_lambda * part.mu);
+  return part;
+}
+
 // Along the normal of the face between P and N; `full` is the value with the full lambda.
 double MomentumOperator::jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const {
   if (mesh_.shape[P] != CellShape::polyhedron && mesh_.shape[N] != CellShape::polyhedron) return full;

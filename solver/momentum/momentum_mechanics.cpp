@@ -98,15 +98,35 @@ Vector MomentumOperator::seen_from(Index cell, Index face, const FaceField<Vecto
   return u[as_size(cell)] - n.dot(u[as_size(cell)]) * n;
 }
 
-CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted wanted) const {
-  const bool with_gradient = wanted == Wanted::all, with_stress = with_gradient || has_linear_stress();
+// The energy of the mean strain and of what the strains of the faces differ from it.
+double MomentumOperator::part_energy(Index cell, const IsotropicElasticity& part, const Tensor& strain,
+                                     const FaceField<Vector>& u_face, const std::vector<Vector>& u) const {
+  const IsotropicElasticity moduli = with_jump_modulus(cell, part);
+  const Tensor& G = gradients_[cell];
+  double varying = 0.0;
+  for (const Index f : mesh_.faces_of_cell(cell)) {
+    if (force_of_face_[as_size(f)] < 0) continue;
+    const Vector area = (mesh_.owner[f] == cell ? 1.0 : -1.0) * mesh_.face_area[f];
+    const Vector n = area.normalized(), d = mesh_.face_centre[f] - mesh_.cell_centre[cell];
+    const Vector rise = u_face[f] - u[as_size(cell)];
+    const Tensor at_face = with_strain_across(cell, G + (rise - G * d) * n.transpose() / bounded_height(d, n));
+    varying += 0.5 * rise.dot(stress(moduli, symmetric_part(at_face) - strain) * area);
+  }
+  const double mean = energy_density(part, strain);
+  return std::max(mean + varying / mesh_.cell_volume[cell], std::min(mean, 0.0));
+}
+
+CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted wanted,
+                                          const CellField<IsotropicElasticity>& part) const {
+  const bool with_gradient = wanted == Wanted::all;
   compute_forces(u);
   FaceField<Vector> u_face = face_displacements(u);
   const auto n = as_size(mesh_.n_cells());
   CellMechanics result{.strain = CellField<Tensor>(n),
                        .gradient = CellField<Tensor>(with_gradient ? n : 0),
-                       .stress = CellField<Tensor>(with_stress ? n : 0),
-                       .energy = CellField<double>(n)};
+                       .stress = CellField<Tensor>(n),
+                       .energy = CellField<double>(n),
+                       .part_energy = CellField<double>(as_size(part.size()), 0.0)};
   parallel_for(mesh_.n_cells(), [&](Index c) {
     const double volume = mesh_.cell_volume[c];
     Tensor gradient = Tensor::Zero(), moment = Tensor::Zero();
@@ -120,15 +140,16 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
       if (!has_node_or_link && !unknowns_.is_axisymmetric()) continue;
       const Vector force = has_node_or_link ? (cell_forces_[k].sign * forces_[as_size(cell_forces_[k].force)]).eval()
                                             : (sector_stress_[c] * area).eval();
-      if (with_stress) moment += force * (mesh_.face_centre[f] - mesh_.cell_centre[c]).transpose();
+      moment += force * (mesh_.face_centre[f] - mesh_.cell_centre[c]).transpose();
       work += 0.5 * force.dot(rise);
       if (has_node_or_link) ++k;
     }
     gradient = with_strain_across(c, gradient * closure_[c].transpose() / volume);
     result.strain[c] = symmetric_part(gradient);
     result.energy[c] = work;
+    if (part.size() > 0 && part[c].mu > 0.0)
+      result.part_energy[c] = part_energy(c, part[c], result.strain[c], u_face, u);
     if (with_gradient) result.gradient[c] = gradient;
-    if (!with_stress) return;
     const Vector& normal = unknowns_.plane_normal;
     result.stress[c] = symmetric_part((moment * closure_[c]) / volume);
     if (!unknowns_.is_axisymmetric())

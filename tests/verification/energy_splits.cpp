@@ -50,10 +50,11 @@ Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField
   for (double unsettled = 1.0; unsettled > 1e-10 && result.iterations < 50; ++result.iterations) {
     stiffness.set(result.state, solver);
     EXPECT_TRUE(solver.solve(1.0, {.ceiling = 1e-12, .floor = 1e-12}, result.state.displacement).converged);
-    result.cells = solver.balance().mechanics(result.state.displacement);
+    result.cells = solver.balance().mechanics(result.state.displacement, MomentumOperator::Wanted::all,
+                                              stiffness.degradable_part(result.state));
     result.energy = 0.0;
     for (const double energy : result.cells.energy) result.energy += energy;
-    unsettled = stiffness.follow(result.cells.strain, result.state) / result.energy;
+    unsettled = stiffness.follow(result.cells, result.state) / result.energy;
   }
   EXPECT_LT(result.iterations, 50);
   result.reaction.assign(mesh.patches.size(), Vector::Zero());
@@ -184,8 +185,7 @@ TEST(EnergySplits, AHomogeneousPlateInPlaneStressFollowsTheLaw) {
       for (Index c = 0; c < mesh.n_cells(); ++c) {
         EXPECT_LE((on.cells.stress[c] - expected).norm(), 1e-8 * stress(steel, strain).norm());
         EXPECT_LE((on.cells.strain[c] - strain).norm(), 1e-8 * strain.norm());
-        EXPECT_NEAR(stiffness.driving_energy(c, on.cells.strain[c], on.state), driving,
-                    1e-8 * energy_density(steel, strain));
+        EXPECT_NEAR(stiffness.driving_energy(c, on.cells, on.state), driving, 1e-8 * energy_density(steel, strain));
       }
     }
   }
