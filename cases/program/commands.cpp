@@ -37,7 +37,9 @@ constexpr CommandText case_commands[] = {
     {"compare", "Compare the results of a run with the experiment that the case names in [experiment]",
      "Writes to CASE/results: comparison.json, comparison.csv."},
     {"fit", "Estimate the values that the case names in [fit] from its experiment",
-     "Writes to CASE/results: fit.json, the fitted case case.fitted.toml and curves.\nThe fit of a fracture case keeps "
+     "Writes to CASE/results: fit.json, the fitted case case.fitted.toml and curves. The last line is the\nverdict: "
+     "sound, questionable or failed; estimates of a fit that is not sound have no intervals.\nThe fit of a fracture "
+     "case keeps "
      "its runs in CASE/results/runs; the same command continues them."},
     {"sweep", "Run a case with the sets of values that it names in [sweep]",
      "Writes to CASE/results: sweep.csv, a row for each run. The runs are kept in CASE/results/runs;\nthe same command "
@@ -113,6 +115,7 @@ void Parser::add_case_options() {
       .add_option("--max-steps", line.max_steps, "stop after N load steps; --restart continues from there")
       ->check(CLI::Range(1, 1000000000).description(""))
       ->type_name("N");
+  command("fit").add_flag("--strict", line.strict, "end with status 1 if the verdict on the fit is not \"sound\"");
   command("sweep").add_flag("--slurm", line.slurm, "submit the missing runs to Slurm, or collect them");
   command("sweep")
       .add_option("--prepared", line.prepared, "run this one of the runs that --slurm has prepared")

@@ -21,6 +21,7 @@ struct CommandLine {
   bool quiet = false;
   bool laws = false;
   bool slurm = false;
+  bool strict = false;  ///< of fit
   std::optional<std::string> prepared{};
   std::string new_directory;  ///< of init
   std::string like;           ///< of init: a case

@@ -74,6 +74,7 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
                   .version = PFDM_VERSION,
                   .read_case = read_case,
                   .log = log,
+                  .strict = line.strict,
                   .slurm = line.slurm};
   if (line.prepared)
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");

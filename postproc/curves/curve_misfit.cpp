@@ -56,17 +56,17 @@ double rms_residual(const SampledCurve& model, const MeasuredPoints& measured) {
   return std::sqrt(sum / static_cast<double>(residuals->size()));
 }
 
-double neighbour_correlation(std::span<const double> residuals, const MeasuredPoints& measured) {
-  double product = 0.0, square = 0.0;
-  std::size_t pairs = 0;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    square += residuals[i] * residuals[i];
-    if (i == 0 || measured.points[i].specimen != measured.points[i - 1].specimen) continue;
-    product += residuals[i] * residuals[i - 1];
-    ++pairs;
+std::vector<std::vector<double>> set_up_errors(const SampledCurve& model, const MeasuredPoints& measured) {
+  const double low = model.x.front(), high = model.x.back(), step = 2e-3 * (high - low);
+  std::vector<std::vector<double>> columns(5);
+  for (const auto& point : measured.points) {
+    const double scale = measured.noise_is_known ? point.deviation : measured.rms;
+    const double x = std::clamp(point.x, low, high), left = std::max(x - step, low), right = std::min(x + step, high);
+    const double force = model.at(x), slope = (model.at(right) - model.at(left)) / (right - left);
+    const double effects[] = {1.0, slope, slope * force, force, slope * x};
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].push_back(effects[k] / scale);
   }
-  if (pairs == 0 || square == 0.0) return 0.0;
-  return product / static_cast<double>(pairs) / (square / static_cast<double>(residuals.size()));
+  return columns;
 }
 
 double rms_difference(const SampledCurve& model, const MeasuredPoints& measured, std::size_t specimen) {

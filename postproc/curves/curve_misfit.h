@@ -33,8 +33,9 @@ std::optional<std::vector<double>> residuals_of(const SampledCurve& model, const
 /// Rms of residuals_of(), not finite where there are none.
 double rms_residual(const SampledCurve& model, const MeasuredPoints& measured);
 
-/// Correlation of neighbouring residuals, of the same specimen; none of noise that is independent from point to point.
-double neighbour_correlation(std::span<const double> residuals, const MeasuredPoints& measured);
+/// What offsets of force and displacement, a compliance in line with the specimen and wrong scales would add to the
+/// residuals, to first order: a column each.
+std::vector<std::vector<double>> set_up_errors(const SampledCurve& model, const MeasuredPoints& measured);
 
 /// Rms of model less measurement of one specimen; as y.
 double rms_difference(const SampledCurve& model, const MeasuredPoints& measured, std::size_t specimen);

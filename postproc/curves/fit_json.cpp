@@ -40,7 +40,11 @@ Json to_json(const std::vector<FitIteration>& iterations) {
 }
 
 Json to_json(const FitFindings& found) {
-  Json json = {{"converged", found.converged},
+  std::vector<double> start_rms;
+  for (const FitIteration& start : found.starts) start_rms.push_back(start.rms);
+  Json json = {{"verdict", name_of(found.verdict)},
+               {"reasons", found.reasons},
+               {"converged", found.converged},
                {"message", found.message},
                {"evaluations", found.evaluations},
                {"residuals", found.n_residuals},
@@ -49,7 +53,7 @@ Json to_json(const FitFindings& found) {
                {"parameters", to_json(found.parameters)},
                {"correlation", pfdm::to_json(found.correlation)},
                {"warnings", found.warnings},
-               {"start_rms_residual", found.start_rms},
+               {"start_rms_residual", start_rms},
                {"path", to_json(found.path)}};
   if (found.first_rms) json["first_guess_rms_residual"] = *found.first_rms;
   if (!found.screened.empty()) json["screened"] = to_json(found.screened);
@@ -129,7 +133,9 @@ FitReport report_in(const Json& json) {
                    .method = json.at("method"),
                    .wall_seconds = json.at("wall_seconds"),
                    .confidence = json.at("confidence"),
-                   .found = {.converged = json.at("converged"),
+                   .found = {.verdict = verdict_named(json.value("verdict", name_of(Verdict::questionable))),
+                             .reasons = json.value("reasons", std::vector<std::string>{}),
+                             .converged = json.at("converged"),
                              .message = json.at("message"),
                              .parameters = parameters_in(json.at("parameters"))},
                    .experiments = {},
@@ -151,7 +157,7 @@ FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitRe
                     .noise_is_known = result.noise_is_known,
                     .evaluations = result.evaluations,
                     .warnings = result.warnings,
-                    .start_rms = result.start_rms,
+                    .starts = result.starts,
                     .path = result.path,
                     .screened = result.screened};
   for (std::size_t j = 0; j < parameters.size(); ++j) {
@@ -170,6 +176,34 @@ FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitRe
                                 .log_scale = p.log_scale});
   }
   return found;
+}
+
+void judge(FitFindings& found, JudgedData data) {
+  FitEvidence evidence{.converged = found.converged,
+                       .message = found.message,
+                       .misfit = data.misfit,
+                       .series = std::move(data.series),
+                       .noise_is_known = found.noise_is_known,
+                       .negligible = data.negligible,
+                       .starts = found.starts,
+                       .found = std::move(data.reasons)};
+  for (const FittedParameter& p : found.parameters)
+    evidence.estimates.push_back({.name = p.name,
+                                  .value = p.estimate,
+                                  .standard_error = p.standard_error,
+                                  .lower_bound = p.lower_bound,
+                                  .upper_bound = p.upper_bound,
+                                  .at_bound = p.at_bound});
+  Judgement judgement = judge(evidence);
+  found.verdict = judgement.verdict;
+  found.reasons = std::move(judgement.reasons);
+  found.converged = found.converged && found.verdict != Verdict::failed;
+  if (found.verdict != Verdict::sound) withhold_intervals(found);
+}
+
+void withhold_intervals(FitFindings& found) {
+  for (FittedParameter& p : found.parameters)
+    p.standard_error = p.lower = p.upper = std::numeric_limits<double>::quiet_NaN();
 }
 
 ExperimentMisfit experiment_misfit(std::string name, std::size_t n_data, const ExperimentMisfit::Absolute& absolute,

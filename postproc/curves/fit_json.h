@@ -3,7 +3,7 @@
 // fits belongs in FitReport and write_fit_json(); cases/README.md lists the fields.
 
 #include "postproc/curves/vibration_fit.h"
-#include "solver/calibration/calibration.h"
+#include "solver/calibration/calibration_verdict.h"
 #include "solver/point/endochronic_identification.h"
 
 #include <filesystem>
@@ -30,6 +30,8 @@ struct FittedParameter {
 
 /// What a fit, or a stage of one, found.
 struct FitFindings {
+  Verdict verdict = Verdict::sound;
+  std::vector<std::string> reasons{};  ///< why it is not sound
   bool converged = false;
   std::string message{};  ///< what ended the fit
   std::vector<FittedParameter> parameters{};
@@ -40,11 +42,23 @@ struct FitFindings {
   bool noise_is_known = false;                     ///< and the residuals are divided by its standard deviation
   int evaluations = 0;                             ///< of the model
   std::vector<std::string> warnings{};
-  std::vector<double> start_rms{};       ///< what each start came to
+  std::vector<FitIteration> starts{};    ///< what each start came to
   std::vector<FitIteration> path{};      ///< of the best start
   std::vector<FitIteration> screened{};  ///< points of a sample
 };
 FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result);
+
+/// What findings do not hold of what a verdict needs.
+struct JudgedData {
+  std::vector<ResidualSeries> series{};
+  double negligible = 0.0;             ///< FitEvidence::negligible
+  double misfit = 0.0;                 ///< FitEvidence::misfit
+  std::vector<std::string> reasons{};  ///< that only this kind of fit knows
+};
+/// Gives findings their verdict. Estimates of a fit that is not sound lose their intervals and standard errors, and one
+/// that has failed has not converged.
+void judge(FitFindings& found, JudgedData data);
+void withhold_intervals(FitFindings& found);
 
 /// Data and how well the estimates meet them.
 struct ExperimentMisfit {

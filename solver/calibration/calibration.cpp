@@ -80,7 +80,7 @@ FitResult fit(const FitProblem& problem, const FitSettings& settings) {
   model.prepare(starts);
   for (const Eigen::VectorXd& start : starts) {
     LeastSquaresResult found = minimise(problem_of(model), start, settings_of(model, settings));
-    result.start_rms.push_back(model.rms(found.cost));
+    result.starts.push_back(iteration_of(model, {found.x, found.cost}));
     if (best.message.empty() || found.cost < best.cost) best = std::move(found);
   }
   if (!std::isfinite(best.cost)) throw ComputationError(fmt::format("the fit found no solution: {}", best.message));

@@ -97,9 +97,10 @@ struct FitResult {
   std::vector<double> residuals;       ///< at the estimates, without priors
   double rms = 0.0;                    ///< of the residuals
   double sum_of_squares = 0.0;         ///< of the residuals
-  std::vector<double> start_rms;       ///< what each start came to; infinite where the model did not converge
-  int evaluations = 0;                 ///< of the model
-  bool noise_is_known = false;         ///< as in the problem
+  /// What each start came to; rms infinite where the model did not converge.
+  std::vector<FitIteration> starts;
+  int evaluations = 0;          ///< of the model
+  bool noise_is_known = false;  ///< as in the problem
 
   std::vector<double> values() const;
 };

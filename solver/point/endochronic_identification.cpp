@@ -107,8 +107,32 @@ EndochronicIdentification identify_hardening(const EndochronicLaw& law, const Ex
                                              const EndochronicIdentificationSettings& settings) {
   EndochronicIdentification result;
   result.transients = transients_of(law, experiments);
-  result.fit = fit_hardening(law, result.transients, settings);
+  EndochronicLaw start = fit_hardening(law, result.transients, settings).law;
+  start.kernel = law.kernel;  // which is known, and its level with it
+  const FitChoice choice{.kernel = false, .hardening = true, .rate = settings.choice.rate};
+  result.fit = fit_chosen(start, choice, experiments, settings);
   return result;
+}
+
+/// Whether the last round ended where the one before the last did.
+bool goes_in_circles(const std::vector<StaggeredRound>& rounds, double tolerance) {
+  if (rounds.size() < 3) return false;
+  const double now = rounds.back().rms_after_kernel, before = rounds[rounds.size() - 3].rms_after_kernel;
+  return std::abs(now - before) <= tolerance * now;
+}
+
+/// A joint fit from the best of the rounds, and why.
+void finish_jointly(EndochronicIdentification& result, const EndochronicLaw& best, bool settled,
+                    const Experiments& experiments, const EndochronicIdentificationSettings& settings) {
+  const double least = std::ranges::min(result.rounds, {}, &StaggeredRound::rms_after_kernel).rms_after_kernel;
+  result.remark = fmt::format(
+      "the staggered scheme {} after {} rounds, at best with an rms misfit of {:.6g} Pa; the estimates are those of "
+      "the "
+      "joint fit from there",
+      settled ? "settled" : "went to and fro and did not settle", result.rounds.size(), least);
+  settings.say(result.remark);
+  const FitChoice choice{.kernel = true, .hardening = true, .rate = settings.choice.rate};
+  result.fit = fit_chosen(best, choice, experiments, settings);
 }
 
 EndochronicIdentification identify_staggered(const EndochronicLaw& start, const Experiments& experiments,
@@ -116,28 +140,35 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
   EndochronicIdentification result;
   EndochronicLaw law = start;
   if (settings.least_terms > 0) law.kernel = first_kernel(law, experiments, settings.least_terms);
-  double last = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < settings.maximum_rounds; ++round) {
+  EndochronicLaw best = law;
+  double last = std::numeric_limits<double>::infinity(), least = last;
+  bool settled = false;
+  for (int round = 0; round < settings.maximum_rounds && !settled; ++round) {
     result.transients = transients_of(law, experiments);
     law = fit_hardening(law, result.transients, settings).law;
     const double after_hardening = rms_misfit(law, experiments, settings.control);
-    result.fit = fit_chosen(law, {.kernel = true, .hardening = false}, experiments, settings);
-    law = result.fit.law;
+    law = fit_chosen(law, {.kernel = true, .hardening = false}, experiments, settings).law;
     const double now = rms_misfit(law, experiments, settings.control);
     result.rounds.push_back({after_hardening, now});
     settings.say(fmt::format("iteration {}: rms misfit {:.6g} Pa after the hardening, {:.6g} Pa after the kernel",
                              round + 1, after_hardening, now));
-    if (std::abs(last - now) <= settings.round_tolerance * now) break;
+    if (now < least) best = law;
+    least = std::min(least, now);
+    settled = std::abs(last - now) <= settings.round_tolerance * now;
+    if (!settled && goes_in_circles(result.rounds, settings.round_tolerance)) break;
     last = now;
   }
+  finish_jointly(result, best, settled, experiments, settings);
   return result;
 }
 
 constexpr IdentificationMethod table[] = {
     {"joint", "kernel and hardening at once by least squares", identify_joint},
     {"kernel", "the kernel by least squares, the hardening fixed", identify_kernel},
-    {"hardening", "the hardening from the transient response, the kernel fixed", identify_hardening},
-    {"staggered", "alternately the hardening from the transient response and the kernel by least squares",
+    {"hardening", "the hardening by least squares from that of the transient response, the kernel fixed",
+     identify_hardening},
+    {"staggered",
+     "alternately the hardening from the transient response and the kernel by least squares, in the end both at once",
      identify_staggered},
 };
 

@@ -1,6 +1,9 @@
 #pragma once
 // Ways to identify the endochronic law from experiments: kernel alone, hardening alone from the transient response, the
 // two alternately (the staggered scheme of AFRL-RW-EG-TR-2016-088, A5.2.3), and both at once by least squares.
+//
+// The transient response is differentiated data, in whose path noise adds up: what it gives is biased, and the
+// alternating scheme need not settle. Both are where least squares of the stresses start, which have the last word.
 
 #include "solver/point/endochronic_transient.h"
 
@@ -39,6 +42,7 @@ struct EndochronicIdentification {
   std::vector<TriedKernel> tried;
   std::vector<StaggeredRound> rounds;
   std::vector<std::vector<HardeningPoint>> transients;  ///< of each experiment, where the method uses them
+  std::string remark{};  ///< how the method came to its estimates, where that is not plain
 };
 
 struct IdentificationMethod {

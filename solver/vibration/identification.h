@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -61,6 +62,9 @@ struct Estimate {
   double lower = 0.0;  ///< of the interval
   double upper = 0.0;
   double standard_error = 0.0;
+  double lower_bound = -std::numeric_limits<double>::infinity();  ///< of the search
+  double upper_bound = std::numeric_limits<double>::infinity();
+  bool at_bound = false;
 };
 
 struct OutputErrorFit {

@@ -57,4 +57,31 @@ MassMaterial ParameterCoordinates::model(const VectorXd& x) const {
   return m;
 }
 
+void ParameterCoordinates::set_bounds(const MassMaterial& m, std::vector<Estimate>& values) const {
+  constexpr double near = 0.01;  // of the range of a sigmoid
+  constexpr double gone = 1e-5;  // of what would be noticed
+  std::size_t at = m.stiffness.size();
+  const auto positive = [&](double size, bool turned) {
+    Estimate& e = values[at++];
+    (turned ? e.upper_bound : e.lower_bound) = 0.0;
+    e.at_bound = std::abs(e.value) < gone * size;
+  };
+  const auto between = [&](double lower, double upper, double part) {
+    Estimate& e = values[at++];
+    e.lower_bound = lower;
+    e.upper_bound = upper;
+    e.at_bound = part < near || part > 1.0 - near;
+  };
+  positive(std::sqrt(m.stiffness[0] * m.mass), false);
+  if (free_exponent()) between(0.0, most_exponent, m.damping_exponent / most_exponent);
+  for (const HereditaryTerm& term : m.kernel) {
+    const double alpha = term.alpha.real();
+    between(std::exp(log_low_), std::exp(log_high_), (std::log(alpha) - log_low_) / (log_high_ - log_low_));
+    const double size = m.forcing == KernelForcing::displacement ? m.stiffness[0] * alpha
+                        : m.forcing == KernelForcing::stiffness  ? alpha
+                                                                 : m.stiffness[0];
+    positive(size, dissipative_sign(m.forcing) < 0.0);
+  }
+}
+
 }  // namespace pfdm

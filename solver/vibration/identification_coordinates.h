@@ -17,6 +17,9 @@ class ParameterCoordinates {
   Eigen::VectorXd from(const MassMaterial& model) const;
   MassMaterial model(const Eigen::VectorXd& x) const;
 
+  /// Says of each of the model's named values how far the search could move it, and whether it went so far.
+  void set_bounds(const MassMaterial& model, std::vector<Estimate>& values) const;
+
  private:
   bool free_exponent() const { return terms_.damping_exponent != 0.0; }
 

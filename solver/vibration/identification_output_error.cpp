@@ -258,6 +258,7 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   fit.converged = found.converged;
   fit.model = coordinates.model(found.x);
   fit.estimates = named_values(fit.model);
+  coordinates.set_bounds(fit.model, fit.estimates);
   const double n = static_cast<double>(responses.size());
   fit.n_residuals = static_cast<std::size_t>(responses.size());
   for (const LeastSquaresPoint& point : found.path) {

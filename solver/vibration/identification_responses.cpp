@@ -13,32 +13,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double tracking_width = 5.0;  // [Hz]
-
 /// How far a sample may rely on the tracker, whose filter needs signal on both sides: 0 at the ends of the record, 1
 /// from four of its time constants on.
 double reliance(Eigen::Index i, const VibrationRecord& r) {
   const double distance = static_cast<double>(std::min(i, r.n() - 1 - i)) / r.rate * tracking_width;
   const double part = std::clamp((distance - 1.0) / 3.0, 0.0, 1.0);
   return part * part * (3.0 - 2.0 * part);
-}
-
-/// The base's acceleration as what drives the model. Noise on it would come through the nonlinear terms as a bias. Of a
-/// sweep everything is kept that moves with the driving frequency or its harmonics, within the tracking width; the rest
-/// is noise. Where the rest is no small part there is no sweep, and where it is next to nothing (below -60 dB) there is
-/// no noise: then the record is left as it is.
-VectorXd tracked_base(const VibrationRecord& r) {
-  const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
-  VectorXd tracked = tracked_sweep(r.base, r.rate, band, tracking_width);
-  const Eigen::Index edge = r.n() / 4;  // the ends are not tracked well
-  const Eigen::Index n = r.n() - 2 * edge;
-  const double rest = (tracked - r.base).segment(edge, n).norm() / r.base.segment(edge, n).norm();
-  if (rest < 1e-3 || rest > 0.1) return r.base;
-  for (Eigen::Index i = 0; i < r.n(); ++i) {
-    const double weight = reliance(i, r);
-    tracked[i] = weight * tracked[i] + (1.0 - weight) * r.base[i];
-  }
-  return tracked;
 }
 
 int most_substeps(const MassMaterial& model, std::span<const double> rates) {
@@ -48,6 +28,25 @@ int most_substeps(const MassMaterial& model, std::span<const double> rates) {
 }
 
 }  // namespace
+
+/// Noise on it would come through the nonlinear terms as a bias. Of a
+/// sweep everything is kept that moves with the driving frequency or its harmonics, within the tracking width; the rest
+/// is noise. Where the rest is no small part there is no sweep, and where it is next to nothing (below -60 dB) there is
+/// no noise: then the record is left as it is.
+DrivingBase driving_base(const VibrationRecord& r) {
+  const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
+  VectorXd tracked = tracked_sweep(r.base, r.rate, band, tracking_width);
+  const Eigen::Index edge = r.n() / 4;  // the ends are not tracked well
+  const Eigen::Index n = r.n() - 2 * edge;
+  const double rest = (tracked - r.base).segment(edge, n).norm() / r.base.segment(edge, n).norm();
+  const bool swept = rest <= 0.1;
+  if (rest < 1e-3 || !swept) return {r.base, swept};
+  for (Eigen::Index i = 0; i < r.n(); ++i) {
+    const double weight = reliance(i, r);
+    tracked[i] = weight * tracked[i] + (1.0 - weight) * r.base[i];
+  }
+  return {std::move(tracked), true};
+}
 
 Conditioner output_condition(const VibrationRecord& r, double crop) {
   const PassBand band{.low = 0.5 * r.band_low, .high = std::min(3.0 * r.band_high, 0.38 * r.rate), .skirt = 0.2};
@@ -60,7 +59,7 @@ Responses::Responses(std::span<const VibrationRecord> records, double crop) {
   const auto prepare = [&](pfdm::Index begin, pfdm::Index) {
     const VibrationRecord& r = records[static_cast<std::size_t>(begin)];
     Output& out = outputs_[static_cast<std::size_t>(begin)];
-    out.base = tracked_base(r);
+    out.base = driving_base(r).acceleration;
     out.measured = out.condition(r.relative);
     out.weight = std::sqrt(static_cast<double>(out.measured.size())) / out.measured.norm();
   };

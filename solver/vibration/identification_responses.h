@@ -52,6 +52,15 @@ class Responses {
   Eigen::Index size_ = 0;
 };
 
+/// The base's acceleration as what drives the model, at the record's rate.
+struct DrivingBase {
+  Eigen::VectorXd acceleration;  ///< [m/s^2]
+  bool swept = false;            ///< one frequency drives at a time; noise beside it has been taken off
+};
+DrivingBase driving_base(const VibrationRecord& record);
+
+constexpr double tracking_width = 5.0;  ///< about the driving frequency [Hz]
+
 /// What is compared of a record: the excited band and three harmonics of it.
 Conditioner output_condition(const VibrationRecord& record, double crop);
 

@@ -90,11 +90,24 @@ class BarFit {
   TemporaryCase directory;
 };
 
+/// One parameter alone.
+std::string fit_of(const std::string& key, const std::string& bounds, const std::string& settings = "") {
+  return bar_fit.substr(0, bar_fit.find("[fit]")) + "[fit]\n" + settings + "[[fit.parameters]]\nkey = \"" + key +
+         "\"\nbounds = " + bounds + "\n";
+}
+
+std::string last_line(std::string text) {
+  text.resize(text.find_last_not_of('\n') + 1);
+  return text.substr(text.find_last_of('\n') + 1);
+}
+
 TEST(CurveFit, FindsTheValuesThatMadeACurve) {
   const BarFit fit;
   const Outcome outcome = run({"fit", fit.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = fit_in(fit.directory.results());
+  EXPECT_EQ(json["verdict"], "sound") << json["reasons"];
+  EXPECT_EQ(last_line(outcome.out), "verdict: sound");
   EXPECT_NEAR(estimate(json, modulus), 33e9, 1e-3 * 33e9);
   EXPECT_NEAR(estimate(json, toughness), 110.0, 1.0);
   EXPECT_EQ(json["kind"], "fracture");
@@ -111,6 +124,41 @@ TEST(CurveFit, FindsTheValuesThatMadeACurve) {
     EXPECT_EQ(curve.column(column).size(), 401u);
   for (const char* part : {"runs made", "95 % between", "correlation of"})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " is missing in " << outcome.out;
+}
+
+TEST(CurveFit, OfACurveWithOffsetAndComplianceIsQuestionable) {
+  const BarFit fit(fit_of(modulus, "[\"10 GPa\", \"90 GPa\"]"));
+  const CsvTable curve = read_csv(fit.directory.path() / "data.csv");
+  const std::vector<double> u = curve.column("displacement_m"), force = curve.column("force_N");
+  const double peak = std::ranges::max(force);
+  CsvTable spoilt;
+  spoilt.comments = {"made by the test"};
+  std::vector<double> x, y;
+  std::mt19937 engine(3);
+  std::normal_distribution<double> noise(0.0, 2e-3 * peak);
+  const double stiffness = force[3] / u[3];
+  for (int i = 0; i <= 60; ++i) {
+    const double elongation = 1e-7 * i;
+    x.push_back(elongation + 1.5e-6 * stiffness * elongation / peak);
+    y.push_back(stiffness * elongation + 0.05 * peak + noise(engine));
+  }
+  spoilt.add("displacement_m", x);
+  spoilt.add("force_N", y);
+  write_csv(fit.directory.path() / "data.csv", spoilt);
+  const Outcome outcome = run({"fit", fit.path(), "--strict"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("pfdm: the fit is questionable: the residuals of one are correlated"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.out.find("an offset of force or displacement, or the compliance of the set-up"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("no interval"), std::string::npos) << outcome.out;
+  EXPECT_NE(last_line(outcome.out).find("verdict: questionable"), std::string::npos) << outcome.out;
+  const auto json = fit_in(fit.directory.results());
+  EXPECT_EQ(json["verdict"], "questionable");
+  EXPECT_EQ(json["reasons"].size(), 2u);
+  EXPECT_TRUE(parameter(json, modulus)["lower"].is_null());
+  EXPECT_TRUE(parameter(json, modulus)["standard_error"].is_null());
+  EXPECT_EQ(run({"fit", fit.path()}).status, 0);
 }
 
 TEST(CurveFit, WritesACaseThatRunsToTheFittedCurve) {
@@ -268,12 +316,6 @@ TEST(CurveFit, FitsToOtherDataReuseTheRunsOfTheSample) {
   EXPECT_GT(reused, made) << made << " made, " << reused << " reused";
 }
 
-/// One parameter alone.
-std::string fit_of(const std::string& key, const std::string& bounds, const std::string& settings = "") {
-  return bar_fit.substr(0, bar_fit.find("[fit]")) + "[fit]\n" + settings + "[[fit.parameters]]\nkey = \"" + key +
-         "\"\nbounds = " + bounds + "\n";
-}
-
 TEST(CurveFit, SurvivesRunsThatDoNotConverge) {
   // Up to about 35 GPa the bar holds; it cannot break in the few iterations allowed.
   std::string tough = replaced(BarFit::marked_bar(), "\"80 J/m^2\"", "\"200 J/m^2\"");
@@ -344,6 +386,7 @@ TEST(CurveFit, FindsStrengthAndToughnessOfACohesiveCrack) {
   // truth is the noise's doing.
   const std::map<std::string, std::pair<double, double>> expected{
       {modulus, {32e9, 31.746e9}}, {"materials.concrete.strength", {2.8e6, 2.7917e6}}, {toughness, {110.0, 110.32}}};
+  EXPECT_EQ(json["verdict"], "sound") << json["reasons"];
   for (const auto& [name, values] : expected) {
     const auto& [truth, best] = values;
     const auto& found = parameter(json, name);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace pfdm {
 namespace {
@@ -127,6 +128,8 @@ TEST(MassMaterialProgram, FindsItsOwnParametersAgain) {
   const Outcome outcome = run({"fit", directory.path().string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json fit = parsed(directory.results() / "fit.json");
+  EXPECT_EQ(fit["verdict"], "sound") << fit["reasons"];
+  EXPECT_TRUE(outcome.out.ends_with("verdict: sound\n")) << outcome.out;
   const double expected[] = {54e3, -1.0e6, 1.3e8};
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(fit["parameters"][i]["estimate"].get<double>(), expected[i], 0.02 * std::abs(expected[i])) << i;
@@ -155,6 +158,31 @@ TEST(MassMaterialProgram, FindsItsOwnParametersAgain) {
   EXPECT_NEAR(modulus["frequency_Hz"].get<double>(), 10.0, 1e-6);
   EXPECT_NEAR(modulus["storage_modulus_Pa"].get<double>(), 54e3 * 0.0762 / 45.6e-4, 1e3);
   EXPECT_NEAR(modulus["loss_modulus_Pa"].get<double>(), 62.8319 * 40 * 0.0762 / 45.6e-4, 50.0);
+}
+
+TEST(MassMaterialProgram, SaysThatTheSignOfAChannelIsReversed) {
+  const TemporaryCase directory(soft_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  std::istringstream lines(content_of(directory.results() / "up.csv"));
+  std::string line, turned;
+  for (int i = 0; std::getline(lines, line); ++i) {
+    const std::size_t first = line.find(','), second = line.find(',', first + 1);
+    turned += i < 3 ? line
+                    : fmt::format("{},{:.17g}{}", line.substr(0, first), -std::stod(line.substr(first + 1)),
+                                  line.substr(second));
+    turned += '\n';
+  }
+  directory.write("results/up.csv", turned);
+  const Outcome outcome = run({"fit", directory.path().string(), "--strict"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE((outcome.out + outcome.err).find("test up: the sign of one channel is reversed"), std::string::npos)
+      << outcome.out << outcome.err;
+  if (fs::exists(directory.results() / "fit.json")) {
+    const json fit = parsed(directory.results() / "fit.json");
+    EXPECT_NE(fit["verdict"], "sound");
+    EXPECT_TRUE(fit["parameters"][0]["lower"].is_null());
+    EXPECT_EQ(run({"report", directory.path().string()}).status, 0);
+  }
 }
 
 /// Three runs at each of two levels on each of two days.

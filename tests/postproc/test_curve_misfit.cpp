@@ -1,5 +1,6 @@
 #include "physics/error.h"
 #include "postproc/curves/curve_misfit.h"
+#include "solver/calibration/calibration_verdict.h"
 
 #include <gtest/gtest.h>
 
@@ -38,16 +39,24 @@ TEST(CurveMisfit, RefusesWhatHasNoWeight) {
   EXPECT_THROW(points_between({curve({0, 1}, {0, 1})}, 2, 3), InputError);
 }
 
-TEST(CurveMisfit, TellsCorrelatedResidualsFromNoise) {
-  std::vector<double> x, wave, alternating;
-  for (int i = 0; i < 200; ++i) {
-    x.push_back(i);
-    wave.push_back(std::sin(0.05 * i));
-    alternating.push_back(i % 2 == 0 ? 1.0 : -1.0);
+// A curve that is measured with an offset, a displacement too small and a soft frame.
+TEST(CurveMisfit, SetUpErrorsExplainASetUp) {
+  std::vector<double> x, force, measured;
+  for (int i = 0; i <= 100; ++i) {
+    x.push_back(0.01 * i);
+    force.push_back(std::sin(2.0 * x.back()));
   }
-  const MeasuredPoints points = points_between({curve(x, wave)}, 0, 200);
-  EXPECT_GT(neighbour_correlation(wave, points), 0.95);
-  EXPECT_LT(neighbour_correlation(alternating, points), -0.95);
+  const SampledCurve model = curve(x, force);
+  for (const double u : x) {
+    const double f = std::sin(2.0 * u);
+    measured.push_back(f + 1e-4 + 2.0 * std::cos(2.0 * u) * (2e-4 - 3e-4 * f));
+  }
+  const MeasuredPoints points = points_between({curve(x, measured)}, 0, 1);
+  const std::vector<double> residuals = residuals_of(model, points).value();
+  EXPECT_LT(rms_left_by(residuals, set_up_errors(model, points)), 0.01 * rms_left_by(residuals, {}));
+  std::vector<double> other;
+  for (const double u : x) other.push_back(std::sin(40.0 * u));
+  EXPECT_GT(rms_left_by(other, set_up_errors(model, points)), 0.9 * rms_left_by(other, {}));
 }
 
 TEST(DrivenCurve, DropsWhereTheComputedOneFallsBack) {

@@ -205,7 +205,7 @@ TEST(Calibration, StartsElsewhereToo) {
   EXPECT_NEAR(fit(problem).estimates[0].value, -0.98, 0.02);
   const FitResult result = fit(problem, {.starts = 8, .spread = 4.0});
   EXPECT_NEAR(result.estimates[0].value, 1.0, 1e-6);
-  EXPECT_EQ(result.start_rms.size(), 8u);
+  EXPECT_EQ(result.starts.size(), 8u);
 }
 
 // ---- A misfit with many minima: a sin(b x), sampled over many periods
@@ -243,7 +243,7 @@ TEST(Calibration, ScreensASampleForTheLowestMinimum) {
     EXPECT_NEAR(result.estimates[1].value, 22.0, 0.1);
     EXPECT_NEAR(result.estimates[0].value, 2.0, 0.05);
     EXPECT_LT(result.rms, 1.5);
-    EXPECT_EQ(result.start_rms.size(), 2u);
+    EXPECT_EQ(result.starts.size(), 2u);
     ASSERT_EQ(result.screened.size(), 30u);
     EXPECT_NEAR(result.screened[0].parameters[1], 14.0, 1e-12);
   }

@@ -90,11 +90,16 @@ def fit_with_noise(options, folder, curve, seed, threads):
 
 class Count:
     def __init__(self, truth):
-        self.truth, self.held, self.errors, self.stated, self.runs = truth, {}, {}, {}, []
+        self.truth, self.held, self.errors, self.stated, self.runs, self.verdicts = truth, {}, {}, {}, [], []
 
     def add(self, seed, fit):
         self.runs.append(fit["fracture"]["runs"]["made"])
-        print(f"seed {seed}: rms residual {fit['rms_residual']:.4f}, {fit['fracture']['runs']['made']} runs made", flush=True)
+        print(f"seed {seed}: rms residual {fit['rms_residual']:.4f}, {fit['fracture']['runs']['made']} runs made, "
+              f"{fit['verdict']}", flush=True)
+        self.verdicts.append(fit["verdict"])
+        if fit["verdict"] != "sound":
+            print(f"    {'; '.join(fit['reasons'])}", flush=True)
+            return
         for p in fit["parameters"]:
             true = next(value for name, value in self.truth.items() if name.startswith(p["name"]))
             held = p["lower"] <= true <= p["upper"]
@@ -110,7 +115,7 @@ class Count:
             print(f"{name}: held {sum(held)} of {len(held)}; error: mean {100 * sum(e) / len(e):+.2f} %, "
                   f"rms {100 * math.sqrt(sum(x * x for x in e) / len(e)):.2f} %, "
                   f"largest {100 * max(map(abs, e)):.2f} %; stated {100 * sum(s) / len(s):.2f} %")
-        print(f"{sum(self.runs)} runs made", flush=True)
+        print(f"{self.verdicts.count('sound')} of {len(self.verdicts)} fits are sound; {sum(self.runs)} runs made", flush=True)
 
 
 def main():

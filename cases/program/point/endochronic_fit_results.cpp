@@ -1,7 +1,6 @@
 #include "cases/program/point/endochronic_fit_results.h"
 
 #include "cases/program/point/endochronic_material.h"
-#include "postproc/curves/fit_json.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 
@@ -52,10 +51,53 @@ std::vector<ExperimentMisfit> misfits(const EndochronicFit& fit, const Endochron
   return result;
 }
 
+constexpr double negligible_misfit = 1e-4;  // of the rms stress: what steps and rounding leave
+
+/// The residuals of each channel of each experiment.
+std::vector<ResidualSeries> series_of(const EndochronicFit& fit, const std::vector<double>& residuals) {
+  std::vector<ResidualSeries> result;
+  auto at = residuals.begin();
+  for (const MaterialExperiment& experiment : fit.experiments)
+    for (const MaterialExperiment::Channel& channel : experiment.channels) {
+      const auto end = at + std::ssize(channel.stress);
+      result.push_back({.name = fmt::format("{}, stress_{}", experiment.name,
+                                            component_names[static_cast<std::size_t>(channel.component)]),
+                        .along = "time",
+                        .values = {at, end}});
+      at = end;
+    }
+  return result;
+}
+
+/// Terms of the kernel that saturate at once stand for a yield surface.
+std::vector<std::string> signs_of_another_law(const EndochronicLaw& law) {
+  constexpr double rigid = 300.0;
+  std::vector<std::string> reasons;
+  const double E = law.elasticity.young_modulus();
+  for (std::size_t r = 0; r < law.kernel.size(); ++r)
+    if (const double ratio = law.kernel[r].C / E; ratio > rigid)
+      reasons.push_back(
+          fmt::format("C_{} is {:.3g} times Young's modulus: the data have an elastic range, as of a law with a yield "
+                      "surface (Chaboche's), which the endochronic law has not: it is the wrong model for them",
+                      r + 1, ratio));
+  return reasons;
+}
+
+FitFindings judged(const EndochronicFit& fit, const EndochronicIdentification& found) {
+  FitFindings findings = findings_of(found.fit.parameters, found.fit.result);
+  if (!found.remark.empty()) findings.warnings.push_back(found.remark);
+  judge(findings,
+        {.series = series_of(fit, found.fit.result.residuals),
+         .negligible = negligible_misfit,
+         .misfit = rms_misfit(found.fit.law, fit.experiments, fit.settings.control) / rms_stress(fit.experiments),
+         .reasons = signs_of_another_law(found.fit.law)});
+  return findings;
+}
+
 }  // namespace
 
-void write_fit_results(const fs::path& results, const CaseFile& file, const EndochronicFit& fit,
-                       const EndochronicIdentification& found, const FitRun& run) {
+FitFindings write_fit_results(const fs::path& results, const CaseFile& file, const EndochronicFit& fit,
+                              const EndochronicIdentification& found, const FitRun& run) {
   for (const MaterialExperiment& experiment : fit.experiments)
     write_csv(results / fit_curve_file(experiment.name), curve(experiment, found.fit.law, fit.settings.control));
   for (std::size_t i = 0; i < found.transients.size(); ++i) {
@@ -71,14 +113,16 @@ void write_fit_results(const fs::path& results, const CaseFile& file, const Endo
   }
   write_file(results / "case.fitted.toml",
              with_table(file, "material", "# estimated by pfdm fit\n" + to_toml(found.fit.law) + "\n", results));
-  write_fit_json(results / "fit.json", {.case_name = run.case_name,
-                                        .case_hash = run.case_hash,
-                                        .version = run.version,
-                                        .method = std::string(fit.method->name),
-                                        .wall_seconds = run.wall_seconds,
-                                        .found = findings_of(found.fit.parameters, found.fit.result),
-                                        .experiments = misfits(fit, found.fit.law),
-                                        .own = EndochronicFindings{found.tried, found.rounds}});
+  const FitReport report{.case_name = run.case_name,
+                         .case_hash = run.case_hash,
+                         .version = run.version,
+                         .method = std::string(fit.method->name),
+                         .wall_seconds = run.wall_seconds,
+                         .found = judged(fit, found),
+                         .experiments = misfits(fit, found.fit.law),
+                         .own = EndochronicFindings{found.tried, found.rounds}};
+  write_fit_json(results / "fit.json", report);
+  return report.found;
 }
 
 }  // namespace pfdm

@@ -3,6 +3,7 @@
 
 #include "cases/program/input/case_file.h"
 #include "cases/program/point/endochronic_fit_case.h"
+#include "postproc/curves/fit_json.h"
 
 namespace pfdm {
 
@@ -13,8 +14,8 @@ struct FitRun {
   double wall_seconds = 0.0;
 };
 
-/// Throws ComputationError where a file cannot be written.
-void write_fit_results(const std::filesystem::path& results, const CaseFile& file, const EndochronicFit& fit,
-                       const EndochronicIdentification& found, const FitRun& run);
+/// What was found, with its verdict. Throws ComputationError where a file cannot be written.
+FitFindings write_fit_results(const std::filesystem::path& results, const CaseFile& file, const EndochronicFit& fit,
+                              const EndochronicIdentification& found, const FitRun& run);
 
 }  // namespace pfdm

@@ -4,6 +4,7 @@
 #include "cases/program/point/endochronic_fit_results.h"
 #include "cases/program/point/endochronic_report.h"
 #include "cases/program/session/earlier_results.h"
+#include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/stopwatch.h"
 #include "postproc/curves/history_csv.h"
@@ -125,13 +126,9 @@ void run_case(const EndochronicProgram& program, Session& session) {
   if (!history.converged) throw NoConvergence(fmt::format("case {}: {}", program.name, history.failure));
 }
 
-void say_estimates(const LawFit& fit, Log& log) {
-  for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
-    const FitEstimate& e = fit.result.estimates[j];
-    log.say(fmt::format("  {:<14} {:.6g} {}, 95 % between {:.6g} and {:.6g}", fit.parameters[j].name, e.value,
-                        fit.parameters[j].unit, e.lower_95, e.upper_95));
-  }
-  for (const std::string& warning : fit.result.warnings) log.warn(warning);
+void say_estimates(const FitFindings& found, Log& log) {
+  for (const FittedParameter& p : found.parameters)
+    log.say(fmt::format("  {:<14} {:.6g} {}, {}", p.name, p.estimate, p.unit, interval_text(p.lower, p.upper)));
 }
 
 void fit_case(const EndochronicProgram& program, Session& session) {
@@ -146,13 +143,15 @@ void fit_case(const EndochronicProgram& program, Session& session) {
   const EndochronicIdentification found = fit.method->identify(program.point.law, fit.experiments, fit.settings);
   const double seconds = watch.seconds();
   log.open_file(session.results / "fit.log", false);  // not before: it belongs to the estimates that are there
-  write_fit_results(session.results, program.file, fit, found, {program.name, program.hash, session.version, seconds});
-  say_estimates(found.fit, log);
+  const FitFindings findings = write_fit_results(session.results, program.file, fit, found,
+                                                 {program.name, program.hash, session.version, seconds});
+  say_estimates(findings, log);
   log.say(fmt::format("rms misfit {:.6g} Pa of {:.6g} Pa rms stress; {} evaluations, {:.1f} s; {}",
                       rms_misfit(found.fit.law, fit.experiments, fit.settings.control), rms_stress(fit.experiments),
                       found.fit.result.evaluations, seconds, found.fit.result.message));
   log.say(fmt::format("written to {}; run it with: pfdm run {}", session.results.string(),
                       (session.results / "case.fitted.toml").string()));
+  say_verdict(findings, session);
 }
 
 }  // namespace

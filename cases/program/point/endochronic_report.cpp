@@ -1,5 +1,6 @@
 #include "cases/program/point/endochronic_report.h"
 
+#include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/error.h"
 #include "postproc/curves/fit_json.h"
@@ -206,7 +207,7 @@ std::vector<PageRow> run_rows(const EndochronicCase& point, const CsvTable& hist
 }
 
 Table estimates_table(const FitReport& fit) {
-  Table table{.caption = fmt::format("Fit, method {}", fit.method),
+  Table table{.caption = fmt::format("Fit, method {}: {}", fit.method, verdict_text(fit.found)),
               .rows = {{"parameter", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
               .has_header = true};
   for (const FittedParameter& p : fit.found.parameters) {
@@ -214,7 +215,7 @@ Table estimates_table(const FitReport& fit) {
         p.unit == "Pa" ? display_unit(p.estimate, "Pa") : DisplayUnit{.factor = 1.0, .name = p.unit};
     const auto text = [&](double value) { return shown(unit.factor * value); };
     table.rows.push_back({unit.name == "1" ? p.name : fmt::format("{} [{}]", p.name, unit.name), text(p.estimate),
-                          fmt::format("{} to {}{}", text(p.lower), text(p.upper), p.at_bound ? ", at a bound" : "")});
+                          std::isfinite(p.lower) ? fmt::format("{} to {}", text(p.lower), text(p.upper)) : "-"});
   }
   return table;
 }

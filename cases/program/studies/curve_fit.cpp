@@ -13,8 +13,8 @@
 namespace pfdm {
 namespace {
 
-constexpr double least_change = 0.02;           // of chi^2: an eighth of a standard error is not worth more runs
-constexpr double noticeable_correlation = 0.3;  // of neighbouring residuals
+constexpr double least_change = 0.02;       // of chi^2: an eighth of a standard error is not worth more runs
+constexpr double negligible_misfit = 1e-4;  // of the rms force: what load steps and tolerances leave
 
 /// One fit, from its first run to its files.
 class CurveFit {
@@ -114,8 +114,7 @@ class CurveFit {
       session_.log.say(fmt::format("  rms residual {:.5g} at {}", iteration.rms,
                                    model_.shown(with_stage(stage, iteration.parameters))));
     };
-    FitResult result = fit(problem, settings);
-    warn_of_correlated_residuals(points, result);
+    const FitResult result = fit(problem, settings);
     values_ = with_stage(stage, result.values());
     for (const std::size_t j : stage.parameters) is_estimated_[j] = true;
     FitStage found{.name = stage.name,
@@ -123,17 +122,31 @@ class CurveFit {
                    .to = points.points.back().x,
                    .found = findings_of(problem.parameters, result)};
     found.found.first_rms = rms_residual(first_curve, points);
+    judge(found.found, {.series = series_of(points, result.residuals),
+                        .negligible = negligible_misfit,
+                        .misfit = points.noise_is_known ? 0.0 : result.rms});
+    if (found.found.verdict == Verdict::questionable) suspect_set_up(curve_at(values_, until), points, result, found);
     return found;
   }
 
-  static void warn_of_correlated_residuals(const MeasuredPoints& points, FitResult& result) {
-    const double r = neighbour_correlation(result.residuals, points);
-    if (r > noticeable_correlation)
-      result.warnings.push_back(fmt::format(
-          "the residuals of neighbouring points are correlated ({:.2f}): an error of the model or a scatter "
-          "of whole specimens, not noise of single points; the intervals are too narrow, by a factor of "
-          "about {:.1f}",
-          r, std::sqrt((1.0 + r) / (1.0 - r))));
+  /// Where an imperfect set-up would explain most of what the model leaves, one more reason.
+  static void suspect_set_up(const SampledCurve& fitted, const MeasuredPoints& points, const FitResult& result,
+                             FitStage& found) {
+    const double left = rms_left_by(result.residuals, set_up_errors(fitted, points));
+    if (!(left < 0.5 * result.rms)) return;
+    found.found.reasons.push_back(
+        fmt::format("an offset of force or displacement, or the compliance of the set-up, would explain most of the "
+                    "residuals: with them their rms falls from {:.3g} to {:.3g}; correct the measured curve for them",
+                    result.rms, left));
+  }
+
+  /// The residuals of each specimen, over its displacement.
+  std::vector<ResidualSeries> series_of(const MeasuredPoints& points, const std::vector<double>& residuals) const {
+    std::vector<ResidualSeries> result;
+    for (const SampledCurve& specimen : job_.specimens)
+      result.push_back({.name = specimen.name, .along = "displacement", .values = {}});
+    for (std::size_t i = 0; i < residuals.size(); ++i) result[points.points[i].specimen].values.push_back(residuals[i]);
+    return result;
   }
 
   const CurveFitJob& job_;

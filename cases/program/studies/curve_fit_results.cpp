@@ -1,5 +1,6 @@
 #include "cases/program/studies/curve_fit_results.h"
 
+#include "cases/program/session/fit_verdict.h"
 #include "postproc/curves/curve_misfit.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
@@ -15,6 +16,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* fitted_curve_file = "fit_curve.csv";
 
+/// The worse of both verdicts, and the reasons of the earlier one.
+void take_doubts(const FitStage& earlier, FitFindings& whole) {
+  whole.verdict = std::max(whole.verdict, earlier.found.verdict);
+  for (const std::string& reason : earlier.found.reasons) {
+    std::string from = fmt::format("stage \"{}\": {}", earlier.name, reason);
+    if (std::ranges::count(whole.reasons, from) == 0) whole.reasons.push_back(std::move(from));
+  }
+}
+
 /// The last stage's result, to which the estimates of parameters that it left alone are added, from the last stage that
 /// had them; their correlation with the others is not known.
 FitFindings merged(const std::vector<FitStage>& stages) {
@@ -23,11 +33,13 @@ FitFindings merged(const std::vector<FitStage>& stages) {
     for (const FittedParameter& p : stage->found.parameters) {
       if (std::ranges::count(whole.parameters, p.name, &FittedParameter::name) > 0) continue;
       whole.parameters.push_back(p);
+      take_doubts(*stage, whole);
       const Eigen::Index n = whole.correlation.rows();
       whole.correlation.conservativeResizeLike(Eigen::MatrixXd::Identity(n + 1, n + 1));
       whole.warnings.push_back(fmt::format(
           "{} was estimated in stage \"{}\"; the intervals of the others are conditional on it", p.name, stage->name));
     }
+  if (whole.verdict != Verdict::sound) withhold_intervals(whole);
   return whole;
 }
 
@@ -68,15 +80,14 @@ void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& p
                       *whole.first_rms));
   for (const FittedParameter& found : whole.parameters) {
     const CaseParameter& p = *std::ranges::find(parameters, found.name, &CaseParameter::name);
-    log.say(fmt::format("  {} = {:.5g} {}, 95 % between {:.5g} and {:.5g}, first guess {:.5g}", p.name,
-                        p.in_file_units(found.estimate), p.unit, p.in_file_units(found.lower),
-                        p.in_file_units(found.upper), p.in_file_units(found.first_guess)));
+    log.say(fmt::format("  {} = {:.5g} {}, {}, first guess {:.5g}", p.name, p.in_file_units(found.estimate), p.unit,
+                        interval_text(p.in_file_units(found.lower), p.in_file_units(found.upper), 0.95, 5),
+                        p.in_file_units(found.first_guess)));
   }
   for (std::size_t j = 0; j < whole.parameters.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)
       log.say(fmt::format("  correlation of {} and {}: {:.3f}", whole.parameters[i].name, whole.parameters[j].name,
                           whole.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
-  for (const std::string& warning : whole.warnings) log.warn(warning);
 }
 
 }  // namespace
@@ -107,6 +118,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
                               found.runs.reused, found.runs.failed, found.seconds, report.found.message));
   session.log.say(fmt::format("written to {}; run it with: pfdm run {}", results.string(),
                               (results / "case.fitted.toml").string()));
+  say_verdict(report.found, session);
 }
 
 }  // namespace pfdm

@@ -1,13 +1,17 @@
 // fit_mass_material() of mass_material_jobs.h.
 
+#include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/stopwatch.h"
 #include "cases/program/vibration/mass_material_jobs.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
 #include "solver/vibration/identification.h"
+#include "solver/vibration/identification_evidence.h"
+#include "solver/vibration/identification_faults.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +77,10 @@ std::vector<FittedParameter> fitted_parameters(const std::vector<Estimate>& esti
                           .estimate = e.value,
                           .standard_error = e.standard_error,
                           .lower = e.lower,
-                          .upper = e.upper});
+                          .upper = e.upper,
+                          .lower_bound = e.lower_bound,
+                          .upper_bound = e.upper_bound,
+                          .at_bound = e.at_bound});
   return parameters;
 }
 
@@ -198,26 +205,57 @@ RepeatedIdentification repeats_of(const Found& found, const Records& records, co
 
 void say_found(const Found& found, Log& log) {
   for (const FittedParameter& p : found.report.found.parameters)
-    log.say(std::isfinite(p.lower)
-                ? fmt::format("  {:<18} {:>14.6g}   {:.6g} to {:.6g}", p.name, p.estimate, p.lower, p.upper)
-                : fmt::format("  {:<18} {:>14.6g}", p.name, p.estimate));
+    log.say(fmt::format("  {:<18} {:>14.6g}   {}", p.name, p.estimate,
+                        interval_text(p.lower, p.upper, found.report.confidence)));
   for (const ExperimentMisfit& test : found.report.experiments)
     log.say(fmt::format("  test {:<16} {}, relative misfit {:.3g}", test.name, test.fitted ? "fitted" : "predicted",
                         test.relative));
   if (found.own.ogden) say_ogden(*found.own.ogden, log);
   if (found.own.repeats) say_repeats(*found.own.repeats, log);
-  for (const std::string& warning : found.report.found.warnings) log.warn(warning);
 }
 
-/// What keeps the estimates from being taken at their word.
-std::vector<std::string> warnings_of(const Found& found) {
-  std::vector<std::string> warnings;
+/// What speaks against the model by the records, by its physics, and by the faults that would explain it.
+std::vector<std::string> reasons_against(const Found& found, const Records& records, const ModelStructure& structure,
+                                         const MassMaterialCase& c) {
+  std::vector<RecordEvidence> evidence;
+  std::vector<double> misfit;
+  for (const VibrationRecord& record : records.fitted) {
+    evidence.push_back(record_evidence(found.model, record, c.fit.crop));
+    misfit.push_back(evidence.back().misfit);
+  }
+  std::vector<std::string> reasons = doubts_of(evidence);
+  const bool unbounded = std::ranges::any_of(misfit, [](double m) { return !std::isfinite(m); });
+  if (!reasons.empty() || unbounded) {
+    const auto faults = recognised_faults(records.fitted, misfit, structure, settings_of(c));
+    reasons.insert(reasons.begin(), faults.begin(), faults.end());
+  }
   if (const Passivity& p = found.own.passivity; !p.passive)
-    warnings.push_back(
+    reasons.push_back(
         fmt::format("the model is not passive: it supplies energy to the shaker (damping {:.3g} N s/m at {:.4g} Hz)",
                     p.least_damping, p.worst_omega / (2.0 * std::numbers::pi)));
-  if (!found.report.found.converged) warnings.emplace_back(not_converged);
-  return warnings;
+  return reasons;
+}
+
+/// With its verdict. A model that has no bounded response to a record that it was fitted to is no fit.
+void judge(Found& found, const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+  double misfit = 0.0;
+  for (const ExperimentMisfit& test : found.report.experiments)
+    if (test.fitted) misfit = std::max(misfit, test.relative);
+  judge(found.report.found, {.misfit = misfit, .reasons = reasons_against(found, records, structure, c)});
+}
+
+/// The method's answer; where it has none, the faults of the records that may be why.
+Found identified(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+  const auto method = c.fit.method == "least_squares" ? by_least_squares
+                      : c.fit.method == "ten_step"    ? by_ten_steps
+                                                      : by_output_error;
+  try {
+    return method(records, structure, c);
+  } catch (const ComputationError& error) {
+    const std::vector<double> none(records.fitted.size(), std::numeric_limits<double>::infinity());
+    const auto faults = recognised_faults(records.fitted, none, structure, settings_of(c));
+    throw ComputationError(fmt::format("{}{}{}", error.what(), faults.empty() ? "" : "; ", fmt::join(faults, "; ")));
+  }
 }
 
 }  // namespace
@@ -240,10 +278,7 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   const FolderLock lock(session.results);
   session.log.say(fmt::format("pfdm {}, case {}: {} of model {} from {} records", session.version, program.name,
                               c.fit.method, structure.name, records.fitted.size()));
-  const auto method = c.fit.method == "least_squares" ? by_least_squares
-                      : c.fit.method == "ten_step"    ? by_ten_steps
-                                                      : by_output_error;
-  Found found = method(records, structure, c);
+  Found found = identified(records, structure, c);
   if (c.sample) found.own.modulus = youngs_modulus(found.model, records, *c.sample);
   if (c.fit.ogden_terms > 0) found.own.ogden = ogden_of(found.model, records, c);
   if (c.fit.repeatability) found.own.repeats = repeats_of(found, records, c);
@@ -255,7 +290,7 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   report.method = c.fit.method;
   report.confidence = c.fit.confidence;
   report.experiments = misfits(found.model, records, c.fit.crop);
-  report.found.warnings = warnings_of(found);
+  judge(found, records, structure, c);
   report.own = found.own;
   report.wall_seconds = watch.seconds();
   session.log.open_file(session.results / "fit.log", false);
@@ -265,6 +300,7 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   say_found(found, session.log);
   session.log.say(
       fmt::format("written to {} after {:.1f} s", (session.results / "fit.json").string(), report.wall_seconds));
+  say_verdict(report.found, session);
 }
 
 }  // namespace pfdm

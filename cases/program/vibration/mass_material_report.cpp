@@ -1,5 +1,6 @@
 #include "cases/program/vibration/mass_material_report.h"
 
+#include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
 #include "postproc/curves/fit_json.h"
 #include "solver/vibration/identification.h"
@@ -115,6 +116,7 @@ Table model_table(const VibrationStory& story) {
   const std::string structure = story.fit ? story.findings()->structure : story.program.parsed.structure;
   Table table{.caption = fmt::format("Model {}", structure), .rows = {}, .has_header = true};
   if (story.fit) {
+    table.caption += fmt::format(", fit {}", verdict_text(story.fit->found));
     table.rows.push_back({"parameter", "value", fmt::format("{:g} % interval", 100.0 * story.fit->confidence)});
     for (const FittedParameter& p : story.fit->found.parameters)
       table.rows.push_back({with_bracketed_unit(p.name), shown(p.estimate),

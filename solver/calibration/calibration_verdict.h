@@ -1,0 +1,73 @@
+#pragma once
+// Whether a fit can be taken at its word. Every kind of fit describes itself as FitEvidence, and judge() says what
+// speaks against it. On data that are what the model says, with independent noise, less than one fit in a hundred is
+// called into question.
+
+#include "solver/calibration/calibration.h"
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+enum class Verdict {
+  sound,         ///< nothing speaks against the estimates and their intervals
+  questionable,  ///< the estimates are what the data give, but their intervals do not hold: reasons say why
+  failed,        ///< there is no fit
+};
+std::string_view name_of(Verdict verdict);
+/// Throws InputError.
+Verdict verdict_named(std::string_view name);
+
+struct Judgement {
+  Verdict verdict = Verdict::sound;
+  std::vector<std::string> reasons{};  ///< each with its number; none of a sound fit
+};
+
+/// Residuals of one record or curve, evenly weighted, in the order of time or displacement.
+struct ResidualSeries {
+  std::string name;
+  std::string along;  ///< "time", "displacement" ...
+  std::vector<double> values;
+};
+
+struct JudgedEstimate {
+  std::string name;
+  double value = 0.0;
+  double standard_error = 0.0;  ///< infinite if the data do not determine it, NaN if it is not known
+  double lower_bound = -std::numeric_limits<double>::infinity();
+  double upper_bound = std::numeric_limits<double>::infinity();
+  bool at_bound = false;
+};
+
+struct FitEvidence {
+  bool converged = true;
+  std::string message{};                 ///< what ended the fit
+  double misfit = 0.0;  ///< largest of the data fitted, rms over measured rms: with 1 or more there is no fit
+  std::vector<ResidualSeries> series{};  ///< empty: residuals of this kind of fit are judged elsewhere
+  bool noise_is_known = false;           ///< and the residuals are divided by its standard deviation
+  /// Residuals below are errors of the computation, without noise to hide them.
+  double negligible = 0.0;
+  std::vector<JudgedEstimate> estimates{};
+  std::vector<FitIteration> starts{};  ///< what each start came to, parameters in the order of the estimates
+  std::vector<std::string> found{};    ///< reasons that only this kind of fit can know
+};
+
+Judgement judge(const FitEvidence& evidence);
+
+/// How far a series is from independent noise of mean zero.
+struct Whiteness {
+  double neighbours = 0.0;   ///< correlation of neighbours
+  double inflation = 1.0;    ///< standard deviation of its mean over that of independent values (Bartlett's weights)
+  double probability = 1.0;  ///< that noise gives as much correlation (Ljung, Box, Biometrika 65 (1978) 297)
+};
+/// Over up to 20 lags, an eighth of the values at most; fewer than 16 values say nothing.
+Whiteness whiteness(const std::vector<double>& values);
+
+/// Rms of what least squares by these columns leave of the values.
+double rms_left_by(const std::vector<double>& values, const std::vector<std::vector<double>>& columns);
+
+}  // namespace pfdm

@@ -1,0 +1,27 @@
+#pragma once
+// Whether what a model leaves of a record is noise: noise does not move with the test, an error of the model does.
+
+#include "solver/vibration/identification.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct RecordEvidence {
+  std::string name;
+  double misfit = 0.0;  ///< norm of simulated less measured z'' over that of measured; infinite if it is unbounded
+  bool swept = false;
+  /// Rms of what moves with the test in the residual, over what noise alone would leave there. Under a swept sine: at
+  /// the driving frequency and two harmonics. Otherwise: coherent with the base's acceleration and with the square and
+  /// the cube of the displacement.
+  double excess = 0.0;
+};
+RecordEvidence record_evidence(const MassMaterial& model, const VibrationRecord& record, double crop);
+
+/// Reasons against a model that was fitted to these records; none if all that is left is noise, or next to nothing.
+/// Noise that is a third of the response is not credible.
+std::vector<std::string> doubts_of(std::span<const RecordEvidence> evidence);
+
+}  // namespace pfdm

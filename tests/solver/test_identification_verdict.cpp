@@ -1,0 +1,121 @@
+// Fits to vibration records of an independent simulator: right ones raise no doubt, wrong records and wrong models do,
+// and faults are named.
+
+#include "solver/vibration/identification_evidence.h"
+#include "solver/vibration/identification_faults.h"
+#include "tests/solver/independent_simulators.h"
+#include "tests/solver/mass_material_truth.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pfdm {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+independent::Sample sample_of(const MassMaterial& t) {
+  independent::Sample s{.mass = t.mass};
+  s.force = [t](double z, double v) {
+    double force = t.damping * v * std::pow(std::abs(v) / t.reference_velocity, t.damping_exponent), power = 1.0;
+    for (const double k : t.stiffness) force += k * (power *= z);
+    return force;
+  };
+  for (const HereditaryTerm& term : t.kernel) s.alpha.push_back(term.alpha), s.beta.push_back(term.beta);
+  return s;
+}
+
+const independent::Shaker sweep{};
+const independent::Shaker random_motion{.duration = 20.0, .low = 20.0, .high = 850.0, .level = 60.0, .random = true};
+
+VibrationRecord noisy_record(const char* name, const independent::Shaker& shaker, unsigned seed = 1) {
+  VibrationRecord record = independent::record_of(sample_of(truth(name)), shaker);
+  independent::add_white_noise(record, 40.0, seed);
+  return record;
+}
+
+struct Judged {
+  std::vector<std::string> doubts, faults;
+};
+
+Judged judged(const VibrationRecord& record, const char* structure) {
+  IdentificationSettings settings{.mass = 1.12, .reference_velocity = 0.3, .kernel_order = {}, .replicates = 0};
+  const Identification found = identify(std::span(&record, 1), model_structure(structure), settings);
+  const RecordEvidence evidence = record_evidence(found.fit.model, record, settings.crop);
+  Judged result{.doubts = doubts_of(std::span(&evidence, 1)), .faults = {}};
+  const std::vector<double> misfit{evidence.misfit};
+  result.faults = recognised_faults(std::span(&record, 1), misfit, model_structure(structure), settings);
+  return result;
+}
+
+TEST(IdentificationVerdict, RightFitsRaiseNoDoubt) {
+  for (const auto& [name, shaker] :
+       {std::pair("1", sweep), std::pair("2", sweep), std::pair("3", sweep), std::pair("1", random_motion)}) {
+    const Judged found = judged(noisy_record(name, shaker), name);
+    EXPECT_THAT(found.doubts, IsEmpty()) << name;
+    EXPECT_THAT(found.faults, IsEmpty()) << name;
+  }
+}
+
+TEST(IdentificationVerdict, NoiseFreeRecordsRaiseNoDoubt) {
+  EXPECT_THAT(judged(independent::record_of(sample_of(truth("2")), sweep), "2").doubts, IsEmpty());
+}
+
+TEST(IdentificationVerdict, WrongModelsAreDoubted) {
+  EXPECT_THAT(judged(noisy_record("2", sweep), "1").doubts, SizeIs(1));  // no cubic stiffness
+  EXPECT_THAT(judged(noisy_record("3", sweep), "2").doubts, SizeIs(1));  // no nonlinear damping
+  EXPECT_THAT(judged(noisy_record("2", random_motion), "1").doubts, SizeIs(1));
+}
+
+class FaultyRecord : public testing::TestWithParam<bool> {
+ protected:
+  VibrationRecord record() const { return noisy_record(GetParam() ? "1" : "2", GetParam() ? random_motion : sweep); }
+  const char* structure() const { return GetParam() ? "1" : "2"; }
+  void expect_named(const VibrationRecord& spoilt, const char* name) const {
+    const Judged found = judged(spoilt, structure());
+    EXPECT_THAT(found.doubts, SizeIs(1));
+    ASSERT_THAT(found.faults, SizeIs(1)) << name;
+    EXPECT_THAT(found.faults[0], HasSubstr(name));
+  }
+};
+
+TEST_P(FaultyRecord, WithOneSignReversedIsNamed) {
+  VibrationRecord r = record();
+  r.base = -r.base;
+  expect_named(r, "the sign of one channel is reversed");
+  r.base = -r.base;
+  r.relative = -r.relative;
+  expect_named(r, "the sign of one channel is reversed");
+}
+
+TEST_P(FaultyRecord, OfTheAbsoluteAccelerationIsNamed) {
+  VibrationRecord r = record();
+  r.relative += r.base;
+  expect_named(r, "(absolute) acceleration");
+}
+
+TEST_P(FaultyRecord, WithASkewOfASampleIsNamed) {
+  const VibrationRecord right = record();
+  VibrationRecord r = right;
+  r.relative.tail(r.n() - 1) = right.relative.head(r.n() - 1);
+  expect_named(r, "the relative channel is 1 sample behind");
+  r = right;
+  r.base.tail(r.n() - 1) = right.base.head(r.n() - 1);
+  expect_named(r, "the base channel is 1 sample behind");
+}
+
+TEST_P(FaultyRecord, DeadInItsSecondHalfIsNamed) {
+  VibrationRecord r = record();
+  r.relative.tail(r.n() / 2).setZero();
+  expect_named(r, GetParam() ? "a channel is dead from 10 to 20 s" : "a channel is dead from 3 to 6 s");
+  independent::add_white_noise(r, 40.0, 2);
+  expect_named(r, "a channel is dead from");
+}
+
+INSTANTIATE_TEST_SUITE_P(Under, FaultyRecord, testing::Bool(),
+                         [](const auto& row) { return row.param ? "random_motion" : "a_sweep"; });
+
+}  // namespace
+}  // namespace pfdm
