@@ -178,7 +178,7 @@ FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitRe
   return found;
 }
 
-void judge(FitFindings& found, JudgedData data) {
+bool judge(FitFindings& found, JudgedData data) {
   FitEvidence evidence{.converged = found.converged,
                        .message = found.message,
                        .misfit = data.misfit,
@@ -199,6 +199,7 @@ void judge(FitFindings& found, JudgedData data) {
   found.reasons = std::move(judgement.reasons);
   found.converged = found.converged && found.verdict != Verdict::failed;
   if (found.verdict != Verdict::sound) withhold_intervals(found);
+  return judgement.model_error;
 }
 
 void withhold_intervals(FitFindings& found) {

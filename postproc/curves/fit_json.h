@@ -56,8 +56,8 @@ struct JudgedData {
   std::vector<std::string> reasons{};  ///< that only this kind of fit knows
 };
 /// Gives findings their verdict. Estimates of a fit that is not sound lose their intervals and standard errors, and one
-/// that has failed has not converged.
-void judge(FitFindings& found, JudgedData data);
+/// that has failed has not converged. Returns whether the residuals are more than noise.
+bool judge(FitFindings& found, JudgedData data);
 void withhold_intervals(FitFindings& found);
 
 /// Data and how well the estimates meet them.

@@ -117,16 +117,20 @@ Whiteness whiteness(const std::vector<double>& values) {
   const std::size_t n = values.size(), lags = std::min<std::size_t>(20, n / 8);
   const double squares = sum_of_squares(values);
   if (n < 16 || !(squares > 0.0) || !std::isfinite(squares)) return result;
-  double portmanteau = 0.0, variance = 1.0;
+  double portmanteau = 0.0;
+  std::vector<double> correlation;
   for (std::size_t k = 1; k <= lags; ++k) {
     double product = 0.0;
     for (std::size_t i = k; i < n; ++i) product += values[i] * values[i - k];
     const double r = product / squares;
     if (k == 1) result.neighbours = r;
     portmanteau += r * r / static_cast<double>(n - k);
-    variance += 2.0 * (1.0 - static_cast<double>(k) / static_cast<double>(lags + 1)) * r;
+    correlation.push_back(r);
+    double variance = 1.0;
+    for (std::size_t i = 1; i <= k; ++i)
+      variance += 2.0 * (1.0 - static_cast<double>(i) / static_cast<double>(k + 1)) * correlation[i - 1];
+    result.inflation = std::max(result.inflation, std::sqrt(std::max(variance, 0.0)));
   }
-  result.inflation = std::sqrt(std::max(variance, 0.0));
   portmanteau *= static_cast<double>(n) * static_cast<double>(n + 2);
   result.probability = exceeded(portmanteau, static_cast<double>(lags));
   return result;
@@ -150,12 +154,14 @@ Judgement judge(const FitEvidence& evidence) {
     reasons.push_back(fmt::format("the misfit is {:.3g} times what was measured", evidence.misfit));
   const bool failed = !reasons.empty();
   reasons.insert(reasons.end(), evidence.found.begin(), evidence.found.end());
+  const std::size_t before = reasons.size();
   judge_size(evidence, reasons);
   judge_whiteness(evidence, reasons);
+  const bool model_error = reasons.size() > before;
   judge_estimates(evidence.estimates, reasons);
   judge_starts(evidence, reasons);
   const Verdict verdict = failed ? Verdict::failed : reasons.empty() ? Verdict::sound : Verdict::questionable;
-  return {.verdict = verdict, .reasons = std::move(reasons)};
+  return {.verdict = verdict, .reasons = std::move(reasons), .model_error = model_error};
 }
 
 }  // namespace pfdm

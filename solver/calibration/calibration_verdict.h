@@ -25,6 +25,7 @@ Verdict verdict_named(std::string_view name);
 struct Judgement {
   Verdict verdict = Verdict::sound;
   std::vector<std::string> reasons{};  ///< each with its number; none of a sound fit
+  bool model_error = false;            ///< the residuals are more than noise
 };
 
 /// Residuals of one record or curve, evenly weighted, in the order of time or displacement.
@@ -45,8 +46,8 @@ struct JudgedEstimate {
 
 struct FitEvidence {
   bool converged = true;
-  std::string message{};                 ///< what ended the fit
-  double misfit = 0.0;  ///< largest of the data fitted, rms over measured rms: with 1 or more there is no fit
+  std::string message{};  ///< what ended the fit
+  double misfit = 0.0;    ///< largest of the data fitted, rms over measured rms: with 1 or more there is no fit
   std::vector<ResidualSeries> series{};  ///< empty: residuals of this kind of fit are judged elsewhere
   bool noise_is_known = false;           ///< and the residuals are divided by its standard deviation
   /// Residuals below are errors of the computation, without noise to hide them.
@@ -60,8 +61,10 @@ Judgement judge(const FitEvidence& evidence);
 
 /// How far a series is from independent noise of mean zero.
 struct Whiteness {
-  double neighbours = 0.0;   ///< correlation of neighbours
-  double inflation = 1.0;    ///< standard deviation of its mean over that of independent values (Bartlett's weights)
+  double neighbours = 0.0;  ///< correlation of neighbours
+  /// Standard deviation of its mean over that of independent values (Bartlett's weights), over as many lags as make it
+  /// largest: what varies in a shorter time than all lags is correlated too. At least 1.
+  double inflation = 1.0;
   double probability = 1.0;  ///< that noise gives as much correlation (Ljung, Box, Biometrika 65 (1978) 297)
 };
 /// Over up to 20 lags, an eighth of the values at most; fewer than 16 values say nothing.

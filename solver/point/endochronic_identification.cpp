@@ -71,14 +71,14 @@ double rms_weight(const std::vector<std::vector<HardeningPoint>>& transients) {
 
 /// The law of f that runs best through the points, each with the weight of its influence on the stress. With a kernel
 /// that is not yet right the points lie on another level than f(0) = 1: the level is estimated too, and alpha divided
-/// by it, which is the same material (gauge).
-LawFit fit_hardening(const EndochronicLaw& law, const std::vector<std::vector<HardeningPoint>>& transients,
-                     const EndochronicIdentificationSettings& settings) {
+/// by it, which is the same material (gauge). Nothing if there are too few points.
+std::optional<EndochronicLaw> fit_hardening(const EndochronicLaw& law,
+                                            const std::vector<std::vector<HardeningPoint>>& transients,
+                                            const EndochronicIdentificationSettings& settings) {
   const FitChoice choice{.kernel = false, .hardening = true, .rate = settings.choice.rate, .young_modulus = false};
   const double scale = rms_weight(transients);
-  LawFit fitted{.law = law, .choice = choice, .parameters = fit_parameters(law, choice), .result = {}};
-  fitted.parameters.push_back(
-      {.name = "level", .unit = "1", .first = 1.0, .lower = 0.02, .upper = 50.0, .log_scale = true});
+  std::vector<FitParameter> parameters = fit_parameters(law, choice);
+  parameters.push_back({.name = "level", .unit = "1", .first = 1.0, .lower = 0.02, .upper = 50.0, .log_scale = true});
   const auto residuals = [&](std::span<const double> values) -> std::optional<std::vector<double>> {
     const auto trial = with_values(law, choice, values.first(values.size() - 1));
     if (!trial) return std::nullopt;
@@ -88,12 +88,14 @@ LawFit fit_hardening(const EndochronicLaw& law, const std::vector<std::vector<Ha
         result.push_back(p.weight / scale * std::log(values.back() * trial->hardening(p.zeta, p.rate).f / p.f));
     return result;
   };
+  std::size_t n_points = 0;
+  for (const auto& points : transients) n_points += points.size();
+  if (n_points < parameters.size()) return std::nullopt;
   FitSettings robust = settings.fit;
   robust.robust_scale = 0.05;  // points just after reversals may be on another root
-  fitted.result = fit({.parameters = fitted.parameters, .residuals = residuals}, robust);
-  const std::vector<double> values = fitted.result.values();
-  fitted.law = *with_values(law, choice, std::span(values).first(values.size() - 1));
-  for (KernelTerm& term : fitted.law.kernel) term.alpha /= values.back();
+  const std::vector<double> values = fit({.parameters = parameters, .residuals = residuals}, robust).values();
+  EndochronicLaw fitted = *with_values(law, choice, std::span(values).first(values.size() - 1));
+  for (KernelTerm& term : fitted.kernel) term.alpha /= values.back();
   return fitted;
 }
 
@@ -103,14 +105,29 @@ std::vector<std::vector<HardeningPoint>> transients_of(const EndochronicLaw& law
   return transients;
 }
 
+/// The lowest of the minima from these starts: noise in the transient response may lead far away.
+LawFit fit_from(const std::vector<EndochronicLaw>& starts, const FitChoice& choice, const Experiments& experiments,
+                const EndochronicIdentificationSettings& settings) {
+  std::optional<LawFit> best;
+  for (const EndochronicLaw& start : starts) {
+    try {
+      LawFit found = fit_chosen(start, choice, experiments, settings);
+      if (!best || found.result.sum_of_squares < best->result.sum_of_squares) best = std::move(found);
+    } catch (const ComputationError&) {
+      if (&start == &starts.back() && !best) throw;
+    }
+  }
+  return std::move(*best);
+}
+
 EndochronicIdentification identify_hardening(const EndochronicLaw& law, const Experiments& experiments,
                                              const EndochronicIdentificationSettings& settings) {
   EndochronicIdentification result;
   result.transients = transients_of(law, experiments);
-  EndochronicLaw start = fit_hardening(law, result.transients, settings).law;
+  EndochronicLaw start = fit_hardening(law, result.transients, settings).value_or(law);
   start.kernel = law.kernel;  // which is known, and its level with it
   const FitChoice choice{.kernel = false, .hardening = true, .rate = settings.choice.rate};
-  result.fit = fit_chosen(start, choice, experiments, settings);
+  result.fit = fit_from({start, law}, choice, experiments, settings);
   return result;
 }
 
@@ -121,18 +138,19 @@ bool goes_in_circles(const std::vector<StaggeredRound>& rounds, double tolerance
   return std::abs(now - before) <= tolerance * now;
 }
 
-/// A joint fit from the best of the rounds, and why.
-void finish_jointly(EndochronicIdentification& result, const EndochronicLaw& best, bool settled,
+/// A joint fit from the best of the rounds and from where they began, and why.
+void finish_jointly(EndochronicIdentification& result, const std::vector<EndochronicLaw>& starts, bool settled,
                     const Experiments& experiments, const EndochronicIdentificationSettings& settings) {
-  const double least = std::ranges::min(result.rounds, {}, &StaggeredRound::rms_after_kernel).rms_after_kernel;
+  double least = std::numeric_limits<double>::infinity();
+  for (const StaggeredRound& round : result.rounds) least = std::min(least, round.rms_after_kernel);
   result.remark = fmt::format(
       "the staggered scheme {} after {} rounds, at best with an rms misfit of {:.6g} Pa; the estimates are those of "
       "the "
-      "joint fit from there",
+      "joint fit",
       settled ? "settled" : "went to and fro and did not settle", result.rounds.size(), least);
   settings.say(result.remark);
   const FitChoice choice{.kernel = true, .hardening = true, .rate = settings.choice.rate};
-  result.fit = fit_chosen(best, choice, experiments, settings);
+  result.fit = fit_from(starts, choice, experiments, settings);
 }
 
 EndochronicIdentification identify_staggered(const EndochronicLaw& start, const Experiments& experiments,
@@ -140,12 +158,15 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
   EndochronicIdentification result;
   EndochronicLaw law = start;
   if (settings.least_terms > 0) law.kernel = first_kernel(law, experiments, settings.least_terms);
+  const EndochronicLaw first = law;
   EndochronicLaw best = law;
   double last = std::numeric_limits<double>::infinity(), least = last;
   bool settled = false;
   for (int round = 0; round < settings.maximum_rounds && !settled; ++round) {
     result.transients = transients_of(law, experiments);
-    law = fit_hardening(law, result.transients, settings).law;
+    const auto hardened = fit_hardening(law, result.transients, settings);
+    if (!hardened) break;
+    law = *hardened;
     const double after_hardening = rms_misfit(law, experiments, settings.control);
     law = fit_chosen(law, {.kernel = true, .hardening = false}, experiments, settings).law;
     const double now = rms_misfit(law, experiments, settings.control);
@@ -158,7 +179,7 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
     if (!settled && goes_in_circles(result.rounds, settings.round_tolerance)) break;
     last = now;
   }
-  finish_jointly(result, best, settled, experiments, settings);
+  finish_jointly(result, {best, first}, settled, experiments, settings);
   return result;
 }
 

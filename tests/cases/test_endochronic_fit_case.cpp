@@ -4,6 +4,7 @@
 #include "cases/program/point/endochronic_case.h"
 #include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
+#include "tests/solver/independent_simulators.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -93,9 +94,38 @@ TEST(EndochronicFitCase, EveryMethodRuns) {
     EXPECT_EQ(outcome.status, 0) << method << ": " << outcome.err;
     const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
     EXPECT_EQ(json["method"], method);
+    EXPECT_EQ(json["verdict"] == "sound", method == "staggered") << json["reasons"];  // the others keep a wrong part
+    EXPECT_EQ(json["parameters"].dump().find("f_inf") != std::string::npos, method != "kernel");
     EXPECT_EQ(json["endochronic"].contains("staggered_rounds"), method == "staggered");
     EXPECT_EQ(std::filesystem::exists(fit.directory.results() / "transient_fit_cycles_0_5__.csv"), method != "kernel");
   }
+}
+
+// Curves of laws with a yield surface, and of Ramberg and Osgood, are not the law's.
+TEST(EndochronicFitCase, CurvesOfAnotherLawAreNamedAsSuch) {
+  const std::vector<double> strain = independent::triangles(0.006, 4, 80);
+  for (const bool yields : {false, true})
+    for (const bool stated : {false, true}) {
+      const FitCase fit(stated ? replaced(fit_table, "unit = \"Pa\" }", "unit = \"Pa\", noise = \"0.1 MPa\" }")
+                               : fit_table);
+      const MaterialExperiment test = independent::tension_test(
+          strain, yields ? independent::chaboche(strain) : independent::ramberg_osgood(strain), 0.1e6, 1);
+      CsvTable table;
+      table.comments = {"made by the test"};
+      table.add("time_s", test.loading.times);
+      table.add("strain_xx", strain);
+      table.add("stress_xx_Pa", test.channels[0].stress);
+      write_csv(fit.directory.path() / "cycles.csv", table);
+      const Outcome outcome = run({"fit", fit.directory.path().string(), "--strict"});
+      EXPECT_EQ(outcome.status, 1);
+      const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+      EXPECT_NE(json["verdict"], "sound");
+      EXPECT_NE(json["reasons"].dump().find("is the wrong model for these curves"), std::string::npos)
+          << json["reasons"];
+      EXPECT_TRUE(json["parameters"][0]["lower"].is_null());
+      EXPECT_NE(outcome.out.find("no interval"), std::string::npos);
+      EXPECT_EQ(run({"report", fit.directory.path().string()}).status, 0);
+    }
 }
 
 TEST(EndochronicFitCase, CasesWithoutAFitSayThatThereIsNone) {

@@ -2,6 +2,7 @@
 // Records and curves from simulators that share nothing with the program's: classical Runge-Kutta steps for a mass on a
 // sample, and explicit Euler steps of small size for metals under cyclic tension. All of it is synthetic.
 
+#include "physics/mass_material.h"
 #include "solver/point/endochronic_fit.h"
 #include "solver/vibration/vibration_record.h"
 
@@ -21,6 +22,18 @@ struct Sample {
   std::function<double(double z, double v)> force{};  // of stiffness and damping [N]
   std::vector<std::complex<double>> alpha{}, beta{};  // v' + ... on z'; an entry with Im != 0 stands for a pair
 };
+
+/// With these parameters; its kernel acts on z'.
+inline Sample sample_of(const MassMaterial& t) {
+  Sample s{.mass = t.mass};
+  s.force = [t](double z, double v) {
+    double force = t.damping * v * std::pow(std::abs(v) / t.reference_velocity, t.damping_exponent), power = 1.0;
+    for (const double k : t.stiffness) force += k * (power *= z);
+    return force;
+  };
+  for (const HereditaryTerm& term : t.kernel) s.alpha.push_back(term.alpha), s.beta.push_back(term.beta);
+  return s;
+}
 
 struct Shaker {
   double duration = 6.0, rate = 6000.0, low = 100.0, high = 420.0;  // [s], [Hz]

@@ -16,16 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-independent::Sample sample_of(const MassMaterial& t) {
-  independent::Sample s{.mass = t.mass};
-  s.force = [t](double z, double v) {
-    double force = t.damping * v * std::pow(std::abs(v) / t.reference_velocity, t.damping_exponent), power = 1.0;
-    for (const double k : t.stiffness) force += k * (power *= z);
-    return force;
-  };
-  for (const HereditaryTerm& term : t.kernel) s.alpha.push_back(term.alpha), s.beta.push_back(term.beta);
-  return s;
-}
+using independent::sample_of;
 
 const independent::Shaker sweep{};
 const independent::Shaker random_motion{.duration = 20.0, .low = 20.0, .high = 850.0, .level = 60.0, .random = true};

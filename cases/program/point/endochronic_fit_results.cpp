@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace pfdm {
 namespace {
 
@@ -69,28 +71,29 @@ std::vector<ResidualSeries> series_of(const EndochronicFit& fit, const std::vect
   return result;
 }
 
-/// Terms of the kernel that saturate at once stand for a yield surface.
-std::vector<std::string> signs_of_another_law(const EndochronicLaw& law) {
-  constexpr double rigid = 300.0;
-  std::vector<std::string> reasons;
-  const double E = law.elasticity.young_modulus();
-  for (std::size_t r = 0; r < law.kernel.size(); ++r)
-    if (const double ratio = law.kernel[r].C / E; ratio > rigid)
-      reasons.push_back(
-          fmt::format("C_{} is {:.3g} times Young's modulus: the data have an elastic range, as of a law with a yield "
-                      "surface (Chaboche's), which the endochronic law has not: it is the wrong model for them",
-                      r + 1, ratio));
-  return reasons;
+/// What doubts about the fit say of the law. Terms of the kernel that saturate at once stand for a yield surface.
+void suspect_law(const EndochronicLaw& law, double misfit, bool model_error, FitFindings& findings) {
+  constexpr double rigid = 10.0;
+  const double largest = std::ranges::max(law.kernel, {}, &KernelTerm::C).C / law.elasticity.young_modulus();
+  if (model_error)
+    findings.reasons.push_back(
+        fmt::format("the law with {} kernel terms is the wrong model for these curves, which it misses by {:.2g} %",
+                    law.kernel.size(), 100.0 * misfit));
+  if (findings.verdict != Verdict::sound && largest > rigid)
+    findings.reasons.push_back(
+        fmt::format("a C of {:.3g} times Young's modulus stands for an elastic range: a law with a yield surface, as "
+                    "Chaboche's, has one, the endochronic law has not",
+                    largest));
 }
 
 FitFindings judged(const EndochronicFit& fit, const EndochronicIdentification& found) {
   FitFindings findings = findings_of(found.fit.parameters, found.fit.result);
   if (!found.remark.empty()) findings.warnings.push_back(found.remark);
-  judge(findings,
-        {.series = series_of(fit, found.fit.result.residuals),
-         .negligible = negligible_misfit,
-         .misfit = rms_misfit(found.fit.law, fit.experiments, fit.settings.control) / rms_stress(fit.experiments),
-         .reasons = signs_of_another_law(found.fit.law)});
+  const double misfit = rms_misfit(found.fit.law, fit.experiments, fit.settings.control) / rms_stress(fit.experiments);
+  const bool model_error =
+      judge(findings,
+            {.series = series_of(fit, found.fit.result.residuals), .negligible = negligible_misfit, .misfit = misfit});
+  suspect_law(found.fit.law, misfit, model_error, findings);
   return findings;
 }
 

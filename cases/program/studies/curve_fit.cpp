@@ -122,10 +122,10 @@ class CurveFit {
                    .to = points.points.back().x,
                    .found = findings_of(problem.parameters, result)};
     found.found.first_rms = rms_residual(first_curve, points);
-    judge(found.found, {.series = series_of(points, result.residuals),
-                        .negligible = negligible_misfit,
-                        .misfit = points.noise_is_known ? 0.0 : result.rms});
-    if (found.found.verdict == Verdict::questionable) suspect_set_up(curve_at(values_, until), points, result, found);
+    const bool model_error = judge(found.found, {.series = series_of(points, result.residuals),
+                                                 .negligible = negligible_misfit,
+                                                 .misfit = points.noise_is_known ? 0.0 : result.rms});
+    if (model_error) suspect_set_up(curve_at(values_, until), points, result, found);
     return found;
   }
 
