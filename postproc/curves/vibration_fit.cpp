@@ -30,7 +30,8 @@ std::vector<Estimate> estimates_in(const Json& list) {
 Json to_json(const std::vector<OrderTrial>& orders) {
   Json list = Json::array();
   for (const OrderTrial& trial : orders)
-    list.push_back({{"kernel_order", trial.kernel_order}, {"bic", trial.bic}, {"misfit", trial.misfit}});
+    list.push_back(
+        {{"kernel_order", trial.kernel_order}, {"bic", trial.bic}, {"misfit", trial.misfit}, {"pair", trial.pair}});
   return list;
 }
 

@@ -1,6 +1,8 @@
 #include "solver/vibration/identification.h"
 
 #include "physics/error.h"
+#include "solver/vibration/identification_added_term.h"
+#include "solver/vibration/identification_evidence.h"
 #include "solver/vibration/identification_stiffness.h"
 
 #include <fmt/format.h>
@@ -8,26 +10,44 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
 
-/// One order of the kernel, from its regression on. None if no dissipative start or no bounded solution was found.
-std::optional<Identification> identify_order(std::span<const VibrationRecord> records, const ModelStructure& structure,
-                                             int order, const IdentificationSettings& settings) {
-  auto start = regress_separable(records, structure, order, settings);
-  if (!start) return std::nullopt;
-  Identification result;
-  result.fit = refine_output(records, start->model, settings);
-  result.start = std::move(*start);
-  if (result.fit.record_misfit.empty()) return std::nullopt;
-  return result;
-}
+/// A choice of kernel terms, from its regression on, as far as the comparison with others needs.
+struct Trial {
+  Regression start;
+  OutputErrorFit fit;
+  OrderTrial result;
+};
 
 double mean_misfit(const OutputErrorFit& fit) {
   double sum = 0.0;
   for (const double m : fit.record_misfit) sum += m;
   return sum / static_cast<double>(fit.record_misfit.size());
+}
+
+/// None if no bounded solution was found.
+std::optional<Trial> tried(std::span<const VibrationRecord> records, Regression start,
+                           const IdentificationSettings& settings) {
+  Trial trial{.start = std::move(start), .fit = {}, .result = {}};
+  trial.fit = approach_output(records, trial.start.model, settings);
+  if (trial.fit.record_misfit.empty()) return std::nullopt;
+  const auto& kernel = trial.fit.model.kernel;
+  trial.result = {.kernel_order = static_cast<int>(kernel.size()),
+                  .bic = trial.fit.bic,
+                  .misfit = mean_misfit(trial.fit),
+                  .pair = std::ranges::any_of(kernel, &HereditaryTerm::is_pair)};
+  settings.say(fmt::format("kernel of {} terms{}: misfit {:.4g}, Bayesian information {:.7g}, {} simulations",
+                           trial.result.kernel_order, trial.result.pair ? ", one a conjugate pair" : "",
+                           trial.result.misfit, trial.result.bic, trial.fit.evaluations));
+  return trial;
+}
+
+bool may_have_pair(const ModelStructure& structure, const IdentificationSettings& settings) {
+  return structure.forcing != KernelForcing::none && !structure.kernel_order && !settings.kernel_order;
 }
 
 std::vector<int> orders_to_try(const ModelStructure& structure, const IdentificationSettings& settings) {
@@ -49,13 +69,79 @@ bool long_enough_for_spectra(std::span<const VibrationRecord> records) {
   return std::ranges::all_of(records, [](const VibrationRecord& r) { return r.n() >= 16 * SegmentSettings{}.length; });
 }
 
-Identification identify_linear(std::span<const VibrationRecord> records, const IdentificationSettings& settings) {
+bool is_doubted(std::span<const VibrationRecord> records, const MassMaterial& model, double crop) {
+  std::vector<RecordEvidence> evidence;
+  for (const VibrationRecord& record : records) evidence.push_back(record_evidence(model, record, crop));
+  return !doubts_of(evidence).empty();
+}
+
+/// A conjugate pair, and beside it real terms until the information no longer falls. `plain`: model without a kernel.
+std::optional<Trial> pair_trial(std::span<const VibrationRecord> records, MassMaterial plain,
+                                const ModelStructure& structure, std::vector<OrderTrial>& orders,
+                                const IdentificationSettings& settings) {
+  plain.kernel.clear();
+  plain.forcing = structure.forcing;
+  std::optional<Trial> best;
+  for (int terms = 1; terms <= settings.maximum_kernel_order; ++terms) {
+    const auto start = with_added_term(records, best ? best->fit.model : plain,
+                                       terms == 1 ? TermKind::pair : TermKind::real, settings);
+    auto trial = start ? tried(records, {.model = *start, .misfit = 0.0}, settings) : std::nullopt;
+    if (!trial) break;
+    orders.push_back(trial->result);
+    if (best && trial->fit.bic >= best->fit.bic) break;
+    best = std::move(trial);
+  }
+  return best;
+}
+
+/// Real terms by the output error of each order. Where one of them leaves more than noise a pair is tried before two:
+/// it has as many parameters.
+std::optional<Trial> output_trial(std::span<const VibrationRecord> records, const ModelStructure& structure,
+                                  std::vector<OrderTrial>& orders, const IdentificationSettings& settings) {
+  std::optional<Trial> best;
+  bool pairs = may_have_pair(structure, settings);
+  const auto better_pair = [&]() -> std::optional<Trial> {
+    if (!std::exchange(pairs, false) || !best || !is_doubted(records, best->fit.model, settings.crop))
+      return std::nullopt;
+    auto pair = pair_trial(records, best->fit.model, structure, orders, settings);
+    return pair && pair->fit.bic < best->fit.bic ? std::move(pair) : std::nullopt;
+  };
+  for (const int order : orders_to_try(structure, settings)) {
+    if (order == 2)
+      if (auto pair = better_pair()) return pair;
+    auto start = regress_separable(records, structure, order, settings);
+    auto trial = start ? tried(records, std::move(*start), settings) : std::nullopt;
+    if (!trial) continue;
+    orders.push_back(trial->result);
+    if (best && trial->fit.bic >= best->fit.bic) break;  // one more term is not worth its two parameters
+    best = std::move(trial);
+  }
+  if (auto pair = better_pair()) return pair;
+  return best;
+}
+
+/// Real terms by the complex stiffness; a pair where they leave more than noise.
+std::optional<Trial> linear_trial(std::span<const VibrationRecord> records, const ModelStructure& structure,
+                                  std::vector<OrderTrial>& orders, const IdentificationSettings& settings) {
   StiffnessIdentification stiffness = identify_stiffness(records, settings);
-  Identification result;
-  result.start = {.model = stiffness.fit.model, .misfit = std::sqrt(stiffness.fit.chi2)};
-  result.orders = std::move(stiffness.orders);
-  result.fit = refine_output(records, result.start.model, settings);
-  if (result.fit.record_misfit.empty()) throw ComputationError("the fitted complex stiffness gives no bounded motion");
+  orders = std::move(stiffness.orders);
+  auto real = tried(records, {.model = stiffness.fit.model, .misfit = std::sqrt(stiffness.fit.chi2)}, settings);
+  if (!may_have_pair(structure, settings)) return real;
+  if (real && !is_doubted(records, real->fit.model, settings.crop)) return real;
+  auto pair = pair_trial(records, stiffness.fit.model, structure, orders, settings);
+  return pair && (!real || pair->fit.bic < real->fit.bic) ? pair : real;
+}
+
+/// The chosen terms refined to the end.
+Identification refined(std::span<const VibrationRecord> records, Trial trial, std::vector<OrderTrial> orders,
+                       const IdentificationSettings& settings) {
+  Identification result{.fit = refine_output(records, trial.fit.model, settings, true),
+                        .start = std::move(trial.start),
+                        .orders = std::move(orders),
+                        .passivity = {}};
+  if (result.fit.record_misfit.empty()) throw ComputationError("the fitted model gives no bounded motion");
+  result.fit.path.insert(result.fit.path.begin(), trial.fit.path.begin(), trial.fit.path.end());
+  result.fit.evaluations += trial.fit.evaluations;
   result.passivity = passivity_in_band(result.fit.model, records);
   return result;
 }
@@ -81,22 +167,14 @@ Passivity passivity_in_band(const MassMaterial& model, std::span<const Vibration
 
 Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
                         const IdentificationSettings& settings) {
-  if (is_linear_viscoelastic(structure) && long_enough_for_spectra(records)) return identify_linear(records, settings);
-  std::optional<Identification> best;
-  std::vector<OrderTrial> tried;
-  for (const int order : orders_to_try(structure, settings)) {
-    auto found = identify_order(records, structure, order, settings);
-    if (!found) continue;
-    tried.push_back({order, found->fit.bic, mean_misfit(found->fit)});
-    if (best && found->fit.bic >= best->fit.bic) break;  // one more term is not worth its two parameters
-    best = std::move(found);
-  }
+  std::vector<OrderTrial> orders;
+  const bool linear = is_linear_viscoelastic(structure) && long_enough_for_spectra(records);
+  auto best =
+      linear ? linear_trial(records, structure, orders, settings) : output_trial(records, structure, orders, settings);
   if (!best)
     throw ComputationError(fmt::format(
         "model \"{}\" has no passive (energy-dissipating) parameters that fit the records", structure.name));
-  best->orders = std::move(tried);
-  best->passivity = passivity_in_band(best->fit.model, records);
-  return std::move(*best);
+  return refined(records, std::move(*best), std::move(orders), settings);
 }
 
 }  // namespace pfdm

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -32,7 +33,8 @@ struct IdentificationSettings {
   double crop = 0.05;    ///< of each record, at either end
   int replicates = 500;  ///< of the bootstrap
   double confidence = 0.95;
-  std::uint64_t seed = 1;  ///< of the bootstrap
+  std::uint64_t seed = 1;                                                   ///< of the bootstrap
+  std::function<void(const std::string&)> say = [](const std::string&) {};  ///< told what is being done
 };
 
 /// Parameters that fit a linear system of the equation's terms.
@@ -79,14 +81,19 @@ struct OutputErrorFit {
   bool converged = false;
 };
 
-/// `start` gives the terms as well.
+/// `start` gives the terms as well; `is_near`: it is where approach_output() ended.
 OutputErrorFit refine_output(std::span<const VibrationRecord> records, const MassMaterial& start,
-                             const IdentificationSettings& settings);
+                             const IdentificationSettings& settings, bool is_near = false);
+
+/// Roughly, to compare models: as few samples and iterations as that takes, no intervals.
+OutputErrorFit approach_output(std::span<const VibrationRecord> records, const MassMaterial& start,
+                               const IdentificationSettings& settings);
 
 struct OrderTrial {
-  int kernel_order = 0;
+  int kernel_order = 0;  ///< number of terms, a pair counting one
   double bic = 0.0;
   double misfit = 0.0;
+  bool pair = false;  ///< one of the terms is a conjugate pair
 };
 struct Identification {
   OutputErrorFit fit;

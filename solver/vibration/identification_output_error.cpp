@@ -46,9 +46,10 @@ class OutputError {
     return jacobian_;
   }
 
-  LeastSquaresProblem problem() {
+  LeastSquaresProblem problem(const VectorXd& start) {
     return {.residuals = [this](const VectorXd& x) { return std::optional(residuals(x)); },
-            .jacobian = [this](const VectorXd& x) { return std::optional(jacobian(x)); }};
+            .jacobian = [this](const VectorXd& x) { return std::optional(jacobian(x)); },
+            .bounds = coordinates_.bounds(coordinates_.model(start))};
   }
 
  private:
@@ -133,7 +134,7 @@ Minimum follow_fixed_jacobian(OutputError& error, VectorXd x, MatrixXd jacobian)
 }
 
 Minimum minimise_fully(OutputError& error, const VectorXd& x0) {
-  const LeastSquaresResult found = minimise(error.problem(), x0, until(tolerance));
+  const LeastSquaresResult found = minimise(error.problem(x0), x0, until(tolerance));
   return {.x = found.x,
           .residuals = error.residuals(found.x),
           .jacobian = error.jacobian(found.x),
@@ -150,29 +151,41 @@ VectorXd approached_by_one(const VibrationRecord& strongest, double crop, Output
   const Responses one(std::span(&strongest, 1), crop);
   const Drives drives = one.reduced_drives(start);
   OutputError error(one, coordinates, drives, evaluations);
-  const VectorXd x = minimise(error.problem(), x0, until(roughly)).x;
+  const VectorXd x = minimise(error.problem(x0), x0, until(roughly)).x;
   const double before = all.residuals(x0).squaredNorm(), after = all.residuals(x).squaredNorm();
   return after < before ? x : x0;
 }
 
-/// First with as few samples as the compared band needs, then to the end with all of them.
-Minimum least_output_error(std::span<const VibrationRecord> records, const Responses& responses,
-                           const ParameterCoordinates& coordinates, const MassMaterial& start, double crop,
-                           int& evaluations) {
+/// With as few samples as the compared band needs.
+Minimum approach(std::span<const VibrationRecord> records, OutputError& coarse, const ParameterCoordinates& coordinates,
+                 const MassMaterial& start, bool is_near, double crop, int most_iterations, int& evaluations) {
   constexpr double near = 1e-6;
-  const Drives reduced = responses.reduced_drives(start);
-  OutputError coarse(responses, coordinates, reduced, evaluations);
   VectorXd x0 = bounded_start(coarse, coordinates, start);
   const auto strength = [](const VibrationRecord& r) { return r.relative.squaredNorm() / static_cast<double>(r.n()); };
-  if (records.size() > 1)
+  if (records.size() > 1 && !is_near)
     x0 = approached_by_one(*std::ranges::max_element(records, {}, strength), crop, coarse, coordinates, start, x0,
                            evaluations);
-  const LeastSquaresResult approached = minimise(coarse.problem(), x0, until(near));
-  const VectorXd& x = approached.x;
-  const Drives full = responses.full_drives(coordinates.model(x));
+  LeastSquaresSettings settings = until(near);
+  settings.maximum_iterations = most_iterations;
+  LeastSquaresResult found = minimise(coarse.problem(x0), x0, settings);
+  return {.x = found.x,
+          .residuals = coarse.residuals(found.x),
+          .jacobian = {},
+          .path = std::move(found.path),
+          .converged = found.converged};
+}
+
+/// First roughly, then to the end with all samples.
+Minimum least_output_error(std::span<const VibrationRecord> records, const Responses& responses,
+                           const ParameterCoordinates& coordinates, const MassMaterial& start, bool is_near,
+                           double crop, int& evaluations) {
+  const Drives reduced = responses.reduced_drives(start);
+  OutputError coarse(responses, coordinates, reduced, evaluations);
+  Minimum approached = approach(records, coarse, coordinates, start, is_near, crop, 100, evaluations);
+  const Drives full = responses.full_drives(coordinates.model(approached.x));
   OutputError error(responses, coordinates, full, evaluations);
-  Minimum found = follow_fixed_jacobian(error, x, coarse.jacobian(x));
-  std::vector<LeastSquaresPoint> path = approached.path;
+  Minimum found = follow_fixed_jacobian(error, approached.x, coarse.jacobian(approached.x));
+  std::vector<LeastSquaresPoint> path = std::move(approached.path);
   path.insert(path.end(), found.path.begin(), found.path.end());
   if (!found.converged) {
     found = minimise_fully(error, found.x);
@@ -245,17 +258,12 @@ void sort_terms(MassMaterial& m) {
   std::ranges::sort(m.kernel, {}, [](const HereditaryTerm& term) { return term.alpha.real(); });
 }
 
-}  // namespace
-
-OutputErrorFit refine_output(std::span<const VibrationRecord> records, const MassMaterial& start,
-                             const IdentificationSettings& settings) {
-  MassMaterial sorted = start;
-  sort_terms(sorted);
-  const Responses responses(records, settings.crop);
-  const ParameterCoordinates coordinates(sorted, excited_range(records));
+/// All that follows from where a search has ended, but for the intervals.
+OutputErrorFit fit_at(const Minimum& found, const Responses& responses, const ParameterCoordinates& coordinates,
+                      int evaluations) {
   OutputErrorFit fit;
-  const Minimum found = least_output_error(records, responses, coordinates, sorted, settings.crop, fit.evaluations);
   fit.converged = found.converged;
+  fit.evaluations = evaluations;
   fit.model = coordinates.model(found.x);
   fit.estimates = named_values(fit.model);
   coordinates.set_bounds(fit.model, fit.estimates);
@@ -268,7 +276,37 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   if (!found.residuals.allFinite()) return fit;
   fit.record_misfit = responses.misfits(found.residuals);
   fit.bic = n * std::log(found.residuals.squaredNorm() / n) + static_cast<double>(found.x.size()) * std::log(n);
-  if (settings.replicates > 1)
+  return fit;
+}
+
+}  // namespace
+
+OutputErrorFit approach_output(std::span<const VibrationRecord> records, const MassMaterial& start,
+                               const IdentificationSettings& settings) {
+  constexpr int most_iterations = 25;
+  MassMaterial sorted = start;
+  sort_terms(sorted);
+  const Responses responses(records, settings.crop);
+  const ParameterCoordinates coordinates(sorted, excited_range(records));
+  const Drives reduced = responses.reduced_drives(sorted);
+  int evaluations = 0;
+  OutputError coarse(responses, coordinates, reduced, evaluations);
+  const Minimum found =
+      approach(records, coarse, coordinates, sorted, false, settings.crop, most_iterations, evaluations);
+  return fit_at(found, responses, coordinates, evaluations);
+}
+
+OutputErrorFit refine_output(std::span<const VibrationRecord> records, const MassMaterial& start,
+                             const IdentificationSettings& settings, bool is_near) {
+  MassMaterial sorted = start;
+  sort_terms(sorted);
+  const Responses responses(records, settings.crop);
+  const ParameterCoordinates coordinates(sorted, excited_range(records));
+  int evaluations = 0;
+  const Minimum found =
+      least_output_error(records, responses, coordinates, sorted, is_near, settings.crop, evaluations);
+  OutputErrorFit fit = fit_at(found, responses, coordinates, evaluations);
+  if (!fit.record_misfit.empty() && settings.replicates > 1)
     set_intervals(fit, coordinates, bootstrap(responses, found.x, found.residuals, found.jacobian, settings), settings);
   return fit;
 }

@@ -133,9 +133,8 @@ class Pencil {
     const MatrixXd V = svd_.matrixV().leftCols(order);
     const Index length = V.rows() - 1;
     const MatrixXd shift = V.topRows(length).colPivHouseholderQr().solve(V.bottomRows(length));
-    const Eigen::EigenSolver<MatrixXd> eigen(shift, false);
     std::vector<Complex> alphas;
-    for (const Complex z : eigen.eigenvalues()) {
+    for (const Complex z : eigenvalues(shift)) {
       const bool real = z.imag() == 0.0;
       if (!(std::abs(z) < 1.0) || z.imag() < 0.0 || (real && z.real() <= 0.0)) continue;
       // Either one of a pair will do.

@@ -60,6 +60,60 @@ TEST(IdentificationVerdict, WrongModelsAreDoubted) {
   EXPECT_THAT(judged(noisy_record("2", random_motion), "1").doubts, SizeIs(1));
 }
 
+/// k_1 ... k_5, damping and a pair at 220 Hz, with a real term at 1500/s or without.
+MassMaterial truth_with_pair(int stiffness_order, bool with_real_term) {
+  MassMaterial t = truth("2");
+  t.stiffness.resize(static_cast<std::size_t>(stiffness_order));
+  t.damping *= 0.5;
+  t.forcing = KernelForcing::velocity;
+  const double kk = t.stiffness[0], omega = 2.0 * std::numbers::pi * 220.0;
+  t.kernel = {{{0.15 * omega, omega}, {0.1 * kk, 0.0045 * kk}}};
+  if (with_real_term) t.kernel.push_back({1500.0, 0.15 * kk});
+  return t;
+}
+
+void expect_pair(const MassMaterial& t, const independent::Shaker& shaker, const char* structure) {
+  VibrationRecord record = independent::record_of(sample_of(t), shaker);
+  independent::add_white_noise(record, 40.0, 1);
+  IdentificationSettings settings{.mass = 1.12, .reference_velocity = 0.3, .kernel_order = {}, .replicates = 200};
+  const Identification found = identify(std::span(&record, 1), model_structure(structure), settings);
+  ASSERT_EQ(found.fit.model.kernel.size(), t.kernel.size());
+  ASSERT_TRUE(found.fit.model.kernel[0].is_pair());
+  const std::complex<double> alpha = found.fit.model.kernel[0].alpha;
+  EXPECT_NEAR(std::abs(alpha) / std::abs(t.kernel[0].alpha), 1.0, 0.005);
+  EXPECT_NEAR(alpha.real() / t.kernel[0].alpha.real(), 1.0, 0.05);
+  EXPECT_NEAR(found.fit.model.stiffness[0] / t.stiffness[0], 1.0, 0.01);
+  EXPECT_LT(stiffness_error(found.fit.model, t, 105.0, 410.0, 0.0), 2e-3);
+  EXPECT_TRUE(found.passivity.passive);
+  const RecordEvidence evidence = record_evidence(found.fit.model, record, settings.crop);
+  EXPECT_THAT(doubts_of(std::span(&evidence, 1)), IsEmpty());
+  const std::vector<Estimate> expected = named_values(t);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Estimate& e = found.fit.estimates[i];
+    EXPECT_EQ(e.name, expected[i].name);
+    EXPECT_NEAR(e.value, expected[i].value, 5.0 * e.standard_error) << e.name;
+  }
+}
+
+TEST(IdentificationVerdict, ConjugatePairsAreFoundInSweeps) {
+  expect_pair(truth_with_pair(5, false), sweep, "4b");
+  expect_pair(truth_with_pair(5, true), sweep, "4b");
+}
+
+TEST(IdentificationVerdict, ConjugatePairsAreFoundInRandomMotion) {
+  expect_pair(truth_with_pair(1, false), random_motion, "linear_4b");
+}
+
+// Real terms alone are no fit to such a record, and it says so.
+TEST(IdentificationVerdict, RealTermsInPlaceOfAPairAreDoubted) {
+  VibrationRecord record = independent::record_of(sample_of(truth_with_pair(1, false)), sweep);
+  independent::add_white_noise(record, 40.0, 1);
+  const IdentificationSettings settings{.mass = 1.12, .reference_velocity = 0.3, .kernel_order = 1, .replicates = 0};
+  const Identification found = identify(std::span(&record, 1), model_structure("4b"), settings);
+  const RecordEvidence evidence = record_evidence(found.fit.model, record, settings.crop);
+  EXPECT_THAT(doubts_of(std::span(&evidence, 1)), SizeIs(1));
+}
+
 class FaultyRecord : public testing::TestWithParam<bool> {
  protected:
   VibrationRecord record() const { return noisy_record(GetParam() ? "1" : "2", GetParam() ? random_motion : sweep); }

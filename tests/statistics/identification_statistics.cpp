@@ -122,9 +122,8 @@ Samples prony(const Samples& g, int order, double rate) {
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
   companion.row(0) = a.transpose();
   companion.diagonal(-1).setOnes();
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(companion, false);
   std::vector<std::complex<double>> alphas;
-  for (const std::complex<double> z : eigen.eigenvalues())
+  for (const std::complex<double> z : eigenvalues(companion))
     if (std::abs(z) < 1.0 && std::abs(z) > 1e-6 && z.imag() >= 0.0) alphas.push_back(-rate * std::log(z));
   Eigen::MatrixXd basis(g.size(), 2 * std::ssize(alphas));
   for (Eigen::Index i = 0; i < std::ssize(alphas); ++i)

@@ -39,15 +39,17 @@ Records read_records(const MassMaterialCase& c, const fs::path& results, Log& lo
   return records;
 }
 
-IdentificationSettings settings_of(const MassMaterialCase& c) {
-  return {.mass = c.model.mass,
-          .reference_velocity = c.model.reference_velocity,
-          .kernel_order = c.fit.kernel_order,
-          .maximum_kernel_order = c.fit.maximum_kernel_order,
-          .crop = c.fit.crop,
-          .replicates = c.fit.replicates,
-          .confidence = c.fit.confidence,
-          .seed = c.fit.seed};
+IdentificationSettings settings_of(const MassMaterialCase& c, Log* log = nullptr) {
+  IdentificationSettings settings{.mass = c.model.mass,
+                                  .reference_velocity = c.model.reference_velocity,
+                                  .kernel_order = c.fit.kernel_order,
+                                  .maximum_kernel_order = c.fit.maximum_kernel_order,
+                                  .crop = c.fit.crop,
+                                  .replicates = c.fit.replicates,
+                                  .confidence = c.fit.confidence,
+                                  .seed = c.fit.seed};
+  if (log != nullptr) settings.say = [log](const std::string& what) { log->say(what); };
+  return settings;
 }
 
 /// The structures that the report's continuous-time least squares reaches: no kernel, or one term.
@@ -103,20 +105,20 @@ Found without_intervals(const Regression& regression, const Records& records) {
   return found;
 }
 
-Found by_ten_steps(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+Found by_ten_steps(const Records& records, const ModelStructure& structure, const MassMaterialCase& c, Log&) {
   if (structure.forcing == KernelForcing::none)
     throw InputError(fmt::format("[fit] \"ten_step\" finds kernels; model \"{}\" has none", structure.name));
   const int order = c.fit.kernel_order.value_or(structure.kernel_order.value_or(2));
   return without_intervals(regress_ten_steps(records.fitted, structure, order, settings_of(c)), records);
 }
 
-Found by_least_squares(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+Found by_least_squares(const Records& records, const ModelStructure& structure, const MassMaterialCase& c, Log&) {
   require_low_order(c.fit, structure);
   return without_intervals(regress_states(records.fitted, structure, settings_of(c)), records);
 }
 
-Found by_output_error(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
-  Identification id = identify(records.fitted, structure, settings_of(c));
+Found by_output_error(const Records& records, const ModelStructure& structure, const MassMaterialCase& c, Log& log) {
+  Identification id = identify(records.fitted, structure, settings_of(c, &log));
   Found found{.model = id.fit.model};
   found.report.found = {.converged = id.fit.converged,
                         .message = id.fit.converged ? "the output error is least" : not_converged,
@@ -245,12 +247,12 @@ void judge(Found& found, const Records& records, const ModelStructure& structure
 }
 
 /// The method's answer; where it has none, the faults of the records that may be why.
-Found identified(const Records& records, const ModelStructure& structure, const MassMaterialCase& c) {
+Found identified(const Records& records, const ModelStructure& structure, const MassMaterialCase& c, Log& log) {
   const auto method = c.fit.method == "least_squares" ? by_least_squares
                       : c.fit.method == "ten_step"    ? by_ten_steps
                                                       : by_output_error;
   try {
-    return method(records, structure, c);
+    return method(records, structure, c, log);
   } catch (const ComputationError& error) {
     const std::vector<double> none(records.fitted.size(), std::numeric_limits<double>::infinity());
     const auto faults = recognised_faults(records.fitted, none, structure, settings_of(c));
@@ -278,7 +280,7 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   const FolderLock lock(session.results);
   session.log.say(fmt::format("pfdm {}, case {}: {} of model {} from {} records", session.version, program.name,
                               c.fit.method, structure.name, records.fitted.size()));
-  Found found = identified(records, structure, c);
+  Found found = identified(records, structure, c, session.log);
   if (c.sample) found.own.modulus = youngs_modulus(found.model, records, *c.sample);
   if (c.fit.ogden_terms > 0) found.own.ogden = ogden_of(found.model, records, c);
   if (c.fit.repeatability) found.own.repeats = repeats_of(found, records, c);
