@@ -79,6 +79,7 @@ struct OutputErrorFit {
   std::vector<double> record_misfit;  ///< of each record: norm of simulated minus measured z'' over that of measured
   double bic = 0.0;
   bool converged = false;
+  std::vector<std::string> doubts{};  ///< what the estimates cannot be rid of
 };
 
 /// `start` gives the terms as well; `is_near`: it is where approach_output() ended.

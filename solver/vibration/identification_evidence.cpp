@@ -121,17 +121,26 @@ RecordEvidence record_evidence(const MassMaterial& model, const VibrationRecord&
 }
 
 std::vector<std::string> doubts_of(std::span<const RecordEvidence> evidence) {
+  constexpr std::size_t most = 4;  // that are told one by one
   std::vector<std::string> doubts;
+  const RecordEvidence* worst = nullptr;
   for (const RecordEvidence& e : evidence) {
     const double allowed = e.swept ? allowed_under_sweeps : allowed_otherwise;
-    if (std::isfinite(e.misfit) && e.misfit > credible_noise)
-      doubts.push_back(fmt::format("test {}: the model leaves {:.3g} of the response", e.name, e.misfit));
-    else if (e.misfit > negligible_misfit && e.excess > allowed)
-      doubts.push_back(fmt::format(
-          "test {}: what the model leaves ({:.3g} of the response) moves with the {}: {:.3g} times the noise", e.name,
-          e.misfit, e.swept ? "driving frequency" : "base and the displacement", e.excess));
+    const bool incredible = std::isfinite(e.misfit) && e.misfit > credible_noise;
+    if (!incredible && !(e.misfit > negligible_misfit && e.excess > allowed)) continue;
+    doubts.push_back(
+        incredible
+            ? fmt::format("test {}: the model leaves {:.3g} of the response", e.name, e.misfit)
+            : fmt::format("test {}: what the model leaves ({:.3g} of the response) moves with the {}: {:.3g} times the "
+                          "noise",
+                          e.name, e.misfit, e.swept ? "driving frequency" : "base and the displacement", e.excess));
+    if (worst == nullptr || e.misfit > worst->misfit) worst = &e;
   }
-  return doubts;
+  if (doubts.size() <= most) return doubts;
+  return {
+      fmt::format("in {} of {} tests what the model leaves moves with the test, in {} {:.3g} of the response and "
+                  "{:.3g} times the noise; the sample may have changed between them",
+                  doubts.size(), evidence.size(), worst->name, worst->misfit, worst->excess)};
 }
 
 }  // namespace pfdm

@@ -3,6 +3,7 @@
 #include "solver/calibration/levenberg_marquardt.h"
 #include "solver/linear/dense_algebra.h"
 #include "solver/vibration/identification.h"
+#include "solver/vibration/identification_base_noise.h"
 #include "solver/vibration/identification_coordinates.h"
 #include "solver/vibration/identification_responses.h"
 #include "solver/vibration/mass_material_simulation.h"
@@ -303,9 +304,15 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   const Responses responses(records, settings.crop);
   const ParameterCoordinates coordinates(sorted, excited_range(records));
   int evaluations = 0;
-  const Minimum found =
-      least_output_error(records, responses, coordinates, sorted, is_near, settings.crop, evaluations);
+  Minimum found = least_output_error(records, responses, coordinates, sorted, is_near, settings.crop, evaluations);
+  const bool bounded = found.residuals.allFinite();
+  const auto bias = bounded
+                        ? base_noise_bias(records, coordinates, found.x, found.residuals, found.jacobian, settings.crop)
+                        : std::nullopt;
+  if (bias) found.x -= *bias;
   OutputErrorFit fit = fit_at(found, responses, coordinates, evaluations);
+  if (bounded && !bias)
+    fit.doubts.emplace_back("noise on the base's acceleration biases the estimates by more than can be taken back");
   if (!fit.record_misfit.empty() && settings.replicates > 1)
     set_intervals(fit, coordinates, bootstrap(responses, found.x, found.residuals, found.jacobian, settings), settings);
   return fit;

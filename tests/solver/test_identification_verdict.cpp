@@ -1,8 +1,11 @@
 // Fits to vibration records of an independent simulator: right ones raise no doubt, wrong records and wrong models do,
 // and faults are named.
 
+#include "solver/vibration/identification_base_noise.h"
+#include "solver/vibration/identification_coordinates.h"
 #include "solver/vibration/identification_evidence.h"
 #include "solver/vibration/identification_faults.h"
+#include "solver/vibration/identification_responses.h"
 #include "tests/solver/independent_simulators.h"
 #include "tests/solver/mass_material_truth.h"
 
@@ -112,6 +115,50 @@ TEST(IdentificationVerdict, RealTermsInPlaceOfAPairAreDoubted) {
   const Identification found = identify(std::span(&record, 1), model_structure("4b"), settings);
   const RecordEvidence evidence = record_evidence(found.fit.model, record, settings.crop);
   EXPECT_THAT(doubts_of(std::span(&evidence, 1)), SizeIs(1));
+}
+
+// A tenth of each channel is noise, which reaches the residual through the resonance and directly.
+TEST(IdentificationVerdict, NoiseOfBothChannelsIsToldApart) {
+  const MassMaterial t = truth("1");
+  const VibrationRecord clean = independent::record_of(sample_of(t), random_motion);
+  VibrationRecord r = clean;
+  independent::add_white_noise(r, 20.0, 3);
+  const IdentificationSettings settings{.mass = 1.12, .reference_velocity = 0.3, .kernel_order = {}};
+  const auto density = [&](const Eigen::VectorXd& x) {
+    return 0.01 * x.squaredNorm() / static_cast<double>(x.size()) / (0.5 * r.rate);
+  };
+  const Eigen::VectorXd off = output_condition(r, settings.crop)((predicted_response(t, r) - r.relative).eval());
+  const ChannelNoise noise = channel_noise(t, r, settings.crop, 0.0, off);
+  EXPECT_NEAR(noise.base / density(clean.base), 1.0, 0.1);
+  EXPECT_NEAR(noise.relative / density(clean.relative), 1.0, 0.1);
+  const Identification found = identify(std::span(&r, 1), model_structure("1"), settings);
+  for (const auto& [estimate, expected] : {std::pair(0, t.stiffness[0]), std::pair(1, t.damping)}) {
+    const Estimate& e = found.fit.estimates[static_cast<std::size_t>(estimate)];
+    EXPECT_NEAR(e.value, expected, 3.0 * e.standard_error) << e.name;
+  }
+}
+
+// To first order it is taken back, in proportion to its power; where the records say so little that this would move an
+// estimate far, not at all.
+TEST(IdentificationVerdict, BiasOfTheBasesNoiseGrowsWithItsPower) {
+  const MassMaterial t = truth("1");
+  const VibrationRecord clean = independent::record_of(sample_of(t), random_motion, 3);
+  const ParameterCoordinates coordinates(t, excited_range(std::span(&clean, 1)));
+  const Conditioner condition = output_condition(clean, 0.05);
+  const Eigen::VectorXd measured = condition(clean.relative), x = coordinates.from(t);
+  const Eigen::MatrixXd J =
+      Eigen::MatrixXd::Identity(measured.size(), x.size()) * std::sqrt(static_cast<double>(measured.size()));
+  const auto bias = [&](double decibel, double sensitivity) {
+    VibrationRecord r = clean;
+    independent::add_white_noise(r, decibel, 1);
+    const Eigen::VectorXd off = condition((predicted_response(t, r) - clean.relative).eval());
+    return base_noise_bias(std::span(&r, 1), coordinates, x,
+                           off * (std::sqrt(static_cast<double>(off.size())) / measured.norm()), sensitivity * J, 0.05);
+  };
+  ASSERT_TRUE(bias(40.0, 1.0) && bias(30.0, 1.0));
+  EXPECT_GT((*bias(40.0, 1.0))[1], 0.0);  // more damping responds less
+  EXPECT_NEAR((*bias(30.0, 1.0))[1] / (*bias(40.0, 1.0))[1], 10.0, 1.5);
+  EXPECT_FALSE(bias(30.0, 1e-6));
 }
 
 class FaultyRecord : public testing::TestWithParam<bool> {

@@ -67,6 +67,7 @@ struct Found {
   MassMaterial model;
   FitReport report{};
   VibrationFindings own{};
+  std::vector<std::string> doubts{};  ///< of the method itself
 };
 
 /// Units of the values are also in their names.
@@ -119,7 +120,7 @@ Found by_least_squares(const Records& records, const ModelStructure& structure, 
 
 Found by_output_error(const Records& records, const ModelStructure& structure, const MassMaterialCase& c, Log& log) {
   Identification id = identify(records.fitted, structure, settings_of(c, &log));
-  Found found{.model = id.fit.model};
+  Found found{.model = id.fit.model, .report = {}, .own = {}, .doubts = id.fit.doubts};
   found.report.found = {.converged = id.fit.converged,
                         .message = id.fit.converged ? "the output error is least" : not_converged,
                         .parameters = fitted_parameters(id.fit.estimates),
@@ -231,6 +232,7 @@ std::vector<std::string> reasons_against(const Found& found, const Records& reco
     const auto faults = recognised_faults(records.fitted, misfit, structure, settings_of(c));
     reasons.insert(reasons.begin(), faults.begin(), faults.end());
   }
+  reasons.insert(reasons.end(), found.doubts.begin(), found.doubts.end());
   if (const Passivity& p = found.own.passivity; !p.passive)
     reasons.push_back(
         fmt::format("the model is not passive: it supplies energy to the shaker (damping {:.3g} N s/m at {:.4g} Hz)",
