@@ -24,22 +24,24 @@ TEST(ShippedCases, CanBeRead) {
   EXPECT_GT(n_cases, 0);
 }
 
-// As it is shipped, up to the lower pole's debonding: 7 of its 20 steps.
+// As it is shipped, up to the lower pole's debonding, in its 8th step.
 TEST(ShippedCases, QuickBeadDebondsAsItsReadmeSays) {
   const TemporaryCase place("");
   const std::string bead = PFDM_CASES_DIR "/glass_bead_quick";
-  const Outcome outcome = run({"run", bead, "--output", place.results().string(), "--max-steps", "7", "--quiet"});
+  const Outcome outcome = run({"run", bead, "--output", place.results().string(), "--max-steps", "10", "--quiet"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const CsvTable curve = read_csv(place.results() / "force_displacement.csv");
-  ASSERT_EQ(curve.n_rows(), 8u);
+  ASSERT_EQ(curve.n_rows(), 11u);
   const auto u = [&](std::size_t i) { return curve.column("displacement_m")[i]; };
   const auto force = [&](std::size_t i) { return curve.column("force_z_N")[i]; };
 
-  // The README's table, to its last digit.
+  // The README's table, to its last digit; twice the columns of cells change these forces by 0.2 %.
   EXPECT_NEAR(u(1), 31.2e-6, 1e-12);
   EXPECT_NEAR(force(1), 2.20, 0.01);
-  EXPECT_NEAR(force(6), 12.91, 0.02);
-  EXPECT_NEAR(force(7), 13.11, 0.1);  // after a jump, which ends elsewhere with another rounding: 13.06 N without FMA
+  EXPECT_NEAR(u(7), 154.6e-6, 0.1e-6);
+  EXPECT_NEAR(force(7), 10.58, 0.02);
+  EXPECT_NEAR(u(8), 157.1e-6, 0.1e-6);
+  EXPECT_NEAR(force(8), 9.23, 0.03);
 
   // More than a block of Sylgard under uniform stress (a bound); by little: rigid spheres of this volume, 4.2 %, add
   // 2.5 times as much, and the glued bottom a few per cent.
@@ -48,22 +50,24 @@ TEST(ShippedCases, QuickBeadDebondsAsItsReadmeSays) {
   EXPECT_LT(force(1) / u(1), 1.25 * block);
   EXPECT_NEAR(force(2) / force(1), 2.0, 0.01) << "linear as long as the damage is small";
 
-  for (std::size_t i = 1; i < 8; ++i) {
+  for (std::size_t i = 1; i < 11; ++i) {
     const double work = curve.column("external_work_J")[i], damage = curve.column("max_damage")[i];
     const double stored = curve.column("elastic_energy_J")[i] + curve.column("fracture_energy_J")[i];
     EXPECT_GE(damage, curve.column("max_damage")[i - 1]);
     EXPECT_LE(damage, 1.0);
-    EXPECT_NEAR(stored / work, i < 7 ? 1.0 : 0.952, i < 7 ? 1e-3 : 5e-3) << "step " << i;  // the jump releases 4.8 %
+    EXPECT_NEAR(stored / work, i < 8 ? 1.0 : 0.957, i < 8 ? 1.5e-3 : 3e-3) << "step " << i;  // the jump releases 4.4 %
+    // A crack that grows without a jump: no more than a few iterations a step.
+    EXPECT_LE(curve.column("staggered_iterations")[i], i == 8 ? 100 : 15) << "step " << i;
   }
-  EXPECT_LT(curve.column("max_damage")[6], 0.3);
-  EXPECT_GT(curve.column("max_damage")[7], 0.99);
+  EXPECT_LT(curve.column("max_damage")[7], 0.5);
+  EXPECT_GT(curve.column("max_damage")[8], 0.99);
 
   // The lower pole alone: no more than the bead's lower half, 4 pi R^2 being 0.503 mm2.
   const nlohmann::json cohesive = nlohmann::json::parse(content_of(place.results() / "cohesive.json"));
   const double debonded = cohesive["surfaces"][0]["debonded_area_m2"];
   EXPECT_GT(debonded, 0.05e-6);
   EXPECT_LT(debonded, 0.25e-6);
-  EXPECT_EQ(cohesive["surfaces"][0]["laws"].back()["jump_at_step"], 7);
+  EXPECT_EQ(cohesive["surfaces"][0]["laws"].back()["jump_at_step"], 8);
 }
 
 }  // namespace
