@@ -69,8 +69,9 @@ ChannelNoise channel_noise(const MassMaterial& model, const VibrationRecord& rec
   return {.relative = per_hertz * found.relative, .base = per_hertz * found.base};
 }
 
-std::optional<VectorXd> base_noise_bias(std::span<const VibrationRecord> records, const ParameterCoordinates& coordinates,
-                         const VectorXd& x, const VectorXd& weighted, const MatrixXd& jacobian, double crop) {
+std::optional<VectorXd> base_noise_bias(std::span<const VibrationRecord> records,
+                                        const ParameterCoordinates& coordinates, const VectorXd& x,
+                                        const VectorXd& weighted, const MatrixXd& jacobian, double crop) {
   constexpr double h = 1e-5;
   const MassMaterial model = coordinates.model(x);
   VectorXd gradient = VectorXd::Zero(x.size());

@@ -26,8 +26,9 @@ ChannelNoise channel_noise(const MassMaterial& model, const VibrationRecord& rec
 /// What the base's noise has added to the coordinates x; zero of records under swept sines, nothing
 /// if it is too much for the first order. `weighted`: residuals of
 /// all records below each other, those of a record over the rms of its response; `jacobian`: d weighted / d x.
-std::optional<Eigen::VectorXd> base_noise_bias(std::span<const VibrationRecord> records, const ParameterCoordinates& coordinates,
-                                const Eigen::VectorXd& x, const Eigen::VectorXd& weighted,
-                                const Eigen::MatrixXd& jacobian, double crop);
+std::optional<Eigen::VectorXd> base_noise_bias(std::span<const VibrationRecord> records,
+                                               const ParameterCoordinates& coordinates, const Eigen::VectorXd& x,
+                                               const Eigen::VectorXd& weighted, const Eigen::MatrixXd& jacobian,
+                                               double crop);
 
 }  // namespace pfdm
