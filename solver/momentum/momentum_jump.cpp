@@ -51,7 +51,7 @@ double MomentumOperator::jump_modulus(Index cell) const {
 IsotropicElasticity MomentumOperator::with_jump_modulus(Index cell, IsotropicElasticity part) const {
   if (part.lambda <= 0.0) return part;
   part.lambda = jump_share_[cell] * part.constrained_modulus() - 2.0 * part.mu;
-  if (pressure_.modulus(cell) > 0.0) part.lambda = std::min(part.lambda, pressure_.moderate_lambda * part.mu);
+  if (pressure_.modulus(cell) > 0.0) part.lambda = std::min(part.lambda, CellPressure::moderate_lambda * part.mu);
   return part;
 }
 
