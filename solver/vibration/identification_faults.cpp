@@ -133,7 +133,8 @@ std::optional<std::pair<double, double>> dead_part(const VibrationRecord& record
       last = w;
     }
   if (last <= first || !(std::ranges::max(explained) > explained_if_alive)) return std::nullopt;
-  const double seconds = static_cast<double>(record.n() / windows) / record.rate;
+  const auto samples = record.n() / windows;
+  const double seconds = static_cast<double>(samples) / record.rate;
   return std::pair{first * seconds, last + 2 == windows ? record.duration() : (last + 1) * seconds};
 }
 
