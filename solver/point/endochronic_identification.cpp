@@ -145,8 +145,7 @@ void finish_jointly(EndochronicIdentification& result, const std::vector<Endochr
   for (const StaggeredRound& round : result.rounds) least = std::min(least, round.rms_after_kernel);
   result.remark = fmt::format(
       "the staggered scheme {} after {} rounds, at best with an rms misfit of {:.6g} Pa; the estimates are those of "
-      "the "
-      "joint fit",
+      "the joint fit",
       settled ? "settled" : "went to and fro and did not settle", result.rounds.size(), least);
   settings.say(result.remark);
   const FitChoice choice{.kernel = true, .hardening = true, .rate = settings.choice.rate};
