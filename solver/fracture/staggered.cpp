@@ -44,8 +44,11 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);
   const double tolerance = std::min(last_tolerance, settings_.equilibrium_tolerance);
-  const Equilibrium equilibrium = solve_momentum(
-      state, {.reduction = 0.0, .ceiling = tolerance, .floor = tolerance, .most_iterations = last_iterations});
+  const Equilibrium equilibrium = solve_momentum(state, {.reduction = 0.0,
+                                                         .ceiling = tolerance,
+                                                         .floor = tolerance,
+                                                         .most_iterations = last_iterations,
+                                                         .good_enough = settings_.equilibrium_tolerance});
   outcome.krylov_iterations += equilibrium.iterations;
   outcome.residual = equilibrium.residual;
   outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;

@@ -138,14 +138,16 @@ KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector
                           const std::function<double(double initial)>& target_of, Index most_iterations) {
   constexpr double modest_drop = 1e-4;
   constexpr double greatest_drop = 1e-5;  // of one cycle: a basis in single precision follows no further
+  constexpr double stagnation = 0.5;
   Basis basis(x.size());
   KrylovResult result;
   double beta = start(problem, b, x, basis);
   result.initial_residual = result.residual = beta;
   const double target = target_of(beta);
+  bool stagnates = false;
   while (true) {
     result.converged = result.residual <= target;
-    if (result.converged || result.iterations >= most_iterations || !std::isfinite(beta)) return result;
+    if (result.converged || stagnates || result.iterations >= most_iterations || !std::isfinite(beta)) return result;
     normalise(basis, 0, beta);
     Hessenberg hessenberg(problem.restart_length);
     hessenberg.rhs[0] = beta;
@@ -166,7 +168,9 @@ KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector
       result.residual = estimate;
       continue;
     }
-    result.residual = beta = start(problem, b, x, basis);
+    result.residual = start(problem, b, x, basis);
+    stagnates = result.residual <= problem.good_enough && result.residual > stagnation * beta;
+    beta = result.residual;
   }
 }
 

@@ -27,6 +27,7 @@ struct KrylovProblem {
   /// The norm is that of scale_i r_i.
   std::vector<double> scale;
   Index restart_length = 40;  ///< vectors of a cycle
+  double good_enough = 0.0;   ///< a residual from which on a cycle that does not halve it ends the solution
 };
 
 /// Improves x until the scaled residual of A x = b is at most target(initial residual), in at most `most_iterations`.

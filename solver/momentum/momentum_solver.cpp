@@ -133,7 +133,8 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
       .precondition = [this](const std::vector<Vector>& r, std::vector<Vector>& z) { precondition(r, z); },
       .constrain = [&](std::vector<Vector>& x) { operator_.prescribe(t, x); },
       .scale = scale_,
-      .restart_length = pressure_compliance_.empty() ? 40 : 80};
+      .restart_length = pressure_compliance_.empty() ? 40 : 80,
+      .good_enough = tolerance.good_enough * reference};
   const auto target = [&](double initial) {
     return std::max(tolerance.floor * reference,
                     std::min(tolerance.ceiling * reference, tolerance.reduction * initial));

@@ -47,6 +47,7 @@ class MomentumSolver {
     double ceiling = 1e-8;
     double floor = 1e-8;
     Index most_iterations = 2000;  ///< of FGMRES
+    double good_enough = 0.0;      ///< a residual from which on slow convergence ends the solution
   };
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
   /// Forces [N] on the cells, or on all nodes, at every load parameter from now on; empty for none.

@@ -161,6 +161,30 @@ TEST_F(Multigrids, AnswersAreBitwiseTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(answers[2], answers[0]);
 }
 
+// A cyclic shift of rows: no residual falls before as many iterations as there are rows.
+TEST_F(Multigrids, StagnationEndsWhatIsGoodEnough) {
+  constexpr Index n = 500, cycle = 20, most = 200;
+  const auto shift = [&](const std::vector<Vector>& x, std::vector<Vector>& y) {
+    for (Index i = 0; i < n; ++i) y[as_size((i + 1) % n)] = x[as_size(i)];
+  };
+  KrylovProblem problem{.apply = shift,
+                        .precondition = [](const std::vector<Vector>& r, std::vector<Vector>& z) { z = r; },
+                        .scale = std::vector<double>(as_size(n), 1.0),
+                        .restart_length = cycle};
+  const auto solve = [&](double good_enough) {
+    problem.good_enough = good_enough;
+    std::vector<Vector> b(as_size(n), Vector::Zero()), x = b;
+    b.front() = Vector::UnitX();
+    return solve_fgmres(
+        problem, b, x, [](double initial) { return 1e-6 * initial; }, most);
+  };
+  const KrylovResult stopped = solve(1.0), not_yet = solve(0.9);
+  EXPECT_EQ(stopped.iterations, cycle);
+  EXPECT_FALSE(stopped.converged);
+  EXPECT_DOUBLE_EQ(stopped.residual, 1.0);
+  EXPECT_EQ(not_yet.iterations, most);
+}
+
 // The Galerkin product with indicator functions: the same energy for vectors that are constant on each aggregate.
 TEST_F(Multigrids, CoarseMatrixIsTheGalerkinProduct) {
   const BlockMatrix fine = compress(elastic_problem(6), in_order(216 + 216));
