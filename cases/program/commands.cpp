@@ -1,6 +1,7 @@
 #include "cases/program/commands.h"
 
 #include "cases/program/input/config.h"
+#include "postproc/exports/export_formats.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,7 +34,9 @@ constexpr CommandText case_commands[] = {
     {"mesh", "Make the mesh and measure its quality", "Writes CASE/results/mesh.vtu."},
     {"cohesive", "Extract the traction-separation laws of interfaces and planes from the results of a run",
      "Writes to CASE/results: cohesive.json, cohesive_law.csv, cohesive_law_places.csv and,\n"
-     "around particles, debonding.csv."},
+     "around particles, debonding.csv. With --export one law as input of other codes, in\n"
+     "CASE/results/cohesive_law: abaqus.inp, moose.i, lsdyna.k, optistruct.fem, akantu.dat, solids4foam,\n"
+     "table.csv. Their heads say what each figure rests on."},
     {"compare", "Compare the results of a run with the experiment that the case names in [experiment]",
      "Writes to CASE/results: comparison.json, comparison.csv."},
     {"fit", "Estimate the values that the case names in [fit] from its experiment",
@@ -76,6 +79,7 @@ struct Parser {
   }
   CLI::App& command(const std::string& name) const { return *app.get_subcommand(name); }
   void add_case_options();
+  void add_export_options();
   void add_other_options();
 };
 
@@ -96,6 +100,7 @@ Parser::Parser() {
   for (const CommandText& text : case_commands) add(text);
   for (const CommandText& text : other_commands) add(text);
   add_case_options();
+  add_export_options();
   add_other_options();
 }
 
@@ -122,6 +127,28 @@ void Parser::add_case_options() {
       ->type_name("RUN")
       ->needs("--output")
       ->group("");
+}
+
+void Parser::add_export_options() {
+  CLI::App& of = command("cohesive");
+  ExportWords& words = line.exports;
+  of.add_option("--export", words.formats,
+                fmt::format("write a law as input of another code, or of several: {}",
+                            fmt::join(names_of_export_formats(), ", ")))
+      ->type_name("FORMAT")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  const auto add = [&of](const std::string& name, auto& word, const std::string& meaning, const std::string& value) {
+    of.add_option(name, word, meaning)->type_name(value)->needs("--export");
+  };
+  add("--units", words.units, fmt::format("of the files: {}", fmt::join(names_of_unit_systems(), ", ")), "UNITS");
+  add("--surface", words.surface, "whose law (default: the one whose law is known best)", "NAME");
+  add("--angle", words.angle, "polar angle of the law, \"10 degree\" (default: least mode mixity)", "ANGLE");
+  add("--stiffness", words.stiffness, "penalty stiffness, \"1e14 Pa/m\" (default: 50 strength^2/GI)", "STIFFNESS");
+  add("--energy", words.energy, "GI of a law that is not known to its end, \"10 J/m^2\"", "ENERGY");
+  add("--shear-strength", words.shear_strength, "\"2 MPa\" (default: the strength)", "STRESS");
+  add("--shear-energy", words.shear_energy, "GII, \"20 J/m^2\" (default: GI)", "ENERGY");
+  add("--exponent", words.exponent, "of the mode mix by Benzeggagh and Kenane (default: 2)", "N");
 }
 
 void Parser::add_other_options() {
@@ -189,12 +216,14 @@ InputError wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 CommandWords::Option words_of(const CLI::Option& option, const std::vector<std::string>& commands) {
-  if (option.nonpositional())
-    return {.name = "--" + option.get_lnames().front(),
-            .value = option.get_items_expected_max() > 0 ? option.get_type_name() : ""};
   CommandWords::Option words{.name = "", .value = option.get_name(true)};
+  if (option.nonpositional())
+    words = {.name = "--" + option.get_lnames().front(),
+             .value = option.get_items_expected_max() > 0 ? option.get_type_name() : ""};
   if (words.value == "COMMAND") words.choices = commands;
   if (words.value == "SHELL") words.choices = {"bash", "zsh"};
+  if (words.value == "FORMAT") words.choices = names_of_export_formats();
+  if (words.value == "UNITS") words.choices = names_of_unit_systems();
   return words;
 }
 

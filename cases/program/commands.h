@@ -1,6 +1,7 @@
 #pragma once
 // The words of the command line: commands, their options, help. The only place that knows CLI11.
 
+#include "cases/program/session/export_words.h"
 #include "physics/tensor.h"
 
 #include <optional>
@@ -23,6 +24,7 @@ struct CommandLine {
   bool slurm = false;
   bool strict = false;  ///< of fit
   std::optional<std::string> prepared{};
+  ExportWords exports{};      ///< of cohesive
   std::string new_directory;  ///< of init
   std::string like;           ///< of init: a case
   std::string shell;          ///< of completion

@@ -75,7 +75,8 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
                   .read_case = read_case,
                   .log = log,
                   .strict = line.strict,
-                  .slurm = line.slurm};
+                  .slurm = line.slurm,
+                  .exports = line.exports};
   if (line.prepared)
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");
   const CaseFile file = open_case_or_name_nearest(line.case_directory);

@@ -8,10 +8,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace pfdm {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// 15 and not 14.999999999999998.
+double degrees(double angle) { return std::round(angle / degree * 1e9) / 1e9; }
 
 /// Columns of a table of laws; the first of `numbers` tell which law it is.
 class LawTable {
@@ -21,7 +26,7 @@ class LawTable {
                              "traction_2_Pa", "surface_energy_J_per_m2", "largest_damage"})
       table_.add(name, {});
     for (std::string& name : numbers) table_.add(std::move(name), {});
-    for (const char* name : {"polar_angle_from_rad", "polar_angle_to_rad", "step", "load"}) table_.add(name, {});
+    for (const char* name : {"polar_angle_from_deg", "polar_angle_to_deg", "step", "load"}) table_.add(name, {});
   }
 
   void add(const CohesiveLaw& law, const std::vector<double>& numbers, const std::vector<CurveRow>& curve) {
@@ -36,8 +41,8 @@ class LawTable {
       put(s.surface_energy);
       put(s.largest_damage);
       for (const double number : numbers) put(number);
-      put(law.from);
-      put(law.to);
+      put(degrees(law.from));
+      put(degrees(law.to));
       put(static_cast<double>(step));
       put(curve[step].load);
     }
@@ -66,8 +71,8 @@ Json to_json(const CohesiveFit& fit) {
 
 Json to_json(const CohesiveResult& result) {
   const CohesiveFigures& f = result.figures;
-  Json json = {{"polar_angle_from_deg", result.law.from / degree},
-               {"polar_angle_to_deg", result.law.to / degree},
+  Json json = {{"polar_angle_from_deg", degrees(result.law.from)},
+               {"polar_angle_to_deg", degrees(result.law.to)},
                {"places", result.law.places.size()},
                {"area_m2", result.law.area},
                {"strength_Pa", f.strength},
@@ -111,21 +116,16 @@ Json to_json(const CohesiveReport& report) {
 CsvTable debonding_table(const CohesiveReport& report) {
   CsvTable table;
   for (const char* name : {"surface", "step", "load", "displacement_m", "force_N", "debonded_area_m2",
-                           "debonding_angle_plus_rad", "debonding_angle_minus_rad"})
+                           "debonding_angle_plus_deg", "debonding_angle_minus_deg"})
     table.add(name, {});
   for (std::size_t r = 0; r < report.records.size(); ++r) {
     const std::vector<Debonding> history = debonding_of(report.records[r]);
     for (std::size_t step = 0; step < history.size(); ++step) {
       const CurveRow& row = report.curve[step];
       const Debonding& d = history[step];
-      const double values[] = {static_cast<double>(r),
-                               static_cast<double>(step),
-                               row.load,
-                               row.displacement,
-                               row.force[report.component],
-                               d.area,
-                               d.angle_plus,
-                               d.angle_minus};
+      const double values[] = {static_cast<double>(r), static_cast<double>(step),   row.load,
+                               row.displacement,       row.force[report.component], d.area,
+                               degrees(d.angle_plus),  degrees(d.angle_minus)};
       for (std::size_t i = 0; i < table.columns.size(); ++i) table.columns[i].push_back(values[i]);
     }
   }
@@ -147,11 +147,19 @@ std::vector<std::string> surface_remarks(const CohesiveReport& report) {
 
 // What the columns of a table of laws mean.
 constexpr const char* law_remarks[] = {
-    "separation_m, traction_Pa: normal, from the particle outwards (of a plane: its normal); opening and tension are > "
-    "0",
-    "1: tangent towards growing polar angle, away from the direction of the load; 2: normal x tangent 1",
-    "traction: at the middle of the column (of a plane: on it); separation: of the whole column, beyond elastic strain",
-    "polar angles: of the normal from the direction of the load, in radians (bins of 15 degrees are 0.2618 rad wide)",
+    "traction against separation of a surface; a row for each load step (step, load) of each law; all in SI units",
+    "frame: n, the normal, from the particle outwards (of a plane: the normal given in [cohesive]); 1, the tangent of",
+    "growing polar angle, away from the direction of the load; 2 = n x 1. Components are those of the outer side (of a",
+    "plane: the side that n points to) against the inner one",
+    "separation_m, traction_Pa: along n; opening and tension are > 0. separation_1_m, traction_1_Pa: along 1; likewise "
+    "2",
+    "traction: at the middle of the column (of a plane: on it). separation: of the whole column, beyond elastic strain",
+    "energy per area: int traction_Pa d separation_m, plus those of 1 and 2; surface_energy_J_per_m2: what damage took",
+    "largest_damage: of the column's cells, 0 to 1",
+    "polar_angle_from_deg, polar_angle_to_deg: of n from the direction of the load, in degrees; the law is the mean of "
+    "the",
+    "places between them, in bins of 15 degrees",
+    "pfdm cohesive CASE --export FORMAT writes a law as input of other codes",
 };
 
 void write_table(const std::filesystem::path& file, CsvTable table, std::vector<std::string> remarks) {
@@ -196,7 +204,12 @@ void write_cohesive_results(const std::filesystem::path& results, const Cohesive
   laws.insert(laws.end(), std::begin(law_remarks), std::end(law_remarks));
   write_table(results / "cohesive_law.csv", averaged.table(), laws);
   write_table(results / "cohesive_law_places.csv", places.table(), laws);
-  write_table(results / "debonding.csv", debonding_table(report), surfaces);
+  std::vector<std::string> debonding = surfaces;
+  debonding.emplace_back(
+      "debonding angles, in degrees: polar angle of the cap of the debonded area about the pole along (plus) and "
+      "against "
+      "(minus) the load");
+  write_table(results / "debonding.csv", debonding_table(report), debonding);
   write_file(results / "cohesive.json", to_json(report).dump(2) + "\n");
 }
 

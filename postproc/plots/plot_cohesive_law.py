@@ -6,7 +6,6 @@ across which a law is not known, are dotted. Needs the Debian package python3-ma
 """
 
 import argparse
-import math
 import pathlib
 
 from plotting import new_picture, read_columns, save_picture
@@ -18,7 +17,7 @@ def laws_of(table, surface):
     for i, number in enumerate(table["surface"]):
         if number != surface:
             continue
-        angles = tuple(round(math.degrees(table[f"polar_angle_{end}_rad"][i])) for end in ("from", "to"))
+        angles = tuple(round(table[f"polar_angle_{end}_deg"][i]) for end in ("from", "to"))
         separation, traction = laws.setdefault(angles, ([], []))
         separation.append(table["separation_m"][i])
         traction.append(table["traction_Pa"][i])

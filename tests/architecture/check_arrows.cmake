@@ -19,6 +19,7 @@ set(rooms
     "postproc/fields: physics mesh solver solver/momentum solver/fracture postproc/files"
     "postproc/curves: physics solver/fracture solver/calibration solver/point solver/vibration postproc/files"
     "postproc/cohesive: physics mesh solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"
+    "postproc/exports: physics mesh solver/fracture postproc/files postproc/cohesive"
     "postproc/page: physics postproc/files"
     "postproc/records: physics postproc/files"
     "cases/program/input: physics postproc/files"
@@ -29,8 +30,8 @@ set(rooms
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/page postproc/records
      cases/program/input cases/program/session"
     "cases/program/fracture: physics mesh solver/momentum solver/fracture postproc/files postproc/fields postproc/curves
-     postproc/cohesive postproc/page cases/program/input cases/program/session cases/program/studies cases/program/point"
-    "cases/program: physics solver solver/point postproc/files postproc/fields postproc/curves cases/program/input
+     postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies cases/program/point"
+    "cases/program: physics solver solver/point postproc/files postproc/fields postproc/curves postproc/exports cases/program/input
      cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture")
 set(complaints "")
 

@@ -37,6 +37,7 @@ TEST(Cohesive, ExtractsTheLawOfAPlane) {
   const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
   ASSERT_EQ(law.n_rows(), curve.n_rows());
   // Plane strain across z alone: the columns take the whole bar, whose other elongation is elastic.
+  EXPECT_EQ(law.column("polar_angle_to_deg").back(), 180.0);
   const double plane_modulus = 30e9 / (1.0 - 0.2 * 0.2);
   const double constrained = 30e9 * 0.8 / (1.2 * 0.6);
   for (std::size_t i = 0; i < law.n_rows(); ++i) {
@@ -178,6 +179,55 @@ TEST(Cohesive, RefusesWhatIsNotThere) {
   expect("cohesive", "step 3 is missing; run the case again");
   directory.write("results/columns/crack/step_000003.csv", "nonsense\n");
   expect("cohesive", "step_000003.csv");
+}
+
+// ---- Export
+
+TEST(CohesiveExport, WritesTheLawForOtherCodes) {
+  const TemporaryCase directory(cohesive_case());
+  const std::string place = directory.path().string();
+  ASSERT_EQ(run({"run", place}).status, 0);
+  const fs::path exports = directory.results() / "cohesive_law";
+  EXPECT_FALSE(fs::exists(exports));
+  const Outcome outcome = run({"cohesive", "--export", "abaqus,moose", place, "--export", "table", "--units", "mm-N-s",
+                               "--energy", "80 J/m^2", "--shear-strength", "5 MPa"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("exported law of \"crack\""), std::string::npos) << outcome.out;
+  for (const char* file : {"abaqus.inp", "moose.i", "table.csv"}) {
+    EXPECT_NE(outcome.out.find((exports / file).string()), std::string::npos) << outcome.out;
+    EXPECT_TRUE(fs::exists(exports / file)) << file;
+  }
+  EXPECT_FALSE(fs::exists(exports / "lsdyna.k"));
+  EXPECT_NE(content_of(exports / "moose.i").find("\n    shear_strength = 5\n"), std::string::npos);
+  const CsvTable table = read_csv(exports / "table.csv");
+  const CsvTable law = read_csv(directory.results() / "cohesive_law.csv");
+  EXPECT_NEAR(std::ranges::max(table.column("traction_MPa")), 1e-6 * std::ranges::max(law.column("traction_Pa")), 5e-3);
+  // A new run has none of the old one's laws.
+  ASSERT_EQ(run({"run", place}).status, 0);
+  EXPECT_FALSE(fs::exists(exports));
+}
+
+TEST(CohesiveExport, RefusesWhatItDoesNotKnow) {
+  const TemporaryCase directory(cohesive_case());
+  const std::string place = directory.path().string();
+  ASSERT_EQ(run({"run", place}).status, 0);
+  const std::string law = content_of(directory.results() / "cohesive_law.csv");
+  const auto expect = [&](std::vector<std::string> options, const std::string& message) {
+    options.insert(options.begin(), {"cohesive", place});
+    const Outcome outcome = run(options);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  expect({"--export", "abacus"}, "no format \"abacus\" (available: abaqus, moose, lsdyna, optistruct, akantu, ");
+  expect({"--export", "abaqus", "--units", "inch"}, "(available: SI, mm-N-s, mm-kN-ms, um-uN-s)");
+  expect({"--export", "abaqus", "--surface", "x"}, "--surface: there is no surface \"x\" (available: crack)");
+  expect({"--export", "abaqus", "--stiffness", "1e14"}, "--stiffness: \"1e14\" has no unit");
+  expect({"--export", "abaqus", "--stiffness", "1e14 Pa"}, "--stiffness: \"1e14 Pa\" is a stress");
+  expect({"--export", "abaqus", "--shear-energy", "-3 J/m^2"}, "--shear-energy: \"-3 J/m^2\" must be positive");
+  expect({"--units", "SI"}, "--units requires --export");
+  EXPECT_FALSE(fs::exists(directory.results() / "cohesive_law"));
+  EXPECT_EQ(content_of(directory.results() / "cohesive_law.csv"), law);
 }
 
 class BadCohesive : public testing::TestWithParam<BadInput> {};

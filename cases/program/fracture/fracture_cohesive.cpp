@@ -1,8 +1,11 @@
 #include "cases/program/fracture/fracture_cohesive.h"
 
 #include "cases/program/fracture/fracture_results.h"
+#include "cases/program/input/units.h"
 #include "physics/angle.h"
+#include "physics/error.h"
 #include "postproc/cohesive/cohesive_results.h"
+#include "postproc/exports/export_formats.h"
 
 #include <fmt/format.h>
 
@@ -49,10 +52,59 @@ void say_law(const CohesiveResult& result, SurfaceKind kind, Log& log) {
                       f.strength, f.critical_separation, outcome_of(result), f.surface_energy));
 }
 
+constexpr Dimension stiffness_per_area{"stiffness per area", "Pa/m", "1e14 Pa/m"};
+
+/// Of an option; throws InputError that names it.
+std::optional<double> option_value(const char* name, const std::optional<std::string>& text, const Dimension& due,
+                                   bool zero = false) {
+  if (!text) return std::nullopt;
+  try {
+    const double value = parse_quantity(*text, due);
+    if (value < 0.0 || (value == 0.0 && !zero)) throw InputError(fmt::format("\"{}\" must be positive", *text));
+    return value;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", name, error.what()));
+  }
+}
+
+ExportChoice choice_of(const ExportWords& words) {
+  if (words.exponent && !(*words.exponent > 0.0)) throw InputError("--exponent: must be positive");
+  return {.surface = words.surface,
+          .angle = option_value("--angle", words.angle, dimension::angle, true),
+          .stiffness = option_value("--stiffness", words.stiffness, stiffness_per_area),
+          .energy = option_value("--energy", words.energy, dimension::toughness),
+          .shear_strength = option_value("--shear-strength", words.shear_strength, dimension::stress),
+          .shear_energy = option_value("--shear-energy", words.shear_energy, dimension::toughness),
+          .exponent = words.exponent};
+}
+
+struct Export {
+  std::vector<ExportFormat> formats;
+  UnitSystem units;
+  ExportChoice choice;
+};
+
+Export read_export(const ExportWords& words) {
+  return {formats_named(words.formats), unit_system(words.units), choice_of(words)};
+}
+
+void export_law(const Export& wanted, const CohesiveReport& report, Session& session) {
+  const ExportedLaw law = law_to_export(report, wanted.choice);
+  const auto files = write_exports(session.results, wanted.formats, law, wanted.units);
+  session.log.say(fmt::format(
+      "exported law of \"{}\": strength {:.4g} Pa, GI {:.6g} J/m^2, stiffness {:.4g} Pa/m; tables of {} and {} points, "
+      "within {:.2g} and {:.2g} % of the strength",
+      law.surface, law.strength.value, law.energy.value, law.stiffness.value, law.curve.size(), law.damage.size(),
+      100.0 * law.curve_error, 100.0 * law.damage_error));
+  for (const auto& file : files) session.log.say(fmt::format("written to {}", file.string()));
+}
+
 }  // namespace
 
 void write_cohesive_laws(const FractureCase& fracture, const std::string& name, const std::string& hash,
                          Session& session) {
+  std::optional<Export> wanted;  // what is wrong with it is said before anything is written
+  if (!session.exports.formats.empty()) wanted = read_export(session.exports);
   CohesiveReport report{.case_name = name,
                         .case_hash = hash,
                         .version = session.version,
@@ -68,6 +120,7 @@ void write_cohesive_laws(const FractureCase& fracture, const std::string& name, 
     for (const CohesiveResult& result : report.results[r]) say_law(result, record.kind, session.log);
   }
   session.log.say(fmt::format("written to {}", (session.results / "cohesive.json").string()));
+  if (wanted) export_law(*wanted, report, session);
 }
 
 }  // namespace pfdm

@@ -4,6 +4,7 @@
 #include "mesh/quality.h"
 #include "postproc/cohesive/cohesive_results.h"
 #include "postproc/curves/comparison_results.h"
+#include "postproc/exports/export_formats.h"
 #include "postproc/fields/checkpoint.h"
 #include "postproc/fields/frame.h"
 #include "postproc/fields/point_displacement.h"
@@ -40,6 +41,7 @@ void remove_what_was_made_of_them(const fs::path& directory) {
   std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
   fs::remove(directory / summary_file, ignored);
   for (const char* file : cohesive_files) fs::remove(directory / file, ignored);
+  remove_exports(directory);
   for (const char* file : comparison_files) fs::remove(directory / file, ignored);
   remove_report(directory);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What the command line asked for, and where to say things.
 
+#include "cases/program/session/export_words.h"
 #include "cases/program/session/log.h"
 #include "cases/program/session/mesh_store.h"
 #include "physics/tensor.h"
@@ -27,6 +28,7 @@ struct Session {
   bool slurm = false;           ///< hand the runs of a sweep to Slurm
   bool figures_only = false;    ///< of many runs: summary and curves, no fields
   MeshStore* meshes = nullptr;  ///< where meshes are kept that several runs share
+  ExportWords exports{};        ///< of cohesive
 };
 
 }  // namespace pfdm
