@@ -16,15 +16,56 @@ namespace {
 
 constexpr double rise_share = 0.01;      // of the final separation, that the rule for K gives to the rise
 constexpr double least_traction = 0.02;  // part of the strength below which a secant is rounding
-constexpr double least_drop = 1e-3;      // part of the separation within which a cut law falls to zero
+constexpr double loops =
+    0.01;  // part of the work that unloading and reloading may leave between the record and its envelope
+constexpr double least_drop = 1e-3;  // part of the separation within which a cut law falls to zero
+
+/// The part of a law that was seen in a row: its states of growing separation, up to where they end or leave a gap.
+struct Known {
+  std::vector<TractionPoint> states{};  // normal
+  double work = 0.0;                    // int T ddelta of them [J/m^2]
+  std::optional<double> gap{};  // separation at which the law is seen again with less than half its strength [m]
+};
+
+/// A gap is a fall by more than half the strength between two states, whether the columns broke at once or were
+/// unloaded first and broke when they opened again.
+Known known_part(const CohesiveResult& result) {
+  Known known;
+  for (const ColumnSample& s : result.law.states) {
+    const TractionPoint state{s.separation[0], s.traction[0]};
+    if (!known.states.empty()) {
+      const TractionPoint& last = known.states.back();
+      const bool rises = state.traction > last.traction;  // rigidly, with rounding for a separation
+      if (state.separation <= last.separation && !rises) continue;
+      if (last.traction - state.traction > 0.5 * result.figures.strength) {
+        known.gap = state.separation;
+        break;
+      }
+    }
+    known.states.push_back(state);
+  }
+  known.work = area_under(known.states);
+  return known;
+}
+
+double whole_work(const CohesiveLaw& law) {
+  std::vector<TractionPoint> states;
+  for (const ColumnSample& s : law.states) states.push_back({s.separation[0], s.traction[0]});
+  return area_under(states);
+}
+
+enum class Extent {
+  complete,  // its own area is its energy
+  broken,    // seen up to a gap; what its columns dissipated is known
+  open       // not to be completed from the record
+};
 
 struct Candidate {
   const ColumnRecord* record;
   const CohesiveResult* result;
+  Known known;
+  Extent extent;
 
-  bool is_traced() const { return result->figures.is_traced(); }
-  // Traced before broken by a jump before not known to its end.
-  int rank() const { return is_traced() ? 0 : result->figures.jump ? 1 : 2; }
   // In steps below which it tells no law from another.
   double mixity() const {
     const double mixity = result->figures.mixity_at_strength;
@@ -34,6 +75,21 @@ struct Candidate {
     return record->kind == SurfaceKind::plane || (angle >= result->law.from - 1e-9 && angle < result->law.to + 1e-9);
   }
 };
+
+Extent extent_of(const CohesiveResult& result, const Known& known) {
+  const bool all_places_stable = std::isfinite(result.figures.normal_energy);
+  const bool without_loops = std::abs(known.work - whole_work(result.law)) < loops * known.work;
+  if (!known.gap && result.figures.is_traced() && all_places_stable && without_loops) return Extent::complete;
+  return known.gap && result.law.states.back().largest_damage > debonded_damage ? Extent::broken : Extent::open;
+}
+
+/// Laws of mode I before others, in these the complete before the broken; the larger area.
+bool goes_before(const Candidate& a, const Candidate& b) {
+  const auto key = [](const Candidate& c) {
+    return std::tuple(c.extent == Extent::open, c.mixity() >= 3.0, c.extent, c.mixity(), -c.result->law.area);
+  };
+  return key(a) < key(b);
+}
 
 std::vector<std::string> names_of(const CohesiveReport& report) {
   std::vector<std::string> names;
@@ -49,76 +105,56 @@ Candidate choose(const CohesiveReport& report, const ExportChoice& choice) {
   std::vector<Candidate> candidates;
   for (std::size_t r = 0; r < report.records.size(); ++r)
     for (const CohesiveResult& result : report.results[r]) {
-      const Candidate candidate{&report.records[r], &result};
-      const bool wanted = (!choice.surface || candidate.record->name == *choice.surface) &&
-                          (!choice.angle || candidate.has_angle(*choice.angle));
-      if (wanted && result.figures.strength > 0.0) candidates.push_back(candidate);
+      if (!(result.figures.strength > 0.0)) continue;
+      Candidate candidate{&report.records[r], &result, known_part(result), Extent::open};
+      candidate.extent = extent_of(result, candidate.known);
+      if ((!choice.surface || candidate.record->name == *choice.surface) &&
+          (!choice.angle || candidate.has_angle(*choice.angle)))
+        candidates.push_back(std::move(candidate));
     }
   if (candidates.empty())
     throw InputError(fmt::format(
         "no law to export{}: nothing there was damaged under tension; cohesive.json lists the laws there are",
         choice.angle ? fmt::format(" at {:g} degrees", *choice.angle / degree) : ""));
-  return *std::ranges::min_element(candidates, [](const Candidate& a, const Candidate& b) {
-    return std::tuple(a.rank(), a.mixity(), -a.result->law.area) <
-           std::tuple(b.rank(), b.mixity(), -b.result->law.area);
-  });
-}
-
-/// Of the states that are known in a row: all, those before the jump, or those up to the widest opening.
-std::size_t end_of_known(const Candidate& c) {
-  const std::vector<ColumnSample>& states = c.result->law.states;
-  if (c.result->figures.jump) return *c.result->figures.jump;
-  if (c.is_traced()) return states.size();
-  const auto widest = std::ranges::max_element(states, {}, [](const ColumnSample& s) { return s.separation[0]; });
-  return static_cast<std::size_t>(widest - states.begin()) + 1;
-}
-
-struct Known {
-  std::vector<TractionPoint> states;  // normal
-  double work = 0.0;                  // int T ddelta [J/m^2]
-  std::size_t peak = 0;
-};
-
-Known known_part(const Candidate& c) {
-  Known known;
-  for (std::size_t i = 0; i < end_of_known(c); ++i) {
-    const ColumnSample& s = c.result->law.states[i];
-    known.states.push_back({s.separation[0], s.traction[0]});
-  }
-  known.work = area_under(known.states);
-  known.peak = static_cast<std::size_t>(std::ranges::max_element(known.states, {}, &TractionPoint::traction) -
-                                        known.states.begin());
-  return known;
+  return *std::ranges::min_element(candidates, goes_before);
 }
 
 /// Of the straight beginning [m/Pa]; zero for a rigid rise.
 double own_compliance(const Known& known, double strength) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i <= known.peak; ++i)
-    if (const auto [separation, traction] = known.states[i]; traction >= least_traction * strength)
-      least = std::min(least, std::max(0.0, separation) / traction);
+  for (const auto [separation, traction] : known.states) {
+    if (traction >= least_traction * strength) least = std::min(least, std::max(0.0, separation) / traction);
+    if (traction >= strength) break;
+  }
   return std::isfinite(least) ? least : 0.0;
 }
 
-Figure energy_of(const Candidate& c, const Known& known, const ExportChoice& choice) {
-  if (c.is_traced()) {
+std::string why_open(const Candidate& c) {
+  const CohesiveFigures& f = c.result->figures;
+  if (f.unloaded) return fmt::format("it was unloaded to {:.4g} Pa", f.final_traction);
+  if (f.final_traction >= 0.1 * f.strength) return fmt::format("it carries {:.4g} Pa there", f.final_traction);
+  return "some of its places broke at once, or were unloaded in between";
+}
+
+Figure energy_of(const Candidate& c, const ExportChoice& choice) {
+  if (c.extent == Extent::complete) {
     if (choice.energy)
       throw InputError("--energy is for laws that are not known to their end; this one is, and its area is its energy");
-    return {known.work, "normal int T ddelta of the record"};
+    return {whole_work(c.result->law), "normal int T ddelta of the record"};
   }
-  if (!choice.energy && !c.result->figures.jump)
-    throw InputError(fmt::format(
-        "the law of \"{}\" is not known to its end (it {} {:.4g} Pa there): give the interface's energy, as "
-        "in --energy \"10 J/m^2\", or run the case further",
-        c.record->name, c.result->figures.unloaded ? "was unloaded to" : "carries", c.result->figures.final_traction));
+  if (!choice.energy && c.extent == Extent::open)
+    throw InputError(
+        fmt::format("the law of \"{}\" is not known to its end ({}): give the interface's energy, as in --energy \"10 "
+                    "J/m^2\", or run the case further",
+                    c.record->name, why_open(c)));
   const Figure whole = choice.energy
                            ? Figure{*choice.energy, "given (--energy)"}
                            : Figure{c.result->figures.surface_energy,
                                     "surface energy that the columns dissipated, as the law is not seen to its end "
                                     "(else --energy)"};
-  if (whole.value > known.work * (1.0 + least_drop)) return whole;
-  return {known.work, fmt::format("work up to where the law is no longer seen, as {} ({:.4g} J/m^2) is not more",
-                                  whole.basis, whole.value)};
+  if (whole.value > c.known.work * (1.0 + least_drop)) return whole;
+  return {c.known.work, fmt::format("work up to where the law is no longer seen, as {} ({:.4g} J/m^2) is not more",
+                                    whole.basis, whole.value)};
 }
 
 Figure stiffness_of(const ExportedLaw& law, double compliance, const ExportChoice& choice) {
@@ -138,20 +174,22 @@ Figure stiffness_of(const ExportedLaw& law, double compliance, const ExportChoic
 
 /// With the penalty stiffness in series, and to zero traction at its end: at once where the law is known to its end,
 /// else along a line of the energy that is missing.
-std::vector<TractionPoint> whole_curve(const Candidate& c, const Known& known, const ExportedLaw& law,
-                                       double compliance) {
+std::vector<TractionPoint> whole_curve(const Candidate& c, const ExportedLaw& law, double compliance) {
   const double K = law.stiffness.value, shift = 1.0 / K - compliance;
   std::vector<TractionPoint> curve{{0.0, 0.0}};
-  for (std::size_t i = 0; i < known.states.size(); ++i) {
-    const double T = known.states[i].traction;
-    if (T <= 0.0 && i < known.peak) continue;
-    if (T <= 1e-6 * law.strength.value) break;
-    const double separation = std::max(std::max(0.0, known.states[i].separation) + shift * T, T / K);
+  double highest = 0.0;
+  for (const auto [own, T] : c.known.states) {
+    highest = std::max(highest, T);
+    if (T <= 1e-6 * highest) {
+      if (highest < law.strength.value) continue;
+      break;
+    }
+    const double separation = std::max(std::max(0.0, own) + shift * T, T / K);
     if (separation > curve.back().separation) curve.push_back({separation, T});
   }
   const TractionPoint last = curve.back();
   double fall = least_drop * last.separation;
-  if (!c.is_traced()) fall = std::max(fall, 2.0 * (law.energy.value - area_under(curve)) / last.traction);
+  if (c.extent != Extent::complete) fall = std::max(fall, 2.0 * (law.energy.value - area_under(curve)) / last.traction);
   curve.push_back({last.separation + fall, 0.0});
   return curve;
 }
@@ -161,12 +199,19 @@ void add_tables(ExportedLaw& law, const std::vector<TractionPoint>& whole) {
   law.curve = simplified(whole, table_tolerance * strength);
   law.damage = damage_table(law.curve, K, table_tolerance * strength);
   law.initiation = K * law.damage.front().separation;
-  for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
-    const auto [separation, traction] = whole[i];
-    law.curve_error = std::max(law.curve_error, std::abs(traction_at(law.curve, separation) - traction) / strength);
-    law.damage_error =
-        std::max(law.damage_error, std::abs(traction_at(law.damage, K, separation) - traction) / strength);
-  }
+  for (std::size_t i = 0; i + 1 < whole.size(); ++i)
+    law.curve_error =
+        std::max(law.curve_error, std::abs(traction_at(law.curve, whole[i].separation) - whole[i].traction) / strength);
+  constexpr int samples = 8;  // of each interval
+  for (std::size_t i = 1; i < law.damage.size(); ++i)
+    for (int k = 0; k < samples; ++k) {
+      const double from = law.damage[i - 1].separation, to = law.damage[i].separation;
+      const double separation = from + (to - from) * k / samples;
+      law.damage_error =
+          std::max(law.damage_error,
+                   std::abs(traction_at(law.damage, K, separation) - traction_at(law.curve, separation)) / strength);
+    }
+  law.damage_error += law.curve_error;
 }
 
 std::string place_of(const Candidate& c) {
@@ -179,24 +224,24 @@ std::string place_of(const Candidate& c) {
                      c.record->places.size(), law.area);
 }
 
-std::string seen(const Candidate& c, const Known& known, double energy) {
-  const CohesiveFigures& f = c.result->figures;
-  const std::vector<ColumnSample>& states = c.result->law.states;
-  const double last = known.states.back().separation, traction = known.states.back().traction;
-  if (f.jump)
-    return fmt::format(
-        "seen from 0 to {:.4g} m ({:.4g} Pa). From there to {:.4g} m the columns broke at once: not seen, "
-        "completed by a straight line of the energy that is missing, {:.3g} of {:.3g} J/m^2",
-        last, traction, states[*f.jump].separation[0], energy - known.work, energy);
-  if (!c.is_traced())
-    return fmt::format("seen from 0 to {:.4g} m ({:.4g} Pa); beyond a straight line of the energy that is missing",
-                       last, traction);
-  return fmt::format("seen from 0 to {:.4g} m, where {:.2g} % of the strength are left; cut there", last,
-                     100.0 * std::max(0.0, traction) / f.strength);
+std::string seen(const Candidate& c, double energy) {
+  const auto [last, traction] = c.known.states.back();
+  const std::string range = fmt::format("seen from 0 to {:.4g} m ({:.4g} Pa)", last, traction);
+  const double missing = energy - c.known.work;
+  if (c.extent == Extent::complete)
+    return fmt::format("{}, where {:.2g} % of the strength are left; cut there", range,
+                       100.0 * std::max(0.0, traction) / c.result->figures.strength);
+  if (!c.known.gap)
+    return fmt::format("{}; beyond, a straight line of the energy that is missing, {:.3g} of {:.4g} J/m^2", range,
+                       missing, energy);
+  return fmt::format(
+      "{}. From there to {:.4g} m, where the law is seen again with half the strength or less, it "
+      "broke at once: not seen, completed by a straight line of the energy that is missing, {:.3g} of "
+      "{:.4g} J/m^2",
+      range, *c.known.gap, missing, energy);
 }
 
-std::vector<std::string> remarks_of(const CohesiveReport& report, const Candidate& c, const Known& known,
-                                    double energy) {
+std::vector<std::string> remarks_of(const CohesiveReport& report, const Candidate& c, double energy) {
   const CohesiveFigures& f = c.result->figures;
   const bool plane = c.record->kind == SurfaceKind::plane;
   return {
@@ -204,10 +249,10 @@ std::vector<std::string> remarks_of(const CohesiveReport& report, const Candidat
       place_of(c),
       fmt::format("Frame: normal {}; opening and tension are positive; the two tangential directions are equal",
                   plane ? "of the plane" : "from the particle outwards"),
-      "Range: " + seen(c, known, energy),
+      "Range: " + seen(c, energy),
       fmt::format("Energies of the record: normal int T ddelta {:.6g} J/m^2 {}, surface energy of the columns {:.6g} "
                   "J/m^2",
-                  known.work, f.jump ? "before the jump" : "in all", f.surface_energy),
+                  c.known.work, c.extent == Extent::complete ? "in all" : "as far as it is seen", f.surface_energy),
       fmt::format(
           "Mode: |T_t|/T_n is tan({:.3g} degrees) at the strength, |T_t| at most {:.4g} Pa. Shear strength, GII "
           "and the exponent cannot be had from such a record",
@@ -219,12 +264,11 @@ std::vector<std::string> remarks_of(const CohesiveReport& report, const Candidat
 
 ExportedLaw law_to_export(const CohesiveReport& report, const ExportChoice& choice) {
   const Candidate chosen = choose(report, choice);
-  const Known known = known_part(chosen);
   ExportedLaw law;
   law.surface = chosen.record->name;
   law.strength = {chosen.result->figures.strength, "largest normal traction of the record"};
-  law.energy = energy_of(chosen, known, choice);
-  const double compliance = own_compliance(known, law.strength.value);
+  law.energy = energy_of(chosen, choice);
+  const double compliance = own_compliance(chosen.known, law.strength.value);
   law.stiffness = stiffness_of(law, compliance, choice);
   law.shear_strength = choice.shear_strength ? Figure{*choice.shear_strength, "given (--shear-strength)"}
                                              : Figure{law.strength.value,
@@ -235,8 +279,8 @@ ExportedLaw law_to_export(const CohesiveReport& report, const ExportChoice& choi
                                                   "--shear-energy)"};
   law.exponent = choice.exponent ? Figure{*choice.exponent, "given (--exponent)"}
                                  : Figure{2.0, "assumed; of no effect while GII = GI (else --exponent)"};
-  law.remarks = remarks_of(report, chosen, known, law.energy.value);
-  add_tables(law, whole_curve(chosen, known, law, compliance));
+  law.remarks = remarks_of(report, chosen, law.energy.value);
+  add_tables(law, whole_curve(chosen, law, compliance));
   return law;
 }
 

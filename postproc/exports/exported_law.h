@@ -33,18 +33,19 @@ struct Figure {
 };
 
 struct ExportedLaw {
-  std::string surface;                           ///< plain name
-  Figure stiffness;                              ///< K, normal and tangential [Pa/m]
-  Figure strength;                               ///< normal [Pa]
-  Figure shear_strength;                         ///< [Pa]
-  Figure energy;                                 ///< GI: whole area of the law [J/m^2]
-  Figure shear_energy;                           ///< GII [J/m^2]
-  Figure exponent;                               ///< [-]
-  double initiation = 0.0;                       ///< traction at which the law leaves K delta: where D begins [Pa]
-  std::vector<TractionPoint> curve{};            ///< from (0, 0) to (final separation, 0)
-  std::vector<DamagePoint> damage{};             ///< from the initiation to 1
-  double curve_error = 0.0, damage_error = 0.0;  ///< of the tables, over the strength, at the record's states
-  std::vector<std::string> remarks{};            ///< source, frame, what was seen; SI
+  std::string surface;                 ///< plain name
+  Figure stiffness;                    ///< K, normal and tangential [Pa/m]
+  Figure strength;                     ///< normal [Pa]
+  Figure shear_strength;               ///< [Pa]
+  Figure energy;                       ///< GI: whole area of the law [J/m^2]
+  Figure shear_energy;                 ///< GII [J/m^2]
+  Figure exponent;                     ///< [-]
+  double initiation = 0.0;             ///< traction at which the law leaves K delta: where D begins [Pa]
+  std::vector<TractionPoint> curve{};  ///< from (0, 0) to (final separation, 0)
+  std::vector<DamagePoint> damage{};   ///< from the initiation to 1
+  double curve_error = 0.0;            ///< of T-delta at the record's states, over the strength
+  double damage_error = 0.0;           ///< of D-delta likewise, everywhere: at most
+  std::vector<std::string> remarks{};  ///< source, frame, what was seen; SI
 
   double onset() const { return strength.value / stiffness.value; }                ///< of the bilinear law [m]
   double final_separation() const { return 2.0 * energy.value / strength.value; }  ///< likewise

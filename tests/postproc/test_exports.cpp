@@ -23,17 +23,17 @@ using testing::HasSubstr;
 
 using Curve = std::function<double(double)>;  // traction [Pa] at a separation [m]
 
-/// A plane with one place that follows the curve through `n` states up to `end`; its columns dissipate `dissipated`.
-CohesiveReport report_of(const Curve& curve, double end, int n = 240, double dissipated = 10.0) {
+using States = std::vector<TractionPoint>;
+
+/// A plane with one place that went through these states; its columns dissipate `dissipated`.
+CohesiveReport report_of(const States& states, double dissipated = 10.0) {
   ColumnRecord record{.name = "band", .kind = SurfaceKind::plane, .places = {{.area = 2.0}}, .steps = {}};
   record.steps.push_back({ColumnSample{}});
-  for (int i = 0; i <= n; ++i) {
-    const double separation = end * i / n;
-    record.steps.push_back({{.traction = Vector(curve(separation), 0, 0),
+  for (const auto& [separation, traction] : states)
+    record.steps.push_back({{.traction = Vector(traction, 0, 0),
                              .separation = Vector(separation, 0, 0),
-                             .surface_energy = dissipated * i / n,
-                             .largest_damage = std::min(1.0, 0.5 + i)}});
-  }
+                             .surface_energy = dissipated,
+                             .largest_damage = 1.0}});
   CohesiveReport report{
       .case_name = "bar", .case_hash = "0123", .version = "9.9", .records = {record}, .results = {{}}, .curve = {}};
   for (CohesiveLaw& law : averaged_laws(record)) {
@@ -41,6 +41,13 @@ CohesiveReport report_of(const Curve& curve, double end, int n = 240, double dis
     report.results[0].push_back({.law = std::move(law), .figures = figures, .fits = {}});
   }
   return report;
+}
+
+/// Through `n` states of the curve up to `end`.
+CohesiveReport report_of(const Curve& curve, double end, int n = 240, double dissipated = 10.0) {
+  States states;
+  for (int i = 0; i <= n; ++i) states.push_back({end * i / n, curve(end * i / n)});
+  return report_of(states, dissipated);
 }
 
 constexpr double um = 1e-6, MPa = 1e6;
@@ -246,7 +253,7 @@ TEST(ExportedLaw, FollowsTheRecordInItsTables) {
       if (name != "rigid" && factor > 1) continue;  // stiffer than its own rise
       const ExportedLaw law = law_to_export(report, {.stiffness = K});
       EXPECT_LE(law.curve_error, 0.00101);
-      EXPECT_LE(law.damage_error, 0.00202);
+      EXPECT_LE(law.damage_error, 0.0024);
       EXPECT_LT(law.curve.size(), 80u);
       EXPECT_LT(law.damage.size(), 300u);
       expect_close(area_under(law.curve), trapezoids(report), 5e-3);
@@ -275,13 +282,28 @@ TEST(ExportedLaw, IsCompletedAcrossAJump) {
   expect_close(area_under(law.curve), 10.0, 5e-3);
   EXPECT_GT(law.curve.back().separation, 3 * um);
   EXPECT_THAT(law.energy.basis, HasSubstr("surface energy that the columns dissipated"));
-  const std::string text = export_text(formats_named({"abaqus"}).front(), law, unit_system("SI"));
-  EXPECT_THAT(text, HasSubstr("broke at once: not seen"));
+  EXPECT_THAT(law.remarks, testing::Contains(HasSubstr("broke at once: not seen")));
   EXPECT_DOUBLE_EQ(law_to_export(report, {.energy = 20.0}).energy.value, 20.0);
   // Less than the work up to the jump cannot be.
   const ExportedLaw short_law = law_to_export(report_of(breaks, end_of_record, 201, 0.5), {});
   EXPECT_THAT(short_law.energy.basis, HasSubstr("is not more"));
   EXPECT_GT(short_law.energy.value, 2.0);
+}
+
+// As beside a pole that debonds: unloaded, and broken when it opens again. Nothing between was seen, though no step
+// falls by half the strength.
+TEST(ExportedLaw, EndsWhereItWasUnloaded) {
+  const CohesiveReport report = report_of({{0.5 * um, 1 * MPa},
+                                           {1 * um, 2 * MPa},
+                                           {0.7 * um, 1.3 * MPa},
+                                           {0.4 * um, 0.6 * MPa},
+                                           {5 * um, 0.1 * MPa},
+                                           {9 * um, 0.0}});
+  EXPECT_TRUE(report.results[0][0].figures.is_traced());
+  const ExportedLaw law = law_to_export(report, {});
+  EXPECT_DOUBLE_EQ(law.energy.value, 10.0);
+  EXPECT_THAT(law.remarks, testing::Contains(HasSubstr("seen from 0 to 1e-06 m (2e+06 Pa). From there to 5e-06 m")));
+  expect_close(area_under(law.curve), 10.0, 5e-3);
 }
 
 TEST(ExportedLaw, NeedsAnEnergyIfItEndsEarly) {
