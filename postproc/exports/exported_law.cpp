@@ -71,6 +71,8 @@ struct Candidate {
     const double mixity = result->figures.mixity_at_strength;
     return std::isnan(mixity) ? std::numeric_limits<double>::infinity() : std::floor(mixity / (5.0 * degree));
   }
+  // So rounded that equal places of a symmetric case are equal; then the first counts.
+  long share() const { return std::lround(1e6 * result->law.area / record->area()); }
   bool has_angle(double angle) const {
     return record->kind == SurfaceKind::plane || (angle >= result->law.from - 1e-9 && angle < result->law.to + 1e-9);
   }
@@ -86,7 +88,7 @@ Extent extent_of(const CohesiveResult& result, const Known& known) {
 /// Laws of mode I before others, in these the complete before the broken; the larger area.
 bool goes_before(const Candidate& a, const Candidate& b) {
   const auto key = [](const Candidate& c) {
-    return std::tuple(c.extent == Extent::open, c.mixity() >= 3.0, c.extent, c.mixity(), -c.result->law.area);
+    return std::tuple(c.extent == Extent::open, c.mixity() >= 3.0, c.extent, c.mixity(), -c.share());
   };
   return key(a) < key(b);
 }
