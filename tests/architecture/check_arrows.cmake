@@ -30,9 +30,10 @@ set(rooms
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/page postproc/records
      cases/program/input cases/program/session"
     "cases/program/fracture: physics mesh solver/momentum solver/fracture postproc/files postproc/fields postproc/curves
-     postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies cases/program/point"
-    "cases/program: physics solver solver/point postproc/files postproc/fields postproc/curves postproc/exports cases/program/input
-     cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture")
+     postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies
+     cases/program/point"
+    "cases/program: physics solver solver/point postproc/files postproc/fields postproc/curves postproc/exports
+     cases/program/input cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture")
 set(complaints "")
 
 set(names "")
