@@ -1,10 +1,13 @@
 #pragma once
-// Over-relaxation of the staggered loop's damage increments: one secant factor for the whole field (Aitken's in vector
-// form: Irons, Tuck, IJNME 1 (1969) 275) times a relaxation factor of each cell's own. The latter halves whenever the
-// cell's increment changes sign and recovers while it does not, so that a few oscillating cells neither prevent
-// convergence nor slow down the rest. If the iteration makes little net progress, for example where a crack may lie in
-// either of two layers of cells, the largest secant factor is reduced towards that of plain alternation. If it still
-// has a limit cycle, Anderson acceleration starts from the mean of the cycle.
+// Acceleration of the staggered loop. Alternate minimisation descends; Nesterov's momentum, which carries each iterate
+// on along the last step, takes the square root of its iterations where it is slow, be it at a minimum or on the way
+// from an unstable state, and starts anew whenever the increments point back (Beck, Teboulle, SIAM J. Imaging Sci. 2
+// (2009) 183; adaptive restart: O'Donoghue, Candes, Found. Comput. Math. 15 (2015) 715).
+//
+// Besides, a relaxation factor of each cell's own: it halves whenever the cell's increment changes sign and recovers
+// while it does not, so that a few oscillating cells neither prevent convergence nor slow down the rest; until it has
+// recovered, the cell has no momentum. If the iteration still has a limit cycle, Anderson acceleration starts from the
+// mean of the cycle.
 
 #include "solver/fracture/anderson.h"
 
@@ -38,18 +41,18 @@ class Relaxation {
   bool goes_in_circles() const { return mixing_ && circles_ >= most_circles; }
 
  private:
-  CellField<double> over_relaxed(const CellField<double>& d, const CellField<double>& answer,
-                                 const CellField<double>& lower);
+  CellField<double> accelerated(const CellField<double>& d, const CellField<double>& answer,
+                                const CellField<double>& lower);
+  double momentum(const CellField<double>& relaxed);
 
-  static constexpr double most_factor = 5.0;
   static constexpr int most_circles = 2;
 
   CellField<double> increment_;  // of the iteration before
   CellField<double> share_;      // relaxation factor of each cell, at most 1
-  double factor_ = 1.0;
-  double largest_factor_ = most_factor;
-  Progress progress_{12}, long_progress_{48};
-  int circles_ = 0;  // successive long stretches with almost no net change
+  CellField<double> relaxed_;    // damage of the iteration before, without momentum
+  double inertia_ = 1.0;         // t of Beck and Teboulle
+  Progress progress_{48};
+  int circles_ = 0;  // successive stretches with almost no net change
   std::optional<AndersonMixing> mixing_;
 };
 
