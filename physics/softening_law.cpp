@@ -19,6 +19,8 @@ constexpr SofteningLaw linear{
     .final_opening = 2.0,
     .exponent = 2.0,
     .traction = [](double w) { return std::max(0.0, 1.0 - 0.5 * w); },
+    .slope = [](double w) { return w < 2.0 ? -0.5 : 0.0; },
+    .work = [](double w) { return w < 2.0 ? w - 0.25 * w * w : 1.0; },
 };
 
 constexpr SofteningLaw exponential{
@@ -28,6 +30,8 @@ constexpr SofteningLaw exponential{
     .final_opening = no_end,
     .exponent = 2.5,
     .traction = [](double w) { return std::exp(-w); },
+    .slope = [](double w) { return -std::exp(-w); },
+    .work = [](double w) { return -std::expm1(-w); },
 };
 
 constexpr SofteningLaw hyperbolic{
@@ -37,20 +41,35 @@ constexpr SofteningLaw hyperbolic{
     .final_opening = no_end,
     .exponent = 4.0,
     .traction = [](double w) { return 1.0 / ((1.0 + w) * (1.0 + w)); },
+    .slope = [](double w) { return -2.0 / ((1.0 + w) * (1.0 + w) * (1.0 + w)); },
+    .work = [](double w) { return w / (1.0 + w); },
 };
 
 // Cornelissen, Hordijk, Reinhardt, Heron 31 (1986) 45, with eta1 = 3, eta2 = 6.93: area Gf for wc = 5.1361 Gf/ft.
+constexpr double eta2 = 6.93, cornelissen_end = 5.1361;
 constexpr SofteningLaw cornelissen{
     .name = "cornelissen",
     .description = "concrete: sigma = ft ((1 + 27 r^3) exp(-6.93 r) - 28 r exp(-6.93)), r = w/wc, wc = 5.1361 Gf/ft",
     .initial_slope = 1.3546,
-    .final_opening = 5.1361,
+    .final_opening = cornelissen_end,
     .exponent = 2.0,
     .traction =
         [](double w) {
-          const double r = std::min(w / 5.1361, 1.0);
-          const double t = (1.0 + 27.0 * r * r * r) * std::exp(-6.93 * r) - 28.0 * r * std::exp(-6.93);
+          const double r = std::min(w / cornelissen_end, 1.0);
+          const double t = (1.0 + 27.0 * r * r * r) * std::exp(-eta2 * r) - 28.0 * r * std::exp(-eta2);
           return std::max(t, 0.0);  // rounding, at wc
+        },
+    .slope =
+        [](double w) {
+          const double r = w / cornelissen_end, e = std::exp(-eta2 * r);
+          if (r >= 1.0) return 0.0;
+          return (81.0 * r * r * e - eta2 * (1.0 + 27.0 * r * r * r) * e - 28.0 * std::exp(-eta2)) / cornelissen_end;
+        },
+    .work =
+        [](double w) {
+          const double r = std::min(w / cornelissen_end, 1.0), x = eta2 * r, e = std::exp(-x);
+          const double cubic = (6.0 - e * (x * x * x + 3.0 * x * x + 6.0 * x + 6.0)) / (eta2 * eta2 * eta2 * eta2);
+          return cornelissen_end * ((1.0 - e) / eta2 + 27.0 * cubic - 14.0 * r * r * std::exp(-eta2));
         },
 };
 

@@ -20,6 +20,8 @@ struct SofteningLaw {
   double final_opening;                ///< w_c ft/Gf [-]; infinite for laws with a tail
   double exponent;                     ///< p of the degradation
   double (*traction)(double opening);  ///< sigma/ft against w ft/Gf, both [-]
+  double (*slope)(double opening);     ///< its derivative
+  double (*work)(double opening);      ///< its integral from 0: 1 in the end
 };
 
 std::span<const SofteningLaw> softening_laws();

@@ -24,6 +24,13 @@ struct ShapeParameter {
   double first, lower, upper;  ///< guess and bounds [-]
 };
 
+/// A law at one separation.
+struct LawPoint {
+  double traction = 0.0;  ///< [Pa]
+  double slope = 0.0;     ///< its derivative by the separation [Pa/m]
+  double work = 0.0;      ///< its integral from 0 [J/m^2]
+};
+
 struct TractionSeparationLaw {
   std::string_view name;
   std::string_view description;
@@ -31,8 +38,30 @@ struct TractionSeparationLaw {
   /// [Pa] at the separation [m] (zero for negative ones), strength [Pa], energy [J/m^2] and shape.
   double (*traction)(const TractionSeparationLaw& law, double separation, double strength, double energy,
                      std::span<const double> shape);
+  /// The same with slope and work; a negative separation counts as zero, with the slope of the law's beginning.
+  LawPoint (*at)(const TractionSeparationLaw& law, double separation, double strength, double energy,
+                 std::span<const double> shape);
+
+  /// Whether the law begins with a straight rise, whose share of the energy is its first shape parameter.
+  bool has_rise() const { return !shape.empty() && shape.front().name == rise_share; }
+  static constexpr std::string_view rise_share = "rise_share_of_energy";
 };
 
 std::span<const TractionSeparationLaw> traction_separation_laws();
+
+/// Straight lines between points, with no traction beyond the last one. Its shape is the list of the points
+/// x_0, y_0, x_1, y_1 ...: x = separation strength / energy, rising from 0, and y = traction / strength; the area below
+/// them is 1.
+const TractionSeparationLaw& tabulated_law();
+
+/// Points [m], [Pa] as a tabulated law: its strength, its energy and its shape.
+struct TabulatedPoints {
+  double strength = 0.0;  ///< largest traction [Pa]
+  double energy = 0.0;    ///< area [J/m^2]
+  std::vector<double> shape;
+};
+/// The point (0, 0) is added where the first separation is not zero. Throws InputError unless there are two points at
+/// least, the separations rise from zero, no traction is negative, and the law begins with a traction of zero.
+TabulatedPoints tabulate(std::span<const double> separation, std::span<const double> traction);
 
 }  // namespace pfdm
