@@ -23,17 +23,20 @@ CellField<double> energy_density(const Mesh& mesh, const FractureModel& model) {
   return density;
 }
 
-// The damage is zero at the faces of undamageable cells.
+// The damage is zero at the faces of undamageable cells. Cohesive faces let no damage through, and set none.
 TwoPointFlux::Medium medium_of(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal) {
   TwoPointFlux::Medium medium{
       .conductance = CellField<double>(as_size(mesh.n_cells()), 0.0), .plane_normal = plane_normal, .limited = true};
+  if (!model.interfaces.empty()) medium.cut = FaceField<char>(as_size(mesh.n_faces()), 0);
+  for (const CohesiveSurface& surface : model.interfaces)
+    for (const Index f : surface.faces) medium.cut[f] = 1;
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (const RegionModel& region = model.in_cell(mesh, c); region.damageable)
       medium.conductance[c] = 2.0 * region.Gc * region.ell / model.crack->c0;
   for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
     const bool within_P = model.in_cell(mesh, P).damageable, within_N = model.in_cell(mesh, N).damageable;
-    if (within_P == within_N) continue;
+    if (within_P == within_N || (medium.cut.size() > 0 && medium.cut[f] != 0)) continue;
     medium.exchanges.push_back({.face = f,
                                 .cell = within_P ? P : N,
                                 .coefficient = std::numeric_limits<double>::infinity(),

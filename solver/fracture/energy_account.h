@@ -11,8 +11,10 @@ struct EnergyAccount {
   double elastic = 0.0;
   double fracture = 0.0;  ///< surface energy
   double external_work = 0.0;
-  double viscous_dissipation = 0.0;  ///< by the viscosity of the damage equation
-  double plastic_dissipation = 0.0;  ///< by materials with a history
+  double viscous_dissipation = 0.0;    ///< by the viscosity of the damage equation
+  double plastic_dissipation = 0.0;    ///< by materials with a history
+  double interface_energy = 0.0;       ///< stored in cohesive interfaces
+  double interface_dissipation = 0.0;  ///< by decohesion and friction of cohesive interfaces
   friend bool operator==(const EnergyAccount&, const EnergyAccount&) = default;
 };
 
@@ -35,6 +37,10 @@ inline constexpr EnergyEntry energy_entries[] = {
      "dissipated by viscosity"},
     {&EnergyAccount::plastic_dissipation, EnergyEntry::Role::dissipated, "plastic_dissipation", "plastic_dissipation",
      "dissipated plastically"},
+    {&EnergyAccount::interface_energy, EnergyEntry::Role::stored, "interface_energy", "final_interface_energy",
+     "stored in interfaces"},
+    {&EnergyAccount::interface_dissipation, EnergyEntry::Role::dissipated, "interface_dissipation",
+     "interface_dissipation", "dissipated by interfaces"},
 };
 
 /// The work that is neither stored nor dissipated, nor in the surface energy gained since `start`, where there may be

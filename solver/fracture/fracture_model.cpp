@@ -19,6 +19,8 @@ ElasticBody elastic_body(const FractureModel& model) {
     body.zone.push_back(static_cast<Index>(same - model.regions.begin()));
     body.elasticity.push_back(region.elasticity);
   }
+  for (const CohesiveSurface& surface : model.interfaces)
+    body.split_faces.insert(body.split_faces.end(), surface.faces.begin(), surface.faces.end());
   body.has_pressure =
       model.is_isotropic() && std::ranges::none_of(model.regions, [](const auto& r) { return r.material != nullptr; });
   return body;

@@ -5,6 +5,7 @@
 #include "physics/crack_geometry.h"
 #include "physics/degradation.h"
 #include "physics/energy_split.h"
+#include "physics/interface_law.h"
 #include "physics/materials/material.h"
 #include "solver/momentum/boundary_condition.h"
 #include "solver/momentum/preconditioner.h"
@@ -12,6 +13,7 @@
 
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace pfdm {
@@ -32,6 +34,18 @@ enum class Irreversibility {
   history,  ///< the driving energy is the largest that was seen (Miehe et al., CMAME 199 (2010) 2765, eq. 38)
 };
 
+/// Interior faces whose sides a cohesive law joins.
+struct CohesiveSurface {
+  std::string name;
+  InterfaceLaw law;
+  std::vector<Index> faces;
+  /// Of each face 1, or -1 where its normal leads to the first side of the interface, from which separations and
+  /// tractions are told; empty: the normal always leaves it.
+  std::vector<double> sign{};
+  /// One per face. A stiffness of zero, of a law with a straight rise: initially rigid (cohesive_faces.h).
+  std::vector<InterfaceStrength> at{};
+};
+
 struct FractureModel {
   /// One per region of the mesh; of a region that varies, an example. Regions whose elasticities are equal here share
   /// an elastic zone.
@@ -41,9 +55,10 @@ struct FractureModel {
   Degradation degradation{};
   EnergySplit split{};
   Irreversibility irreversibility = Irreversibility::bounds;
-  double residual_stiffness = 1e-6;         ///< k of g_k = (1 - k) g + k
-  double viscosity = 0.0;                   ///< eta of the damage equation [Pa s]; 0: rate-independent
-  std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
+  double residual_stiffness = 1e-6;           ///< k of g_k = (1 - k) g + k
+  double viscosity = 0.0;                     ///< eta of the damage equation [Pa s]; 0: rate-independent
+  std::vector<BoundaryCondition> boundary;    ///< patches that are not named are free
+  std::vector<CohesiveSurface> interfaces{};  ///< no face in two of them
   /// At load 0 the damage is nowhere below this, between 0 and 1 [-]: it has the profile of least surface energy.
   /// Empty: none.
   CellField<double> initial_damage{};

@@ -66,6 +66,7 @@ struct FractureRun::Parts {
         maximum_iterations(settings.maximum_iterations),
         residual_stiffness(model.residual_stiffness) {
     if (settings.windows) require_windows(model);
+    require_plain_interfaces(settings);
     require_path(model);
     relax_initial_damage();
   }
@@ -75,6 +76,13 @@ struct FractureRun::Parts {
     if (model.initial_damage.size() == 0) return;
     model.initial_damage = staggered.damage_equation().relaxed(model.initial_damage);
     require_held(mesh, unknowns, model.initial_damage);
+  }
+
+  void require_plain_interfaces(const StaggeredSettings& settings) const {
+    if (model.interfaces.empty()) return;
+    if (settings.windows) throw InputError("windows (solver.windows) cannot be combined with cohesive interfaces");
+    if (std::isfinite(loading.maximum_dissipation))
+      throw InputError("dissipation control (loading.maximum_dissipation) cannot be combined with cohesive interfaces");
   }
 
   void require_windows(const FractureModel& m) const {
@@ -292,6 +300,7 @@ FractureState FractureRun::initial_state() const {
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
   state.histories = parts_->staggered.stiffness().materials().virgin_histories();
+  state.interfaces = parts_->staggered.faces().virgin_histories();
   if (!parts_->model.is_isotropic()) state.tangent_strain = CellField<Tensor>(n);
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
   return state;
@@ -345,9 +354,12 @@ OutputFields FractureRun::output(const FractureState& state) {
                       .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),
                       .traction = staggered.momentum().balance().tractions(state.displacement)};
   if (parts_->unknowns.plane_stress) fields.plane_stress_normal = parts_->unknowns.plane_normal;
+  fields.interfaces = staggered.faces().output(staggered.momentum().balance(), state);
   fields.history = staggered.stiffness().materials().output(state.histories);
   return fields;
 }
+
+std::vector<std::string> FractureRun::interface_warnings() const { return parts_->staggered.faces().warnings(); }
 
 const FractureModel& FractureRun::model() const { return parts_->model; }
 

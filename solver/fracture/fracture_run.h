@@ -36,7 +36,8 @@ class FractureRun {
 
   OutputFields output(const FractureState& state);
   const FractureModel& model() const;
-  Index n_unknowns() const;  ///< of displacement
+  std::vector<std::string> interface_warnings() const;  ///< of cells too large for their cohesive laws
+  Index n_unknowns() const;                             ///< of displacement
   std::map<std::string, double> cpu_seconds_by_stage() const;
   Index krylov_iterations() const;
   Index staggered_iterations() const;

@@ -32,6 +32,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       local_(std::move(local)),
       momentum_(mesh, unknowns, settings.linear),
       stiffness_(mesh, model),
+      faces_(mesh, model, unknowns),
       damage_(mesh, model, unknowns.plane_normal),
       psi_plus_(as_size(mesh.n_cells())) {}
 
@@ -44,16 +45,19 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   // Reactions balance, and energies belong to the damage of the step.
   degrade(state);
   const double tolerance = std::min(last_tolerance, settings_.equilibrium_tolerance);
-  const Equilibrium equilibrium = solve_momentum(state, {.reduction = 0.0,
-                                                         .ceiling = tolerance,
-                                                         .floor = tolerance,
-                                                         .most_iterations = last_iterations,
-                                                         .good_enough = settings_.equilibrium_tolerance});
+  const Equilibrium equilibrium = solve_momentum(start, state,
+                                                 {.reduction = 0.0,
+                                                  .ceiling = tolerance,
+                                                  .floor = tolerance,
+                                                  .most_iterations = last_iterations,
+                                                  .good_enough = settings_.equilibrium_tolerance});
   outcome.krylov_iterations += equilibrium.iterations;
   outcome.residual = equilibrium.residual;
   outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
   const Energies energies = update_driving_energy(start, state, false);
-  outcome.energy.elastic = energies.stored;
+  outcome.energy.elastic = energies.stored - energies.interfaces;
+  outcome.energy.interface_energy = energies.interfaces;
+  outcome.energy.interface_dissipation = faces_.dissipated(start.interfaces, state.interfaces);
   outcome.share = residual_share(state, energies);
   outcome.collapsed = outcome.converged && has_collapsed(outcome.share);
   outcome.energy.viscous_dissipation = damage_.viscous_dissipation(state.damage);
@@ -105,10 +109,11 @@ struct Staggered::Loop {
     const double required = s.settings_.equilibrium_tolerance;
     // A crack that is closed and sheared is nearly incompressible and takes many Krylov iterations: the remaining
     // residual is left to the next iteration of the loop.
-    const Equilibrium equilibrium = s.solve_momentum(state, {.reduction = 0.1,
-                                                             .ceiling = outcome.settled ? required : 1e-4,
-                                                             .floor = 0.1 * required,
-                                                             .most_iterations = inner_iterations});
+    const Equilibrium equilibrium = s.solve_momentum(start, state,
+                                                     {.reduction = 0.1,
+                                                      .ceiling = outcome.settled ? required : 1e-4,
+                                                      .floor = 0.1 * required,
+                                                      .most_iterations = inner_iterations});
     outcome.failed = !std::isfinite(equilibrium.residual);
     outcome.residual = equilibrium.residual;
     report.krylov_iterations = equilibrium.iterations;
@@ -120,12 +125,20 @@ struct Staggered::Loop {
     outcome.failed = !std::isfinite(energies.unsettled);
     if (outcome.failed) return;
     if (s.local_) from.driving_energy = state.driving_energy;
-    if (outcome.iterations == 0) stored_at_unit_load = energies.stored / (state.load * state.load);
+    if (outcome.iterations == 0) stored_at_unit_load = stored_before() / (state.load * state.load);
     torn = has_collapsed(s.residual_share(state, energies)) ? torn + 1 : 0;
     outcome.collapsed = torn > torn_at_most;
     outcome.starting_energy = stored_at_unit_load * state.load * state.load;
     outcome.energy_release = std::abs(energies.stored - outcome.starting_energy) /
                              std::max(outcome.starting_energy + fracture_energy, 1e-300);
+  }
+
+  // Cohesive faces have released energy already when the first equilibrium is found: what they and the body had before
+  // grows with the load squared.
+  double stored_before() const {
+    if (!s.faces_.any() || !(start.load > 0.0)) return energies.stored;
+    const double growth = state.load / start.load;
+    return growth * growth * (start.energy.elastic + start.energy.interface_energy);
   }
 
   void renew_damage() {
@@ -200,8 +213,11 @@ void Staggered::degrade(const FractureState& state) {
   stiffness_.set(state, momentum_);
 }
 
-Equilibrium Staggered::solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance) {
+Equilibrium Staggered::solve_momentum(const FractureState& start, FractureState& state,
+                                      const MomentumSolver::Tolerance& tolerance) {
   const auto lap = clock_.lap("momentum");
+  if (faces_.any())
+    return solve_with_faces(faces_, start.interfaces, state.load, tolerance, momentum_, state.displacement);
   return momentum_.solve(state.load, tolerance, state.displacement);
 }
 
@@ -212,6 +228,8 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   Energies energies{.unsettled = stiffness_.integrate(mechanics, start, state)};
   energies.stored =
       parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
+  energies.interfaces = faces_.advance(momentum_.balance(), state.displacement, start.interfaces, state.interfaces);
+  energies.stored += energies.interfaces;
   parallel_for(mesh_.n_cells(), [&](Index c) { psi_plus_[c] = stiffness_.driving_energy(c, mechanics, state); });
   energies.residual = drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_.follow(mechanics, state);

@@ -4,6 +4,7 @@
 // local iterations around the cells that still change, between the global ones (window.h).
 
 #include "solver/fracture/cell_stiffness.h"
+#include "solver/fracture/cohesive_faces.h"
 #include "solver/fracture/damage_equation.h"
 #include "solver/fracture/fracture_model.h"
 #include "solver/fracture/iteration_report.h"
@@ -105,17 +106,20 @@ class Staggered {
   const DamageEquation& damage_equation() const { return damage_; }
   CellStiffness& stiffness() { return stiffness_; }
   const CellStiffness& stiffness() const { return stiffness_; }
+  const CohesiveFaces& faces() const { return faces_; }
   StageClock& clock() { return clock_; }
   /// Sets the degraded stiffness of the state in the momentum balance.
   void degrade(const FractureState& state);
 
  private:
   struct Loop;
-  Equilibrium solve_momentum(FractureState& state, const MomentumSolver::Tolerance& tolerance);
+  Equilibrium solve_momentum(const FractureState& start, FractureState& state,
+                             const MomentumSolver::Tolerance& tolerance);
   struct Energies {
-    double stored = 0.0;     // [J]
-    double residual = 0.0;   // the part of it that the residual stiffness has [J]
-    double unsettled = 0.0;  // error of it by stiffnesses that have not settled [J]
+    double stored = 0.0;      // [J]
+    double interfaces = 0.0;  // the part of it in cohesive faces [J]
+    double residual = 0.0;    // the part of it that the residual stiffness has [J]
+    double unsettled = 0.0;   // error of it by stiffnesses that have not settled [J]
   };
   /// With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
@@ -136,6 +140,7 @@ class Staggered {
   std::unique_ptr<LocalIterations> local_;
   MomentumSolver momentum_;
   CellStiffness stiffness_;
+  CohesiveFaces faces_;
   DamageEquation damage_;
   StageClock clock_;
   CellField<double> psi_plus_;           // [J/m^3] of the last equilibrium, as are the displacements

@@ -2,6 +2,7 @@
 // The state of a fracture run is a value: it can be copied, written, and restarted from.
 
 #include "mesh/fields.h"
+#include "physics/interface_law.h"
 #include "solver/fracture/cell_histories.h"
 #include "solver/fracture/energy_account.h"
 
@@ -22,8 +23,9 @@ struct FractureState {
   CellField<double> closure;         ///< of the energy split: 1 where cracks are closed, 0 where open
   /// Strain in whose direction the tangent stiffness is taken [-]; empty for splits with isotropic secant moduli.
   CellField<Tensor> tangent_strain;
-  CellHistories histories;             ///< of the effective materials
-  std::vector<Vector> boundary_force;  ///< on each boundary face [N], in the mesh's face order
+  CellHistories histories;                   ///< of the effective materials
+  std::vector<InterfaceHistory> interfaces;  ///< of the cohesive faces, one surface after the other
+  std::vector<Vector> boundary_force;        ///< on each boundary face [N], in the mesh's face order
   EnergyAccount energy;
 };
 
@@ -50,6 +52,16 @@ struct OutputHistory {
   CellField<Tensor> tensor{};
 };
 
+/// The faces of a cohesive surface, one value per face.
+struct OutputInterface {
+  std::string name;
+  std::vector<Index> faces;
+  CellField<Vector> separation;  ///< of the second side from the first [m]
+  CellField<Vector> traction;    ///< on the first side [Pa]
+  CellField<double> opening;     ///< along the normal [m]
+  CellField<double> damage;      ///< fraction of the toughness that has been dissipated
+};
+
 /// Fields for output at a converged state.
 struct OutputFields {
   CellField<Vector> displacement;    ///< [m]
@@ -61,7 +73,8 @@ struct OutputFields {
   CellField<double> driving_energy;  ///< [J/m^3]
   /// Discrete surface energy over the cell's volume, half of a face's to each of its cells [J/m^3].
   CellField<double> fracture_energy_density;
-  std::vector<OutputHistory> history{};  ///< of materials that have one
+  std::vector<OutputHistory> history{};       ///< of materials that have one
+  std::vector<OutputInterface> interfaces{};  ///< one per cohesive surface
   /// On each face along its normal, sigma n [Pa]; zero on the front and back of a plate, which carry none.
   FaceField<Vector> traction;
   Vector plane_stress_normal = Vector::Zero();  ///< of a plate in plane stress; else zero

@@ -15,6 +15,13 @@ std::vector<char> with_pressure(const Mesh& mesh, const Unknowns& unknowns) {
   return has;
 }
 
+FaceField<char> split_faces(const Mesh& mesh, const Unknowns& unknowns) {
+  if (unknowns.split_faces.empty()) return {};
+  FaceField<char> cut(as_size(mesh.n_faces()), 0);
+  for (const Index f : unknowns.split_faces) cut[f] = 1;
+  return cut;
+}
+
 FaceField<Tensor> warps(const Mesh& mesh) {
   constexpr double negligible = 1e-12;
   FaceField<Tensor> warp(as_size(mesh.n_faces()));
@@ -33,6 +40,7 @@ CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
       unknowns_(unknowns),
       gradient_(mesh, {.zone = unknowns.zone,
                        .node_of_face = {},
+                       .cut = split_faces(mesh, unknowns),
                        .plane_normal = unknowns.plane_normal,
                        .wanted = with_pressure(mesh, unknowns),
                        .zero_if_deficient = true}) {

@@ -67,6 +67,7 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
       unknowns_(unknowns),
       gradient_(mesh, {.zone = unknowns.zone,
                        .node_of_face = unknowns.node_of_face,
+                       .neighbour_node = unknowns.neighbour_node,
                        .plane_normal = unknowns.plane_normal,
                        .wanted = {}}),
       moduli_(as_size(mesh.n_cells())),
@@ -114,25 +115,34 @@ void MomentumOperator::add_sides() {
   };
   for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
     const Index f = unknowns_.face_of_node[k], node = unknowns_.n_cells + static_cast<Index>(k);
+    if (node != unknowns_.node_of_face[f]) {
+      first_side_of_node_[k] = add(node, f, mesh_.neighbour[f], -1.0);
+      continue;
+    }
     first_side_of_node_[k] = add(node, f, mesh_.owner[f], 1.0);
     force_of_face_[as_size(f)] = static_cast<Index>(links_.size()) + first_side_of_node_[k];
-    if (mesh_.is_interior(f)) second_side_of_node_[k] = add(node, f, mesh_.neighbour[f], -1.0);
+    const bool shared = mesh_.is_interior(f) && unknowns_.node_beside(mesh_, mesh_.neighbour[f], f) == node;
+    if (shared) second_side_of_node_[k] = add(node, f, mesh_.neighbour[f], -1.0);
   }
+  for (const Index f : unknowns_.split_faces)
+    split_faces_.push_back({unknowns_.node_of_face[f], unknowns_.neighbour_node[f], mesh_.face_area[f].norm()});
 }
 
 void MomentumOperator::list_forces_of_cells() {
   cell_offsets_.push_back(0);
   for (Index c = 0; c < mesh_.n_cells(); ++c) {
     for (const Index f : mesh_.faces_of_cell(c)) {
-      const Index force = force_of_face_[as_size(f)], node = unknowns_.node_of_face[f];
+      const Index force = force_of_face_[as_size(f)], node = unknowns_.node_beside(mesh_, c, f);
       if (force < 0) continue;
-      if (mesh_.owner[f] == c)
+      if (mesh_.owner[f] == c) {
         cell_forces_.push_back({force, 1.0});
-      else if (node < 0)
+      } else if (node < 0) {
         cell_forces_.push_back({force, -1.0});
-      else
-        cell_forces_.push_back(
-            {static_cast<Index>(links_.size()) + second_side_of_node_[as_size(node - unknowns_.n_cells)], 1.0});
+      } else {
+        const std::size_t k = as_size(node - unknowns_.n_cells);
+        const Index side = second_side_of_node_[k] >= 0 ? second_side_of_node_[k] : first_side_of_node_[k];
+        cell_forces_.push_back({static_cast<Index>(links_.size()) + side, 1.0});
+      }
     }
     cell_offsets_.push_back(cell_forces_.size());
   }
@@ -245,7 +255,25 @@ void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
 void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& out) const {
   compute_linear_forces(u);
   sum_forces(out);
+  pull_by_springs(u, out);
   balance_pressures(out);
+}
+
+void MomentumOperator::pull_by_springs(const std::vector<Vector>& u, std::vector<Vector>& out) const {
+  parallel_for(static_cast<Index>(springs_.size()), [&](Index k) {
+    const SplitFace& face = split_faces_[as_size(k)];
+    const Vector force = face.area * (springs_[as_size(k)].stiffness * separation(as_size(k), u));
+    out[as_size(face.node)] -= force;
+    out[as_size(face.beyond)] += force;
+  });
+}
+
+void MomentumOperator::add_spring_offsets(std::vector<Vector>& load) const {
+  for (std::size_t k = 0; k < springs_.size(); ++k) {
+    const SplitFace& face = split_faces_[k];
+    load[as_size(face.node)] += face.area * springs_[k].offset;
+    load[as_size(face.beyond)] -= face.area * springs_[k].offset;
+  }
 }
 
 void MomentumOperator::sum_forces(std::vector<Vector>& out) const {
@@ -355,6 +383,13 @@ BlockTriplets MomentumOperator::compact_matrix() const {
     matrix.diagonal[as_size(side.cell)] += a;
     matrix.diagonal[as_size(side.node)] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);
     if (!is_free.isZero()) matrix.off_diagonal.push_back({side.cell, side.node, -a * is_free});
+  }
+  for (std::size_t k = 0; k < springs_.size(); ++k) {
+    const SplitFace& face = split_faces_[k];
+    const Tensor s = face.area * springs_[k].secant;
+    matrix.diagonal[as_size(face.node)] += s;
+    matrix.diagonal[as_size(face.beyond)] += s;
+    matrix.off_diagonal.push_back({face.node, face.beyond, -s});
   }
   for (Index c = 0; c < sector_area_.size(); ++c) matrix.diagonal[as_size(c)] += compact_sector(c);
   if (!unknowns_.plane_normal.isZero()) decouple(unknowns_.plane_normal, matrix);

@@ -33,6 +33,9 @@
 // Nearly incompressible cells have an additional unknown, a pressure q, which is added to sigma at the face; everywhere
 // else lambda_s replaces lambda (cell_pressure.h).
 //
+// Split faces: each side has a node and a traction of its own, t_P and t_N as above, and a law of their separation
+// joins them, t_P = T(u_f,N - u_f,P) = -t_N. It is linearised within each solve, T = K (u_f,N - u_f,P) + T_0.
+//
 // Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
 // are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements.
 
@@ -66,6 +69,13 @@ struct CellMechanics {
   FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
 };
 
+/// The law of a split face about a separation delta = u_N - u_P of its sides.
+struct FaceSpring {
+  Tensor stiffness;  ///< K of the traction on the owner's side, K delta + offset [Pa/m]
+  Vector offset;     ///< [Pa]
+  Tensor secant;     ///< for the preconditioner: symmetric, positive semi-definite [Pa/m]
+};
+
 class MomentumOperator {
  public:
   MomentumOperator(const Mesh& mesh, const Unknowns& unknowns);
@@ -77,6 +87,16 @@ class MomentumOperator {
                   CellField<LinearStress> stress = {});
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
+
+  /// In the order of the split faces.
+  void set_springs(std::vector<FaceSpring> springs) { springs_ = std::move(springs); }
+  /// load += the forces of the springs' offsets, [N].
+  void add_spring_offsets(std::vector<Vector>& load) const;
+  /// Separation of the sides of split face number k [m].
+  Vector separation(std::size_t k, const std::vector<Vector>& u) const {
+    const SplitFace& face = split_faces_[k];
+    return u[as_size(face.beyond)] - u[as_size(face.node)];
+  }
 
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
   /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Without initial stresses.
@@ -126,6 +146,10 @@ class MomentumOperator {
     Vector d;                     // from the cell centre to the face centre
     double a_n = 0.0, a_t = 0.0;  // [Pa/m]
   };
+  struct SplitFace {
+    Index node, beyond;  // on the owner's and on the neighbour's side
+    double area;
+  };
   // Weight and c of a link whose cells are not isotropic.
   struct LinkTensors {
     Tensor weight;    // of sigma_P n in the traction
@@ -150,6 +174,7 @@ class MomentumOperator {
   void add_links();
   void add_sides();
   void list_forces_of_cells();
+  void pull_by_springs(const std::vector<Vector>& u, std::vector<Vector>& out) const;
   // Forces of the displacements, of the initial stresses, and of both, into forces_.
   void compute_linear_forces(const std::vector<Vector>& u) const;
   void add_initial_forces() const;
@@ -218,10 +243,12 @@ class MomentumOperator {
   CellField<StrainAcross> strain_across_;  // empty but in plane stress
   std::vector<Link> links_;
   std::vector<Side> sides_;
+  std::vector<SplitFace> split_faces_;
+  std::vector<FaceSpring> springs_;  // of them; empty: none
   std::vector<LinkTensors> link_tensors_;
   std::vector<Tensor> side_tensors_;        // a [Pa/m]
   std::vector<Index> force_of_face_;        // owner's side; -1 for plane and axisymmetric patches
-  std::vector<Index> second_side_of_node_;  // of interface nodes: the neighbour's side, else -1
+  std::vector<Index> second_side_of_node_;  // of interface nodes that are not split: the neighbour's side, else -1
   std::vector<Index> first_side_of_node_;
   std::vector<std::size_t> cell_offsets_;
   std::vector<SignedForce> cell_forces_;

@@ -80,14 +80,18 @@ FaceField<Vector> MomentumOperator::face_displacements(const std::vector<Vector>
   parallel_for(static_cast<Index>(links_.size()),
                [&](Index i) { u_face[links_[as_size(i)].face] = face_displacement(as_size(i), u); });
   for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k)
-    u_face[unknowns_.face_of_node[k]] = u[as_size(unknowns_.n_cells) + k];
+    if (const auto node = as_size(unknowns_.n_cells) + k;
+        as_size(unknowns_.node_of_face[unknowns_.face_of_node[k]]) == node)
+      u_face[unknowns_.face_of_node[k]] = u[node];
   return u_face;
 }
 
-// Faces of plane patches carry no unknown: they move with their cell, within the plane. Those of a sector move with its
-// gradient, in themselves.
+// A split face has a displacement on each side. Faces of plane patches carry no unknown: they move with their cell,
+// within the plane. Those of a sector move with its gradient, in themselves.
 Vector MomentumOperator::seen_from(Index cell, Index face, const FaceField<Vector>& u_face,
                                    const std::vector<Vector>& u) const {
+  if (const Index node = unknowns_.node_beside(mesh_, cell, face); node != unknowns_.node_of_face[face])
+    return u[as_size(node)];
   if (force_of_face_[as_size(face)] >= 0) return u_face[face];
   if (unknowns_.is_axisymmetric()) {
     const Vector along = mesh_.face_area[face].normalized();
@@ -108,7 +112,7 @@ double MomentumOperator::part_energy(Index cell, const IsotropicElasticity& part
     if (force_of_face_[as_size(f)] < 0) continue;
     const Vector area = (mesh_.owner[f] == cell ? 1.0 : -1.0) * mesh_.face_area[f];
     const Vector n = area.normalized(), d = mesh_.face_centre[f] - mesh_.cell_centre[cell];
-    const Vector rise = u_face[f] - u[as_size(cell)];
+    const Vector rise = seen_from(cell, f, u_face, u) - u[as_size(cell)];
     const Tensor at_face = with_strain_across(cell, G + (rise - G * d) * n.transpose() / bounded_height(d, n));
     varying += 0.5 * rise.dot(stress(moduli, symmetric_part(at_face) - strain) * area);
   }
@@ -178,8 +182,9 @@ std::vector<Vector> MomentumOperator::boundary_forces(const std::vector<Vector>&
 std::vector<std::pair<Index, Vector>> MomentumOperator::interface_tractions(const std::vector<Vector>& u) const {
   compute_forces(u);
   std::vector<std::pair<Index, Vector>> tractions;
-  for (const Index f : unknowns_.face_of_node)
-    if (mesh_.is_interior(f))
+  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k)
+    if (const Index f = unknowns_.face_of_node[k];
+        mesh_.is_interior(f) && as_size(unknowns_.node_of_face[f] - unknowns_.n_cells) == k)
       tractions.emplace_back(f, forces_[as_size(force_of_face_[as_size(f)])] / mesh_.face_area[f].norm());
   return tractions;
 }

@@ -53,7 +53,7 @@ bool MomentumSolver::has_moved(const CellField<IsotropicElasticity>& moduli) con
          }) > bearable_ratio;
 }
 
-// Returns whether it was rebuilt.
+// Returns whether it will be rebuilt.
 bool MomentumSolver::renew_preconditioner(const CellField<double>& measure, bool must_be) {
   const CellField<double>& built = built_measure_;
   const bool moved = is_built_ && parallel_max(measure.size(), [&](Index c) {
@@ -61,8 +61,25 @@ bool MomentumSolver::renew_preconditioner(const CellField<double>& measure, bool
                                   }) > bearable_ratio;
   if (is_built_ && !moved && !must_be) return false;
   built_measure_ = measure;
-  build_preconditioner();
+  is_built_ = is_due_ = true;
+  if (unknowns_.split_faces.empty()) build_preconditioner();  // the others wait for their springs
   return true;
+}
+
+void MomentumSolver::set_springs(std::vector<FaceSpring> springs, const std::vector<double>& bond) {
+  constexpr double least = 1e-3;  // of the bond: a softer face hardly connects
+  std::vector<double> measure(springs.size());
+  for (std::size_t k = 0; k < springs.size(); ++k)
+    measure[k] = 1.0 / (1.0 / (springs[k].secant.trace() / 3.0 + least * bond[k]) + 1.0 / bond[k]);
+  operator_.set_springs(std::move(springs));
+  const auto moved = [&](std::size_t k) {
+    return std::max(measure[k] / built_springs_[k], built_springs_[k] / measure[k]) > bearable_ratio;
+  };
+  bool keeps = built_springs_.size() == measure.size();
+  for (std::size_t k = 0; keeps && k < measure.size(); ++k) keeps = !moved(k);
+  if (keeps) return;
+  built_springs_ = std::move(measure);
+  is_due_ = true;
 }
 
 void MomentumSolver::build_preconditioner() {
@@ -72,7 +89,7 @@ void MomentumSolver::build_preconditioner() {
   pressure_compliance_ = operator_.pressure_compliance();
   for (const double s : pressure_compliance_) scale_.push_back(1.0 / std::sqrt(s));
   preconditioner_->build(compact);
-  is_built_ = true;
+  is_due_ = false;
   reference_load_.reset();
   ++n_preconditioners_;
 }
@@ -121,8 +138,10 @@ std::vector<Vector> MomentumSolver::load_vector(double t) const {
 }
 
 Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vector<Vector>& u) {
-  const std::vector<Vector> load = load_vector(t);
+  if (is_due_) build_preconditioner();
+  std::vector<Vector> load = load_vector(t);
   const double reference = reference_norm(t, load);
+  operator_.add_spring_offsets(load);
   operator_.prescribe(t, u);
   if (reference == 0.0) {
     std::fill(u.begin(), u.end(), Vector::Zero());

@@ -33,6 +33,9 @@ class MomentumSolver {
                   CellField<LinearStress> stress = {});
   /// The same with a general stiffness [Pa]; the preconditioner is rebuilt by changes of its trace.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
+  /// The laws of the split faces about their separations. The preconditioner is rebuilt when a face together with the
+  /// cells beside it, whose stiffness is `bond` [Pa/m], has changed its stiffness by more than a factor of 2.
+  void set_springs(std::vector<FaceSpring> springs, const std::vector<double>& bond);
   /// Makes the next set_moduli rebuild everything that could differ, so that the results do not depend on earlier
   /// states.
   void start_afresh() {
@@ -73,12 +76,14 @@ class MomentumSolver {
   MomentumOperator operator_;
   std::vector<Vector> body_force_;  // on the cells [N]; may be empty
   std::unique_ptr<Preconditioner> preconditioner_;
-  bool is_built_ = false;                        // the preconditioner
+  bool is_built_ = false;                        // the preconditioner, or it will be by the next solve:
+  bool is_due_ = false;
   CellField<double> built_measure_;              // of the cells' stiffness: any measure, but always the same
   CellField<IsotropicElasticity> built_moduli_;  // empty for a general stiffness
   bool starts_afresh_ = false;
   bool struggled_ = false;  // the last solve did not converge
   std::vector<double> scale_;
+  std::vector<double> built_springs_;        // measure of the split faces' stiffness
   std::vector<double> pressure_compliance_;  // per pressure [m^3/Pa]
   std::vector<Vector> rest_;                 // residual without the forces of the pressures; work space
   std::optional<double> reference_load_;     // load parameter that reference_ belongs to

@@ -23,8 +23,10 @@ std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unkno
   Index next = 0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     position[as_size(c)] = next++;
-    for (const Index f : mesh.faces_of_cell(c))
-      if (unknowns.node_of_face[f] >= 0 && mesh.owner[f] == c) position[as_size(unknowns.node_of_face[f])] = next++;
+    for (const Index f : mesh.faces_of_cell(c)) {
+      const bool has_own = mesh.owner[f] == c || unknowns.node_beside(mesh, c, f) != unknowns.node_of_face[f];
+      if (const Index node = unknowns.node_beside(mesh, c, f); node >= 0 && has_own) position[as_size(node)] = next++;
+    }
   }
   return position;
 }

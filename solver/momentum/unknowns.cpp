@@ -128,6 +128,20 @@ std::vector<Index> pressure_cells(const Mesh& mesh, const ElasticBody& body, con
   return cells;
 }
 
+// Also between two zones: the node of the interface is then the owner's.
+template <class AddNode>
+void split(const Mesh& mesh, const std::vector<Index>& faces, Unknowns& unknowns, const AddNode& add_node) {
+  if (faces.empty()) return;
+  unknowns.split_faces = faces;
+  unknowns.neighbour_node = FaceField<Index>(as_size(mesh.n_faces()), -1);
+  for (const Index f : faces) {
+    if (unknowns.node_of_face[f] < 0) add_node(f, Tensor::Identity());
+    unknowns.neighbour_node[f] = unknowns.n_nodes();
+    unknowns.face_of_node.push_back(f);
+    unknowns.free_directions.push_back(Tensor::Identity());
+  }
+}
+
 }  // namespace
 
 Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
@@ -144,6 +158,7 @@ Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
   };
   for (Index f = 0; f < mesh.n_interior_faces(); ++f)
     if (unknowns.zone[mesh.owner[f]] != unknowns.zone[mesh.neighbour[f]]) add_node(f, Tensor::Identity());
+  split(mesh, body.split_faces, unknowns, add_node);
   std::vector<Vector> sector_normals;
   for (const PatchCondition& on : unknowns.conditions) {
     const Patch& patch = mesh.patches[static_cast<std::size_t>(on.patch)];

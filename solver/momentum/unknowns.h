@@ -2,6 +2,7 @@
 // Placement of the displacement unknowns: one node per cell, then one per face between two elastic zones or on the
 // boundary. Faces of plane and axisymmetric patches (one-cell-thick meshes) carry none. Nearly incompressible cells
 // also have a pressure (cell_pressure.h): unknowns after the nodes, each in the first component of a vector.
+// The sides of a split face (a cohesive interface) are independent: each has a node of its own.
 
 #include "mesh/mesh_part.h"
 #include "physics/elasticity.h"
@@ -17,6 +18,7 @@ struct ElasticBody {
   /// Of each region: the first one with the same law. Faces between different laws carry unknowns.
   std::vector<Index> zone;
   std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
+  std::vector<Index> split_faces{};         ///< interior ones, none twice
   /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
   bool has_pressure = true;
 };
@@ -32,6 +34,8 @@ struct Unknowns {
   std::vector<IsotropicElasticity> sound;  ///< elasticity of each zone, undamaged
   FaceField<Index> node_of_face;           ///< -1 where a face carries no unknown
   std::vector<Index> face_of_node;         ///< entry k is the face of node n_cells + k
+  std::vector<Index> split_faces{};        ///< node_of_face is that of their owner's side,
+  FaceField<Index> neighbour_node{};       ///< and this that of the neighbour's; -1 elsewhere; empty without any
   std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free by default
   std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
   /// Across the one cell of plane and axisymmetric meshes; zero in three-dimensional ones.
@@ -43,6 +47,11 @@ struct Unknowns {
 
   bool is_axisymmetric() const { return radial != Vector::Zero(); }
   Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }
+  /// Node of a face on the side of one of its cells; -1 where it carries none.
+  Index node_beside(const Mesh& mesh, Index cell, Index face) const {
+    const bool beyond = neighbour_node.size() > 0 && neighbour_node[face] >= 0 && mesh.owner[face] != cell;
+    return beyond ? neighbour_node[face] : node_of_face[face];
+  }
   Index n_unknowns() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }  ///< vectors
 };
 

@@ -16,8 +16,7 @@ namespace {
 // Face neighbours of the same zone and face nodes, ring by ring.
 class Neighbourhood {
  public:
-  Neighbourhood(const Mesh& mesh, const CellField<Index>& zone, const FaceField<Index>& node_of_face)
-      : mesh_(mesh), zone_(zone), node_of_face_(node_of_face) {}
+  Neighbourhood(const Mesh& mesh, const GradientSettings& settings) : mesh_(mesh), settings_(settings) {}
 
   std::vector<Index> around(Index cell, int n_rings) const {
     std::vector<Index> cells{cell}, nodes;
@@ -37,42 +36,50 @@ class Neighbourhood {
  private:
   void extend(Index cell, std::vector<Index>& cells, std::vector<Index>& nodes) const {
     for (const Index face : mesh_.faces_of_cell(cell)) {
-      const Index node = node_of_face_.size() > 0 ? node_of_face_[face] : -1;
-      if (node >= 0) {
+      if (const Index node = node_beside(cell, face); node >= 0) {
         if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
-      } else if (mesh_.is_interior(face)) {
+      } else if (mesh_.is_interior(face) && !is_cut(face)) {
         const Index other = mesh_.across(face, cell);
-        if (zone_[other] == zone_[cell] && std::find(cells.begin(), cells.end(), other) == cells.end())
+        if (settings_.zone[other] == settings_.zone[cell] &&
+            std::find(cells.begin(), cells.end(), other) == cells.end())
           cells.push_back(other);
       }
     }
   }
 
+  Index node_beside(Index cell, Index face) const {
+    if (settings_.neighbour_node.size() > 0 && settings_.neighbour_node[face] >= 0 && mesh_.owner[face] != cell)
+      return settings_.neighbour_node[face];
+    return settings_.node_of_face.size() > 0 ? settings_.node_of_face[face] : -1;
+  }
+
+  bool is_cut(Index face) const { return settings_.cut.size() > 0 && settings_.cut[face] != 0; }
+
   const Mesh& mesh_;
-  const CellField<Index>& zone_;
-  const FaceField<Index>& node_of_face_;
+  const GradientSettings& settings_;
 };
 
-std::vector<Vector> node_positions(const Mesh& mesh, const FaceField<Index>& node_of_face) {
+std::vector<Vector> node_positions(const Mesh& mesh, const GradientSettings& settings) {
   std::vector<Vector> position(mesh.cell_centre.begin(), mesh.cell_centre.end());
-  for (Index f = 0; f < node_of_face.size(); ++f) {
-    const auto node = as_size(node_of_face[f]);
-    if (node_of_face[f] < 0) continue;
-    if (position.size() <= node) position.resize(node + 1);
-    position[node] = mesh.face_centre[f];
-  }
+  for (const FaceField<Index>* nodes : {&settings.node_of_face, &settings.neighbour_node})
+    for (Index f = 0; f < nodes->size(); ++f) {
+      const auto node = as_size((*nodes)[f]);
+      if ((*nodes)[f] < 0) continue;
+      if (position.size() <= node) position.resize(node + 1);
+      position[node] = mesh.face_centre[f];
+    }
   return position;
 }
 
 }  // namespace
 
 Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
-    : node_(node_positions(mesh, settings.node_of_face)),
+    : node_(node_positions(mesh, settings)),
       wide_(as_size(mesh.n_cells())),
       polyhedron_(as_size(mesh.n_cells())),
       g_(as_size(mesh.n_cells()), 1.0),
       plane_normal_(settings.plane_normal) {
-  const Neighbourhood neighbourhood(mesh, settings.zone, settings.node_of_face);
+  const Neighbourhood neighbourhood(mesh, settings);
   offsets_.push_back(0);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     if (!settings.wanted.empty() && settings.wanted[as_size(c)] == 0) {

@@ -78,7 +78,7 @@ void TwoPointFlux::build_links() {
   const CellField<double>& k = medium_.conductance;
   for (Index f = 0; f < mesh_.n_interior_faces(); ++f) {
     const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-    if (!(k[P] > 0.0 && k[N] > 0.0)) continue;
+    if (!(k[P] > 0.0 && k[N] > 0.0) || (medium_.cut.size() > 0 && medium_.cut[f] != 0)) continue;
     const double area = mesh_.face_area[f].norm();
     const Vector n = mesh_.face_area[f] / area;
     const double h_P = std::abs((mesh_.face_centre[f] - mesh_.cell_centre[P]).dot(n));
@@ -119,6 +119,7 @@ Gradient TwoPointFlux::build_gradient() const {
     if (exchange.corrected) wanted[as_size(exchange.cell)] = 1;
   return Gradient(mesh_, {.zone = smooth_zones(mesh_, medium_.conductance),
                           .node_of_face = {},
+                          .cut = medium_.cut,
                           .plane_normal = medium_.plane_normal,
                           .wanted = std::move(wanted),
                           .zero_if_deficient = true});

@@ -27,6 +27,7 @@ class TwoPointFlux {
     CellField<double> conductance;  ///< k; zero: no flux through the cell's faces
     std::vector<Exchange> exchanges{};
     Vector plane_normal = Vector::Zero();  ///< of one-cell-thick meshes
+    FaceField<char> cut{};                 ///< nonzero where there is no flux; or empty
     bool limited = false;                  ///< the deferred correction, to the range of u around a face
   };
   TwoPointFlux(const Mesh& mesh, Medium medium);

@@ -1,0 +1,208 @@
+#include "solver/fracture/cohesive_faces.h"
+
+#include "physics/error.h"
+#include "solver/parallel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace pfdm {
+namespace {
+
+constexpr double rigid_stiffness = 1e3;  // over that of the cells beside the face
+
+}  // namespace
+
+CohesiveFaces::CohesiveFaces(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns)
+    : mesh_(mesh), model_(model) {
+  if (unknowns.split_faces.empty()) return;
+  std::set<Index> seen;
+  for (std::size_t s = 0; s < model.interfaces.size(); ++s)
+    for (std::size_t k = 0; k < model.interfaces[s].faces.size(); ++k) {
+      const Index f = model.interfaces[s].faces[k];
+      if (!seen.insert(f).second)
+        throw InputError(fmt::format(
+            "interface \"{}\": a face at ({:.4g}, {:.4g}, {:.4g}) m belongs to another one too",
+            model.interfaces[s].name, mesh.face_centre[f][0], mesh.face_centre[f][1], mesh.face_centre[f][2]));
+      add(s, model.interfaces[s], k);
+    }
+}
+
+void CohesiveFaces::add(std::size_t number, const CohesiveSurface& surface, std::size_t k) {
+  const Index f = surface.faces[k];
+  bond_.push_back(bond(f));
+  InterfaceStrength at = surface.at[k];
+  if (surface.law.law->has_rise() && !(at.stiffness > 0.0)) at.stiffness = rigid_stiffness * bond_.back();
+  const auto too_soft = [&](double strength, double toughness) {
+    return strength * strength >= 2.0 * at.stiffness * toughness;
+  };
+  if (surface.law.law->has_rise() &&
+      (too_soft(at.strength, at.toughness) ||
+       (surface.law.depends_on_mode() && too_soft(at.shear_strength, at.shear_toughness))))
+    throw InputError(
+        fmt::format("interface \"{}\": with the stiffness {:.4g} Pa/m the rise to the strength takes more than the "
+                    "toughness; at least strength^2 / (2 toughness) = {:.4g} Pa/m",
+                    surface.name, at.stiffness, 0.5 * at.strength * at.strength / at.toughness));
+  faces_.push_back(
+      {.surface = number, .n = mesh_.face_area[f].normalized(), .area = mesh_.face_area[f].norm(), .at = at});
+}
+
+double CohesiveFaces::bond(Index face) const {
+  const Vector n = mesh_.face_area[face].normalized();
+  const auto softness = [&](Index c) {
+    const double h = std::abs((mesh_.face_centre[face] - mesh_.cell_centre[c]).dot(n));
+    return h / model_.in_cell(mesh_, c).elasticity.constrained_modulus();
+  };
+  return 1.0 / (softness(mesh_.owner[face]) + softness(mesh_.neighbour[face]));
+}
+
+void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before, Way way,
+                              MomentumSolver& momentum) const {
+  std::vector<FaceSpring> springs(faces_.size());
+  parallel_for(static_cast<Index>(faces_.size()), [&](Index i) {
+    const auto k = as_size(i);
+    const Vector separation = momentum.balance().separation(k, u);
+    const InterfaceResponse response = law(faces_[k]).respond(faces_[k].at, faces_[k].n, separation, before[k]);
+    const Tensor& stiffness = way == Way::tangent ? response.tangent : response.secant;
+    springs[k] = {
+        .stiffness = stiffness, .offset = response.traction - stiffness * separation, .secant = response.secant};
+  });
+  momentum.set_springs(std::move(springs), bond_);
+}
+
+double CohesiveFaces::advance(const MomentumOperator& balance, const std::vector<Vector>& u,
+                              const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const {
+  after.resize(faces_.size());
+  return parallel_sum(static_cast<Index>(faces_.size()), [&](Index i) {
+    const auto k = as_size(i);
+    const Face& face = faces_[k];
+    const InterfaceResponse response = law(face).respond(face.at, face.n, balance.separation(k, u), before[k]);
+    after[k] = response.history;
+    return face.area * response.stored;
+  });
+}
+
+double CohesiveFaces::dissipated(const std::vector<InterfaceHistory>& from,
+                                 const std::vector<InterfaceHistory>& to) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < faces_.size(); ++k)
+    sum += faces_[k].area * (to[k].dissipated + to[k].rubbed - from[k].dissipated - from[k].rubbed);
+  return sum;
+}
+
+std::vector<OutputInterface> CohesiveFaces::output(const MomentumOperator& balance, const FractureState& state) const {
+  std::vector<OutputInterface> list;
+  std::size_t k = 0;
+  for (const CohesiveSurface& surface : model_.interfaces) {
+    const std::size_t n = surface.faces.size();
+    OutputInterface out{.name = surface.name,
+                        .faces = surface.faces,
+                        .separation = CellField<Vector>(n),
+                        .traction = CellField<Vector>(n),
+                        .opening = CellField<double>(n),
+                        .damage = CellField<double>(n)};
+    for (Index i = 0; i < static_cast<Index>(n); ++i, ++k) {
+      const Face& face = faces_[k];
+      const Vector separation = balance.separation(k, state.displacement);
+      const double sign = surface.sign.empty() ? 1.0 : surface.sign[as_size(i)];
+      out.separation[i] = sign * separation;
+      out.opening[i] = face.n.dot(separation);
+      out.damage[i] = law(face).damage(face.at, state.interfaces[k]);
+      out.traction[i] = sign * law(face).respond(face.at, face.n, separation, state.interfaces[k]).traction;
+    }
+    list.push_back(std::move(out));
+  }
+  return list;
+}
+
+std::vector<std::string> CohesiveFaces::warnings() const {
+  std::vector<double> worst(model_.interfaces.size(), 0.0);
+  std::vector<double> length(model_.interfaces.size(), 0.0);
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const Face& face = faces_[k];
+    const double ratio = law(face).steepest_fall(face.at) / bond_[k];
+    if (!(ratio > worst[face.surface])) continue;
+    worst[face.surface] = ratio;
+    const Index f = model_.interfaces[face.surface]
+                        .faces[k - static_cast<std::size_t>(std::ranges::find(faces_, face.surface, &Face::surface) -
+                                                            faces_.begin())];
+    length[face.surface] = (mesh_.cell_centre[mesh_.neighbour[f]] - mesh_.cell_centre[mesh_.owner[f]]).norm();
+  }
+  std::vector<std::string> lines;
+  for (std::size_t s = 0; s < worst.size(); ++s)
+    if (worst[s] > 1.0)
+      lines.push_back(fmt::format(
+          "interface \"{}\": the law softens faster than the cells beside it unload, {:.3g} m from centre to centre; "
+          "faces would tear one by one, in jumps: at most {:.3g} m resolves the law",
+          model_.interfaces[s].name, length[s], length[s] / worst[s]));
+  return lines;
+}
+
+namespace {
+
+constexpr Index most_solves = 200;
+constexpr double falls = 0.7;              // of the residual by a step of Newton's that leads on
+constexpr Index first_secants = 4;         // steps in between if it does not; then twice as many, and so on
+constexpr double linear_reduction = 0.02;  // of the residual of the linearised equation
+
+/// Whether the next step is by tangent or by secant.
+class WayOut {
+ public:
+  CohesiveFaces::Way next(double residual) {
+    using enum CohesiveFaces::Way;
+    if (secants_left_ > 0) {
+      --secants_left_;
+      before_ = residual;
+      return secants_left_ > 0 ? secant : tangent;
+    }
+    const bool leads_on = residual < falls * before_;
+    misses_ = leads_on ? 0 : misses_ + 1;
+    before_ = residual;
+    if (misses_ <= bearable_misses) return tangent;
+    misses_ = 0;
+    secants_left_ = secants_;
+    secants_ = std::min<Index>(2 * secants_, most_secants);
+    return secant;
+  }
+
+ private:
+  static constexpr Index bearable_misses = 3, most_secants = 32;  // faces that pass their strength raise the residual
+  double before_ = std::numeric_limits<double>::infinity();
+  Index misses_ = 0, secants_left_ = 0, secants_ = first_secants;
+};
+
+}  // namespace
+
+Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
+                             const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum,
+                             std::vector<Vector>& u) {
+  Equilibrium whole{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
+  double target = 0.0;
+  WayOut way_out;
+  CohesiveFaces::Way way = CohesiveFaces::Way::tangent;
+  for (Index k = 0; k < most_solves; ++k) {
+    // The residual at the start of a solve is that of the true laws.
+    faces.linearise(u, before, way, momentum);
+    const Equilibrium step = momentum.solve(t,
+                                            {.reduction = linear_reduction,
+                                             .ceiling = 1.0,
+                                             .floor = 0.5 * target,
+                                             .most_iterations = tolerance.most_iterations},
+                                            u);
+    whole.iterations += step.iterations;
+    whole.residual = step.initial_residual;
+    if (k == 0) {
+      whole.initial_residual = step.initial_residual;
+      target = std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * step.initial_residual));
+    }
+    whole.converged = step.initial_residual <= target;
+    if (whole.converged || !std::isfinite(step.residual)) return whole;
+    way = way_out.next(step.initial_residual);
+  }
+  return whole;
+}
+
+}  // namespace pfdm

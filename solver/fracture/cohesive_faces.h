@@ -1,0 +1,68 @@
+#pragma once
+// Cohesive interfaces without thickness: interior faces of the mesh whose sides are independent (unknowns.h), joined by
+// a law of their separation (physics/interface_law.h). Equilibrium with the true law is Newton's: linearised about the
+// last separation within each linear solve, with the tangent, or with the secant while the tangent leads astray. A
+// converged state does not depend on which.
+//
+// An interface that is rigid at first has the stiffness of the cells beside it, C^-1 = (h_P/M_P + h_N/M_N)^-1, times
+// 1000: it gives by a thousandth of what they do, and stiffens in compression likewise.
+//
+// Where the law falls more steeply than C^-1 the two cells tear a face at a jump, whatever the load does elsewhere: the
+// solution of one face is unique, and the process zone resolved, only with smaller cells (warnings).
+
+#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/state.h"
+#include "solver/momentum/momentum_solver.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+class CohesiveFaces {
+ public:
+  /// Throws InputError for a face of two surfaces, one that is not interior, and a rise that takes all of the
+  /// toughness.
+  CohesiveFaces(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns);
+
+  bool any() const { return !faces_.empty(); }
+  std::vector<InterfaceHistory> virgin_histories() const { return std::vector<InterfaceHistory>(faces_.size()); }
+
+  enum class Way { tangent, secant };
+  /// Gives the momentum balance the laws about the displacements u, after `before`.
+  void linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before, Way way,
+                 MomentumSolver& momentum) const;
+  /// Takes the histories from `before` to the displacements u. Returns the stored energy [J].
+  double advance(const MomentumOperator& balance, const std::vector<Vector>& u,
+                 const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
+  /// Energy dissipated from one state to the other [J].
+  double dissipated(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
+  std::vector<OutputInterface> output(const MomentumOperator& balance, const FractureState& state) const;
+  /// A line for each surface with cells too large for its law.
+  std::vector<std::string> warnings() const;
+
+ private:
+  struct Face {
+    std::size_t surface;
+    Vector n;  // from the owner to the neighbour
+    double area;
+    InterfaceStrength at;
+  };
+  void add(std::size_t number, const CohesiveSurface& surface, std::size_t k);
+  double bond(Index face) const;
+  const InterfaceLaw& law(const Face& face) const { return model_.interfaces[face.surface].law; }
+
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  std::vector<Face> faces_;
+  std::vector<double> bond_;  // C^-1 of each [Pa/m]
+};
+
+/// Equilibrium with the laws of the faces at the load t: as MomentumSolver::solve, the residual being that with the
+/// laws at u.
+Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
+                             const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum,
+                             std::vector<Vector>& u);
+
+}  // namespace pfdm

@@ -1,0 +1,334 @@
+// Cohesive faces without thickness. Two blocks and one face: each law, loaded, unloaded and closed, against springs in
+// series; mixed modes; sliding with friction. A sphere under hydrostatic tension against Lame's shells. A double
+// cantilever beam against the corrected beam.
+
+#include "mesh/geometry.h"
+#include "physics/registry.h"
+#include "tests/verification/support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm::verification {
+namespace {
+
+constexpr double edge = 1e-3;                        // of a block [m]
+constexpr double strength = 2e6, toughness = 400.0;  // [Pa], [J/m^2]
+constexpr double stiffness = 5e12;                   // of the straight rise [Pa/m]
+const IsotropicElasticity block = from_young_poisson(1e9, 0.0);
+
+InterfaceLaw law_of(const TractionSeparationLaw& law, std::string_view mode = "camacho_ortiz") {
+  InterfaceLaw interface { .law = &law, .mixed_mode = &find_by_name(mixed_modes(), mode, "mixed mode") };
+  for (std::size_t i = law.has_rise() ? 1 : 0; i < law.shape.size(); ++i) interface.shape.push_back(law.shape[i].first);
+  return interface;
+}
+
+std::vector<Index> faces_between(const Mesh& mesh, const std::function<bool(const Vector&)>& counts) {
+  std::vector<Index> faces;
+  for (Index f = 0; f < mesh.n_interior_faces(); ++f)
+    if (counts(mesh.face_centre[f])) faces.push_back(f);
+  return faces;
+}
+
+void glue(FractureModel& model, const Mesh& mesh, const InterfaceLaw& law, const InterfaceStrength& at,
+          const Vector& along, const std::function<bool(const Vector&)>& counts) {
+  CohesiveSurface surface{.name = "glue", .law = law, .faces = faces_between(mesh, counts)};
+  for (const Index f : surface.faces) {
+    surface.sign.push_back(mesh.face_area[f].dot(along) > 0.0 ? 1.0 : -1.0);
+    surface.at.push_back(at);
+  }
+  model.interfaces.push_back(std::move(surface));
+}
+
+// Two blocks side by side along x, of n cells each, glued at x = edge.
+Mesh two_blocks(Index n) {
+  BoxHexesSettings box;
+  box.axes[0] = {{2.0 * edge, 2 * n, 1.0}};
+  box.axes[1] = {{edge, n, 1.0}};
+  box.axes[2] = {{edge, n, 1.0}};
+  return make_box_hexes(box);
+}
+
+constexpr InterfaceStrength glued{.strength = strength,
+                                  .toughness = toughness,
+                                  .shear_strength = 3e6,
+                                  .shear_toughness = 700.0,
+                                  .stiffness = stiffness};
+
+struct Point {
+  Vector traction, separation;
+  EnergyAccount energy;
+};
+
+// Steps through the values 1, 2 ... of the load parameter.
+std::vector<Point> step_through(const Mesh& mesh, const FractureModel& model, std::size_t n_steps) {
+  FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-12},
+                  {.end = double(n_steps),
+                   .initial_increment = 1.0,
+                   .minimum_increment = 1.0,
+                   .maximum_increment = 1.0,
+                   .stops = {}});
+  std::vector<Point> points;
+  run_to_end(run, [&](const FractureState& state, const StepReport& report) {
+    const OutputFields fields = run.output(state);
+    const OutputInterface& interface = fields.interfaces[0];
+    Point point{.traction = Vector::Zero(), .separation = Vector::Zero(), .energy = report.energy};
+    for (Index i = 0; i < interface.separation.size(); ++i) {
+      point.traction += interface.traction[i] / double(interface.separation.size());
+      point.separation += interface.separation[i] / double(interface.separation.size());
+    }
+    points.push_back(point);
+  });
+  return points;
+}
+
+FractureModel glued_blocks(const Mesh& mesh, const InterfaceLaw& law) {
+  FractureModel model = elastic_model({block}, {});
+  glue(model, mesh, law, glued, Vector::UnitX(), [](const Vector& x) { return std::abs(x.x() - edge) < 1e-9; });
+  return model;
+}
+
+const Vector& entry(const std::vector<Vector>& path, double t) {
+  return path[std::min(static_cast<std::size_t>(std::lround(t)), path.size() - 1)];
+}
+
+// The left end is held, the right one moved along a path of displacements, one step each.
+std::vector<Point> pull(const InterfaceLaw& law, const std::vector<Vector>& path) {
+  const Mesh mesh = two_blocks(2);
+  FractureModel model = glued_blocks(mesh, law);
+  model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                    moved("xmax", {true, true, true}, [&](const Vector&, double t) { return entry(path, t); })};
+  return step_through(mesh, model, path.size() - 1);
+}
+
+// The whole surface moves as it does where the separations and tractions across x = edge are these: uniform strains.
+std::vector<Point> lead(const InterfaceLaw& law, const std::vector<Vector>& separation,
+                        const std::vector<Vector>& traction) {
+  const Mesh mesh = two_blocks(3);
+  FractureModel model = glued_blocks(mesh, law);
+  const auto displacement = [&](const Vector& x, double t) -> Vector {
+    const Vector& T = entry(traction, t);
+    const Vector strain(T.x() / block.constrained_modulus(), T.y() / block.mu, T.z() / block.mu);
+    return x.x() * strain + (x.x() > edge ? entry(separation, t) : Vector::Zero());
+  };
+  for (const Patch& patch : mesh.patches) model.boundary.push_back(moved(patch.name, {true, true, true}, displacement));
+  return step_through(mesh, model, separation.size() - 1);
+}
+
+class TwoBlocks : public testing::TestWithParam<TractionSeparationLaw> {};
+
+// Displacement and traction of blocks and law in series: u = delta + 2 L T / E.
+TEST_P(TwoBlocks, AreTheLawInSeriesWithThem) {
+  const InterfaceLaw law = law_of(GetParam());
+  const double length = toughness / strength, compliance = 2.0 * edge / 1e9;
+  const auto traction = [&](double opening) {
+    return law.respond(glued, Vector::UnitX(), opening * Vector::UnitX(), {}).traction.x();
+  };
+  std::vector<Vector> path{Vector::Zero()};
+  std::vector<double> opening{0.0}, expected{0.0};
+  for (const double x : {0.001, 0.05, 0.3, 0.8, 1.5}) {
+    opening.push_back(x * length), expected.push_back(traction(x * length));
+    path.push_back((x * length + compliance * expected.back()) * Vector::UnitX());
+  }
+  for (const double part : {0.5, 1e-9}) {  // unload to the origin
+    opening.push_back(part * opening[5]), expected.push_back(part * expected[5]);
+    path.push_back(part * path[5]);
+  }
+  const double pressure = 1e5;  // close
+  opening.push_back(-pressure / law.initial_stiffness(glued)), expected.push_back(-pressure);
+  path.push_back((opening.back() - compliance * pressure) * Vector::UnitX());
+  const std::vector<Point> points = pull(law, path);
+  ASSERT_EQ(points.size(), path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    EXPECT_NEAR(points[i].traction.x(), expected[i], 1e-10 * strength) << i;
+    EXPECT_NEAR(points[i].separation.x(), opening[i], 1e-10 * length) << i;
+  }
+  const double dissipated = law.respond(glued, Vector::UnitX(), opening[5] * Vector::UnitX(), {}).history.dissipated;
+  EXPECT_NEAR(points.back().energy.interface_dissipation, dissipated * edge * edge, 1e-10 * toughness * edge * edge);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, TwoBlocks, testing::ValuesIn(traction_separation_laws()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// Opened and sheared in changing proportion, unloaded, closed and slid to and fro.
+class MixedPath : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(MixedPath, IsTheLaws) {
+  InterfaceLaw law = law_of(find_by_name(traction_separation_laws(), "linear", "law"), GetParam());
+  law.friction = 0.4;
+  law.exponent = law.depends_on_mode() ? 1.8 : 1.0;
+  law.shear_ratio = law.depends_on_mode() ? 1.0 : 0.7;
+  const double length = toughness / strength, K = law.initial_stiffness(glued);
+  const std::vector<Vector> separation{Vector::Zero(),
+                                       length * Vector(0.1, 0.05, 0.0),
+                                       length * Vector(0.3, 0.4, 0.1),
+                                       length * Vector(0.05, 0.1, 0.05),
+                                       length * Vector(0.2, 0.7, -0.1),
+                                       Vector(-1e5 / K, 0.8 * length, 0.0),
+                                       Vector(-1e5 / K, 0.9 * length, 0.1 * length),
+                                       Vector(-2e5 / K, 0.5 * length, 0.0)};
+  std::vector<Vector> traction;
+  InterfaceHistory history;
+  for (const Vector& delta : separation) {
+    const InterfaceResponse response = law.respond(glued, Vector::UnitX(), delta, history);
+    traction.push_back(response.traction);
+    history = response.history;
+  }
+  const std::vector<Point> points = lead(law, separation, traction);
+  ASSERT_EQ(points.size(), separation.size());
+  for (std::size_t i = 0; i < separation.size(); ++i) {
+    EXPECT_LT((points[i].traction - traction[i]).norm(), 1e-10 * strength) << i;
+    EXPECT_LT((points[i].separation - separation[i]).norm(), 1e-10 * length) << i;
+  }
+  EXPECT_NEAR(points.back().energy.interface_dissipation, (history.dissipated + history.rubbed) * edge * edge,
+              1e-10 * toughness * edge * edge);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, MixedPath, testing::Values("camacho_ortiz", "benzeggagh_kenane", "power_law"),
+                         [](const auto& test) { return std::string(test.param); });
+
+// A bead in a shell of matrix, pulled outwards: separation and load of the closed form for a linear law, rigid at
+// first. u = A r + B/r^2, stress = 3 K A - 4 mu B/r^3.
+struct Radial {
+  double u, stress;  // [m], [Pa]
+};
+
+Radial carried(const Radial& at, double from, double to, const IsotropicElasticity& elasticity) {
+  const double three_K = 3.0 * elasticity.lambda + 2.0 * elasticity.mu, four_mu = 4.0 * elasticity.mu;
+  const double A = (at.stress + four_mu * at.u / from) / (three_K + four_mu);
+  const double B = (at.u - A * from) * from * from;
+  return {A * to + B / (to * to), three_K * A - four_mu * B / (to * to * to)};
+}
+
+struct Sphere {
+  static constexpr double core = 100e-6, radius = 200e-6, outer = 800e-6, half_angle = 0.005;
+  static constexpr double ft = 2e6, Gc = 10.0;
+  IsotropicElasticity bead = from_young_poisson(70e9, 0.3), matrix = from_young_poisson(75e6, 0.44);
+
+  // Of the outside at a separation and its traction.
+  Radial outside(double separation) const {
+    const double traction = ft * std::max(0.0, 1.0 - separation * ft / (2.0 * Gc));
+    const Radial unit = carried({0.0, 1.0}, core, radius, bead);
+    return carried({unit.u / unit.stress * traction + separation, traction}, radius, outer, matrix);
+  }
+};
+
+Mesh cone(Index n) {
+  BoxHexesSettings box;
+  box.origin = {Sphere::core, -1.0, -1.0};
+  box.axes[0] = {{Sphere::radius - Sphere::core, n, 0.2}, {Sphere::outer - Sphere::radius, 4 * n, 10.0}};
+  box.axes[1] = {{2.0, 2, 1.0}};
+  box.axes[2] = {{2.0, 1, 1.0}};
+  box.base_region = "matrix";
+  box.regions = {{.name = "bead", .lower = {0.0, -2.0, -2.0}, .upper = {Sphere::radius, 2.0, 2.0}}};
+  Mesh mesh = make_box_hexes(box);
+  for (Vector& x : mesh.points) x = x[0] * Vector(1.0, Sphere::half_angle * x[1], Sphere::half_angle * x[2]);
+  compute_geometry(mesh);
+  return mesh;
+}
+
+TEST(SphereWithCohesiveFaces, OpensAsLamesShellsAndTheLaw) {
+  const Sphere sphere;
+  const Mesh mesh = cone(10);
+  const double end = sphere.outside(1.05 * 2.0 * Sphere::Gc / Sphere::ft).u;
+  FractureModel model =
+      elastic_model({}, {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); })});
+  for (const std::string& name : mesh.region_names)
+    model.regions.push_back({.elasticity = name == "bead" ? sphere.bead : sphere.matrix, .damageable = false});
+  model.boundary.push_back(
+      moved("xmax", {true, true, true}, [&](const Vector& x, double t) -> Vector { return end * t * x.normalized(); }));
+  for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) model.boundary.push_back(symmetry_on(side));
+  glue(model, mesh, law_of(find_by_name(traction_separation_laws(), "linear", "law")),
+       {.strength = Sphere::ft, .toughness = Sphere::Gc}, Vector::UnitX(),
+       [](const Vector& x) { return std::abs(x.norm() - Sphere::radius) < 1e-3 * Sphere::radius; });
+  FractureRun run(mesh, model, {}, {.end = 1.0, .initial_increment = 0.02, .maximum_increment = 0.02, .stops = {}});
+  double worst_load = 0.0, worst_opening = 0.0, most = 0.0;
+  const Patch& outside = mesh.patch("xmax");
+  run_to_end(run, [&](const FractureState& state, const StepReport& report) {
+    if (state.load == 0.0) return;
+    const OutputFields fields = run.output(state);
+    const double opening = fields.interfaces[0].opening[0];
+    most = std::max(most, opening);
+    double area = 0.0;
+    for (Index f = outside.first_face; f < outside.first_face + outside.n_faces; ++f) area += mesh.face_area[f].norm();
+    const double load = report.reaction[static_cast<std::size_t>(&outside - mesh.patches.data())].x() / area;
+    // The opening of the closed form at this displacement: none up to the strength, then by bisection.
+    double low = 0.0, high = 2.0 * end;
+    for (int i = 0; i < 100; ++i)
+      (sphere.outside(0.5 * (low + high)).u < end * state.load ? low : high) = 0.5 * (low + high);
+    const double held = sphere.outside(0.0).u;
+    const Radial due = sphere.outside(low);
+    const double due_load = end * state.load < held ? end * state.load / held * sphere.outside(0.0).stress : due.stress;
+    worst_load = std::max(worst_load, std::abs(load / due_load - 1.0));
+    worst_opening = std::max(worst_opening, std::abs(opening - (end * state.load < held ? 0.0 : low)));
+  });
+  const double final_opening = 2.0 * Sphere::Gc / Sphere::ft;
+  report_row("sphere with cohesive faces", {{"largest error of the load", worst_load},
+                                            {"of the opening/final", worst_opening / final_opening},
+                                            {"opening reached/final", most / final_opening}});
+  EXPECT_LE(worst_load, 5e-3);
+  EXPECT_LE(worst_opening, 5e-3 * final_opening);
+  EXPECT_GT(most, final_opening);
+}
+
+// A double cantilever beam, 60 mm long with a slit of 30 mm, arms of 2 mm. The corrected beam (Hashemi, Kinloch,
+// Williams, Proc. R. Soc. A 427 (1990) 173): D = 8 P (a + chi h)^3/(E' h^3), G = 12 P^2 (a + chi h)^2/(E' h^3) for the
+// unit width; at G = Gc the length follows from D.
+struct CorrectedBeam {
+  static constexpr double E = 126e9, nu = 0.3, height = 2e-3, slit = 30e-3, Gc = 281.0;
+  double plane_modulus = E / (1.0 - nu * nu), chi = 0.0;
+
+  CorrectedBeam() {
+    const double shear = E / (2.0 * (1.0 + nu)), gamma = 1.18 * plane_modulus / shear;
+    chi = std::sqrt(plane_modulus / (11.0 * shear) * (3.0 - 2.0 * std::pow(gamma / (1.0 + gamma), 2)));
+  }
+  double force(double opening) const {
+    const double from = slit + chi * height, h3 = std::pow(height, 3);
+    const double grown = std::pow(3.0 * plane_modulus * h3 * opening * opening / (16.0 * Gc), 0.25);
+    return opening * plane_modulus * h3 / (8.0 * std::pow(std::max(from, grown), 3));
+  }
+  double opening_at_start() const {
+    return std::pow(slit + chi * height, 2) * std::sqrt(16.0 * Gc / (3.0 * plane_modulus * std::pow(height, 3)));
+  }
+};
+
+TEST(CantileversWithCohesiveFaces, PeelAsTheCorrectedBeam) {
+  const CorrectedBeam beam;
+  constexpr double width = 1e-3, h = beam.height, strength_of_glue = 120e6;
+  BoxHexesSettings box;
+  box.axes[0] = {{29e-3, 110, 1.0}, {9e-3, 72, 1.0}, {22e-3, 30, 10.0}};
+  box.axes[1] = {{2.0 * h, 24, 1.0}};
+  box.axes[2] = {{width, 1, 1.0}};
+  box.slits = {{.name = "slit", .lower = {-1.0, h, -1.0}, .upper = {beam.slit, h, 1.0}}};
+  box.patches = {{.name = "upper", .lower = {-1.0, h, -1.0}, .upper = {1e-9, 3.0 * h, 1.0}},
+                 {.name = "lower", .lower = {-1.0, -h, -1.0}, .upper = {1e-9, h, 1.0}}};
+  const Mesh mesh = make_box_hexes(box);
+  const double end = 1.4 * beam.opening_at_start();
+  FractureModel model = elastic_model({from_young_poisson(beam.E, beam.nu)}, {plane_on("zmin"), plane_on("zmax")});
+  for (const double side : {1.0, -1.0})
+    model.boundary.push_back(moved(side > 0.0 ? "upper" : "lower", {false, true, false},
+                                   [=](const Vector&, double t) { return Vector(0.0, 0.5 * side * end * t, 0.0); }));
+  model.boundary.push_back(displacement_on("xmax", [](const Vector&) -> Vector { return Vector::Zero(); }));
+  glue(model, mesh, law_of(find_by_name(traction_separation_laws(), "linear", "law")),
+       {.strength = strength_of_glue, .toughness = beam.Gc}, Vector::UnitY(),
+       [&](const Vector& x) { return std::abs(x.y() - h) < 1e-9; });
+  FractureRun run(mesh, model, {}, {.end = 1.0, .initial_increment = 0.04, .maximum_increment = 0.04, .stops = {}});
+  EXPECT_TRUE(run.interface_warnings().empty());
+  double peak = 0.0, worst = 0.0;
+  const auto upper = static_cast<std::size_t>(&mesh.patch("upper") - mesh.patches.data());
+  run_to_end(run, [&](const FractureState& state, const StepReport& report) {
+    const double force = report.reaction[upper].y() / width, opening = end * state.load;
+    peak = std::max(peak, force);
+    if (opening > 1.2 * beam.opening_at_start()) worst = std::max(worst, std::abs(force / beam.force(opening) - 1.0));
+  });
+  report_row("double cantilever beam with cohesive faces",
+             {{"peak over the corrected beam's", peak / beam.force(beam.opening_at_start())},
+              {"largest error in propagation", worst}});
+  EXPECT_NEAR(peak / beam.force(beam.opening_at_start()), 1.0, 0.03);
+  EXPECT_LE(worst, 0.03);
+}
+
+}  // namespace
+}  // namespace pfdm::verification
