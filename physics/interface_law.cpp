@@ -151,6 +151,7 @@ void InterfaceLaw::pull(const InterfaceStrength& at, const Opening& o, const Int
   response.secant = S * o.along;
   response.tangent = response.secant + o.worked * secant_by_separation.transpose();
   response.stored = 0.5 * S * o.lambda * o.lambda;
+  response.dissipation_slope = -0.5 * o.lambda * o.lambda * secant_by_separation;
 }
 
 // Friction on the broken part D = 1 - S/K of a closed face, or none of it on an open one.

@@ -63,7 +63,8 @@ struct InterfaceResponse {
   Tensor tangent;   ///< its derivative by the separation [Pa/m]
   Tensor secant;    ///< symmetric, positive semi-definite, nearly traction / separation [Pa/m]
   InterfaceHistory history{};
-  double stored = 0.0;  ///< [J/m^2]
+  double stored = 0.0;                        ///< [J/m^2]
+  Vector dissipation_slope = Vector::Zero();  ///< of what decohesion dissipates, by the separation [Pa]
 };
 
 struct InterfaceLaw {

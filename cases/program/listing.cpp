@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/boundary_reader.h"
 #include "cases/program/fracture/fracture_case.h"
+#include "cases/program/fracture/interface_reader.h"
 #include "cases/program/fracture/material_laws.h"
 #include "cases/program/fracture/mesh_recipe.h"
 #include "cases/program/input/case_file.h"
@@ -118,6 +119,8 @@ void list_laws(std::ostream& out) {
   list_table(out, "degradation functions ([fracture] degradation)", degradations());
   list_table(out, "softening laws of the rational degradation ([fracture] softening)", softening_laws());
   list_table(out, "traction-separation laws that pfdm cohesive fits", traction_separation_laws());
+  list_table(out, "laws of cohesive interfaces ([[interface]] law)", interface_laws());
+  list_table(out, "their mixed mode ([[interface]] mixed_mode)", mixed_modes());
   list_table(out, "energy splits ([fracture] split)", energy_splits());
   list_table(out, "hardening of the endochronic law ([material.hardening] law)", hardening_laws());
   list_table(out, "rate factors of the endochronic law ([material.rate] law)", rate_factors());

@@ -14,4 +14,19 @@ namespace pfdm {
 /// Points into both arguments.
 std::vector<NamedField> frame_fields(const Mesh& mesh, const OutputFields& output);
 
+/// The cohesive interfaces of a frame, one after the other.
+class InterfaceFrame {
+ public:
+  explicit InterfaceFrame(const std::vector<OutputInterface>& interfaces);
+  /// interface (its number), opening [m], separation [m], traction [Pa], damage. Points into this.
+  std::vector<NamedField> fields() const;
+  const std::vector<Index>& faces() const { return faces_; }
+
+ private:
+  std::vector<Index> faces_;
+  CellField<Index> number_;
+  CellField<Vector> separation_, traction_;
+  CellField<double> opening_, damage_;
+};
+
 }  // namespace pfdm

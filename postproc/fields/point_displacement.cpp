@@ -122,20 +122,33 @@ std::map<Index, Held> held_points(const Mesh& mesh, const std::vector<BoundaryCo
 
 class PointMover {
  public:
-  PointMover(const Mesh& mesh, const OutputFields& output) : mesh_(mesh), output_(output), cells_(mesh) {}
+  PointMover(const Mesh& mesh, const OutputFields& output)
+      : mesh_(mesh),
+        output_(output),
+        cells_(mesh),
+        is_cohesive_(as_size(mesh.n_faces())),
+        at_cohesive_(mesh.points.size()) {
+    for (const OutputInterface& interface : output.interfaces)
+      for (const Index f : interface.faces) {
+        is_cohesive_[as_size(f)] = true;
+        for (const Index p : mesh.points_of_face(f)) at_cohesive_[as_size(p)] = true;
+        if (mesh.face_apex.size() > 0) at_cohesive_[as_size(mesh.face_apex[f])] = true;
+      }
+  }
 
   SplitPoints move() const {
     const auto n_points = static_cast<Index>(mesh_.points.size());
     SplitPoints split;
     split.displacement.assign(as_size(n_points), Vector::Zero());
-    std::vector<char> has_broken(as_size(n_points), 0);
+    std::vector<char> may_part(as_size(n_points), 0);
     parallel_for(n_points, [&](Index p) {
       const std::span<const Index> around = cells_[p];
-      has_broken[as_size(p)] = std::ranges::any_of(around, [&](Index c) { return is_broken(c); });
-      if (!has_broken[as_size(p)]) split.displacement[as_size(p)] = mean(p, around);
+      may_part[as_size(p)] =
+          at_cohesive_[as_size(p)] || std::ranges::any_of(around, [&](Index c) { return is_broken(c); });
+      if (!may_part[as_size(p)]) split.displacement[as_size(p)] = mean(p, around);
     });
     for (Index p = 0; p < n_points; ++p)
-      if (has_broken[as_size(p)]) part(p, split);
+      if (may_part[as_size(p)]) part(p, split);
     return split;
   }
 
@@ -178,13 +191,14 @@ class PointMover {
     return list;
   }
 
-  // visit(i, j) for the cells i and j around the point that have a face at it between them, once each way.
+  // visit(i, j) for the cells i and j around the point that have a face at it between them, once each way; not where
+  // that is cohesive.
   template <class Visit>
   void for_each_neighbour(Index point, const Visit& visit) const {
     const std::span<const Index> around = cells_[point];
     for (std::size_t i = 0; i < around.size(); ++i)
       for (const Index f : mesh_.faces_of_cell(around[i])) {
-        if (!mesh_.is_interior(f) || !has_point(mesh_, f, point)) continue;
+        if (!mesh_.is_interior(f) || is_cohesive_[as_size(f)] || !has_point(mesh_, f, point)) continue;
         const auto j = std::ranges::lower_bound(around, mesh_.across(f, around[i])) - around.begin();
         visit(i, static_cast<std::size_t>(j));
       }
@@ -230,6 +244,7 @@ class PointMover {
   const Mesh& mesh_;
   const OutputFields& output_;
   CellsOfPoints cells_;
+  std::vector<bool> is_cohesive_, at_cohesive_;  // faces; points on them
 };
 
 }  // namespace

@@ -330,6 +330,27 @@ VtuWriter::VtuWriter(const Mesh& mesh, VtuSettings settings) : grid_(std::make_u
   grid_->settings = std::move(settings);
 }
 
+VtuWriter::VtuWriter(const Mesh& mesh, const std::vector<Index>& faces, VtuSettings settings)
+    : grid_(std::make_unique<Grid>()) {
+  vtkUnstructuredGrid& grid = *grid_->mesh;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  grid_->number.assign(mesh.points.size(), -1);
+  grid.Allocate(static_cast<vtkIdType>(faces.size()));
+  std::vector<vtkIdType> rim;
+  for (const Index face : faces) {
+    rim.clear();
+    for (const Index p : mesh.points_of_face(face)) {
+      vtkIdType& number = grid_->number[as_size(p)];
+      if (number < 0) number = points->InsertNextPoint(mesh.points[as_size(p)].data());
+      rim.push_back(number);
+    }
+    grid.InsertNextCell(VTK_POLYGON, static_cast<vtkIdType>(rim.size()), rim.data());
+  }
+  grid.SetPoints(points);
+  grid_->settings = std::move(settings);
+}
+
 VtuWriter::~VtuWriter() = default;
 VtuWriter::VtuWriter(VtuWriter&&) noexcept = default;
 VtuWriter& VtuWriter::operator=(VtuWriter&&) noexcept = default;

@@ -49,6 +49,9 @@ class VtuWriter {
  public:
   /// Turns the mesh into VTK's grid, once; the mesh may go away afterwards.
   explicit VtuWriter(const Mesh& mesh, VtuSettings settings = {});
+  /// The same of these faces alone, each a polygon; fields have one value per face. Without points to be
+  /// split.
+  VtuWriter(const Mesh& mesh, const std::vector<Index>& faces, VtuSettings settings = {});
   ~VtuWriter();
   VtuWriter(VtuWriter&&) noexcept;
   VtuWriter& operator=(VtuWriter&&) noexcept;

@@ -93,6 +93,24 @@ double CohesiveFaces::dissipated(const std::vector<InterfaceHistory>& from,
   return sum;
 }
 
+double CohesiveFaces::dissipated_at(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                    const std::vector<InterfaceHistory>& from) const {
+  std::vector<InterfaceHistory> to;
+  advance(balance, u, from, to);
+  return dissipated(from, to);
+}
+
+double CohesiveFaces::dissipation_growth(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                         const std::vector<InterfaceHistory>& from,
+                                         const std::vector<Vector>& change) const {
+  return parallel_sum(static_cast<Index>(faces_.size()), [&](Index i) {
+    const auto k = as_size(i);
+    const Face& face = faces_[k];
+    const InterfaceResponse response = law(face).respond(face.at, face.n, balance.separation(k, u), from[k]);
+    return face.area * response.dissipation_slope.dot(balance.separation(k, change));
+  });
+}
+
 std::vector<OutputInterface> CohesiveFaces::output(const MomentumOperator& balance, const FractureState& state) const {
   std::vector<OutputInterface> list;
   std::size_t k = 0;
@@ -139,70 +157,6 @@ std::vector<std::string> CohesiveFaces::warnings() const {
           "faces would tear one by one, in jumps: at most {:.3g} m resolves the law",
           model_.interfaces[s].name, length[s], length[s] / worst[s]));
   return lines;
-}
-
-namespace {
-
-constexpr Index most_solves = 200;
-constexpr double falls = 0.7;              // of the residual by a step of Newton's that leads on
-constexpr Index first_secants = 4;         // steps in between if it does not; then twice as many, and so on
-constexpr double linear_reduction = 0.02;  // of the residual of the linearised equation
-
-/// Whether the next step is by tangent or by secant.
-class WayOut {
- public:
-  CohesiveFaces::Way next(double residual) {
-    using enum CohesiveFaces::Way;
-    if (secants_left_ > 0) {
-      --secants_left_;
-      before_ = residual;
-      return secants_left_ > 0 ? secant : tangent;
-    }
-    const bool leads_on = residual < falls * before_;
-    misses_ = leads_on ? 0 : misses_ + 1;
-    before_ = residual;
-    if (misses_ <= bearable_misses) return tangent;
-    misses_ = 0;
-    secants_left_ = secants_;
-    secants_ = std::min<Index>(2 * secants_, most_secants);
-    return secant;
-  }
-
- private:
-  static constexpr Index bearable_misses = 3, most_secants = 32;  // faces that pass their strength raise the residual
-  double before_ = std::numeric_limits<double>::infinity();
-  Index misses_ = 0, secants_left_ = 0, secants_ = first_secants;
-};
-
-}  // namespace
-
-Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
-                             const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum,
-                             std::vector<Vector>& u) {
-  Equilibrium whole{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
-  double target = 0.0;
-  WayOut way_out;
-  CohesiveFaces::Way way = CohesiveFaces::Way::tangent;
-  for (Index k = 0; k < most_solves; ++k) {
-    // The residual at the start of a solve is that of the true laws.
-    faces.linearise(u, before, way, momentum);
-    const Equilibrium step = momentum.solve(t,
-                                            {.reduction = linear_reduction,
-                                             .ceiling = 1.0,
-                                             .floor = 0.5 * target,
-                                             .most_iterations = tolerance.most_iterations},
-                                            u);
-    whole.iterations += step.iterations;
-    whole.residual = step.initial_residual;
-    if (k == 0) {
-      whole.initial_residual = step.initial_residual;
-      target = std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * step.initial_residual));
-    }
-    whole.converged = step.initial_residual <= target;
-    if (whole.converged || !std::isfinite(step.residual)) return whole;
-    way = way_out.next(step.initial_residual);
-  }
-  return whole;
 }
 
 }  // namespace pfdm

@@ -1,8 +1,6 @@
 #pragma once
 // Cohesive interfaces without thickness: interior faces of the mesh whose sides are independent (unknowns.h), joined by
-// a law of their separation (physics/interface_law.h). Equilibrium with the true law is Newton's: linearised about the
-// last separation within each linear solve, with the tangent, or with the secant while the tangent leads astray. A
-// converged state does not depend on which.
+// a law of their separation (physics/interface_law.h). Equilibrium: cohesive_newton.h.
 //
 // An interface that is rigid at first has the stiffness of the cells beside it, C^-1 = (h_P/M_P + h_N/M_N)^-1, times
 // 1000: it gives by a thousandth of what they do, and stiffens in compression likewise.
@@ -38,6 +36,12 @@ class CohesiveFaces {
                  const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
   /// Energy dissipated from one state to the other [J].
   double dissipated(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
+  /// The same, to the displacements u [J].
+  double dissipated_at(const MomentumOperator& balance, const std::vector<Vector>& u,
+                       const std::vector<InterfaceHistory>& from) const;
+  /// How it grows as the displacements u change by `change`, to first order and without friction [J].
+  double dissipation_growth(const MomentumOperator& balance, const std::vector<Vector>& u,
+                            const std::vector<InterfaceHistory>& from, const std::vector<Vector>& change) const;
   std::vector<OutputInterface> output(const MomentumOperator& balance, const FractureState& state) const;
   /// A line for each surface with cells too large for its law.
   std::vector<std::string> warnings() const;
@@ -58,11 +62,5 @@ class CohesiveFaces {
   std::vector<Face> faces_;
   std::vector<double> bond_;  // C^-1 of each [Pa/m]
 };
-
-/// Equilibrium with the laws of the faces at the load t: as MomentumSolver::solve, the residual being that with the
-/// laws at u.
-Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
-                             const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum,
-                             std::vector<Vector>& u);
 
 }  // namespace pfdm

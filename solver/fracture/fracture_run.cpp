@@ -81,8 +81,10 @@ struct FractureRun::Parts {
   void require_plain_interfaces(const StaggeredSettings& settings) const {
     if (model.interfaces.empty()) return;
     if (settings.windows) throw InputError("windows (solver.windows) cannot be combined with cohesive interfaces");
-    if (std::isfinite(loading.maximum_dissipation))
-      throw InputError("dissipation control (loading.maximum_dissipation) cannot be combined with cohesive interfaces");
+    if (follows_faces() && std::ranges::any_of(model.regions, &RegionModel::damageable))
+      throw InputError(
+          "dissipation control (loading.maximum_dissipation) can be combined with cohesive interfaces only where no "
+          "region is damageable");
   }
 
   void require_windows(const FractureModel& m) const {
@@ -150,6 +152,8 @@ struct FractureRun::Parts {
 
   // At given damage and with boundary values that are, displacements are proportional to the load.
   bool is_proportional() const { return !staggered.stiffness().materials().any(); }
+
+  bool follows_faces() const { return !model.interfaces.empty() && std::isfinite(loading.maximum_dissipation); }
 
   double dissipation_of(double increment) const {
     return loading.maximum_dissipation * std::min(1.0, increment / loading.maximum_increment);
@@ -232,7 +236,7 @@ struct FractureRun::Parts {
     trial.state.step = state.step + 1;
     trial.state.load = state.load + planned > stop - load_rounding ? stop : state.load + planned;
     trial.increment = trial.state.load - state.load;
-    if (state.load > 0.0 && is_proportional())
+    if (state.load > 0.0 && is_proportional() && !follows_faces())
       for (Vector& u : trial.state.displacement) u *= trial.state.load / state.load;
     trial.outcome = staggered.solve_step(state, trial.state, limits_of(trial.increment, planned), watch);
     krylov_iterations += trial.outcome.krylov_iterations;

@@ -72,7 +72,9 @@ struct Staggered::Loop {
   FractureState& state;
   const StepLimits& limits;
   double fracture_energy;  // at the start [J]
+  double torn_before;      // dissipated by cohesive faces until then [J]
   PathLimit path{};
+  FacesPath faces_path{};
   Relaxation relaxation{};
   FractureState from{};  // the state in equilibrium, for local iterations
   Energies energies{};   // of it
@@ -86,12 +88,17 @@ struct Staggered::Loop {
         start(first),
         state(trial),
         limits(step_limits),
-        fracture_energy(s.damage_.renewed_fracture_energy(first.damage)) {
+        fracture_energy(s.damage_.renewed_fracture_energy(first.damage)),
+        torn_before(s.faces_.dissipated(s.faces_.virgin_histories(), first.interfaces)) {
     if (follows_path()) path = {state.load, fracture_energy + limits.dissipation, limits.dissipation};
+    faces_path = {.most_load = state.load, .dissipation = limits.dissipation};
+    if (follows_faces() && start.load > 0.0) state.load = start.load;
     if (s.model_.viscosity > 0.0) s.damage_.resist_change(s.model_.viscosity / limits.duration, start.damage);
   }
 
-  bool follows_path() const { return std::isfinite(limits.dissipation); }
+  // With cohesive faces nothing else dissipates: Newton's method finds the load.
+  bool follows_faces() const { return s.faces_.any() && std::isfinite(limits.dissipation); }
+  bool follows_path() const { return !s.faces_.any() && std::isfinite(limits.dissipation); }
   bool ends() const {
     return outcome.converged || outcome.failed || outcome.collapsed || outcome.broke_too_much ||
            outcome.iterations >= s.settings_.maximum_iterations || (limits.may_be_cut && relaxation.goes_in_circles());
@@ -109,11 +116,12 @@ struct Staggered::Loop {
     const double required = s.settings_.equilibrium_tolerance;
     // A crack that is closed and sheared is nearly incompressible and takes many Krylov iterations: the remaining
     // residual is left to the next iteration of the loop.
-    const Equilibrium equilibrium = s.solve_momentum(start, state,
-                                                     {.reduction = 0.1,
-                                                      .ceiling = outcome.settled ? required : 1e-4,
-                                                      .floor = 0.1 * required,
-                                                      .most_iterations = inner_iterations});
+    const MomentumSolver::Tolerance tolerance{.reduction = 0.1,
+                                              .ceiling = outcome.settled ? required : 1e-4,
+                                              .floor = 0.1 * required,
+                                              .most_iterations = inner_iterations};
+    const Equilibrium equilibrium = follows_faces() ? s.follow_faces(start, faces_path, tolerance, state)
+                                                    : s.solve_momentum(start, state, tolerance);
     outcome.failed = !std::isfinite(equilibrium.residual);
     outcome.residual = equilibrium.residual;
     report.krylov_iterations = equilibrium.iterations;
@@ -130,7 +138,7 @@ struct Staggered::Loop {
     outcome.collapsed = torn > torn_at_most;
     outcome.starting_energy = stored_at_unit_load * state.load * state.load;
     outcome.energy_release = std::abs(energies.stored - outcome.starting_energy) /
-                             std::max(outcome.starting_energy + fracture_energy, 1e-300);
+                             std::max(outcome.starting_energy + fracture_energy + torn_before, 1e-300);
   }
 
   // Cohesive faces have released energy already when the first equilibrium is found: what they and the body had before
@@ -148,7 +156,7 @@ struct Staggered::Loop {
         follows_path() ? s.follow_path(start, path, state, answer) : s.solve_damage(start, state, answer);
     const double load_scale = state.load / load;
     const double change = parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
-    const double energy = load_scale * load_scale * energies.stored + s.damage_.fracture_energy(answer);
+    const double energy = load_scale * load_scale * energies.stored + s.damage_.fracture_energy(answer) + energies.torn;
     const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
@@ -221,6 +229,12 @@ Equilibrium Staggered::solve_momentum(const FractureState& start, FractureState&
   return momentum_.solve(state.load, tolerance, state.displacement);
 }
 
+Equilibrium Staggered::follow_faces(const FractureState& start, const FacesPath& path,
+                                    const MomentumSolver::Tolerance& tolerance, FractureState& state) {
+  const auto lap = clock_.lap("momentum");
+  return follow_with_faces(faces_, start.interfaces, path, tolerance, momentum_, state.load, state.displacement);
+}
+
 Staggered::Energies Staggered::update_driving_energy(const FractureState& start, FractureState& state, bool settles) {
   const auto lap = clock_.lap("driving_energy");
   CellMechanics mechanics = momentum_.balance().mechanics(
@@ -230,6 +244,7 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
       parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
   energies.interfaces = faces_.advance(momentum_.balance(), state.displacement, start.interfaces, state.interfaces);
   energies.stored += energies.interfaces;
+  energies.torn = faces_.dissipated(faces_.virgin_histories(), state.interfaces);
   parallel_for(mesh_.n_cells(), [&](Index c) { psi_plus_[c] = stiffness_.driving_energy(c, mechanics, state); });
   energies.residual = drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_.follow(mechanics, state);

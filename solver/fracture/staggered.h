@@ -4,7 +4,7 @@
 // local iterations around the cells that still change, between the global ones (window.h).
 
 #include "solver/fracture/cell_stiffness.h"
-#include "solver/fracture/cohesive_faces.h"
+#include "solver/fracture/cohesive_newton.h"
 #include "solver/fracture/damage_equation.h"
 #include "solver/fracture/fracture_model.h"
 #include "solver/fracture/iteration_report.h"
@@ -115,9 +115,13 @@ class Staggered {
   struct Loop;
   Equilibrium solve_momentum(const FractureState& start, FractureState& state,
                              const MomentumSolver::Tolerance& tolerance);
+  /// At a load that is no more than that of the path, and lower where the cohesive faces would dissipate more.
+  Equilibrium follow_faces(const FractureState& start, const FacesPath& path,
+                           const MomentumSolver::Tolerance& tolerance, FractureState& state);
   struct Energies {
     double stored = 0.0;      // [J]
     double interfaces = 0.0;  // the part of it in cohesive faces [J]
+    double torn = 0.0;        // what these have dissipated since the start [J]
     double residual = 0.0;    // the part of it that the residual stiffness has [J]
     double unsettled = 0.0;   // error of it by stiffnesses that have not settled [J]
   };

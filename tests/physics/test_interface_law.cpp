@@ -132,6 +132,12 @@ TEST_P(InterfaceOfLaw, TangentIsTheDerivative) {
           const Tensor tangent = differences(law, at, before, 1e-6 * at.norm());
           EXPECT_LT((response.tangent - tangent).norm(), 1e-6 * law.initial_stiffness(glued))
               << mode.name << " " << size << " " << direction.transpose();
+          const auto dissipated = [&](double factor) {
+            return law.respond(glued, n, factor * at, before).history.dissipated;
+          };
+          EXPECT_NEAR(response.dissipation_slope.dot(at), (dissipated(1.0 + 1e-6) - dissipated(1.0 - 1e-6)) / 2e-6,
+                      1e-6 * glued.toughness)
+              << mode.name << " " << size << " " << direction.transpose();
           EXPECT_LT((response.secant - response.secant.transpose()).norm(), 1e-12 * law.initial_stiffness(glued));
         }
   }

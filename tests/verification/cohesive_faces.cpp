@@ -51,6 +51,10 @@ Mesh two_blocks(Index n) {
   return make_box_hexes(box);
 }
 
+std::size_t mesh_patch(const Mesh& mesh, const std::string& name) {
+  return static_cast<std::size_t>(&mesh.patch(name) - mesh.patches.data());
+}
+
 constexpr InterfaceStrength glued{.strength = strength,
                                   .toughness = toughness,
                                   .shear_strength = 3e6,
@@ -151,6 +155,49 @@ TEST_P(TwoBlocks, AreTheLawInSeriesWithThem) {
 
 INSTANTIATE_TEST_SUITE_P(Laws, TwoBlocks, testing::ValuesIn(traction_separation_laws()),
                          [](const auto& test) { return std::string(test.param.name); });
+
+// Blocks so long that the end moves back while the face softens, u = delta + 2 L T/E: the whole branch is traced.
+TEST(LongBlocks, SnapBackAlongTheLaw) {
+  const InterfaceLaw law = law_of(find_by_name(traction_separation_laws(), "linear", "law"));
+  const double block_length = 3.0 * toughness / strength * 1e9 / strength;  // 2 L/E is three times the slope's inverse
+  BoxHexesSettings box;
+  box.axes[0] = {{2.0 * block_length, 8, 1.0}};
+  box.axes[1] = box.axes[2] = {{0.2 * block_length, 2, 1.0}};
+  const Mesh mesh = make_box_hexes(box);
+  const double compliance = 2.0 * block_length / 1e9, area = 0.04 * block_length * block_length;
+  const double peak = compliance * strength + strength / stiffness;
+  FractureModel model = elastic_model({block}, {});
+  glue(model, mesh, law, glued, Vector::UnitX(),
+       [&](const Vector& x) { return std::abs(x.x() - block_length) < 1e-9 * block_length; });
+  model.boundary = {
+      displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+      moved("xmax", {true, true, true}, [&](const Vector&, double t) -> Vector { return t * peak * Vector::UnitX(); })};
+  FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-9},
+                  {.end = 1.3,
+                   .initial_increment = 0.1,
+                   .maximum_increment = 0.1,
+                   .maximum_dissipation = 0.05 * toughness * area,
+                   .stops = {}});
+  double worst = 0.0, furthest_back = 1.0, dissipated = 0.0;
+  run_to_end(run, [&](const FractureState& state, const StepReport& report) {
+    const OutputFields fields = run.output(state);
+    const double opening = fields.interfaces[0].opening[0],
+                 traction = report.reaction[mesh_patch(mesh, "xmax")].x() / area;
+    const double due = law.respond(glued, Vector::UnitX(), opening * Vector::UnitX(), {}).traction.x();
+    worst = std::max(
+        {worst, std::abs(traction - due) / strength, std::abs(state.load * peak - opening - compliance * due) / peak});
+    if (report.energy.interface_dissipation > 0.0) furthest_back = std::min(furthest_back, state.load);
+    dissipated = report.energy.interface_dissipation;
+  });
+  const double final_opening = 2.0 * toughness / strength;
+  report_row("long blocks", {{"largest error of traction and displacement", worst},
+                             {"least load on the way back", furthest_back},
+                             {"closed form", final_opening / peak},
+                             {"dissipated/Gc", dissipated / (toughness * area)}});
+  EXPECT_LE(worst, 1e-6);
+  EXPECT_NEAR(furthest_back, final_opening / peak, 0.06);
+  EXPECT_NEAR(dissipated, toughness * area, 1e-9 * toughness * area);
+}
 
 // Opened and sheared in changing proportion, unloaded, closed and slid to and fro.
 class MixedPath : public testing::TestWithParam<std::string_view> {};

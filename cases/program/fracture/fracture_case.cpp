@@ -203,6 +203,11 @@ void read_output(const ConfigTable& root, FractureCase& fracture) {
   fracture.output.tips = read_energy_release(output);
 }
 
+void check_interfaces(const FractureCase& fracture, const ConfigTable& root) {
+  if (!fracture.interfaces.empty() && fracture.staggered.windows)
+    throw root.table("solver").at("windows").error("it cannot be combined with [[interface]]");
+}
+
 /// Expressions are evaluated once where and when they will be, so that one without a value is refused before a run has
 /// taken time, and the place of earlier results.
 void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
@@ -219,8 +224,8 @@ void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
 }  // namespace
 
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
-  root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "boundary", "loading",
-                  "solver", "output", "cohesive", "experiment", "fit", "sweep"});
+  root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "boundary", "interface",
+                  "loading", "solver", "output", "cohesive", "experiment", "fit", "sweep"});
   FractureCase fracture;
   fracture.title = root.string("title");
   MaterialDefaults defaults = read_fracture(root, fracture.model);
@@ -230,9 +235,11 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   fracture.boundary = read_boundary(root, fracture.materials);
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
   fracture.initial_damage = read_initial_damage(root, fracture.model);
+  fracture.interfaces = read_interfaces(root, case_directory, fracture.data_files);
   fracture.loading = read_loading(root, fracture.model);
   check_histories(fracture, root);
   fracture.staggered = read_solver(root);
+  check_interfaces(fracture, root);
   read_output(root, fracture);
   fracture.cohesive = read_cohesive(root, fracture.materials.bands, Vector::Unit(fracture.output.curve.component));
   return fracture;
@@ -245,6 +252,7 @@ FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
   require_boundary_values(fracture, mesh);
   FractureModel model = fracture.model;
   place_materials(fracture.materials, mesh, model);
+  place_interfaces(fracture.interfaces, mesh, model);
   if (fracture.initial_damage) model.initial_damage = damage_at_the_start(*fracture.initial_damage, model, mesh);
   return model;
 }

@@ -6,6 +6,7 @@
 #include "cases/program/fracture/energy_release_case.h"
 #include "cases/program/fracture/frame_settings.h"
 #include "cases/program/fracture/initial_damage.h"
+#include "cases/program/fracture/interface_reader.h"
 #include "cases/program/fracture/materials.h"
 #include "cases/program/fracture/mesh_recipe.h"
 #include "solver/fracture/fracture_model.h"
@@ -36,13 +37,15 @@ struct FractureCase {
   MeshRecipe mesh;
   Materials materials;
   std::vector<BoundarySettings> boundary;
+  std::vector<InterfaceSettings> interfaces;
   FractureModel model;  ///< what depends on the mesh is filled in by model_on()
   std::optional<InitialDamage> initial_damage;
   StaggeredSettings staggered;
   LoadingSettings loading;
   FractureOutput output;
   CohesiveSettings cohesive;
-  std::optional<ConfigValue> curve_patch;  ///< in the file, for messages
+  std::vector<std::filesystem::path> data_files;  ///< besides those of the mesh
+  std::optional<ConfigValue> curve_patch;         ///< in the file, for messages
 };
 
 /// `root` is the whole case file. Throws InputError for all that can be told without the mesh.

@@ -63,6 +63,10 @@ FractureRun make_run(const FractureProgram& program, const Mesh& mesh, Log& log)
   return FractureRun(mesh, std::move(model), fracture.staggered, fracture.loading);
 }
 
+void warn_of_interfaces(const FractureRun& run, Log& log) {
+  for (const std::string& warning : run.interface_warnings()) log.warn(warning);
+}
+
 void say_regions(const Mesh& mesh, Log& log) {
   std::vector<Index> cells(mesh.region_names.size());
   for (const Index region : mesh.region) ++cells[as_size(region)];
@@ -97,6 +101,7 @@ void check(const FractureProgram& program, Session& session) {
   const LoadingSettings& loading = program.fracture.loading;
   const Mesh mesh = make_mesh(program, log);
   const FractureRun run = make_run(program, mesh, log);
+  warn_of_interfaces(run, log);
   const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh);
   log.say(fmt::format("{}: {}", program.name, program.fracture.title));
   log.say(fmt::format("cells {}", mesh.n_cells()));
@@ -285,6 +290,7 @@ void run_case(FractureProgram program, Session& session) {
   const Mesh& mesh = find_mesh(program, session.meshes ? *session.meshes : own_mesh, session.log);
   times.mesh = times.whole.seconds();
   FractureRun run = make_run(program, mesh, session.log);
+  warn_of_interfaces(run, session.log);
   const FractureState initial = run.initial_state();
   const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh);
   const FolderLock lock(session.results);
@@ -334,7 +340,9 @@ RunnableCase read_fracture_program(const CaseFile& file) {
   program->experiment = read_experiment(file.config.root(), file.directory);
   program->fit = read_curve_fit(file);
   program->name = case_name(file);
-  program->hash = case_hash(file, program->fracture.mesh.data_files, may_change_on_the_way);
+  std::vector<std::filesystem::path> data_files = program->fracture.mesh.data_files;
+  data_files.insert(data_files.end(), program->fracture.data_files.begin(), program->fracture.data_files.end());
+  program->hash = case_hash(file, data_files, may_change_on_the_way);
   program->mesh_hash = table_hash(file, "mesh", program->fracture.mesh.data_files);
   if (const auto ell = program->fracture.mesh.ell) program->mesh_hash += fmt::format(" ell {}", *ell);
   RunnableCase runnable{.title = program->fracture.title,
@@ -345,7 +353,7 @@ RunnableCase read_fracture_program(const CaseFile& file) {
                         .compare = [program](Session& session) { compare(*program, session); },
                         .report = [program](Session& session) { report(*program, session); },
                         .prepare = [program](Session& session) { prepare(*program, session); },
-                        .data_files = program->fracture.mesh.data_files};
+                        .data_files = data_files};
   runnable.goes_on = true;
   runnable.fit = [program](Session& session) { fit(*program, session); };
   if (!program->fit)

@@ -76,11 +76,12 @@ Table figures_table(const FractureStory& story) {
                        {"initial stiffness", shown(f.initial_stiffness, "N") + "/m"},
                        {"final force", shown(f.final_force, "N")},
                        {"final displacement", shown(f.final_displacement, "m")}}};
+  constexpr std::size_t n_always = 3;  // energies that are shown if they are zero, too
   const auto add = [&](std::string_view what, std::string value) {
     table.rows.push_back({std::string(what), std::move(value)});
   };
   for (const EnergyEntry& entry : energy_entries)
-    if (entry.role != EnergyEntry::Role::dissipated || f.energy.*entry.value != 0.0)
+    if (&entry < energy_entries + n_always || f.energy.*entry.value != 0.0)
       add(entry.label, shown(f.energy.*entry.value, "J"));
   add("energy balance error", fmt::format("{:.3g} %", 100.0 * f.energy_balance_error));
   add("largest release", shown(f.released_energy, "J"));

@@ -26,6 +26,8 @@ namespace fs = std::filesystem;
 constexpr const char* checkpoint_file = "checkpoint.bin";
 constexpr const char* frames_file = "fields.pvd";
 constexpr const char* frames_folder = "fields";
+constexpr const char* interfaces_file = "interfaces.pvd";
+constexpr const char* interfaces_folder = "interfaces";
 constexpr const char* columns_folder = "columns";
 constexpr const char* energy_release_file = "energy_release_rate.csv";
 
@@ -35,6 +37,8 @@ constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of thos
 
 /// Of a step, relative to the results; in the order of the steps, so are the names.
 std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", frames_folder, step); }
+
+std::string interfaces_frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", interfaces_folder, step); }
 
 /// What other commands, and the end of the run, made of the steps that are there.
 void remove_what_was_made_of_them(const fs::path& directory) {
@@ -50,13 +54,14 @@ void remove_what_was_made_of_them(const fs::path& directory) {
 void remove_earlier_run(const fs::path& directory) {
   remove_what_was_made_of_them(directory);
   std::error_code ignored;
-  for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file})
+  for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file})
     fs::remove(directory / file, ignored);
   remove_columns(directory / columns_folder);
-  for (const auto& entry : fs::directory_iterator(directory / frames_folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);
-  }
+  for (const char* folder : {frames_folder, interfaces_folder})
+    for (const auto& entry : fs::directory_iterator(directory / folder, ignored)) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);
+    }
 }
 
 Index patch_number(const Mesh& mesh, const std::string& name) {
@@ -89,6 +94,12 @@ std::optional<std::string> doubt_about(const EnergyRelease& release, const std::
         "only where the ring between inner and outer lies in undamaged material",
         region, 100.0 * release.damaged_share);
   return std::nullopt;
+}
+
+/// Continues a list of frames up to the last step, or starts one.
+PvdSeries series_of(const fs::path& file, std::string (*frame_of)(Index step), std::optional<Index> last_step) {
+  if (!last_step) return PvdSeries(file);
+  return {file, [=](const Frame& frame) { return frame.file <= frame_of(*last_step); }};
 }
 
 bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
@@ -159,9 +170,11 @@ std::vector<StoredStep> stored_steps(const fs::path& results) {
 FractureResults::Files::Files(const fs::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
                               std::optional<Index> last_step)
     : curve(last_step ? CurveFile(folder / curve_file, *last_step) : CurveFile(folder / curve_file)),
-      frames(last_step ? PvdSeries(folder / frames_file,
-                                   [last_step](const Frame& frame) { return frame.file <= frame_file(*last_step); })
-                       : PvdSeries(folder / frames_file)) {
+      frames(series_of(folder / frames_file, frame_file, last_step)) {
+  if (!fracture.interfaces.empty()) {
+    make_folder(folder / interfaces_folder);
+    interfaces.emplace(series_of(folder / interfaces_file, interfaces_frame_file, last_step));
+  }
   if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
   if (const auto& tips = fracture.output.tips; !tips.empty())
     energy_release.emplace(folder / energy_release_file, energy_release_columns(tips), last_step);
@@ -183,6 +196,7 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
   if (!last && !place_.wait()) remove_earlier_run(directory_);  // what a run left that was killed before its first step
   make_folder(folder() / frames_folder);
   remove_leftovers(folder() / frames_folder);
+  if (fs::exists(folder() / interfaces_folder)) remove_leftovers(folder() / interfaces_folder);
   files_.emplace(folder(), fracture, columns, last ? std::optional(last->step) : std::nullopt);
   warned_of_tip_.assign(fracture.output.tips.size(), false);
   if (!last) return;
@@ -274,6 +288,14 @@ void FractureResults::write_frame(Index step, double load, const OutputFields& o
   const SplitPoints points = point_displacement(mesh_, model_.boundary, output, load);
   writer_.write(folder() / frame_file(step), frame_fields(mesh_, output), time, &points);
   files_->frames.add(time, frame_file(step));
+  if (files_->interfaces) write_interfaces(step, time, output);
+}
+
+void FractureResults::write_interfaces(Index step, double time, const OutputFields& output) {
+  const InterfaceFrame frame(output.interfaces);
+  VtuWriter(mesh_, frame.faces(), fracture_.output.frames.file)
+      .write(folder() / interfaces_frame_file(step), frame.fields(), time);
+  files_->interfaces->add(time, interfaces_frame_file(step));
 }
 
 void FractureResults::write_last_frame(const Output& output) {

@@ -87,6 +87,7 @@ class FractureResults {
     PvdSeries frames;
     std::optional<ColumnFiles> columns;
     std::optional<StepTable> energy_release;
+    std::optional<PvdSeries> interfaces;
   };
 
   bool frame_is_due(const FractureState& state) const;
@@ -94,6 +95,7 @@ class FractureResults {
   void write_state(const FractureState& state);
   void take_place(const FractureState& state);
   void write_frame(Index step, double load, const OutputFields& output);
+  void write_interfaces(Index step, double time, const OutputFields& output);
   void add_energy_release(const FractureState& state, const OutputFields& output, std::vector<std::string>& warnings);
   std::map<std::string, double> damaged_areas() const;
   std::map<std::string, double> last_energy_release() const;

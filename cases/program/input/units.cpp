@@ -16,13 +16,24 @@
 namespace pfdm {
 namespace {
 
-constexpr const Dimension* named_dimensions[] = {
-    &dimension::length,    &dimension::area,         &dimension::volume,
-    &dimension::mass,      &dimension::time,         &dimension::frequency,
-    &dimension::velocity,  &dimension::acceleration, &dimension::acceleration_density,
-    &dimension::density,   &dimension::force,        &dimension::energy,
-    &dimension::stress,    &dimension::toughness,    &dimension::temperature,
-    &dimension::viscosity, &dimension::number};
+constexpr const Dimension* named_dimensions[] = {&dimension::length,
+                                                 &dimension::area,
+                                                 &dimension::volume,
+                                                 &dimension::mass,
+                                                 &dimension::time,
+                                                 &dimension::frequency,
+                                                 &dimension::velocity,
+                                                 &dimension::acceleration,
+                                                 &dimension::acceleration_density,
+                                                 &dimension::density,
+                                                 &dimension::force,
+                                                 &dimension::energy,
+                                                 &dimension::stress,
+                                                 &dimension::toughness,
+                                                 &dimension::temperature,
+                                                 &dimension::viscosity,
+                                                 &dimension::interface_stiffness,
+                                                 &dimension::number};
 
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 

@@ -30,6 +30,7 @@ inline constexpr Dimension energy{"energy", "J", "1 mJ"};
 inline constexpr Dimension stress{"stress", "Pa", "75 MPa"};
 inline constexpr Dimension viscosity{"viscosity", "Pa s", "1 kPa s"};
 inline constexpr Dimension toughness{"energy per area", "J/m^2", "10 J/m^2"};
+inline constexpr Dimension interface_stiffness{"stress per length", "Pa/m", "1e12 Pa/m"};
 inline constexpr Dimension temperature{"temperature", "K", "20 degC"};
 inline constexpr Dimension angle{"angle", "radian", "30 degree"};
 inline constexpr Dimension number{"number without a unit", "1", "0.3"};

@@ -1,0 +1,29 @@
+#pragma once
+// Equilibrium with the laws of cohesive faces, by Newton's method: the laws are linearised about the last separation
+// within each linear solve, with the tangent, or with the secant while the tangent leads astray. A converged state does
+// not depend on which.
+
+#include "solver/fracture/cohesive_faces.h"
+
+namespace pfdm {
+
+/// Equilibrium with the laws of the faces at the load t: as MomentumSolver::solve, the residual being that with the
+/// laws at u.
+Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
+                             const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum,
+                             std::vector<Vector>& u);
+
+/// The same where a step may dissipate no more than so much: the load is an unknown then, at most `most_load`, and
+/// falls below that of the step before where the body snaps back. Each iteration solves the linearised equations at two
+/// loads; between and beyond them the solution is linear, and the next iterate is where on that line the faces
+/// dissipate what they may (dissipation as the control: Gutierrez, Commun. Numer. Meth. Engng 20 (2004) 19). Boundary
+/// values have to be proportional to the load.
+struct FacesPath {
+  double most_load;
+  double dissipation;  // [J]
+};
+Equilibrium follow_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before,
+                              const FacesPath& path, const MomentumSolver::Tolerance& tolerance,
+                              MomentumSolver& momentum, double& load, std::vector<Vector>& u);
+
+}  // namespace pfdm
