@@ -9,34 +9,50 @@
 namespace pfdm {
 namespace {
 
-constexpr Index most_solves = 200;
-constexpr double falls = 0.7;              // of the residual by a step of Newton's that leads on
-constexpr Index first_secants = 4;         // steps in between if it does not; then twice as many, and so on
-constexpr double linear_reduction = 0.02;  // of the residual of the linearised equation
+constexpr Index most_solves = 400;
+constexpr double falls = 0.7;       // of the residual by a step of Newton's that leads on
+constexpr Index first_secants = 4;  // steps in between if it does not; then twice as many, and so on
+constexpr double most_stretch = 64.0, stretch_growth = 1.5;  // of secant steps while the residual rises
+constexpr double linear_reduction = 0.02;                    // of the residual of the linearised equation
 
-/// Whether the next step is by tangent or by secant.
+/// Whether the next step is by tangent or by secant. Secant steps lead from below to what breaks next, however far that
+/// is; where tangents do not lead on, the iteration goes back to where the secants had come to.
 class WayOut {
  public:
-  CohesiveFaces::Way next(double residual) {
+  explicit WayOut(const std::vector<Vector>& u) : kept_(u) {}
+
+  CohesiveFaces::Way next(double residual, std::vector<Vector>& u) {
     using enum CohesiveFaces::Way;
     if (secants_left_ > 0) {
-      --secants_left_;
-      before_ = residual;
-      return secants_left_ > 0 ? secant : tangent;
+      stretch_step(residual, u);
+      if (--secants_left_ > 0) return secant;
+      kept_ = u;
+      misses_ = 0;
+      least_ = std::numeric_limits<double>::infinity();
+      return tangent;
     }
-    const bool leads_on = residual < falls * before_;
-    misses_ = leads_on ? 0 : misses_ + 1;
-    before_ = residual;
+    misses_ = residual < falls * least_ ? 0 : misses_ + 1;
+    least_ = std::min(least_, residual);
     if (misses_ <= bearable_misses) return tangent;
-    misses_ = 0;
+    u = last_ = kept_;
     secants_left_ = secants_;
     secants_ = std::min<Index>(2 * secants_, most_secants);
     return secant;
   }
 
  private:
+  // While faces tear one after the other the residual rises, and each step goes on as the one before.
+  void stretch_step(double residual, std::vector<Vector>& u) {
+    stretch_ = residual >= last_residual_ ? std::min(stretch_growth * stretch_, most_stretch) : 1.0;
+    last_residual_ = residual;
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = last_[i] + stretch_ * (u[i] - last_[i]);
+    last_ = u;
+  }
+
   static constexpr Index bearable_misses = 3, most_secants = 32;  // faces that pass their strength raise the residual
-  double before_ = std::numeric_limits<double>::infinity();
+  std::vector<Vector> kept_, last_;
+  double stretch_ = 1.0, last_residual_ = std::numeric_limits<double>::infinity();
+  double least_ = std::numeric_limits<double>::infinity();  // residual since the last secant
   Index misses_ = 0, secants_left_ = 0, secants_ = first_secants;
 };
 
@@ -47,7 +63,7 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
                              std::vector<Vector>& u) {
   Equilibrium whole{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
   double target = 0.0;
-  WayOut way_out;
+  WayOut way_out(u);
   CohesiveFaces::Way way = CohesiveFaces::Way::tangent;
   for (Index k = 0; k < most_solves; ++k) {
     // The residual at the start of a solve is that of the true laws.
@@ -66,7 +82,7 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
     }
     whole.converged = step.initial_residual <= target;
     if (whole.converged || !std::isfinite(step.residual)) return whole;
-    way = way_out.next(step.initial_residual);
+    way = way_out.next(step.initial_residual, u);
   }
   return whole;
 }

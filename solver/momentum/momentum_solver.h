@@ -41,6 +41,7 @@ class MomentumSolver {
   void start_afresh() {
     starts_afresh_ = true;
     struggled_ = false;
+    built_springs_.clear();
   }
 
   /// Writes the prescribed values at t into u and solves to a residual of
@@ -76,7 +77,7 @@ class MomentumSolver {
   MomentumOperator operator_;
   std::vector<Vector> body_force_;  // on the cells [N]; may be empty
   std::unique_ptr<Preconditioner> preconditioner_;
-  bool is_built_ = false;                        // the preconditioner, or it will be by the next solve:
+  bool is_built_ = false;  // the preconditioner, or it will be by the next solve:
   bool is_due_ = false;
   CellField<double> built_measure_;              // of the cells' stiffness: any measure, but always the same
   CellField<IsotropicElasticity> built_moduli_;  // empty for a general stiffness

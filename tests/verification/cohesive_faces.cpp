@@ -2,6 +2,7 @@
 // series; mixed modes; sliding with friction. A sphere under hydrostatic tension against Lame's shells. A double
 // cantilever beam against the corrected beam.
 
+#include "mesh/dual.h"
 #include "mesh/geometry.h"
 #include "physics/registry.h"
 #include "tests/verification/support.h"
@@ -156,22 +157,31 @@ TEST_P(TwoBlocks, AreTheLawInSeriesWithThem) {
 INSTANTIATE_TEST_SUITE_P(Laws, TwoBlocks, testing::ValuesIn(traction_separation_laws()),
                          [](const auto& test) { return std::string(test.param.name); });
 
+Mesh long_blocks(double length) {
+  BoxHexesSettings box;
+  box.axes[0] = {{2.0 * length, 8, 1.0}};
+  box.axes[1] = box.axes[2] = {{0.2 * length, 2, 1.0}};
+  return make_box_hexes(box);
+}
+
+FractureModel long_model(const Mesh& mesh, const InterfaceLaw& law, double length, double end) {
+  FractureModel model = elastic_model({block}, {});
+  glue(model, mesh, law, glued, Vector::UnitX(),
+       [&](const Vector& x) { return std::abs(x.x() - length) < 1e-9 * length; });
+  model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                    moved("xmax", {true, true, true},
+                          [end](const Vector&, double t) -> Vector { return t * end * Vector::UnitX(); })};
+  return model;
+}
+
 // Blocks so long that the end moves back while the face softens, u = delta + 2 L T/E: the whole branch is traced.
 TEST(LongBlocks, SnapBackAlongTheLaw) {
   const InterfaceLaw law = law_of(find_by_name(traction_separation_laws(), "linear", "law"));
   const double block_length = 3.0 * toughness / strength * 1e9 / strength;  // 2 L/E is three times the slope's inverse
-  BoxHexesSettings box;
-  box.axes[0] = {{2.0 * block_length, 8, 1.0}};
-  box.axes[1] = box.axes[2] = {{0.2 * block_length, 2, 1.0}};
-  const Mesh mesh = make_box_hexes(box);
+  const Mesh mesh = long_blocks(block_length);
   const double compliance = 2.0 * block_length / 1e9, area = 0.04 * block_length * block_length;
   const double peak = compliance * strength + strength / stiffness;
-  FractureModel model = elastic_model({block}, {});
-  glue(model, mesh, law, glued, Vector::UnitX(),
-       [&](const Vector& x) { return std::abs(x.x() - block_length) < 1e-9 * block_length; });
-  model.boundary = {
-      displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
-      moved("xmax", {true, true, true}, [&](const Vector&, double t) -> Vector { return t * peak * Vector::UnitX(); })};
+  const FractureModel model = long_model(mesh, law, block_length, peak);
   FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-9},
                   {.end = 1.3,
                    .initial_increment = 0.1,
@@ -197,6 +207,66 @@ TEST(LongBlocks, SnapBackAlongTheLaw) {
   EXPECT_LE(worst, 1e-6);
   EXPECT_NEAR(furthest_back, final_opening / peak, 0.06);
   EXPECT_NEAR(dissipated, toughness * area, 1e-9 * toughness * area);
+}
+
+// Loaded beyond its strength a face lets go at once. Increments by released energy find the peak.
+TEST(LongBlocks, LetGoAtThePeakIfIncrementsFollowTheReleasedEnergy) {
+  const InterfaceLaw law = law_of(find_by_name(traction_separation_laws(), "linear", "law"));
+  const double block_length = 3.0 * toughness / strength * 1e9 / strength;
+  const Mesh mesh = long_blocks(block_length);
+  const double peak = 2.0 * block_length / 1e9 * strength + strength / stiffness;
+  const FractureModel model = long_model(mesh, law, block_length, peak);
+  const auto largest_traction = [&](double energy_release) {
+    FractureRun run(mesh, model, {},
+                    {.end = 1.2,
+                     .initial_increment = 0.15,
+                     .maximum_increment = 0.15,
+                     .energy_release = energy_release,
+                     .stops = {}});
+    double largest = 0.0, last = 0.0;
+    run_to_end(run, [&](const FractureState&, const StepReport& report) {
+      last = report.reaction[mesh_patch(mesh, "xmax")].x() / (0.04 * block_length * block_length);
+      largest = std::max(largest, last);
+    });
+    EXPECT_NEAR(last, 0.0, 1e-6 * strength);
+    return largest;
+  };
+  EXPECT_NEAR(largest_traction(std::numeric_limits<double>::infinity()), 0.9 * strength, 1e-3 * strength);
+  EXPECT_NEAR(largest_traction(0.05), strength, 2e-3 * strength);
+}
+
+// Cells that can be damaged (AT1) and a face: the weaker one of the two breaks.
+TEST(DamageableBlocks, BreakWhereTheyAreWeaker) {
+  const InterfaceLaw law = law_of(find_by_name(traction_separation_laws(), "linear", "law"));
+  for (const double tough : {100.0, 1.0}) {  // strengths by AT1: 13.7 and 1.37 MPa; that of the face is 2 MPa
+    BoxHexesSettings box;
+    box.axes[0] = {{2.0 * edge, 40, 1.0}};
+    box.axes[1] = box.axes[2] = {{0.2 * edge, 2, 1.0}};
+    const Mesh mesh = make_box_hexes(box);
+    FractureModel model = glued_blocks(mesh, law);
+    model.regions[0] = {.elasticity = block, .Gc = tough, .ell = 0.2 * edge, .damageable = true};
+    model.crack = &crack_geometry("AT1");
+    model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                      moved("xmax", {true, true, true}, [](const Vector&, double t) -> Vector {
+                        return 1.1 * t * 2.0 * toughness / strength * Vector::UnitX();
+                      })};
+    FractureRun run(mesh, model, {}, {.end = 1.0, .initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
+    const double area = 0.04 * edge * edge;
+    double most_damage = 0.0, dissipated = 0.0;
+    run_to_end(run, [&](const FractureState&, const StepReport& report) {
+      most_damage = report.max_damage;
+      dissipated = report.energy.interface_dissipation;
+    });
+    report_row("damageable blocks",
+               {{"Gc", tough}, {"largest damage", most_damage}, {"by the face", dissipated / (toughness * area)}});
+    if (tough > 10.0) {
+      EXPECT_LT(most_damage, 1e-12);
+      EXPECT_NEAR(dissipated, toughness * area, 1e-9 * toughness * area);
+    } else {
+      EXPECT_GT(most_damage, 0.99);
+      EXPECT_LT(dissipated, 1e-12 * toughness * area);
+    }
+  }
 }
 
 // Opened and sheared in changing proportion, unloaded, closed and slid to and fro.
@@ -318,6 +388,57 @@ TEST(SphereWithCohesiveFaces, OpensAsLamesShellsAndTheLaw) {
   EXPECT_LE(worst_load, 5e-3);
   EXPECT_LE(worst_opening, 5e-3 * final_opening);
   EXPECT_GT(most, final_opening);
+}
+
+// The same on tetrahedra and polyhedra: the closed form, of a separation in the law's softening part, prescribed on the
+// surface of a cube.
+TEST(SphereWithCohesiveFaces, OpensEvenlyInACube) {
+  const IsotropicElasticity bead = from_young_poisson(70e9, 0.3), matrix = from_young_poisson(75e6, 0.44);
+  constexpr double ft = 2e6, Gc = 1.6e5, opening = 0.5 * 2.0 * Gc / ft, traction = 0.5 * ft;  // radius 1 m
+  const double bulk = bead.lambda + 2.0 / 3.0 * bead.mu, inner = traction / (3.0 * bulk) + opening;
+  const double three_K = 3.0 * matrix.lambda + 2.0 * matrix.mu, four_mu = 4.0 * matrix.mu;
+  const double A = (traction + four_mu * inner) / (three_K + four_mu), B = inner - A;
+  const Mesh tetrahedra = sphere_in_cube(5, 0, 3.0, 0.4);
+  for (const bool polyhedra : {false, true}) {
+    const Mesh mesh = polyhedra ? barycentric_dual(tetrahedra) : tetrahedra;
+    FractureModel model = elastic_model({}, {});
+    for (const std::string& name : mesh.region_names)
+      model.regions.push_back({.elasticity = name == "bead" ? bead : matrix, .damageable = false});
+    for (const Patch& patch : mesh.patches)
+      model.boundary.push_back(moved(patch.name, {true, true, true}, [=](const Vector& x, double t) -> Vector {
+        return t * (A + B / std::pow(x.norm(), 3)) * x;
+      }));
+    glue(model, mesh, law_of(find_by_name(traction_separation_laws(), "linear", "law")),
+         {.strength = ft, .toughness = Gc}, Vector::Zero(), [](const Vector&) { return false; });
+    CohesiveSurface& surface = model.interfaces[0];
+    const Index bead_region = mesh.region_index("bead");
+    for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
+      const bool from = mesh.region[mesh.owner[f]] == bead_region, to = mesh.region[mesh.neighbour[f]] == bead_region;
+      if (from == to) continue;
+      surface.faces.push_back(f);
+      surface.sign.push_back(from ? 1.0 : -1.0);
+      surface.at.push_back({.strength = ft, .toughness = Gc});
+    }
+    FractureRun run(mesh, model, {}, {.end = 1.0, .initial_increment = 0.25, .maximum_increment = 0.25, .stops = {}});
+    const FractureState end = run_to_end(run, [](const FractureState&, const StepReport&) {});
+    const OutputInterface interface = run.output(end).interfaces[0];
+    double area = 0.0, mean_opening = 0.0, mean_traction = 0.0, scatter = 0.0;
+    for (std::size_t k = 0; k < interface.faces.size(); ++k) {
+      const auto i = static_cast<Index>(k);
+      const double part = mesh.face_area[interface.faces[k]].norm();
+      area += part;
+      mean_opening += part * interface.opening[i];
+      mean_traction += part * mesh.face_centre[interface.faces[k]].normalized().dot(interface.traction[i]);
+      scatter = std::max(scatter, std::abs(interface.opening[i] / opening - 1.0));
+    }
+    report_row(polyhedra ? "sphere in a cube, polyhedra" : "sphere in a cube, tetrahedra",
+               {{"cells", double(mesh.n_cells())},
+                {"mean opening", mean_opening / area / opening},
+                {"mean traction", mean_traction / area / traction},
+                {"largest error of an opening", scatter}});
+    EXPECT_NEAR(mean_opening / area / opening, 1.0, 0.02);
+    EXPECT_NEAR(mean_traction / area / traction, 1.0, 0.02);
+  }
 }
 
 // A double cantilever beam, 60 mm long with a slit of 30 mm, arms of 2 mm. The corrected beam (Hashemi, Kinloch,

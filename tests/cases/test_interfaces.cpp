@@ -1,0 +1,168 @@
+// Cohesive interfaces in case files: what they do, where they are written, and what is refused.
+
+#include "postproc/fields/pvd.h"
+#include "postproc/files/csv_table.h"
+#include "tests/cases/temporary_case.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr double strength = 2e6, toughness = 100.0;  // [Pa], [J/m^2]
+
+// Two blocks of 1 mm in tension along x, glued at x = 1 mm.
+std::string glued_blocks(const std::string& interface) {
+  return fmt::format(R"(kind = "fracture"
+title = "two blocks"
+[mesh]
+generator = "box_hexes"
+x = [{{ length = "2 mm", cells = 8 }}]
+y = [{{ length = "1 mm", cells = 2 }}]
+z = [{{ length = "1 mm", cells = 2 }}]
+region = "left"
+[[mesh.regions]]
+name = "right"
+lower = ["1 mm", "-1 mm", "-1 mm"]
+upper = ["3 mm", "2 mm", "2 mm"]
+[materials.stone]
+regions = ["left", "right"]
+young_modulus = "1 GPa"
+poisson_ratio = 0.0
+damageable = false
+[[boundary]]
+patch = "xmin"
+displacement = ["0 mm", "0 mm", "0 mm"]
+[[boundary]]
+patch = "xmax"
+displacement = ["0.12 mm", "0 mm", "0 mm"]
+[loading]
+initial_increment = 0.1
+maximum_increment = 0.1
+[fracture]
+split = "none"
+[output]
+curve = {{ patch = "xmax", component = "x" }}
+frames_every = 5
+[[interface]]
+{})",
+                     interface);
+}
+
+const std::string linear_glue =
+    "between = [\"left\", \"right\"]\nlaw = \"linear\"\nstrength = \"2 MPa\"\ntoughness = \"100 J/m^2\"\n";
+
+CsvTable curve_of(const TemporaryCase& directory) { return read_csv(directory.results() / "force_displacement.csv"); }
+
+// u = delta + 2 L T/E, T = strength (1 - delta/delta_f).
+void expect_linear_softening(const TemporaryCase& directory, double precision) {
+  const CsvTable curve = curve_of(directory);
+  const double compliance = 2e-3 / 1e9, final_opening = 2.0 * toughness / strength;
+  ASSERT_EQ(curve.n_rows(), 11U);
+  for (std::size_t i = 1; i < 11; ++i) {
+    const double u = curve.column("displacement_m")[i];
+    const double opening = (u - compliance * strength) / (1.0 - compliance * strength / final_opening);
+    const double due = 1e-6 * strength * std::max(0.0, 1.0 - opening / final_opening);
+    EXPECT_NEAR(curve.column("force_x_N")[i], due, precision * 1e-6 * strength) << i;
+  }
+}
+
+TEST(Interfaces, OpenByTheirLawAndTellOfIt) {
+  const TemporaryCase directory(glued_blocks(linear_glue + "name = \"glue\"\n"));
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  expect_linear_softening(directory, 1e-3);
+  const CsvTable curve = curve_of(directory);
+  EXPECT_NEAR(curve.column("interface_dissipation_J").back(), 1e-6 * toughness, 1e-6 * 1e-6 * toughness);
+  const std::vector<Frame> frames = read_pvd(directory.results() / "interfaces.pvd");
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames.back().file, "interfaces/step_000010.vtu");
+  const std::string frame = content_of(directory.results() / frames.back().file);
+  for (const char* field : {"opening", "separation", "traction", "damage", "interface"})
+    EXPECT_NE(frame.find(fmt::format("Name=\"{}\"", field)), std::string::npos) << field;
+}
+
+TEST(Interfaces, GoOnFromACheckpoint) {
+  const TemporaryCase whole(glued_blocks(linear_glue)), parts(glued_blocks(linear_glue));
+  ASSERT_EQ(run({"run", whole.path().string()}).status, 0);
+  ASSERT_EQ(run({"run", parts.path().string(), "--max-steps", "4"}).status, 0);
+  ASSERT_EQ(run({"run", parts.path().string(), "--restart"}).status, 0);
+  EXPECT_EQ(content_of(parts.results() / "force_displacement.csv"),
+            content_of(whole.results() / "force_displacement.csv"));
+  EXPECT_EQ(read_pvd(parts.results() / "interfaces.pvd"), read_pvd(whole.results() / "interfaces.pvd"));
+}
+
+TEST(Interfaces, TakeAnExtractedLawFromItsTable) {
+  const std::string rise = "1e-9";  // the elastic part of the table
+  const TemporaryCase directory(
+      glued_blocks("plane = { point = [\"1 mm\", \"0 mm\", \"0 mm\"], normal = [1, 0, 0] }\nlaw = \"table\"\n"
+                   "table = \"cohesive_law.csv\"\n"));
+  directory.write("cohesive_law.csv",
+                  "separation_m,traction_Pa,step\n0,0,0\n" + rise + ",2e6,1\n4e-5,1.2e6,2\n3e-5,0.9e6,3\n1e-4,0,4\n");
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  expect_linear_softening(directory, 1e-4);
+}
+
+TEST(Interfaces, ScatterByTheirSeed) {
+  const auto forces = [](int seed) {
+    const TemporaryCase directory(glued_blocks(
+        linear_glue + fmt::format("strength_scatter = {{ coefficient = 0.2, correlation_length = \"0.3 mm\", seed = {} "
+                                  "}}\ntoughness_scatter = {{ coefficient = 0.1, correlation_length = \"0.3 mm\", seed "
+                                  "= 5 }}\n",
+                                  seed)));
+    const Outcome outcome = run({"run", directory.path().string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return curve_of(directory).column("force_x_N");
+  };
+  const std::vector<double> first = forces(1);
+  EXPECT_EQ(forces(1), first);
+  EXPECT_GT(std::abs(forces(2)[3] / first[3] - 1.0), 1e-3);
+}
+
+class BadInterface : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInterface, IsRefusedWithOneMessage) {
+  const TemporaryCase directory(replaced(glued_blocks(linear_glue), GetParam().good, GetParam().bad));
+  expect_refused(directory, GetParam());
+}
+
+const BadInput bad_inputs[] = {
+    {"no_place",
+     "between = [\"left\", \"right\"]\n",
+     "",
+     {"[[interface]]", "either between = [\"region\", \"region\"], or plane"}},
+    {"unknown_region",
+     "between = [\"left\", \"right\"]",
+     "between = [\"left\", \"middle\"]",
+     {"middle", "left, right"}},
+    {"nothing_there",
+     "between = [\"left\", \"right\"]",
+     "between = [\"left\", \"right\"]\nwhere = \"y > 1\"",
+     {"[[interface]]", "no face of the mesh is there"}},
+    {"unknown_law", "law = \"linear\"", "law = \"linaer\"", {"linaer", "linear", "table"}},
+    {"parameter_of_another_law", "law = \"linear\"", "law = \"linear\"\nalpha = 3", {"alpha"}},
+    {"too_soft", "law = \"linear\"", "law = \"linear\"\nstiffness = \"1e9 Pa/m\"", {"interface_1", "2e+10 Pa/m"}},
+    {"stiffness_of_another_dimension",
+     "law = \"linear\"",
+     "law = \"linear\"\nstiffness = \"1 GPa\"",
+     {"stress per length", "1e12 Pa/m"}},
+    {"mode_without_shear_strength",
+     "law = \"linear\"",
+     "law = \"linear\"\nmixed_mode = \"benzeggagh_kenane\"",
+     {"\"shear_strength\" is missing"}},
+    {"mode_without_a_rise",
+     "law = \"linear\"",
+     "law = \"xu_needleman\"\nmixed_mode = \"power_law\"",
+     {"a law with a straight rise", "xu_needleman"}},
+    {"windows", "[fracture]\n", "[solver]\nwindows = true\n[fracture]\n", {"[[interface]]"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, BadInterface, testing::ValuesIn(bad_inputs),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace pfdm
