@@ -9,11 +9,10 @@
 namespace pfdm {
 namespace {
 
-constexpr Index most_solves = 400;
-constexpr double falls = 0.7;       // of the residual by a step of Newton's that leads on
-constexpr Index first_secants = 4;  // steps in between if it does not; then twice as many, and so on
-constexpr double most_stretch = 64.0, stretch_growth = 1.5;  // of secant steps while the residual rises
-constexpr double linear_reduction = 0.02;                    // of the residual of the linearised equation
+constexpr Index most_solves = 1000;
+constexpr double falls = 0.7;              // of the residual by a step of Newton's that leads on
+constexpr Index first_secants = 4;         // steps in between if it does not; then twice as many, and so on
+constexpr double linear_reduction = 0.02;  // of the residual of the linearised equation
 
 /// Whether the next step is by tangent or by secant. Secant steps lead from below to what breaks next, however far that
 /// is; where tangents do not lead on, the iteration goes back to where the secants had come to.
@@ -24,7 +23,6 @@ class WayOut {
   CohesiveFaces::Way next(double residual, std::vector<Vector>& u) {
     using enum CohesiveFaces::Way;
     if (secants_left_ > 0) {
-      stretch_step(residual, u);
       if (--secants_left_ > 0) return secant;
       kept_ = u;
       misses_ = 0;
@@ -34,24 +32,15 @@ class WayOut {
     misses_ = residual < falls * least_ ? 0 : misses_ + 1;
     least_ = std::min(least_, residual);
     if (misses_ <= bearable_misses) return tangent;
-    u = last_ = kept_;
+    u = kept_;
     secants_left_ = secants_;
     secants_ = std::min<Index>(2 * secants_, most_secants);
     return secant;
   }
 
  private:
-  // While faces tear one after the other the residual rises, and each step goes on as the one before.
-  void stretch_step(double residual, std::vector<Vector>& u) {
-    stretch_ = residual >= last_residual_ ? std::min(stretch_growth * stretch_, most_stretch) : 1.0;
-    last_residual_ = residual;
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] = last_[i] + stretch_ * (u[i] - last_[i]);
-    last_ = u;
-  }
-
   static constexpr Index bearable_misses = 3, most_secants = 32;  // faces that pass their strength raise the residual
-  std::vector<Vector> kept_, last_;
-  double stretch_ = 1.0, last_residual_ = std::numeric_limits<double>::infinity();
+  std::vector<Vector> kept_;
   double least_ = std::numeric_limits<double>::infinity();  // residual since the last secant
   Index misses_ = 0, secants_left_ = 0, secants_ = first_secants;
 };
