@@ -30,6 +30,7 @@ FractureState awkward_state() {
   s.histories.gradient(1) = Tensor::Constant(0.1);
   s.histories.of(1)[1] = std::nextafter(1.0, 0.0);
   s.histories.of(2)[0] = -0.0;
+  s.interfaces = {{.reached = 0.1, .dissipated = 1.0 / 3.0, .rubbed = -0.0, .slip = Vector(1e-9, -0.0, 3.0)}};
   s.boundary_force = {Vector(1, 2, 3), Vector(4, 5, 6)};
   s.energy = {std::exp(2.0), std::exp(0.5), std::exp(1.0), std::exp(-1.0), std::exp(-2.0)};
   return s;
@@ -56,6 +57,8 @@ TEST(Checkpoint, state_comes_back_bit_for_bit) {
   EXPECT_EQ(r.histories.of(0).size(), 0u);
   EXPECT_TRUE(same_bits(r.histories.of(1)[1], std::nextafter(1.0, 0.0)));
   EXPECT_TRUE(std::signbit(r.histories.of(2)[0]));
+  EXPECT_EQ(r.interfaces, s.interfaces);
+  EXPECT_TRUE(std::signbit(r.interfaces[0].rubbed));
   EXPECT_EQ(r.boundary_force, s.boundary_force);
   for (const EnergyEntry& entry : energy_entries)
     EXPECT_TRUE(same_bits(r.energy.*entry.value, s.energy.*entry.value)) << entry.column;
@@ -105,7 +108,7 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
   other[8] = 9;
-  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 6"));
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 7"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
   EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));

@@ -467,8 +467,8 @@ TEST(CantileversWithCohesiveFaces, PeelAsTheCorrectedBeam) {
   const CorrectedBeam beam;
   constexpr double width = 1e-3, h = beam.height, strength_of_glue = 120e6;
   BoxHexesSettings box;
-  box.axes[0] = {{29e-3, 110, 1.0}, {9e-3, 72, 1.0}, {22e-3, 30, 10.0}};
-  box.axes[1] = {{2.0 * h, 24, 1.0}};
+  box.axes[0] = {{29e-3, 55, 1.0}, {9e-3, 36, 1.0}, {22e-3, 15, 10.0}};
+  box.axes[1] = {{2.0 * h, 12, 1.0}};
   box.axes[2] = {{width, 1, 1.0}};
   box.slits = {{.name = "slit", .lower = {-1.0, h, -1.0}, .upper = {beam.slit, h, 1.0}}};
   box.patches = {{.name = "upper", .lower = {-1.0, h, -1.0}, .upper = {1e-9, 3.0 * h, 1.0}},
