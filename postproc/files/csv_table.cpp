@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "postproc/files/atomic_file.h"
+#include "postproc/files/csv_layout.h"
 #include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
@@ -17,16 +18,7 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// What stands between the commas of a line, trimmed; one entry more than there are commas.
-void split(std::string_view line, std::vector<std::string_view>& words) {
-  words.clear();
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    words.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return;
-    line.remove_prefix(comma + 1);
-  }
-}
+constexpr std::string_view utf16_marks[] = {"\xFF\xFE", "\xFE\xFF"};
 
 class CsvReader {
  public:
@@ -34,14 +26,9 @@ class CsvReader {
 
   CsvTable read() {
     const std::string content = read_file(path_);
-    std::string_view rest = content;
-    if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
-    if (is_own()) rest = rest.substr(0, rest.rfind('\n') + 1);
-    while (!rest.empty()) {
-      line_ = take_line(rest);
-      ++line_number_;
-      take();
-    }
+    read_lines(content);
+    if (options_.is_foreign) layout_ = found_layout();
+    for (std::size_t i = 0; i < lines_.size(); ++i) take(i);
     if (options_.has_units && table_.units.empty())
       throw InputError(fmt::format("{}: expected a row of names and a row of units", path_.string()));
     if (table_.n_rows() == 0 && !is_own())
@@ -52,65 +39,129 @@ class CsvReader {
  private:
   bool is_own() const { return !options_.own_names.empty(); }
 
-  void take() {
-    if (line_.empty() && !is_own()) return;
-    if (line_.starts_with('#')) {
-      table_.comments.emplace_back(trimmed(line_.substr(1)));
+  void read_lines(std::string_view rest) {
+    for (const std::string_view mark : utf16_marks)
+      if (rest.starts_with(mark)) throw InputError(fmt::format("{}: it is UTF-16; save it as UTF-8", path_.string()));
+    if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
+    if (is_own()) rest = rest.substr(0, rest.rfind('\n') + 1);
+    for (int number = 1; !rest.empty(); ++number) {
+      const std::string_view line = take_line(rest);
+      if (line.starts_with('#'))
+        table_.comments.emplace_back(trimmed(line.substr(1)));
+      else if (!line.empty() || is_own())
+        lines_.push_back({number, line});
+    }
+    if (options_.has_units) layout_.units = 1;
+  }
+
+  CsvLayout found_layout() const {
+    try {
+      return find_layout(lines_, {.separator = options_.separator,
+                                  .decimal = options_.decimal,
+                                  .has_units = options_.has_units,
+                                  .has_gaps = options_.has_gaps,
+                                  .is_unit = options_.is_unit});
+    } catch (const InputError& cause) {
+      throw InputError(fmt::format("{}, {}", path_.string(), cause.what()));
+    }
+  }
+
+  void take(std::size_t i) {
+    line_ = lines_[i];
+    if (i < layout_.names) {
+      table_.comments.emplace_back(line_.text);
       return;
     }
-    split(line_, words_);
-    if (table_.names.empty()) return take_names();
+    split_csv(line_.text, layout_.separator, words_);
+    if (i == layout_.names) return take_names();
+    if (has_idle_end(words_.size() - 1)) words_.pop_back();
     if (words_.size() != table_.names.size())
-      throw error(fmt::format("found {} entries in a table of {} columns", words_.size(), table_.names.size()));
-    if (options_.has_units && table_.units.empty()) return take_units();
-    for (std::size_t i = 0; i < words_.size(); ++i) table_.columns[i].push_back(number(i));
+      throw error(fmt::format("found {} entries in a table of {} columns{}", words_.size(), table_.names.size(),
+                              hint_of_decimal_commas()));
+    if (i == layout_.units) return take_units();
+    for (std::size_t k = 0; k < words_.size(); ++k) table_.columns[k].push_back(number(k));
+  }
+
+  /// A separator ends the line, and there are as many columns without it.
+  bool has_idle_end(std::size_t n) const {
+    return options_.is_foreign && words_.size() > 1 && words_.back().empty() && n == table_.names.size();
+  }
+
+  std::string_view hint_of_decimal_commas() const {
+    const bool may_be = options_.is_foreign && layout_.separator == ',' && words_.size() == 2 * table_.names.size();
+    return may_be ? "; numbers with a decimal comma need another separator between them" : "";
   }
 
   void take_names() {
     if (is_own() && !std::ranges::equal(words_, options_.own_names))
-      throw error(fmt::format("found \"{}\" instead of \"{}\"", line_, fmt::join(options_.own_names, ",")));
-    for (const std::string_view word : words_) {
+      throw error(fmt::format("found \"{}\" instead of \"{}\"", line_.text, fmt::join(options_.own_names, ",")));
+    if (options_.is_foreign && words_.size() > 1 && words_.back().empty()) words_.pop_back();
+    for (const std::string& word : words_) {
       if (word.empty() || parse_double(word))
-        throw error(fmt::format("expected the names of the columns, as in time_s,strain_xx, found \"{}\"", line_));
+        throw error(fmt::format("expected the names of the columns, as in time_s,strain_xx, found \"{}\"", line_.text));
       if (std::ranges::count(table_.names, word) > 0) throw error(fmt::format("two columns are called \"{}\"", word));
-      table_.add(std::string(word), {});
+      table_.add(word, {});
+    }
+    if (options_.is_foreign && !layout_.units) take_units_of_names();
+  }
+
+  /// "Force [N]": if it is a unit.
+  void take_units_of_names() {
+    if (options_.is_unit == nullptr) return;
+    for (const std::string& name : table_.names) {
+      const auto end = bracketed_end(name);
+      table_.units.push_back(end && options_.is_unit(*end) ? *end : "");
     }
   }
 
   void take_units() {
     if (parse_double(words_.front())) throw error("expected a row of units, as in \"s,m/s^2,m/s^2\", found numbers");
-    table_.units.assign(words_.begin(), words_.end());
+    for (const std::string& word : words_) table_.units.push_back(in_brackets(word).value_or(word));
+  }
+
+  std::optional<double> value_of(const std::string& word) const {
+    return options_.is_foreign ? csv_number(word, layout_.decimal) : parse_double(word);
   }
 
   double number(std::size_t i) const {
-    const std::string_view word = words_[i];
+    const std::string& word = words_[i];
     if (word.empty() && options_.has_gaps) return std::numeric_limits<double>::quiet_NaN();
     const bool is_whole = std::ranges::count(options_.whole_numbers, table_.names[i]) > 0;
-    const auto value = parse_double(word);
+    const auto value = value_of(word);
     if (!value || !(std::isfinite(*value) || options_.has_gaps || is_own()) || (is_whole && !parse_int(word)))
       throw error(fmt::format("\"{}\" in column \"{}\" is not a number, as {}", word, table_.names[i],
-                              is_whole ? "12" : "0.5 or -2e6"));
+                              is_whole                 ? "12"
+                              : layout_.decimal == ',' ? "0,5 or -2e6"
+                                                       : "0.5 or -2e6"));
     return *value;
   }
 
   InputError error(const std::string& message) const {
-    return InputError(fmt::format("{}, line {}: {}", path_.string(), line_number_, message));
+    return InputError(fmt::format("{}, line {}: {}", path_.string(), line_.number, message));
   }
 
   const std::filesystem::path& path_;
   const CsvOptions& options_;
   CsvTable table_;
-  std::string_view line_;
-  std::vector<std::string_view> words_;  // of the line
-  int line_number_ = 0;
+  std::vector<CsvLine> lines_;  // neither empty nor comments
+  CsvLayout layout_;
+  CsvLine line_;                    // that is read
+  std::vector<std::string> words_;  // of it
 };
 
 }  // namespace
 
-const std::vector<double>& CsvTable::column(std::string_view name) const {
+std::size_t CsvTable::find(std::string_view name) const {
+  const auto exact = std::ranges::find(names, name);
+  if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
+  std::vector<std::size_t> found;
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i] == name) return columns[i];
-  throw InputError(fmt::format("there is no column \"{}\" (available: {})", name, fmt::join(names, ", ")));
+    if (bracketed_end(names[i]) && trimmed(std::string_view(names[i]).substr(0, names[i].find_last_of("[("))) == name)
+      found.push_back(i);
+  if (found.size() == 1) return found.front();
+  throw InputError(fmt::format("there {} \"{}\" (available: {})",
+                               found.empty() ? "is no column" : "are two columns that may be", name,
+                               fmt::join(names, ", ")));
 }
 
 void CsvTable::add(std::string name, std::vector<double> values) {

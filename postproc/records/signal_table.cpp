@@ -21,7 +21,7 @@ std::vector<std::string> lines_of(std::string_view text) {
 }  // namespace
 
 SignalTable read_signals_csv(const std::filesystem::path& path) {
-  const CsvTable csv = read_csv(path, {.has_units = true, .has_gaps = true});
+  const CsvTable csv = read_csv(path, {.has_units = true, .has_gaps = true, .is_foreign = true});
   SignalTable table{.remark = fmt::format("{}", fmt::join(csv.comments, "\n")), .columns = {}};
   for (std::size_t i = 0; i < csv.names.size(); ++i) {
     const std::vector<double>& values = csv.columns[i];

@@ -16,24 +16,14 @@
 namespace pfdm {
 namespace {
 
-constexpr const Dimension* named_dimensions[] = {&dimension::length,
-                                                 &dimension::area,
-                                                 &dimension::volume,
-                                                 &dimension::mass,
-                                                 &dimension::time,
-                                                 &dimension::frequency,
-                                                 &dimension::velocity,
-                                                 &dimension::acceleration,
-                                                 &dimension::acceleration_density,
-                                                 &dimension::density,
-                                                 &dimension::force,
-                                                 &dimension::energy,
-                                                 &dimension::stress,
-                                                 &dimension::toughness,
-                                                 &dimension::temperature,
-                                                 &dimension::viscosity,
-                                                 &dimension::interface_stiffness,
-                                                 &dimension::number};
+constexpr const Dimension* named_dimensions[] = {
+    &dimension::length,    &dimension::area,         &dimension::volume,
+    &dimension::mass,      &dimension::time,         &dimension::frequency,
+    &dimension::velocity,  &dimension::acceleration, &dimension::acceleration_density,
+    &dimension::density,   &dimension::force,        &dimension::energy,
+    &dimension::stress,    &dimension::toughness,    &dimension::temperature,
+    &dimension::viscosity, &dimension::compliance,   &dimension::interface_stiffness,
+    &dimension::number};
 
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 
@@ -133,6 +123,13 @@ double parse_quantity(std::string_view text, const Dimension& due) {
 
 double unit_in_si(std::string_view unit, const Dimension& due) {
   return to_si(1.0, trimmed(unit), unit, due) - to_si(0.0, trimmed(unit), unit, due);
+}
+
+bool is_unit(std::string_view text) { return parse_unit(text) != nullptr; }
+
+bool is_unit_of(std::string_view text, const Dimension& due) {
+  const Unit unit = parse_unit(text);
+  return unit && same_dimension(unit.get(), parse_unit(due.si_unit).get());
 }
 
 const Dimension& dimension_of(std::string_view text) {

@@ -26,6 +26,7 @@ inline constexpr Dimension acceleration{"acceleration", "m/s^2", "5 g0"};
 inline constexpr Dimension acceleration_density{"acceleration spectral density", "m^2/s^4/Hz", "0.05 g0^2/Hz"};
 inline constexpr Dimension density{"density", "kg/m^3", "1030 kg/m^3"};
 inline constexpr Dimension force{"force", "N", "10 N"};
+inline constexpr Dimension compliance{"compliance", "m/N", "2 um/kN"};
 inline constexpr Dimension energy{"energy", "J", "1 mJ"};
 inline constexpr Dimension stress{"stress", "Pa", "75 MPa"};
 inline constexpr Dimension viscosity{"viscosity", "Pa s", "1 kPa s"};
@@ -42,6 +43,11 @@ double parse_quantity(std::string_view text, const Dimension& due);
 
 /// How many due.si_unit one `unit` is; for expressions that carry their unit beside them. Throws like parse_quantity.
 double unit_in_si(std::string_view unit, const Dimension& due);
+
+/// Whether UDUNITS knows it.
+bool is_unit(std::string_view text);
+/// Whether it is a unit of this dimension.
+bool is_unit_of(std::string_view text, const Dimension& due);
 
 /// Which of the dimensions above the text's quantity has; of several alike the first. Throws InputError for what is no
 /// quantity, or is of none of them.

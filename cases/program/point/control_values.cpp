@@ -5,8 +5,12 @@
 #include "cases/program/point/endochronic_loading.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
 
 namespace pfdm {
 namespace {
@@ -28,6 +32,49 @@ const Dimension& dimension_of(bool is_stress) { return is_stress ? dimension::st
 double unit_of(const ConfigTable& table, std::string_view key, const Dimension& due) {
   const auto unit = table.find(key);
   return unit ? unit->in_context([&] { return unit_in_si(unit->string(), due); }) : 1.0;
+}
+
+/// The end of a name after _, as in time_s and force_kN, if it is a unit that is due.
+double unit_of_name(std::string_view name, const Dimension& due) {
+  const std::size_t end = name.rfind('_');
+  if (end == std::string_view::npos) return 1.0;
+  const std::string_view unit = name.substr(end + 1);
+  const bool is_word = !unit.empty() && std::string_view("0123456789.+-").find(unit.front()) == std::string_view::npos;
+  return is_word && is_unit_of(unit, due) ? unit_in_si(unit, due) : 1.0;
+}
+
+/// How many `due.si_unit` the column's unit is: as the case says, or else the file.
+double unit_of_column(const ConfigTable& table, std::string_view unit_key, const CsvTable& file, std::size_t column,
+                      const Dimension& due) {
+  const std::string in_file = file.units.empty() || file.units[column] == "-" ? "" : file.units[column];
+  if (!table.has(unit_key)) {
+    if (in_file.empty()) return unit_of_name(file.names[column], due);
+    return table.in_context([&] { return unit_in_si(in_file, due); });
+  }
+  const double factor = unit_of(table, unit_key, due);
+  if (is_unit_of(in_file, due) && std::abs(unit_in_si(in_file, due) / factor - 1.0) > 1e-9)
+    throw table.at(unit_key).error(
+        fmt::format("the file itself says that the unit of \"{}\" is \"{}\"", file.names[column], in_file));
+  return factor;
+}
+
+constexpr Range column_range{1.0, 1e6, false, "the number of a column, from 1"};
+
+std::size_t number_of_column(const ConfigValue& name, const CsvTable& file) {
+  if (name.is_string()) return name.in_context([&] { return file.find(name.string()); });
+  const auto number = static_cast<std::size_t>(name.integer(column_range));
+  if (number > file.names.size())
+    throw name.error(fmt::format("the file has {} columns ({})", file.names.size(), fmt::join(file.names, ", ")));
+  return number - 1;
+}
+
+std::optional<char> read_mark(const ConfigTable& table, const char* key, std::initializer_list<std::string> names,
+                              std::string_view marks) {
+  const auto value = table.find(key);
+  if (!value) return std::nullopt;
+  const std::vector<std::string> allowed(names);
+  const auto chosen = std::ranges::find(allowed, value->one_of(allowed, key)) - allowed.begin();
+  return marks[static_cast<std::size_t>(chosen)];
 }
 
 void follow(const Polyline& line, const std::vector<double>& times, LoadSegment::Condition& condition) {
@@ -66,9 +113,9 @@ void require_range(const ConfigTable& table, const std::vector<double>& known, c
 
 std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, std::string_view column_key,
                                 std::string_view unit_key, const Dimension& due) {
-  const double factor = unit_of(table, unit_key, due);
-  const ConfigValue name = table.at(column_key);
-  std::vector<double> values = name.in_context([&] { return file.column(name.string()); });
+  const std::size_t column = number_of_column(table.at(column_key), file);
+  const double factor = unit_of_column(table, unit_key, file, column, due);
+  std::vector<double> values = file.columns[column];
   for (double& value : values) value *= factor;
   return values;
 }
@@ -76,14 +123,21 @@ std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, 
 CsvTable read_csv_of(const ConfigTable& table, const std::filesystem::path& case_directory) {
   const ConfigValue name = table.at("csv");
   const std::filesystem::path file = read_data_file(name, case_directory);
-  return name.in_context([&] { return read_csv(file); });
+  const CsvOptions options{.is_foreign = true,
+                           .separator = read_mark(table, "separator", {",", ";", "tab", "blank"}, ",;\t "),
+                           .decimal = read_mark(table, "decimal", {".", ","}, ".,"),
+                           .is_unit = is_unit};
+  if (options.separator && options.separator == options.decimal)
+    throw table.at("separator").error("a comma cannot separate entries and be the decimal mark");
+  return name.in_context([&] { return read_csv(file, options); });
 }
 
 std::vector<double> file_times(const ConfigTable& table, const std::filesystem::path& case_directory) {
   const CsvTable file = read_csv_of(table, case_directory);
   const std::string name = table.string("time", "time_s");
-  const double factor = unit_of(table, "time_unit", dimension::time);
-  std::vector<double> times = table.in_context([&] { return file.column(name); });
+  const std::size_t column = table.in_context([&] { return file.find(name); });
+  const double factor = unit_of_column(table, "time_unit", file, column, dimension::time);
+  std::vector<double> times = file.columns[column];
   const double begin = times.front();
   for (double& t : times) t = factor * (t - begin);
   for (std::size_t i = 1; i < times.size(); ++i)
@@ -100,7 +154,8 @@ void read_control_value(const ConfigValue& value, bool is_stress, const std::vec
     condition.values = {read_component_value(value, is_stress)};
     return;
   }
-  const ConfigTable table = value.table().with_keys({"expr", "unit", "table", "csv", "column", "time", "time_unit"});
+  const ConfigTable table =
+      value.table().with_keys({"expr", "unit", "table", "csv", "column", "time", "time_unit", "separator", "decimal"});
   condition.pace = Pace::follow;
   if (table.has("expr")) return read_expression(table, is_stress, times, condition);
   Polyline line;

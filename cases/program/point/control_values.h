@@ -10,12 +10,13 @@
 
 namespace pfdm {
 
-/// A column of a file with the unit that the case gives, in SI: { csv = "data/x.csv", column = "s", unit = "MPa" }.
-/// Without a unit it is taken to be in `due.si_unit`.
+/// A column of a file in SI: { csv = "data/x.csv", column = "s", unit = "MPa" }, by its name or number (from 1).
+/// Without a unit in the case that of the file counts: of its row of units, in brackets at the end of the name, or the
+/// end of the name after _; else `due.si_unit`. Throws InputError where case and file contradict each other.
 std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, std::string_view column_key,
                                 std::string_view unit_key, const Dimension& due);
 
-/// The file that `csv` names, with the line of the case for messages.
+/// The file that `csv` names, with the line of the case for messages; `separator` and `decimal` if the case gives them.
 CsvTable read_csv_of(const ConfigTable& table, const std::filesystem::path& case_directory);
 
 /// Times of the file from 0 on, rising [s]: columns "time" (time_s) in "time_unit" (s).

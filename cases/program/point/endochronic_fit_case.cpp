@@ -48,7 +48,7 @@ MaterialExperiment::Channel read_channel(const std::string& key, const ConfigVal
 }
 
 MaterialExperiment read_experiment(const ConfigTable& table, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "time", "time_unit", "strain", "stress"});
+  table.with_keys({"name", "csv", "separator", "decimal", "time", "time_unit", "strain", "stress"});
   const CsvTable file = read_csv_of(table, directory);
   MaterialExperiment experiment{.name = table.string("name"), .loading = {}, .channels = {}};
   experiment.loading = read_followed_strains(table, directory, file);

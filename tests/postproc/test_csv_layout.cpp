@@ -1,0 +1,126 @@
+#include "physics/error.h"
+#include "postproc/files/csv_table.h"
+#include "postproc/records/signal_table.h"
+#include "tests/postproc/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace pfdm::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+bool is_known_unit(std::string_view text) { return text == "mm" || text == "N" || text == "kN" || text == "s"; }
+
+CsvTable read_foreign(const std::string& text, CsvOptions options = {}) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "x.csv", std::ios::binary) << text;
+  options.is_foreign = true;
+  options.is_unit = is_known_unit;
+  return read_csv(folder / "x.csv", options);
+}
+
+struct Layout {
+  std::string name;
+  std::string text;
+  std::vector<std::string> names{"u", "f"};
+  std::vector<std::string> units{"", ""};
+};
+
+class ForeignCsv : public testing::TestWithParam<Layout> {};
+
+// All of these say the same: u is 0.5 and -1.25, f is 10 and 2000.
+TEST_P(ForeignCsv, IsReadAsItIsMeant) {
+  const CsvTable table = read_foreign(GetParam().text);
+  EXPECT_EQ(table.names, GetParam().names);
+  EXPECT_EQ(table.units, GetParam().units);
+  ASSERT_EQ(table.columns.size(), 2u);
+  EXPECT_THAT(table.columns[0], ElementsAre(0.5, -1.25));
+  EXPECT_THAT(table.columns[1], ElementsAre(10.0, 2000.0));
+}
+
+const Layout layouts[] = {
+    {"commas", "u,f\n0.5,10\n-1.25,2e3\n"},
+    {"semicolons", "u;f\n0.5;10\n-1.25;2000\n"},
+    {"semicolons_and_decimal_commas", "u;f\n0,5;10,0\n-1,25;2,0E+03\n"},
+    {"tabs_and_decimal_commas", "u\tf\r\n0,5\t10\r\n-1,25\t2000\r\n"},
+    {"blanks", "u   f\n 0.5    10\n-1.25 2000.\n"},
+    {"blanks_and_decimal_commas", "u f\n0,5 10\n-1,25 2000\n"},
+    {"blanks_and_tabs_between_numbers_and_signs", "u f\n+0.5\t10\n-1.25  +2000\n"},
+    {"byte_order_mark", "\xEF\xBB\xBFu;f\n0,5;10\n-1,25;2000\n"},
+    {"separators_at_the_ends", "u;f;\n0,5;10;\n-1,25;2000;\n"},
+    {"separators_at_the_ends_of_rows", "u;f\n0,5;10;\n-1,25;2000;\n"},
+    {"quotes", "\"u\",\"f\"\n\"0.5\",\"10\"\n\"-1.25\",\"2000\"\n"},
+    {"separator_within_quotes", "\"u, way\",f\n0.5,10\n-1.25,2000\n", {"u, way", "f"}},
+    {"comma_in_a_name", "u, way;f\n0,5;10\n-1,25;2000\n", {"u, way", "f"}},
+    {"lines_before_the_names", "Machine X\nspeed;1,5;mm/min\n\nu;f\n0,5;10\n-1,25;2000\n"},
+    {"row_of_units", "u,f\nmm,N\n0.5,10\n-1.25,2000\n", {"u", "f"}, {"mm", "N"}},
+    {"row_of_units_in_brackets", "u;f\n[mm];(kN)\n0,5;10\n-1,25;2000\n", {"u", "f"}, {"mm", "kN"}},
+    {"row_of_units_below_a_title", "test 5;no;\nu;f;\n[mm];-;\n0,5;10;\n-1,25;2000;\n", {"u", "f"}, {"mm", "-"}},
+    {"units_in_names", "u [mm],f (N)\n0.5,10\n-1.25,2000\n", {"u [mm]", "f (N)"}, {"mm", "N"}},
+    {"brackets_that_are_no_unit", "u (left),f\n0.5,10\n-1.25,2000\n", {"u (left)", "f"}},
+    {"comments", "# a, b\nu,f\n0.5,10\n# c\n-1.25,2000\n"},
+};
+INSTANTIATE_TEST_SUITE_P(Layouts, ForeignCsv, testing::ValuesIn(layouts),
+                         [](const auto& test) { return test.param.name; });
+
+std::string complaint(const std::string& text, const CsvOptions& options = {}) {
+  return message_of<InputError>([&] { read_foreign(text, options); });
+}
+
+TEST(ForeignCsv, IsNeverReadInOneOfTwoWays) {
+  EXPECT_THAT(complaint("u;f\n1,234;5\n2,500;6\n"),
+              HasSubstr("x.csv, line 2: 1,234 may be a fraction or have its thousands apart"));
+  EXPECT_THAT(read_foreign("u;f\n1,234;5\n0,500;6\n").columns[0], ElementsAre(1.234, 0.5));
+  EXPECT_THAT(read_foreign("u;f\n1,234;5\n2,5;6\n").columns[0], ElementsAre(1.234, 2.5));
+  EXPECT_THAT(read_foreign("u;f\n1,234;5\n", {.decimal = ','}).columns[0], ElementsAre(1.234));
+  EXPECT_THAT(complaint("u;f\n1,234;5\n", {.decimal = '.'}), HasSubstr("line 2: \"1,234\" in column \"u\""));
+  EXPECT_THAT(complaint("u;f\n1.234,5;5\n"), HasSubstr("line 2: \"1.234,5\" in column \"u\" is not a number"));
+  EXPECT_THAT(complaint("u,f\n0,5,1,5\n"), HasSubstr("line 2: found 4 entries in a table of 2 columns; numbers with a "
+                                                     "decimal comma need another separator"));
+  EXPECT_THAT(complaint("u;f\n0,5;1\n0.5;1\n"), HasSubstr("line 3: \"0.5\" in column \"u\" is not a number, as 0,5"));
+  EXPECT_THAT(complaint("u;f\n0,5;1,5\n0;1;2\n"), HasSubstr("line 3: found 3 entries in a table of 2 columns"));
+  EXPECT_THAT(complaint("u;f\n0,5;1,5\n;2\n"), HasSubstr("line 3: \"\" in column \"u\" is not a number"));
+  EXPECT_THAT(complaint("a b,c d\n1 2,3 4\n", {.decimal = '.'}), HasSubstr("line 2"));
+  EXPECT_THAT(complaint("u;f\n"), HasSubstr("no rows of numbers"));
+  EXPECT_THAT(complaint("0.5,10\n1,2\n"), HasSubstr("line 1: expected the names of the columns"));
+  EXPECT_THAT(complaint(std::string("\xFF\xFEu\0;\0", 6)), HasSubstr("it is UTF-16; save it as UTF-8"));
+}
+
+TEST(ForeignCsv, TakesTheSeparatorThatMakesNumbers) {
+  EXPECT_EQ(read_foreign("a,b c,d\n1,2 3,4\n").names, (std::vector<std::string>{"a,b", "c,d"}));
+  EXPECT_EQ(read_foreign("\"a,\"\tb\n1\t2\n").names, (std::vector<std::string>{"a,", "b"}));
+  EXPECT_THAT(read_foreign("u,f\n1,234\n").columns[1], ElementsAre(234.0));
+  EXPECT_THAT(read_foreign("u\n1,5\n2,25\n").columns[0], ElementsAre(1.5, 2.25));
+  EXPECT_THAT(read_foreign("u\n1\n2\n").columns[0], ElementsAre(1.0, 2.0));
+}
+
+TEST(CsvTable, FindsColumnsWithoutTheirUnits) {
+  const CsvTable table = read_foreign("u [mm],f [N],f [kN]\n0.5,10,0.01\n");
+  EXPECT_EQ(table.find("u"), 0u);
+  EXPECT_EQ(table.find("f [kN]"), 2u);
+  EXPECT_THAT(message_of<InputError>([&] { (void)table.find("f"); }),
+              HasSubstr("there are two columns that may be \"f\" (available: u [mm], f [N], f [kN])"));
+  EXPECT_THAT(message_of<InputError>([&] { (void)table.find("w"); }), HasSubstr("there is no column \"w\""));
+}
+
+TEST(SignalTable, CsvMayBeOfASpreadsheet) {
+  const TemporaryFolder folder;
+  put(folder / "a.csv", "\xEF\xBB\xBFrig 3\ntime;x\n[s];[m/s^2]\n0,0;1,5\n0,1;\n");
+  const SignalTable table = read_signals(folder / "a.csv");
+  ASSERT_EQ(table.columns.size(), 2u);
+  EXPECT_EQ(table.remark, "rig 3");
+  EXPECT_EQ(table.columns[1].name, "x");
+  EXPECT_EQ(table.columns[1].unit, "m/s^2");
+  EXPECT_EQ(table.columns[0].values[1], 0.1);
+  EXPECT_EQ(table.columns[1].values[0], 1.5);
+  EXPECT_TRUE(std::isnan(table.columns[1].values[1]));
+}
+
+}  // namespace
+}  // namespace pfdm::test
