@@ -56,6 +56,7 @@ Json to_json(const ForceComparison& force) {
   for (std::size_t i = 0; i < force.names.size(); ++i) {
     Json specimen = to_json(force.specimens[i]);
     specimen["name"] = force.names[i];
+    if (i < force.preparation.size() && !force.preparation[i].empty()) specimen["preparation"] = force.preparation[i];
     json["specimens"].push_back(specimen);
   }
   return json;

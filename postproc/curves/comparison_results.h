@@ -16,10 +16,11 @@ namespace pfdm {
 struct ForceComparison {
   ComparedCurves curves;
   CurveFigures model;
-  CurveFigures mean;                                ///< of the specimens' mean curve
-  std::vector<std::string> names;                   ///< of the specimens
-  std::vector<CurveFigures> specimens;              ///< one for each
-  double stiffness_from = 0.0, stiffness_to = 0.0;  ///< [m]
+  CurveFigures mean;                                    ///< of the specimens' mean curve
+  std::vector<std::string> names;                       ///< of the specimens
+  std::vector<CurveFigures> specimens;                  ///< one for each
+  double stiffness_from = 0.0, stiffness_to = 0.0;      ///< [m]
+  std::vector<std::vector<std::string>> preparation{};  ///< what was done to each measured curve; empty: nothing
 };
 
 /// Throws InputError like compare_curves, and for a range of the stiffness beyond the common one.

@@ -13,15 +13,19 @@ namespace {
 
 constexpr double rounding = 1e-6;  // of a range: a run's last displacement is not exact
 
-}  // namespace
+const SampledCurve& model_of(const ModelCurves& models, const MeasuredPoints::Point& point) {
+  return models.size() == 1 ? models.front() : models.at(point.specimen);
+}
 
-MeasuredPoints points_between(const std::vector<SampledCurve>& specimens, double from, double to) {
+/// The points of all curves whose specimen and row are `wanted`; `from` and `to` for the message.
+template <class Wanted>
+MeasuredPoints points_of(const std::vector<const SampledCurve*>& curves, const Wanted& wanted, double from, double to) {
   MeasuredPoints measured{.points = {}, .noise_is_known = true, .rms = 0.0};
-  for (std::size_t s = 0; s < specimens.size(); ++s) {
-    const SampledCurve& curve = specimens[s];
+  for (std::size_t s = 0; s < curves.size(); ++s) {
+    const SampledCurve& curve = *curves[s];
     measured.noise_is_known = measured.noise_is_known && !curve.deviation.empty();
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
-      if (curve.x[i] < from || curve.x[i] > to) continue;
+      if (!wanted(s, i)) continue;
       const double deviation = curve.deviation.empty() ? 0.0 : curve.deviation[i];
       if (!curve.deviation.empty() && !(deviation > 0.0))
         throw InputError(
@@ -37,10 +41,36 @@ MeasuredPoints points_between(const std::vector<SampledCurve>& specimens, double
   return measured;
 }
 
-std::optional<std::vector<double>> residuals_of(const SampledCurve& model, const MeasuredPoints& measured) {
-  const double slack = rounding * (model.x.back() - model.x.front());
+}  // namespace
+
+MeasuredPoints points_between(const std::vector<SampledCurve>& specimens, double from, double to) {
+  std::vector<const SampledCurve*> curves;
+  for (const SampledCurve& specimen : specimens) curves.push_back(&specimen);
+  const auto wanted = [&](std::size_t s, std::size_t i) {
+    return specimens[s].x[i] >= from && specimens[s].x[i] <= to;
+  };
+  return points_of(curves, wanted, from, to);
+}
+
+MeasuredPoints points_between(const std::vector<MeasuredCurve>& specimens, double from, double to,
+                              const std::vector<double>& latest) {
+  std::vector<const SampledCurve*> curves;
+  std::vector<std::vector<double>> x;  // of the specimens
+  for (const MeasuredCurve& specimen : specimens) {
+    curves.push_back(&specimen.curve);
+    x.push_back(specimen.of_specimen().x);
+  }
+  const auto wanted = [&](std::size_t s, std::size_t i) {
+    return x[s][i] >= from && x[s][i] <= to && specimens[s].curve.x[i] <= latest[s];
+  };
+  return points_of(curves, wanted, from, to);
+}
+
+std::optional<std::vector<double>> residuals_of(const ModelCurves& models, const MeasuredPoints& measured) {
   std::vector<double> residuals;
   for (const auto& point : measured.points) {
+    const SampledCurve& model = model_of(models, point);
+    const double slack = rounding * (model.x.back() - model.x.front());
     if (point.x < model.x.front() - slack || point.x > model.x.back() + slack) return std::nullopt;
     const double scale = measured.noise_is_known ? point.deviation : measured.rms;
     residuals.push_back((model.at(point.x) - point.y) / scale);
@@ -48,18 +78,19 @@ std::optional<std::vector<double>> residuals_of(const SampledCurve& model, const
   return residuals;
 }
 
-double rms_residual(const SampledCurve& model, const MeasuredPoints& measured) {
-  const auto residuals = residuals_of(model, measured);
+double rms_residual(const ModelCurves& models, const MeasuredPoints& measured) {
+  const auto residuals = residuals_of(models, measured);
   if (!residuals) return std::numeric_limits<double>::infinity();
   double sum = 0.0;
   for (const double r : *residuals) sum += r * r;
   return std::sqrt(sum / static_cast<double>(residuals->size()));
 }
 
-std::vector<std::vector<double>> set_up_errors(const SampledCurve& model, const MeasuredPoints& measured) {
-  const double low = model.x.front(), high = model.x.back(), step = 2e-3 * (high - low);
+std::vector<std::vector<double>> set_up_errors(const ModelCurves& models, const MeasuredPoints& measured) {
   std::vector<std::vector<double>> columns(5);
   for (const auto& point : measured.points) {
+    const SampledCurve& model = model_of(models, point);
+    const double low = model.x.front(), high = model.x.back(), step = 2e-3 * (high - low);
     const double scale = measured.noise_is_known ? point.deviation : measured.rms;
     const double x = std::clamp(point.x, low, high), left = std::max(x - step, low), right = std::min(x + step, high);
     const double force = model.at(x), slope = (model.at(right) - model.at(left)) / (right - left);

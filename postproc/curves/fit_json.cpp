@@ -72,6 +72,7 @@ Json to_json(const std::vector<ExperimentMisfit>& experiments) {
       entry[fmt::format("rms_{}_{}", a->quantity, a->unit)] = a->rms_measured;
     }
     if (!e.curve.empty()) entry["curve"] = e.curve;
+    if (!e.preparation.empty()) entry["preparation"] = e.preparation;
   }
   return list;
 }

@@ -74,6 +74,7 @@ struct ExperimentMisfit {
   double relative = 0.0;                            ///< of the measured rms
   std::optional<Absolute> absolute = std::nullopt;  ///< where it is known
   std::string curve{};                              ///< file with both curves, if there is one
+  std::vector<std::string> preparation{};           ///< what was done to the measured curve
 };
 ExperimentMisfit experiment_misfit(std::string name, std::size_t n_data, const ExperimentMisfit::Absolute& absolute,
                                    std::string curve);

@@ -64,7 +64,9 @@ struct FitSettings {
   double least_step = 0.0;        ///< in scaled parameters: a shorter step ends the fit
   double trust_radius = 1e4;      ///< of the first step; small for models whose failures are expensive
   Differences differences = Differences::central;
-  double step = 6e-6;        ///< of the differences, in parameters over their first guess (or of the logarithm)
+  double step = 6e-6;  ///< of the differences, in parameters over their first guess (or of the logarithm)
+  double exactness =
+      1e-7;  ///< of the derivatives, relative: parameters whose effects differ by less are not told apart
   bool side_by_side = true;  ///< evaluations on all threads; not for models that use threads or processes themselves
   int starts = 1;            ///< more than one: the others at random within the bounds
   double spread = 1.0;       ///< of other starts about the first one, factor exp(+-spread), where there are no bounds

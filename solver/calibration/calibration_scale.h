@@ -20,6 +20,7 @@ class ScaledModel {
   const FitProblem& problem() const { return problem_; }
   bool is_log(std::size_t j) const { return problem_.parameters[j].log_scale; }
   int evaluations() const { return evaluations_; }
+  double exactness() const { return settings_.exactness; }
 
   Eigen::VectorXd first() const;
   Eigen::VectorXd start() const;

@@ -14,8 +14,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double unseen = 1e-9;     // sensitivity of the residuals, relative to the largest
-constexpr double dependent = 1e-7;  // smallest singular value of the normalised Jacobian
+constexpr double unseen = 1e-9;  // sensitivity of the residuals, relative to the largest
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::vector<std::string> names_of(const ScaledModel& model, const std::vector<std::size_t>& which) {
@@ -60,7 +59,7 @@ Eigen::MatrixXd inverse_normal(const ScaledModel& model, const Eigen::MatrixXd& 
   for (Eigen::Index k = 0; k < n; ++k) {
     const double sigma = svd.values[k];
     const Eigen::VectorXd v = svd.V.col(k);
-    if (sigma > dependent * svd.values[0]) {
+    if (sigma > model.exactness() * svd.values[0]) {
       inverse += v * v.transpose() / (sigma * sigma);
       continue;
     }

@@ -3,6 +3,7 @@
 #include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -316,6 +317,52 @@ TEST(Compare, TakesTheBandFromSpecimensAndFromTheirDeviation) {
   EXPECT_NEAR(force["relative_difference"]["initial_stiffness"].get<double>(), 1.0 / 1.1 - 1.0, 1e-3);
 }
 
+// The computed curve, recorded by a soft machine with an offset, with a loop and jitter, in kN and um by semicolons.
+TEST(Compare, PreparesWhatAMachineRecords) {
+  const TemporaryCase directory(bar_case());
+  fs::create_directory(directory.path() / "data");
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
+  const double compliance = 0.4 * curve.column("displacement_m")[1] / curve.column("force_x_N")[1];
+  std::string text = "Weg [um];Kraft\n;[kN]\n";
+  const auto add = [&](double u, double F) {
+    text += fmt::format("{:.9g};{:.12g}\n", 1e6 * u + 3.0, 1e-3 * F + 0.001);
+  };
+  double last = 0.0;
+  for (std::size_t i = 0; i < curve.n_rows(); ++i) {
+    const double F = curve.column("force_x_N")[i], u = curve.column("displacement_m")[i] + compliance * F;
+    if (u < last) break;  // the bar has broken, which the machine would not follow back
+    if (i == 5) {
+      add(0.5 * last, 0.3 * F);
+      add(0.7 * last, 0.5 * F);
+    }
+    add(u, F);
+    last = u;
+  }
+  std::ranges::replace(text, '.', ',');
+  directory.write("data/one.csv", text);
+  std::string experiment = replaced(measured_specimen("[\"4 um\", \"9 um\"]"), "{ column = \"u\", unit = \"um\" }",
+                                    "{ column = \"Weg [um]\", unit = \"um\" }");
+  experiment = replaced(experiment, "{ column = \"f\", unit = \"kN\" }", "{ column = \"Kraft\" }");
+  experiment += fmt::format(
+      "loops = \"envelope\"\noffset = \"3 um\"\nforce_offset = \"1 N\"\ncompliance = \"{} m/N\"\n", compliance);
+  directory.write("case.toml", bar_case() + experiment);
+  const Outcome outcome = run({"compare", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("one: unloading loops: 2 of"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("the straight part"), std::string::npos) << outcome.out;
+  const auto force = json_in(directory.results() / "comparison.json")["force_displacement"];
+  EXPECT_LT(force["rms_difference_over_largest_measured"].get<double>(), 1e-3);
+  EXPECT_NEAR(force["relative_difference"]["initial_stiffness"].get<double>(), 0.0, 1e-3);
+  EXPECT_EQ(force["specimens"][0]["preparation"].size(), 4u);
+  EXPECT_EQ(run({"report", directory.path().string()}).status, 0);
+
+  directory.write("case.toml", replaced(bar_case() + experiment, "offset = \"3 um\"\n", ""));
+  const Outcome late = run({"compare", directory.path().string()});
+  EXPECT_NE((late.out + late.err).find("the straight part of one meets zero force at 3e-06 m"), std::string::npos)
+      << late.out << late.err;
+}
+
 class BadExperiment : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadExperiment, IsRefusedWithOneMessage) {
@@ -330,6 +377,43 @@ const BadInput bad_experiments[] = {
     {"column_that_is_not_there", "\"f\"", "\"g\"", {"there is no column \"g\" (available: u, f, back)"}},
     {"unit_of_another_dimension", "\"kN\"", "\"kPa\"", {"is a stress; expected a force"}},
     {"displacements_that_fall", "column = \"u\"", "column = \"back\"", {"the displacements decrease"}},
+    {"column_beyond_the_last", "\"f\"", "4", {"force] column: the file has 3 columns (u, f, back)"}},
+    {"separator_that_is_none", "name = \"one\"", "name = \"one\"\nseparator = \"|\"", {"(allowed: ,, ;, tab, blank)"}},
+    {"comma_for_both",
+     "name = \"one\"",
+     "name = \"one\"\nseparator = \",\"\ndecimal = \",\"",
+     {"a comma cannot separate entries and be the decimal mark"}},
+    {"jitter_without_unit", "name = \"one\"", "name = \"one\"\njitter = 0.1", {"jitter: 0.1 has no unit"}},
+    {"jitter_too_small",
+     "column = \"u\"",
+     "column = \"back\"",
+     {"set loops = \"envelope\" to leave unloading out, or jitter to the largest noise"}},
+    {"unknown_loops",
+     "name = \"one\"",
+     "name = \"one\"\nloops = \"follow\"",
+     {"\"follow\" is not a treatment of unloading loops (allowed: envelope)"}},
+    {"toe_of_one_end", "name = \"one\"", "name = \"one\"\ntoe = [\"1 N\"]", {"toe"}},
+    {"toe_that_falls", "name = \"one\"", "name = \"one\"\ntoe = [\"2 N\", \"1 N\"]", {"must be the larger"}},
+    {"toe_of_two_dimensions",
+     "name = \"one\"",
+     "name = \"one\"\ntoe = [\"2 N\", \"3 um\"]",
+     {"toe[1]: \"3 um\" is a length"}},
+    {"toe_without_rows",
+     "name = \"one\"",
+     "name = \"one\"\ntoe = [\"9 kN\", \"10 kN\"]",
+     {"toe: 0 rows lie between 9000 and 1e+04 N"}},
+    {"compliance_below_zero",
+     "name = \"one\"",
+     "name = \"one\"\ncompliance = \"-1 um/N\"",
+     {"must be zero or positive"}},
+    {"compliance_as_stiffness",
+     "name = \"one\"",
+     "name = \"one\"\ncompliance = \"1 N/um\"",
+     {"expected a compliance, as in \"2 um/kN\""}},
+    {"misspelt_preparation",
+     "name = \"one\"",
+     "name = \"one\"\ncomplience = \"1 um/N\"",
+     {"did you mean \"compliance\"?"}},
     {"range_that_is_empty", "[\"1 um\", \"5 um\"]", "[\"5 um\", \"1 um\"]", {"must be the larger"}},
     {"range_without_unit", "[\"1 um\", \"5 um\"]", "[1, 5]", {"has no unit"}},
     {"misspelt_key", "stiffness_between", "stiffness_betwen", {"did you mean \"stiffness_between\"?"}},

@@ -5,11 +5,73 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 
 namespace pfdm {
 namespace {
 
 constexpr const char* positive_pole = "positive";
+// Of [experiment], for all specimens, or of one of them.
+constexpr std::string_view preparation_keys[] = {"loops", "jitter", "toe", "offset", "force_offset", "compliance"};
+
+ConfigTable with_keys_and_preparation(const ConfigTable& table, std::vector<std::string_view> keys) {
+  keys.insert(keys.end(), std::begin(preparation_keys), std::end(preparation_keys));
+  return table.with_keys(keys);
+}
+
+ConfigTable experiment_table(const ConfigTable& root) {
+  return with_keys_and_preparation(root.table("experiment"), {"stiffness_between", "specimens", "debonding"});
+}
+
+ConfigTable specimen_table(const ConfigTable& table) {
+  return with_keys_and_preparation(table,
+                                   {"name", "csv", "separator", "decimal", "displacement", "force", "deviation"});
+}
+
+/// Tables that may have a key: the specimen's, and where it does not have it that of all.
+class Defaults {
+ public:
+  Defaults(const ConfigTable& own, const ConfigTable& of_all) : own_(own), of_all_(of_all) {}
+  std::optional<ConfigValue> find(std::string_view key) const {
+    return own_.has(key) ? own_.find(key) : of_all_.find(key);
+  }
+  double quantity(std::string_view key, const Dimension& due, const Range& allowed) const {
+    const auto value = find(key);
+    return value ? value->quantity(due, allowed) : 0.0;
+  }
+
+ private:
+  const ConfigTable& own_;
+  const ConfigTable& of_all_;
+};
+
+Toe read_toe(const ConfigValue& value) {
+  const std::vector<ConfigValue> ends = value.list(2);
+  const std::string first = ends[0].string();
+  const bool of_length = ends[0].in_context([&] { return is_unit_of(unit_of(first), dimension::length); });
+  const Dimension& due = of_length ? dimension::length : dimension::force;
+  const Toe toe{.from = ends[0].quantity(due), .to = ends[1].quantity(due), .of_force = !of_length};
+  if (!(toe.from < toe.to)) throw value.error("the second end of the straight part must be the larger");
+  return toe;
+}
+
+Preparation read_preparation(const Defaults& keys) {
+  const std::string ways[] = {"envelope"};
+  Preparation preparation{.jitter = keys.quantity("jitter", dimension::length, range::not_negative)};
+  if (const auto loops = keys.find("loops")) {
+    loops->one_of(ways, "treatment of unloading loops");
+    preparation.envelope = true;
+  }
+  if (const auto toe = keys.find("toe")) preparation.toe = read_toe(*toe);
+  return preparation;
+}
+
+SetUp read_set_up(const Defaults& keys) {
+  return {.offset = keys.quantity("offset", dimension::length, range::any),
+          .force_offset = keys.quantity("force_offset", dimension::force, range::any),
+          .compliance = keys.quantity("compliance", dimension::compliance, range::not_negative)};
+}
 
 SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path& directory, const char* quantity,
                            const Dimension& due) {
@@ -24,25 +86,49 @@ SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path
     if (std::ranges::any_of(curve.deviation, [](double d) { return d < 0.0; }))
       throw table.at("deviation").error("a standard deviation must not be negative");
   }
-  if (!std::ranges::is_sorted(curve.x))
-    throw table.at("displacement").error("the displacements decrease: remove unloading, and sort the rows");
   return curve;
 }
 
+MeasuredCurve read_specimen(const ConfigTable& own, const ConfigTable& of_all, const std::filesystem::path& directory) {
+  const ConfigTable table = specimen_table(own);
+  const Defaults keys(table, of_all);
+  const SampledCurve recorded = read_curve_of(table, directory, "force", dimension::force);
+  const Preparation preparation = read_preparation(keys);
+  const SetUp set_up = read_set_up(keys);
+  return table.at("displacement").in_context([&] { return prepared(recorded, preparation, set_up); });
+}
+
 MeasuredAngle read_angle(const ConfigTable& table, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "displacement", "angle", "deviation", "surface", "pole"});
+  table.with_keys({"name", "csv", "separator", "decimal", "displacement", "angle", "deviation", "surface", "pole"});
   const std::string poles[] = {positive_pole, "negative"};
-  return {.curve = read_curve_of(table, directory, "angle", dimension::angle),
+  const SampledCurve curve = read_curve_of(table, directory, "angle", dimension::angle);
+  if (!std::ranges::is_sorted(curve.x))
+    throw table.at("displacement").error("the displacements decrease: remove unloading, and sort the rows");
+  return {.curve = curve,
           .surface = table.string("surface", ""),
           .at_positive = table.at("pole").one_of(poles, "pole") == positive_pole};
 }
 
 }  // namespace
 
+std::vector<SampledCurve> specimen_curves(const ExperimentSettings& experiment) {
+  std::vector<SampledCurve> curves;
+  for (const MeasuredCurve& specimen : experiment.specimens) curves.push_back(specimen.of_specimen());
+  return curves;
+}
+
+std::vector<SetUp> read_set_ups(const ConfigTable& root) {
+  const ConfigTable table = experiment_table(root);
+  std::vector<SetUp> set_ups;
+  for (const ConfigTable& specimen : table.tables("specimens"))
+    set_ups.push_back(read_set_up(Defaults(specimen_table(specimen), table)));
+  return set_ups;
+}
+
 std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
                                                   const std::filesystem::path& case_directory) {
   if (!root.has("experiment")) return std::nullopt;
-  const ConfigTable table = root.table("experiment").with_keys({"stiffness_between", "specimens", "debonding"});
+  const ConfigTable table = experiment_table(root);
   ExperimentSettings settings{.where = table};
   const ConfigValue range = table.at("stiffness_between");
   const std::vector<ConfigValue> ends = range.list(2);
@@ -51,9 +137,7 @@ std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
   if (!(settings.stiffness_from < settings.stiffness_to))
     throw range.error("the second displacement must be the larger");
   for (const ConfigTable& specimen : table.tables("specimens"))
-    settings.specimens.push_back(
-        read_curve_of(specimen.with_keys({"name", "csv", "displacement", "force", "deviation"}), case_directory,
-                      "force", dimension::force));
+    settings.specimens.push_back(read_specimen(specimen, table, case_directory));
   if (settings.specimens.empty())
     throw table.error("no measured curve is named; at least one [[experiment.specimens]] is required");
   for (const ConfigTable& debonding : table.tables("debonding")) {

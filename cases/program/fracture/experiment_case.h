@@ -2,7 +2,7 @@
 // Reads [experiment]: the measured curves that a fracture case is compared with.
 
 #include "cases/program/input/config.h"
-#include "postproc/curves/comparison.h"
+#include "postproc/curves/measured_curve.h"
 
 #include <filesystem>
 #include <optional>
@@ -19,11 +19,17 @@ struct MeasuredAngle {
 };
 
 struct ExperimentSettings {
-  std::vector<SampledCurve> specimens{};            ///< force [N] over displacement [m]
+  std::vector<MeasuredCurve> specimens{};           ///< force [N] over displacement [m]
   double stiffness_from = 0.0, stiffness_to = 0.0;  ///< [m]
   std::vector<MeasuredAngle> angles{};              ///< all at the same pole of the same surface
   ConfigTable where;                                ///< for messages
 };
+
+/// The specimens' own curves.
+std::vector<SampledCurve> specimen_curves(const ExperimentSettings& experiment);
+
+/// What the set-up adds to each specimen's curve, alone. Throws InputError like read_experiment.
+std::vector<SetUp> read_set_ups(const ConfigTable& root);
 
 /// Nothing if there is no [experiment]. `root` is the whole case file. Throws InputError that names file and line.
 std::optional<ExperimentSettings> read_experiment(const ConfigTable& root, const std::filesystem::path& case_directory);

@@ -62,6 +62,16 @@ void say(const AngleComparison& angle, Log& log) {
                   onset(angle.model_onset), onset(angle.mean_onset)));
 }
 
+/// What was done to the measured curves, and which of them miss the origin.
+void say_preparation(const ExperimentSettings& experiment, const SampledCurve& model, Log& log) {
+  for (const MeasuredCurve& specimen : experiment.specimens) {
+    for (const std::string& done : specimen.treatment()) log.say(fmt::format("{}: {}", specimen.curve.name, done));
+    const auto missed =
+        missed_origin(specimen.of_specimen(), model, experiment.stiffness_from, experiment.stiffness_to);
+    if (missed) log.warn(missed_origin_text(*missed, specimen.curve.name));
+  }
+}
+
 }  // namespace
 
 SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component) {
@@ -77,15 +87,17 @@ void compare_with_experiment(const FractureCase& fracture, const ExperimentSetti
                              const std::string& name, const std::string& hash, Session& session) {
   const std::vector<CurveRow> rows = read_curve_record(session.results, hash);
   ComparisonReport report{.case_name = name, .case_hash = hash, .version = session.version, .force = {}, .angle = {}};
+  const SampledCurve computed = computed_curve(rows, fracture.output.curve.component);
   report.force = experiment.where.in_context([&] {
-    return compare_forces(computed_curve(rows, fracture.output.curve.component), experiment.specimens,
-                          experiment.stiffness_from, experiment.stiffness_to);
+    return compare_forces(computed, specimen_curves(experiment), experiment.stiffness_from, experiment.stiffness_to);
   });
+  for (const MeasuredCurve& specimen : experiment.specimens) report.force.preparation.push_back(specimen.treatment());
   if (!experiment.angles.empty()) {
     const std::vector<ColumnRecord> records = read_column_record(session.results, hash);
     report.angle = experiment.where.in_context([&] { return compare_debonding(experiment, rows, records); });
   }
   write_comparison(session.results, report);
+  say_preparation(experiment, computed, session.log);
   say(report.force, session.log);
   if (report.angle) say(*report.angle, session.log);
   session.log.say(fmt::format("written to {}", (session.results / "comparison.json").string()));

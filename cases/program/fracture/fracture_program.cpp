@@ -322,8 +322,17 @@ void fit(const FractureProgram& program, Session& session) {
   const auto read = [component = program.fracture.output.curve.component](const std::filesystem::path& results) {
     return computed_curve(read_curve(results / curve_file), component);
   };
-  fit_curve({program.file, *program.fit, program.experiment->specimens, read, program.name, program.hash,
-             program.fracture.title},
+  const ExperimentSettings& experiment = *program.experiment;
+  fit_curve({.file = program.file,
+             .settings = *program.fit,
+             .specimens = experiment.specimens,
+             .straight_from = experiment.stiffness_from,
+             .straight_to = experiment.stiffness_to,
+             .set_ups = [](const CaseFile& file) { return read_set_ups(file.config.root()); },
+             .read_curve = read,
+             .name = program.name,
+             .hash = program.hash,
+             .title = program.fracture.title},
             session);
 }
 

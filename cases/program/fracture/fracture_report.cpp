@@ -105,11 +105,12 @@ Table material_table(const FractureCase& fracture) {
   return table;
 }
 
-/// A measured curve, and the band of two standard deviations about it.
-void add_specimens(Chart& chart, const std::vector<SampledCurve>& specimens, const DisplayUnit& x,
+/// A measured curve, the band of two standard deviations about it, and what was recorded if that is not the same.
+void add_specimens(Chart& chart, const std::vector<MeasuredCurve>& specimens, const DisplayUnit& x,
                    const DisplayUnit& y) {
   int colour = 1;
-  for (const SampledCurve& specimen : specimens) {
+  for (const MeasuredCurve& measured : specimens) {
+    const SampledCurve specimen = measured.of_specimen();
     const std::vector<double> at = in_unit(specimen.x, x), values = in_unit(specimen.y, y);
     if (!specimen.deviation.empty()) {
       Series band{.label = "two standard deviations", .x = at, .y = {}, .style = SeriesStyle::band, .colour = 7};
@@ -119,6 +120,12 @@ void add_specimens(Chart& chart, const std::vector<SampledCurve>& specimens, con
       }
       chart.series.insert(chart.series.begin(), std::move(band));
     }
+    if (!measured.treatment().empty())
+      chart.series.push_back({.label = "as recorded, " + specimen.name,
+                              .x = in_unit(measured.as_recorded.x, x),
+                              .y = in_unit(measured.as_recorded.y, y),
+                              .style = SeriesStyle::dashed,
+                              .colour = 7});
     chart.series.push_back({.label = "measured, " + specimen.name, .x = at, .y = values, .colour = colour++});
   }
 }

@@ -4,7 +4,9 @@
 #include "cases/program/session/session.h"
 #include "cases/program/studies/curve_fit_case.h"
 #include "cases/program/studies/curve_model.h"
+#include "postproc/curves/measured_curve.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,10 @@ namespace pfdm {
 struct CurveFitJob {
   const CaseFile& file;
   const CurveFitSettings& settings;
-  const std::vector<SampledCurve>& specimens;
+  const std::vector<MeasuredCurve>& specimens;
+  double straight_from, straight_to;  ///< displacements between which the curves should be straight [m]
+  /// What the set-up adds to each specimen's curve, as a case says.
+  std::function<std::vector<SetUp>(const CaseFile&)> set_ups;
   CurveModel::ReadCurve read_curve;
   std::string name;
   std::string hash;

@@ -45,12 +45,14 @@ FitFindings merged(const std::vector<FitStage>& stages) {
 
 /// Computed curves at the points of their comparison, with the first guess beside.
 CsvTable curve_table(const CurveFitJob& job, const CurveFitFindings& found) {
-  const ComparedCurves compared = compare_curves(found.fitted_curve, job.specimens);
+  std::vector<SampledCurve> measured;
+  for (const MeasuredCurve& specimen : found.specimens) measured.push_back(specimen.of_specimen());
+  const ComparedCurves compared = compare_curves(found.fitted_curve, measured);
   CsvTable table;
   table.comments.push_back(
       fmt::format("fit of {}: force over displacement, measured (mean of {} specimens), computed "
                   "with the first guess and with the estimates",
-                  job.name, job.specimens.size()));
+                  job.name, found.specimens.size()));
   table.add("displacement_m", compared.x);
   table.add("measured_force_N", compared.measured);
   if (!compared.deviation.empty()) table.add("measured_deviation_force_N", compared.deviation);
@@ -61,16 +63,17 @@ CsvTable curve_table(const CurveFitJob& job, const CurveFitFindings& found) {
   return table;
 }
 
-std::vector<ExperimentMisfit> misfits(const CurveFitJob& job, const CurveFitFindings& found) {
+std::vector<ExperimentMisfit> misfits(const CurveFitFindings& found) {
   std::vector<ExperimentMisfit> result;
-  for (const SampledCurve& specimen : job.specimens) {
-    const MeasuredPoints points = points_between({specimen}, found.fitted_curve.x.front(), found.fitted_curve.x.back());
-    result.push_back(experiment_misfit(specimen.name, points.points.size(),
-                                       {.rms = rms_difference(found.fitted_curve, points, 0),
-                                        .rms_measured = points.rms,
-                                        .quantity = "force",
-                                        .unit = "N"},
-                                       fitted_curve_file));
+  const SampledCurve& computed = found.fitted_curve;
+  for (const MeasuredCurve& specimen : found.specimens) {
+    const SampledCurve model = as_recorded(computed, specimen.set_up);
+    const MeasuredPoints points = points_between({specimen}, computed.x.front(), computed.x.back(), {model.x.back()});
+    result.push_back(experiment_misfit(
+        specimen.curve.name, points.points.size(),
+        {.rms = rms_difference(model, points, 0), .rms_measured = points.rms, .quantity = "force", .unit = "N"},
+        fitted_curve_file));
+    result.back().preparation = specimen.treatment();
   }
   return result;
 }
@@ -101,7 +104,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
       .method = "force_displacement",
       .wall_seconds = found.seconds,
       .found = merged(found.stages),
-      .experiments = misfits(job, found),
+      .experiments = misfits(found),
       .own = FractureFindings{.earlier_stages = {found.stages.begin(), found.stages.end() - 1}, .runs = found.runs}};
   write_csv(results / fitted_curve_file, curve_table(job, found));
   const CaseFile fitted = with_values(job.file, found.parameters, found.values);
@@ -110,6 +113,8 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
                          job.name) +
                  moved(fitted, results));
   write_fit_json(results / "fit.json", report);
+  for (const ExperimentMisfit& e : report.experiments)
+    for (const std::string& done : e.preparation) session.log.say(fmt::format("{}: {}", e.name, done));
   say_estimates(report.found, found.parameters, session.log);
   for (const ExperimentMisfit& e : report.experiments)
     session.log.say(fmt::format("rms difference from {}: {:.4g} N, {:.2f} % of its rms force", e.name, e.absolute->rms,

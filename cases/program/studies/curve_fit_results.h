@@ -14,6 +14,7 @@ struct CurveFitFindings {
   const std::vector<CaseParameter>& parameters;
   SampledCurve first_curve;  ///< with the case's own values
   SampledCurve fitted_curve;
+  std::vector<MeasuredCurve> specimens;  ///< with the set-up as estimated
   RunCounts runs;
   double seconds = 0.0;
 };
