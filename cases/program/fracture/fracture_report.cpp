@@ -155,10 +155,10 @@ Chart energy_chart(const FractureStory& story) {
       column(story.curve, [](const CurveRow& row) { return row.energy.elastic; }),
       column(story.curve, [](const CurveRow& row) { return row.energy.fracture; })};
   std::vector<std::string_view> names{"work", "elastic", "surface"};
-  const std::vector<double> heat = column(story.curve, [](const CurveRow& row) { return dissipated(row.energy); });
-  if (heat.back() > 0.0) {
-    energies.push_back(heat);
-    names.emplace_back("heat");
+  const std::vector<double> lost = column(story.curve, [](const CurveRow& row) { return dissipated(row.energy); });
+  if (lost.back() > 0.0) {
+    energies.push_back(lost);
+    names.emplace_back("dissipated");
   }
   const DisplayUnit unit = common_unit(energies, "J");
   Chart chart{.caption = "Energies",
