@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace pfdm {
 namespace {
@@ -95,6 +97,49 @@ TEST(Interfaces, GoOnFromACheckpoint) {
   EXPECT_EQ(read_pvd(parts.results() / "interfaces.pvd"), read_pvd(whole.results() / "interfaces.pvd"));
 }
 
+// Blocks so soft that the end moves back while the face softens: 2 L/E = 1e-10 m/Pa is twice the law's 2 Gc/strength^2.
+std::string blocks_that_snap_back() {
+  std::string text = glued_blocks(linear_glue);
+  text = replaced(text, "young_modulus = \"1 GPa\"", "young_modulus = \"20 MPa\"");
+  text = replaced(text, "displacement = [\"0.12 mm\"", "displacement = [\"0.25 mm\"");
+  return replaced(text, "maximum_increment = 0.1\n", "maximum_increment = 0.1\nmaximum_dissipation = \"10 uJ\"\n");
+}
+
+TEST(Interfaces, SnapBackAlongTheirLaw) {
+  const TemporaryCase directory(blocks_that_snap_back());
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable curve = curve_of(directory);
+  const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_x_N");
+  // The rise of the rigid interface is 1000 times as stiff as the two half cells of 125 um beside it.
+  const double compliance = 2e-3 / 20e6, rise = strength * 0.25e-3 / 20e6 / 1000.0, last = 2.0 * toughness / strength;
+  double furthest_back = u.back();
+  for (std::size_t i = 1; i < curve.n_rows(); ++i) {
+    const double traction = 1e6 * force[i], opening = u[i] - compliance * traction;
+    const double due = strength * (opening < rise ? opening / rise : std::max(0.0, (last - opening) / (last - rise)));
+    EXPECT_NEAR(traction, due, 1e-3 * strength) << i;
+    if (curve.column("interface_dissipation_J")[i] > 0.0) furthest_back = std::min(furthest_back, u[i]);
+  }
+  EXPECT_NEAR(furthest_back, last, 0.15 * last);
+  EXPECT_NEAR(curve.column("interface_dissipation_J").back(), 1e-6 * toughness, 1e-6 * 1e-6 * toughness);
+}
+
+TEST(Interfaces, GoOnAlongASnapBackFromACheckpoint) {
+  const TemporaryCase whole(blocks_that_snap_back());
+  ASSERT_EQ(run({"run", whole.path().string()}).status, 0);
+  const std::vector<double> u = curve_of(whole).column("displacement_m");
+  const auto peak = static_cast<std::size_t>(std::ranges::adjacent_find(u, std::greater<>()) - u.begin());
+  ASSERT_LT(peak + 3, u.size());
+  for (const std::size_t step : {peak, peak + 2}) {  // the next step leads back; the last one did
+    const TemporaryCase parts(blocks_that_snap_back());
+    ASSERT_EQ(run({"run", parts.path().string(), "--max-steps", fmt::format("{}", step)}).status, 0);
+    ASSERT_EQ(run({"run", parts.path().string(), "--restart"}).status, 0);
+    EXPECT_EQ(content_of(parts.results() / "force_displacement.csv"),
+              content_of(whole.results() / "force_displacement.csv"));
+    EXPECT_EQ(read_pvd(parts.results() / "interfaces.pvd"), read_pvd(whole.results() / "interfaces.pvd"));
+  }
+}
+
 TEST(Interfaces, TakeAnExtractedLawFromItsTable) {
   const std::string rise = "1e-9";  // the elastic part of the table
   const TemporaryCase directory(
@@ -143,6 +188,44 @@ const BadInput bad_inputs[] = {
      "between = [\"left\", \"right\"]",
      "between = [\"left\", \"right\"]\nwhere = \"y > 1\"",
      {"[interface]", "no face of the mesh is there"}},
+    {"regions_apart",
+     "upper = [\"3 mm\", \"2 mm\", \"2 mm\"]\n[materials.stone]\nregions = [\"left\", \"right\"]",
+     "upper = [\"3 mm\", \"2 mm\", \"2 mm\"]\n[[mesh.regions]]\nname = \"middle\"\nlower = [\"0.7 mm\", \"-1 mm\", "
+     "\"-1 mm\"]\nupper = [\"1.3 mm\", \"2 mm\", \"2 mm\"]\n[materials.stone]\nregions = [\"left\", \"right\", "
+     "\"middle\"]",
+     {"[interface]", "no face of the mesh is there"}},
+    {"region_with_itself",
+     "between = [\"left\", \"right\"]",
+     "between = [\"left\", \"left\"]",
+     {"[interface]", "between", "two different regions"}},
+    {"plane_beside_the_body",
+     "between = [\"left\", \"right\"]",
+     "plane = { point = [\"9 mm\", \"0 mm\", \"0 mm\"], normal = [1, 0, 0] }",
+     {"[interface]", "no face of the mesh is there"}},
+    {"plane_between_faces",
+     "between = [\"left\", \"right\"]",
+     "plane = { point = [\"1.1 mm\", \"0 mm\", \"0 mm\"], normal = [1, 0, 0] }",
+     {"[interface]", "no face of the mesh is there"}},
+    {"plane_without_a_normal",
+     "between = [\"left\", \"right\"]",
+     "plane = { point = [\"1 mm\", \"0 mm\", \"0 mm\"], normal = [0, 0, 0] }",
+     {"normal", "a direction must not be zero"}},
+    {"negative_strength", "strength = \"2 MPa\"", "strength = \"-2 MPa\"", {"strength", "positive"}},
+    {"no_strength", "strength = \"2 MPa\"", "strength = \"0 MPa\"", {"strength", "positive"}},
+    {"infinite_strength", "strength = \"2 MPa\"", "strength = \"inf MPa\"", {"strength"}},
+    {"strength_that_is_no_number", "strength = \"2 MPa\"", "strength = \"nan MPa\"", {"strength"}},
+    {"strength_without_a_unit", "strength = \"2 MPa\"", "strength = 2e6", {"strength"}},
+    {"negative_toughness", "toughness = \"100 J/m^2\"", "toughness = \"-1 J/m^2\"", {"toughness", "positive"}},
+    {"no_toughness", "toughness = \"100 J/m^2\"", "toughness = \"0 J/m^2\"", {"toughness", "positive"}},
+    {"infinite_toughness", "toughness = \"100 J/m^2\"", "toughness = \"inf J/m^2\"", {"toughness"}},
+    {"strength_negative_somewhere",
+     "strength = \"2 MPa\"",
+     "strength = { expr = \"1 - y / 4e-4\", unit = \"MPa\" }",
+     {"strength", "must be positive"}},
+    {"toughness_infinite_somewhere",
+     "toughness = \"100 J/m^2\"",
+     "toughness = { expr = \"1 / (x - x)\", unit = \"J/m^2\" }",
+     {"toughness"}},
     {"unknown_law", "law = \"linear\"", "law = \"linaer\"", {"linaer", "linear", "table"}},
     {"parameter_of_another_law", "law = \"linear\"", "law = \"linear\"\nalpha = 3", {"alpha"}},
     {"too_soft", "law = \"linear\"", "law = \"linear\"\nstiffness = \"1e9 Pa/m\"", {"interface_1", "2e+10 Pa/m"}},

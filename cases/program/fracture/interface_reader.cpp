@@ -121,6 +121,8 @@ void read_place(const ConfigTable& table, InterfaceSettings& settings) {
         "[...], normal = [...] }");
   if (between) {
     const std::vector<ConfigValue> regions = between->list(2);
+    if (regions[0].string() == regions[1].string())
+      throw between->error("say two different regions; faces within a region are those of a plane");
     settings.between = {regions[0], regions[1]};
   } else {
     const ConfigTable place = plane->table().with_keys({"point", "normal"});
