@@ -140,6 +140,17 @@ TEST(Interfaces, GoOnAlongASnapBackFromACheckpoint) {
   }
 }
 
+TEST(Interfaces, AreNotLedBackBesideDamage) {
+  const TemporaryCase directory(
+      replaced(blocks_that_snap_back(), "damageable = false", "toughness = \"1 kJ/m^2\"\nlength = \"1 mm\""));
+  expect_refused(directory, {.name = "path",
+                             .good = "",
+                             .bad = "",
+                             .message = {"loading.maximum_dissipation",
+                                         "cohesive interfaces only where no region is "
+                                         "damageable"}});
+}
+
 TEST(Interfaces, TakeAnExtractedLawFromItsTable) {
   const std::string rise = "1e-9";  // the elastic part of the table
   const TemporaryCase directory(
