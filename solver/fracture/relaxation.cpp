@@ -42,7 +42,8 @@ CellField<double> Relaxation::accelerated(const CellField<double>& d, const Cell
     const double factor = momentum(relaxed);
     parallel_for(n, [&](Index c) {
       const double step = relaxed[c] - relaxed_[c];
-      if (share_[c] == 1.0 && increment_[c] * step > 0.0) result[c] = std::clamp(relaxed[c] + factor * step, lower[c], 1.0);
+      if (share_[c] == 1.0 && increment_[c] * step > 0.0)
+        result[c] = std::clamp(relaxed[c] + factor * step, lower[c], 1.0);
     });
   }
   relaxed_ = std::move(relaxed);
