@@ -74,6 +74,12 @@ bool CellStiffness::has_degradable_part(Index cell) const {
   return model_.in_cell(mesh_, cell).damageable && !materials_.has(cell) && law.has_secant() && law.is_variational();
 }
 
+bool CellStiffness::drives_by_degradable_part() const {
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    if (model_.in_cell(mesh_, c).damageable && !has_degradable_part(c)) return false;
+  return model_.irreversibility == Irreversibility::bounds;
+}
+
 // The secant moduli are linear in g.
 CellField<IsotropicElasticity> CellStiffness::degradable_part(const FractureState& state) const {
   CellField<IsotropicElasticity> part(as_size(mesh_.n_cells()), {});

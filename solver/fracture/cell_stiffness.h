@@ -39,6 +39,9 @@ class CellStiffness {
   /// stiffness that is degraded, which `mechanics` has to have; where there is none, that of the strain; with a
   /// history, that of the state.
   double driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
+  /// Whether the driving energy of every damageable cell is that of the part of the stiffness that damage degrades,
+  /// which makes it the derivative of the discrete energy.
+  bool drives_by_degradable_part() const;
   /// What a cell stores [J].
   double stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]

@@ -9,6 +9,9 @@ namespace pfdm {
 namespace {
 
 constexpr double least_share = 1.0 / 16.0, recovery = 1.5;
+constexpr double least_factor = 0.5;
+// Net over summed change of a stretch below which the largest secant factor is reduced.
+constexpr double least_progress = 0.5, tightening = 0.5, loosening = 1.5;
 // Net over summed change of a stretch below which it counts as a limit cycle.
 constexpr double progress_of_circles = 0.3;
 
@@ -16,7 +19,12 @@ constexpr double progress_of_circles = 0.3;
 
 CellField<double> Relaxation::next(const CellField<double>& d, const CellField<double>& answer,
                                    const CellField<double>& lower) {
-  CellField<double> result = mixing_ ? mixing_->next(d, answer, lower) : accelerated(d, answer, lower);
+  CellField<double> result = mixing_                 ? mixing_->next(d, answer, lower)
+                             : way_ == Way::momentum ? accelerated(d, answer, lower)
+                                                     : over_relaxed(d, answer, lower);
+  if (const auto progress = short_progress_.of_step(d, result))
+    largest_factor_ = *progress < least_progress ? std::max(tightening * largest_factor_, 1.0)
+                                                 : std::min(loosening * largest_factor_, most_factor);
   if (const auto progress = progress_.of_step(d, result)) circles_ = *progress < progress_of_circles ? circles_ + 1 : 0;
   if (circles_ < most_circles || mixing_) return result;
   circles_ = 0;
@@ -58,6 +66,32 @@ double Relaxation::momentum(const CellField<double>& relaxed) {
   const double before = inertia_;
   inertia_ = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * before * before));
   return (before - 1.0) / inertia_;
+}
+
+CellField<double> Relaxation::over_relaxed(const CellField<double>& d, const CellField<double>& answer,
+                                           const CellField<double>& lower) {
+  const Index n = d.size();
+  const bool first = increment_.size() != n;
+  if (first) increment_ = CellField<double>(as_size(n), 0.0), share_ = CellField<double>(as_size(n), 1.0);
+  CellField<double> increment(as_size(n)), result(as_size(n));
+  const auto turned = [&](Index c) { return increment[c] * increment_[c] < 0.0; };
+  parallel_for(n, [&](Index c) {
+    increment[c] = answer[c] - d[c];
+    share_[c] = turned(c) ? std::max(0.5 * share_[c], least_share) : std::min(recovery * share_[c], 1.0);
+  });
+  if (!first) {
+    const auto fall = [&](Index c) { return share_[c] * (increment_[c] - increment[c]); };
+    const double along = parallel_sum(n, [&](Index c) { return share_[c] * increment_[c] * fall(c); });
+    const double square = parallel_sum(n, [&](Index c) { return fall(c) * fall(c); });
+    // An increment that does not decrease gets the largest factor.
+    factor_ = along > 0.0 ? std::clamp(factor_ * along / square, least_factor, largest_factor_) : largest_factor_;
+  }
+  parallel_for(n, [&](Index c) {
+    const double step = turned(c) ? share_[c] : factor_ * share_[c];
+    result[c] = std::clamp(d[c] + step * increment[c], lower[c], 1.0);
+  });
+  increment_ = std::move(increment);
+  return result;
 }
 
 std::optional<double> Progress::of_step(const CellField<double>& from, const CellField<double>& to) {

@@ -4,6 +4,11 @@
 // from an unstable state, and starts anew whenever the increments point back (Beck, Teboulle, SIAM J. Imaging Sci. 2
 // (2009) 183; adaptive restart: O'Donoghue, Candes, Found. Comput. Math. 15 (2015) 715).
 //
+// Where the driving energy is not the derivative of the discrete energy (cell_stiffness.h) there is no descent, and
+// momentum ends in limit cycles: there the increments are over-relaxed by one secant factor for the whole field
+// (Aitken's in vector form: Irons, Tuck, IJNME 1 (1969) 275), the largest of which is reduced where the iteration makes
+// little net progress.
+//
 // Besides, a relaxation factor of each cell's own: it halves whenever the cell's increment changes sign and recovers
 // while it does not, so that a few oscillating cells neither prevent convergence nor slow down the rest; until it has
 // recovered, the cell has no momentum. If the iteration still has a limit cycle, Anderson acceleration starts from the
@@ -34,6 +39,9 @@ class Progress {
 
 class Relaxation {
  public:
+  enum class Way { momentum, secant };
+  explicit Relaxation(Way way = Way::momentum) : way_(way) {}
+
   /// The next damage iterate, given the present one and the solution of the damage equation; bounded by `lower` and 1.
   CellField<double> next(const CellField<double>& d, const CellField<double>& answer, const CellField<double>& lower);
 
@@ -44,14 +52,20 @@ class Relaxation {
   CellField<double> accelerated(const CellField<double>& d, const CellField<double>& answer,
                                 const CellField<double>& lower);
   double momentum(const CellField<double>& relaxed);
+  CellField<double> over_relaxed(const CellField<double>& d, const CellField<double>& answer,
+                                 const CellField<double>& lower);
 
+  static constexpr double most_factor = 5.0;
   static constexpr int most_circles = 2;
 
+  Way way_;
   CellField<double> increment_;  // of the iteration before
   CellField<double> share_;      // relaxation factor of each cell, at most 1
   CellField<double> relaxed_;    // damage of the iteration before, without momentum
   double inertia_ = 1.0;         // t of Beck and Teboulle
-  Progress progress_{48};
+  double factor_ = 1.0;          // of the secant
+  double largest_factor_ = most_factor;
+  Progress short_progress_{12}, progress_{48};
   int circles_ = 0;  // successive stretches with almost no net change
   std::optional<AndersonMixing> mixing_;
 };

@@ -34,6 +34,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       stiffness_(mesh, model),
       faces_(mesh, model, unknowns),
       damage_(mesh, model, unknowns.plane_normal),
+      way_(stiffness_.drives_by_degradable_part() ? Relaxation::Way::momentum : Relaxation::Way::secant),
       psi_plus_(as_size(mesh.n_cells())) {}
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
@@ -75,7 +76,7 @@ struct Staggered::Loop {
   double torn_before;      // dissipated by cohesive faces until then [J]
   PathLimit path{};
   FacesPath faces_path{};
-  Relaxation relaxation{};
+  Relaxation relaxation{s.way_};
   FractureState from{};  // the state in equilibrium, for local iterations
   Energies energies{};   // of it
   double stored_at_unit_load = 0.0, energy_before = 0.0;
@@ -179,7 +180,7 @@ struct Staggered::Loop {
     state.damage = relaxation.next(state.damage, answer, start.damage);
     if (s.local_ && outcome.iterations <= local_at_most &&
         s.local_->iterate(s, {start, from, answer, change, limits.duration}, state, outcome))
-      relaxation = {};
+      relaxation = Relaxation(s.way_);
   }
 };
 

@@ -146,6 +146,7 @@ class Staggered {
   CellStiffness stiffness_;
   CohesiveFaces faces_;
   DamageEquation damage_;
+  Relaxation::Way way_;
   StageClock clock_;
   CellField<double> psi_plus_;           // [J/m^3] of the last equilibrium, as are the displacements
   FaceField<Vector> face_displacement_;  // [m]

@@ -89,8 +89,13 @@ TEST(Relaxation, StartsAnewWhereTheIncrementsPointBack) {
 }
 
 // Three cells take turns to go on by two equal increments; either each goes on for ever, or it goes back the next time.
-Relaxation after_turns(int n_iterations, bool goes_back) {
+struct TurnTaking {
   Relaxation relaxation;
+  double factor = 0.0;  // of the last step over its increment
+};
+
+TurnTaking take_turns(Relaxation::Way way, int n_iterations, bool goes_back) {
+  TurnTaking cells{Relaxation(way)};
   const Damage lower = field({0.0, 0.0, 0.0});
   Damage d = field({0.5, 0.5, 0.5});
   for (int iteration = 0; iteration < n_iterations; ++iteration) {
@@ -98,9 +103,41 @@ Relaxation after_turns(int n_iterations, bool goes_back) {
     const double increment = goes_back && turn / 3 % 2 == 1 ? -1e-4 : 1e-4;
     Damage answer = d;
     answer[turn % 3] += increment;
-    d = relaxation.next(d, answer, lower);
+    const Damage next = cells.relaxation.next(d, answer, lower);
+    cells.factor = (next[turn % 3] - d[turn % 3]) / increment;
+    d = next;
   }
-  return relaxation;
+  return cells;
+}
+
+TEST(Relaxation, SecantTakesTheFactorBackWhereStepsLeadNowhere) {
+  constexpr auto way = Relaxation::Way::secant;
+  EXPECT_NEAR(take_turns(way, 12, true).factor, 5.0, 1e-9);
+  EXPECT_NEAR(take_turns(way, 24, true).factor, 2.5, 1e-9);
+  EXPECT_NEAR(take_turns(way, 72, true).factor, 1.0, 1e-9);
+  EXPECT_NEAR(take_turns(way, 72, false).factor, 5.0, 1e-9);
+}
+
+// Increments that shrink by the same share each time have a limit, which the secant factor finds in one step.
+TEST(Relaxation, SecantFindsTheLimitOfAGeometricSeries) {
+  constexpr double rho = 0.6;  // 1/(1 - rho) = 2.5
+  const Damage limit = field({0.8, 0.4}), lower = field({0.0, 0.0});
+  const auto answer_to = [&](const Damage& d) {
+    return field({limit[0] - rho * (limit[0] - d[0]), limit[1] - rho * (limit[1] - d[1])});
+  };
+  Relaxation relaxation(Relaxation::Way::secant);
+  Damage d = field({0.0, 0.0});
+  for (int iteration = 0; iteration < 2; ++iteration) d = relaxation.next(d, answer_to(d), lower);
+  for (Index c = 0; c < 2; ++c) EXPECT_NEAR(d[c], limit[c], 1e-12);
+}
+
+// A slowly creeping front is not extrapolated without limit.
+TEST(Relaxation, SecantDoesNotOvershootACreepingFront) {
+  Relaxation relaxation(Relaxation::Way::secant);
+  const Damage lower = field({0.0});
+  relaxation.next(field({0.0}), field({0.01}), lower);
+  const double next = relaxation.next(field({0.01}), field({0.02}), lower)[0];
+  EXPECT_NEAR(next, 0.01 + 5.0 * 0.01, 1e-12);  // equal increments ask for an infinite step; five are the most
 }
 
 // Around (0.5, 0.5) by an eighth of a turn at each answer, as alternation does where neither of two cells is the
@@ -138,7 +175,10 @@ TEST(Relaxation, NoticesCirclesThatHaveNoMiddle) {
   EXPECT_LE(stretches, 4);
 }
 
-TEST(Relaxation, DoesNotTakeAFrontForCircles) { EXPECT_FALSE(after_turns(480, false).goes_in_circles()); }
+TEST(Relaxation, DoesNotTakeAFrontForCircles) {
+  for (const auto way : {Relaxation::Way::momentum, Relaxation::Way::secant})
+    EXPECT_FALSE(take_turns(way, 480, false).relaxation.goes_in_circles());
+}
 
 TEST(AndersonMixing, SolvesALinearProblemOfSoManyUnknownsInSoManySteps) {
   // Answers that grow by a half in one direction, turn in the plane of two and fall in the last.
