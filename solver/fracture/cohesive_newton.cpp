@@ -45,6 +45,11 @@ class WayOut {
   Index misses_ = 0, secants_left_ = 0, secants_ = first_secants;
 };
 
+/// Residual that is small enough, given that at the start.
+double target_of(const MomentumSolver::Tolerance& tolerance, double initial) {
+  return std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * initial));
+}
+
 }  // namespace
 
 Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
@@ -67,7 +72,7 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
     whole.residual = step.initial_residual;
     if (k == 0) {
       whole.initial_residual = step.initial_residual;
-      target = std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * step.initial_residual));
+      target = target_of(tolerance, step.initial_residual);
     }
     whole.converged = step.initial_residual <= target;
     if (whole.converged || !std::isfinite(step.residual)) return whole;
@@ -160,7 +165,7 @@ Equilibrium follow_with_faces(const CohesiveFaces& faces, const std::vector<Inte
     whole.residual = step.initial_residual;
     if (k == 0) {
       whole.initial_residual = step.initial_residual;
-      target = std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * step.initial_residual));
+      target = target_of(tolerance, step.initial_residual);
     }
     const bool keeps_limit = load >= path.most_load ? excess <= path_precision * path.dissipation
                                                     : std::abs(excess) <= path_precision * path.dissipation;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -22,9 +23,6 @@ CellField<double> Relaxation::next(const CellField<double>& d, const CellField<d
   CellField<double> result = mixing_                 ? mixing_->next(d, answer, lower)
                              : way_ == Way::momentum ? accelerated(d, answer, lower)
                                                      : over_relaxed(d, answer, lower);
-  if (const auto progress = short_progress_.of_step(d, result))
-    largest_factor_ = *progress < least_progress ? std::max(tightening * largest_factor_, 1.0)
-                                                 : std::min(loosening * largest_factor_, most_factor);
   if (const auto progress = progress_.of_step(d, result)) circles_ = *progress < progress_of_circles ? circles_ + 1 : 0;
   if (circles_ < most_circles || mixing_) return result;
   circles_ = 0;
@@ -32,21 +30,28 @@ CellField<double> Relaxation::next(const CellField<double>& d, const CellField<d
   return progress_.mean();
 }
 
+// Renews the increments and the cells' own factors; returns the increments of the iteration before, zero at first.
+CellField<double> Relaxation::renew_increment(const CellField<double>& d, const CellField<double>& answer) {
+  const Index n = d.size();
+  if (increment_.size() != n)
+    increment_ = CellField<double>(as_size(n), 0.0), share_ = CellField<double>(as_size(n), 1.0);
+  CellField<double> before = std::exchange(increment_, CellField<double>(as_size(n)));
+  parallel_for(n, [&](Index c) {
+    increment_[c] = answer[c] - d[c];
+    const bool turned = increment_[c] * before[c] < 0.0;
+    share_[c] = turned ? std::max(0.5 * share_[c], least_share) : std::min(recovery * share_[c], 1.0);
+  });
+  return before;
+}
+
 CellField<double> Relaxation::accelerated(const CellField<double>& d, const CellField<double>& answer,
                                           const CellField<double>& lower) {
   const Index n = d.size();
-  const bool first = relaxed_.size() != n;
-  if (first) increment_ = CellField<double>(as_size(n), 0.0), share_ = CellField<double>(as_size(n), 1.0);
+  renew_increment(d, answer);
   CellField<double> relaxed(as_size(n));
-  parallel_for(n, [&](Index c) {
-    const double increment = answer[c] - d[c];
-    const bool turned = increment * increment_[c] < 0.0;
-    share_[c] = turned ? std::max(0.5 * share_[c], least_share) : std::min(recovery * share_[c], 1.0);
-    relaxed[c] = d[c] + share_[c] * increment;
-    increment_[c] = increment;
-  });
+  parallel_for(n, [&](Index c) { relaxed[c] = d[c] + share_[c] * increment_[c]; });
   CellField<double> result = relaxed;
-  if (!first) {
+  if (relaxed_.size() == n) {
     const double factor = momentum(relaxed);
     parallel_for(n, [&](Index c) {
       const double step = relaxed[c] - relaxed_[c];
@@ -72,25 +77,22 @@ CellField<double> Relaxation::over_relaxed(const CellField<double>& d, const Cel
                                            const CellField<double>& lower) {
   const Index n = d.size();
   const bool first = increment_.size() != n;
-  if (first) increment_ = CellField<double>(as_size(n), 0.0), share_ = CellField<double>(as_size(n), 1.0);
-  CellField<double> increment(as_size(n)), result(as_size(n));
-  const auto turned = [&](Index c) { return increment[c] * increment_[c] < 0.0; };
-  parallel_for(n, [&](Index c) {
-    increment[c] = answer[c] - d[c];
-    share_[c] = turned(c) ? std::max(0.5 * share_[c], least_share) : std::min(recovery * share_[c], 1.0);
-  });
+  const CellField<double> before = renew_increment(d, answer);
   if (!first) {
-    const auto fall = [&](Index c) { return share_[c] * (increment_[c] - increment[c]); };
-    const double along = parallel_sum(n, [&](Index c) { return share_[c] * increment_[c] * fall(c); });
+    const auto fall = [&](Index c) { return share_[c] * (before[c] - increment_[c]); };
+    const double along = parallel_sum(n, [&](Index c) { return share_[c] * before[c] * fall(c); });
     const double square = parallel_sum(n, [&](Index c) { return fall(c) * fall(c); });
     // An increment that does not decrease gets the largest factor.
     factor_ = along > 0.0 ? std::clamp(factor_ * along / square, least_factor, largest_factor_) : largest_factor_;
   }
+  CellField<double> result(as_size(n));
   parallel_for(n, [&](Index c) {
-    const double step = turned(c) ? share_[c] : factor_ * share_[c];
-    result[c] = std::clamp(d[c] + step * increment[c], lower[c], 1.0);
+    const double step = increment_[c] * before[c] < 0.0 ? share_[c] : factor_ * share_[c];
+    result[c] = std::clamp(d[c] + step * increment_[c], lower[c], 1.0);
   });
-  increment_ = std::move(increment);
+  if (const auto progress = short_progress_.of_step(d, result))
+    largest_factor_ = *progress < least_progress ? std::max(tightening * largest_factor_, 1.0)
+                                                 : std::min(loosening * largest_factor_, most_factor);
   return result;
 }
 

@@ -49,6 +49,7 @@ class Relaxation {
   bool goes_in_circles() const { return mixing_ && circles_ >= most_circles; }
 
  private:
+  CellField<double> renew_increment(const CellField<double>& d, const CellField<double>& answer);
   CellField<double> accelerated(const CellField<double>& d, const CellField<double>& answer,
                                 const CellField<double>& lower);
   double momentum(const CellField<double>& relaxed);
@@ -59,7 +60,7 @@ class Relaxation {
   static constexpr int most_circles = 2;
 
   Way way_;
-  CellField<double> increment_;  // of the iteration before
+  CellField<double> increment_;  // of the last iteration
   CellField<double> share_;      // relaxation factor of each cell, at most 1
   CellField<double> relaxed_;    // damage of the iteration before, without momentum
   double inertia_ = 1.0;         // t of Beck and Teboulle
