@@ -70,7 +70,6 @@ Json to_json(const RunSummary& s) {
                {"unknowns", s.unknowns},
                {"steps", s.steps},
                {"staggered_iterations", s.staggered_iterations},
-               {"window_iterations", s.window_iterations},
                {"krylov_iterations", s.krylov_iterations},
                {"wall_seconds", s.wall_seconds},
                {"cpu_seconds", s.cpu_seconds},
@@ -148,7 +147,6 @@ RunSummary read_run_summary(const std::filesystem::path& path) {
     s.unknowns = json.at("unknowns");
     s.steps = json.at("steps");
     s.staggered_iterations = json.at("staggered_iterations");
-    s.window_iterations = json.value("window_iterations", 0.0);
     s.krylov_iterations = json.at("krylov_iterations");
     s.wall_seconds = json.at("wall_seconds");
     s.cpu_seconds = json.at("cpu_seconds");

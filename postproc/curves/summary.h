@@ -48,7 +48,6 @@ struct RunSummary {
   Index unknowns = 0;
   Index steps = 0;
   Index staggered_iterations = 0;
-  double window_iterations = 0.0;  ///< besides, each counting as its share of the cells
   Index krylov_iterations = 0;
   double wall_seconds = 0.0;
   double cpu_seconds = 0.0;

@@ -1,6 +1,5 @@
 #include "solver/fracture/cell_stiffness.h"
 
-#include "mesh/mesh_part.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -26,20 +25,6 @@ void CellStiffness::start_step(double duration) {
   if (is_isotropic_) return;
   move_ = CellField<Tensor>(n);
   share_ = CellField<float>(n, 1.0F);
-}
-
-void CellStiffness::take_out_memory(const CellStiffness& whole, const std::vector<Index>& cells) {
-  closing_ = take_out(whole.closing_, cells);
-  turns_ = take_out(whole.turns_, cells);
-  move_ = take_out(whole.move_, cells);
-  share_ = take_out(whole.share_, cells);
-}
-
-void CellStiffness::put_back_memory(const CellStiffness& part, const std::vector<Index>& cells) {
-  put_back(part.closing_, cells, closing_);
-  put_back(part.turns_, cells, turns_);
-  put_back(part.move_, cells, move_);
-  put_back(part.share_, cells, share_);
 }
 
 const IsotropicElasticity& CellStiffness::elasticity(Index cell) const {
@@ -157,7 +142,6 @@ double CellStiffness::plastic_dissipation(const FractureState& from, const Fract
 
 double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    if (held_.size() > 0 && held_[c] != 0) return 0.0;
     return split(c).has_secant() ? follow_with_closure(c, closing_strain(c, mechanics, state), state)
                                  : follow_with_tangent(c, mechanics.strain[c], state);
   });

@@ -23,11 +23,6 @@ class CellStiffness {
   /// The part of the stiffness that damage degrades, by cell; zero where it is not given by isotropic moduli, and where
   /// nothing is degraded.
   CellField<IsotropicElasticity> degradable_part(const FractureState& state) const;
-  /// Copies the memory of how the strains have moved within the step to the cells of a part of the mesh; and back.
-  void take_out_memory(const CellStiffness& whole, const std::vector<Index>& cells);
-  void put_back_memory(const CellStiffness& part, const std::vector<Index>& cells);
-  /// From now on the stiffness of cells whose entry is not zero does not follow the strain; empty for none.
-  void hold(CellField<char> held) { held_ = std::move(held); }
   /// Has the closure or the tangent strain of the state follow the stress and the strain. Returns the energy error [J]
   /// of the stiffness that was used.
   double follow(const CellMechanics& mechanics, FractureState& state);
@@ -66,8 +61,7 @@ class CellStiffness {
   const Mesh& mesh_;
   const FractureModel& model_;
   MaterialCells materials_;
-  bool is_isotropic_;  // every split has isotropic secant moduli
-  CellField<char> held_;
+  bool is_isotropic_;         // every split has isotropic secant moduli
   CellField<float> closing_;  // per cell: last change of the closure, and
   CellField<Index> turns_;    // number of its reversals within the step
   CellField<Tensor> move_;    // last change of the tangent strain, and

@@ -54,7 +54,7 @@ struct DamageTerm {
   const CellField<double>& psi_plus;
   const CellField<double>& lower_bound;
 
-  bool is_free(Index c) const { return equation.is_free(c); }
+  bool is_free(Index c) const { return equation.is_damageable(c); }
   double slope(Index c, double d) const { return equation.local_slope(c, d, psi_plus[c]); }
   double curvature(Index c, double d) const {
     return equation.local_curvature(c, std::clamp(d, 0.0, 1.0), psi_plus[c]);

@@ -36,21 +36,11 @@ class DamageEquation {
   /// Energy that the resistance dissipates up to d [J]: int eta (d - d_n)^2/dt dV.
   double viscous_dissipation(const CellField<double>& d) const;
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
-  /// Residual of a cell per volume [J/m^3], with the deferred flux of the last solution.
-  double imbalance(Index cell, const CellField<double>& d, double psi_plus) const {
-    return flux_.balance(cell, d, local_slope(cell, d[cell], psi_plus)) / mesh_.cell_volume[cell];
-  }
-
-  /// Holds the damage of cells with a nonzero entry from now on; empty for none.
-  void hold(CellField<char> held) { held_ = std::move(held); }
-  const CellField<char>& held() const { return held_; }
-
   /// Additional source per volume [J/m^3], for manufactured solutions.
   void set_source(CellField<double> source) { source_ = std::move(source); }
 
  private:
   friend struct DamageTerm;
-  bool is_free(Index cell) const { return is_damageable(cell) && (held_.size() == 0 || held_[cell] == 0); }
   double local_slope(Index cell, double d, double psi) const;      // of the local terms over the cell [J]
   double local_curvature(Index cell, double d, double psi) const;  // its derivative [J]
   double local_energy(Index cell, double d) const;                 // [J]
@@ -61,7 +51,6 @@ class DamageEquation {
   CellField<double> density_;  // Gc/(c0 ell) [J/m^3]
   TwoPointFlux flux_;          // of the conductance 2 Gc ell/c0 [J/m]
   CellField<double> source_;
-  CellField<char> held_;
   double resistance_ = 0.0;  // [J/m^3]
   CellField<double> from_;   // empty without resistance
 };

@@ -85,7 +85,6 @@ struct StaggeredSettings {
   double equilibrium_tolerance = 1e-6;  ///< row-scaled residual of the momentum balance at an accepted step, relative
   Index maximum_iterations = 500;
   const LinearSolver* linear = nullptr;  ///< of the momentum balance; null: the automatic choice
-  bool windows = false;                  ///< local sub-domain iterations around the cells that still change (window.h)
 };
 
 struct LoadingSettings {

@@ -3,7 +3,6 @@
 #include "physics/error.h"
 #include "solver/fracture/residual_stiffness.h"
 #include "solver/fracture/staggered.h"
-#include "solver/fracture/window.h"
 #include "solver/momentum/rigid_motion.h"
 #include "solver/parallel.h"
 
@@ -55,18 +54,16 @@ struct FractureRun::Parts {
   Index maximum_iterations;
   ResidualStiffness residual_stiffness;
   Index krylov_iterations = 0, staggered_iterations = 0;
-  double window_iterations = 0.0;
 
   Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& settings, LoadingSettings l)
       : mesh(m),
         model(std::move(fm)),
         loading(std::move(l)),
         unknowns((require_complete(m, model), place_unknowns(m, elastic_body(model)))),
-        staggered(m, model, unknowns, settings, settings.windows ? std::make_unique<Windows>() : nullptr),
+        staggered(m, model, unknowns, settings),
         maximum_iterations(settings.maximum_iterations),
         residual_stiffness(model.residual_stiffness) {
-    if (settings.windows) require_windows(model);
-    require_plain_interfaces(settings);
+    require_plain_interfaces();
     require_path(model);
     relax_initial_damage();
   }
@@ -78,29 +75,12 @@ struct FractureRun::Parts {
     require_held(mesh, unknowns, model.initial_damage);
   }
 
-  void require_plain_interfaces(const StaggeredSettings& settings) const {
+  void require_plain_interfaces() const {
     if (model.interfaces.empty()) return;
-    if (settings.windows) throw InputError("windows (solver.windows) cannot be combined with cohesive interfaces");
     if (follows_faces() && std::ranges::any_of(model.regions, &RegionModel::damageable))
       throw InputError(
           "dissipation control (loading.maximum_dissipation) can be combined with cohesive interfaces only where no "
           "region is damageable");
-  }
-
-  void require_windows(const FractureModel& m) const {
-    if (std::isfinite(loading.maximum_dissipation))
-      throw InputError(
-          "windows (solver.windows) cannot be combined with dissipation control (loading.maximum_dissipation): the "
-          "load of a step is not known in advance");
-    if (!unknowns.pressure_cells.empty())
-      throw InputError(
-          "windows (solver.windows) cannot be combined with nearly incompressible materials, whose cells carry a "
-          "pressure");
-    for (const RegionModel& region : m.regions)
-      if (region.material)
-        throw InputError(
-            fmt::format("windows (solver.windows) cannot be combined with materials that have a history (law \"{}\")",
-                        region.material->name()));
   }
 
   // Dissipation control requires displacements proportional to the load, a dissipation that only grows, and no
@@ -241,7 +221,6 @@ struct FractureRun::Parts {
     trial.outcome = staggered.solve_step(state, trial.state, limits_of(trial.increment, planned), watch);
     krylov_iterations += trial.outcome.krylov_iterations;
     staggered_iterations += trial.outcome.iterations;
-    window_iterations += trial.outcome.window_iterations;
     return trial;
   }
 
@@ -374,7 +353,5 @@ std::map<std::string, double> FractureRun::cpu_seconds_by_stage() const { return
 Index FractureRun::krylov_iterations() const { return parts_->krylov_iterations; }
 
 Index FractureRun::staggered_iterations() const { return parts_->staggered_iterations; }
-
-double FractureRun::window_iterations() const { return parts_->window_iterations; }
 
 }  // namespace pfdm

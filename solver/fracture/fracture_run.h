@@ -41,7 +41,6 @@ class FractureRun {
   std::map<std::string, double> cpu_seconds_by_stage() const;
   Index krylov_iterations() const;
   Index staggered_iterations() const;
-  double window_iterations() const;  ///< besides, in windows, each counting as its share of the cells
 
  private:
   struct Parts;

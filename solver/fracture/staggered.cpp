@@ -15,21 +15,17 @@ namespace {
 constexpr Index inner_iterations = 80, last_iterations = 400;
 // Successive iterations in which only the residual stiffness may carry the loads: the first ones are inexact.
 constexpr Index torn_at_most = 5;
-// Iterations of a step between which there are local ones. What has not settled by then goes in circles, which only the
-// relaxation of the whole ends; local iterations start it anew.
-constexpr Index local_at_most = 100;
 // Relative residual of the last solve, if no smaller one is required.
 constexpr double last_tolerance = 1e-8;
 
 }  // namespace
 
 Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
-                     const StaggeredSettings& settings, std::unique_ptr<LocalIterations> local)
+                     const StaggeredSettings& settings)
     : mesh_(mesh),
       model_(model),
       unknowns_(unknowns),
       settings_(settings),
-      local_(std::move(local)),
       momentum_(mesh, unknowns, settings.linear),
       stiffness_(mesh, model),
       faces_(mesh, model, unknowns),
@@ -77,8 +73,7 @@ struct Staggered::Loop {
   PathLimit path{};
   FacesPath faces_path{};
   Relaxation relaxation{s.way_};
-  FractureState from{};  // the state in equilibrium, for local iterations
-  Energies energies{};   // of it
+  Energies energies{};  // of the last equilibrium
   double stored_at_unit_load = 0.0, energy_before = 0.0;
   Index torn = 0;  // successive iterations in which only the residual stiffness carried the loads
   StepOutcome outcome{};
@@ -129,11 +124,9 @@ struct Staggered::Loop {
   }
 
   void renew_driving_energy() {
-    if (s.local_) from = state;
     energies = s.update_driving_energy(start, state, true);
     outcome.failed = !std::isfinite(energies.unsettled);
     if (outcome.failed) return;
-    if (s.local_) from.driving_energy = state.driving_energy;
     if (outcome.iterations == 0) stored_at_unit_load = stored_before() / (state.load * state.load);
     torn = has_collapsed(s.residual_share(state, energies)) ? torn + 1 : 0;
     outcome.collapsed = torn > torn_at_most;
@@ -165,22 +158,11 @@ struct Staggered::Loop {
     outcome.settled = solved && change < s.settings_.damage_tolerance && energy_change < s.settings_.energy_tolerance &&
                       std::abs(load_scale - 1.0) < s.settings_.damage_tolerance;
     outcome.converged = outcome.settled && outcome.residual <= s.settings_.equilibrium_tolerance;
-    move_to(answer, change);
+    state.damage = outcome.converged ? answer : relaxation.next(state.damage, answer, start.damage);
     outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
     outcome.broke_too_much = outcome.growth > limits.growth || outcome.energy_release > limits.energy_release;
     if (outcome.broke_too_much) outcome.converged = false;
     report = {state.step, outcome.iterations, state.load, change, energy_change, report.krylov_iterations};
-  }
-
-  void move_to(const CellField<double>& answer, double change) {
-    if (outcome.converged) {
-      state.damage = answer;
-      return;
-    }
-    state.damage = relaxation.next(state.damage, answer, start.damage);
-    if (s.local_ && outcome.iterations <= local_at_most &&
-        s.local_->iterate(s, {start, from, answer, change, limits.duration}, state, outcome))
-      relaxation = Relaxation(s.way_);
   }
 };
 
@@ -193,28 +175,6 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
     if (watch && loop.outcome.iterations > iterations) watch(loop.report);
   }
   return loop.outcome;
-}
-
-Staggered::Residuals Staggered::residuals(const FractureState& start, const FractureState& at, double duration) {
-  Residuals result{.force = std::vector<Vector>(at.displacement.size()),
-                   .damage = CellField<double>(as_size(mesh_.n_cells()), 0.0)};
-  degrade(at);
-  momentum_.balance().apply(at.displacement, result.force);
-  FractureState driven = at;
-  update_driving_energy(start, driven, false);
-  if (model_.viscosity > 0.0) damage_.resist_change(model_.viscosity / duration, start.damage);
-  damage_.renewed_fracture_energy(at.damage);
-  for (Index c = 0; c < mesh_.n_cells(); ++c)
-    if (damage_.is_damageable(c)) result.damage[c] = damage_.imbalance(c, at.damage, driven.driving_energy[c]);
-  return result;
-}
-
-void Staggered::agree(Agreement agreement) {
-  stiffness_.hold(agreement.held);
-  damage_.hold(std::move(agreement.held));
-  momentum_.set_body_force(std::move(agreement.force));
-  momentum_.measure_against(agreement.residual_reference);
-  damage_.set_source(std::move(agreement.source));
 }
 
 void Staggered::degrade(const FractureState& state) {
@@ -249,7 +209,6 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   parallel_for(mesh_.n_cells(), [&](Index c) { psi_plus_[c] = stiffness_.driving_energy(c, mechanics, state); });
   energies.residual = drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_.follow(mechanics, state);
-  face_displacement_ = std::move(mechanics.face_displacement);
   return energies;
 }
 

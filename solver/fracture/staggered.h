@@ -1,7 +1,6 @@
 #pragma once
 // Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
-// the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797). Optionally with
-// local iterations around the cells that still change, between the global ones (window.h).
+// the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797).
 
 #include "solver/fracture/cell_stiffness.h"
 #include "solver/fracture/cohesive_newton.h"
@@ -15,7 +14,6 @@
 #include "solver/momentum/momentum_solver.h"
 
 #include <limits>
-#include <memory>
 
 namespace pfdm {
 
@@ -26,7 +24,6 @@ struct StepOutcome {
   double growth = 0.0;          ///< largest increase of d in a cell
   double energy_release = 0.0;  ///< change of elastic energy by damage, over elastic and fracture energy before it
   Index iterations = 0;
-  double window_iterations = 0.0;  ///< in windows, each weighted by its fraction of the cells
   Index krylov_iterations = 0;
   bool collapsed = false;        ///< abandoned: only the residual stiffness carries the loads
   bool settled = false;          ///< all criteria hold but that of the momentum balance
@@ -45,29 +42,9 @@ struct StepLimits {
   bool may_be_cut = false;  ///< a shorter step can be tried instead: a limit cycle ends the step at once
 };
 
-class Staggered;
-
-/// Iterations on parts of the mesh between two global ones.
-class LocalIterations {
- public:
-  /// The last iterate of the loop, and the solution of the damage equation for it.
-  struct Turn {
-    const FractureState& start;  ///< of the step
-    const FractureState& from;
-    const CellField<double>& answer;
-    double change;    ///< largest of d
-    double duration;  ///< of the step [s]
-  };
-  virtual ~LocalIterations() = default;
-  /// Whether there were any; `state`, the next iterate, has then moved on.
-  virtual bool iterate(Staggered& whole, const Turn& turn, FractureState& state, StepOutcome& outcome) = 0;
-};
-
 class Staggered {
  public:
-  /// `local` may be null.
-  Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings,
-            std::unique_ptr<LocalIterations> local = nullptr);
+  Staggered(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns, const StaggeredSettings& settings);
 
   /// Brings `state`, whose load is the step's, to equilibrium. The damage of `start` is the lower bound
   /// (irreversibility). The step is abandoned once a limit on damage or energy release is exceeded. With a limit on the
@@ -76,31 +53,6 @@ class Staggered {
   StepOutcome solve_step(const FractureState& start, FractureState& state, const StepLimits& limits = {},
                          const IterationWatch& watch = {});
 
-  /// The loop of solve_step alone; the energies of the outcome are not set.
-  StepOutcome alternate(const FractureState& start, FractureState& state, const StepLimits& limits,
-                        const IterationWatch& watch = {});
-  /// Residuals of both equations at a state of a step that takes `duration` [s].
-  struct Residuals {
-    std::vector<Vector> force;  ///< of the momentum balance on each node, without those of the loads [N]
-    CellField<double> damage;   ///< of the damage equation per volume [J/m^3]
-  };
-  Residuals residuals(const FractureState& start, const FractureState& at, double duration);
-
-  /// What makes a part of a mesh agree with the whole: cells held as they are, and what the discrete balances lack at
-  /// the cut.
-  struct Agreement {
-    CellField<char> held;             ///< not zero where damage and stiffness do not change
-    std::vector<Vector> force{};      ///< on each node [N]
-    CellField<double> source{};       ///< of the damage equation [J/m^3]
-    double residual_reference = 0.0;  ///< of relative residuals of the momentum balance
-  };
-  void agree(Agreement agreement);
-
-  const Mesh& mesh() const { return mesh_; }
-  const FractureModel& model() const { return model_; }
-  const Unknowns& unknowns() const { return unknowns_; }
-  const StaggeredSettings& settings() const { return settings_; }
-  const FaceField<Vector>& face_displacement() const { return face_displacement_; }  ///< of the last equilibrium [m]
   MomentumSolver& momentum() { return momentum_; }
   DamageEquation& damage_equation() { return damage_; }
   const DamageEquation& damage_equation() const { return damage_; }
@@ -113,6 +65,9 @@ class Staggered {
 
  private:
   struct Loop;
+  /// The loop of solve_step; the energies of the outcome are not set.
+  StepOutcome alternate(const FractureState& start, FractureState& state, const StepLimits& limits,
+                        const IterationWatch& watch);
   Equilibrium solve_momentum(const FractureState& start, FractureState& state,
                              const MomentumSolver::Tolerance& tolerance);
   /// At a load that is no more than that of the path, and lower where the cohesive faces would dissipate more.
@@ -141,15 +96,13 @@ class Staggered {
   const FractureModel& model_;
   const Unknowns& unknowns_;
   StaggeredSettings settings_;
-  std::unique_ptr<LocalIterations> local_;
   MomentumSolver momentum_;
   CellStiffness stiffness_;
   CohesiveFaces faces_;
   DamageEquation damage_;
   Relaxation::Way way_;
   StageClock clock_;
-  CellField<double> psi_plus_;           // [J/m^3] of the last equilibrium, as are the displacements
-  FaceField<Vector> face_displacement_;  // [m]
+  CellField<double> psi_plus_;  // [J/m^3] of the last equilibrium
 };
 
 }  // namespace pfdm

@@ -17,7 +17,6 @@ struct BoundaryCondition {
     plane_stress,  ///< the same with no stress across it in place of no strain
     axisymmetric,  ///< front or back of a sector about the axis z, one cell wide: the cells stretch by u_r / r across
                    ///< it
-    held,          ///< displacements stay as they are, whatever the load: where a part of a mesh was cut out
   };
   std::string patch;
   Kind kind = Kind::components;

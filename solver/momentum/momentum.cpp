@@ -320,7 +320,7 @@ std::vector<Vector> MomentumOperator::load_vector(double t) const {
 void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
   for (const PatchCondition& on : unknowns_.conditions) {
     const BoundaryCondition& condition = on.condition;
-    if (is_front_or_back(condition) || condition.kind == BoundaryCondition::Kind::held) continue;
+    if (is_front_or_back(condition)) continue;
     const Patch& patch = mesh_.patches[as_size(on.patch)];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
       const Index node = unknowns_.node_of_face[f];

@@ -114,7 +114,6 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
 
 // The norm that residuals are measured against: that of the prescribed values alone.
 double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load) {
-  if (fixed_reference_) return *fixed_reference_;
   if (reference_load_ == t) return reference_;
   std::vector<Vector> prescribed(load.size(), Vector::Zero()), image(load.size());
   operator_.prescribe(t, prescribed);

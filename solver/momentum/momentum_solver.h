@@ -56,9 +56,6 @@ class MomentumSolver {
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
   /// Forces [N] on the cells, or on all nodes, at every load parameter from now on; empty for none.
   void set_body_force(std::vector<Vector> force);
-  /// Sets the reference of relative residuals, in place of that of the prescribed displacements and tractions.
-  void measure_against(double reference) { fixed_reference_ = reference; }
-  double residual_reference() const { return fixed_reference_.value_or(reference_); }
 
   MomentumOperator& balance() { return operator_; }
   const MomentumOperator& balance() const { return operator_; }
@@ -89,7 +86,6 @@ class MomentumSolver {
   std::vector<Vector> rest_;                 // residual without the forces of the pressures; work space
   std::optional<double> reference_load_;     // load parameter that reference_ belongs to
   double reference_ = 0.0;
-  std::optional<double> fixed_reference_;  // if it was given
   Index n_preconditioners_ = 0;
 };
 

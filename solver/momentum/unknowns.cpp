@@ -181,27 +181,4 @@ Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
   return unknowns;
 }
 
-Unknowns unknowns_of_part(const Unknowns& whole, const MeshPart& part) {
-  Unknowns unknowns;
-  unknowns.n_cells = part.mesh.n_cells();
-  unknowns.zone = take_out(whole.zone, part.cell);
-  unknowns.sound = whole.sound;
-  unknowns.node_of_face = FaceField<Index>(part.face.size(), -1);
-  unknowns.plane_normal = whole.plane_normal;
-  unknowns.plane_stress = whole.plane_stress;
-  unknowns.radial = whole.radial;
-  unknowns.conditions = whole.conditions;
-  unknowns.conditions.push_back({part.cut, {.patch = "cut", .kind = BoundaryCondition::Kind::held, .value = {}}});
-  const Index first_of_cut = part.cut_patch().first_face;
-  for (Index f = 0; f < part.mesh.n_faces(); ++f) {
-    const Index node = whole.node_of_face[part.face[as_size(f)]];
-    if (node < 0 && f < first_of_cut) continue;
-    unknowns.node_of_face[f] = unknowns.n_nodes();
-    unknowns.face_of_node.push_back(f);
-    unknowns.free_directions.push_back(f < first_of_cut ? whole.free_directions[as_size(node - whole.n_cells)]
-                                                        : Tensor(Tensor::Zero()));
-  }
-  return unknowns;
-}
-
 }  // namespace pfdm

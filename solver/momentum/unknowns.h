@@ -4,7 +4,7 @@
 // also have a pressure (cell_pressure.h): unknowns after the nodes, each in the first component of a vector.
 // The sides of a split face (a cohesive interface) are independent: each has a node of its own.
 
-#include "mesh/mesh_part.h"
+#include "mesh/mesh.h"
 #include "physics/elasticity.h"
 #include "solver/momentum/boundary_condition.h"
 
@@ -59,8 +59,5 @@ struct Unknowns {
 /// plane, plane stress together with plane strain, a plane mesh without a front or a back, or a part of the body that
 /// nothing holds against a rigid motion.
 Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body);
-
-/// Unknowns of a part of a mesh without pressures; displacements on the cut are held.
-Unknowns unknowns_of_part(const Unknowns& whole, const MeshPart& part);
 
 }  // namespace pfdm

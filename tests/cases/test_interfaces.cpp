@@ -253,7 +253,6 @@ const BadInput bad_inputs[] = {
      "law = \"linear\"",
      "law = \"xu_needleman\"\nmixed_mode = \"power_law\"",
      {"a law with a straight rise", "xu_needleman"}},
-    {"windows", "[fracture]\n", "[solver]\nwindows = true\n[fracture]\n", {"[[interface]]"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, BadInterface, testing::ValuesIn(bad_inputs),

@@ -117,14 +117,13 @@ StaggeredSettings read_solver(const ConfigTable& root) {
   StaggeredSettings settings;
   if (!root.has("solver")) return settings;
   const ConfigTable table = root.table("solver").with_keys(
-      {"damage_tolerance", "energy_tolerance", "equilibrium_tolerance", "maximum_iterations", "linear", "windows"});
+      {"damage_tolerance", "energy_tolerance", "equilibrium_tolerance", "maximum_iterations", "linear"});
   settings.damage_tolerance = table.number("damage_tolerance", above_zero_to_one, settings.damage_tolerance);
   settings.energy_tolerance = table.number("energy_tolerance", above_zero_to_one, settings.energy_tolerance);
   settings.equilibrium_tolerance = table.number("equilibrium_tolerance", solvable, settings.equilibrium_tolerance);
   settings.maximum_iterations =
       static_cast<Index>(table.integer("maximum_iterations", at_least_one, settings.maximum_iterations));
   if (table.has("linear")) settings.linear = &choose(table.at("linear"), linear_solvers(), "linear solver");
-  settings.windows = table.boolean("windows", settings.windows);
   return settings;
 }
 
@@ -203,11 +202,6 @@ void read_output(const ConfigTable& root, FractureCase& fracture) {
   fracture.output.tips = read_energy_release(output);
 }
 
-void check_interfaces(const FractureCase& fracture, const ConfigTable& root) {
-  if (!fracture.interfaces.empty() && fracture.staggered.windows)
-    throw root.table("solver").at("windows").error("it cannot be combined with [[interface]]");
-}
-
 /// Expressions are evaluated once where and when they will be, so that one without a value is refused before a run has
 /// taken time, and the place of earlier results.
 void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
@@ -239,7 +233,6 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   fracture.loading = read_loading(root, fracture.model);
   check_histories(fracture, root);
   fracture.staggered = read_solver(root);
-  check_interfaces(fracture, root);
   read_output(root, fracture);
   fracture.cohesive = read_cohesive(root, fracture.materials.bands, Vector::Unit(fracture.output.curve.component));
   return fracture;

@@ -148,7 +148,6 @@ RunSummary summary_of(const FractureProgram& program, const Session& session, co
   summary.threads = session.threads;
   summary.unknowns = run.n_unknowns();
   summary.staggered_iterations = run.staggered_iterations();
-  summary.window_iterations = run.window_iterations();
   summary.krylov_iterations = run.krylov_iterations();
   summary.cpu_seconds_by_stage = run.cpu_seconds_by_stage();
   summary.wall_seconds = times.whole.seconds();

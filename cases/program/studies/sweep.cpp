@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Numbers of a summary that tell what a run cost, in its last session alone, and not what came out.
-constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "window_iterations", "krylov_iterations",
+constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "krylov_iterations",
                                       "wall_seconds", "cpu_seconds",          "peak_memory_bytes"};
 
 /// "regions.interface.toughness_J_per_m2"
