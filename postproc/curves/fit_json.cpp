@@ -18,7 +18,7 @@ const std::array<std::string, 3> kinds{"fracture", "endochronic", "mass_material
 
 Json to_json(const std::vector<FittedParameter>& parameters) {
   Json list = Json::array();
-  for (const FittedParameter& p : parameters)
+  for (const FittedParameter& p : parameters) {
     list.push_back({{"name", p.name},
                     {"unit", p.unit},
                     {"estimate", p.estimate},
@@ -30,6 +30,12 @@ Json to_json(const std::vector<FittedParameter>& parameters) {
                     {"upper_bound", p.upper_bound},
                     {"at_bound", p.at_bound},
                     {"log_scale", p.log_scale}});
+    if (p.profile)
+      list.back()["profile"] = {{"lower", p.profile->lower},
+                                {"upper", p.profile->upper},
+                                {"lower_open", p.profile->lower_open},
+                                {"upper_open", p.profile->upper_open}};
+  }
   return list;
 }
 
@@ -98,6 +104,15 @@ Json to_json(const EndochronicFindings& own) {
   return json;
 }
 
+std::optional<FittedProfile> profile_in(const Json& parameter) {
+  if (!parameter.contains("profile")) return std::nullopt;
+  const Json& p = parameter.at("profile");
+  return FittedProfile{.lower = number_of(p.at("lower")),
+                       .upper = number_of(p.at("upper")),
+                       .lower_open = p.at("lower_open"),
+                       .upper_open = p.at("upper_open")};
+}
+
 std::vector<FittedParameter> parameters_in(const Json& list) {
   std::vector<FittedParameter> parameters;
   for (const Json& p : list)
@@ -108,7 +123,8 @@ std::vector<FittedParameter> parameters_in(const Json& list) {
                           .lower = number_of(p.at("lower")),
                           .upper = number_of(p.at("upper")),
                           .first_guess = number_of(p.at("first_guess")),
-                          .at_bound = p.at("at_bound")});
+                          .at_bound = p.at("at_bound"),
+                          .profile = profile_in(p)});
   return parameters;
 }
 
@@ -204,8 +220,10 @@ bool judge(FitFindings& found, JudgedData data) {
 }
 
 void withhold_intervals(FitFindings& found) {
-  for (FittedParameter& p : found.parameters)
+  for (FittedParameter& p : found.parameters) {
     p.standard_error = p.lower = p.upper = std::numeric_limits<double>::quiet_NaN();
+    p.profile.reset();
+  }
 }
 
 ExperimentMisfit experiment_misfit(std::string name, std::size_t n_data, const ExperimentMisfit::Absolute& absolute,

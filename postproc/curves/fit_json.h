@@ -15,6 +15,12 @@
 
 namespace pfdm {
 
+/// 95 % interval by profile likelihood (solver/calibration/profile_likelihood.h).
+struct FittedProfile {
+  double lower = 0.0, upper = 0.0;
+  bool lower_open = false, upper_open = false;  ///< the data allow everything up to the bound
+};
+
 struct FittedParameter {
   std::string name;
   std::string unit;
@@ -26,6 +32,7 @@ struct FittedParameter {
   double upper_bound = std::numeric_limits<double>::infinity();
   bool at_bound = false;
   bool log_scale = false;
+  std::optional<FittedProfile> profile = std::nullopt;
 };
 
 /// What a fit, or a stage of one, found.

@@ -5,6 +5,7 @@
 #include "cases/program/studies/interval_trial.h"
 #include "postproc/curves/curve_misfit.h"
 #include "postproc/files/folder_lock.h"
+#include "solver/calibration/profile_likelihood.h"
 
 #include <fmt/format.h>
 
@@ -180,6 +181,8 @@ class CurveFit {
       try_compliance(stage, k, problem, settings, result, found);
     const SampledCurve fitted = curve_at(values_, until);
     if (!(model_error && suspect_set_up(fitted, points, result, found))) suspect_origin(fitted, found);
+    if (job_.settings.profiles && found.found.verdict == Verdict::sound)
+      add_profiles(stage, problem, settings, result, found);
     return found;
   }
 
@@ -192,6 +195,35 @@ class CurveFit {
     for (const std::size_t j : stage.parameters) of_stage.push_back(parameters_[j]);
     auto reason = doubt_of_interval({problem, settings, result, of_stage}, k, session_.log);
     if (reason) question(found, std::move(*reason));
+  }
+
+  /// Intervals by profile likelihood of the parameters that no later stage estimates anew.
+  void add_profiles(const CurveFitStage& stage, const FitProblem& problem, const FitSettings& settings,
+                    const FitResult& result, FitStage& found) const {
+    for (std::size_t k = 0; k < stage.parameters.size(); ++k) {
+      const CaseParameter& parameter = parameters_[stage.parameters[k]];
+      if (&stage != &*last_stage_of(stage.parameters[k])) continue;
+      const ProfileSettings how{.trying = [&](std::size_t, double value) {
+        session_.log.say(fmt::format("  profile: {} = {}", parameter.short_name(), parameter.shown(value)));
+      }};
+      const ProfileInterval interval = profile_interval(problem, settings, result, k, how);
+      if (interval.better)
+        return question(found,
+                        fmt::format("the fit has ended beside the lowest residuals: they are smaller with {} = {}; "
+                                    "more starts may find them",
+                                    parameter.name, parameter.shown(interval.better->value)));
+      found.found.parameters[k].profile = FittedProfile{.lower = interval.lower_95,
+                                                        .upper = interval.upper_95,
+                                                        .lower_open = interval.lower_open,
+                                                        .upper_open = interval.upper_open};
+    }
+  }
+
+  std::vector<CurveFitStage>::const_iterator last_stage_of(std::size_t parameter) const {
+    const std::vector<CurveFitStage>& stages = job_.settings.stages;
+    auto stage = stages.end() - 1;
+    while (std::ranges::count(stage->parameters, parameter) == 0) --stage;
+    return stage;
   }
 
   static void question(FitStage& found, std::string reason) {

@@ -134,9 +134,13 @@ void require_start_within_bounds(const CurveFitSettings& settings) {
 std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
   const ConfigTable root = file.config.root();
   if (!root.has("fit")) return std::nullopt;
-  const ConfigTable fit = root.table("fit").with_keys({"parameters", "stages", "step", "differences", "tolerance",
-                                                       "maximum_iterations", "starts", "screened", "spread"});
+  const ConfigTable fit =
+      root.table("fit").with_keys({"parameters", "stages", "step", "differences", "tolerance", "maximum_iterations",
+                                   "starts", "screened", "spread", "intervals"});
   CurveFitSettings settings{.parameters = {}, .stages = {}, .solver = read_settings(fit), .where = fit};
+  const std::string kinds[] = {"linear", "profile"};
+  if (const auto intervals = fit.find("intervals"))
+    settings.profiles = intervals->one_of(kinds, "kind of intervals") == "profile";
   for (const ConfigTable& table : fit.tables("parameters")) {
     settings.parameters.push_back(read_parameter(table, file));
     for (std::size_t j = 0; j + 1 < settings.parameters.size(); ++j)

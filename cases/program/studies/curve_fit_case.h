@@ -28,7 +28,8 @@ struct CurveFitSettings {
   std::vector<CurveFitParameter> parameters;
   std::vector<CurveFitStage> stages;  ///< one at least
   FitSettings solver;
-  ConfigTable where;  ///< [fit], for messages
+  bool profiles = false;  ///< intervals by profile likelihood beside the linear ones
+  ConfigTable where;      ///< [fit], for messages
 };
 
 /// Nothing if there is no [fit]. Throws InputError that names file and line.

@@ -78,14 +78,25 @@ std::vector<ExperimentMisfit> misfits(const CurveFitFindings& found) {
   return result;
 }
 
+std::string end_text(const CaseParameter& p, double end, bool open) {
+  return fmt::format("{:.5g}{}", p.in_file_units(end), open ? " (the bound)" : "");
+}
+
+std::string profile_text(const CaseParameter& p, const FittedParameter& found) {
+  if (!found.profile) return "";
+  return fmt::format("; by profile likelihood between {} and {}",
+                     end_text(p, found.profile->lower, found.profile->lower_open),
+                     end_text(p, found.profile->upper, found.profile->upper_open));
+}
+
 void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& parameters, Log& log) {
   log.say(fmt::format("rms residual of {} points {:.4g}, with the first guess {:.4g}", whole.n_residuals, whole.rms,
                       *whole.first_rms));
   for (const FittedParameter& found : whole.parameters) {
     const CaseParameter& p = *std::ranges::find(parameters, found.name, &CaseParameter::name);
-    log.say(fmt::format("  {} = {:.5g} {}, {}, first guess {:.5g}", p.name, p.in_file_units(found.estimate), p.unit,
+    log.say(fmt::format("  {} = {:.5g} {}, {}{}, first guess {:.5g}", p.name, p.in_file_units(found.estimate), p.unit,
                         interval_text(p.in_file_units(found.lower), p.in_file_units(found.upper), 0.95, 5),
-                        p.in_file_units(found.first_guess)));
+                        profile_text(p, found), p.in_file_units(found.first_guess)));
   }
   for (std::size_t j = 0; j < whole.parameters.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)
