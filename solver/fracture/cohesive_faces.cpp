@@ -5,14 +5,49 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace pfdm {
 namespace {
 
 constexpr double rigid_stiffness = 1e3;  // over that of the cells beside the face
+
+/// Without what softens: the symmetric part's negative eigenvalues are zero.
+Tensor convex_part(const Tensor& tangent) {
+  const Eigen::SelfAdjointEigenSolver<Tensor> solver(0.5 * (tangent + tangent.transpose()));
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
+}
+
+/// The separation with give T(separation) + separation = due, by damped Newton steps from `now`; nothing if they do not
+/// lead there.
+std::optional<Vector> separation_between(const InterfaceLaw& law, const InterfaceStrength& at, const Vector& n,
+                                         const InterfaceHistory& before, const Tensor& give, const Vector& due,
+                                         const Vector& now) {
+  constexpr int most_steps = 40, most_halvings = 12;
+  const double small = 1e-9 * (due.norm() + give.norm() * at.strength);
+  Vector separation = now;
+  InterfaceResponse response = law.respond(at, n, separation, before);
+  Vector miss = due - separation - give * response.traction;
+  for (int i = 0; i < most_steps && miss.norm() > small; ++i) {
+    const Vector step = (Tensor::Identity() + give * response.tangent).inverse() * miss;
+    double share = 1.0;
+    for (int halvings = 0; halvings <= most_halvings; ++halvings, share *= 0.5) {
+      const Vector tried = separation + share * step;
+      InterfaceResponse there = law.respond(at, n, tried, before);
+      const Vector left = due - tried - give * there.traction;
+      if (!(left.norm() < (1.0 - 0.1 * share) * miss.norm()) && halvings < most_halvings) continue;
+      separation = tried, miss = left, response = std::move(there);
+      break;
+    }
+  }
+  if (!(miss.norm() <= small)) return std::nullopt;
+  return separation;
+}
 
 }  // namespace
 
@@ -66,11 +101,34 @@ void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<In
     const auto k = as_size(i);
     const Vector separation = momentum.balance().separation(k, u);
     const InterfaceResponse response = law(faces_[k]).respond(faces_[k].at, faces_[k].n, separation, before[k]);
-    const Tensor& stiffness = way == Way::tangent ? response.tangent : response.secant;
-    springs[k] = {
-        .stiffness = stiffness, .offset = response.traction - stiffness * separation, .secant = response.secant};
+    const Tensor stiffness = way == Way::tangent ? response.tangent : convex_part(response.tangent);
+    springs[k] = {.stiffness = stiffness,
+                  .offset = response.traction - stiffness * separation,
+                  .secant = way == Way::tangent ? response.secant : stiffness};
   });
   momentum.set_springs(std::move(springs), bond_);
+}
+
+// With the sides' tractions t_P, t_N and compliances c_P, c_N: T(delta) = T,
+//
+//   (c_P + c_N) T + delta = delta_0 + c_P t_P - c_N t_N,
+//
+// whose solution is unique where the law does not fall more steeply than the cells beside it unload.
+void CohesiveFaces::settle(const std::vector<InterfaceHistory>& before, const MomentumOperator& balance,
+                           std::vector<Vector>& u) const {
+  const std::vector<MomentumOperator::SplitSides> sides = balance.split_sides(u);
+  parallel_for(static_cast<Index>(faces_.size()), [&](Index i) {
+    const auto k = as_size(i);
+    const Face& face = faces_[k];
+    const MomentumOperator::SplitSides& s = sides[k];
+    const Tensor give = s.give + s.give_beyond;
+    const Vector now = balance.separation(k, u);
+    const Vector due = now + s.give * s.traction - s.give_beyond * s.traction_beyond;
+    const auto separation = separation_between(law(face), face.at, face.n, before[k], give, due, now);
+    if (!separation) return;
+    const Vector traction = law(face).respond(face.at, face.n, *separation, before[k]).traction;
+    balance.part(k, s.give * (traction - s.traction), -(s.give_beyond * (traction + s.traction_beyond)), u);
+  });
 }
 
 double CohesiveFaces::advance(const MomentumOperator& balance, const std::vector<Vector>& u,

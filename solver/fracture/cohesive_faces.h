@@ -27,10 +27,13 @@ class CohesiveFaces {
   bool any() const { return !faces_.empty(); }
   std::vector<InterfaceHistory> virgin_histories() const { return std::vector<InterfaceHistory>(faces_.size()); }
 
-  enum class Way { tangent, secant };
+  enum class Way { tangent, convex };
   /// Gives the momentum balance the laws about the displacements u, after `before`.
   void linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before, Way way,
                  MomentumSolver& momentum) const;
+  /// Moves the sides of each face to where its law and the cells beside it balance, everything else held.
+  void settle(const std::vector<InterfaceHistory>& before, const MomentumOperator& balance,
+              std::vector<Vector>& u) const;
   /// Takes the histories from `before` to the displacements u. Returns the stored energy [J].
   double advance(const MomentumOperator& balance, const std::vector<Vector>& u,
                  const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;

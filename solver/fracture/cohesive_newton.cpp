@@ -4,45 +4,67 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 namespace pfdm {
 namespace {
 
 constexpr Index most_solves = 1000;
-constexpr double falls = 0.7;              // of the residual by a step of Newton's that leads on
-constexpr Index first_secants = 4;         // steps in between if it does not; then twice as many, and so on
-constexpr double linear_reduction = 0.02;  // of the residual of the linearised equation
+constexpr double falls = 0.7;                 // of the residual by a step of Newton's that leads on
+constexpr double linear_reduction = 0.02;     // of the residual of the linearised equation
+constexpr double convex_reduction = 0.1;      // likewise, without what softens
+constexpr Index most_newton_iterations = 80;  // of FGMRES: where the tangent is not definite more do not help
+constexpr double bearable_rest = 0.3;         // of the residual, after so many
 
-/// Whether the next step is by tangent or by secant. Secant steps lead from below to what breaks next, however far that
-/// is; where tangents do not lead on, the iteration goes back to where the secants had come to.
+/// Whether the next step is by tangent or by its convex part. Convex steps lead from below to where the faces come to
+/// rest, however far that is; where tangents do not lead on, the iteration goes back to where those had come to.
 class WayOut {
  public:
   explicit WayOut(const std::vector<Vector>& u) : kept_(u) {}
 
-  CohesiveFaces::Way next(double residual, std::vector<Vector>& u) {
+  bool is_marching() const { return marching_; }
+
+  /// After a step from `residual` whose linear equation was solved or not.
+  CohesiveFaces::Way next(double residual, bool solved, std::vector<Vector>& u) {
     using enum CohesiveFaces::Way;
-    if (secants_left_ > 0) {
-      if (--secants_left_ > 0) return secant;
-      kept_ = u;
-      misses_ = 0;
-      least_ = std::numeric_limits<double>::infinity();
-      return tangent;
-    }
-    misses_ = residual < falls * least_ ? 0 : misses_ + 1;
-    least_ = std::min(least_, residual);
-    if (misses_ <= bearable_misses) return tangent;
-    u = kept_;
-    secants_left_ = secants_;
-    secants_ = std::min<Index>(2 * secants_, most_secants);
-    return secant;
+    return (marching_ ? comes_to_rest(residual, u) : leads_on(residual, solved, u)) ? tangent : convex;
   }
 
  private:
-  static constexpr Index bearable_misses = 3, most_secants = 32;  // faces that pass their strength raise the residual
+  bool leads_on(double residual, bool solved, std::vector<Vector>& u) {
+    misses_ = residual < falls * least_ && solved ? 0 : misses_ + 1;
+    least_ = std::min(least_, residual);
+    if (misses_ <= (has_marched_ ? misses_after_march : bearable_misses) && solved) return true;
+    u = kept_;
+    marching_ = has_marched_ = true;
+    steps_ = falling_ = 0;
+    last_ = infinity;
+    return false;
+  }
+
+  // The residual grows while faces break one after the other, and falls when the rest of them holds.
+  bool comes_to_rest(double residual, std::vector<Vector>& u) {
+    falling_ = residual < last_ ? falling_ + 1 : 0;
+    last_ = residual;
+    ++steps_;
+    if (falling_ < falling_in_a_row_ && steps_ < most_steps) return false;
+    falling_in_a_row_ = std::min<Index>(2 * falling_in_a_row_, most_steps);
+    kept_ = u;
+    marching_ = false;
+    misses_ = 0;
+    least_ = infinity;
+    return true;
+  }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr Index bearable_misses = 3;  // faces that pass their strength raise the residual
+  static constexpr Index misses_after_march = 2, most_steps = 32;
   std::vector<Vector> kept_;
-  double least_ = std::numeric_limits<double>::infinity();  // residual since the last secant
-  Index misses_ = 0, secants_left_ = 0, secants_ = first_secants;
+  double least_ = infinity, last_ = infinity;  // residual since the last march, and in it
+  Index misses_ = 0, steps_ = 0, falling_ = 0, falling_in_a_row_ = 4;
+  bool marching_ = false, has_marched_ = false;
 };
 
 /// Residual that is small enough, given that at the start.
@@ -56,18 +78,20 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
                              const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum,
                              std::vector<Vector>& u) {
   Equilibrium whole{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
-  double target = 0.0;
+  double target = 0.0, last = std::numeric_limits<double>::infinity();
   WayOut way_out(u);
   CohesiveFaces::Way way = CohesiveFaces::Way::tangent;
   for (Index k = 0; k < most_solves; ++k) {
     // The residual at the start of a solve is that of the true laws.
+    const bool newton = way == CohesiveFaces::Way::tangent;
     faces.linearise(u, before, way, momentum);
-    const Equilibrium step = momentum.solve(t,
-                                            {.reduction = linear_reduction,
-                                             .ceiling = 1.0,
-                                             .floor = 0.5 * target,
-                                             .most_iterations = tolerance.most_iterations},
-                                            u);
+    const Equilibrium step =
+        momentum.solve(t,
+                       {.reduction = newton ? linear_reduction : convex_reduction,
+                        .ceiling = 1.0,
+                        .floor = 0.5 * target,
+                        .most_iterations = newton ? most_newton_iterations : tolerance.most_iterations},
+                       u);
     whole.iterations += step.iterations;
     whole.residual = step.initial_residual;
     if (k == 0) {
@@ -76,7 +100,9 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
     }
     whole.converged = step.initial_residual <= target;
     if (whole.converged || !std::isfinite(step.residual)) return whole;
-    way = way_out.next(step.initial_residual, u);
+    if (way_out.is_marching() || step.initial_residual > falls * last) faces.settle(before, momentum.balance(), u);
+    last = step.initial_residual;
+    way = way_out.next(step.initial_residual, step.residual < bearable_rest * step.initial_residual, u);
   }
   return whole;
 }

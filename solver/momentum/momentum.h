@@ -98,6 +98,18 @@ class MomentumOperator {
     return u[as_size(face.beyond)] - u[as_size(face.node)];
   }
 
+  /// What each side of the split faces does about the displacements u, in their order.
+  struct SplitSides {
+    Vector traction, traction_beyond;  ///< outwards from the owner, from the neighbour [Pa]
+    Tensor give, give_beyond;          ///< a^-1: displacement of the side by its traction [m/Pa]
+  };
+  std::vector<SplitSides> split_sides(const std::vector<Vector>& u) const;
+  /// Moves the sides of split face number k.
+  void part(std::size_t k, const Vector& move, const Vector& move_beyond, std::vector<Vector>& u) const {
+    u[as_size(split_faces_[k].node)] += move;
+    u[as_size(split_faces_[k].beyond)] += move_beyond;
+  }
+
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
   /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Without initial stresses.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;

@@ -215,4 +215,23 @@ std::vector<Vector> MomentumOperator::patch_displacements(const std::vector<Vect
   return mean;
 }
 
+std::vector<MomentumOperator::SplitSides> MomentumOperator::split_sides(const std::vector<Vector>& u) const {
+  compute_forces(u);
+  std::vector<SplitSides> all(split_faces_.size());
+  parallel_for(static_cast<Index>(all.size()), [&](Index k) {
+    const auto of_node = [&](Index node, Vector& traction, Tensor& give) {
+      const Index i = first_side_of_node_[as_size(node - unknowns_.n_cells)];
+      const Side& side = sides_[as_size(i)];
+      traction = forces_[links_.size() + as_size(i)] / side.area;
+      const Tensor along = side.n * side.n.transpose();
+      give = is_isotropic() ? Tensor(along / side.a_n + (Tensor::Identity() - along) / side.a_t)
+                            : Tensor(side_tensors_[as_size(i)].inverse());
+    };
+    SplitSides& sides = all[as_size(k)];
+    of_node(split_faces_[as_size(k)].node, sides.traction, sides.give);
+    of_node(split_faces_[as_size(k)].beyond, sides.traction_beyond, sides.give_beyond);
+  });
+  return all;
+}
+
 }  // namespace pfdm
