@@ -80,10 +80,12 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
   Equilibrium whole{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
   double target = 0.0, last = std::numeric_limits<double>::infinity();
   WayOut way_out(u);
+  std::vector<Vector> from;  // before the step
   CohesiveFaces::Way way = CohesiveFaces::Way::tangent;
   for (Index k = 0; k < most_solves; ++k) {
     // The residual at the start of a solve is that of the true laws.
     const bool newton = way == CohesiveFaces::Way::tangent;
+    if (tolerance.good_enough > 0.0) from = u;
     faces.linearise(u, before, way, momentum);
     const Equilibrium step =
         momentum.solve(t,
@@ -100,9 +102,14 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
     }
     whole.converged = step.initial_residual <= target;
     if (whole.converged || !std::isfinite(step.residual)) return whole;
+    const bool solved = step.residual < bearable_rest * step.initial_residual;
+    if (step.initial_residual <= tolerance.good_enough && !(solved && step.initial_residual < falls * last)) {
+      u = std::move(from);
+      return whole;
+    }
     if (way_out.is_marching() || step.initial_residual > falls * last) faces.settle(before, momentum.balance(), u);
     last = step.initial_residual;
-    way = way_out.next(step.initial_residual, step.residual < bearable_rest * step.initial_residual, u);
+    way = way_out.next(step.initial_residual, solved, u);
   }
   return whole;
 }
