@@ -1,0 +1,81 @@
+// A bead debonds from its block in one jump, whatever the load step in which it happens.
+
+#include "physics/registry.h"
+#include "tests/verification/support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm::verification {
+namespace {
+
+// As the shipped beads, of radius 1: M Gc/ft^2 = 0.66 of the radius.
+constexpr double strength = 26.9e6, toughness = 1.94e6;
+
+InterfaceLaw brittle_law() {
+  return {.law = &find_by_name(traction_separation_laws(), "linear", "law"),
+          .shape = {},
+          .mixed_mode = &find_by_name(mixed_modes(), "camacho_ortiz", "mixed mode")};
+}
+
+FractureModel bead_in_a_block(const Mesh& mesh) {
+  FractureModel model = elastic_model({}, {});
+  for (const std::string& name : mesh.region_names)
+    model.regions.push_back(
+        {.elasticity = name == "bead" ? from_young_poisson(70e9, 0.3) : from_young_poisson(75e6, 0.44),
+         .damageable = false});
+  model.boundary = {displacement_on("zmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                    moved("zmax", {false, false, true}, [](const Vector&, double t) { return Vector(0.0, 0.0, t); })};
+  CohesiveSurface surface{.name = "bond", .law = brittle_law(), .faces = {}};
+  const Index bead = mesh.region_index("bead");
+  for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
+    const bool from = mesh.region[mesh.owner[f]] == bead, to = mesh.region[mesh.neighbour[f]] == bead;
+    if (from == to) continue;
+    surface.faces.push_back(f);
+    surface.sign.push_back(from ? 1.0 : -1.0);
+    surface.at.push_back({.strength = strength, .toughness = toughness});
+  }
+  model.interfaces.push_back(std::move(surface));
+  return model;
+}
+
+struct Debonding {
+  std::vector<double> force;  // at every step [N]
+  double broken = 0.0;        // dissipated, over that of the whole surface
+  double krylov_iterations = 0.0;
+};
+
+Debonding debond(const Mesh& mesh, double displacement, double increment) {
+  FractureRun run(mesh, bead_in_a_block(mesh), {},
+                  {.end = displacement,
+                   .initial_increment = increment,
+                   .minimum_increment = increment,
+                   .maximum_increment = increment,
+                   .stops = {}});
+  const auto top = static_cast<std::size_t>(&mesh.patch("zmax") - mesh.patches.data());
+  Debonding result;
+  const FractureState end = run_to_end(run, [&](const FractureState&, const StepReport& report) {
+    result.force.push_back(report.reaction[top].z());
+    result.krylov_iterations += static_cast<double>(report.krylov_iterations);
+  });
+  result.broken = end.energy.interface_dissipation / (4.0 * std::acos(-1.0) * toughness);
+  return result;
+}
+
+TEST(CohesiveJumps, OfABeadTakeTensOfSmallSolves) {
+  const Mesh mesh = sphere_in_cube(4, 0, 3.0, 0.6);
+  const Debonding few = debond(mesh, 1.8, 0.6), many = debond(mesh, 1.8, 0.2);
+  report_row("bead that debonds in a jump", {{"cells", double(mesh.n_cells())},
+                                             {"Krylov iterations of 3 steps", few.krylov_iterations},
+                                             {"of 9 steps", many.krylov_iterations},
+                                             {"force over that of 9 steps", few.force.back() / many.force.back()},
+                                             {"broken part of the surface", few.broken}});
+  EXPECT_GT(few.broken, 0.2);
+  EXPECT_LT(few.krylov_iterations, 6000.0);
+  EXPECT_NEAR(few.force.back() / many.force.back(), 1.0, 0.02);
+}
+
+}  // namespace
+}  // namespace pfdm::verification
