@@ -82,9 +82,14 @@ struct Shells {
   std::vector<Index> first;  // first point of the surface, of each layer's far side in turn
 };
 
-TriangleSurface turned_icosphere(Index n, double angle) {
-  TriangleSurface sphere = unit_icosphere(n);
-  const double c = std::cos(angle), s = std::sin(angle);
+Index subdivision_of(const Particle& p) {
+  return p.subdivision > 0 ? p.subdivision : icosphere_subdivision(p.surface_size, p.radius);
+}
+
+TriangleSurface unit_surface(const Particle& p) {
+  if (!p.directions.triangles.empty()) return p.directions;
+  TriangleSurface sphere = unit_icosphere(subdivision_of(p));
+  const double c = std::cos(p.angle), s = std::sin(p.angle);
   for (Vector& x : sphere.points) x = Vector(c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]);
   return sphere;
 }
@@ -93,10 +98,6 @@ TriangleSurface placed(const TriangleSurface& unit, const Vector& centre, double
   TriangleSurface sphere = unit;
   for (Vector& x : sphere.points) x = centre + radius * x;
   return sphere;
-}
-
-Index subdivision_of(const Particle& p) {
-  return p.subdivision > 0 ? p.subdivision : icosphere_subdivision(p.surface_size, p.radius);
 }
 
 SizeField size_field(const ParticlesInBoxSettings& settings) {
@@ -149,7 +150,7 @@ class Builder {
 
   void add_particle_surfaces(std::size_t i) {
     const Particle& p = settings_.particles[i];
-    Shells shells{turned_icosphere(subdivision_of(p), p.angle), {}};
+    Shells shells{unit_surface(p), {}};
     const std::string name = describe_particle(settings_, i);
     shells.first.push_back(add_surface(name, placed(shells.unit, p.centre, p.radius)));
     input_.seeds.push_back({p.centre, region(p.region)});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/triangle_surface.h"
 
 namespace pfdm {
 
@@ -19,6 +20,9 @@ struct Particle {
   /// By which that icosahedron is turned about z [radian]. It is alike on both sides of the planes x = 0 and y = 0, not
   /// along x and y; turned by 45 degrees it is alike along these as well.
   double angle = 0.0;
+  /// In place of that icosahedron, if it has triangles: directions of the points, and the triangles. `subdivision` then
+  /// only tells the size of the cells around it.
+  TriangleSurface directions{};
   std::string region = "bead";
   Index n_layers = 0;            ///< 0: the particle's surface itself is the interface
   double layer_thickness = 0.0;  ///< of all layers together [m]

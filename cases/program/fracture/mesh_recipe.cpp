@@ -1,11 +1,11 @@
 #include "cases/program/fracture/mesh_recipe.h"
 
+#include "cases/program/fracture/particles_recipe.h"
 #include "cases/program/input/amount.h"
 #include "cases/program/input/path_reader.h"
 #include "mesh/box_hexes.h"
 #include "mesh/dual.h"
 #include "mesh/import_mesh.h"
-#include "mesh/particles_in_box.h"
 #include "mesh/patch_rules.h"
 #include "mesh/sphere_sector.h"
 #include "postproc/files/text_file.h"
@@ -18,7 +18,6 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <set>
 
 namespace pfdm {
 namespace {
@@ -26,7 +25,6 @@ namespace {
 constexpr Range cell_count{1.0, 1e6, false, "at least 1"};
 constexpr Range azimuth_range{std::numeric_limits<double>::min(), 0.25 * std::numbers::pi + 1e-9, false,
                               "more than 0 and at most 45 degrees"};
-constexpr Range dihedral_range{0.0, 30.0, false, "between 0 and 30 degrees"};
 constexpr std::string_view box_keys[] = {"name", "lower", "upper"};
 const std::vector<std::string> box_sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 
@@ -119,97 +117,6 @@ MeshRecipe read_sphere_sector(const ConfigTable& table, const MeshSurroundings&)
           .data_files = {}};
 }
 
-struct Layers {
-  Index count = 0;
-  double thickness = 0.0;  // of each [m]
-  std::string region = "interface";
-};
-
-Layers read_layers(const ConfigTable& table) {
-  table.with_keys({"count", "thickness", "region"});
-  return {.count = static_cast<Index>(table.integer("count", cell_count)),
-          .thickness = table.quantity("thickness", dimension::length, range::positive),
-          .region = table.has("region") ? read_plain_name(table.at("region"), "a folder") : "interface"};
-}
-
-/// "20 um", or { ell = 1.0 } in multiples of the length ell.
-double read_size(const ConfigValue& value, std::optional<double> ell) {
-  if (!value.is_table()) return value.quantity(dimension::length, range::positive);
-  const double multiple = value.table().with_keys({"ell"}).number("ell", range::positive);
-  if (!ell) throw value.error("multiples of ell require a length in [fracture], as in length = \"20 um\"");
-  return multiple * *ell;
-}
-
-Particle read_particle(const ConfigTable& table, const Layers& common_layers, MeshRecipe& recipe,
-                       const MeshSurroundings& around) {
-  table.with_keys({"centre", "diameter", "region", "subdivisions", "surface_size", "angle", "layers"});
-  Particle particle;
-  if (const auto centre = table.find("centre")) particle.centre = read_point(*centre);
-  particle.radius = 0.5 * table.quantity("diameter", dimension::length, range::positive);
-  particle.region = table.string("region", particle.region);
-  if (table.has("subdivisions") == table.has("surface_size"))
-    throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\" or { ell = 1.0 }");
-  particle.subdivision = static_cast<Index>(table.integer("subdivisions", cell_count, 0));
-  if (const auto size = table.find("surface_size")) {
-    particle.surface_size = read_size(*size, around.ell);
-    if (size->is_table()) recipe.ell = around.ell;
-  }
-  particle.angle = table.quantity("angle", dimension::angle, range::any, particle.angle);
-  const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : common_layers;
-  particle.n_layers = layers.count;
-  particle.layer_thickness = layers.count * layers.thickness;
-  particle.layer_region = layers.region;
-  return particle;
-}
-
-std::vector<std::string> names_of_regions(const ParticlesInBoxSettings& settings) {
-  std::vector<std::string> names{settings.matrix_region};
-  for (const Particle& particle : settings.particles) {
-    names.push_back(particle.region);
-    if (particle.n_layers > 0) names.push_back(particle.layer_region);
-  }
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
-}
-
-std::vector<Band> bands_of(const ParticlesInBoxSettings& settings) {
-  std::vector<Band> bands;  // one a region: the first particle's stands for those that share it
-  std::set<std::string> seen;
-  for (const Particle& particle : settings.particles)
-    if (particle.n_layers > 0 && seen.insert(particle.layer_region).second)
-      bands.push_back({particle.layer_region, particle.layer_thickness, {particle.region, settings.matrix_region}});
-  return bands;
-}
-
-MeshRecipe read_particles_in_box(const ConfigTable& table, const MeshSurroundings& around) {
-  table.with_keys({"generator", "cells", "size", "centre", "region", "layers", "particles", "size_far", "boundary_size",
-                   "grading", "particle_size_factor", "max_radius_edge_ratio", "min_dihedral_angle"});
-  ParticlesInBoxSettings settings;
-  const Vector size = read_point(table.at("size"), range::positive);
-  const auto centre_value = table.find("centre");
-  const Vector centre = centre_value ? read_point(*centre_value) : Vector::Zero().eval();
-  settings.lower = centre - 0.5 * size;
-  settings.upper = centre + 0.5 * size;
-  settings.matrix_region = table.string("region", settings.matrix_region);
-  const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : Layers{};
-  MeshRecipe recipe;
-  for (const ConfigTable& particle : table.tables("particles"))
-    settings.particles.push_back(read_particle(particle, layers, recipe, around));
-  settings.size_far = table.quantity("size_far", dimension::length, range::positive, settings.size_far);
-  settings.boundary_size = table.quantity("boundary_size", dimension::length, range::positive, settings.boundary_size);
-  settings.grading = table.number("grading", range::not_negative, settings.grading);
-  settings.particle_size_factor = table.number("particle_size_factor", range::positive, settings.particle_size_factor);
-  settings.max_radius_edge_ratio =
-      table.number("max_radius_edge_ratio", range::positive, settings.max_radius_edge_ratio);
-  settings.min_dihedral_angle = table.number("min_dihedral_angle", dihedral_range, settings.min_dihedral_angle);
-  recipe.make = [settings] { return make_particles_in_box(settings); };
-  recipe.regions = names_of_regions(settings);
-  recipe.patches = box_sides;
-  recipe.bands = bands_of(settings);
-  return recipe;
-}
-
 /// { 1 = "bead", 2 = "matrix" }
 std::map<Index, std::string> read_numbered_names(const ConfigTable& table, std::string_view key) {
   std::map<Index, std::string> names;
@@ -282,6 +189,7 @@ constexpr CellKind cell_kind_table[] = {
 
 constexpr MeshGenerator table[] = {
     {"particles_in_box", "a box of tetrahedra with spheres in prism layers", read_particles_in_box},
+    {"packed_spheres", "a box of tetrahedra with many spheres, packed at random or placed", read_packed_spheres},
     {"box_hexes", "a box of hexahedra, graded along each axis, with regions, slits and holes", read_box_hexes},
     {"sphere_sector", "concentric shells about the axis z, one cell wide in azimuth: axisymmetric problems",
      read_sphere_sector},

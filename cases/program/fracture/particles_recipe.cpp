@@ -1,0 +1,250 @@
+#include "cases/program/fracture/particles_recipe.h"
+
+#include "cases/program/input/amount.h"
+#include "cases/program/input/path_reader.h"
+#include "mesh/packed_spheres.h"
+#include "mesh/particles_in_box.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+constexpr Range cell_count{1.0, 1e6, false, "at least 1"};
+constexpr Range dihedral_range{0.0, 30.0, false, "between 0 and 30 degrees"};
+constexpr Range sphere_count{1.0, 5000.0, false, "between 1 and 5000"};
+constexpr Range packable{0.0, 0.6, true, "between 0 and 0.6"};
+constexpr Range any_seed{0.0, 1e15, false, "zero or positive"};
+constexpr Range up_to_one{1e-3, 1.0, false, "between 0.001 and 1"};
+
+struct Layers {
+  Index count = 0;
+  double thickness = 0.0;  // of each [m]
+  std::string region = "interface";
+};
+
+Layers read_layers(const ConfigTable& table) {
+  table.with_keys({"count", "thickness", "region"});
+  return {.count = static_cast<Index>(table.integer("count", cell_count)),
+          .thickness = table.quantity("thickness", dimension::length, range::positive),
+          .region = table.has("region") ? read_plain_name(table.at("region"), "a folder") : "interface"};
+}
+
+/// "20 um", or { ell = 1.0 } in multiples of the length ell.
+double read_size(const ConfigValue& value, std::optional<double> ell) {
+  if (!value.is_table()) return value.quantity(dimension::length, range::positive);
+  const double multiple = value.table().with_keys({"ell"}).number("ell", range::positive);
+  if (!ell) throw value.error("multiples of ell require a length in [fracture], as in length = \"20 um\"");
+  return multiple * *ell;
+}
+
+/// `ell` becomes that of [fracture] if the size depends on it.
+void read_surface_size(const ConfigTable& table, const MeshSurroundings& around, Particle& particle,
+                       std::optional<double>& ell) {
+  if (table.has("subdivisions") == table.has("surface_size"))
+    throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\" or { ell = 1.0 }");
+  particle.subdivision = static_cast<Index>(table.integer("subdivisions", cell_count, 0));
+  if (const auto size = table.find("surface_size")) {
+    particle.surface_size = read_size(*size, around.ell);
+    if (size->is_table()) ell = around.ell;
+  }
+}
+
+void set_layers(const Layers& layers, Particle& particle) {
+  particle.n_layers = layers.count;
+  particle.layer_thickness = layers.count * layers.thickness;
+  particle.layer_region = layers.region;
+}
+
+Particle read_particle(const ConfigTable& table, const Layers& common_layers, const MeshSurroundings& around,
+                       std::optional<double>& ell) {
+  table.with_keys({"centre", "diameter", "region", "subdivisions", "surface_size", "angle", "layers"});
+  Particle particle;
+  if (const auto centre = table.find("centre")) particle.centre = read_point(*centre);
+  particle.radius = 0.5 * table.quantity("diameter", dimension::length, range::positive);
+  particle.region = table.string("region", particle.region);
+  read_surface_size(table, around, particle, ell);
+  particle.angle = table.quantity("angle", dimension::angle, range::any, particle.angle);
+  set_layers(table.has("layers") ? read_layers(table.table("layers")) : common_layers, particle);
+  return particle;
+}
+
+std::vector<std::string> names_of_regions(const ParticlesInBoxSettings& settings) {
+  std::vector<std::string> names{settings.matrix_region};
+  for (const Particle& particle : settings.particles) {
+    names.push_back(particle.region);
+    if (particle.n_layers > 0) names.push_back(particle.layer_region);
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::vector<Band> bands_of(const ParticlesInBoxSettings& settings) {
+  std::vector<Band> bands;  // one a region: the first particle's stands for those that share it
+  std::set<std::string> seen;
+  for (const Particle& particle : settings.particles)
+    if (particle.n_layers > 0 && seen.insert(particle.layer_region).second)
+      bands.push_back({particle.layer_region, particle.layer_thickness, {particle.region, settings.matrix_region}});
+  return bands;
+}
+
+/// Keys of every box of tetrahedra.
+constexpr std::string_view box_of_tetrahedra[] = {"generator",
+                                                  "cells",
+                                                  "size",
+                                                  "centre",
+                                                  "region",
+                                                  "size_far",
+                                                  "boundary_size",
+                                                  "grading",
+                                                  "particle_size_factor",
+                                                  "max_radius_edge_ratio",
+                                                  "min_dihedral_angle",
+                                                  "layers"};
+
+ConfigTable with_keys_of_box(const ConfigTable& table, std::initializer_list<std::string_view> others) {
+  std::vector<std::string_view> keys(std::begin(box_of_tetrahedra), std::end(box_of_tetrahedra));
+  keys.insert(keys.end(), others.begin(), others.end());
+  return table.with_keys(keys);
+}
+
+ParticlesInBoxSettings read_box_of_tetrahedra(const ConfigTable& table) {
+  ParticlesInBoxSettings settings;
+  const Vector size = read_point(table.at("size"), range::positive);
+  const auto centre_value = table.find("centre");
+  const Vector centre = centre_value ? read_point(*centre_value) : Vector::Zero().eval();
+  settings.lower = centre - 0.5 * size;
+  settings.upper = centre + 0.5 * size;
+  settings.matrix_region = table.string("region", settings.matrix_region);
+  settings.size_far = table.quantity("size_far", dimension::length, range::positive, settings.size_far);
+  settings.boundary_size = table.quantity("boundary_size", dimension::length, range::positive, settings.boundary_size);
+  settings.grading = table.number("grading", range::not_negative, settings.grading);
+  settings.particle_size_factor = table.number("particle_size_factor", range::positive, settings.particle_size_factor);
+  settings.max_radius_edge_ratio =
+      table.number("max_radius_edge_ratio", range::positive, settings.max_radius_edge_ratio);
+  settings.min_dihedral_angle = table.number("min_dihedral_angle", dihedral_range, settings.min_dihedral_angle);
+  return settings;
+}
+
+MeshRecipe recipe_of(const ParticlesInBoxSettings& settings, std::function<Mesh()> make) {
+  MeshRecipe recipe;
+  recipe.make = std::move(make);
+  recipe.regions = names_of_regions(settings);
+  recipe.patches = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+  recipe.bands = bands_of(settings);
+  return recipe;
+}
+
+DiameterDistribution read_distribution(const ConfigValue& value) {
+  using Kind = DiameterDistribution::Kind;
+  DiameterDistribution distribution;
+  if (value.is_list()) {
+    distribution.kind = Kind::list;
+    for (const ConfigValue& entry : value.list())
+      distribution.values.push_back(entry.quantity(dimension::length, range::positive));
+    if (distribution.values.empty()) throw value.error("the list of diameters is empty");
+    return distribution;
+  }
+  if (!value.is_table()) {
+    distribution.mean = value.quantity(dimension::length, range::positive);
+    return distribution;
+  }
+  const std::vector<std::string> names{"uniform", "lognormal"};
+  const ConfigTable table = value.table();
+  const bool uniform = table.at("distribution").one_of(names, "distribution of diameters") == "uniform";
+  table.with_keys(
+      uniform ? std::initializer_list<std::string_view>{"distribution", "least", "most"}
+              : std::initializer_list<std::string_view>{"distribution", "mean", "coefficient", "least", "most"});
+  distribution.kind = uniform ? Kind::uniform : Kind::lognormal;
+  if (!uniform) {
+    distribution.mean = table.quantity("mean", dimension::length, range::positive);
+    distribution.coefficient = table.number("coefficient", range::not_negative);
+  }
+  const bool bounded = uniform || table.has("least") || table.has("most");
+  if (!bounded) return distribution;
+  distribution.least = uniform ? table.quantity("least", dimension::length, range::positive)
+                               : table.quantity("least", dimension::length, range::positive, 0.0);
+  distribution.most = uniform ? table.quantity("most", dimension::length, range::positive)
+                              : table.quantity("most", dimension::length, range::positive, 0.0);
+  if (distribution.most > 0.0 && distribution.most < distribution.least)
+    throw table.error("the largest diameter (most) is smaller than the smallest (least)");
+  return distribution;
+}
+
+void read_placed_spheres(const ConfigTable& table, PackedSpheresSettings& settings) {
+  for (const std::string_view key : {"diameter", "count", "volume_fraction"})
+    if (table.has(key)) throw table.at(key).error("it cannot be combined with [[mesh.spheres]], which says all");
+  for (const ConfigTable& sphere : table.tables("spheres")) {
+    sphere.with_keys({"centre", "diameter"});
+    settings.centres.push_back(read_point(sphere.at("centre")));
+    settings.diameters.push_back(sphere.quantity("diameter", dimension::length, range::positive));
+  }
+}
+
+void read_drawn_spheres(const ConfigTable& table, PackedSpheresSettings& settings) {
+  const bool counted = table.has("count"), filled = table.has("volume_fraction"), sized = table.has("diameter");
+  if (int(counted) + int(filled) + int(sized) < 2)
+    throw table.error(
+        "say which spheres: two of diameter, count and volume_fraction, or all three (the diameters are then only "
+        "ratios), or [[mesh.spheres]]");
+  const auto count = static_cast<Index>(table.integer("count", sphere_count, 0));
+  const double fraction = table.number("volume_fraction", packable, 0.0);
+  const double volume = fraction * (settings.box.upper - settings.box.lower).prod();
+  const bool ratios = counted && filled;
+  DiameterDistribution distribution{.mean = 1.0};
+  if (sized) distribution = read_distribution(table.at("diameter"));
+  settings.diameters =
+      table.in_context([&] { return draw_diameters(distribution, count, volume, ratios, settings.seed); });
+}
+
+}  // namespace
+
+MeshRecipe read_particles_in_box(const ConfigTable& given, const MeshSurroundings& around) {
+  const ConfigTable table = with_keys_of_box(given, {"particles"});
+  ParticlesInBoxSettings settings = read_box_of_tetrahedra(table);
+  const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : Layers{};
+  std::optional<double> ell;
+  for (const ConfigTable& particle : table.tables("particles"))
+    settings.particles.push_back(read_particle(particle, layers, around, ell));
+  MeshRecipe recipe = recipe_of(settings, [settings] { return make_particles_in_box(settings); });
+  recipe.ell = ell;
+  return recipe;
+}
+
+MeshRecipe read_packed_spheres(const ConfigTable& given, const MeshSurroundings& around) {
+  const ConfigTable table = with_keys_of_box(
+      given, {"spheres", "diameter", "count", "volume_fraction", "gap", "wall_gap", "seed", "sphere_region", "numbered",
+              "subdivisions", "surface_size", "edges_over_gap", "smallest_surface_size"});
+  PackedSpheresSettings settings;
+  settings.box = read_box_of_tetrahedra(table);
+  settings.seed = static_cast<std::uint64_t>(table.integer("seed", any_seed, 1));
+  settings.like.region = table.string("sphere_region", "particle");
+  settings.numbered = table.boolean("numbered", false);
+  std::optional<double> ell;
+  read_surface_size(table, around, settings.like, ell);
+  if (table.has("layers")) set_layers(read_layers(table.table("layers")), settings.like);
+  settings.gap = table.quantity("gap", dimension::length, range::positive);
+  settings.wall_gap = table.quantity("wall_gap", dimension::length, range::positive, settings.gap);
+  settings.edges_over_gap = table.number("edges_over_gap", range::not_negative, settings.edges_over_gap);
+  settings.smallest_surface_size = table.number("smallest_surface_size", up_to_one, settings.smallest_surface_size);
+  if (table.has("spheres"))
+    read_placed_spheres(table, settings);
+  else
+    read_drawn_spheres(table, settings);
+  ParticlesInBoxSettings example = settings.box;
+  for (std::size_t i = 0; i < (settings.numbered ? settings.diameters.size() : 1); ++i) {
+    example.particles.push_back(settings.like);
+    if (settings.numbered) example.particles.back().region = numbered_region(settings.like.region, i);
+  }
+  MeshRecipe recipe = recipe_of(example, [settings] { return make_packed_spheres(settings); });
+  recipe.ell = ell;
+  return recipe;
+}
+
+}  // namespace pfdm

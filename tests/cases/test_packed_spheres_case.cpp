@@ -1,0 +1,121 @@
+// Many spheres in a case file: meshed as they were asked for, pulled with cohesive interfaces, and what is refused.
+
+#include "postproc/files/csv_table.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pfdm {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Five glass spheres in a soft matrix.
+std::string composite() {
+  return R"(kind = "fracture"
+title = "spheres in a matrix"
+[mesh]
+generator = "packed_spheres"
+size = ["1 mm", "1 mm", "1 mm"]
+count = 5
+volume_fraction = 0.1
+gap = "20 um"
+subdivisions = 2
+edges_over_gap = 0
+[materials.glass]
+regions = ["particle"]
+young_modulus = "70 GPa"
+poisson_ratio = 0.2
+damageable = false
+[materials.rubber]
+regions = ["matrix"]
+young_modulus = "1 MPa"
+poisson_ratio = 0.3
+damageable = false
+[[interface]]
+between = ["particle", "matrix"]
+law = "linear"
+strength = "0.1 MPa"
+toughness = "10 J/m^2"
+[[boundary]]
+patch = "zmin"
+displacement = ["0 mm", "0 mm", "0 mm"]
+[[boundary]]
+patch = "zmax"
+displacement = ["0 mm", "0 mm", "10 um"]
+[loading]
+initial_increment = 1.0
+maximum_increment = 1.0
+[fracture]
+split = "none"
+[output]
+curve = { patch = "zmax", component = "z" }
+)";
+}
+
+// The lower bound of Hashin and Shtrikman for a tenth of rigid spheres is 1.22 times Young's modulus of this matrix.
+TEST(PackedSpheresCase, StiffensTheBlock) {
+  const auto force = [](const std::string& text) {
+    const TemporaryCase directory(text);
+    const Outcome outcome = run({"run", directory.path().string(), "--quiet", "--threads", "1"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return read_csv(directory.results() / "force_displacement.csv").column("force_z_N").back();
+  };
+  const std::string soft =
+      replaced(replaced(composite(), "\"70 GPa\"", "\"1 MPa\""), "poisson_ratio = 0.2", "poisson_ratio = 0.3");
+  const std::string strong = replaced(composite(), "\"0.1 MPa\"", "\"1 MPa\"");
+  const double with = force(strong), without = force(replaced(soft, "\"0.1 MPa\"", "\"1 MPa\""));
+  EXPECT_GT(with, 1.15 * without);
+  EXPECT_LT(with, 1.6 * without);
+}
+
+TEST(PackedSpheresCase, MeshHasTheVolumeThatWasAskedFor) {
+  const TemporaryCase directory(composite());
+  const Outcome outcome = run({"mesh", directory.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("particle"));
+}
+
+class BadSpheres : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadSpheres, AreRefused) {
+  const TemporaryCase directory(replaced(composite(), GetParam().good, GetParam().bad));
+  expect_refused(directory, GetParam());
+}
+
+const BadInput bad_inputs[] = {
+    {"too_little_said", "count = 5\n", "", {"[mesh] say which spheres: two of diameter, count and volume_fraction"}},
+    {"more_than_can_be_packed", "volume_fraction = 0.1", "volume_fraction = 0.7", {"must be between 0 and 0.6"}},
+    {"no_room",
+     "volume_fraction = 0.1",
+     "volume_fraction = 0.55",
+     {"[mesh]", "5 spheres with gaps of 2e-05 m found no room", "% smaller"}},
+    {"no_gap", "gap = \"20 um\"\n", "", {"\"gap\" is missing"}},
+    {"placed_and_drawn",
+     "gap = \"20 um\"",
+     "gap = \"20 um\"\nspheres = [{ diameter = \"100 um\", centre = [\"0 mm\", \"0 mm\", \"0 mm\"] }]",
+     {"it cannot be combined with [[mesh.spheres]]"}},
+    {"unknown_distribution",
+     "count = 5\n",
+     "diameter = { distribution = \"normal\" }\n",
+     {"[mesh.diameter] distribution: ", "\"normal\" is not a distribution of diameters (allowed: uniform, lognormal)"}},
+    {"distribution_upside_down",
+     "count = 5\n",
+     "diameter = { distribution = \"uniform\", least = \"2 um\", most = \"1 um\" }\n",
+     {"the largest diameter (most) is smaller than the smallest (least)"}},
+    {"diameters_that_do_not_fill",
+     "count = 5\n",
+     "diameter = \"0.9 mm\"\n",
+     {"no whole number of such spheres has the volume fraction wanted"}},
+    {"spheres_that_overlap",
+     "count = 5\nvolume_fraction = 0.1\n",
+     "spheres = [{ diameter = \"200 um\", centre = [\"0 mm\", \"0 mm\", \"0 mm\"] }, { diameter = \"200 um\", centre = "
+     "[\"0.1 mm\", \"0 mm\", \"0 mm\"] }]\n",
+     {"[mesh]", "overlap or touch"}},
+};
+INSTANTIATE_TEST_SUITE_P(All, BadSpheres, testing::ValuesIn(bad_inputs),
+                         [](const auto& input) { return input.param.name; });
+
+}  // namespace
+}  // namespace pfdm
