@@ -47,8 +47,12 @@ constexpr CommandText case_commands[] = {
     {"sweep", "Run a case with the sets of values that it names in [sweep]",
      "Writes to CASE/results: sweep.csv, a row for each run. The runs are kept in CASE/results/runs;\nthe same command "
      "continues them."},
+    {"analyse", "Analyse the vibration records of a case without a fit: spectra, responses, harmonics",
+     "Writes to CASE/results/analysis: analysis.json and, of each test NAME, NAME_spectra.csv (densities, H1, H2, Hv,\n"
+     "coherence with bounds), NAME_spectrogram.csv and, of sines, NAME_harmonics.csv, NAME_envelopes.csv (recorded,\n"
+     "and of the models of the case and of its fits). pfdm report then draws a page of each test."},
     {"report", "Draw pictures and plots of the results on one page",
-     "Writes to CASE/results/report: report.pdf, report.png."},
+     "Writes to CASE/results/report: report.pdf, report.png; after analyse NAME/report.pdf and .png of each test."},
 };
 
 constexpr CommandText other_commands[] = {

@@ -35,7 +35,7 @@ const std::function<void(Session&)>& job_of(const CommandLine& line, const Runna
   const std::pair<const char*, const std::function<void(Session&)>*> jobs[] = {
       {"run", &runnable.run},           {"check", &runnable.check},     {"mesh", &runnable.mesh},
       {"cohesive", &runnable.cohesive}, {"compare", &runnable.compare}, {"fit", &runnable.fit},
-      {"sweep", &runnable.sweep},       {"report", &runnable.report}};
+      {"sweep", &runnable.sweep},       {"analyse", &runnable.analyse}, {"report", &runnable.report}};
   for (const auto& [command, job] : jobs)
     if (line.command == command && *job) return *job;
   throw InputError(fmt::format("{}: this kind of case has no \"{}\"", line.case_directory, line.command));

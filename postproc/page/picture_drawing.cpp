@@ -37,7 +37,6 @@ Colour colour_at(double part) {
   return {mix(a.colour.red, b.colour.red), mix(a.colour.green, b.colour.green), mix(a.colour.blue, b.colour.blue)};
 }
 
-/// One scale for both directions.
 Axes axes_for(const Rectangle& place, const Picture& picture) {
   Eigen::AlignedBox2d box;
   for (const Picture::Cell& cell : picture.cells)
@@ -45,7 +44,7 @@ Axes axes_for(const Rectangle& place, const Picture& picture) {
   if (box.isEmpty()) box = {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1.0, 1.0)};
   const double width = place.width - room_left - room_for_colours, height = place.height - room_below_axes - room_above;
   const double scale = std::min(width / box.sizes().x(), height / box.sizes().y());
-  const Eigen::Vector2d size = scale * box.sizes();
+  const Eigen::Vector2d size = picture.stretched ? Eigen::Vector2d(width, height) : scale * box.sizes();
   const auto ticks = [&](int axis, double spacing) {
     return axis_ticks({.title = {}, .from = box.min()[axis], .to = box.max()[axis]}, 0.0, 0.0,
                       std::max(2, static_cast<int>(size[axis] / spacing)));

@@ -56,6 +56,7 @@ struct Picture {
   double least = 0.0, most = 1.0;  ///< ends of the colours
   std::vector<Cell> cells;
   std::vector<std::vector<Eigen::Vector2d>> lines;
+  bool stretched = false;  ///< fills its place; otherwise both directions have one scale
 };
 
 using PageBlock = std::variant<Chart, Table, TextBlock, Picture>;

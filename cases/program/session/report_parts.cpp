@@ -75,9 +75,15 @@ void require_case(const std::filesystem::path& file, const std::string& found, c
 void remove_report(const std::filesystem::path& results) {
   const std::filesystem::path folder = results / "report";
   std::error_code ignored;
-  for (const char* file : {"report.pdf", "report.png"}) std::filesystem::remove(folder / file, ignored);
-  remove_leftovers(folder);
-  std::filesystem::remove(folder, ignored);  // unless there is something else in it
+  std::vector<std::filesystem::path> folders;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (entry.is_directory(ignored)) folders.push_back(entry.path());
+  folders.push_back(folder);
+  for (const std::filesystem::path& of : folders) {
+    for (const char* file : {"report.pdf", "report.png"}) std::filesystem::remove(of / file, ignored);
+    remove_leftovers(of);
+    std::filesystem::remove(of, ignored);  // unless there is something else in it
+  }
 }
 
 void write_report(const ReportPage& page, Session& session) {

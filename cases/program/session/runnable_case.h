@@ -22,6 +22,7 @@ struct RunnableCase {
   std::function<void(Session&)> compare{};          ///< results against experiments
   std::function<void(Session&)> fit{};              ///< estimates the parameters that the case names
   std::function<void(Session&)> sweep{};            ///< runs with the sets of values that the case names
+  std::function<void(Session&)> analyse{};          ///< what records say without a fit
   std::function<void(Session&)> report{};           ///< pictures and plots on one page
   std::function<void(Session&)> prepare{};          ///< makes what runs with other values share, as the mesh
   std::vector<std::filesystem::path> data_files{};  ///< that decide the results of `run` besides case.toml

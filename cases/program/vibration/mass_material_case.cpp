@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdio>
 
 namespace pfdm {
 namespace {
@@ -150,8 +152,20 @@ constexpr FitMethod methods[] = {
     {"ten_step", "iteration with a Prony series (AFRL-RW-EG-TR-2016-088, A4.3), of the first record; for comparison"},
 };
 
+/// As ISO 8601 has it, so that dates sort.
+std::string read_date(const ConfigValue& value) {
+  int year = 0, month = 0, day = 0, length = 0;
+  const std::string text = value.string();
+  const bool fits = std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &length) == 3 && length == 10 &&
+                    std::ssize(text) == length;
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
+  if (!fits || !date.ok()) throw value.error(fmt::format("\"{}\" is no date; expected one as \"2016-09-14\"", text));
+  return text;
+}
+
 VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {
-  table.with_keys({"name", "excitation", "record", "predicted", "schedule"});
+  table.with_keys({"name", "excitation", "record", "predicted", "schedule", "date"});
   VibrationTest test;
   test.where = table.at("name");
   test.name = read_plain_name(*test.where, "files");
@@ -176,6 +190,7 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
   if (!(test.band_low > 0.0 && test.band_high >= test.band_low))
     throw table.error("the excited band is not known: give the record's \"from\" and \"to\"");
   test.predicted = table.boolean("predicted", false);
+  if (const auto date = table.find("date")) test.date = read_date(*date);
   if (table.has("schedule")) test.schedule = read_scheduled_run(table.table("schedule"));
   return test;
 }
@@ -226,6 +241,19 @@ void read_fit(const ConfigTable& root, MassMaterialCase& c) {
   if (fit.repeatability) require_schedule(c, table.at("repeatability"));
 }
 
+void read_analysis(const ConfigTable& root, MassMaterialCase& c) {
+  if (!root.has("analysis")) return;
+  constexpr Range samples{16.0, 16777216.0, false, "between 16 and 16777216"};
+  const ConfigTable table =
+      root.table("analysis").with_keys({"segment", "overlap", "spectrogram_segment", "harmonics", "bandwidth"});
+  AnalysisSettings& a = c.analysis;
+  a.segments.length = table.integer("segment", samples, a.segments.length);
+  a.segments.overlap = table.number("overlap", Range{0.0, 0.95, false, "between 0 and 0.95"}, a.segments.overlap);
+  if (table.has("spectrogram_segment")) a.spectrogram_length = table.integer("spectrogram_segment", samples);
+  a.harmonics = static_cast<int>(table.integer("harmonics", Range{1.0, 10.0, false, "between 1 and 10"}, a.harmonics));
+  if (table.has("bandwidth")) a.bandwidth = table.quantity("bandwidth", dimension::frequency, range::positive);
+}
+
 void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
   const ConfigTable table = root.table("sampling").with_keys({"rate", "signal_to_noise_dB", "noise_seed"});
   c.rate = table.quantity("rate", dimension::frequency, range::positive);
@@ -236,7 +264,7 @@ void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
 }  // namespace
 
 MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path& case_directory) {
-  root.with_keys({"kind", "title", "model", "sample", "sampling", "test", "change", "fit", "sweep"});
+  root.with_keys({"kind", "title", "model", "sample", "sampling", "test", "change", "fit", "analysis", "sweep"});
   MassMaterialCase c;
   c.title = root.string("title");
   read_model(root, c);
@@ -244,6 +272,7 @@ MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path
   read_tests(root, case_directory, c);
   c.changes = read_sample_changes(root);
   read_fit(root, c);
+  read_analysis(root, c);
   if (root.has("sample")) {
     const ConfigTable table = root.table("sample").with_keys({"length", "area"});
     c.sample = SampleSize{.length = table.quantity("length", dimension::length, range::positive),

@@ -4,6 +4,7 @@
 #include "cases/program/input/config.h"
 #include "cases/program/vibration/mass_material_schedule.h"
 #include "physics/mass_material.h"
+#include "solver/vibration/record_analysis.h"
 #include "solver/vibration/vibration_excitation.h"
 
 #include <filesystem>
@@ -35,6 +36,7 @@ struct VibrationTest {
   double band_high = 0.0;                ///< [Hz]
   bool predicted = false;                ///< not fitted but predicted
   std::optional<ScheduledRun> schedule;  ///< of repeated tests
+  std::optional<std::string> date;       ///< "2016-09-14"
   std::optional<ConfigValue> where;
 };
 
@@ -68,6 +70,7 @@ struct MassMaterialCase {
   std::vector<VibrationTest> tests;
   std::vector<SampleChange> changes;  ///< of the simulated sample over the schedule
   MassMaterialFit fit;
+  AnalysisSettings analysis;
   std::vector<std::filesystem::path> data_files;
 };
 

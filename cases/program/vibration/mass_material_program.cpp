@@ -3,6 +3,7 @@
 #include "cases/program/session/earlier_results.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/stopwatch.h"
+#include "cases/program/vibration/mass_material_analysis.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "cases/program/vibration/mass_material_jobs.h"
 #include "cases/program/vibration/mass_material_report.h"
@@ -12,7 +13,6 @@
 #include "postproc/files/new_results.h"
 #include "postproc/records/signal_table.h"
 #include "solver/vibration/mass_material_simulation.h"
-#include "solver/vibration/signals_filter.h"
 #include "solver/vibration/signals_spectra.h"
 
 #include <fmt/format.h>
@@ -122,25 +122,16 @@ void write_record(const fs::path& path, const std::string& remark, const Simulat
 /// Response at the driving frequency and its second and third multiple along a sweep, forty times a second.
 void write_harmonics(const fs::path& path, const std::string& remark, const VibrationRecord& r,
                      const Excitation& excitation) {
-  const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
-  const VectorXd phase = driving_phase(r.base, r.rate, band);
-  const double bandwidth = std::min(4.0, 0.4 * r.band_low);
-  const Eigen::MatrixXd response = harmonics(r.relative, r.rate, phase, 3, bandwidth).cwiseAbs();
-  const VectorXd base = harmonics(r.base, r.rate, phase, 1, bandwidth).cwiseAbs();
-  const VectorXd hull = envelope(r.relative);
-  const auto stride = std::max<Index>(1, static_cast<Index>(r.rate / 40.0));
-  const Index n = (r.n() - 1) / stride + 1;
-  const auto thinned = [&](const auto& x) -> VectorXd { return x(Eigen::seqN(0, n, stride)); };
-  const VectorXd t = thinned(sample_times(r.n(), r.rate));
-  const VectorXd frequency = t.unaryExpr([&](double at) { return excitation.frequency(at); });
+  const TrackedResponse t = tracked_response(r, 3, tracker_bandwidth(r));
+  const VectorXd frequency = t.time.unaryExpr([&](double at) { return excitation.frequency(at); });
   write_signals_csv(path, {.remark = remark,
-                           .columns = {{"time", "s", t},
+                           .columns = {{"time", "s", t.time},
                                        {"driving_frequency", "Hz", frequency},
-                                       {"base_amplitude", "m/s^2", thinned(base)},
-                                       {"first_harmonic", "m/s^2", thinned(response.col(0))},
-                                       {"second_harmonic", "m/s^2", thinned(response.col(1))},
-                                       {"third_harmonic", "m/s^2", thinned(response.col(2))},
-                                       {"envelope", "m/s^2", thinned(hull)}}});
+                                       {"base_amplitude", "m/s^2", t.base},
+                                       {"first_harmonic", "m/s^2", t.harmonics.col(0)},
+                                       {"second_harmonic", "m/s^2", t.harmonics.col(1)},
+                                       {"third_harmonic", "m/s^2", t.harmonics.col(2)},
+                                       {"envelope", "m/s^2", t.envelope}}});
 }
 
 /// Densities, H1 from base to relative acceleration with its bounds, coherence; segments of 8192, half overlapping.
@@ -180,6 +171,7 @@ void remove_earlier_results(const fs::path& results) {
   const std::vector<std::string> tests = tests_of_vibration_summary(results / summary_file);
   fs::remove(results / summary_file, ignored);
   remove_report(results);
+  remove_analysis(results);
   for (const std::string& test : tests)
     for (const std::string_view ending : {std::string_view(), result_endings[0], result_endings[1]})
       fs::remove(results / fmt::format("{}{}.csv", test, ending), ignored);
@@ -247,13 +239,18 @@ RunnableCase read_mass_material_program(const CaseFile& file) {
       std::make_shared<MassMaterialProgram>(MassMaterialProgram{.file = file, .parsed = {}, .name = {}, .hash = {}});
   program->parsed = read_mass_material_case(file.config.root(), file.directory);
   program->name = case_name(file);
-  program->hash = case_hash(file, program->parsed.data_files);
+  constexpr std::string_view not_of_the_run[] = {"analysis"};
+  program->hash = case_hash(file, program->parsed.data_files, not_of_the_run);
   return {.title = program->parsed.title,
           .check = [program](Session& session) { check(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
           .fit = [program](Session& session) { fit_mass_material(*program, session); },
-          .report = [program](Session& session) { write_report(mass_material_page(*program, session), session); },
-
+          .analyse = [program](Session& session) { analyse_mass_material(*program, session); },
+          .report =
+              [program](Session& session) {
+                write_report(mass_material_page(*program, session), session);
+                write_test_pages(*program, session);
+              },
           .data_files = program->parsed.data_files};
 }
 

@@ -2,9 +2,9 @@
 
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
+#include "cases/program/vibration/vibration_charts.h"
 #include "postproc/curves/fit_json.h"
 #include "solver/vibration/identification.h"
-#include "solver/vibration/signals_spectra.h"
 
 #include <fmt/format.h>
 
@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
-
-constexpr double least_coherence = 0.2;  // for H1 to be shown
 
 struct Model {
   MassMaterial parameters;
@@ -40,8 +38,6 @@ struct VibrationStory {
   const VibrationFindings* findings() const { return fit ? &std::get<VibrationFindings>(fit->own) : nullptr; }
 };
 
-double rms(const VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
-
 std::optional<Model> model_of(const MassMaterialCase& c, bool fitted, const fs::path& results) {
   if (fitted) {
     const CaseFile found = open_case(results / "case.fitted.toml");
@@ -57,7 +53,7 @@ VibrationStory story_of(const MassMaterialProgram& program, Session& session) {
                        .fit = find_of_case(session.results / "fit.json", program.hash, read_fit_json)};
   for (const VibrationTest& test : program.parsed.tests)
     story.records.push_back(record_of(test, session.results, session.log));
-  const auto level = [](const VibrationRecord& r) { return rms(r.base); };
+  const auto level = [](const VibrationRecord& r) { return rms_of(r.base); };
   story.shown = static_cast<std::size_t>(std::ranges::max_element(story.records, {}, level) - story.records.begin());
   story.model = model_of(program.parsed, story.fit.has_value(), session.results);
   if (story.model) story.predicted = predicted_response(story.model->parameters, story.record());
@@ -93,8 +89,8 @@ Table tests_table(const VibrationStory& story) {
               .rows = {{"test", "base [g0]", "relative [g0]", "misfit"}},
               .has_header = true};
   for (const VibrationRecord& r : story.records)
-    table.rows.push_back({r.name, shown(rms(r.base) / standard_gravity), shown(rms(r.relative) / standard_gravity),
-                          misfit_of(story.fit, r.name)});
+    table.rows.push_back({r.name, shown(rms_of(r.base) / standard_gravity),
+                          shown(rms_of(r.relative) / standard_gravity), misfit_of(story.fit, r.name)});
   return table;
 }
 
@@ -134,35 +130,6 @@ Table model_table(const VibrationStory& story) {
   return table;
 }
 
-/// A signal as the band between its least and largest values in each of some hundred intervals.
-Series hull(const std::string& label, const VectorXd& signal, double rate, int colour) {
-  constexpr Eigen::Index n_bins = 700;
-  Series series{.label = label, .x = {}, .y = {}, .style = SeriesStyle::band, .colour = colour};
-  const Eigen::Index n = signal.size(), bins = std::min(n_bins, n);
-  for (Eigen::Index i = 0; i < bins; ++i) {
-    const Eigen::Index from = i * n / bins, to = std::max((i + 1) * n / bins, from + 1);
-    const auto part = signal.segment(from, to - from);
-    series.x.push_back(0.5 * static_cast<double>(from + to - 1) / rate);
-    series.y.push_back(part.minCoeff() / standard_gravity);
-    series.upper.push_back(part.maxCoeff() / standard_gravity);
-  }
-  return series;
-}
-
-Chart base_chart(const VibrationRecord& r) {
-  return {.caption = "Base",
-          .x = {.title = "time [s]"},
-          .y = {.title = "acceleration [g0]"},
-          .series = {hull("", r.base, r.rate, 1)}};
-}
-
-Chart response_chart(const VibrationRecord& r) {
-  return {.caption = "Mass relative to the base",
-          .x = {.title = "time [s]"},
-          .y = {.title = "acceleration [g0]"},
-          .series = {hull("", r.relative, r.rate, 1)}};
-}
-
 Series part_of(const VectorXd& signal, double rate, Eigen::Index from, Eigen::Index n, std::string label) {
   Series series{.label = std::move(label), .x = {}, .y = {}};
   for (Eigen::Index i = from; i < from + n; ++i) {
@@ -190,68 +157,6 @@ Chart excerpt_chart(const VibrationStory& story) {
   chart.series.back().style = SeriesStyle::dashed;
   chart.series.back().colour = 2;
   return chart;
-}
-
-/// What the spectra say within the excited band.
-struct BandSpectra {
-  std::vector<double> frequency;       // [Hz]
-  std::vector<double> base, relative;  // [g0^2/Hz]
-  std::vector<double> magnitude, lower, upper, phase, coherence;
-};
-
-/// In degrees between -270 and 90: a resonance's falls from 0 to -180 without a jump.
-double falling_phase(const std::complex<double>& H) {
-  const double phase = std::arg(H) * 180.0 / std::numbers::pi;
-  return phase > 90.0 ? phase - 360.0 : phase;
-}
-
-/// Interrupts H1 where the record's coherence says that it means nothing, as beyond the ends of a sweep.
-void blank_incoherent(BandSpectra& s, const std::vector<double>& coherence) {
-  for (std::size_t i = 0; i < coherence.size(); ++i)
-    if (!(coherence[i] >= least_coherence))
-      for (auto* values : {&s.magnitude, &s.lower, &s.upper, &s.phase}) (*values)[i] = std::nan("");
-}
-
-BandSpectra spectra_in_band(const VibrationRecord& record, const VectorXd& relative) {
-  SegmentSettings segments;
-  segments.length = std::min<Eigen::Index>(segments.length, record.n());
-  const Spectra s = spectra(record.base, relative, record.rate, segments);
-  const Eigen::VectorXcd H = frequency_response(s, ResponseEstimator::h1);
-  const Bounds bounds = response_bounds(s);
-  const VectorXd gamma = coherence(s);
-  BandSpectra result;
-  for (Eigen::Index i = 0; i < s.frequency.size(); ++i) {
-    if (s.frequency[i] < record.band_low || s.frequency[i] > record.band_high) continue;
-    result.frequency.push_back(s.frequency[i]);
-    result.base.push_back(s.Sxx[i] / (standard_gravity * standard_gravity));
-    result.relative.push_back(s.Syy[i] / (standard_gravity * standard_gravity));
-    result.magnitude.push_back(std::abs(H[i]));
-    result.lower.push_back(bounds.lower[i]);
-    result.upper.push_back(bounds.upper[i]);
-    result.phase.push_back(falling_phase(H[i]));
-    result.coherence.push_back(gamma[i]);
-  }
-  return result;
-}
-
-ChartAxis frequency_axis(const VibrationRecord& r) {
-  return {
-      .title = "frequency [Hz]", .logarithmic = r.band_high > 8.0 * r.band_low, .from = r.band_low, .to = r.band_high};
-}
-
-Chart density_chart(const VibrationRecord& r, const BandSpectra& s) {
-  return {.caption = "Spectral densities",
-          .x = frequency_axis(r),
-          .y = {.title = "density [g0²/Hz]", .logarithmic = true},
-          .series = {{.label = "base", .x = s.frequency, .y = s.base, .colour = 1},
-                     {.label = "mass relative to the base", .x = s.frequency, .y = s.relative, .colour = 0}}};
-}
-
-Chart coherence_chart(const VibrationRecord& r, const BandSpectra& s) {
-  return {.caption = "Coherence",
-          .x = frequency_axis(r),
-          .y = {.title = "coherence [-]", .from = 0.0, .to = 1.05},
-          .series = {{.label = {}, .x = s.frequency, .y = s.coherence}}};
 }
 
 void add_model(Chart& chart, const VibrationStory& story, const std::optional<BandSpectra>& model,
@@ -365,9 +270,10 @@ std::string first_clause(const std::string& text) { return text.substr(0, text.f
 ReportPage mass_material_page(const MassMaterialProgram& program, Session& session) {
   const VibrationStory story = story_of(program, session);
   const VibrationRecord& record = story.record();
-  BandSpectra measured = spectra_in_band(record, record.relative);
+  const SegmentSettings& segments = program.parsed.analysis.segments;
+  BandSpectra measured = spectra_in_band(record, record.relative, segments);
   std::optional<BandSpectra> model;
-  if (story.predicted && story.predicted->allFinite()) model = spectra_in_band(record, *story.predicted);
+  if (story.predicted && story.predicted->allFinite()) model = spectra_in_band(record, *story.predicted, segments);
   blank_incoherent(measured, measured.coherence);
   if (model) blank_incoherent(*model, measured.coherence);
   const std::string says = record.remark.empty() ? "" : fmt::format(", record {}", first_clause(record.remark));
