@@ -333,6 +333,20 @@ TEST(MassMaterialProgram, OffersTheReportsLeastSquares) {
   EXPECT_TRUE(fit["parameters"][0]["lower"].is_null());
 }
 
+TEST(MassMaterialProgram, SaysHowManyKernelTermsAMethodTakes) {
+  const auto checked = [](const char* fit) {
+    const TemporaryCase directory(soft_case() + fit);
+    return run({"check", directory.path().string()});
+  };
+  EXPECT_EQ(checked("method = \"ten_step\"\nkernel_order = 20\n").status, 0);
+  const Outcome beyond = checked("method = \"ten_step\"\nkernel_order = 21\n"),
+                of_others = checked("kernel_order = 7\n");
+  EXPECT_EQ(beyond.status, 2);
+  EXPECT_NE(beyond.err.find("between 1 and 20"), std::string::npos) << beyond.err;
+  EXPECT_EQ(of_others.status, 2);
+  EXPECT_NE(of_others.err.find("between 0 and 6 (\"ten_step\": up to 20)"), std::string::npos) << of_others.err;
+}
+
 TEST(MassMaterialProgram, FitsARecordFromAFile) {
   const TemporaryCase directory(soft_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);

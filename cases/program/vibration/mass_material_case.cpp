@@ -226,7 +226,9 @@ void read_fit(const ConfigTable& root, MassMaterialCase& c) {
   if (const auto structure = table.find("structure"))
     fit.structure = choose(*structure, model_structures(), "mass-material model").name;
   if (const auto order = table.find("kernel_order"); order && !(order->is_string() && order->string() == "auto"))
-    fit.kernel_order = static_cast<int>(order->integer(Range{0.0, 6.0, false, "\"auto\" or between 0 and 6"}));
+    fit.kernel_order = static_cast<int>(order->integer(
+        fit.method == "ten_step" ? Range{1.0, 20.0, false, "\"auto\" or between 1 and 20"}
+                                 : Range{0.0, 6.0, false, "\"auto\" or between 0 and 6 (\"ten_step\": up to 20)"}));
   fit.maximum_kernel_order = static_cast<int>(
       table.integer("maximum_kernel_order", Range{0.0, 6.0, false, "between 0 and 6"}, fit.maximum_kernel_order));
   fit.crop = table.number("crop", part, fit.crop);
