@@ -25,6 +25,11 @@ struct CsvTable {
   void add(std::string name, std::vector<double> values);
 };
 
+/// Of files that others wrote; none: found.
+struct CsvMarks {
+  std::optional<char> separator{}, decimal{};
+};
+
 /// What a file may look like. A byte-order mark, blanks around entries and line ends of Windows are taken from any.
 struct CsvOptions {
   bool has_units = false;                    ///< in the row below the names

@@ -20,8 +20,12 @@ std::vector<std::string> lines_of(std::string_view text) {
 
 }  // namespace
 
-SignalTable read_signals_csv(const std::filesystem::path& path) {
-  const CsvTable csv = read_csv(path, {.has_units = true, .has_gaps = true, .is_foreign = true});
+SignalTable read_signals_csv(const std::filesystem::path& path, const CsvMarks& marks) {
+  const CsvTable csv = read_csv(path, {.has_units = true,
+                                       .has_gaps = true,
+                                       .is_foreign = true,
+                                       .separator = marks.separator,
+                                       .decimal = marks.decimal});
   SignalTable table{.remark = fmt::format("{}", fmt::join(csv.comments, "\n")), .columns = {}};
   for (std::size_t i = 0; i < csv.names.size(); ++i) {
     const std::vector<double>& values = csv.columns[i];
@@ -41,11 +45,14 @@ void write_signals_csv(const std::filesystem::path& path, const SignalTable& tab
   write_csv(path, csv);
 }
 
-SignalTable read_signals(const std::filesystem::path& path) {
+SignalTable read_signals(const std::filesystem::path& path, const CsvMarks& marks) {
+  if (path.extension() == ".csv") return read_signals_csv(path, marks);
   using Reader = SignalTable (*)(const std::filesystem::path&);
-  constexpr std::pair<std::string_view, Reader> readers[] = {{".csv", read_signals_csv}, {".mat", read_signals_mat},
-                                                             {".uff", read_signals_uff}, {".unv", read_signals_uff},
-                                                             {".h5", read_signals_hdf5}, {".hdf5", read_signals_hdf5}};
+  constexpr std::pair<std::string_view, Reader> readers[] = {{".mat", read_signals_mat},
+                                                             {".uff", read_signals_uff},
+                                                             {".unv", read_signals_uff},
+                                                             {".h5", read_signals_hdf5},
+                                                             {".hdf5", read_signals_hdf5}};
   for (const auto& [extension, read] : readers)
     if (path.extension() == extension) return read(path);
   throw InputError(fmt::format("{}: records are read from .csv, .mat, .uff, .unv, .h5 and .hdf5 files", path.string()));

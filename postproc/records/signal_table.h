@@ -2,6 +2,8 @@
 // Measured or simulated signals as columns with names and units, and the files that hold them: CSV with a row of units,
 // MATLAB's .mat, universal files (dataset 58), HDF5.
 
+#include "postproc/files/csv_table.h"
+
 #include <Eigen/Core>
 
 #include <filesystem>
@@ -25,7 +27,7 @@ struct SignalTable {
 
 /// CSV: lines that start with # are remarks; then a row of names, a row of units, rows of numbers. Empty cells and nan
 /// come back as NaN. Throws InputError that names file and line.
-SignalTable read_signals_csv(const std::filesystem::path& path);
+SignalTable read_signals_csv(const std::filesystem::path& path, const CsvMarks& marks = {});
 /// Written whole or not at all, numbers with the fewest digits that give the same value back.
 void write_signals_csv(const std::filesystem::path& path, const SignalTable& table);
 
@@ -42,7 +44,8 @@ SignalTable read_signals_uff(const std::filesystem::path& path);
 /// gives its unit, that of the file's root called "remark" its remark. The only reader that knows HDF5.
 SignalTable read_signals_hdf5(const std::filesystem::path& path);
 
-/// By the file's extension: .csv, .mat, .uff and .unv, .h5 and .hdf5. Throws InputError for another.
-SignalTable read_signals(const std::filesystem::path& path);
+/// By the file's extension: .csv, .mat, .uff and .unv, .h5 and .hdf5. Throws InputError for another. `marks` are those
+/// of a .csv.
+SignalTable read_signals(const std::filesystem::path& path, const CsvMarks& marks = {});
 
 }  // namespace pfdm

@@ -152,6 +152,35 @@ TEST_F(Analysis, MakesAPageOfEachTest) {
   EXPECT_FALSE(fs::exists(directory.results() / "report"));
 }
 
+// Marks that the case names are taken as they are, and not looked for.
+TEST_F(Analysis, ReadsRecordsWithTheMarksThatTheCaseNames) {
+  std::string text = "time;base_acceleration;relative_acceleration\ns;m/s^2;m/s^2\n";
+  for (int i = 0; i < 4000; ++i) {
+    const double phase = 2.0 * pi * 40.0 * 1e-3 * i;
+    std::string row = fmt::format("{:.3f};{:.3f};{:.3f}\n", 1e-3 * i, 5.0 * std::sin(phase), 4.0 * std::cos(phase));
+    for (char& c : row) c = c == '.' ? ',' : c;
+    text += row;
+  }
+  directory.write("data/sweep.csv", text);
+  const std::string named = replaced(measured_case(), "from = \"20 Hz\", to = \"60 Hz\"",
+                                     "separator = \";\", decimal = \",\", from = \"20 Hz\", to = \"60 Hz\"");
+  directory.write("case.toml", named);
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const Outcome outcome = run({"analyse", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json report = json::parse(content_of(folder / "analysis.json"));
+  EXPECT_NEAR(report["records"][0]["level"]["peak_base_acceleration_m_per_s2"].get<double>(), 5.0, 0.1);
+  EXPECT_EQ(report["records"][0]["samples"], 4000);
+  directory.write("case.toml", replaced(named, "decimal = \",\"", "decimal = \".\""));
+  const Outcome other = run({"analyse", directory.path().string()});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("sweep.csv:3"));
+  directory.write("case.toml", replaced(named, "separator = \";\"", "separator = \",\""));
+  const Outcome both = run({"analyse", directory.path().string()});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("a comma cannot separate entries and be the decimal mark"));
+}
+
 TEST_F(Analysis, SaysWhatIsWrong) {
   const BadInput rows[] = {
       {"no_date", "\"2016-09-14\"", "\"14.9.2016\"", {"is no date; expected one as \"2016-09-14\""}},

@@ -1,5 +1,6 @@
 #include "cases/program/point/control_values.h"
 
+#include "cases/program/input/csv_marks.h"
 #include "cases/program/input/expression.h"
 #include "cases/program/input/path_reader.h"
 #include "cases/program/point/endochronic_loading.h"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <optional>
 
 namespace pfdm {
@@ -68,15 +68,6 @@ std::size_t number_of_column(const ConfigValue& name, const CsvTable& file) {
   return number - 1;
 }
 
-std::optional<char> read_mark(const ConfigTable& table, const char* key, std::initializer_list<std::string> names,
-                              std::string_view marks) {
-  const auto value = table.find(key);
-  if (!value) return std::nullopt;
-  const std::vector<std::string> allowed(names);
-  const auto chosen = std::ranges::find(allowed, value->one_of(allowed, key)) - allowed.begin();
-  return marks[static_cast<std::size_t>(chosen)];
-}
-
 void follow(const Polyline& line, const std::vector<double>& times, LoadSegment::Condition& condition) {
   for (const double t : times) condition.values.push_back(interpolate(line, t));
 }
@@ -123,12 +114,9 @@ std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, 
 CsvTable read_csv_of(const ConfigTable& table, const std::filesystem::path& case_directory) {
   const ConfigValue name = table.at("csv");
   const std::filesystem::path file = read_data_file(name, case_directory);
-  const CsvOptions options{.is_foreign = true,
-                           .separator = read_mark(table, "separator", {",", ";", "tab", "blank"}, ",;\t "),
-                           .decimal = read_mark(table, "decimal", {".", ","}, ".,"),
-                           .is_unit = is_unit};
-  if (options.separator && options.separator == options.decimal)
-    throw table.at("separator").error("a comma cannot separate entries and be the decimal mark");
+  const CsvMarks marks = read_csv_marks(table);
+  const CsvOptions options{
+      .is_foreign = true, .separator = marks.separator, .decimal = marks.decimal, .is_unit = is_unit};
   return name.in_context([&] { return read_csv(file, options); });
 }
 

@@ -1,5 +1,6 @@
 #include "cases/program/vibration/mass_material_case.h"
 
+#include "cases/program/input/csv_marks.h"
 #include "cases/program/input/path_reader.h"
 #include "cases/program/input/units.h"
 #include "cases/program/vibration/vibration_reader.h"
@@ -127,12 +128,13 @@ RecordFile read_record_file(const ConfigTable& table, const fs::path& directory,
   record.time = table.string("time", record.time);
   if (table.has("unit")) record.unit = table.string("unit");
   if (table.has("rate")) record.rate = table.quantity("rate", dimension::frequency, range::positive);
+  record.marks = read_csv_marks(table);
   data_files.push_back(record.file);
   return record;
 }
 
 Excitation read_measured(const ConfigTable& table, const fs::path& directory, double, std::vector<fs::path>& files) {
-  table.with_keys({"type", "file", "base", "relative", "time", "unit", "rate", "from", "to"});
+  table.with_keys({"type", "file", "base", "relative", "time", "unit", "rate", "separator", "decimal", "from", "to"});
   const RecordFile source = read_record_file(table, directory, files);
   const SampledChannel channel = table.in_context([&] { return read_channel(source); });
   return sampled_excitation(channel.values, channel.rate, table.quantity("from", dimension::frequency, range::positive),
@@ -180,8 +182,8 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
                                      test.band_high, c.rate, 0.38 * c.rate));
   }
   if (table.has("record")) {
-    const ConfigTable record =
-        table.table("record").with_keys({"file", "base", "relative", "time", "unit", "rate", "from", "to"});
+    const ConfigTable record = table.table("record").with_keys(
+        {"file", "base", "relative", "time", "unit", "rate", "separator", "decimal", "from", "to"});
     test.record = read_record_file(record, directory, c.data_files);
     test.band_low = record.quantity("from", dimension::frequency, range::positive, test.band_low);
     test.band_high = record.quantity("to", dimension::frequency, range::positive, test.band_high);

@@ -4,6 +4,7 @@
 #include "cases/program/input/config.h"
 #include "cases/program/vibration/mass_material_schedule.h"
 #include "physics/mass_material.h"
+#include "postproc/files/csv_table.h"
 #include "solver/vibration/record_analysis.h"
 #include "solver/vibration/vibration_excitation.h"
 
@@ -26,6 +27,7 @@ struct RecordFile {
   std::string time = "time";
   std::optional<std::string> unit;  ///< of both channels, where the file does not say
   std::optional<double> rate;       ///< [Hz]
+  CsvMarks marks{};                 ///< of a CSV file
 };
 
 struct VibrationTest {

@@ -51,7 +51,7 @@ std::optional<Eigen::VectorXd> times(const SignalTable& table, const RecordFile&
 }  // namespace
 
 VibrationRecord read_record(const VibrationTest& test, const RecordFile& source, Log& log) {
-  const SignalTable table = read_signals(source.file);
+  const SignalTable table = read_signals(source.file, source.marks);
   RawRecord raw{.time = times(table, source),
                 .base = acceleration(table, source.base, source),
                 .relative = acceleration(table, source.relative, source),
@@ -74,7 +74,7 @@ VibrationRecord read_record(const VibrationTest& test, const RecordFile& source,
 }
 
 SampledChannel read_channel(const RecordFile& source) {
-  const SignalTable table = read_signals(source.file);
+  const SignalTable table = read_signals(source.file, source.marks);
   RawRecord raw{.time = times(table, source),
                 .base = acceleration(table, source.base, source),
                 .relative = {},
