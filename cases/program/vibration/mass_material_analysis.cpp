@@ -183,14 +183,16 @@ void analyse_mass_material(const MassMaterialProgram& program, Session& session)
   std::vector<VibrationRecord> records;
   for (const VibrationTest& test : c.tests) records.push_back(record_of(test, session.results, session.log));
   const std::vector<NamedModel> models = models_at_hand(c, session.results);
+  std::vector<RecordAnalysis> analyses;
+  for (const VibrationRecord& r : records) analyses.push_back(analysed(r, c.analysis));
   const FolderLock lock(session.results);
   const fs::path folder = session.results / analysis_folder;
-  remove_analysis(session.results);
+  remove_analysis(session.results);  // only now that there is something in its place
   make_folder(folder);
   for (std::size_t i = 0; i < records.size(); ++i) {
     const VibrationRecord& r = records[i];
     const auto file = [&](const char* what) { return folder / fmt::format("{}_{}.csv", r.name, what); };
-    const RecordAnalysis a = analysed(r, c.analysis);
+    const RecordAnalysis& a = analyses[i];
     AnalysedRecord summary = summary_of(c.tests[i], r, a);
     write_spectra(file("spectra"), r, a);
     write_spectrogram(file("spectrogram"), r, a.spectrogram,
