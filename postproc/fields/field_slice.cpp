@@ -4,12 +4,14 @@
 #include "physics/error.h"
 
 #include <fmt/format.h>
+#include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkCutter.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -39,6 +41,10 @@ void add_edges(Edges& edges, const vtkIdType* corners, vtkIdType n, double mater
 struct StoredFrame::Data {
   vtkNew<vtkXMLUnstructuredGridReader> reader;
   vtkUnstructuredGrid* grid() const { return reader->GetOutput(); }
+  vtkDataArray* of_cells(const std::string& field) const {
+    if (vtkDataArray* values = grid()->GetCellData()->GetArray(field.c_str())) return values;
+    throw InputError(fmt::format("the frame has no field \"{}\"", field));
+  }
 };
 
 StoredFrame::StoredFrame(const std::filesystem::path& file) : data_(std::make_unique<Data>()) {
@@ -66,8 +72,7 @@ Vector StoredFrame::upper() const {
 }
 
 FieldSlice StoredFrame::slice(const Vector& point, const Vector& normal, const std::string& field) const {
-  if (data_->grid()->GetCellData()->GetArray(field.c_str()) == nullptr)
-    throw InputError(fmt::format("the frame has no field \"{}\"", field));
+  data_->of_cells(field);
   const Vector origin = point + 1e-6 * (upper() - lower()).norm() * normal.normalized();
   vtkNew<vtkPlane> plane;
   plane->SetOrigin(origin.x(), origin.y(), origin.z());
@@ -99,6 +104,20 @@ FieldSlice StoredFrame::slice(const Vector& point, const Vector& normal, const s
   for (const auto& [ends, sides] : edges)
     if (sides.first != sides.second) slice.borders.push_back({point_of(cut, ends.first), point_of(cut, ends.second)});
   return slice;
+}
+
+std::vector<FieldSlice::Cell> StoredFrame::faces(const std::string& field) const {
+  vtkUnstructuredGrid* grid = data_->grid();
+  vtkDataArray* values = data_->of_cells(field);
+  std::vector<FieldSlice::Cell> faces;
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
+    vtkCell* cell = grid->GetCell(i);
+    if (cell->GetCellDimension() != 2) continue;
+    faces.push_back({.corners = {}, .value = values->GetTuple1(i)});
+    for (vtkIdType k = 0; k < cell->GetNumberOfPoints(); ++k)
+      faces.back().corners.push_back(Eigen::Map<const Eigen::Vector3d>(cell->GetPoints()->GetPoint(k)));
+  }
+  return faces;
 }
 
 }  // namespace pfdm

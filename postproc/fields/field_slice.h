@@ -1,5 +1,5 @@
 #pragma once
-// What a plane cuts out of a frame of a run (VTK).
+// What a plane cuts out of a frame of a run, and the faces of a frame of interfaces (VTK).
 
 #include "physics/tensor.h"
 
@@ -35,6 +35,8 @@ class StoredFrame {
   /// The scalar `field` of the cells on the plane through `point` [m] with the given normal. Where it runs along faces
   /// it is moved by a millionth of the body, to one side. Throws InputError if there is no such field.
   FieldSlice slice(const Vector& point, const Vector& normal, const std::string& field) const;
+  /// The polygons of a frame of interfaces, with their scalar `field`. Throws InputError if there is no such field.
+  std::vector<FieldSlice::Cell> faces(const std::string& field) const;
 
  private:
   struct Data;

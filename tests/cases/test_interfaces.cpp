@@ -1,5 +1,7 @@
 // Cohesive interfaces in case files: what they do, where they are written, and what is refused.
 
+#include "cases/program/fracture/fracture_pictures.h"
+#include "postproc/curves/curve_csv.h"
 #include "postproc/fields/pvd.h"
 #include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
@@ -85,6 +87,52 @@ TEST(Interfaces, OpenByTheirLawAndTellOfIt) {
   const std::string frame = content_of(directory.results() / frames.back().file);
   for (const char* field : {"opening", "separation", "traction", "damage", "interface"})
     EXPECT_NE(frame.find(fmt::format("Name=\"{}\"", field)), std::string::npos) << field;
+}
+
+std::vector<PageBlock> pictures_of(const TemporaryCase& directory) {
+  return interface_pictures(read_curve(directory.results() / "force_displacement.csv"), directory.results());
+}
+
+TEST(Interfaces, AreSeenAcrossTheirThinnestSide) {
+  const TemporaryCase directory(glued_blocks(linear_glue));
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const std::vector<PageBlock> pictures = pictures_of(directory);
+  ASSERT_EQ(pictures.size(), 2U);  // half way, and broken
+  for (const bool last : {false, true}) {
+    const auto& picture = std::get<Picture>(pictures[last ? 1 : 0]);
+    EXPECT_NE(picture.caption.find("seen along x"), std::string::npos) << picture.caption;
+    EXPECT_EQ(picture.x_title, "y [mm]");
+    EXPECT_EQ(picture.y_title, "z [mm]");
+    ASSERT_EQ(picture.cells.size(), 4U);
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const Picture::Cell& cell : picture.cells) {
+      ASSERT_EQ(cell.corners.size(), 4U);
+      for (const Eigen::Vector2d& corner : cell.corners) sum += corner / 16.0;
+      if (last)
+        EXPECT_EQ(cell.value, 1.0);
+      else
+        EXPECT_TRUE(cell.value > 0.0 && cell.value < 1.0) << cell.value;
+    }
+    EXPECT_NEAR((sum - Eigen::Vector2d(0.5, 0.5)).norm(), 0.0, 1e-6);
+  }
+}
+
+TEST(Interfaces, ThatAreStripsAreAChart) {
+  std::string text = glued_blocks(linear_glue);
+  for (const auto& [from, to] :
+       {std::pair{"y = [{ length = \"1 mm\", cells = 2 }]", "y = [{ length = \"1 mm\", cells = 5 }]"},
+        std::pair{"z = [{ length = \"1 mm\", cells = 2 }]", "z = [{ length = \"10 um\", cells = 1 }]"}})
+    text = replaced(text, from, to);
+  const TemporaryCase directory(text);
+  ASSERT_EQ(run({"run", directory.path().string(), "--max-steps", "5"}).status, 0);
+  const std::vector<PageBlock> pictures = pictures_of(directory);
+  ASSERT_EQ(pictures.size(), 1U);
+  const auto& chart = std::get<Chart>(pictures.front());
+  EXPECT_EQ(chart.x.title, "y [mm]");
+  const Series& last = chart.series.back();
+  ASSERT_EQ(last.x.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(last.x[i], 0.1 + 0.2 * static_cast<double>(i), 1e-6);
+  EXPECT_TRUE(std::ranges::all_of(last.y, [](double d) { return d > 0.0 && d < 1.0; }));
 }
 
 TEST(Interfaces, GoOnFromACheckpoint) {

@@ -273,6 +273,7 @@ ReportPage fracture_page(const FractureCase& fracture, const std::optional<Exper
   page.rows.push_back(
       {.blocks = {run_table(story), figures_table(story), material_table(fracture)}, .widths = {1.25, 0.9, 0.95}});
   std::vector<PageBlock> blocks = damage_pictures(fracture, story.curve, results);
+  for (PageBlock& picture : interface_pictures(story.curve, results)) blocks.push_back(std::move(picture));
   blocks.emplace_back(force_chart(story));
   blocks.emplace_back(energy_chart(story));
   if (has_law(story.records)) blocks.emplace_back(law_chart(story.records.front()));

@@ -104,6 +104,20 @@ PvdSeries series_of(const fs::path& file, std::string (*frame_of)(Index step), s
 
 bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
+// The frames that a .pvd lists.
+std::vector<StoredStep> steps_of(const fs::path& results, const char* list) {
+  if (!fs::exists(results / list)) return {};
+  std::vector<StoredStep> steps;
+  for (const Frame& frame : read_pvd(results / list)) {
+    const std::string name = fs::path(frame.file).stem().string();
+    const auto step = parse_int(std::string_view(name).substr(std::min(name.find('_') + 1, name.size())));
+    if (!step)
+      throw InputError(fmt::format("{}: \"{}\" is not a frame that pfdm wrote", (results / list).string(), name));
+    steps.push_back({*step, results / frame.file});
+  }
+  return steps;
+}
+
 }  // namespace
 
 void write_mesh(const fs::path& results, const Mesh& mesh) {
@@ -153,19 +167,9 @@ std::optional<RunSummary> find_summary(const fs::path& results) {
   return read_run_summary(results / summary_file);
 }
 
-std::vector<StoredStep> stored_steps(const fs::path& results) {
-  if (!fs::exists(results / frames_file)) return {};
-  std::vector<StoredStep> steps;
-  for (const Frame& frame : read_pvd(results / frames_file)) {
-    const std::string name = fs::path(frame.file).stem().string();
-    const auto step = parse_int(std::string_view(name).substr(std::min(name.find('_') + 1, name.size())));
-    if (!step)
-      throw InputError(
-          fmt::format("{}: \"{}\" is not a frame that pfdm wrote", (results / frames_file).string(), name));
-    steps.push_back({*step, results / frame.file});
-  }
-  return steps;
-}
+std::vector<StoredStep> stored_steps(const fs::path& results) { return steps_of(results, frames_file); }
+
+std::vector<StoredStep> stored_interfaces(const fs::path& results) { return steps_of(results, interfaces_file); }
 
 FractureResults::Files::Files(const fs::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
                               std::optional<Index> last_step)

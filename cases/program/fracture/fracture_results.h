@@ -50,6 +50,8 @@ struct StoredStep {
 };
 /// The frames, in the order of their steps; none if there is no list of them.
 std::vector<StoredStep> stored_steps(const std::filesystem::path& results);
+/// Those of the cohesive interfaces.
+std::vector<StoredStep> stored_interfaces(const std::filesystem::path& results);
 
 class FractureResults {
  public:
