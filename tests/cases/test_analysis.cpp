@@ -174,7 +174,7 @@ TEST_F(Analysis, ReadsRecordsWithTheMarksThatTheCaseNames) {
   directory.write("case.toml", replaced(named, "decimal = \",\"", "decimal = \".\""));
   const Outcome other = run({"analyse", directory.path().string()});
   EXPECT_EQ(other.status, 2);
-  EXPECT_THAT(other.err, HasSubstr("sweep.csv:3"));
+  EXPECT_THAT(other.err, HasSubstr("sweep.csv, line 3: \"0,000\""));
   directory.write("case.toml", replaced(named, "separator = \";\"", "separator = \",\""));
   const Outcome both = run({"analyse", directory.path().string()});
   EXPECT_EQ(both.status, 2);

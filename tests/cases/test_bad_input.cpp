@@ -353,7 +353,7 @@ TEST(BadInput, WrongUsage) {
 TEST(BadInput, UnknownCommand) {
   EXPECT_EQ(run({"rn", "case"}).err,
             "pfdm: unknown command \"rn\"; did you mean \"run\"? (available: run, check, mesh, cohesive, compare, fit, "
-            "sweep, report, init, list, help, completion, test)\n");
+            "sweep, analyse, report, init, list, help, completion, test)\n");
 }
 
 TEST(BadInput, JobThatTheKindOfCaseDoesNotHave) {
