@@ -4,6 +4,7 @@
 #include "physics/error.h"
 #include "solver/vibration/record_analysis.h"
 #include "solver/vibration/vibration_excitation.h"
+#include "tests/solver/congruential.h"
 
 #include <gtest/gtest.h>
 
@@ -15,16 +16,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-/// The numbers that the reference values were made from: a linear congruential generator.
-VectorXd congruential(Index n, std::uint64_t seed) {
-  VectorXd x(n);
-  for (Index i = 0; i < n; ++i) {
-    seed = (1103515245 * seed + 12345) % 2147483648;
-    x[i] = static_cast<double>(seed) / 2147483648.0 - 0.5;
-  }
-  return x;
-}
 
 VibrationRecord random_record() {
   VibrationRecord r{.name = "random", .rate = 100.0, .base = {}, .relative = {}, .band_low = 5.0, .band_high = 40.0};

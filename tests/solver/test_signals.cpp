@@ -3,6 +3,7 @@
 #include "solver/vibration/signals_fourier.h"
 #include "solver/vibration/signals_spectra.h"
 #include "solver/vibration/vibration_excitation.h"
+#include "tests/solver/congruential.h"
 
 #include <gtest/gtest.h>
 
@@ -16,16 +17,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 constexpr double pi = std::numbers::pi;
-
-/// The numbers that the reference values were made from: a linear congruential generator.
-VectorXd congruential(Index n, std::uint64_t seed) {
-  VectorXd x(n);
-  for (Index i = 0; i < n; ++i) {
-    seed = (1103515245 * seed + 12345) % 2147483648;
-    x[i] = static_cast<double>(seed) / 2147483648.0 - 0.5;
-  }
-  return x;
-}
 
 struct Pair {
   VectorXd x = congruential(1000, 1).array() + 0.3;
