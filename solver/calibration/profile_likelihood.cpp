@@ -37,7 +37,7 @@ class ProfileSide {
   /// The end in the parameter itself, and whether it is a bound.
   std::pair<double, bool> end() {
     below_ = {.reach = 0.0, .deviations = 0.0};
-    const double last = reach_of(sign_ > 0.0 ? parameter().upper : parameter().lower);
+    const double last = reach_of(bound());
     if (!(last > 0.0)) return {estimate(), true};
     double reach = std::min(linear_reach(), last);
     for (int i = 0; i < how_.most_points; ++i) {
