@@ -98,6 +98,15 @@ double excess_of_random(const Remainder& r, const VibrationRecord& record, const
   return std::sqrt(std::max(1.0 - left.squaredNorm() / all, 0.0) / by_chance);
 }
 
+/// Tones and bursts in what is compared. Of a test at one frequency a line is an error of the model.
+void look_for_traces(const Remainder& r, const VibrationRecord& record, double crop, RecordEvidence& evidence) {
+  const double low = 0.5 * record.band_low, high = std::min(3.0 * record.band_high, 0.38 * record.rate);
+  const double rate = r.condition.rate();
+  if (record.band_high > 1.1 * record.band_low) evidence.tone = tone_in(r.residual, rate, low, high);
+  evidence.burst = burst_in(r.residual, rate, low, high);
+  if (evidence.burst) evidence.burst->time += crop * record.duration();
+}
+
 }  // namespace
 
 RecordEvidence record_evidence(const MassMaterial& model, const VibrationRecord& record, double crop) {
@@ -117,6 +126,7 @@ RecordEvidence record_evidence(const MassMaterial& model, const VibrationRecord&
               .residual = condition((simulated - record.relative).eval())};
   evidence.misfit = r.residual.norm() / r.measured.norm();
   evidence.excess = driving.swept ? excess_of_sweep(r, record) : excess_of_random(r, record, simulated);
+  if (evidence.misfit > negligible_misfit) look_for_traces(r, record, crop, evidence);
   return evidence;
 }
 
@@ -141,6 +151,24 @@ std::vector<std::string> doubts_of(std::span<const RecordEvidence> evidence) {
       fmt::format("in {} of {} tests what the model leaves moves with the test, in {} {:.3g} of the response and "
                   "{:.3g} times the noise; the sample may have changed between them",
                   doubts.size(), evidence.size(), worst->name, worst->misfit, worst->excess)};
+}
+
+std::vector<std::string> traces_in(std::span<const RecordEvidence> evidence) {
+  std::vector<std::string> traces;
+  for (const RecordEvidence& e : evidence) {
+    if (e.tone)
+      traces.push_back(
+          fmt::format("test {}: {:.2g} of the power of what the model leaves is a tone at {:.4g} Hz: hum of the mains, "
+                      "or one above "
+                      "half the sampling rate (aliasing)",
+                      e.name, e.tone->part, e.tone->frequency));
+    if (e.burst)
+      traces.push_back(fmt::format(
+          "test {}: what the model leaves comes in bursts, {} of them, the largest at {:.4g} s with {:.3g} times the "
+          "power beside it: samples missing in both channels, a knock, a loose part",
+          e.name, e.burst->number, e.burst->time, e.burst->times));
+  }
+  return traces;
 }
 
 }  // namespace pfdm

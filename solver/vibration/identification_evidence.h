@@ -2,7 +2,9 @@
 // Whether what a model leaves of a record is noise: noise does not move with the test, an error of the model does.
 
 #include "solver/vibration/identification.h"
+#include "solver/vibration/identification_traces.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,11 +19,15 @@ struct RecordEvidence {
   /// the driving frequency and two harmonics. Otherwise: coherent with the base's acceleration and with the square and
   /// the cube of the displacement.
   double excess = 0.0;
+  std::optional<Tone> tone{};    ///< in the residual, if it is no negligible one
+  std::optional<Burst> burst{};  ///< likewise; its time is that of the record
 };
 RecordEvidence record_evidence(const MassMaterial& model, const VibrationRecord& record, double crop);
 
 /// Reasons against a model that was fitted to these records; none if all that is left is noise, or next to nothing.
-/// Noise that is a third of the response is not credible.
+/// Noise that is a third of the response is not credible. Tones and bursts are told by traces_in().
 std::vector<std::string> doubts_of(std::span<const RecordEvidence> evidence);
+/// What else than noise is left, of the records and not of the model.
+std::vector<std::string> traces_in(std::span<const RecordEvidence> evidence);
 
 }  // namespace pfdm

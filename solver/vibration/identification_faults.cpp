@@ -2,13 +2,18 @@
 
 #include "solver/linear/dense_algebra.h"
 #include "solver/vibration/identification_conditioning.h"
+#include "solver/vibration/identification_lost_samples.h"
 #include "solver/vibration/identification_responses.h"
+#include "solver/vibration/signals_fourier.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <functional>
 #include <limits>
+#include <numbers>
 
 namespace pfdm {
 namespace {
@@ -23,40 +28,81 @@ constexpr int windows = 20;
 struct Hypothesis {
   std::string fault;
   std::string undone;
-  VibrationRecord (*undo)(VibrationRecord record, int samples);
-  int samples = 0;
+  std::function<VibrationRecord(VibrationRecord)> undo;
 };
 
-VibrationRecord with_base_turned(VibrationRecord r, int) {
-  r.base = -r.base;
+/// The base later by so many samples, whole ones or not.
+VibrationRecord shifted(VibrationRecord r, double samples) {
+  const Index n = fast_length(r.n() + 64);
+  VectorXd padded = VectorXd::Zero(n);
+  padded.head(r.n()) = r.base;
+  Eigen::VectorXcd spectrum = fourier(padded);
+  for (Index k = 0; k < spectrum.size(); ++k)
+    spectrum[k] *= std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(k) * samples / static_cast<double>(n));
+  r.base = inverse_fourier(spectrum, n).head(r.n());
   return r;
 }
 
-VibrationRecord made_relative(VibrationRecord r, int) {
-  r.relative -= r.base;
+VibrationRecord scaled(VibrationRecord r, double factor) {
+  r.relative *= factor;
   return r;
 }
 
-/// The base later by so many samples.
-VibrationRecord shifted(VibrationRecord r, int samples) {
-  const Index n = r.n(), by = std::abs(samples);
-  VectorXd base = VectorXd::Zero(n);
-  if (samples > 0)
-    base.tail(n - by) = r.base.head(n - by);
-  else
-    base.head(n - by) = r.base.tail(n - by);
-  r.base = std::move(base);
-  return r;
+/// z'', z', z of the record, by integration within the excited band and a little beyond, and the base.
+struct Motion {
+  MatrixXd terms;
+  VectorXd base;
+};
+Motion motion_of(const VibrationRecord& record) {
+  const PassBand band{.low = 0.5 * record.band_low, .high = std::min(3.0 * record.band_high, 0.38 * record.rate)};
+  Motion motion{.terms = MatrixXd(record.n(), 3), .base = filtered(record.base, record.rate, band)};
+  for (int order = 0; order < 3; ++order)
+    motion.terms.col(order) = integrated(record.relative, record.rate, order, band);
+  return motion;
 }
 
-std::vector<Hypothesis> hypotheses() {
+/// Factor of the relative channel with which a linear sample meets the base best: in -y'' = s z'' + ... it is 1 where
+/// both have the same unit.
+double best_scale(const VibrationRecord& record) {
+  const Motion motion = motion_of(record);
+  return scaled_least_squares(motion.terms, -motion.base)[0];
+}
+
+Hypothesis of_scale(const VibrationRecord& record) {
+  const double factor = best_scale(record);
+  const auto is_about = [&](double unit) { return std::abs(factor / unit - 1.0) < 0.05; };
+  const auto in_unit = [](const char* channel, const char* unit, double by) -> Hypothesis {
+    return {fmt::format("the {} channel seems to be in another unit, {}", channel, unit), "converted",
+            [by](VibrationRecord r) { return scaled(std::move(r), by); }};
+  };
+  constexpr double g0 = 9.80665;
+  if (is_about(g0)) return in_unit("relative", "g0", g0);
+  if (is_about(1.0 / g0)) return in_unit("base", "g0", 1.0 / g0);
+  if (is_about(1e-3)) return in_unit("relative", "mm/s^2", 1e-3);
+  if (is_about(1e3)) return in_unit("base", "mm/s^2", 1e3);
+  return {fmt::format("the unit or the scale of one channel is wrong by a factor of {:.3g}", factor),
+          "the relative channel multiplied by it",
+          [factor](VibrationRecord r) { return scaled(std::move(r), factor); }};
+}
+
+std::vector<Hypothesis> hypotheses(const VibrationRecord& record) {
   std::vector<Hypothesis> all{
-      {"the sign of one channel is reversed", "turned", with_base_turned},
-      {"the relative channel holds the mass's own (absolute) acceleration", "the base's subtracted", made_relative}};
-  for (const int samples : {1, -1, 2, -2})
-    all.push_back({fmt::format("the {} channel is {} sample{} behind the other", samples > 0 ? "relative" : "base",
-                               std::abs(samples), std::abs(samples) > 1 ? "s" : ""),
-                   "moved", shifted, samples});
+      {"the sign of one channel is reversed", "turned", [](VibrationRecord r) { return scaled(std::move(r), -1.0); }},
+      {"the relative channel holds the mass's own (absolute) acceleration", "the base's subtracted",
+       [](VibrationRecord r) {
+         r.relative -= r.base;
+         return r;
+       }},
+      {"the channels are exchanged (swapped)", "put back", [](VibrationRecord r) {
+         r.base.swap(r.relative);
+         return r;
+       }}};
+  if (best_scale(record) > 0.0) all.push_back(of_scale(record));
+  for (const double size : {0.25, 0.5, 1.0, 1.5, 2.0})
+    for (const double samples : {size, -size})
+      all.push_back({fmt::format("the {} channel is {:g} sample{} behind the other",
+                                 samples > 0.0 ? "relative" : "base", size, size > 1.0 ? "s" : ""),
+                     "moved", [samples](VibrationRecord r) { return shifted(std::move(r), samples); }});
   return all;
 }
 
@@ -81,10 +127,7 @@ double output_misfit(const VibrationRecord& record, const ModelStructure& struct
 /// the mass does not rest on, all where nothing happens at all.
 std::vector<double> explained_by_motion(const VibrationRecord& record) {
   constexpr double least_level = 0.01;
-  const PassBand band{.low = 0.5 * record.band_low, .high = std::min(3.0 * record.band_high, 0.38 * record.rate)};
-  MatrixXd motion(record.n(), 3);
-  for (int order = 0; order < 3; ++order) motion.col(order) = integrated(record.relative, record.rate, order, band);
-  const VectorXd base = filtered(record.base, record.rate, band);
+  const auto [motion, base] = motion_of(record);
   const Index length = record.n() / windows;
   const double base_level = base.norm() / std::sqrt(windows), level = motion.col(0).norm() / std::sqrt(windows);
   std::vector<double> explained;
@@ -101,6 +144,27 @@ std::vector<double> explained_by_motion(const VibrationRecord& record) {
   return explained;
 }
 
+/// Whether undoing a fault leaves a third of the misfit at most.
+bool explains(double after, double misfit) {
+  return after < 1.0 && (!std::isfinite(misfit) || after < clearly_less * misfit);
+}
+
+/// The channels put in step where one of them has lost samples.
+std::optional<std::string> lost_samples_of(const VibrationRecord& record, double misfit,
+                                           const ModelStructure& structure, int order,
+                                           const IdentificationSettings& settings) {
+  const auto lost = lost_samples(record, structure.stiffness_order);
+  if (!lost) return std::nullopt;
+  const double after = output_misfit(lost->longer, structure, order, settings);
+  if (!explains(after, misfit)) return std::nullopt;
+  const int n = std::abs(lost->number);
+  const std::string what = lost->time == 0.0 ? fmt::format("the {} channel is {} samples behind the other",
+                                                           lost->number < 0 ? "relative" : "base", n)
+                                             : fmt::format("{} samples of the {} channel are missing at about {:.3g} s",
+                                                           n, lost->number > 0 ? "relative" : "base", lost->time);
+  return fmt::format("{}: put in step, the misfit of the longer part falls from {:.3g} to {:.3g}", what, misfit, after);
+}
+
 std::optional<std::string> fault_of(const VibrationRecord& record, double misfit, const ModelStructure& structure,
                                     const IdentificationSettings& settings) {
   if (const auto dead = dead_part(record))
@@ -109,15 +173,14 @@ std::optional<std::string> fault_of(const VibrationRecord& record, double misfit
   const double now = equation_misfit(record, structure, order, settings);
   double least = 0.8 * now;
   std::optional<Hypothesis> best;
-  for (const Hypothesis& h : hypotheses()) {
-    const double there = equation_misfit(h.undo(record, h.samples), structure, order, settings);
+  for (const Hypothesis& h : hypotheses(record)) {
+    const double there = equation_misfit(h.undo(record), structure, order, settings);
     if (!(there < least)) continue;
     least = there;
     best = h;
   }
-  if (!best) return std::nullopt;
-  const double after = output_misfit(best->undo(record, best->samples), structure, order, settings);
-  if (!(after < 1.0) || (std::isfinite(misfit) && !(after < clearly_less * misfit))) return std::nullopt;
+  const double after = best ? output_misfit(best->undo(record), structure, order, settings) : misfit;
+  if (!best || !explains(after, misfit)) return lost_samples_of(record, misfit, structure, order, settings);
   return fmt::format("{}: {}, the misfit falls from {:.3g} to {:.3g}", best->fault, best->undone, misfit, after);
 }
 

@@ -16,9 +16,10 @@ namespace pfdm {
 std::optional<std::pair<double, double>> dead_part(const VibrationRecord& record);
 
 /// Sentences that name the faults: the sign of one channel, the mass's own acceleration instead of that relative to the
-/// base, a skew of some samples between the channels, a dead part. `misfit`: of each record with the model as fitted,
-/// not finite where there is none; a fault is named if undoing it leaves a third of that at most. Of a kernel one term
-/// is looked at.
+/// base, channels that are exchanged, the unit or scale of one channel, a skew between the channels from a quarter of a
+/// sample to 50, samples that one channel has lost on the way, a dead part. `misfit`: of each record with the model as
+/// fitted, not finite where there is none; a fault is named if undoing it leaves a third of that at most. Of a kernel
+/// one term is looked at.
 std::vector<std::string> recognised_faults(std::span<const VibrationRecord> records, std::span<const double> misfit,
                                            const ModelStructure& structure, const IdentificationSettings& settings);
 

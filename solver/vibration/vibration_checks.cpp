@@ -1,6 +1,7 @@
 #include "solver/vibration/vibration_checks.h"
 
 #include "solver/vibration/signals_filter.h"
+#include "solver/vibration/signals_fourier.h"
 #include "solver/vibration/signals_spectra.h"
 
 #include <fmt/format.h>
@@ -17,11 +18,13 @@ using Faults = std::vector<RecordFault>;
 
 constexpr double least_periods = 20.0;  // of the lowest frequency, in a record
 
-double median(VectorXd values) {
-  const Index middle = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + middle, values.end());
-  return values[middle];
+double quantile(VectorXd values, double part) {
+  const auto at = static_cast<Index>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[at];
 }
+
+double median(const VectorXd& values) { return quantile(values, 0.5); }
 
 double rms(const VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
 
@@ -107,6 +110,50 @@ void check_clipped(const char* channel, const VectorXd& x, Faults& faults) {
   }
 }
 
+/// Smallest step between different samples; 0 of a constant.
+double smallest_step(const VectorXd& x) {
+  VectorXd sorted = x;
+  std::ranges::sort(sorted);
+  const double rounding = 1e-9 * (sorted[sorted.size() - 1] - sorted[0]);
+  double step = 0.0;
+  for (Index i = 1; i < sorted.size(); ++i) {
+    const double up = sorted[i] - sorted[i - 1];
+    if (up > rounding && (step == 0.0 || up < step)) step = up;
+  }
+  return step;
+}
+
+/// A converter with too few steps for this level, or numbers printed with too few digits.
+bool check_quantised(const char* channel, const VectorXd& x, Faults& faults) {
+  constexpr double coarse = 0.02;  // of the rms
+  const double step = smallest_step(x), level = rms((x.array() - x.mean()).matrix());
+  if (!(step > coarse * level)) return false;
+  faults.push_back(
+      {"quantised",
+       fmt::format("{} is quantised in steps of {:.3g} m/s^2, {:.2g} of its rms", channel, step, step / level), false});
+  return true;
+}
+
+/// Stretches that stay at one value amid the motion, of at least eight samples, and a thirtieth of a period.
+void check_dropouts(const char* channel, const VectorXd& x, double rate, double band_high, Faults& faults) {
+  const Index least = std::max<Index>(8, static_cast<Index>(std::ceil(rate / (30.0 * band_high))));
+  const double most = x.maxCoeff(), lowest = x.minCoeff();
+  Index stretches = 0, samples = 0, first = 0;
+  for (Index begin = 0, end = 0; begin < x.size(); begin = end) {
+    for (end = begin + 1; end < x.size() && x[end] == x[begin];) ++end;
+    const bool at_an_end = begin == 0 || end == x.size();
+    const bool is_extreme = x[begin] == most || x[begin] == lowest;
+    if (end - begin < least || at_an_end || is_extreme) continue;
+    if (stretches++ == 0) first = begin;
+    samples += end - begin;
+  }
+  if (stretches == 0) return;
+  faults.push_back({"dropouts",
+                    fmt::format("{} is constant over {} stretches, {:.3g} s in all, the first at {:.4g} s", channel,
+                                stretches, static_cast<double>(samples) / rate, static_cast<double>(first) / rate),
+                    false});
+}
+
 /// An offset is removed later; a drift is not an acceleration of the test.
 void check_drift(const char* channel, const VectorXd& x, double rate, double band_low, Faults& faults) {
   const PassBand slow{.low = 0.0, .high = 0.1 * band_low, .skirt = 0.5};
@@ -141,6 +188,38 @@ void check_band(const RawRecord& r, double rate, Faults& faults) {
                       false});
 }
 
+/// Below this frequency lies this part of the power [Hz].
+double power_quantile(const VectorXd& power, double bin, double part) {
+  const double all = power.sum();
+  double sum = 0.0;
+  for (Index k = 0; k < power.size(); ++k)
+    if ((sum += power[k]) >= part * all) return static_cast<double>(k) * bin;
+  return static_cast<double>(power.size() - 1) * bin;
+}
+
+/// Both ends of what is excited off by one factor: the time scale is wrong. Only of flat or swept excitation, whose
+/// power ends at the ends of the band.
+void check_time_scale(const RawRecord& r, double rate, Faults& faults) {
+  constexpr double outside = 0.005, noticeable = 0.04, alike = 0.05;
+  if (!(r.band_high > 1.5 * r.band_low)) return;
+  const VectorXd power = fourier((r.base.array() - r.base.mean()).matrix()).cwiseAbs2();
+  const double bin = rate / static_cast<double>(r.base.size()), width = r.band_high - r.band_low;
+  // Noise far beside the band has to count less than what ends there: three times the mean of its power, whose tenth
+  // lies below 0.105 of the mean.
+  const double floor = 3.0 / 0.105 * quantile(power, 0.1);
+  const VectorXd above = (power.array() - floor).cwiseMax(0.0);
+  const double low = power_quantile(above, bin, outside) / (r.band_low + outside * width);
+  const double high = power_quantile(above, bin, 1.0 - outside) / (r.band_high - outside * width);
+  const double factor = 0.5 * (low + high);
+  if (!(std::abs(factor - 1.0) > noticeable && std::abs(low - high) < alike * factor)) return;
+  faults.push_back(
+      {"rate_or_band",
+       fmt::format("the base is excited from {:.4g} to {:.4g} Hz and not from {:g} to {:g} Hz: the sampling "
+                   "rate may be {:.4g} Hz and not {:g} Hz",
+                   low * r.band_low, high * r.band_high, r.band_low, r.band_high, rate / factor, rate),
+       false});
+}
+
 bool any_refused(const Faults& faults) {
   return std::ranges::any_of(faults, [](const RecordFault& f) { return f.refused; });
 }
@@ -171,10 +250,12 @@ std::vector<RecordFault> check_record(const RawRecord& r) {
   if (any_refused(faults)) return faults;
   for (const auto& [name, x] : channels) {
     check_clipped(name, *x, faults);
+    if (!check_quantised(name, *x, faults)) check_dropouts(name, *x, rate, r.band_high, faults);
     check_drift(name, *x, rate, r.band_low, faults);
     check_spikes(name, *x, faults);
   }
   check_band(r, rate, faults);
+  check_time_scale(r, rate, faults);
   return faults;
 }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 
 namespace pfdm {
@@ -158,6 +159,48 @@ TEST(MassMaterialProgram, FindsItsOwnParametersAgain) {
   EXPECT_NEAR(modulus["frequency_Hz"].get<double>(), 10.0, 1e-6);
   EXPECT_NEAR(modulus["storage_modulus_Pa"].get<double>(), 54e3 * 0.0762 / 45.6e-4, 1e3);
   EXPECT_NEAR(modulus["loss_modulus_Pa"].get<double>(), 62.8319 * 40 * 0.0762 / 45.6e-4, 50.0);
+}
+
+// The record is of model 2: model 1 lacks its nonlinear stiffness, model 3 has a damping exponent too many.
+TEST(MassMaterialProgram, ComparesSeveralModels) {
+  const TemporaryCase directory(soft_case() + "models = [\"1\", \"2\", \"3\"]\n");
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json all = parsed(directory.results() / "fit_models.json");
+  EXPECT_EQ(all["chosen"], "2");
+  ASSERT_EQ(all["models"].size(), 3u);
+  const json &linear = all["models"][0], &right = all["models"][1], &richer = all["models"][2];
+  EXPECT_EQ(linear["verdict"], "questionable");
+  EXPECT_TRUE(linear["parameters"][0]["lower"].is_null());
+  EXPECT_EQ(right["verdict"], "sound") << right["reasons"];
+  EXPECT_GT(linear["relative_misfit"].get<double>(), 10.0 * right["relative_misfit"].get<double>());
+  EXPECT_GT(linear["bic"].get<double>(), right["bic"].get<double>());
+  EXPECT_GT(richer["bic"].get<double>(), right["bic"].get<double>());
+  EXPECT_LT(right["predicted_relative_misfit"].get<double>(), 1e-3);
+  const json fit = parsed(directory.results() / "fit.json");
+  EXPECT_EQ(fit["mass_material"]["structure"], "2");
+  EXPECT_EQ(fit["parameters"][0]["estimate"], right["parameters"][0]["estimate"]);
+  for (const char* name : {"1", "2", "3"})
+    EXPECT_TRUE(fs::exists(directory.results() / fmt::format("case.fitted_{}.toml", name)));
+  ASSERT_EQ(run({"report", directory.path().string()}).status, 0);
+  // A fit of one model leaves no table of another one.
+  const std::string text = content_of(directory.path() / "case.toml");
+  directory.write("case.toml", text.substr(0, text.find("models =")));
+  ASSERT_EQ(run({"fit", directory.path().string()}).status, 0);
+  EXPECT_FALSE(fs::exists(directory.results() / "fit_models.json"));
+  EXPECT_FALSE(fs::exists(directory.results() / "case.fitted_3.toml"));
+}
+
+TEST(BadMassMaterial, ListsOfModels) {
+  for (const auto& [keys, message] :
+       {std::pair("models = []", "the list of models is empty"), std::pair("models = [\"1\", \"1\"]", "listed twice"),
+        std::pair("structure = \"1\"\nmodels = [\"2\"]", "give one of them")}) {
+    const TemporaryCase directory(soft_case() + keys + "\n");
+    const Outcome outcome = run({"check", directory.path().string()});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+  }
 }
 
 TEST(MassMaterialProgram, SaysThatTheSignOfAChannelIsReversed) {
@@ -368,6 +411,37 @@ TEST(MassMaterialProgram, FitsARecordFromAFile) {
   const Outcome refused = run({"fit", directory.path().string()});
   EXPECT_EQ(refused.status, 2);
   EXPECT_NE(refused.err.find("a.csv: gap: 0.1 s are missing"), std::string::npos) << refused.err;
+}
+
+// The same record, with the mass's own acceleration x'' = y'' + z'' in the place of z''.
+TEST(MassMaterialProgram, FitsARecordOfTheAbsoluteAcceleration) {
+  const TemporaryCase directory(soft_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  std::istringstream lines(content_of(directory.results() / "up.csv"));
+  std::string absolute;
+  for (std::string line; std::getline(lines, line);) {
+    double time = 0.0, base = 0.0, relative = 0.0;
+    absolute += std::sscanf(line.c_str(), "%lf,%lf,%lf", &time, &base, &relative) == 3
+                    ? fmt::format("{},{},{}\n", time, base, base + relative)
+                    : line + "\n";
+  }
+  directory.write("absolute.csv", absolute);
+  const auto fitted = [&](const char* key) {
+    directory.write(
+        "case.toml",
+        replaced(soft_case(),
+                 "excitation = { type = \"swept_sine\", level = \"2 g0\", from = \"10 Hz\", to = \"70 Hz\", "
+                 "duration = \"6 s\" }",
+                 fmt::format("record = {{ file = \"absolute.csv\", from = \"10 Hz\", to = \"70 Hz\"{} }}", key)));
+    EXPECT_EQ(run({"fit", directory.path().string()}).status, 0);
+    return parsed(directory.results() / "fit.json");
+  };
+  const json right = fitted(", acceleration = \"absolute\"");
+  EXPECT_EQ(right["verdict"], "sound") << right["reasons"];
+  EXPECT_NEAR(right["parameters"][5]["estimate"].get<double>(), 40.0, 0.02);
+  const json wrong = fitted("");
+  EXPECT_EQ(wrong["verdict"], "questionable");
+  EXPECT_NE(wrong["reasons"][0].get<std::string>().find("(absolute) acceleration"), std::string::npos);
 }
 
 TEST(MassMaterialProgram, ShakesWithAMeasuredBase) {

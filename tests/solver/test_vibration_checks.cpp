@@ -49,6 +49,15 @@ TEST(VibrationChecks, FindNothingWrongWithAGoodRecord) {
   EXPECT_EQ(sampling_rate(without_time), 1000.0);
 }
 
+// One row and the next are a tenth apart in both ends of the band, or in one: only the first is a matter of the rate.
+TEST(VibrationChecks, TellARateFromABand) {
+  RawRecord r = good_record();
+  r.band_low *= 1.1, r.band_high *= 1.1;
+  EXPECT_EQ(names(r), std::vector<std::string>{"rate_or_band"});
+  r.band_low = good_record().band_low;
+  EXPECT_TRUE(names(r).empty());
+}
+
 struct Spoilt {
   const char* fault;
   bool refused;
@@ -91,6 +100,16 @@ const Spoilt spoilt[] = {
     {"sampled_too_slowly", true, [](RawRecord& r) { r.band_high = 450.0; }},
     {"dead_channel", true, [](RawRecord& r) { r.base.setConstant(0.3); }},
     {"clipped", false, [](RawRecord& r) { r.relative = r.relative.cwiseMin(40.0).eval(); }},
+    {"quantised", false, [](RawRecord& r) { r.relative = (r.relative.array() / 2.0).round().matrix() * 2.0; }},
+    {"dropouts", false,
+     [](RawRecord& r) {
+       for (const Index at : {2000, 4100, 6500}) r.relative.segment(at, 30).setConstant(r.relative[at]);
+     }},
+    {"rate_or_band", false,
+     [](RawRecord& r) {
+       r.time.reset();
+       r.rate = 900.0;
+     }},
     {"drift", false,
      [](RawRecord& r) {
        for (Index i = 0; i < r.base.size(); ++i)

@@ -126,6 +126,9 @@ RecordFile read_record_file(const ConfigTable& table, const fs::path& directory,
   record.base = table.string("base", record.base);
   record.relative = table.string("relative", record.relative);
   record.time = table.string("time", record.time);
+  const std::string accelerations[] = {"relative", "absolute"};
+  if (const auto kind = table.find("acceleration"))
+    record.absolute = kind->one_of(accelerations, "acceleration of the mass") == "absolute";
   if (table.has("unit")) record.unit = table.string("unit");
   if (table.has("rate")) record.rate = table.quantity("rate", dimension::frequency, range::positive);
   record.marks = read_csv_marks(table);
@@ -183,7 +186,7 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
   }
   if (table.has("record")) {
     const ConfigTable record = table.table("record").with_keys(
-        {"file", "base", "relative", "time", "unit", "rate", "separator", "decimal", "from", "to"});
+        {"file", "base", "relative", "acceleration", "time", "unit", "rate", "separator", "decimal", "from", "to"});
     test.record = read_record_file(record, directory, c.data_files);
     test.band_low = record.quantity("from", dimension::frequency, range::positive, test.band_low);
     test.band_high = record.quantity("to", dimension::frequency, range::positive, test.band_high);
@@ -216,17 +219,32 @@ void read_tests(const ConfigTable& root, const fs::path& directory, MassMaterial
   if (c.tests.empty()) throw root.error("there is no test; at least one [[test]] is required");
 }
 
+/// models = ["1", "2", "4b"]
+void read_models(const ConfigTable& table, MassMaterialFit& fit) {
+  const auto models = table.find("models");
+  if (!models) return;
+  if (table.has("structure"))
+    throw models->error("\"structure\" names one model, \"models\" several: give one of them");
+  for (const ConfigValue& entry : models->list()) {
+    const std::string name(choose(entry, model_structures(), "mass-material model").name);
+    if (std::ranges::count(fit.models, name) > 0) throw entry.error(fmt::format("model \"{}\" is listed twice", name));
+    fit.models.push_back(name);
+  }
+  if (fit.models.empty()) throw models->error("the list of models is empty");
+}
+
 void read_fit(const ConfigTable& root, MassMaterialCase& c) {
   c.fit.structure = c.structure;
   if (!root.has("fit")) return;
   const ConfigTable table =
-      root.table("fit").with_keys({"method", "structure", "kernel_order", "maximum_kernel_order", "crop", "replicates",
-                                   "confidence", "seed", "repeatability", "ogden_terms"});
+      root.table("fit").with_keys({"method", "structure", "models", "kernel_order", "maximum_kernel_order", "crop",
+                                   "replicates", "confidence", "seed", "repeatability", "ogden_terms"});
   MassMaterialFit& fit = c.fit;
   if (const auto method = table.find("method"))
     fit.method = choose(*method, fit_methods(), "method of identification").name;
   if (const auto structure = table.find("structure"))
     fit.structure = choose(*structure, model_structures(), "mass-material model").name;
+  read_models(table, fit);
   if (const auto order = table.find("kernel_order"); order && !(order->is_string() && order->string() == "auto"))
     fit.kernel_order = static_cast<int>(order->integer(
         fit.method == "ten_step" ? Range{1.0, 20.0, false, "\"auto\" or between 1 and 20"}

@@ -25,6 +25,7 @@ struct RecordFile {
   std::string base = "base_acceleration";
   std::string relative = "relative_acceleration";
   std::string time = "time";
+  bool absolute = false;            ///< `relative` holds the mass's own acceleration
   std::optional<std::string> unit;  ///< of both channels, where the file does not say
   std::optional<double> rate;       ///< [Hz]
   CsvMarks marks{};                 ///< of a CSV file
@@ -50,6 +51,7 @@ struct SampleSize {
 struct MassMaterialFit {
   std::string method = "output_error";
   std::string structure;
+  std::vector<std::string> models;  ///< structures to be fitted one after the other; none: `structure` alone
   std::optional<int> kernel_order;
   int maximum_kernel_order = 4;
   double crop = 0.05;

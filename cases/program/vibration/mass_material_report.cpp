@@ -2,6 +2,7 @@
 
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
+#include "cases/program/vibration/mass_material_models.h"
 #include "cases/program/vibration/vibration_charts.h"
 #include "postproc/curves/fit_json.h"
 #include "solver/vibration/identification.h"
@@ -289,6 +290,8 @@ ReportPage mass_material_page(const MassMaterialProgram& program, Session& sessi
   if (findings != nullptr && !findings->modulus.empty()) last.blocks.emplace_back(modulus_chart(findings->modulus));
   page.rows.push_back(std::move(last));
   if (findings != nullptr && findings->repeats) add_repeats(page, *findings->repeats);
+  if (const auto models = find_of_case(session.results / models_file, program.hash, read_model_comparison))
+    add_models(page, *models, record, segments, session.results);
   for (const char* log : {"run.log", "fit.log"})
     for (PageRow& row : warnings_row(session.results / log)) page.rows.push_back(std::move(row));
   return page;

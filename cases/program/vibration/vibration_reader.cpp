@@ -58,18 +58,22 @@ VibrationRecord read_record(const VibrationTest& test, const RecordFile& source,
                 .rate = source.rate,
                 .band_low = test.band_low,
                 .band_high = test.band_high};
+  std::vector<std::string> faults;
   for (const RecordFault& fault : check_record(raw)) {
     const std::string message = fmt::format("{}: {}: {}", source.file.string(), fault.name, fault.message);
     if (fault.refused) throw InputError(message);
     log.warn(message);
+    faults.push_back(fmt::format("{}: {}", fault.name, fault.message));
   }
+  if (source.absolute) raw.relative -= raw.base;
   VibrationRecord record{.name = test.name,
                          .rate = sampling_rate(raw),
                          .base = raw.base.array() - raw.base.mean(),
                          .relative = raw.relative.array() - raw.relative.mean(),
                          .band_low = test.band_low,
                          .band_high = test.band_high,
-                         .remark = table.remark};
+                         .remark = table.remark,
+                         .faults = std::move(faults)};
   return record;
 }
 
