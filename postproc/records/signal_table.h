@@ -31,8 +31,10 @@ SignalTable read_signals_csv(const std::filesystem::path& path, const CsvMarks& 
 /// Written whole or not at all, numbers with the fewest digits that give the same value back.
 void write_signals_csv(const std::filesystem::path& path, const SignalTable& table);
 
-/// Every real numeric vector of a .mat file (versions 4, 5, 7; 7.3 where the library was built with HDF5). A text
-/// variable NAME_unit gives the unit of NAME. The only reader that knows matio.
+/// Every real numeric vector of a .mat file (versions 4, 5, 7; 7.3 where the library was built with HDF5), as MATLAB
+/// names it: x, the columns of a matrix x(:,1) ... (rows x(1,:) ... where it is wider than long), fields of structures
+/// rec.x, rec(2).x, rec.x(:,1). A text NAME_unit, or rec.NAME_unit, gives the unit of NAME and of all its columns. The
+/// only reader that knows matio.
 SignalTable read_signals_mat(const std::filesystem::path& path);
 
 /// The functions of type 1 (time response) in the datasets 58 and 58b of a universal file, all over the same times: a

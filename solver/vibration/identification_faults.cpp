@@ -48,13 +48,12 @@ VibrationRecord scaled(VibrationRecord r, double factor) {
   return r;
 }
 
-/// z'', z', z of the record, by integration within the excited band and a little beyond, and the base.
+/// z'', z', z of the record, by integration within the band, and the base.
 struct Motion {
   MatrixXd terms;
   VectorXd base;
 };
-Motion motion_of(const VibrationRecord& record) {
-  const PassBand band{.low = 0.5 * record.band_low, .high = std::min(3.0 * record.band_high, 0.38 * record.rate)};
+Motion motion_of(const VibrationRecord& record, const PassBand& band) {
   Motion motion{.terms = MatrixXd(record.n(), 3), .base = filtered(record.base, record.rate, band)};
   for (int order = 0; order < 3; ++order)
     motion.terms.col(order) = integrated(record.relative, record.rate, order, band);
@@ -62,9 +61,11 @@ Motion motion_of(const VibrationRecord& record) {
 }
 
 /// Factor of the relative channel with which a linear sample meets the base best: in -y'' = s z'' + ... it is 1 where
-/// both have the same unit.
+/// both have the same unit. In the upper half of the band: low frequencies of z'' that are integrated twice are mostly
+/// noise.
 double best_scale(const VibrationRecord& record) {
-  const Motion motion = motion_of(record);
+  const Motion motion = motion_of(record, {.low = std::sqrt(record.band_low * record.band_high),
+                                           .high = std::min(1.2 * record.band_high, 0.38 * record.rate)});
   return scaled_least_squares(motion.terms, -motion.base)[0];
 }
 
@@ -127,7 +128,8 @@ double output_misfit(const VibrationRecord& record, const ModelStructure& struct
 /// the mass does not rest on, all where nothing happens at all.
 std::vector<double> explained_by_motion(const VibrationRecord& record) {
   constexpr double least_level = 0.01;
-  const auto [motion, base] = motion_of(record);
+  const auto [motion, base] =
+      motion_of(record, {.low = 0.5 * record.band_low, .high = std::min(3.0 * record.band_high, 0.38 * record.rate)});
   const Index length = record.n() / windows;
   const double base_level = base.norm() / std::sqrt(windows), level = motion.col(0).norm() / std::sqrt(windows);
   std::vector<double> explained;

@@ -16,9 +16,10 @@ using Eigen::VectorXd;
 
 constexpr Index windows = 40;
 constexpr int most = 50;  // samples
-constexpr double clearly_less = 1.0 / 3.0;
+// The slow offset of a sample with a quadratic stiffness is lost in integration: a third of the base can stay.
+constexpr double less = 0.7;
 
-/// z'', z', z ... z^N in the compared band, columns of norm one.
+/// z'', z', z ... z^N within the band, columns of norm one.
 MatrixXd terms_of_motion(const VibrationRecord& r, const PassBand& band, int stiffness_order) {
   MatrixXd A(r.n(), 2 + stiffness_order);
   A.col(0) = integrated(r.relative, r.rate, 0, band);
@@ -67,7 +68,8 @@ VibrationRecord part_of(const VibrationRecord& r, Index from, int shift) {
 
 std::optional<LostSamples> lost_samples(const VibrationRecord& r, int stiffness_order) {
   if (r.n() < windows * 4 * most) return std::nullopt;
-  const PassBand band{.low = 0.8 * r.band_low, .high = std::min(1.2 * r.band_high, 0.38 * r.rate)};
+  // The upper half of the band: low frequencies of z'' that are integrated twice are mostly noise.
+  const PassBand band{.low = std::sqrt(r.band_low * r.band_high), .high = std::min(1.2 * r.band_high, 0.38 * r.rate)};
   const VectorXd base = filtered(r.base, r.rate, band);
   const MatrixXd A = terms_of_motion(r, band, stiffness_order);
   MatrixXd normal = A.transpose() * A;
@@ -76,7 +78,7 @@ std::optional<LostSamples> lost_samples(const VibrationRecord& r, int stiffness_
   const auto left = [&](const VectorXd& b) { return std::max(all - b.dot(solve_symmetric(normal, b)), 0.0); };
   const MatrixXd as_recorded = products(A, base, 0);
   const double before = left(as_recorded.rowwise().sum());
-  double least = clearly_less * clearly_less * before;
+  double least = less * less * before;
   std::optional<LostSamples> found;
   for (int shift = -most; shift <= most; ++shift) {
     if (shift == 0) continue;

@@ -15,7 +15,8 @@ struct LostSamples {
 };
 
 /// By the equation of motion of a mass on k_1 z ... k_N z^N and a damper, with the base shifted by up to 50 samples
-/// from one of 40 times on. None if no shift leaves a third of what is left as recorded.
+/// from one of 40 times on. None if no shift leaves less than 0.7 of what is left as recorded; whether the model meets
+/// the part then is for the caller to see.
 std::optional<LostSamples> lost_samples(const VibrationRecord& record, int stiffness_order);
 
 }  // namespace pfdm

@@ -89,7 +89,7 @@ std::optional<Burst> burst_in(const VectorXd& x, double rate, double low, double
   VectorXd power(n);
   for (Index w = 0; w < n; ++w) power[w] = white.segment(w * length, length).squaredNorm();
   Burst burst;
-  for (Index w = 0; w < n; ++w) {
+  for (Index w = 1; w + 1 < n; ++w) {  // whitening takes the ends for neighbours
     const Index begin = std::clamp<Index>(w - around, 0, n - 2 * around), size = 2 * around;
     const auto beside = power.segment(begin, size);
     const double times = power[w] / median({beside.begin(), beside.end()});

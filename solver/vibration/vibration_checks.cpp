@@ -197,26 +197,41 @@ double power_quantile(const VectorXd& power, double bin, double part) {
   return static_cast<double>(power.size() - 1) * bin;
 }
 
-/// Both ends of what is excited off by one factor: the time scale is wrong. Only of flat or swept excitation, whose
-/// power ends at the ends of the band.
-void check_time_scale(const RawRecord& r, double rate, Faults& faults) {
-  constexpr double outside = 0.005, noticeable = 0.04, alike = 0.05;
-  if (!(r.band_high > 1.5 * r.band_low)) return;
+/// Where the base's power lies, over where it would by the stated band: near the lower end and near the upper one.
+struct BandRatios {
+  double low = 1.0, high = 1.0;
+  double factor() const { return 0.5 * (low + high); }
+  double apart() const { return std::abs(low - high) / factor(); }
+};
+
+BandRatios band_ratios(const RawRecord& r, double rate, bool logarithmic) {
+  constexpr double part = 0.05;
   const VectorXd power = fourier((r.base.array() - r.base.mean()).matrix()).cwiseAbs2();
-  const double bin = rate / static_cast<double>(r.base.size()), width = r.band_high - r.band_low;
   // Noise far beside the band has to count less than what ends there: three times the mean of its power, whose tenth
   // lies below 0.105 of the mean.
-  const double floor = 3.0 / 0.105 * quantile(power, 0.1);
+  const double floor = 3.0 / 0.105 * quantile(power, 0.1), bin = rate / static_cast<double>(r.base.size());
   const VectorXd above = (power.array() - floor).cwiseMax(0.0);
-  const double low = power_quantile(above, bin, outside) / (r.band_low + outside * width);
-  const double high = power_quantile(above, bin, 1.0 - outside) / (r.band_high - outside * width);
-  const double factor = 0.5 * (low + high);
-  if (!(std::abs(factor - 1.0) > noticeable && std::abs(low - high) < alike * factor)) return;
+  const auto expected = [&](double q) {
+    return logarithmic ? r.band_low * std::pow(r.band_high / r.band_low, q)
+                       : r.band_low + q * (r.band_high - r.band_low);
+  };
+  return {.low = power_quantile(above, bin, part) / expected(part),
+          .high = power_quantile(above, bin, 1.0 - part) / expected(1.0 - part)};
+}
+
+/// Both ends of what is excited off by one factor: the time scale is wrong. Of a flat spectrum, or one of a sweep.
+void check_time_scale(const RawRecord& r, double rate, Faults& faults) {
+  constexpr double noticeable = 0.04, alike = 0.05;
+  if (!(r.band_high > 1.5 * r.band_low)) return;
+  const BandRatios linear = band_ratios(r, rate, false), logarithmic = band_ratios(r, rate, true);
+  const BandRatios& ratios = linear.apart() <= logarithmic.apart() ? linear : logarithmic;
+  const double factor = ratios.factor();
+  if (!(std::abs(factor - 1.0) > noticeable && ratios.apart() < alike)) return;
   faults.push_back(
       {"rate_or_band",
-       fmt::format("the base is excited from {:.4g} to {:.4g} Hz and not from {:g} to {:g} Hz: the sampling "
-                   "rate may be {:.4g} Hz and not {:g} Hz",
-                   low * r.band_low, high * r.band_high, r.band_low, r.band_high, rate / factor, rate),
+       fmt::format("the base is excited from {:.3g} to {:.3g} Hz and not from {:g} to {:g} Hz: the sampling "
+                   "rate may be {:.3g} Hz and not {:g} Hz",
+                   factor * r.band_low, factor * r.band_high, r.band_low, r.band_high, rate / factor, rate),
        false});
 }
 
@@ -249,8 +264,10 @@ std::vector<RecordFault> check_record(const RawRecord& r) {
   check_extent(r, rate, faults);
   if (any_refused(faults)) return faults;
   for (const auto& [name, x] : channels) {
-    check_clipped(name, *x, faults);
-    if (!check_quantised(name, *x, faults)) check_dropouts(name, *x, rate, r.band_high, faults);
+    if (!check_quantised(name, *x, faults)) {
+      check_clipped(name, *x, faults);
+      check_dropouts(name, *x, rate, r.band_high, faults);
+    }
     check_drift(name, *x, rate, r.band_low, faults);
     check_spikes(name, *x, faults);
   }

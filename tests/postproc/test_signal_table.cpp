@@ -98,5 +98,48 @@ TEST(SignalTable, ReadsMatlabFiles) {
   EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "bad.mat"); }), HasSubstr("bad.mat"));
 }
 
+/// Column-major; not written anywhere yet.
+matvar_t* matrix(const char* name, std::size_t rows, std::size_t columns, std::vector<double> values) {
+  std::size_t dims[] = {rows, columns};
+  return Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, values.data(), 0);
+}
+
+/// rec(1), rec(2) with the fields base, a matrix of two columns, and its unit; and a matrix that is wider than long.
+void write_structures(const std::filesystem::path& path) {
+  const std::unique_ptr<mat_t, decltype(&Mat_Close)> file(Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5),
+                                                          &Mat_Close);
+  const char* fields[] = {"base", "base_unit"};
+  std::size_t two[] = {2, 1};
+  const std::unique_ptr<matvar_t, decltype(&Mat_VarFree)> rec(Mat_VarCreateStruct("rec", 2, two, fields, 2),
+                                                              &Mat_VarFree);
+  std::string unit = "m/s^2";
+  std::size_t dims[] = {1, unit.size()};
+  for (const int i : {0, 1}) {
+    Mat_VarSetStructFieldByName(rec.get(), "base", static_cast<std::size_t>(i),
+                                matrix("base", 3, 2, {1.0 + i, 2.0 + i, 3.0 + i, 4.0 + i, 5.0 + i, 6.0 + i}));
+    Mat_VarSetStructFieldByName(rec.get(), "base_unit", static_cast<std::size_t>(i),
+                                Mat_VarCreate("base_unit", MAT_C_CHAR, MAT_T_UTF8, 2, dims, unit.data(), 0));
+  }
+  Mat_VarWrite(file.get(), rec.get(), MAT_COMPRESSION_NONE);
+  const std::unique_ptr<matvar_t, decltype(&Mat_VarFree)> wide(matrix("wide", 2, 3, {1.0, 4.0, 2.0, 5.0, 3.0, 6.0}),
+                                                               &Mat_VarFree);
+  Mat_VarWrite(file.get(), wide.get(), MAT_COMPRESSION_NONE);
+}
+
+TEST(SignalTable, ReadsMatricesAndStructuresOfMatlabFiles) {
+  const TemporaryFolder folder;
+  write_structures(folder / "s.mat");
+  const SignalTable table = read_signals(folder / "s.mat");
+  std::vector<std::string> names;
+  for (const SignalColumn& column : table.columns) names.push_back(column.name);
+  EXPECT_THAT(names, ElementsAre("rec(1).base(:,1)", "rec(1).base(:,2)", "rec(2).base(:,1)", "rec(2).base(:,2)",
+                                 "wide(1,:)", "wide(2,:)"));
+  EXPECT_EQ(table.columns[1].values, Eigen::Vector3d(4.0, 5.0, 6.0));
+  EXPECT_EQ(table.columns[2].values, Eigen::Vector3d(2.0, 3.0, 4.0));
+  EXPECT_EQ(table.columns[2].unit, "m/s^2");
+  EXPECT_EQ(table.columns[5].values, Eigen::Vector3d(4.0, 5.0, 6.0));
+  EXPECT_EQ(table.columns[5].unit, "");
+}
+
 }  // namespace
 }  // namespace pfdm::test
