@@ -132,8 +132,8 @@ TEST(SignalTable, ReadsMatricesAndStructuresOfMatlabFiles) {
   const SignalTable table = read_signals(folder / "s.mat");
   std::vector<std::string> names;
   for (const SignalColumn& column : table.columns) names.push_back(column.name);
-  EXPECT_THAT(names, ElementsAre("rec(1).base(:,1)", "rec(1).base(:,2)", "rec(2).base(:,1)", "rec(2).base(:,2)",
-                                 "wide(1,:)", "wide(2,:)"));
+  EXPECT_THAT(names, testing::ElementsAre("rec(1).base(:,1)", "rec(1).base(:,2)", "rec(2).base(:,1)",
+                                          "rec(2).base(:,2)", "wide(1,:)", "wide(2,:)"));
   EXPECT_EQ(table.columns[1].values, Eigen::Vector3d(4.0, 5.0, 6.0));
   EXPECT_EQ(table.columns[2].values, Eigen::Vector3d(2.0, 3.0, 4.0));
   EXPECT_EQ(table.columns[2].unit, "m/s^2");

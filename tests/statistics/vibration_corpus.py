@@ -332,7 +332,7 @@ def right_records(number):
 
 # ---- Cases and fits
 
-def write_case(folder, structure, swept, pairs, keys=(), rate=None, kernel_order=None):
+def write_case(folder, structure, swept, pairs, rate=None, kernel_order=None, replicates=50):
     folder.mkdir(parents=True, exist_ok=True)
     base = Sweep if swept else Random
     text = f'kind = "mass_material"\ntitle = "corpus (synthetic)"\n[model]\nstructure = "{structure}"\n'
@@ -343,7 +343,7 @@ def write_case(folder, structure, swept, pairs, keys=(), rate=None, kernel_order
                    header="# synthetic: simulated, not measured\nbase_acceleration,relative_acceleration\nm/s^2,m/s^2")
         text += f'[[test]]\nname = "test_{i + 1}"\nrecord = {{ file = "record_{i + 1}.csv", '
         text += f'rate = "{rate or RATE} Hz", from = "{base.low} Hz", to = "{base.high} Hz" }}\n'
-    text += '[fit]\nreplicates = 50\n'
+    text += f"[fit]\nreplicates = {replicates}\n"
     if kernel_order is not None:
         text += f"kernel_order = {kernel_order}\n"
     (folder / "case.toml").write_text(text, encoding="utf-8")
