@@ -2,6 +2,7 @@
 
 #include "physics/angle.h"
 #include "physics/error.h"
+#include "postproc/exports/law_parts.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,11 +15,8 @@
 namespace pfdm {
 namespace {
 
-constexpr double rise_share = 0.01;      // of the final separation, that the rule for K gives to the rise
-constexpr double least_traction = 0.02;  // part of the strength below which a secant is rounding
 constexpr double loops =
     0.01;  // part of the work that unloading and reloading may leave between the record and its envelope
-constexpr double least_drop = 1e-3;  // part of the separation within which a cut law falls to zero
 
 /// The part of a law that was seen in a row: its states of growing separation, up to where they end or leave a gap.
 struct Known {
@@ -121,16 +119,6 @@ Candidate choose(const CohesiveReport& report, const ExportChoice& choice) {
   return *std::ranges::min_element(candidates, goes_before);
 }
 
-/// Of the straight beginning [m/Pa]; zero for a rigid rise.
-double own_compliance(const Known& known, double strength) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto [separation, traction] : known.states) {
-    if (traction >= least_traction * strength) least = std::min(least, std::max(0.0, separation) / traction);
-    if (traction >= strength) break;
-  }
-  return std::isfinite(least) ? least : 0.0;
-}
-
 std::string why_open(const Candidate& c) {
   const CohesiveFigures& f = c.result->figures;
   if (f.unloaded) return fmt::format("it was unloaded to {:.4g} Pa", f.final_traction);
@@ -157,63 +145,6 @@ Figure energy_of(const Candidate& c, const ExportChoice& choice) {
   if (whole.value > c.known.work * (1.0 + least_drop)) return whole;
   return {c.known.work, fmt::format("work up to where the law is no longer seen, as {} ({:.4g} J/m^2) is not more",
                                     whole.basis, whole.value)};
-}
-
-Figure stiffness_of(const ExportedLaw& law, double compliance, const ExportChoice& choice) {
-  const double strength = law.strength.value, energy = law.energy.value;
-  const double least = 0.5 * strength * strength / energy;  // its rise takes the whole energy
-  if (choice.stiffness) {
-    if (*choice.stiffness > least) return {*choice.stiffness, "given (--stiffness)"};
-    throw InputError(fmt::format("--stiffness {:.4g} Pa/m: the law needs more than strength^2 / (2 GI) = {:.4g} Pa/m",
-                                 *choice.stiffness, least));
-  }
-  const double rule = least / rise_share;
-  const double value = 1.0 / (1.0 / rule + compliance);
-  return {std::max(value, 1.02 * least),
-          compliance * rule < 1e-3 ? "rule: 50 strength^2/GI (else --stiffness)"
-                                   : "rule: 50 strength^2/GI in series with the law's own rise (else --stiffness)"};
-}
-
-/// With the penalty stiffness in series, and to zero traction at its end: at once where the law is known to its end,
-/// else along a line of the energy that is missing.
-std::vector<TractionPoint> whole_curve(const Candidate& c, const ExportedLaw& law, double compliance) {
-  const double K = law.stiffness.value, shift = 1.0 / K - compliance;
-  std::vector<TractionPoint> curve{{0.0, 0.0}};
-  double highest = 0.0;
-  for (const auto [own, T] : c.known.states) {
-    highest = std::max(highest, T);
-    if (T <= 1e-6 * highest) {
-      if (highest < law.strength.value) continue;
-      break;
-    }
-    const double separation = std::max(std::max(0.0, own) + shift * T, T / K);
-    if (separation > curve.back().separation) curve.push_back({separation, T});
-  }
-  const TractionPoint last = curve.back();
-  double fall = least_drop * last.separation;
-  if (c.extent != Extent::complete) fall = std::max(fall, 2.0 * (law.energy.value - area_under(curve)) / last.traction);
-  curve.push_back({last.separation + fall, 0.0});
-  return curve;
-}
-
-void add_tables(ExportedLaw& law, const std::vector<TractionPoint>& whole) {
-  const double K = law.stiffness.value, strength = law.strength.value;
-  law.curve = simplified(whole, table_tolerance * strength);
-  law.damage = damage_table(law.curve, K, table_tolerance * strength);
-  law.initiation = K * law.damage.front().separation;
-  for (std::size_t i = 0; i + 1 < whole.size(); ++i)
-    law.curve_error =
-        std::max(law.curve_error, std::abs(traction_at(law.curve, whole[i].separation) - whole[i].traction) / strength);
-  constexpr int samples = 8;  // of each interval
-  for (std::size_t i = 1; i < law.damage.size(); ++i)
-    for (int k = 0; k < samples; ++k) {
-      const double from = law.damage[i - 1].separation, to = law.damage[i].separation;
-      const double separation = from + (to - from) * k / samples;
-      law.damage_error =
-          std::max(law.damage_error,
-                   std::abs(traction_at(law.damage, K, separation) - traction_at(law.curve, separation)) / strength);
-    }
-  law.damage_error += law.curve_error;
 }
 
 std::string place_of(const Candidate& c) {
@@ -270,7 +201,7 @@ ExportedLaw law_to_export(const CohesiveReport& report, const ExportChoice& choi
   law.surface = chosen.record->name;
   law.strength = {chosen.result->figures.strength, "largest normal traction of the record"};
   law.energy = energy_of(chosen, choice);
-  const double compliance = own_compliance(chosen.known, law.strength.value);
+  const double compliance = own_compliance(chosen.known.states, law.strength.value);
   law.stiffness = stiffness_of(law, compliance, choice);
   law.shear_strength = choice.shear_strength ? Figure{*choice.shear_strength, "given (--shear-strength)"}
                                              : Figure{law.strength.value,
@@ -282,7 +213,7 @@ ExportedLaw law_to_export(const CohesiveReport& report, const ExportChoice& choi
   law.exponent = choice.exponent ? Figure{*choice.exponent, "given (--exponent)"}
                                  : Figure{2.0, "assumed; of no effect while GII = GI (else --exponent)"};
   law.remarks = remarks_of(report, chosen, law.energy.value);
-  add_tables(law, whole_curve(chosen, law, compliance));
+  add_tables(law, whole_curve(chosen.known.states, chosen.extent == Extent::complete, law, compliance));
   return law;
 }
 

@@ -6,9 +6,12 @@
 #include "physics/error.h"
 #include "postproc/cohesive/cohesive_results.h"
 #include "postproc/exports/export_formats.h"
+#include "postproc/exports/given_law.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm {
@@ -88,8 +91,7 @@ Export read_export(const ExportWords& words) {
   return {formats_named(words.formats), unit_system(words.units), choice_of(words)};
 }
 
-void export_law(const Export& wanted, const CohesiveReport& report, Session& session) {
-  const ExportedLaw law = law_to_export(report, wanted.choice);
+void write_law(const Export& wanted, const ExportedLaw& law, Session& session) {
   const auto files = write_exports(session.results, wanted.formats, law, wanted.units);
   session.log.say(fmt::format(
       "exported law of \"{}\": strength {:.4g} Pa, GI {:.6g} J/m^2, stiffness {:.4g} Pa/m; tables of {} and {} points, "
@@ -99,12 +101,61 @@ void export_law(const Export& wanted, const CohesiveReport& report, Session& ses
   for (const auto& file : files) session.log.say(fmt::format("written to {}", file.string()));
 }
 
+/// The interface whose own law is asked for; null where it is one of the record's.
+const InterfaceSettings* interface_asked_for(const FractureCase& fracture, const ExportWords& words) {
+  const std::vector<InterfaceSettings>& interfaces = fracture.interfaces;
+  if (words.surface) {
+    const auto found = std::ranges::find(interfaces, *words.surface, &InterfaceSettings::name);
+    if (found != interfaces.end()) return &*found;
+  }
+  if (interfaces.empty() || !fracture.cohesive.bands.empty() || !fracture.cohesive.planes.empty()) return nullptr;
+  if (!words.surface && interfaces.size() == 1) return &interfaces.front();
+  std::vector<std::string> names;
+  for (const InterfaceSettings& interface : interfaces) names.push_back(interface.name);
+  const std::string there = fmt::format("available: {}", fmt::join(names, ", "));
+  throw InputError(words.surface ? fmt::format("--surface: there is no surface \"{}\" ({})", *words.surface, there)
+                                 : fmt::format("--surface: say which interface's law is to be written ({})", there));
+}
+
+GivenLaw law_of_case(const InterfaceSettings& interface, const std::string& name, const std::string& hash,
+                     const Session& session) {
+  const auto everywhere = [&](const Parameter& parameter, const char* key) {
+    if (parameter.varies)
+      throw interface.where.at(key).error("a value that varies from place to place cannot be written for other codes");
+    return parameter.at(Vector::Zero());
+  };
+  GivenLaw given{.name = interface.name, .law = interface.law, .at = {.stiffness = interface.stiffness}};
+  given.at.strength = everywhere(interface.strength, "strength");
+  given.at.toughness = everywhere(interface.toughness, "toughness");
+  if (interface.shear_strength) given.at.shear_strength = everywhere(*interface.shear_strength, "shear_strength");
+  if (interface.shear_toughness) given.at.shear_toughness = everywhere(*interface.shear_toughness, "shear_toughness");
+  given.remarks = {
+      fmt::format("pfdm {}, case {} ({}), [[interface]] {}: the law as the case gives it", session.version, name, hash,
+                  interface.name),
+      fmt::format("Frame: normal {}; opening and tension are positive; the two tangential directions are equal",
+                  interface.between
+                      ? fmt::format("from {} to {}", (*interface.between)[0].string(), (*interface.between)[1].string())
+                      : "of the plane")};
+  if (interface.strength_scatter || interface.toughness_scatter)
+    given.remarks.emplace_back("Strength or toughness scatter about these values in the case; here they do not");
+  return given;
+}
+
 }  // namespace
 
 void write_cohesive_laws(const FractureCase& fracture, const std::string& name, const std::string& hash,
                          Session& session) {
   std::optional<Export> wanted;  // what is wrong with it is said before anything is written
-  if (!session.exports.formats.empty()) wanted = read_export(session.exports);
+  if (!session.exports.formats.empty()) {
+    wanted = read_export(session.exports);
+    if (const InterfaceSettings* interface = interface_asked_for(fracture, session.exports))
+      return write_law(*wanted, law_to_export(law_of_case(*interface, name, hash, session), wanted->choice), session);
+  } else if (!fracture.interfaces.empty() && fracture.cohesive.bands.empty() && fracture.cohesive.planes.empty()) {
+    throw InputError(fmt::format(
+        "{}: there is no band and no plane whose law could be extracted. The laws of [[interface]] are those that the "
+        "case gives: --export FORMAT writes one for another code",
+        name));
+  }
   CohesiveReport report{.case_name = name,
                         .case_hash = hash,
                         .version = session.version,
@@ -120,7 +171,7 @@ void write_cohesive_laws(const FractureCase& fracture, const std::string& name, 
     for (const CohesiveResult& result : report.results[r]) say_law(result, record.kind, session.log);
   }
   session.log.say(fmt::format("written to {}", (session.results / "cohesive.json").string()));
-  if (wanted) export_law(*wanted, report, session);
+  if (wanted) write_law(*wanted, law_to_export(report, wanted->choice), session);
 }
 
 }  // namespace pfdm

@@ -8,8 +8,9 @@
 
 namespace pfdm {
 
-/// Reads the columns and the curve in session.results, writes the laws beside them and says their figures. Throws
-/// InputError where there is no record.
+/// Reads the columns and the curve in session.results, writes the laws beside them and says their figures. Where the
+/// law of an [[interface]] is to be exported it is taken from the case, without results. Throws InputError where there
+/// is no record.
 void write_cohesive_laws(const FractureCase& fracture, const std::string& name, const std::string& hash,
                          Session& session);
 

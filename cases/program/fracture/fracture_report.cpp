@@ -1,5 +1,6 @@
 #include "cases/program/fracture/fracture_report.h"
 
+#include "cases/program/fracture/fit_on_page.h"
 #include "cases/program/fracture/fracture_pictures.h"
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/session/report_parts.h"
@@ -35,6 +36,15 @@ std::vector<double> column(const std::vector<CurveRow>& rows, const Value& value
   return values;
 }
 
+std::string law_text(const InterfaceSettings& interface) {
+  const auto value = [](const Parameter& parameter, const auto& show) {
+    return parameter.varies ? std::string("varying") : show(parameter.at(Vector::Zero()));
+  };
+  return fmt::format("{}, {}, {}", interface.law.law->name,
+                     value(interface.strength, [](double v) { return shown(v, "Pa"); }),
+                     value(interface.toughness, [](double v) { return shown(v) + " J/m²"; }));
+}
+
 std::string shown_seconds(const std::map<std::string, double>& stages) {
   std::vector<std::string> parts;
   for (const auto& [stage, seconds] : stages) {
@@ -45,11 +55,24 @@ std::string shown_seconds(const std::map<std::string, double>& stages) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// What can break: a phase field where some region can be damaged, and interfaces with their laws.
+void add_model(const FractureCase& fracture, Table& table) {
+  const FractureModel& model = fracture.model;
+  const bool has_damage = std::ranges::any_of(fracture.materials.by_region, [](const RegionMaterial& m) {
+    return m.varies || m.at(Vector::Zero()).damageable;
+  });
+  if (has_damage) {
+    table.rows.push_back({"fracture", fmt::format("{}, degradation {}", model.crack->name, model.degradation.name())});
+    table.rows.push_back({"split", std::string(model.split.name())});
+  }
+  for (const InterfaceSettings& interface : fracture.interfaces)
+    table.rows.push_back({fmt::format("interface {}", interface.name), law_text(interface)});
+  if (table.rows.empty()) table.rows.push_back({"fracture", "none: nothing can break"});
+}
+
 Table run_table(const FractureStory& story) {
-  const FractureModel& model = story.fracture.model;
-  Table table{.caption = "Model and run",
-              .rows = {{"fracture", fmt::format("{}, degradation {}", model.crack->name, model.degradation.name())},
-                       {"split", std::string(model.split.name())}}};
+  Table table{.caption = "Model and run", .rows = {}};
+  add_model(story.fracture, table);
   const auto add = [&](std::string name, std::string value) {
     table.rows.push_back({std::move(name), std::move(value)});
   };
@@ -256,30 +279,60 @@ Chart law_chart(const ColumnRecord& record) {
   return chart;
 }
 
-}  // namespace
-
-ReportPage fracture_page(const FractureCase& fracture, const std::optional<ExperimentSettings>& experiment,
-                         const std::string& name, const std::string& hash, const std::filesystem::path& results) {
-  const FractureStory story{.fracture = fracture,
-                            .experiment = experiment,
-                            .curve = read_curve_record(results, hash),
-                            .summary = find_summary(results),
-                            .records = find_column_record(results)};
-  ReportPage page{.title = fmt::format("{}: {}", name, fracture.title),
-                  .subtitle = story.summary ? fmt::format("pfdm {}, case {}, {}", story.summary->version, hash,
-                                                          story.summary->status)
-                                            : fmt::format("case {}, not finished", hash),
-                  .rows = {}};
-  page.rows.push_back(
-      {.blocks = {run_table(story), figures_table(story), material_table(fracture)}, .widths = {1.25, 0.9, 0.95}});
-  std::vector<PageBlock> blocks = damage_pictures(fracture, story.curve, results);
+/// Tables, pictures and charts of a run.
+std::vector<PageRow> run_rows(const FractureStory& story, const std::filesystem::path& results) {
+  std::vector<PageRow> rows;
+  rows.push_back({.blocks = {run_table(story), figures_table(story), material_table(story.fracture)},
+                  .widths = {1.25, 0.9, 0.95}});
+  std::vector<PageBlock> blocks = damage_pictures(story.fracture, story.curve, results);
   for (PageBlock& picture : interface_pictures(story.curve, results)) blocks.push_back(std::move(picture));
   blocks.emplace_back(force_chart(story));
   blocks.emplace_back(energy_chart(story));
   if (has_law(story.records)) blocks.emplace_back(law_chart(story.records.front()));
   blocks.emplace_back(iterations_chart(story));
-  for (PageRow& row : in_pairs(std::move(blocks))) page.rows.push_back(std::move(row));
-  for (PageRow& row : warnings_row(results / "run.log")) page.rows.push_back(std::move(row));
+  for (PageRow& row : in_pairs(std::move(blocks))) rows.push_back(std::move(row));
+  return rows;
+}
+
+/// That of this case. One of the case before it was changed is of no concern to a run.
+std::optional<FitReport> find_fit(const std::filesystem::path& results, const std::string& hash) {
+  const std::filesystem::path file = results / "fit.json";
+  if (!has_results(results)) return find_of_case(file, hash, read_fit_json);
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  FitReport fit = read_fit_json(file);
+  if (fit.case_hash != hash) return std::nullopt;
+  return fit;
+}
+
+std::string subtitle_of(const std::optional<RunSummary>& summary, bool has_run, const std::optional<FitReport>& fit,
+                        const std::string& hash) {
+  if (!has_run) return fmt::format("pfdm {}, case {}, fitted, not run", fit->version, hash);
+  if (!summary) return fmt::format("case {}, not finished", hash);
+  return fmt::format("pfdm {}, case {}, {}", summary->version, hash, summary->status);
+}
+
+}  // namespace
+
+ReportPage fracture_page(const FractureCase& fracture, const std::optional<ExperimentSettings>& experiment,
+                         const std::string& name, const std::string& hash, const std::filesystem::path& results) {
+  const auto fit = find_fit(results, hash);
+  const bool has_run = !fit || has_results(results);
+  ReportPage page{.title = fmt::format("{}: {}", name, fracture.title), .subtitle = {}, .rows = {}};
+  if (has_run) {
+    const FractureStory story{.fracture = fracture,
+                              .experiment = experiment,
+                              .curve = read_curve_record(results, hash),
+                              .summary = find_summary(results),
+                              .records = find_column_record(results)};
+    page.subtitle = subtitle_of(story.summary, true, fit, hash);
+    page.rows = run_rows(story, results);
+  } else {
+    page.subtitle = subtitle_of(std::nullopt, false, fit, hash);
+  }
+  if (fit)
+    for (PageRow& row : fit_on_page(*fit, results)) page.rows.push_back(std::move(row));
+  for (const char* log : {"run.log", "fit.log"})
+    for (PageRow& row : warnings_row(results / log)) page.rows.push_back(std::move(row));
   return page;
 }
 

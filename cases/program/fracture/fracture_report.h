@@ -11,8 +11,8 @@
 
 namespace pfdm {
 
-/// Of the results in a directory, also of an unfinished run. Throws InputError if there are none, or
-/// if they belong to another case.
+/// Of the results in a directory, of a run, also an unfinished one, of a fit, or of both. Throws InputError if there
+/// are none, or if they belong to another case.
 ReportPage fracture_page(const FractureCase& fracture, const std::optional<ExperimentSettings>& experiment,
                          const std::string& name, const std::string& hash, const std::filesystem::path& results);
 

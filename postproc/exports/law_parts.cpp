@@ -1,0 +1,84 @@
+#include "postproc/exports/law_parts.h"
+
+#include "physics/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+constexpr double rise_share = 0.01;      // of the final separation, that the rule for K gives to the rise
+constexpr double least_traction = 0.02;  // part of the strength below which a secant is rounding
+
+}  // namespace
+
+double own_compliance(std::span<const TractionPoint> states, double strength) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto [separation, traction] : states) {
+    if (traction >= least_traction * strength) least = std::min(least, std::max(0.0, separation) / traction);
+    if (traction >= strength) break;
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
+Figure stiffness_of(const ExportedLaw& law, double compliance, const ExportChoice& choice) {
+  const double strength = law.strength.value, energy = law.energy.value;
+  const double least = 0.5 * strength * strength / energy;  // its rise takes the whole energy
+  if (choice.stiffness) {
+    if (*choice.stiffness > least) return {*choice.stiffness, "given (--stiffness)"};
+    throw InputError(fmt::format("--stiffness {:.4g} Pa/m: the law needs more than strength^2 / (2 GI) = {:.4g} Pa/m",
+                                 *choice.stiffness, least));
+  }
+  const double rule = least / rise_share;
+  const double value = 1.0 / (1.0 / rule + compliance);
+  return {std::max(value, 1.02 * least),
+          compliance * rule < 1e-3 ? "rule: 50 strength^2/GI (else --stiffness)"
+                                   : "rule: 50 strength^2/GI in series with the law's own rise (else --stiffness)"};
+}
+
+std::vector<TractionPoint> whole_curve(std::span<const TractionPoint> states, bool is_complete, const ExportedLaw& law,
+                                       double compliance) {
+  const double K = law.stiffness.value, shift = 1.0 / K - compliance;
+  std::vector<TractionPoint> curve{{0.0, 0.0}};
+  double highest = 0.0;
+  for (const auto [own, T] : states) {
+    highest = std::max(highest, T);
+    if (T <= 1e-6 * highest) {
+      if (highest < law.strength.value) continue;
+      break;
+    }
+    const double separation = std::max(std::max(0.0, own) + shift * T, T / K);
+    if (separation > curve.back().separation) curve.push_back({separation, T});
+  }
+  const TractionPoint last = curve.back();
+  double fall = least_drop * last.separation;
+  if (!is_complete) fall = std::max(fall, 2.0 * (law.energy.value - area_under(curve)) / last.traction);
+  curve.push_back({last.separation + fall, 0.0});
+  return curve;
+}
+
+void add_tables(ExportedLaw& law, const std::vector<TractionPoint>& whole) {
+  const double K = law.stiffness.value, strength = law.strength.value;
+  law.curve = simplified(whole, table_tolerance * strength);
+  law.damage = damage_table(law.curve, K, table_tolerance * strength);
+  law.initiation = K * law.damage.front().separation;
+  for (std::size_t i = 0; i + 1 < whole.size(); ++i)
+    law.curve_error =
+        std::max(law.curve_error, std::abs(traction_at(law.curve, whole[i].separation) - whole[i].traction) / strength);
+  constexpr int samples = 8;  // of each interval
+  for (std::size_t i = 1; i < law.damage.size(); ++i)
+    for (int k = 0; k < samples; ++k) {
+      const double from = law.damage[i - 1].separation, to = law.damage[i].separation;
+      const double separation = from + (to - from) * k / samples;
+      law.damage_error =
+          std::max(law.damage_error,
+                   std::abs(traction_at(law.damage, K, separation) - traction_at(law.curve, separation)) / strength);
+    }
+  law.damage_error += law.curve_error;
+}
+
+}  // namespace pfdm
