@@ -170,6 +170,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
     link.c_t = a_t * link.weight_t;
     link.jump_n = jump_stiffness(link.P, link.N, h_P, h_N, link.c_n);
     link.jump_t = slip_stiffness(link.P, link.N, link.c_n, link.c_t);
+    if (has_relaxed_flat_cells_) link.jump_t *= bending_part(link);
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     Side& side = sides_[as_size(i)];

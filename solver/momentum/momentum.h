@@ -85,6 +85,8 @@ class MomentumOperator {
   /// Where `stress` is given, it replaces the stress of the moduli in every cell.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0,
                   CellField<LinearStress> stress = {});
+  /// For bodies of flat cells that bend, as plates in layers of hexahedra; before set_moduli(). See momentum_jump.cpp.
+  void relax_flat_cells();
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
 
@@ -216,6 +218,7 @@ class MomentumOperator {
   IsotropicElasticity with_jump_modulus(Index cell, IsotropicElasticity part) const;
   double jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const;
   double slip_stiffness(Index P, Index N, double c_n, double c_t) const;
+  double bending_part(const Link& link) const;
   // The weight of P's side, c and (a + b)^-1 of link i, and a of side i, times v.
   Vector weigh(std::size_t i, const Vector& v) const {
     return is_isotropic() ? scale(links_[i].weight_n, links_[i].weight_t, links_[i].n, v) : link_tensors_[i].weight * v;
@@ -254,6 +257,7 @@ class MomentumOperator {
   CellField<LinearStress> linear_stress_;  // may be empty
   CellField<StrainAcross> strain_across_;  // empty but in plane stress
   std::vector<Link> links_;
+  bool has_relaxed_flat_cells_ = false;
   std::vector<Side> sides_;
   std::vector<SplitFace> split_faces_;
   std::vector<FaceSpring> springs_;  // of them; empty: none

@@ -69,4 +69,25 @@ double MomentumOperator::slip_stiffness(Index P, Index N, double c_n, double c_t
   return c_t + slip_share * std::min(liquidity_[P], liquidity_[N]) * c_n;
 }
 
+void MomentumOperator::relax_flat_cells() { has_relaxed_flat_cells_ = true; }
+
+// In bending, the shear strain on the faces across a plate and on those along it must agree. With the jump part alpha
+// of the former they differ by alpha h_n^2/4 times the second derivative of the slope, h_n being the distance of the
+// cells' centres across the face: the shear stiffness times that is added to the bending stiffness, 1.5 (1 - nu) alpha
+// (h_n/h)^2 of it in a plate of thickness h. Layers of thickness t, on the other hand, leave out the bending within
+// each of them and weight the free surface's gradient by two thirds instead of half: -(3 - 2 t/h) (t/h)^2. Both cancel
+// for the alpha below, at any thickness of the plate. Cells that are not flat have alpha = 1.
+double MomentumOperator::bending_part(const Link& link) const {
+  constexpr double both = 1.8;  // 2 (1 - 2 t/(3 h)) with six to eight layers
+  const auto thickness = [&](Index cell) {
+    double largest = 0.0;
+    for (const Index f : mesh_.faces_of_cell(cell)) largest = std::max(largest, mesh_.face_area[f].norm());
+    return mesh_.cell_volume[cell] / largest;
+  };
+  const double across = (link.d_P - link.d_N).dot(link.n);
+  const double flatness = std::min(thickness(link.P), thickness(link.N)) / across;
+  const IsotropicElasticity& sound = unknowns_.sound[as_size(unknowns_.zone[link.P])];
+  return std::min(1.0, both / (1.0 - sound.poisson_ratio()) * flatness * flatness);
+}
+
 }  // namespace pfdm

@@ -114,8 +114,8 @@ ScalarSolution Diffusion::step(double dt, CellField<double>& u) {
 // The deferred flux is updated until the field no longer changes.
 ScalarSolution Diffusion::solve(double rate, CellField<double>& u) {
   constexpr Index most_updates = 100;
-  constexpr double precision = 1e-9;
   const Parts& p = *parts_;
+  const double precision = p.problem.precision;
   const CellField<double> start = u;
   const DiffusionTerm term{p.mesh, p.problem, p.inflow, start, rate};
   BoundedNewton newton(parts_->flux, term, u);

@@ -38,6 +38,7 @@ struct DiffusionProblem {
   std::vector<DiffusionBoundary> boundary;
   std::function<DiffusionSource(Index cell, double u)> source{};  ///< empty: none
   Vector plane_normal = Vector::Zero();                           ///< of one-cell-thick meshes
+  double precision = 1e-9;  ///< change of u, over its size, from which on a solution has converged
 };
 
 class Diffusion {

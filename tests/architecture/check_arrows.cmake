@@ -11,6 +11,7 @@ set(rooms
     "solver/linear: physics mesh solver"
     "solver/scalar: physics mesh solver solver/linear"
     "solver/momentum: physics mesh solver solver/linear solver/scalar"
+    "solver/dynamics: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/fracture: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/calibration: physics solver solver/linear"
     "solver/point: physics solver solver/calibration"
@@ -32,8 +33,11 @@ set(rooms
     "cases/program/fracture: physics mesh solver/momentum solver/fracture postproc/files postproc/fields postproc/curves
      postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies
      cases/program/point"
+    "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics postproc/files
+     postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/fracture"
     "cases/program: physics solver solver/point postproc/files postproc/fields postproc/curves postproc/exports
-     cases/program/input cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture")
+     cases/program/input cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture
+     cases/program/plate")
 set(complaints "")
 
 set(names "")

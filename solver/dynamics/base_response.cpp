@@ -1,0 +1,70 @@
+#include "solver/dynamics/base_response.h"
+
+#include "physics/error.h"
+
+#include <Eigen/LU>
+
+namespace pfdm {
+
+BaseResponse::BaseResponse(const VibratingBody& body, const Vector& direction, std::span<const Harmonic> wanted,
+                           double tolerance, Eigen::Index most_vectors)
+    : body_(body), direction_(direction), space_(body, body.inertial_answer(body.rigid(direction))) {
+  for (bool goes_on = true; goes_on;) {
+    goes_on = space_.extend();
+    H_ = space_.projection();
+    if (goes_on && space_.n_projected() % 4 != 0) continue;
+    double worst = 0.0;
+    for (const Harmonic& at : wanted) worst = std::max(worst, residual(at));
+    if (worst <= tolerance) break;
+    if (!goes_on || space_.n_projected() >= most_vectors)
+      throw ComputationError(
+          "the response to the base's motion did not converge: the highest frequency is too high "
+          "for this mesh");
+  }
+  mass_moment_.resize(space_.n_projected());
+  const Eigen::VectorXd rigid = body.rigid(direction);
+  for (Eigen::Index j = 0; j < mass_moment_.size(); ++j) mass_moment_[j] = body.inner(rigid, space_.vector(j));
+}
+
+Eigen::VectorXcd BaseResponse::weights(const Harmonic& at) const {
+  const Eigen::Index m = H_.rows();
+  const Eigen::MatrixXcd system = Eigen::MatrixXcd::Identity(m, m) - at.s() * H_.cast<std::complex<double>>();
+  return system.partialPivLu().solve(space_.start_norm() * Eigen::VectorXcd::Unit(m, 0));
+}
+
+double BaseResponse::residual(const Harmonic& at) const {
+  return std::abs(at.s()) * space_.remainder() * std::abs(weights(at)[H_.rows() - 1]) / space_.start_norm();
+}
+
+Eigen::VectorXcd BaseResponse::displacement(const Harmonic& at) const {
+  const Eigen::VectorXcd y = -weights(at) / at.factor;
+  Eigen::VectorXcd u(body_.size());
+  u.real() = space_.combined(y.real());
+  u.imag() = space_.combined(y.imag());
+  return u;
+}
+
+std::complex<double> BaseResponse::transmission(const Harmonic& at, Index unknown) const {
+  const Eigen::VectorXcd y = weights(at);
+  std::complex<double> sum = 0.0;
+  for (Eigen::Index j = 0; j < y.size(); ++j)
+    sum += y[j] * direction_.dot(space_.vector(j).segment<3>(3 * Eigen::Index{unknown}));
+  return 1.0 + at.s() * sum;
+}
+
+double BaseResponse::power(const Harmonic& at) const {
+  const std::complex<double> moment =
+      -(mass_moment_.cast<std::complex<double>>().transpose() * weights(at)).value() / at.factor;
+  return 0.5 * at.omega * moment.imag();
+}
+
+CellField<double> strain_power(const VibratingBody& body, const Eigen::VectorXcd& u) {
+  using Wanted = MomentumOperator::Wanted;
+  const CellMechanics re = body.balance().mechanics(as_vectors(u.real()), Wanted::without_gradient);
+  const CellMechanics im = body.balance().mechanics(as_vectors(u.imag()), Wanted::without_gradient);
+  CellField<double> power(as_size(body.mesh().n_cells()));
+  for (Index c = 0; c < power.size(); ++c) power[c] = 2.0 * (re.energy[c] + im.energy[c]) / body.mesh().cell_volume[c];
+  return power;
+}
+
+}  // namespace pfdm

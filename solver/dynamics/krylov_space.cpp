@@ -1,0 +1,42 @@
+#include "solver/dynamics/krylov_space.h"
+
+#include "physics/error.h"
+
+namespace pfdm {
+
+KrylovSpace::KrylovSpace(const VibratingBody& body, const Eigen::VectorXd& start)
+    : body_(body), start_norm_(std::sqrt(body.inner(start, start))) {
+  if (!(start_norm_ > 0.0)) throw ComputationError("the load on a vibrating body does not move it");
+  vectors_.emplace_back(start / start_norm_);
+}
+
+// Gram-Schmidt, twice: once leaves the rounding of large components.
+bool KrylovSpace::extend() {
+  const Eigen::Index m = projected_;
+  Eigen::VectorXd next = body_.inertial_answer(vectors_[static_cast<std::size_t>(m)]);
+  const double size = std::sqrt(body_.inner(next, next));
+  H_.conservativeResizeLike(Eigen::MatrixXd::Zero(m + 1, m + 1));
+  if (m > 0) H_(m, m - 1) = remainder_;
+  for (int pass = 0; pass < 2; ++pass) {
+    const Eigen::VectorXd weighted = body_.mass().cwiseProduct(next);
+    Eigen::VectorXd part(m + 1);
+    for (Eigen::Index j = 0; j <= m; ++j) part[j] = vectors_[static_cast<std::size_t>(j)].dot(weighted);
+    for (Eigen::Index j = 0; j <= m; ++j) next -= part[j] * vectors_[static_cast<std::size_t>(j)];
+    H_.col(m) += part;
+  }
+  ++projected_;
+  remainder_ = std::sqrt(body_.inner(next, next));
+  if (remainder_ <= 1e-12 * size) return false;
+  vectors_.emplace_back(next / remainder_);
+  return true;
+}
+
+Eigen::MatrixXd KrylovSpace::projection() const { return H_; }
+
+Eigen::VectorXd KrylovSpace::combined(const Eigen::VectorXd& weights) const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(body_.size());
+  for (Eigen::Index j = 0; j < weights.size(); ++j) sum += weights[j] * vectors_[static_cast<std::size_t>(j)];
+  return sum;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,122 @@
+#include "solver/linear/sparse_lu.h"
+
+#include "physics/error.h"
+
+#include <umfpack.h>
+
+// Of OpenBLAS; another BLAS does not have it.
+extern "C" void openblas_set_num_threads(int n) __attribute__((weak));
+
+namespace pfdm {
+namespace {
+
+const double* numbers(const double* x) { return x; }
+const double* numbers(const std::complex<double>* x) { return reinterpret_cast<const double*>(x); }
+double* numbers(double* x) { return x; }
+double* numbers(std::complex<double>* x) { return reinterpret_cast<double*>(x); }
+
+// UMFPACK's names for the two kinds of number; without an array of imaginary parts complex numbers are packed.
+struct Real {
+  static int order(int n, const int* p, const int* i, const double* x, void** symbolic, double* control, double* info) {
+    return umfpack_di_symbolic(n, n, p, i, x, symbolic, control, info);
+  }
+  static int factor(const int* p, const int* i, const double* x, void* symbolic, void** numeric, double* control,
+                    double* info) {
+    return umfpack_di_numeric(p, i, x, symbolic, numeric, control, info);
+  }
+  static int solve(const int* p, const int* i, const double* a, double* x, const double* b, void* numeric,
+                   const double* control, double* info) {
+    return umfpack_di_solve(UMFPACK_A, p, i, a, x, b, numeric, control, info);
+  }
+  static void defaults(double* control) { umfpack_di_defaults(control); }
+  static void free(void** symbolic, void** numeric) {
+    umfpack_di_free_symbolic(symbolic);
+    umfpack_di_free_numeric(numeric);
+  }
+};
+
+struct Complex {
+  static int order(int n, const int* p, const int* i, const double* x, void** symbolic, double* control, double* info) {
+    return umfpack_zi_symbolic(n, n, p, i, x, nullptr, symbolic, control, info);
+  }
+  static int factor(const int* p, const int* i, const double* x, void* symbolic, void** numeric, double* control,
+                    double* info) {
+    return umfpack_zi_numeric(p, i, x, nullptr, symbolic, numeric, control, info);
+  }
+  static int solve(const int* p, const int* i, const double* a, double* x, const double* b, void* numeric,
+                   const double* control, double* info) {
+    return umfpack_zi_solve(UMFPACK_A, p, i, a, nullptr, x, nullptr, b, nullptr, numeric, control, info);
+  }
+  static void defaults(double* control) { umfpack_zi_defaults(control); }
+  static void free(void** symbolic, void** numeric) {
+    umfpack_zi_free_symbolic(symbolic);
+    umfpack_zi_free_numeric(numeric);
+  }
+};
+
+template <class Scalar>
+using Calls = std::conditional_t<std::is_same_v<Scalar, double>, Real, Complex>;
+
+void require_done(int status) {
+  if (status == UMFPACK_OK) return;
+  if (status == UMFPACK_WARNING_singular_matrix) throw ComputationError("a sparse matrix to be factored is singular");
+  if (status == UMFPACK_ERROR_out_of_memory)
+    throw ComputationError("there is not enough memory for the factors of a sparse matrix; take a coarser mesh");
+  throw ComputationError("a sparse matrix could not be factored (UMFPACK status " + std::to_string(status) + ")");
+}
+
+}  // namespace
+
+template <class Scalar>
+struct SparseLu<Scalar>::Data {
+  Matrix matrix;
+  double control[UMFPACK_CONTROL] = {};
+  double info[UMFPACK_INFO] = {};
+  void* symbolic = nullptr;
+  void* numeric = nullptr;
+
+  ~Data() { Calls<Scalar>::free(&symbolic, &numeric); }
+};
+
+template <class Scalar>
+SparseLu<Scalar>::SparseLu(Matrix matrix) : data_(std::make_unique<Data>()) {
+  if (openblas_set_num_threads != nullptr) openblas_set_num_threads(1);
+  Data& d = *data_;
+  d.matrix = std::move(matrix);
+  d.matrix.makeCompressed();
+  Calls<Scalar>::defaults(d.control);
+  d.control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;  // the pattern is
+  d.control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
+  const auto n = static_cast<int>(d.matrix.rows());
+  const int *p = d.matrix.outerIndexPtr(), *i = d.matrix.innerIndexPtr();
+  const double* x = numbers(d.matrix.valuePtr());
+  require_done(Calls<Scalar>::order(n, p, i, x, &d.symbolic, d.control, d.info));
+  require_done(Calls<Scalar>::factor(p, i, x, d.symbolic, &d.numeric, d.control, d.info));
+}
+
+template <class Scalar>
+SparseLu<Scalar>::~SparseLu() = default;
+template <class Scalar>
+SparseLu<Scalar>::SparseLu(SparseLu&&) noexcept = default;
+template <class Scalar>
+SparseLu<Scalar>& SparseLu<Scalar>::operator=(SparseLu&&) noexcept = default;
+
+template <class Scalar>
+auto SparseLu<Scalar>::solve(const Column& b) const -> Column {
+  const Data& d = *data_;
+  Column x(b.size());
+  double info[UMFPACK_INFO];
+  require_done(Calls<Scalar>::solve(d.matrix.outerIndexPtr(), d.matrix.innerIndexPtr(), numbers(d.matrix.valuePtr()),
+                                    numbers(x.data()), numbers(b.data()), d.numeric, d.control, info));
+  return x;
+}
+
+template <class Scalar>
+double SparseLu<Scalar>::n_entries() const {
+  return data_->info[UMFPACK_LNZ] + data_->info[UMFPACK_UNZ];
+}
+
+template class SparseLu<double>;
+template class SparseLu<std::complex<double>>;
+
+}  // namespace pfdm
