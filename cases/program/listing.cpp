@@ -7,6 +7,7 @@
 #include "cases/program/fracture/mesh_recipe.h"
 #include "cases/program/input/case_file.h"
 #include "cases/program/kinds.h"
+#include "cases/program/plate/plate_case.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "physics/crack_geometry.h"
 #include "physics/degradation.h"
@@ -132,6 +133,9 @@ void list_laws(std::ostream& out) {
   list_table(out, "mass-material models ([model] structure)", model_structures());
   list_table(out, "excitations ([[test]] excitation.type)", excitation_types());
   list_table(out, "identification ([fit] method)", fit_methods());
+  list_table(out, "supports of a plate ([[support]] type)", support_types());
+  list_table(out, "motions of its base ([base] motion)", base_motions());
+  list_table(out, "cooling of its surface ([[cooling]] type)", cooling_types());
 }
 
 }  // namespace pfdm

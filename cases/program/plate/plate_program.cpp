@@ -1,0 +1,168 @@
+#include "cases/program/plate/plate_program.h"
+
+#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/plate/plate_report.h"
+#include "cases/program/plate/plate_run.h"
+#include "cases/program/session/earlier_results.h"
+#include "cases/program/session/report_parts.h"
+#include "cases/program/session/stop_signal.h"
+#include "cases/program/session/stopwatch.h"
+#include "mesh/quality.h"
+#include "postproc/curves/summary.h"
+#include "postproc/files/folder_lock.h"
+#include "postproc/files/new_results.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check(const PlateProgram& program, Session& session) {
+  const PlateCase& c = program.parsed;
+  const Mesh mesh = c.mesh.make();
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(c, mesh));
+  if (c.heating) {
+    HeatedBody(mesh, c.material.heat, c.heating->boundary);
+    mesh.patch(c.heating->surface);
+  }
+  Log& log = session.log;
+  log.say(fmt::format("{}: {}", program.name, c.title));
+  log.say(
+      fmt::format("cells {}, unknowns {}", mesh.n_cells(), 3 * unknowns.n_nodes() + unknowns.pressure_cells.size()));
+  log.say(fmt::format("frequency response at {} frequencies from {:g} to {:g} Hz, {} modes", c.n_frequencies, c.from,
+                      c.to, c.n_modes));
+  if (c.heating) log.say(fmt::format("heating for {:g} s in steps of {:g} s", c.heating->duration, c.heating->step));
+  log.say(fmt::format("results go to {}", session.results.string()));
+  log.say("the input is valid");
+}
+
+void mesh_only(const PlateProgram& program, Session& session) {
+  const Mesh mesh = program.parsed.mesh.make();
+  place_unknowns(mesh, elastic_body(program.parsed, mesh));
+  const FolderLock lock(session.results);
+  session.log.say(describe(mesh_quality(mesh)));
+  write_mesh(session.results, mesh);
+  session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
+}
+
+void remove_earlier(const fs::path& results) {
+  std::error_code ignored;
+  for (const char* file : {summary_file, response_file, modes_file, temperature_file, surface_file, "fields.pvd"})
+    fs::remove(results / file, ignored);
+  fs::remove_all(results / "fields", ignored);
+  remove_report(results);
+}
+
+/// Heats the body and writes what comes of it; figures of the end join the others.
+void run_heating(const PlateCase& c, const PlateRun& run, const Mesh& mesh, double frequency, const fs::path& folder,
+                 Session& session, std::map<std::string, double>& figures) {
+  PlateFrames frames(folder, mesh);
+  if (c.excitation.type == "harmonic") frames.set_motion(run.motion(frequency, c.heating->surroundings));
+  std::vector<HeatingRow> rows;
+  std::vector<double> surface;
+  const LooksForStop looks;
+  run.heat(frequency, [&](const HeatingRow& row, const HeatedBody& body, const CellField<double>& source) {
+    stop_if_asked();
+    rows.push_back(row);
+    const double share = row.time / c.heating->duration * c.n_frames;
+    const bool due =
+        row.time == 0.0 ||
+        std::floor(share + 1e-9) > std::floor((rows[rows.size() - 2].time) / c.heating->duration * c.n_frames + 1e-9);
+    if (due) {
+      frames.add(row.time, source, body.rise());
+      session.log.step(fmt::format("{:6.1f} min: surface warmer by {:.4g} K in the mean, {:.4g} K at most",
+                                   row.time / 60.0, row.surface.mean, row.surface.largest));
+    }
+    surface = body.face_rise(c.heating->surface);
+  });
+  write_heating(folder, rows);
+  write_surface(folder, mesh, c.heating->surface, surface);
+  const HeatingRow &first = rows.front(), &last = rows.back();
+  const double missing = last.account.heat - last.account.stored - last.account.lost;
+  figures.insert({{"mechanical_power_W", first.power},
+                  {"heat_source_correction", first.correction},
+                  {"surface_mean_rise_K", last.surface.mean},
+                  {"surface_largest_rise_K", last.surface.largest},
+                  {"mean_rise_K", last.mean_rise},
+                  {"largest_rise_K", last.largest_rise},
+                  {"first_resonance_at_end_Hz", last.resonance},
+                  {"mechanical_work_J", last.work},
+                  {"heat_J", last.account.heat},
+                  {"heat_stored_J", last.account.stored},
+                  {"heat_lost_J", last.account.lost},
+                  {"heat_balance_error", missing / last.work}});
+}
+
+void compute(const PlateProgram& program, Session& session, const fs::path& folder, VibrationSummary& summary) {
+  const PlateCase& c = program.parsed;
+  const Mesh mesh = c.mesh.make();
+  const PlateRun run(c, mesh);
+  Log& log = session.log;
+  log.say(fmt::format("cells {}, {} entries of factors, {} vectors of the frequency response", mesh.n_cells(),
+                      run.body().n_factor_entries(), run.dimension()));
+  const double temperature = c.heating ? c.heating->surroundings : c.material.reference;
+  const std::vector<Resonance> resonances = run.resonances(temperature);
+  write_resonances(folder, resonances);
+  for (std::size_t k = 0; k < resonances.size(); ++k)
+    log.say(fmt::format("mode {}: {:.5g} Hz, damping ratio {:.3g}, effective mass {:.1f} %", k + 1,
+                        resonances[k].frequency, 0.5 * resonances[k].loss_factor,
+                        100.0 * resonances[k].effective_mass.dot(c.direction)));
+  write_response(folder, c, run.response());
+  summary.figures = {{"cells", mesh.n_cells()},
+                     {"mass_kg", run.body().total_mass()},
+                     {"first_resonance_Hz", resonances.front().frequency}};
+  double frequency = 0.0;
+  if (c.excitation.type == "harmonic") {
+    frequency = run.driving_frequency(temperature);
+    summary.figures["driving_frequency_Hz"] = frequency;
+    log.say(fmt::format("driven at {:.5g} Hz", frequency));
+  }
+  if (c.heating) run_heating(c, run, mesh, frequency, folder, session, summary.figures);
+}
+
+void run_case(const PlateProgram& program, Session& session) {
+  if (session.restart) session.log.say("a plate's run cannot be restarted: starting from the beginning");
+  const Stopwatch watch;
+  const FolderLock lock(session.results);
+  NewResults place(session.results, fs::exists(session.results / summary_file));
+  session.log.open_file(place.folder() / "run.log", false);
+  session.log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, program.parsed.title,
+                              session.threads));
+  if (place.wait()) say_what_is_replaced(session, program.hash, false);
+  VibrationSummary summary{.case_name = program.name,
+                           .status = "complete",
+                           .version = session.version,
+                           .case_hash = program.hash,
+                           .threads = session.threads,
+                           .wall_seconds = 0.0,
+                           .figures = {},
+                           .tests = {}};
+  compute(program, session, place.folder(), summary);
+  summary.wall_seconds = watch.seconds();
+  write_vibration_summary(place.folder() / summary_file, summary);
+  place.take_place([&] { remove_earlier(session.results); }, summary_file);
+  session.log.say(
+      fmt::format("complete after {:.1f} s; results in {}", summary.wall_seconds, session.results.string()));
+}
+
+}  // namespace
+
+RunnableCase read_plate_program(const CaseFile& file) {
+  auto program = std::make_shared<PlateProgram>();
+  program->parsed = read_plate_case(file.config.root(), file.directory);
+  program->name = case_name(file);
+  program->hash = case_hash(file, program->parsed.data_files);
+  return {.title = program->parsed.title,
+          .check = [program](Session& session) { check(*program, session); },
+          .mesh = [program](Session& session) { mesh_only(*program, session); },
+          .run = [program](Session& session) { run_case(*program, session); },
+          .report = [program](Session& session) { write_report(plate_page(*program, session), session); },
+          .data_files = program->parsed.data_files};
+}
+
+}  // namespace pfdm

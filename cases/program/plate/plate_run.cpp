@@ -1,0 +1,192 @@
+#include "cases/program/plate/plate_run.h"
+
+#include "physics/error.h"
+#include "solver/parallel.h"
+
+#include <fmt/format.h>
+#include <boost/math/tools/minima.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pfdm {
+namespace {
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+// Of the frequency response, in equal ratios.
+std::vector<double> frequencies_of(const PlateCase& c) {
+  std::vector<double> frequencies;
+  for (int i = 0; i < c.n_frequencies; ++i)
+    frequencies.push_back(c.from * std::pow(c.to / c.from, static_cast<double>(i) / (c.n_frequencies - 1)));
+  return frequencies;
+}
+
+double temperature_at_start(const PlateCase& c) { return c.heating ? c.heating->surroundings : c.material.reference; }
+
+}  // namespace
+
+ElasticBody elastic_body(const PlateCase& c, const Mesh& mesh) {
+  const auto elasticity = from_young_poisson(c.material.young_modulus(), c.material.poisson_ratio);
+  return {.elasticity = std::vector<IsotropicElasticity>(mesh.region_names.size(), elasticity),
+          .zone = std::vector<Index>(mesh.region_names.size(), 0),
+          .boundary = c.supports};
+}
+
+Index nearest_unknown(const VibratingBody& body, const Vector& place) {
+  const Mesh& mesh = body.mesh();
+  Index best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  const auto offer = [&](Index unknown, const Vector& x) {
+    if (const double distance = (x - place).norm(); distance < least) {
+      least = distance;
+      best = unknown;
+    }
+  };
+  for (Index c = 0; c < mesh.n_cells(); ++c) offer(c, mesh.cell_centre[c]);
+  for (std::size_t k = 0; k < body.unknowns().face_of_node.size(); ++k)
+    offer(mesh.n_cells() + static_cast<Index>(k), mesh.face_centre[body.unknowns().face_of_node[k]]);
+  return best;
+}
+
+PlateRun::PlateRun(const PlateCase& c, const Mesh& mesh)
+    : case_(c),
+      mesh_(mesh),
+      body_(mesh, elastic_body(c, mesh), std::vector<double>(mesh.region_names.size(), c.material.density)),
+      modes_(lowest_modes(body_, c.n_modes)),
+      response_(body_, c.direction, all_harmonics()) {}
+
+std::vector<Harmonic> PlateRun::all_harmonics() const {
+  std::vector<Harmonic> all;
+  const double temperature = temperature_at_start(case_);
+  for (const double f : frequencies_of(case_)) all.push_back(case_.material.at(f, temperature));
+  if (const auto& base = case_.excitation; base.frequency)
+    all.push_back(case_.material.at(*base.frequency, temperature));
+  else if (base.type != "harmonic")
+    for (const Part& part : parts(0.0)) all.push_back(case_.material.at(part.frequency, temperature));
+  return all;
+}
+
+// f^2 = f_0^2 Re c(f), by iteration.
+std::vector<Resonance> PlateRun::resonances(double temperature) const {
+  std::vector<Resonance> all;
+  for (const Mode& mode : modes_) {
+    double f = mode.omega / two_pi;
+    for (int i = 0; i < 100; ++i) f = mode.omega / two_pi * std::sqrt(case_.material.at(f, temperature).factor.real());
+    const std::complex<double> factor = case_.material.at(f, temperature).factor;
+    all.push_back({.frequency = f,
+                   .loss_factor = factor.imag() / factor.real(),
+                   .effective_mass = mode.participation.cwiseAbs2() / body_.total_mass()});
+  }
+  return all;
+}
+
+ResponseTable PlateRun::response() const {
+  ResponseTable table{.frequency = frequencies_of(case_), .H1 = {}, .power = {}};
+  for (const ResponsePoint& point : case_.points) {
+    const Index unknown = nearest_unknown(body_, point.at);
+    table.H1.emplace_back();
+    for (const double f : table.frequency)
+      table.H1.back().push_back(response_.transmission(case_.material.at(f, temperature_at_start(case_)), unknown));
+  }
+  for (const double f : table.frequency)
+    table.power.push_back(response_.power(case_.material.at(f, temperature_at_start(case_))));
+  return table;
+}
+
+// The largest power of the response's frequencies, improved between its neighbours.
+double PlateRun::driving_frequency(double temperature) const {
+  if (case_.excitation.frequency) return *case_.excitation.frequency;
+  const std::vector<double> f = frequencies_of(case_);
+  const auto power = [&](double at) { return response_.power(case_.material.at(at, temperature)); };
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < f.size(); ++i)
+    if (power(f[i]) > power(f[best])) best = i;
+  if (best == 0 || best + 1 == f.size())
+    throw InputError(fmt::format(
+        "[response] the power is largest at its end, {:.4g} Hz: no resonance lies between its ends", f[best]));
+  return boost::math::tools::brent_find_minima([&](double at) { return -power(at); }, f[best - 1], f[best + 1], 30)
+      .first;
+}
+
+std::vector<PlateRun::Part> PlateRun::parts(double frequency) const {
+  const PlateExcitation& base = case_.excitation;
+  const double mean_square = base.level * base.level;
+  if (base.type == "harmonic") return {{frequency, mean_square}};
+  // The middles of intervals, in equal ratios: of a random motion 2 S df, of a sweep the part of its time.
+  std::vector<Part> all;
+  const int n = case_.n_frequencies;
+  const double ratio = std::pow(base.to / base.from, 1.0 / n);
+  for (int i = 0; i < n; ++i) {
+    const double lower = base.from * std::pow(ratio, i), upper = lower * ratio;
+    double weight = mean_square * (base.logarithmic ? 1.0 / n : (upper - lower) / (base.to - base.from));
+    if (base.type == "random") weight = 2.0 * base.level * (upper - lower);
+    all.push_back({std::sqrt(lower * upper), weight});
+  }
+  return all;
+}
+
+// What the operator is not symmetric by, the strain energy's heat and the mechanical power differ by; the latter
+// counts.
+PlateRun::Heat PlateRun::heat_of(const std::vector<Part>& all, double temperature) const {
+  Heat heat{.source = CellField<double>(as_size(mesh_.n_cells()), 0.0)};
+  double by_strain = 0.0;
+  for (const Part& part : all) {
+    const Harmonic at = case_.material.at(part.frequency, temperature);
+    const CellField<double> strain = strain_power(body_, response_.displacement(at));
+    const double share = parallel_sum(mesh_.n_cells(), [&](Index c) { return mesh_.cell_volume[c] * strain[c]; });
+    const double power = response_.power(at) * part.weight;
+    by_strain += 0.5 * at.omega * at.factor.imag() * part.weight * share;
+    parallel_for(mesh_.n_cells(), [&](Index c) { heat.source[c] += power / share * strain[c]; });
+    heat.power += power;
+  }
+  heat.correction = heat.power / by_strain - 1.0;
+  return heat;
+}
+
+Eigen::VectorXcd PlateRun::motion(double frequency, double temperature) const {
+  return case_.excitation.level * response_.displacement(case_.material.at(frequency, temperature));
+}
+
+// To first order the modulus of a warm body is that at its temperature, weighted by the heat source.
+void PlateRun::heat(double frequency, const Done& done) const {
+  const PlateHeating& heating = *case_.heating;
+  HeatedBody body(mesh_, case_.material.heat, heating.boundary);
+  const std::vector<Part> all = parts(frequency);
+  const auto over_volume = [&](const auto& density) {
+    return parallel_sum(mesh_.n_cells(), [&](Index c) { return mesh_.cell_volume[c] * density(c); });
+  };
+  const double volume = over_volume([](Index) { return 1.0; });
+  Heat heat = heat_of(all, heating.surroundings);
+  HeatingRow row;
+  row.power = heat.power;
+  row.correction = heat.correction;
+  double temperature = heating.surroundings;
+  row.resonance = resonances(temperature).front().frequency;
+  body.set_source(heat.source);
+  done(row, body, heat.source);
+  const auto n_steps = static_cast<int>(std::ceil(heating.duration / heating.step - 1e-9));
+  const double dt = heating.duration / n_steps;
+  for (int step = 1; step <= n_steps; ++step) {
+    body.step(dt);
+    row.time = step * dt;
+    row.work += dt * row.power;
+    row.account = body.account();
+    row.surface = body.surface(heating.surface);
+    row.mean_rise = over_volume([&](Index c) { return body.rise()[c]; }) / volume;
+    row.largest_rise = *std::ranges::max_element(body.rise());
+    if (case_.material.depends_on_temperature()) {
+      temperature =
+          heating.surroundings + over_volume([&](Index c) { return heat.source[c] * body.rise()[c]; }) / row.power;
+      heat = heat_of(all, temperature);
+      body.set_source(heat.source);
+      row.power = heat.power;
+      row.correction = heat.correction;
+      row.resonance = resonances(temperature).front().frequency;
+    }
+    done(row, body, heat.source);
+  }
+}
+
+}  // namespace pfdm

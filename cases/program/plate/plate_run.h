@@ -1,0 +1,55 @@
+#pragma once
+// The computation of a plate case: modes, frequency response, heating.
+
+#include "cases/program/plate/plate_results.h"
+#include "cases/program/session/log.h"
+
+#include <functional>
+
+namespace pfdm {
+
+/// Throws InputError for what does not fit the mesh.
+ElasticBody elastic_body(const PlateCase& c, const Mesh& mesh);
+
+/// The unknown nearest to a place: a cell's or, on the surface, a face's.
+Index nearest_unknown(const VibratingBody& body, const Vector& place);
+
+class PlateRun {
+ public:
+  PlateRun(const PlateCase& c, const Mesh& mesh);
+
+  const VibratingBody& body() const { return body_; }
+  std::vector<Resonance> resonances(double temperature) const;
+  ResponseTable response() const;
+  /// Of the base's motion: the given one, or that of the largest power at the temperature [Hz]; only of a harmonic one.
+  double driving_frequency(double temperature) const;
+  Eigen::Index dimension() const { return response_.dimension(); }
+
+  /// Heats the body; `done` is called at the start and after each step.
+  using Done = std::function<void(const HeatingRow&, const HeatedBody&, const CellField<double>& source)>;
+  void heat(double frequency, const Done& done) const;
+  /// u of the motion at the excitation's level, of a harmonic one [m].
+  Eigen::VectorXcd motion(double frequency, double temperature) const;
+
+ private:
+  struct Part {
+    double frequency;  // [Hz]
+    double weight;     // mean squared amplitude of the base's acceleration that it stands for [m^2/s^4]
+  };
+  struct Heat {
+    CellField<double> source;  // [W/m^3]
+    double power = 0.0;        // mechanical [W]
+    double correction = 0.0;   // of the strain energy's heat, relative
+  };
+  std::vector<Harmonic> all_harmonics() const;
+  std::vector<Part> parts(double frequency) const;
+  Heat heat_of(const std::vector<Part>& parts, double temperature) const;
+
+  const PlateCase& case_;
+  const Mesh& mesh_;
+  VibratingBody body_;
+  std::vector<Mode> modes_;
+  BaseResponse response_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,146 @@
+// Cases of kind plate from end to end: a small plate that is computed, and what is wrong with others said.
+
+#include "postproc/files/csv_table.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pfdm {
+namespace {
+
+using nlohmann::json;
+
+std::string small_plate() {
+  return R"(kind = "plate"
+title = "a small plate"
+mesh.generator = "box_hexes"
+mesh.x = [{ length = "10 cm", cells = 20 }]
+mesh.y = [{ length = "8 cm", cells = 16 }]
+mesh.z = [{ length = "8 mm", cells = 6 }]
+
+[material]
+density = "1200 kg/m^3"
+young_modulus = "20 MPa"
+loss_factor = 0.2
+poisson_ratio = 0.3
+conductivity = "50 W/m/K"
+specific_heat = "1600 J/kg/K"
+
+[[support]]
+patches = ["xmin", "xmax"]
+type = "clamped"
+
+[base]
+motion = "harmonic"
+level = "2 g0"
+
+[response]
+from = "20 Hz"
+to = "400 Hz"
+frequencies = 120
+modes = 3
+
+[[response.points]]
+name = "centre"
+at = ["5 cm", "4 cm", "8 mm"]
+
+[heating]
+duration = "60 min"
+step = "60 s"
+surface = "zmax"
+)";
+}
+
+json summary_of(const TemporaryCase& directory) {
+  const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return json::parse(content_of(directory.results() / "summary.json"));
+}
+
+// Insulated, the rise is m_eff/m A^2 t/(2 eta omega_1 c_p) of the first mode, to within what the other modes add, and
+// uniform, as the conductivity is large.
+TEST(Plate, HeatsUpAtItsResonanceAsTheClosedFormSays) {
+  const TemporaryCase directory(small_plate());
+  const json summary = summary_of(directory);
+  const CsvTable modes = read_csv(directory.results() / "modes.csv");
+  const double f1 = modes.column("frequency_Hz")[0], mass = modes.column("effective_mass_z")[0];
+  EXPECT_NEAR(modes.column("damping_ratio")[0], 0.1, 1e-12);
+  const double A = 2.0 * 9.80665;
+  const double rise = mass * A * A * 3600.0 / (2.0 * 0.2 * 2.0 * std::numbers::pi * f1 * 1600.0);
+  EXPECT_NEAR(summary["surface_mean_rise_K"], rise, 0.02 * rise);
+  EXPECT_NEAR(summary["heat_balance_error"], 0.0, 1e-10);
+  EXPECT_NEAR(summary["heat_J"].get<double>() / summary["mechanical_work_J"].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(summary["heat_source_correction"], 0.0, 5e-3);
+  EXPECT_EQ(summary["heat_lost_J"], 0.0);
+  EXPECT_NEAR(summary["driving_frequency_Hz"], f1, 0.02 * f1);
+
+  const CsvTable response = read_csv(directory.results() / "response.csv");
+  const auto& H1 = response.column("centre_H1_magnitude");
+  const auto peak = std::ranges::max_element(H1) - H1.begin();
+  EXPECT_NEAR(response.column("frequency_Hz")[static_cast<std::size_t>(peak)], f1, 0.05 * f1);
+  EXPECT_NEAR(H1.front(), 1.0, 0.1);  // far below, the plate moves with its base
+
+  const Outcome report = run({"report", directory.path().string(), "--quiet"});
+  EXPECT_EQ(report.status, 0) << report.err;
+  EXPECT_TRUE(std::filesystem::exists(directory.results() / "report/report.pdf"));
+}
+
+// A modulus that falls lowers the resonance; at the frequency of the cold plate it then takes less power.
+TEST(Plate, SoftensAsItWarms) {
+  const TemporaryCase directory(
+      replaced(small_plate(), "loss_factor = 0.2\n",
+               "loss_factor = 0.2\ntemperature = { reference = \"20 degC\", modulus = \"-0.05 1/K\" }\n"));
+  const json summary = summary_of(directory);
+  const CsvTable heating = read_csv(directory.results() / "temperature.csv");
+  const auto last = heating.n_rows() - 1;
+  const double rise = heating.column("mean_rise_K")[last], f0 = summary["first_resonance_Hz"];
+  EXPECT_NEAR(heating.column("resonance_Hz")[last], f0 * std::sqrt(1.0 - 0.05 * rise), 1e-3 * f0);
+  EXPECT_LT(heating.column("mechanical_power_W")[last], 0.97 * heating.column("mechanical_power_W")[0]);
+}
+
+// Random motion of a density S about a resonance of little damping: the power is that of white noise, pi/2 m_eff S per
+// (one-sided, in Hz) 2 pi rad: P = m_eff S/4 in all, whatever the damping.
+TEST(Plate, RandomMotionPutsInThePowerOfWhiteNoise) {
+  std::string text = replaced(small_plate(), "motion = \"harmonic\"\nlevel = \"2 g0\"",
+                              "motion = \"random\"\ndensity = \"1 m^2/s^4/Hz\"\nfrom = \"20 Hz\"\nto = \"200 Hz\"");
+  text = replaced(text, "loss_factor = 0.2", "loss_factor = 0.05");
+  const TemporaryCase directory(text);
+  const json summary = summary_of(directory);
+  const CsvTable modes = read_csv(directory.results() / "modes.csv");
+  const double effective = modes.column("effective_mass_z")[0] * summary["mass_kg"].get<double>();
+  EXPECT_NEAR(summary["mechanical_power_W"], 0.25 * effective, 0.05 * 0.25 * effective);
+}
+
+TEST(Plate, SaysWhatIsWrong) {
+  const BadInput rows[] = {
+      {"patch", "patches = [\"xmin\", \"xmax\"]", "patches = [\"xmin\", \"xmaks\"]", {"xmaks", "did you mean", "xmax"}},
+      {"motion", "motion = \"harmonic\"", "motion = \"harmonik\"", {"harmonik", "did you mean", "harmonic"}},
+      {"loss", "loss_factor = 0.2", "loss_factor = 0.0", {"loss_factor", "above 0 and below 2"}},
+      {"band", "to = \"400 Hz\"", "to = \"10 Hz\"", {"must end above"}},
+      {"points",
+       "[[response.points]]\nname = \"centre\"\nat = [\"5 cm\", \"4 cm\", \"8 mm\"]\n",
+       "",
+       {"[[response.points]]"}},
+      {"held",
+       "patches = [\"xmin\", \"xmax\"]\ntype = \"clamped\"",
+       "patches = [\"xmin\"]\ntype = \"symmetry\"",
+       {"rigidly"}},
+      {"resonance", "from = \"20 Hz\"", "from = \"200 Hz\"", {"no resonance lies between"}},
+  };
+  for (const BadInput& row : rows) {
+    const TemporaryCase directory(replaced(small_plate(), row.good, row.bad));
+    const Outcome outcome = run({"run", directory.path().string()});
+    EXPECT_EQ(outcome.status, 2) << row.name << ": " << outcome.err;
+    for (const std::string& words : row.message) EXPECT_THAT(outcome.err, testing::HasSubstr(words)) << row.name;
+    EXPECT_FALSE(std::filesystem::exists(directory.results() / "summary.json")) << row.name;
+  }
+}
+
+}  // namespace
+}  // namespace pfdm
