@@ -147,7 +147,42 @@ constexpr SplitLaw no_tension{
     .kept = kept_by_no_tension,
 };
 
-constexpr SplitLaw table[] = {none, volumetric_deviatoric, star_convex, spectral, no_tension, rankine};
+// De Lorenzis, Maurini, Int. J. Fract. 237 (2022) 61: what a material keeps whose crack strains satisfy tr eta >= 6 B
+// sqrt(J2(eta)), as of a frictional material without cohesion: its stress, nearest in the norm of the energy, with
+// sqrt(J2) + B I1 <= 0. With AT1 and the cohesive model the strength surface between the two cones is
+// sqrt(J2) + B I1 = constant.
+PrincipalStress kept_by_drucker_prager(const IsotropicElasticity& c, const Vector& eps, const LawParameters& p) {
+  const double B = p[0], K = c.bulk_modulus(), trace = eps.sum();
+  const Vector shear = eps.array() - trace / 3.0;
+  const double size = std::sqrt(0.5 * shear.squaredNorm());  // sqrt(J2) of the strain
+  PrincipalStress kept;
+  if (trace >= 6.0 * B * size) return kept;
+  if (2.0 * c.mu * size <= -3.0 * B * K * trace) {
+    kept.slope = Tensor::Constant(c.lambda) + 2.0 * c.mu * Tensor::Identity();
+  } else {  // pressure times (-1, ..., -1) + 3 B shear/size
+    const double stiffness = 1.0 / (1.0 / K + 9.0 * B * B / c.mu);
+    const double pressure = stiffness * (6.0 * B * size - trace);
+    const Vector along = 3.0 * B / size * shear - Vector::Ones();
+    const Tensor deviatoric = Tensor::Identity() - Tensor::Constant(1.0 / 3.0);
+    kept.slope = stiffness * along * along.transpose() +
+                 3.0 * B * pressure / size * (deviatoric - shear * shear.transpose() / (2.0 * size * size));
+  }
+  kept.stress = kept.slope * eps;
+  return kept;
+}
+
+constexpr LawParameter drucker_prager_parameters[] = {{"B", "1", true}};
+constexpr SplitLaw drucker_prager{
+    .name = "drucker_prager",
+    .description =
+        "what a frictional material without cohesion carries is kept: sqrt(J2) + B I1 <= 0 (De Lorenzis 2022)",
+    .variational = true,
+    .energy = energy_less_kept<kept_by_drucker_prager>,
+    .kept = kept_by_drucker_prager,
+    .parameters = drucker_prager_parameters,
+};
+
+constexpr SplitLaw table[] = {none, volumetric_deviatoric, star_convex, spectral, no_tension, drucker_prager, rankine};
 
 }  // namespace
 

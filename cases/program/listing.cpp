@@ -15,6 +15,7 @@
 #include "physics/hardening.h"
 #include "physics/mass_material.h"
 #include "physics/softening_law.h"
+#include "physics/strength_model.h"
 #include "physics/traction_separation.h"
 #include "postproc/curves/summary.h"
 #include "postproc/fields/energy_release_rate.h"
@@ -117,6 +118,7 @@ void list_laws(std::ostream& out) {
   list_table(out, "cells ([mesh] cells)", cell_kinds());
   list_table(out, "laws of materials ([materials.NAME] law)", material_laws());
   list_table(out, "crack geometric functions ([fracture] model)", crack_geometries());
+  list_table(out, "strength models ([fracture] model)", strength_laws());
   list_table(out, "degradation functions ([fracture] degradation)", degradations());
   list_table(out, "softening laws of the rational degradation ([fracture] softening)", softening_laws());
   list_table(out, "traction-separation laws that pfdm cohesive fits", traction_separation_laws());

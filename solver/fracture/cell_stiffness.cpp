@@ -62,7 +62,7 @@ bool CellStiffness::has_degradable_part(Index cell) const {
 bool CellStiffness::drives_by_degradable_part() const {
   for (Index c = 0; c < mesh_.n_cells(); ++c)
     if (model_.in_cell(mesh_, c).damageable && !has_degradable_part(c)) return false;
-  return model_.irreversibility == Irreversibility::bounds;
+  return model_.irreversibility != Irreversibility::history && !model_.has_strength();
 }
 
 // The secant moduli are linear in g.

@@ -19,7 +19,7 @@ CellField<double> energy_density(const Mesh& mesh, const FractureModel& model) {
   CellField<double> density(as_size(mesh.n_cells()), 0.0);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (const RegionModel& region = model.in_cell(mesh, c); region.damageable)
-      density[c] = region.Gc / (model.crack->c0 * region.ell);
+      density[c] = region.surface_toughness() / (model.crack->c0 * region.ell);
   return density;
 }
 
@@ -32,7 +32,7 @@ TwoPointFlux::Medium medium_of(const Mesh& mesh, const FractureModel& model, con
     for (const Index f : surface.faces) medium.cut[f] = 1;
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (const RegionModel& region = model.in_cell(mesh, c); region.damageable)
-      medium.conductance[c] = 2.0 * region.Gc * region.ell / model.crack->c0;
+      medium.conductance[c] = 2.0 * region.surface_toughness() * region.ell / model.crack->c0;
   for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
     const bool within_P = model.in_cell(mesh, P).damageable, within_N = model.in_cell(mesh, N).damageable;
@@ -75,13 +75,15 @@ double DamageEquation::local_slope(Index cell, double d, double psi) const {
   const double slope =
       density_[cell] * model_.crack->alpha_prime(d) + (1.0 - model_.residual_stiffness) * degradation.g_prime(d) * psi;
   const double source = source_.size() > 0 ? source_[cell] : 0.0;
+  const double force = force_.size() > 0 ? degradation.g(d) * force_[cell] : 0.0;
   const double resistance = resistance_ > 0.0 ? resistance_ * (d - from_[cell]) : 0.0;
-  return mesh_.cell_volume[cell] * (slope + resistance - source);
+  return mesh_.cell_volume[cell] * (slope + resistance - source - force);
 }
 
 double DamageEquation::local_curvature(Index cell, double d, double psi) const {
   const Degradation& degradation = model_.degradation_of(model_.in_cell(mesh_, cell));
-  return mesh_.cell_volume[cell] * (density_[cell] * model_.crack->alpha_second(d) + resistance_ +
+  const double force = force_.size() > 0 ? degradation.g_prime(d) * force_[cell] : 0.0;
+  return mesh_.cell_volume[cell] * (density_[cell] * model_.crack->alpha_second(d) + resistance_ - force +
                                     (1.0 - model_.residual_stiffness) * degradation.g_second(d) * psi);
 }
 

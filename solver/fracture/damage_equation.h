@@ -3,7 +3,8 @@
 //
 //   (Gc/(c0 ell)) alpha'(d) + (1 - k) g'(d) psi_plus - div((2 Gc ell/c0) grad d) = 0,  lower <= d <= 1,
 //
-// no flux through the boundary, d = 0 in undamageable regions. With a viscosity eta (Ginzburg-Landau; Miehe,
+// no flux through the boundary, d = 0 in undamageable regions. With a strength model Gc is delta Gc, and an external
+// driving force c adds -g(d) c (physics/strength_model.h). With a viscosity eta (Ginzburg-Landau; Miehe,
 // Welschinger, Hofacker, Int. J. Numer. Meth. Engng 83 (2010) 1273) the left side has eta (d - d_n)/dt as well.
 // Two-point fluxes, bounds by active set: two_point_flux.h, bounded_newton.h.
 
@@ -33,6 +34,8 @@ class DamageEquation {
   CellField<double> fracture_energy_density(const CellField<double>& d) const;
   /// Viscous resistance to changes of the damage from `from` [J/m^3], eta over the time step, from now on.
   void resist_change(double resistance, const CellField<double>& from);
+  /// External driving force c [J/m^3], from now on; empty: none.
+  void set_driving_force(CellField<double> force) { force_ = std::move(force); }
   /// Energy that the resistance dissipates up to d [J]: int eta (d - d_n)^2/dt dV.
   double viscous_dissipation(const CellField<double>& d) const;
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
@@ -51,6 +54,7 @@ class DamageEquation {
   CellField<double> density_;  // Gc/(c0 ell) [J/m^3]
   TwoPointFlux flux_;          // of the conductance 2 Gc ell/c0 [J/m]
   CellField<double> source_;
+  CellField<double> force_;  // empty without
   double resistance_ = 0.0;  // [J/m^3]
   CellField<double> from_;   // empty without resistance
 };

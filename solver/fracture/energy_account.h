@@ -15,6 +15,7 @@ struct EnergyAccount {
   double plastic_dissipation = 0.0;    ///< by materials with a history
   double interface_energy = 0.0;       ///< stored in cohesive interfaces
   double interface_dissipation = 0.0;  ///< by decohesion and friction of cohesive interfaces
+  double strength_dissipation = 0.0;   ///< by the driving force of a strength model; negative in tension
   friend bool operator==(const EnergyAccount&, const EnergyAccount&) = default;
 };
 
@@ -41,6 +42,8 @@ inline constexpr EnergyEntry energy_entries[] = {
      "stored in interfaces"},
     {&EnergyAccount::interface_dissipation, EnergyEntry::Role::dissipated, "interface_dissipation",
      "interface_dissipation", "dissipated by interfaces"},
+    {&EnergyAccount::strength_dissipation, EnergyEntry::Role::dissipated, "strength_dissipation",
+     "strength_dissipation", "dissipated by the strength's driving force"},
 };
 
 /// The work that is neither stored nor dissipated, nor in the surface energy gained since `start`, where there may be

@@ -10,6 +10,19 @@ bool FractureModel::is_isotropic() const {
          std::ranges::all_of(regions, [&](const RegionModel& region) { return has_secant(region.split); });
 }
 
+bool FractureModel::has_strength() const {
+  return std::ranges::any_of(regions, [](const RegionModel& region) { return region.strength.is_chosen(); });
+}
+
+CellField<double> FractureModel::lower_bound(const CellField<double>& damage) const {
+  constexpr double nearly_broken = 0.95;
+  CellField<double> lower = damage;
+  if (irreversibility == Irreversibility::bounds) return lower;
+  for (double& d : lower)
+    if (irreversibility == Irreversibility::history || d < nearly_broken) d = 0.0;
+  return lower;
+}
+
 ElasticBody elastic_body(const FractureModel& model) {
   ElasticBody body{.elasticity = {}, .zone = {}, .boundary = model.boundary};
   for (const RegionModel& region : model.regions) {

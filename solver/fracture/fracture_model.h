@@ -7,6 +7,7 @@
 #include "physics/energy_split.h"
 #include "physics/interface_law.h"
 #include "physics/materials/material.h"
+#include "physics/strength_model.h"
 #include "solver/momentum/boundary_condition.h"
 #include "solver/momentum/preconditioner.h"
 #include "solver/momentum/unknowns.h"
@@ -25,13 +26,19 @@ struct RegionModel {
   bool damageable = true;     ///< false pins d = 0 in the region
   EnergySplit split{};        ///< if none is chosen, the model's
   Degradation degradation{};  ///< likewise
+  StrengthModel strength{};   ///< none is chosen: the energy alone drives damage
   /// The undamaged material, with the same elasticity; null: linear elastic.
   std::shared_ptr<const Material> material{};
+
+  /// Of the surface energy [J/m^2]: a strength model pays part of Gc otherwise.
+  double surface_toughness() const { return strength.is_chosen() ? strength.delta() * Gc : Gc; }
 };
 
 enum class Irreversibility {
-  bounds,   ///< d_n <= d <= 1, by active set
-  history,  ///< the driving energy is the largest that was seen (Miehe et al., CMAME 199 (2010) 2765, eq. 38)
+  bounds,     ///< d_n <= d <= 1, by active set
+  crack_set,  ///< the same where d_n >= 0.95, elsewhere 0 <= d <= 1: only cracks stay (Bourdin et al., JMPS 48 (2000)
+              ///< 797)
+  history,    ///< the driving energy is the largest that was seen (Miehe et al., CMAME 199 (2010) 2765, eq. 38)
 };
 
 /// Interior faces whose sides a cohesive law joins.
@@ -72,6 +79,9 @@ struct FractureModel {
   const Degradation& degradation_of(const RegionModel& region) const {
     return region.degradation.is_chosen() ? region.degradation : degradation;
   }
+  bool has_strength() const;  ///< whether some region has a strength model
+  /// The least damage that a step from this one may end with.
+  CellField<double> lower_bound(const CellField<double>& damage) const;
   /// Whether every split has isotropic secant moduli.
   bool is_isotropic() const;
 };

@@ -90,6 +90,7 @@ struct FractureRun::Parts {
       throw InputError("viscosity (fracture.viscosity) requires loading.duration, the time in which t grows by 1");
     for (const RegionModel& region : m.regions)
       if (region.material) require_history(m, *region.material);
+    if (m.has_strength()) require_strength(m);
     if (!std::isfinite(loading.maximum_dissipation)) return;
     if (m.viscosity > 0.0)
       throw InputError(
@@ -109,6 +110,16 @@ struct FractureRun::Parts {
                           "t; those of patch \"{}\" are not",
                           patch.name));
       }
+    }
+  }
+
+  static void require_strength(const FractureModel& m) {
+    if (m.irreversibility == Irreversibility::history)
+      throw InputError("a strength model requires the irreversibility \"bounds\" or \"crack_set\"");
+    for (const RegionModel& region : m.regions) {
+      if (!region.damageable) continue;
+      if (region.material || m.degradation_of(region).name() != "quadratic")
+        throw InputError("a strength model requires linear elastic materials and the degradation \"quadratic\"");
     }
   }
 

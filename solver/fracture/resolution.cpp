@@ -65,6 +65,13 @@ std::vector<std::string> resolution_warnings(const Mesh& mesh, const FractureMod
           "region \"{}\": cells are up to {:.3g} m thick, ell is {:.3g} m: a crack in the thick ones would not "
           "be resolved (at most ell/{:g})",
           mesh.region_names[r], sizes[r].thickness, sizes[r].ell, cells_in_ell));
+    const RegionModel& region = model.regions[r];
+    if (!region.damageable || !region.strength.is_chosen()) continue;
+    if (const double largest = largest_length(region.strength.data()); region.ell > largest)
+      warnings.push_back(fmt::format(
+          "region \"{}\": ell is {:.3g} m; a model of strength needs less than 3 Gc/(16 W) = {:.3g} m, W being the "
+          "energy density at the tensile strength",
+          mesh.region_names[r], region.ell, largest));
   }
   for (const Band& band : bands) {
     const auto r = as_size(mesh.region_index(band.region));

@@ -37,6 +37,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
                                   const IterationWatch& watch) {
   stiffness_.start_step(limits.duration);
   momentum_.start_afresh();  // as a restarted run does
+  const StrengthDrive strength_before = strength_drive_of(start);
   StepOutcome outcome = alternate(start, state, limits, watch);
   if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
@@ -58,6 +59,8 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   outcome.share = residual_share(state, energies);
   outcome.collapsed = outcome.converged && has_collapsed(outcome.share);
   outcome.energy.viscous_dissipation = damage_.viscous_dissipation(state.damage);
+  outcome.energy.strength_dissipation =
+      strength_dissipation(mesh_, model_, strength_before, strength_, start.damage, state.damage);
   outcome.energy.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
   return outcome;
 }
@@ -68,8 +71,9 @@ struct Staggered::Loop {
   const FractureState& start;
   FractureState& state;
   const StepLimits& limits;
-  double fracture_energy;  // at the start [J]
-  double torn_before;      // dissipated by cohesive faces until then [J]
+  const CellField<double> lower;  // bound of the damage
+  double fracture_energy;         // at the start [J]
+  double torn_before;             // dissipated by cohesive faces until then [J]
   PathLimit path{};
   FacesPath faces_path{};
   Relaxation relaxation{s.way_};
@@ -84,6 +88,7 @@ struct Staggered::Loop {
         start(first),
         state(trial),
         limits(step_limits),
+        lower(s.model_.irreversibility == Irreversibility::history ? first.damage : s.model_.lower_bound(first.damage)),
         fracture_energy(s.damage_.renewed_fracture_energy(first.damage)),
         torn_before(s.faces_.dissipated(s.faces_.virgin_histories(), first.interfaces)) {
     if (follows_path()) path = {state.load, fracture_energy + limits.dissipation, limits.dissipation};
@@ -158,7 +163,7 @@ struct Staggered::Loop {
     outcome.settled = solved && change < s.settings_.damage_tolerance && energy_change < s.settings_.energy_tolerance &&
                       std::abs(load_scale - 1.0) < s.settings_.damage_tolerance;
     outcome.converged = outcome.settled && outcome.residual <= s.settings_.equilibrium_tolerance;
-    state.damage = outcome.converged ? answer : relaxation.next(state.damage, answer, start.damage);
+    state.damage = outcome.converged ? answer : relaxation.next(state.damage, answer, lower);
     outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
     outcome.broke_too_much = outcome.growth > limits.growth || outcome.energy_release > limits.energy_release;
     if (outcome.broke_too_much) outcome.converged = false;
@@ -207,18 +212,35 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   energies.stored += energies.interfaces;
   energies.torn = faces_.dissipated(faces_.virgin_histories(), state.interfaces);
   parallel_for(mesh_.n_cells(), [&](Index c) { psi_plus_[c] = stiffness_.driving_energy(c, mechanics, state); });
+  strength_ = strength_drive(mesh_, model_, mechanics, psi_plus_);
   energies.residual = drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_.follow(mechanics, state);
   return energies;
+}
+
+StrengthDrive Staggered::strength_drive_of(const FractureState& state) {
+  if (!model_.has_strength()) return {};
+  degrade(state);
+  const CellMechanics mechanics = momentum_.balance().mechanics(
+      state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
+  CellField<double> psi(as_size(mesh_.n_cells()));
+  parallel_for(mesh_.n_cells(), [&](Index c) { psi[c] = stiffness_.driving_energy(c, mechanics, state); });
+  return strength_drive(mesh_, model_, mechanics, psi);
 }
 
 // The driving energy of the last equilibrium with its displacements times `scale`. Returns what the residual stiffness
 // stores [J].
 double Staggered::drive(const FractureState& start, FractureState& state, double scale) {
   const bool history = model_.irreversibility == Irreversibility::history;
+  if (strength_.force.size() > 0) {
+    CellField<double> force(as_size(mesh_.n_cells()));
+    parallel_for(mesh_.n_cells(), [&](Index c) { force[c] = scale * strength_.force[c]; });
+    damage_.set_driving_force(std::move(force));
+  }
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     const double psi = scale * scale * psi_plus_[c];
-    state.driving_energy[c] = history ? std::max(psi, start.driving_energy[c]) : psi;
+    const double opening = strength_.closed.size() > 0 ? psi - scale * scale * strength_.closed[c] : psi;
+    state.driving_energy[c] = history ? std::max(opening, start.driving_energy[c]) : opening;
     return stiffness_.residual_energy(c, psi, state.damage[c]);
   });
 }
@@ -280,9 +302,7 @@ ResidualShare Staggered::residual_share(const FractureState& state, const Energi
 
 bool Staggered::solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d) {
   const auto lap = clock_.lap("damage");
-  const bool bounds = model_.irreversibility == Irreversibility::bounds;
-  const CellField<double> zero(bounds ? 0 : as_size(mesh_.n_cells()), 0.0);
-  return damage_.solve(state.driving_energy, bounds ? start.damage : zero, {.reduction = 1e-3}, d).converged;
+  return damage_.solve(state.driving_energy, model_.lower_bound(start.damage), {.reduction = 1e-3}, d).converged;
 }
 
 }  // namespace pfdm

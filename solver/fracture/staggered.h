@@ -11,6 +11,7 @@
 #include "solver/fracture/residual_stiffness.h"
 #include "solver/fracture/stage_clock.h"
 #include "solver/fracture/state.h"
+#include "solver/fracture/strength_drive.h"
 #include "solver/momentum/momentum_solver.h"
 
 #include <limits>
@@ -84,6 +85,8 @@ class Staggered {
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
   double drive(const FractureState& start, FractureState& state, double scale);
   ResidualShare residual_share(const FractureState& state, const Energies& energies);
+  /// Of a strength model, at the equilibrium of this state; empty without.
+  StrengthDrive strength_drive_of(const FractureState& state);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   struct PathLimit {
     double load = 0.0;    // largest load of the step
@@ -103,6 +106,7 @@ class Staggered {
   Relaxation::Way way_;
   StageClock clock_;
   CellField<double> psi_plus_;  // [J/m^3] of the last equilibrium
+  StrengthDrive strength_;      // likewise
 };
 
 }  // namespace pfdm

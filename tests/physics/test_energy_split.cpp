@@ -227,6 +227,80 @@ TEST(EnergySplit, StarConvexTellsCompressionFromTension) {
   }
 }
 
+// Least energy over all crack strains with tr eta >= 6 B sqrt(J2(eta)), by ternary search over their sqrt(J2); the
+// optimal one has the deviator's direction.
+TEST(EnergySplit, DruckerPragerKeepsTheLeastEnergy) {
+  RandomTensors random;
+  const double K = glass.bulk_modulus();
+  for (const double B : {0.0, 0.1, 0.4, 1.5})
+    for (int i = 0; i < 40; ++i) {
+      const Tensor eps = random.symmetric(1e-2);
+      const Tensor shear = deviator(eps);
+      const double trace = eps.trace(), size = std::sqrt(0.5 * contract(shear, shear));
+      const auto energy_less = [&](double crack) {
+        const double closed = std::max(6.0 * B * crack - trace, 0.0);
+        return 0.5 * K * closed * closed + 2.0 * glass.mu * (size - crack) * (size - crack);
+      };
+      double low = 0.0, high = size;
+      for (int k = 0; k < 200; ++k) {
+        const double third = (high - low) / 3.0;
+        if (energy_less(low + third) > energy_less(high - third))
+          low += third;
+        else
+          high -= third;
+      }
+      const SplitEnergy energy = EnergySplit(split_law("drucker_prager"), {B}).energy(glass, eps);
+      EXPECT_NEAR(energy.psi_minus, energy_less(0.5 * (low + high)), 1e-9 * energy_density(glass, eps)) << "B = " << B;
+    }
+}
+
+TEST(EnergySplit, DruckerPragerWithoutFrictionIsVolumetricDeviatoric) {
+  const EnergySplit split(split_law("drucker_prager"), {0.0}), amor = energy_split("volumetric_deviatoric");
+  RandomTensors random;
+  for (int i = 0; i < 20; ++i) {
+    const Tensor eps = random.symmetric(1e-2);
+    EXPECT_NEAR(split.energy(glass, eps).psi_plus, amor.energy(glass, eps).psi_plus,
+                1e-12 * energy_density(glass, eps));
+    EXPECT_LE((degraded_stress(split, glass, 0.1, eps) - degraded_stress(amor, glass, 0.1, eps)).norm(),
+              1e-9 * stress(glass, eps).norm());
+  }
+}
+
+// AT1 breaks sound material where psi_plus reaches w, here in 200 directions of stress (De Lorenzis, Maurini 2022).
+TEST(EnergySplit, StrengthSurfacesAreThoseOfThePapers) {
+  constexpr double w = 1e4, B = 0.2, gamma = 3.0;
+  const double K = glass.bulk_modulus(), mu = glass.mu, E = glass.young_modulus(), nu = glass.poisson_ratio();
+  const EnergySplit drucker_prager(split_law("drucker_prager"), {B}), star_convex(split_law("star_convex"), {gamma});
+  int n_on_plane = 0, n_on_ellipsoid = 0, n_never = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double z = -1.0 + (i + 0.5) / 100.0, turn = 2.399963 * i, r = std::sqrt(1.0 - z * z);
+    const Vector sigma(r * std::cos(turn), r * std::sin(turn), z);
+    const Tensor eps = Vector((1.0 + nu) / E * sigma.array() - nu / E * sigma.sum()).asDiagonal();
+    const Vector s = sigma.array() - sigma.sum() / 3.0;
+    const double I1 = sigma.sum(), shear = std::sqrt(0.5 * s.squaredNorm());
+    const double whole = shear * shear / (2.0 * mu) + I1 * I1 / (18.0 * K);
+    const auto strength = [&](const EnergySplit& split) { return std::sqrt(w / split.energy(glass, eps).psi_plus); };
+    if (shear + B * I1 <= 0.0) {
+      ++n_never;
+      EXPECT_NEAR(drucker_prager.energy(glass, eps).psi_plus, 0.0, 1e-12 * whole);
+    } else if (I1 / (3.0 * K) >= 3.0 * B * shear / mu) {
+      ++n_on_ellipsoid;
+      EXPECT_NEAR(strength(drucker_prager), std::sqrt(w / whole), 1e-9 * strength(drucker_prager));
+    } else {
+      ++n_on_plane;
+      const double due = std::sqrt(2.0 * w * (mu + 9.0 * B * B * K)) / (shear + B * I1);
+      EXPECT_NEAR(strength(drucker_prager), due, 1e-6 * due);
+    }
+    const double star = shear * shear / (2.0 * mu) + (I1 > 0.0 ? 1.0 : -gamma) * I1 * I1 / (18.0 * K);
+    if (star > 0.0) {
+      EXPECT_NEAR(strength(star_convex), std::sqrt(w / star), 1e-6 * std::sqrt(w / star));
+    }
+  }
+  EXPECT_GT(n_on_plane, 50);
+  EXPECT_GT(n_on_ellipsoid, 10);
+  EXPECT_GT(n_never, 5);
+}
+
 TEST(EnergySplit, ParametersWithoutADefaultMustBeGiven) {
   EXPECT_THAT(message_of<InputError>([] { energy_split("star_convex"); }), ::testing::HasSubstr("gamma"));
 }

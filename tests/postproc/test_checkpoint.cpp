@@ -108,7 +108,7 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
   other[8] = 9;
-  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 7"));
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 8"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
   EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));

@@ -35,7 +35,7 @@ struct Equilibrated {
   double energy = 0.0;  // [J]
 };
 
-// Equilibrium at given damage: the stiffness follows the strain until it falsifies the energy by less than 1e-10.
+// Equilibrium at given damage: the stiffness follows the strain until it falsifies the energy by less than 1e-13.
 Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField<double> damage) {
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumSolver solver(mesh, unknowns);
@@ -47,7 +47,7 @@ Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField
   result.state.closure = CellField<double>(n, 0.0);
   result.state.tangent_strain = CellField<Tensor>(n);
   result.state.displacement.assign(as_size(unknowns.n_unknowns()), Vector::Zero());
-  for (double unsettled = 1.0; unsettled > 1e-10 && result.iterations < 50; ++result.iterations) {
+  for (double unsettled = 1.0; unsettled > 1e-13 && result.iterations < 50; ++result.iterations) {
     stiffness.set(result.state, solver);
     EXPECT_TRUE(solver.solve(1.0, {.ceiling = 1e-12, .floor = 1e-12}, result.state.displacement).converged);
     result.cells = solver.balance().mechanics(result.state.displacement, MomentumOperator::Wanted::all,

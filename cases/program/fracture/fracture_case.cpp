@@ -28,21 +28,61 @@ const Law* find_law(const ConfigTable& table, std::string_view key, const Law& o
   return value ? &choose(*value, laws, what) : &otherwise;
 }
 
+Irreversibility read_irreversibility(const ConfigValue& value) {
+  const std::string ways[] = {"bounds", "crack_set", "history"};
+  const std::string way = value.one_of(ways, "way of irreversibility");
+  return way == "history"     ? Irreversibility::history
+         : way == "crack_set" ? Irreversibility::crack_set
+                              : Irreversibility::bounds;
+}
+
+/// A crack geometric function, or a strength model, which has one.
+const CrackGeometry& read_model(const ConfigTable& table, StrengthChoice& strength) {
+  const auto value = table.find("model");
+  if (!value) return crack_geometry("AT2");
+  std::vector<std::string> names;
+  for (const CrackGeometry& crack : crack_geometries()) names.emplace_back(crack.name);
+  for (const StrengthLaw& law : strength_laws()) names.emplace_back(law.name);
+  const std::string name = value->one_of(names, "crack geometric function or model of strength");
+  const auto law = std::ranges::find(strength_laws(), name, &StrengthLaw::name);
+  if (law == strength_laws().end()) return crack_geometry(name);
+  strength.law = &*law;
+  return crack_geometry(law->crack);
+}
+
+void read_delta(const ConfigTable& table, const FractureModel& model, StrengthChoice& strength) {
+  const auto delta = table.find("delta");
+  if (strength.law == nullptr) {
+    if (delta) throw delta->error("this belongs to the model \"strength\"");
+    return;
+  }
+  if (const auto degrading = table.find("degradation"); degrading && model.degradation.name() != "quadratic")
+    throw degrading->error(fmt::format("the model \"{}\" requires the degradation \"quadratic\"", strength.law->name));
+  if (model.irreversibility == Irreversibility::history)
+    throw table.at("irreversibility")
+        .error(fmt::format("the model \"{}\" requires \"bounds\" or \"crack_set\"", strength.law->name));
+  if (!delta) return;
+  if (delta->is_table())
+    strength.mesh_size =
+        delta->table().with_keys({"mesh_size"}).quantity("mesh_size", dimension::length, range::positive);
+  else
+    strength.delta = delta->number(range::positive);
+}
+
 MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   const ConfigTable table = root.table("fracture")
                                 .with_keys({"model", "degradation", "softening", "split", "effective_toughness",
-                                            "irreversibility", "length", "residual_stiffness", "viscosity"});
-  model.crack = find_law(table, "model", crack_geometry("AT2"), crack_geometries(), "crack geometric function");
+                                            "irreversibility", "length", "residual_stiffness", "viscosity", "delta"});
+  MaterialDefaults defaults;
+  model.crack = &read_model(table, defaults.strength);
   const auto degrading = table.find("degradation"), split = table.find("split");
   model.degradation = degrading ? read_degradation(*degrading) : degradation("quadratic");
   model.split = split ? read_split(*split) : energy_split("volumetric_deviatoric");
-  const std::string ways[] = {"bounds", "history"};
-  const auto irreversibility = table.find("irreversibility");
-  if (irreversibility && irreversibility->one_of(ways, "way of irreversibility") == "history")
-    model.irreversibility = Irreversibility::history;
+  if (const auto irreversibility = table.find("irreversibility"))
+    model.irreversibility = read_irreversibility(*irreversibility);
+  read_delta(table, model, defaults.strength);
   model.residual_stiffness = table.number("residual_stiffness", above_zero_to_one, model.residual_stiffness);
   if (table.has("viscosity")) model.viscosity = table.quantity("viscosity", dimension::viscosity, range::not_negative);
-  MaterialDefaults defaults;
   defaults.crack = model.crack;
   const std::string toughnesses[] = {"corrected", "as_given"};
   const auto effective = table.find("effective_toughness");

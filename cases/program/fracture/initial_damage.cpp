@@ -50,9 +50,11 @@ std::vector<bool> initially_damaged(const InitialDamage& initial, const Fracture
 std::optional<InitialDamage> read_initial_damage(const ConfigTable& root, const FractureModel& model) {
   if (!root.has("initial")) return std::nullopt;
   const ConfigTable table = root.table("initial").with_keys({"cracks", "damage", "regions"});
-  if (model.irreversibility != Irreversibility::bounds)
+  if (model.irreversibility == Irreversibility::history)
     throw table.at(table.has("cracks") ? "cracks" : "damage")
-        .error("this requires the irreversibility \"bounds\": the driving energy of an initial damage is not known");
+        .error(
+            "this requires the irreversibility \"bounds\" or \"crack_set\": the driving energy of an initial damage is "
+            "not known");
   InitialDamage initial;
   for (const ConfigTable& crack : table.tables("cracks"))
     initial.cracks.push_back(read_crack(crack.with_keys({"points", "front", "centre", "normal", "radius"})));

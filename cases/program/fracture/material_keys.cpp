@@ -21,6 +21,8 @@ const Quantity quantities[] = {
     {"toughness", &MaterialKeys::toughness, dimension::toughness},
     {"strength", &MaterialKeys::strength, dimension::stress},
     {"length", &MaterialKeys::length, dimension::length},
+    {"hydrostatic_strength", &MaterialKeys::hydrostatic_strength, dimension::stress},
+    {"compressive_strength", &MaterialKeys::compressive_strength, dimension::stress},
 };
 constexpr std::string_view choices[] = {"damageable", "split", "degradation", "softening"};
 

@@ -14,7 +14,8 @@ namespace pfdm {
 
 /// What a material or a region's override may say.
 struct MaterialKeys {
-  std::optional<Parameter> young_modulus, poisson_ratio, toughness, strength, length;
+  std::optional<Parameter> young_modulus, poisson_ratio, toughness, strength, length, hydrostatic_strength,
+      compressive_strength;
   std::optional<bool> damageable;
   std::optional<EnergySplit> split;
   std::optional<Degradation> degradation;

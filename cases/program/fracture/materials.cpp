@@ -32,6 +32,37 @@ RationalCoefficients make_coefficients(std::optional<double> strength, const Reg
   return rational_coefficients(law, E, model.Gc, *strength, model.ell);
 }
 
+double hydrostatic_strength_of(const MaterialKeys& keys, const std::string& region, const ConfigTable& table,
+                               const Vector& x) {
+  if (keys.hydrostatic_strength.has_value() == keys.compressive_strength.has_value())
+    throw table.error(
+        fmt::format("region \"{}\": expected either hydrostatic_strength or compressive_strength, which the model of "
+                    "strength needs, as in \"{}\"",
+                    region, dimension::stress.example));
+  if (keys.hydrostatic_strength) return keys.hydrostatic_strength->at(x);
+  return table.in_context([&] { return hydrostatic_strength(keys.strength->at(x), keys.compressive_strength->at(x)); });
+}
+
+StrengthModel make_strength(const MaterialKeys& keys, const RegionModel& model, const std::string& region,
+                            const StrengthChoice& choice, const ConfigTable& table, const Vector& x) {
+  if (keys.material || (keys.degradation && keys.degradation->name() != "quadratic"))
+    throw table.error(fmt::format(
+        "region \"{}\": the model of strength requires the degradation \"quadratic\" and a linear elastic material",
+        region));
+  if (!keys.strength)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no strength (in uniaxial tension), which the "
+                    "model of strength needs, as in \"{}\"",
+                    region, dimension::stress.example));
+  const StrengthData data{.elasticity = model.elasticity,
+                          .tensile = keys.strength->at(x),
+                          .hydrostatic = hydrostatic_strength_of(keys, region, table, x),
+                          .Gc = model.Gc,
+                          .ell = model.ell};
+  const double delta = choice.delta.value_or(choice.law->delta(data, choice.mesh_size));
+  return table.in_context([&] { return StrengthModel(*choice.law, data, delta); });
+}
+
 RegionModel make_model(const MaterialKeys& keys, const std::string& region, const MaterialDefaults& defaults,
                        const ConfigTable& table, const Vector& x) {
   RegionModel model;
@@ -52,6 +83,8 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, cons
         fmt::format("region \"{}\" can be damaged but has no length (ell); give it in [fracture] or "
                     "here, as in \"10 um\"",
                     region));
+  if (defaults.strength.law != nullptr)
+    model.strength = make_strength(keys, model, region, defaults.strength, table, x);
   if (keys.degradation) model.degradation = *keys.degradation;
   if (!keys.degradation.value_or(defaults.degradation).law().needs_strength) return model;
   const SofteningLaw* const given = keys.softening.value_or(defaults.softening);

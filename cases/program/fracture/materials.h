@@ -38,6 +38,13 @@ struct Materials {
   const IsotropicElasticity& elasticity(const ConfigValue& name) const;
 };
 
+/// A strength model of all damageable materials, and how its delta is found.
+struct StrengthChoice {
+  const StrengthLaw* law = nullptr;  ///< null: none
+  std::optional<double> delta{};     ///< as given; else the law's own
+  double mesh_size = 0.0;            ///< that the law's own takes into account [m]; 0: none
+};
+
 /// What [fracture] and the mesh say about all materials.
 struct MaterialDefaults {
   const CrackGeometry* crack = nullptr;
@@ -46,6 +53,7 @@ struct MaterialDefaults {
   std::optional<double> ell;                ///< of those that give no length of their own [m]
   Degradation degradation{};                ///< of materials that name none
   const SofteningLaw* softening = nullptr;  ///< likewise; for degradations that need a strength
+  StrengthChoice strength{};
 };
 
 /// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file.
