@@ -1,6 +1,7 @@
 #include "cases/program/kinds.h"
 
 #include "cases/program/fracture/fracture_program.h"
+#include "cases/program/homogenization/homogenization_program.h"
 #include "cases/program/plate/plate_program.h"
 #include "cases/program/point/endochronic_program.h"
 #include "cases/program/studies/sweep.h"
@@ -12,6 +13,7 @@ namespace {
 constexpr CaseKind table[] = {
     {"endochronic", "one material point of endochronic plasticity under mixed control", read_endochronic_program},
     {"fracture", "phase-field fracture of a solid under load", read_fracture_program},
+    {"homogenize", "effective linear stiffness of a meshed composite by six load cases", read_homogenization_program},
     {"mass_material", "mass on a sample on a shaker: simulation and identification", read_mass_material_program},
     {"plate", "viscoelastic plate or other body on a shaker: modes, frequency response, heating", read_plate_program},
 };

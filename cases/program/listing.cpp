@@ -19,6 +19,7 @@
 #include "physics/traction_separation.h"
 #include "postproc/curves/summary.h"
 #include "postproc/fields/energy_release_rate.h"
+#include "solver/homogenization/homogenization.h"
 #include "solver/point/endochronic_identification.h"
 
 #include <fmt/format.h>
@@ -130,6 +131,7 @@ void list_laws(std::ostream& out) {
   list_table(out, "identification of the endochronic law ([fit] method)", identification_methods());
   list_table(out, "linear solvers ([solver] linear)", linear_solvers());
   list_table(out, "boundary conditions ([[boundary]] type)", boundary_types());
+  list_table(out, "boundary conditions of a homogenisation ([homogenization] boundary)", homogenization_loadings());
   list_table(out, "displacement fields (displacement = { field = ... })", displacement_fields());
   list_table(out, "energy release rate of a crack ([[output.energy_release_rate]] shape)", region_shapes());
   list_table(out, "mass-material models ([model] structure)", model_structures());

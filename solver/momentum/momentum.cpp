@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pfdm {
 namespace {
@@ -291,7 +292,19 @@ void MomentumOperator::sum_forces(std::vector<Vector>& out) const {
     if (const Index second = second_side_of_node_[as_size(k)]; second >= 0) sum += forces_[n_links + as_size(second)];
     out[as_size(unknowns_.n_cells + k)] = unknowns_.free_directions[as_size(k)] * sum;
   });
+  gather_from_images(out);
   keep_in_plane(out);
+}
+
+void MomentumOperator::gather_from_images(std::vector<Vector>& forces) const {
+  for (const PeriodicNodes& pair : unknowns_.periodic) {
+    forces[as_size(pair.node)] += forces[as_size(pair.image)];
+    forces[as_size(pair.image)].setZero();
+  }
+}
+
+void MomentumOperator::repeat_on_images(std::vector<Vector>& v) const {
+  for (const PeriodicNodes& pair : unknowns_.periodic) v[as_size(pair.image)] = v[as_size(pair.node)];
 }
 
 // Plane meshes neither move nor are loaded across their plane.
@@ -330,6 +343,16 @@ void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
       u[as_size(node)] = is_free * u[as_size(node)] + (Tensor::Identity() - is_free) * value;
     }
   }
+  const auto of_body = [&](Index face) -> Vector {
+    return unknowns_.displacement ? unknowns_.displacement(mesh_.face_centre[face], t) : Vector::Zero();
+  };
+  for (const HeldFace& held : unknowns_.held) {
+    Vector& here = u[as_size(unknowns_.node_of_face[held.face])];
+    here += held.directions * (of_body(held.face) - here);
+  }
+  const auto face_of = [&](Index node) { return unknowns_.face_of_node[as_size(node - unknowns_.n_cells)]; };
+  for (const PeriodicNodes& pair : unknowns_.periodic)
+    u[as_size(pair.image)] = u[as_size(pair.node)] + of_body(face_of(pair.image)) - of_body(face_of(pair.node));
   keep_in_plane(u);
 }
 
@@ -369,6 +392,9 @@ Tensor MomentumOperator::compact_sector(Index cell) const {
 }
 
 BlockTriplets MomentumOperator::compact_matrix() const {
+  std::vector<Index> row(as_size(unknowns_.n_nodes()));
+  std::iota(row.begin(), row.end(), Index{0});
+  for (const PeriodicNodes& pair : unknowns_.periodic) row[as_size(pair.image)] = pair.node;
   BlockTriplets matrix;
   matrix.diagonal.assign(as_size(unknowns_.n_nodes()), Tensor::Zero());
   matrix.off_diagonal.reserve(links_.size() + sides_.size());
@@ -381,9 +407,11 @@ BlockTriplets MomentumOperator::compact_matrix() const {
   for (const Side& side : sides_) {
     const Tensor a = compact_side(side);
     const Tensor& is_free = unknowns_.free_directions[as_size(side.node - unknowns_.n_cells)];
+    const Index node = row[as_size(side.node)];
     matrix.diagonal[as_size(side.cell)] += a;
-    matrix.diagonal[as_size(side.node)] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);
-    if (!is_free.isZero()) matrix.off_diagonal.push_back({side.cell, side.node, -a * is_free});
+    matrix.diagonal[as_size(node)] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);
+    if (!is_free.isZero()) matrix.off_diagonal.push_back({side.cell, node, -a * is_free});
+    if (node != side.node) matrix.diagonal[as_size(side.node)] = a.trace() / 3.0 * Tensor::Identity();
   }
   for (std::size_t k = 0; k < springs_.size(); ++k) {
     const SplitFace& face = split_faces_[k];

@@ -36,6 +36,9 @@
 // Split faces: each side has a node and a traction of its own, t_P and t_N as above, and a law of their separation
 // joins them, t_P = T(u_f,N - u_f,P) = -t_N. It is linearised within each solve, T = K (u_f,N - u_f,P) + T_0.
 //
+// Periodic faces: the image has no unknown of its own, but the displacement of its node plus what is prescribed between
+// the two, and its forces act on that node: t_P + t_N = 0 as on an interface, whose sides lie at different places.
+//
 // Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
 // are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements.
 
@@ -121,6 +124,8 @@ class MomentumOperator {
   void prescribe(double t, std::vector<Vector>& u) const;
   /// Removes the component across the plane of a plane mesh.
   void keep_in_plane(std::vector<Vector>& v) const;
+  /// Copies to the images of periodic nodes what their nodes have.
+  void repeat_on_images(std::vector<Vector>& v) const;
 
   /// The compact symmetric matrix for the preconditioner of A: c between cells, a from a cell to its face nodes. It is
   /// diagonal in what is prescribed and in the direction across a plane mesh.
@@ -194,6 +199,7 @@ class MomentumOperator {
   void add_initial_forces() const;
   void compute_forces(const std::vector<Vector>& u) const;
   void sum_forces(std::vector<Vector>& out) const;
+  void gather_from_images(std::vector<Vector>& forces) const;
   void take_away_initial_forces(std::vector<Vector>& load) const;
   double link_flux(std::size_t i, const Vector& u_P, const Vector& jump, const Vector& stress_jump) const;
   double side_flux(const Side& side, const Vector& u_f) const;

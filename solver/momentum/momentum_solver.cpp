@@ -109,6 +109,7 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
     if (i >= unknowns_.n_cells)
       z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
   });
+  operator_.repeat_on_images(z);
   operator_.keep_in_plane(z);
 }
 

@@ -56,11 +56,24 @@ void place_and_measure(const Mesh& mesh, Part& part) {
       part.size = std::max(part.size, (mesh.face_centre[f] - part.origin).norm());
 }
 
-void resist(Part& part, const Vector& x, const Tensor& prescribed) {
-  Eigen::Matrix<double, 3, 6> motion;
+using Motion = Eigen::Matrix<double, 3, 6>;
+
+Motion motion_at(const Part& part, const Vector& x) {
+  Motion motion;
   const Vector r = (x - part.origin) / part.size;
   motion << Tensor::Identity(), (Tensor() << 0, r[2], -r[1], -r[2], 0, r[0], r[1], -r[0], 0).finished();
+  return motion;
+}
+
+void resist(Part& part, const Vector& x, const Tensor& prescribed) {
+  const Motion motion = motion_at(part, x);
   part.form += motion.transpose() * prescribed * motion;
+}
+
+// Two places of the part move alike.
+void resist_apart(Part& part, const Vector& x, const Vector& image) {
+  const Motion motion = motion_at(part, x) - motion_at(part, image);
+  part.form += motion.transpose() * motion;
 }
 
 // Motions that the kind of the mesh leaves out.
@@ -123,6 +136,12 @@ void require_held(const Mesh& mesh, const Unknowns& unknowns, const CellField<do
     const Index face = unknowns.face_of_node[k], part = part_of_cell[mesh.owner[face]];
     if (part >= 0)
       resist(parts[as_size(part)], mesh.face_centre[face], Tensor::Identity() - unknowns.free_directions[k]);
+  }
+  const auto face_of = [&](Index node) { return unknowns.face_of_node[as_size(node - unknowns.n_cells)]; };
+  for (const PeriodicNodes& pair : unknowns.periodic) {
+    const Index face = face_of(pair.node), image = face_of(pair.image), part = part_of_cell[mesh.owner[face]];
+    if (part >= 0 && part == part_of_cell[mesh.owner[image]])
+      resist_apart(parts[as_size(part)], mesh.face_centre[face], mesh.face_centre[image]);
   }
   if (damage.size() > 0)
     std::erase_if(parts, [&](const Part& part) {

@@ -142,6 +142,18 @@ void split(const Mesh& mesh, const std::vector<Index>& faces, Unknowns& unknowns
   }
 }
 
+void hold(const ElasticBody& body, Unknowns& unknowns) {
+  unknowns.held = body.held;
+  unknowns.displacement = body.displacement;
+  const auto number = [&](Index face) { return as_size(unknowns.node_of_face[face] - unknowns.n_cells); };
+  for (const HeldFace& held : body.held)
+    unknowns.free_directions[number(held.face)] = Tensor::Identity() - held.directions;
+  for (const PeriodicFaces& pair : body.periodic) {
+    unknowns.periodic.push_back({unknowns.node_of_face[pair.face], unknowns.node_of_face[pair.image]});
+    unknowns.free_directions[number(pair.image)] = unknowns.free_directions[number(pair.face)];
+  }
+}
+
 }  // namespace
 
 Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
@@ -176,6 +188,7 @@ Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
   }
   require_front_and_back(mesh, unknowns);
   place_sector(sector_normals, unknowns);
+  hold(body, unknowns);
   require_held(mesh, unknowns);
   unknowns.pressure_cells = pressure_cells(mesh, body, unknowns);
   return unknowns;

@@ -8,9 +8,22 @@
 #include "physics/elasticity.h"
 #include "solver/momentum/boundary_condition.h"
 
+#include <functional>
 #include <vector>
 
 namespace pfdm {
+
+/// A face of a free patch that follows a displacement of the whole body in these directions (a projector).
+struct HeldFace {
+  Index face = 0;
+  Tensor directions = Tensor::Identity();
+};
+
+/// Two faces of free patches that are translates of each other: the body continues across them, apart from the
+/// difference of a displacement of the whole body between the two places.
+struct PeriodicFaces {
+  Index face = 0, image = 0;
+};
 
 /// What the momentum balance is about.
 struct ElasticBody {
@@ -19,6 +32,11 @@ struct ElasticBody {
   std::vector<Index> zone;
   std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
   std::vector<Index> split_faces{};         ///< interior ones, none twice
+  std::vector<HeldFace> held{};             ///< none twice, and no image of a periodic face
+  std::vector<PeriodicFaces> periodic{};    ///< no face twice
+  /// Of the whole body at x [m] and the load parameter t, affine in x: for the held and the periodic faces [m]. Empty:
+  /// zero.
+  std::function<Vector(const Vector& x, double t)> displacement{};
   /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
   bool has_pressure = true;
 };
@@ -29,6 +47,11 @@ struct PatchCondition {
   BoundaryCondition condition;
 };
 
+/// The image moves as the node does, and by the body's displacement between the two.
+struct PeriodicNodes {
+  Index node = 0, image = 0;
+};
+
 struct Unknowns {
   CellField<Index> zone;                   ///< cells of one law share a zone
   std::vector<IsotropicElasticity> sound;  ///< elasticity of each zone, undamaged
@@ -37,7 +60,10 @@ struct Unknowns {
   std::vector<Index> split_faces{};        ///< node_of_face is that of their owner's side,
   FaceField<Index> neighbour_node{};       ///< and this that of the neighbour's; -1 elsewhere; empty without any
   std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free by default
-  std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
+  std::vector<HeldFace> held{};            ///< and
+  std::vector<PeriodicNodes> periodic{};   ///< as the body has them, with
+  std::function<Vector(const Vector& x, double t)> displacement{};
+  std::vector<Tensor> free_directions;  ///< per face node: projector onto the displacements that are not prescribed
   /// Across the one cell of plane and axisymmetric meshes; zero in three-dimensional ones.
   Vector plane_normal = Vector::Zero();
   bool plane_stress = false;       ///< across the plane patches; else plane strain

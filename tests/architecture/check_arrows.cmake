@@ -13,6 +13,7 @@ set(rooms
     "solver/momentum: physics mesh solver solver/linear solver/scalar"
     "solver/dynamics: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/fracture: physics mesh solver solver/linear solver/scalar solver/momentum"
+    "solver/homogenization: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/calibration: physics solver solver/linear"
     "solver/point: physics solver solver/calibration"
     "solver/vibration: physics solver solver/linear solver/calibration"
@@ -35,9 +36,11 @@ set(rooms
      cases/program/point"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics postproc/files
      postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/fracture"
-    "cases/program: physics solver solver/point postproc/files postproc/fields postproc/curves postproc/exports
+    "cases/program/homogenization: physics mesh solver/momentum solver/fracture solver/homogenization postproc/files
+     postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/fracture"
+    "cases/program: physics solver solver/homogenization solver/point postproc/files postproc/fields postproc/curves postproc/exports
      cases/program/input cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture
-     cases/program/plate")
+     cases/program/homogenization cases/program/plate")
 set(complaints "")
 
 set(names "")

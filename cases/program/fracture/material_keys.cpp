@@ -24,6 +24,7 @@ const Quantity quantities[] = {
     {"hydrostatic_strength", &MaterialKeys::hydrostatic_strength, dimension::stress},
     {"compressive_strength", &MaterialKeys::compressive_strength, dimension::stress},
 };
+constexpr std::size_t n_elastic = 2;  // the first of them
 constexpr std::string_view choices[] = {"damageable", "split", "degradation", "softening"};
 
 template <class T>
@@ -55,6 +56,20 @@ MaterialKeys read_keys(const ConfigTable& table) {
   if (const auto value = table.find("split")) keys.split = read_split(*value);
   if (const auto value = table.find("degradation")) keys.degradation = read_degradation(*value);
   if (const auto value = table.find("softening")) keys.softening = &choose(*value, softening_laws(), "softening law");
+  return keys;
+}
+
+std::vector<std::string_view> elastic_keys_with(const std::vector<std::string_view>& others) {
+  std::vector<std::string_view> keys(others);
+  for (const Quantity& quantity : std::span(quantities).first(n_elastic)) keys.push_back(quantity.key);
+  return keys;
+}
+
+MaterialKeys read_elastic_keys(const ConfigTable& table) {
+  MaterialKeys keys;
+  for (const auto& [key, member, due, allowed] : std::span(quantities).first(n_elastic))
+    keys.*member = read_parameter(table.at(key), due, allowed);
+  keys.damageable = false;
   return keys;
 }
 

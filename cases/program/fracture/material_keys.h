@@ -27,6 +27,9 @@ struct MaterialKeys {
 std::vector<std::string_view> keys_with(std::initializer_list<std::string_view> others);
 /// All but the material.
 MaterialKeys read_keys(const ConfigTable& table);
+/// Those of the elasticity, and others; the material cannot be damaged.
+std::vector<std::string_view> elastic_keys_with(const std::vector<std::string_view>& others);
+MaterialKeys read_elastic_keys(const ConfigTable& table);
 /// `base`, where `by` says nothing else.
 MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by);
 /// Whether any quantity depends on the place.

@@ -155,15 +155,26 @@ RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& nam
   return found == regions.end() ? nullptr : &*found;
 }
 
-void read_material(Materials& materials, const std::string& name, const ConfigTable& given,
-                   std::vector<RegionOverride>& overrides, std::vector<RegionKeys>& regions) {
+MaterialKeys read_own_keys(const ConfigTable& given, const MaterialDefaults& defaults) {
+  if (defaults.elastic_with) {
+    std::vector<std::string_view> allowed = elastic_keys_with(*defaults.elastic_with);
+    allowed.push_back("regions");
+    return read_elastic_keys(given.with_keys(allowed));
+  }
   const MaterialLaw& law = law_of_material(given);
   std::vector<std::string_view> allowed = keys_with({"regions", "law", "kernel"});
   allowed.insert(allowed.end(), law.keys.begin(), law.keys.end());
   const ConfigTable table = given.with_keys(allowed);
   table.at("young_modulus"), table.at("poisson_ratio");
-  MaterialKeys base = read_keys(table);
-  base.material = law.read(table);
+  MaterialKeys keys = read_keys(table);
+  keys.material = law.read(table);
+  return keys;
+}
+
+void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
+                   const MaterialDefaults& defaults, std::vector<RegionOverride>& overrides,
+                   std::vector<RegionKeys>& regions) {
+  const MaterialKeys base = read_own_keys(table, defaults);
   const bool varies = base.young_modulus->varies || base.poisson_ratio->varies;
   const Vector anywhere = Vector::Zero();
   materials.by_name.push_back({name, varies ? std::nullopt
@@ -252,10 +263,11 @@ const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const 
 
 Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults) {
   Materials materials;
-  std::vector<RegionOverride> overrides = read_overrides(root);
+  std::vector<RegionOverride> overrides;
+  if (!defaults.elastic_with) overrides = read_overrides(root);
   std::vector<RegionKeys> regions;
   for (const auto& [name, value] : root.table("materials").entries())
-    read_material(materials, name, value.table(), overrides, regions);
+    read_material(materials, name, value.table(), defaults, overrides, regions);
   for (const RegionOverride& over : overrides)
     if (!over.used)
       throw over.value.error(

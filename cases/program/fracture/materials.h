@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pfdm {
@@ -54,6 +55,9 @@ struct MaterialDefaults {
   Degradation degradation{};                ///< of materials that name none
   const SofteningLaw* softening = nullptr;  ///< likewise; for degradations that need a strength
   StrengthChoice strength{};
+  /// Of cases without damage, laws of materials and overrides by region: materials have their elasticity, and these
+  /// keys, which the caller reads.
+  std::optional<std::vector<std::string_view>> elastic_with{};
 };
 
 /// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file.

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace pfdm {
 namespace {
 
@@ -25,6 +27,16 @@ ExpressionInUnit read_expression(const ConfigTable& table, const Dimension& due)
   return {text.in_context([&] { return Expression(text.string()); }), factor};
 }
 
+/// Not a number out of a result file (result_number.h), which may stand for any number.
+bool is_expression(const ConfigValue& value) {
+  if (!value.is_table()) return false;
+  const auto entries = value.table().entries();
+  const auto has = [&](std::string_view key) {
+    return std::ranges::any_of(entries, [&](const auto& entry) { return entry.first == key; });
+  };
+  return !has("from") || !has("key");
+}
+
 double plain_value(const ConfigValue& value, const Dimension& due, const Range& allowed) {
   return has_unit(due) ? value.quantity(due, allowed) : value.number(allowed);
 }
@@ -32,7 +44,7 @@ double plain_value(const ConfigValue& value, const Dimension& due, const Range& 
 }  // namespace
 
 Amount read_amount(const ConfigValue& value, const Dimension& due) {
-  if (value.is_table())
+  if (is_expression(value))
     return {.value =
                 [value, scaled = read_expression(value.table(), due)](const Vector& x, double t) {
                   return value.in_context([&] { return scaled.factor * scaled.expression(x, t); });
@@ -43,7 +55,7 @@ Amount read_amount(const ConfigValue& value, const Dimension& due) {
 }
 
 Parameter read_parameter(const ConfigValue& value, const Dimension& due, const Range& allowed) {
-  if (!value.is_table()) {
+  if (!is_expression(value)) {
     const double plain = plain_value(value, due, allowed);
     return {.at = [plain](const Vector&) { return plain; }, .varies = false, .text = fmt::format("{}", plain)};
   }

@@ -1,5 +1,6 @@
 #include "cases/program/input/case_file.h"
 
+#include "cases/program/input/result_number.h"
 #include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
@@ -44,17 +45,32 @@ std::string seen_from(const std::filesystem::path& folder, const std::filesystem
   return std::filesystem::relative(weakly_canonical(absolute(file)), weakly_canonical(absolute(folder))).string();
 }
 
+/// Calls `see` with every value below this one and its key.
+void visit(std::string_view key, const TomlValue& value,
+           const std::function<void(std::string_view key, const TomlValue& value)>& see) {
+  see(key, value);
+  if (const auto* list = std::get_if<TomlArray>(&value.value))
+    for (const TomlValue& element : *list) visit("", element, see);
+  if (const auto* table = std::get_if<TomlTable>(&value.value))
+    for (const auto& [name, entry] : *table) visit(name, entry, see);
+}
+
+/// Numbers that stand in result files count as if they stood here.
+std::uint64_t add_numbers_from_results(std::uint64_t hash, const TomlValue& root,
+                                       const std::filesystem::path& directory) {
+  visit("", root, [&](std::string_view, const TomlValue& value) {
+    if (path_of_result(value) != nullptr) hash = add_to_hash(hash, fmt::format("{}", result_number(value, directory)));
+  });
+  return hash;
+}
+
 /// The values that name files, in the order of the text.
 std::vector<const TomlValue*> values_that_name_files(const TomlValue& root) {
   std::vector<const TomlValue*> found;
-  const auto search = [&found](const auto& self, std::string_view key, const TomlValue& value) -> void {
+  visit("", root, [&](std::string_view key, const TomlValue& value) {
     if ((key == "csv" || key == "file") && std::holds_alternative<std::string>(value.value)) found.push_back(&value);
-    if (const auto* list = std::get_if<TomlArray>(&value.value))
-      for (const TomlValue& element : *list) self(self, "", element);
-    if (const auto* table = std::get_if<TomlTable>(&value.value))
-      for (const auto& [name, entry] : *table) self(self, name, entry);
-  };
-  search(search, "", root);
+    if (const TomlValue* path = path_of_result(value)) found.push_back(path);
+  });
   std::ranges::sort(found, {}, [](const TomlValue* value) { return std::pair(value->line, value->column); });
   return found;
 }
@@ -82,7 +98,8 @@ std::string case_hash(const CaseFile& file, std::span<const std::filesystem::pat
   std::uint64_t hash = add_to_hash(hash_of_nothing, format_version);
   const TomlValue root = parse_toml(file.text, "case.toml");
   for (const auto& [key, value] : std::get<TomlTable>(root.value))
-    if (key != "title" && std::ranges::count(left_out, key) == 0) hash = add_to_hash(hash, key + written(value));
+    if (key != "title" && std::ranges::count(left_out, key) == 0)
+      hash = add_numbers_from_results(add_to_hash(hash, key + written(value)), value, file.directory);
   for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
   return fmt::format("{:016x}", hash);
 }
@@ -95,7 +112,8 @@ CaseFile with_text(const CaseFile& file, std::string text) {
 std::string table_hash(const CaseFile& file, std::string_view table,
                        std::span<const std::filesystem::path> data_files) {
   const TomlValue root = parse_toml(file.text, "case.toml");
-  std::uint64_t hash = add_to_hash(hash_of_nothing, written(value_at(root, table)));
+  const TomlValue& found = value_at(root, table);
+  std::uint64_t hash = add_numbers_from_results(add_to_hash(hash_of_nothing, written(found)), found, file.directory);
   for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
   return fmt::format("{:016x}", hash);
 }

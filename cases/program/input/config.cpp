@@ -1,5 +1,7 @@
 #include "cases/program/input/config.h"
 
+#include "cases/program/input/result_number.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -74,6 +76,9 @@ InputError idle_key(const ConfigSource& source, const ConfigSource::Opened& tabl
       fmt::format("{}\"{}\" has no effect with the other settings of this case", table_place(table.path), key));
 }
 
+/// Where the paths of a case start.
+std::filesystem::path directory_of(const std::string& file) { return std::filesystem::path(file).parent_path(); }
+
 void reject_unknown_in(const ConfigSource& source, const TomlValue& value) {
   if (const auto* array = std::get_if<TomlArray>(&value.value))
     for (const TomlValue& element : *array) reject_unknown_in(source, element);
@@ -133,7 +138,9 @@ std::int64_t ConfigValue::integer(const Range& allowed) const {
 
 double ConfigValue::number(const Range& allowed) const {
   double value = 0.0;
-  if (const auto* real = std::get_if<double>(&value_->value))
+  if (path_of_result(*value_) != nullptr)
+    value = in_context([&] { return result_number(*value_, directory_of(source_->file), dimension::number); });
+  else if (const auto* real = std::get_if<double>(&value_->value))
     value = *real;
   else if (const auto* whole = std::get_if<std::int64_t>(&value_->value))
     value = static_cast<double>(*whole);
@@ -152,8 +159,11 @@ std::string ConfigValue::shown_with_unit_due(const Dimension& due) const {
 
 double ConfigValue::quantity(const Dimension& due, const Range& allowed) const {
   const auto* text = std::get_if<std::string>(&value_->value);
-  if (text == nullptr) throw error(shown_with_unit_due(due));
-  const double value = in_context([&] { return parse_quantity(*text, due); });
+  const bool from_results = path_of_result(*value_) != nullptr;
+  if (text == nullptr && !from_results) throw error(shown_with_unit_due(due));
+  const double value = in_context([&] {
+    return from_results ? result_number(*value_, directory_of(source_->file), due) : parse_quantity(*text, due);
+  });
   if (!allowed.holds(value)) throw error(fmt::format("{} must be {}", shown(*value_), allowed.words));
   return value;
 }

@@ -1,5 +1,6 @@
 #include "cases/program/studies/sweep.h"
 
+#include "cases/program/input/result_number.h"
 #include "cases/program/session/stopwatch.h"
 #include "cases/program/studies/case_runs.h"
 #include "cases/program/studies/sweep_on_slurm.h"
@@ -10,6 +11,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace pfdm {
 namespace {
@@ -22,14 +25,7 @@ constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "k
 
 /// "regions.interface.toughness_J_per_m2"
 std::string column_name(const CaseParameter& parameter) {
-  if (parameter.unit.empty()) return parameter.name;
-  std::string name = parameter.name + "_";
-  for (const char c : parameter.dimension.si_unit)
-    if (c == '/')
-      name += "_per_";
-    else if (c != '^')
-      name += c;
-  return name;
+  return parameter.unit.empty() ? parameter.name : parameter.name + "_" + in_names(parameter.dimension.si_unit);
 }
 
 std::vector<std::optional<ReadSummary>> summaries_of(const std::vector<DoneRun>& runs) {
@@ -38,6 +34,35 @@ std::vector<std::optional<ReadSummary>> summaries_of(const std::vector<DoneRun>&
   for (const DoneRun& run : runs)
     summaries.push_back(run.went_well() ? read_summary(run.folder / summary_file) : std::nullopt);
   return summaries;
+}
+
+/// Whether the runs differ by seeds alone: realisations of one case.
+bool are_realisations(const SweepSettings& settings) {
+  const auto is_seed = [](const std::string& key) {
+    return key == "seed" || key.ends_with(".seed") || key.ends_with("_seed");
+  };
+  return std::ranges::all_of(settings.parameters,
+                             [&](const CaseParameter& p) { return std::ranges::all_of(p.keys, is_seed); });
+}
+
+/// Of the figures of the realisations that converged, if there are two or more; deviations are those of a sample.
+std::vector<std::string> scatter(const SweepSettings& settings, const CsvTable& table) {
+  std::vector<std::string> lines;
+  const std::vector<double>& converged = table.column("converged");
+  if (!are_realisations(settings)) return lines;
+  for (std::size_t j = table.find("converged") + 1; j < table.names.size(); ++j) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < converged.size(); ++i)
+      if (converged[i] > 0.0) values.push_back(table.columns[j][i]);
+    if (values.size() < 2) return lines;
+    const double n = static_cast<double>(values.size()), mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+    double squares = 0.0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    if (squares > 0.0)
+      lines.push_back(fmt::format("{}: mean {:.6g}, standard deviation {:.3g}, of {} realisations", table.names[j],
+                                  mean, std::sqrt(squares / (n - 1.0)), values.size()));
+  }
+  return lines;
 }
 
 CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& runs, const fs::path& results) {
@@ -87,7 +112,12 @@ void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& ses
   if (!missing.empty() && session.slurm) return hand_to_slurm(file, settings.slurm, missing, session);
   if (!missing.empty()) require_no_tasks_of(session);
   const std::vector<DoneRun> done = runs.run(variants);
-  write_csv(session.results / "sweep.csv", table_of(settings, done, session.results));
+  CsvTable table = table_of(settings, done, session.results);
+  for (const std::string& line : scatter(settings, table)) {
+    table.comments.push_back(line);
+    session.log.say(fmt::format("  {}", line));
+  }
+  write_csv(session.results / "sweep.csv", table);
   session.log.say(fmt::format("{} runs made, {} reused, {} of them did not converge; {:.1f} s; written to {}",
                               runs.n_made(), runs.n_reused(), runs.n_failed(), watch.seconds(),
                               (session.results / "sweep.csv").string()));

@@ -1,0 +1,84 @@
+#include "cases/program/homogenization/homogenization_case.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+// Below, rounding would be solved for; above, the errors of the averages are no longer those of the mesh.
+constexpr Range solvable{1e-12, 1e-4, false, "between 1e-12 and 1e-4"};
+
+// After read_materials(), which says what keys there are.
+std::vector<CompositeMaterial> read_other_keys(const ConfigTable& root) {
+  std::vector<CompositeMaterial> materials;
+  for (const auto& [name, value] : root.table("materials").entries()) {
+    const ConfigTable table = value.table();
+    CompositeMaterial material{.name = name, .regions = table.strings("regions"), .density = {}};
+    if (table.has("density")) material.density = table.quantity("density", dimension::density, range::positive);
+    material.loss_factor = table.number("loss_factor", range::not_negative, 0.0);
+    materials.push_back(std::move(material));
+  }
+  return materials;
+}
+
+HomogenizationSettings read_settings(const ConfigTable& root) {
+  HomogenizationSettings settings{.loading = &homogenization_loadings().front()};
+  if (root.has("homogenization")) {
+    const ConfigTable table = root.table("homogenization").with_keys({"boundary"});
+    if (const auto boundary = table.find("boundary"))
+      settings.loading = &choose(*boundary, homogenization_loadings(), "boundary condition of a homogenisation");
+  }
+  if (root.has("solver")) {
+    const ConfigTable table = root.table("solver").with_keys({"tolerance", "linear"});
+    settings.tolerance = table.number("tolerance", solvable, settings.tolerance);
+    if (const auto linear = table.find("linear")) settings.linear = &choose(*linear, linear_solvers(), "linear solver");
+  }
+  return settings;
+}
+
+}  // namespace
+
+HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+  root.with_keys({"kind", "title", "mesh", "materials", "homogenization", "solver", "sweep"});
+  HomogenizationCase homogenization;
+  homogenization.title = root.string("title");
+  homogenization.mesh = read_mesh_recipe(root.table("mesh"), {.case_directory = case_directory, .ell = {}});
+  MaterialDefaults defaults;
+  defaults.elastic_with = std::vector<std::string_view>{"density", "loss_factor"};
+  homogenization.materials = read_materials(root, defaults);
+  homogenization.by_name = read_other_keys(root);
+  if (!homogenization.mesh.regions.empty())
+    for (const RegionMaterial& material : homogenization.materials.by_region)
+      material.where.one_of(homogenization.mesh.regions, "region of the mesh");
+  homogenization.settings = read_settings(root);
+  return homogenization;
+}
+
+LinearComposite composite_on(const HomogenizationCase& homogenization, const Mesh& mesh) {
+  FractureModel model;
+  place_materials(homogenization.materials, mesh, model);
+  ElasticBody body = elastic_body(model);
+  LinearComposite composite{.elasticity = std::move(body.elasticity), .zone = std::move(body.zone)};
+  if (model.cells.size() == 0) return composite;
+  composite.cells = CellField<IsotropicElasticity>(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c) composite.cells[c] = model.cells[c].elasticity;
+  return composite;
+}
+
+std::vector<Phase> phases_of(const HomogenizationCase& homogenization, const Mesh& mesh, const Homogenized& result) {
+  std::vector<Phase> phases;
+  double sum = 0.0;
+  for (const CompositeMaterial& material : homogenization.by_name) {
+    const auto named = std::ranges::find(homogenization.materials.by_name, material.name, &NamedElasticity::material);
+    if (!named->elasticity) return {};
+    double fraction = 0.0;
+    for (const std::string& region : material.regions) fraction += result.fraction[as_size(mesh.region_index(region))];
+    phases.push_back({fraction, *named->elasticity});
+    sum += fraction;
+  }
+  constexpr double rounding = 1e-6;
+  return std::abs(sum - 1.0) < rounding ? phases : std::vector<Phase>{};
+}
+
+}  // namespace pfdm

@@ -1,0 +1,43 @@
+#pragma once
+// Reads a case of kind "homogenize": mesh, materials, how the box is loaded.
+
+#include "cases/program/fracture/materials.h"
+#include "cases/program/fracture/mesh_recipe.h"
+#include "physics/effective_stiffness.h"
+#include "solver/homogenization/homogenization.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// What a material has besides its elasticity.
+struct CompositeMaterial {
+  std::string name;
+  std::vector<std::string> regions;
+  std::optional<double> density;  ///< [kg/m^3]
+  double loss_factor = 0.0;       ///< dissipated energy of a cycle over 2 pi times the largest stored one [-]
+};
+
+struct HomogenizationCase {
+  std::string title;
+  MeshRecipe mesh;
+  Materials materials;
+  std::vector<CompositeMaterial> by_name;
+  HomogenizationSettings settings;
+};
+
+/// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
+HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+
+/// The elasticity on the mesh. Throws InputError, with file and line, for a region without a material, one that the
+/// mesh does not have, and parameters that are out of range in a cell.
+LinearComposite composite_on(const HomogenizationCase& homogenization, const Mesh& mesh);
+
+/// The materials with their fractions of the box; nothing where an elasticity varies from place to place, or where
+/// there are voids.
+std::vector<Phase> phases_of(const HomogenizationCase& homogenization, const Mesh& mesh, const Homogenized& result);
+
+}  // namespace pfdm

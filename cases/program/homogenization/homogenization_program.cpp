@@ -1,0 +1,178 @@
+#include "cases/program/homogenization/homogenization_program.h"
+
+#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/homogenization/homogenization_report.h"
+#include "cases/program/homogenization/homogenized_results.h"
+#include "cases/program/session/earlier_results.h"
+#include "cases/program/session/report_parts.h"
+#include "cases/program/session/stopwatch.h"
+#include "mesh/quality.h"
+#include "postproc/curves/summary.h"
+#include "postproc/files/folder_lock.h"
+#include "postproc/files/new_results.h"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+namespace pfdm {
+namespace {
+
+struct HomogenizationProgram {
+  CaseFile file;
+  HomogenizationCase homogenization;
+  std::string name;
+  std::string hash;
+  std::string mesh_hash;
+};
+
+Mesh make_mesh(const HomogenizationProgram& program, Log& log) {
+  const Stopwatch watch;
+  Mesh mesh = program.homogenization.mesh.make();
+  log.say(fmt::format("mesh: {} cells, {} points, {} faces, made in {:.1f} s", mesh.n_cells(), mesh.points.size(),
+                      mesh.n_faces(), watch.seconds()));
+  return mesh;
+}
+
+const Mesh& find_mesh(const HomogenizationProgram& program, MeshStore& meshes, Log& log) {
+  return meshes.get(program.mesh_hash, [&] { return make_mesh(program, log); });
+}
+
+void check(const HomogenizationProgram& program, Session& session) {
+  const HomogenizationCase& homogenization = program.homogenization;
+  Log& log = session.log;
+  const Mesh mesh = make_mesh(program, log);
+  const Index unknowns = homogenization_unknowns(mesh, composite_on(homogenization, mesh), homogenization.settings);
+  log.say(fmt::format("{}: {}", program.name, homogenization.title));
+  log.say(fmt::format("cells {}, unknowns {}; six load cases, {}", mesh.n_cells(), unknowns,
+                      homogenization.settings.loading->name));
+  log.say(fmt::format("results go to {}", session.results.string()));
+  log.say("the input is valid");
+}
+
+void mesh_only(const HomogenizationProgram& program, Session& session) {
+  const Mesh mesh = make_mesh(program, session.log);
+  composite_on(program.homogenization, mesh);
+  const FolderLock lock(session.results);
+  std::istringstream lines(describe(mesh_quality(mesh)));
+  for (std::string line; std::getline(lines, line);) session.log.say(line);
+  write_mesh(session.results, mesh);
+  session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
+}
+
+bool has_results(const std::filesystem::path& results) {
+  return std::filesystem::exists(results / homogenized_file) || std::filesystem::exists(results / summary_file);
+}
+
+void remove_earlier_run(const std::filesystem::path& results) {
+  std::error_code ignored;
+  for (const char* file : {summary_file, homogenized_file, load_cases_file, "mesh.vtu"})
+    std::filesystem::remove(results / file, ignored);
+  remove_report(results);
+}
+
+void write_summary_of(const HomogenizationProgram& program, const Session& session, const Mesh& mesh,
+                      const Homogenized& result, const EffectiveMaterial& material, double seconds,
+                      const std::filesystem::path& folder) {
+  RunSummary summary;
+  summary.case_name = program.name;
+  summary.status = "complete";
+  summary.version = session.version;
+  summary.case_hash = program.hash;
+  summary.threads = session.threads;
+  summary.cells = mesh.n_cells();
+  summary.unknowns = result.n_unknowns;
+  summary.steps = static_cast<Index>(result.cases.size());
+  for (const LoadCase& one : result.cases) summary.krylov_iterations += one.iterations;
+  summary.wall_seconds = seconds;
+  summary.cpu_seconds = cpu_seconds();
+  summary.peak_memory = peak_memory();
+  summary.other_figures = homogenized_figures(program.homogenization, result, material);
+  write_summary(folder / summary_file, summary);
+}
+
+void say_bounds(const EffectiveMaterial& material, Log& log) {
+  if (!material.hashin_shtrikman) return;
+  const ModulusBounds& bounds = *material.hashin_shtrikman;
+  log.say(fmt::format("Hashin and Shtrikman's bounds: K {:.5g} to {:.5g} Pa, G {:.5g} to {:.5g} Pa", bounds.bulk_lower,
+                      bounds.bulk_upper, bounds.shear_lower, bounds.shear_upper));
+}
+
+void say_result(const HomogenizationProgram& program, const Homogenized& result, const EffectiveMaterial& material,
+                Log& log) {
+  const HomogenizationCase& homogenization = program.homogenization;
+  for (std::size_t m = 0; m < homogenization.by_name.size(); ++m)
+    log.say(fmt::format("  {}: {:.5g} of the volume, {:.4g} of the energy", homogenization.by_name[m].name,
+                        material.fraction[m], material.energy_share[m]));
+  say_bounds(material, log);
+  const IsotropicElasticity& c = material.isotropic;
+  log.say(
+      fmt::format("closest isotropic: E = {:.5g} Pa, nu = {:.4f}, K = {:.5g} Pa, G = {:.5g} Pa; anisotropy {:.2g} %",
+                  c.young_modulus(), c.poisson_ratio(), c.bulk_modulus(), c.mu, 100.0 * material.anisotropy));
+  if (material.loss.young > 0.0)
+    log.say(fmt::format("loss factors: E {:.4g}, K {:.4g}, G {:.4g}", material.loss.young, material.loss.bulk,
+                        material.loss.shear));
+  log.say(
+      fmt::format("errors: energies against mean stresses {:.1g}, asymmetry of C {:.1g}, mean strains of the cells "
+                  "against mean stresses {:.1g}",
+                  result.energy_difference(), result.asymmetry, result.constitutive_difference()));
+}
+
+void run_case(const HomogenizationProgram& program, Session& session) {
+  const Stopwatch watch;
+  const HomogenizationCase& homogenization = program.homogenization;
+  Log& log = session.log;
+  log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, homogenization.title,
+                      session.threads));
+  MeshStore own_mesh;
+  const Mesh& mesh = find_mesh(program, session.meshes != nullptr ? *session.meshes : own_mesh, log);
+  const LinearComposite composite = composite_on(homogenization, mesh);
+  homogenization_unknowns(mesh, composite, homogenization.settings);  // what is wrong with the body is said before
+  const FolderLock lock(session.results);
+  NewResults place(session.results, has_results(session.results));
+  log.open_file(place.folder() / "run.log", false);
+  if (place.wait()) say_what_is_replaced(session, program.hash, false);
+  const Homogenized result =
+      homogenize(mesh, composite, homogenization.settings, [&](std::size_t k, const LoadCase& one) {
+        log.step(
+            fmt::format("load case {}: {} iterations, {:.1f} s", component_names[k], one.iterations, watch.seconds()));
+        log.progress(fmt::format("load case {} of 6", k + 1));
+      });
+  const EffectiveMaterial material = effective_material(homogenization, mesh, result);
+  write_homogenized(place.folder(), homogenization, mesh, result, material,
+                    {program.name, program.hash, session.version});
+  if (!session.figures_only) write_mesh(place.folder(), mesh);
+  write_summary_of(program, session, mesh, result, material, watch.seconds(), place.folder());
+  place.take_place([&] { remove_earlier_run(session.results); }, summary_file);
+  say_result(program, result, material, log);
+  log.say(fmt::format("complete after {:.1f} s; results in {}", watch.seconds(), session.results.string()));
+}
+
+void report(const HomogenizationProgram& program, Session& session) {
+  write_report(homogenization_page(program.homogenization.title, program.name, program.hash, session.results), session);
+}
+
+}  // namespace
+
+RunnableCase read_homogenization_program(const CaseFile& file) {
+  auto program = std::make_shared<HomogenizationProgram>(
+      HomogenizationProgram{.file = file, .homogenization = {}, .name = {}, .hash = {}, .mesh_hash = {}});
+  program->homogenization = read_homogenization_case(file.config.root(), file.directory);
+  program->name = case_name(file);
+  const std::vector<std::filesystem::path>& data = program->homogenization.mesh.data_files;
+  constexpr std::string_view left_out[] = {"sweep"};
+  program->hash = case_hash(file, data, left_out);
+  program->mesh_hash = table_hash(file, "mesh", data);
+  return {.title = program->homogenization.title,
+          .check = [program](Session& session) { check(*program, session); },
+          .mesh = [program](Session& session) { mesh_only(*program, session); },
+          .run = [program](Session& session) { run_case(*program, session); },
+          .report = [program](Session& session) { report(*program, session); },
+          .prepare =
+              [program](Session& session) {
+                if (session.meshes != nullptr) find_mesh(*program, *session.meshes, session.log);
+              },
+          .data_files = data};
+}
+
+}  // namespace pfdm

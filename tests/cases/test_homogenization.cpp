@@ -1,0 +1,232 @@
+// A case of kind "homogenize": results whose moduli are known in closed form, their numbers in other cases, scatter by
+// a sweep, and what is refused.
+
+#include "postproc/files/csv_table.h"
+#include "tests/cases/temporary_case.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Half a millimetre of each of two layers normal to z.
+std::string laminate() {
+  return R"(kind = "homogenize"
+title = "two layers"
+[mesh]
+generator = "box_hexes"
+x = [{ length = "1 mm", cells = 3 }]
+y = [{ length = "1 mm", cells = 2 }]
+z = [{ length = "1 mm", cells = 4 }]
+region = "soft"
+regions = [{ name = "stiff", lower = ["0 mm", "0 mm", "0.5 mm"], upper = ["1 mm", "1 mm", "1 mm"] }]
+[materials.rubber]
+regions = ["soft"]
+young_modulus = "10 MPa"
+poisson_ratio = 0.4
+density = "1000 kg/m^3"
+loss_factor = 0.2
+[materials.steel]
+regions = ["stiff"]
+young_modulus = "200 GPa"
+poisson_ratio = 0.3
+density = "7800 kg/m^3"
+[homogenization]
+boundary = "periodic"
+[solver]
+tolerance = 1e-12
+)";
+}
+
+nlohmann::json results_of(const TemporaryCase& directory) {
+  return nlohmann::json::parse(content_of(directory.results() / "homogenized.json"));
+}
+
+double constrained_modulus(double E, double nu) { return E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)); }
+
+TEST(HomogenizationCase, LaminateHasItsExactStiffnessDensityAndLoss) {
+  const TemporaryCase directory(laminate());
+  const Outcome outcome = run({"run", directory.path().string(), "--threads", "1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("closest isotropic: E = "));
+  EXPECT_THAT(outcome.out, HasSubstr("energies against mean stresses"));
+  const nlohmann::json json = results_of(directory);
+  const double soft = constrained_modulus(10e6, 0.4), stiff = constrained_modulus(200e9, 0.3);
+  const double across = 1.0 / (0.5 / soft + 0.5 / stiff);
+  EXPECT_NEAR(json["stiffness_Pa"][2][2].get<double>() / across, 1.0, 1e-8);
+  const double slip = 1.0 / (0.5 / (10e6 / 2.8) + 0.5 / (200e9 / 2.6));
+  EXPECT_NEAR(json["stiffness_Pa"][3][3].get<double>() / slip, 1.0, 1e-8);
+  EXPECT_NEAR(json["density_kg_per_m3"].get<double>(), 4400.0, 1e-9);
+  for (const auto& phase : json["phases"]) EXPECT_NEAR(phase["volume_fraction"].get<double>(), 0.5, 1e-12);
+  EXPECT_LE(json["errors"]["energy_difference"].get<double>(), 1e-8);
+  // The compliance is the inverse.
+  double product = 0.0;
+  for (std::size_t k = 0; k < 6; ++k)
+    product += json["stiffness_Pa"][2][k].get<double>() * json["compliance_per_Pa"][k][2].get<double>();
+  EXPECT_NEAR(product, 1.0, 1e-9);
+  // Reuss and Voigt bound K.
+  const nlohmann::json bounds = json["bounds"]["reuss_voigt"];
+  EXPECT_GE(json["isotropic"]["bulk_modulus_Pa"], bounds["bulk_modulus_lower_Pa"]);
+  EXPECT_LE(json["isotropic"]["bulk_modulus_Pa"], bounds["bulk_modulus_upper_Pa"]);
+  const CsvTable cases = read_csv(directory.results() / "homogenized.csv");
+  EXPECT_EQ(cases.n_rows(), 6u);
+  EXPECT_NEAR(cases.column("strain_xy")[5], std::sqrt(0.5), 1e-12);
+}
+
+// All materials lose the same part: so does the composite.
+TEST(HomogenizationCase, LossOfEqualMaterialsIsTheirs) {
+  const TemporaryCase directory(
+      replaced(laminate(), "density = \"7800 kg/m^3\"", "density = \"7800 kg/m^3\"\nloss_factor = 0.2"));
+  ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
+  for (const char* modulus : {"young_modulus", "bulk_modulus", "shear_modulus"})
+    EXPECT_NEAR(results_of(directory)["loss_factors"][modulus].get<double>(), 0.2, 1e-7);
+}
+
+// Of uniform moduli each loss factor is the mean by volume: strain and stress are uniform.
+TEST(HomogenizationCase, LossOfAUniformBodyIsTheMean) {
+  std::string text = replaced(laminate(), "\"200 GPa\"", "\"10 MPa\"");
+  const TemporaryCase directory(replaced(text, "poisson_ratio = 0.3", "poisson_ratio = 0.4"));
+  ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
+  const nlohmann::json json = results_of(directory);
+  EXPECT_NEAR(json["loss_factors"]["shear_modulus"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(json["isotropic"]["young_modulus_Pa"].get<double>(), 10e6, 1e-2);
+  EXPECT_NEAR(json["isotropic"]["poisson_ratio"].get<double>(), 0.4, 1e-9);
+  EXPECT_LE(json["isotropic"]["anisotropy"].get<double>(), 1e-9);
+}
+
+TEST(HomogenizationCase, HasCheckMeshAndReport) {
+  const TemporaryCase directory(laminate());
+  const std::string path = directory.path().string();
+  const Outcome checked = run({"check", path});
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("six load cases, periodic"));
+  EXPECT_EQ(run({"mesh", path}).status, 0);
+  const Outcome early = run({"report", path});
+  EXPECT_EQ(early.status, 2);
+  EXPECT_THAT(early.err, HasSubstr("pfdm run makes them"));
+  ASSERT_EQ(run({"run", path, "--quiet"}).status, 0);
+  const Outcome reported = run({"report", path});
+  EXPECT_EQ(reported.status, 0) << reported.err;
+  EXPECT_TRUE(std::filesystem::exists(directory.results() / "report" / "report.pdf"));
+}
+
+std::string beads() {
+  return R"(kind = "homogenize"
+title = "a few beads"
+[mesh]
+generator = "packed_spheres"
+size = ["1 mm", "1 mm", "1 mm"]
+count = 4
+volume_fraction = 0.1
+gap = "30 um"
+subdivisions = 1
+edges_over_gap = 0
+seed = 1
+cells = "polyhedra"
+[materials.glass]
+regions = ["particle"]
+young_modulus = "70 GPa"
+poisson_ratio = 0.2
+[materials.rubber]
+regions = ["matrix"]
+young_modulus = "1 MPa"
+poisson_ratio = 0.3
+[homogenization]
+boundary = "uniform displacement"
+[sweep]
+method = "list"
+[[sweep.parameters]]
+key = "mesh.seed"
+values = [1, 2, 3]
+)";
+}
+
+TEST(HomogenizationCase, SweepOverSeedsHasMeanAndDeviation) {
+  const TemporaryCase directory(beads());
+  const Outcome outcome = run({"sweep", directory.path().string(), "--threads", "2"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable table = read_csv(directory.results() / "sweep.csv");
+  const std::vector<double>& E = table.column("young_modulus_Pa");
+  ASSERT_EQ(E.size(), 3u);
+  const double mean = (E[0] + E[1] + E[2]) / 3.0;
+  const double deviation =
+      std::sqrt((std::pow(E[0] - mean, 2) + std::pow(E[1] - mean, 2) + std::pow(E[2] - mean, 2)) / 2.0);
+  EXPECT_GT(deviation, 0.0);
+  const std::string said = fmt::format("young_modulus_Pa: mean {:.6g}, standard deviation {:.3g}", mean, deviation);
+  EXPECT_THAT(outcome.out, HasSubstr(said));
+  EXPECT_THAT(content_of(directory.results() / "sweep.csv"), HasSubstr(said));
+}
+
+// A bar of the composite's modulus.
+TEST(HomogenizationCase, OtherCasesTakeItsNumbers) {
+  const TemporaryCase directory(laminate());
+  const std::string reference = R"({ from = "results/homogenized.json", key = "isotropic.young_modulus_Pa" })";
+  for (const char* name : {"bar", "plain"}) std::filesystem::create_directory(directory.path() / name);
+  directory.write("bar/case.toml", replaced(bar_case(), "\"30 GPa\"", replaced(reference, "results/", "../results/")));
+  const std::string bar = (directory.path() / "bar").string();
+  const Outcome early = run({"check", bar});
+  EXPECT_EQ(early.status, 2);
+  EXPECT_THAT(early.err, HasSubstr("case.toml:"));
+  EXPECT_THAT(early.err, HasSubstr("there is no file ../results/homogenized.json; pfdm run "));
+  ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
+  const double E = results_of(directory)["isotropic"]["young_modulus_Pa"];
+  EXPECT_EQ(run({"check", bar}).status, 0);
+  directory.write("plain/case.toml", replaced(bar_case(), "\"30 GPa\"", fmt::format("\"{} Pa\"", E)));
+  const auto stiffness = [&](const std::string& name) {
+    EXPECT_EQ(run({"run", (directory.path() / name).string(), "--quiet", "--max-steps", "1"}).status, 0);
+    return nlohmann::json::parse(content_of(directory.path() / name / "results/summary.json"));
+  };
+  const nlohmann::json by_reference = stiffness("bar"), by_number = stiffness("plain");
+  EXPECT_EQ(by_reference["initial_stiffness_N_per_m"], by_number["initial_stiffness_N_per_m"]);
+  // Other results make it another case.
+  directory.write("results/homogenized.json", R"({ "isotropic": { "young_modulus_Pa": 1e9 } })");
+  EXPECT_NE(stiffness("bar")["case_hash"], by_reference["case_hash"]);
+  for (const auto& [wrong, said] :
+       {std::pair("key = \"isotropic.young_modulus\"", "does not end in _Pa"),
+        std::pair("key = \"isotropic.yung_modulus_Pa\"", "did you mean \"young_modulus_Pa\"?"),
+        std::pair("key = \"isotropic\", unit = \"Pa\"", "is not a number"),
+        std::pair("key = \"isotropic.young_modulus_Pa\", units = \"Pa\"", "\"units\" is not known beside \"from\""),
+        std::pair("key = \"isotropic.young_modulus_Pa\", unit = \"mm\"", "expected a stress")}) {
+    const std::string text = replaced(bar_case(), "\"30 GPa\"", replaced(reference, "results/", "../results/"));
+    directory.write("bar/case.toml", replaced(text, "key = \"isotropic.young_modulus_Pa\"", wrong));
+    const Outcome outcome = run({"check", bar});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(said));
+  }
+}
+
+class BadHomogenization : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadHomogenization, IsRefused) {
+  const TemporaryCase directory(replaced(laminate(), GetParam().good, GetParam().bad));
+  expect_refused(directory, GetParam());
+}
+
+const BadInput bad_inputs[] = {
+    {"unknown_boundary",
+     "boundary = \"periodic\"",
+     "boundary = \"periodik\"",
+     {"[homogenization] boundary: \"periodik\" is not", "did you mean \"periodic\"?"}},
+    {"damage", "loss_factor = 0.2", "toughness = \"10 J/m^2\"", {"[materials.rubber] \"toughness\" is not known here"}},
+    {"negative_loss", "loss_factor = 0.2", "loss_factor = -0.1", {"must be zero or positive"}},
+    {"other_table", "[solver]", "[fracture]\nsplit = \"none\"\n[solver]", {"\"fracture\" is not known here"}},
+    {"no_such_region", "regions = [\"stiff\"]", "regions = [\"hard\"]", {"\"hard\" is not a region of the mesh"}},
+    {"no_density", "density = \"1000 kg/m^3\"", "density = 1000", {"[materials.rubber] density", "has no unit"}},
+    {"not_a_box",
+     "region = \"soft\"\n",
+     "region = \"soft\"\nholes = [{ name = \"bite\", lower = [\"0 mm\", \"0 mm\", \"0 mm\"], upper = [\"0.5 mm\", \"1 "
+     "mm\", \"0.5 mm\"] }]\n",
+     {"cover", "% of that side of the box"}},
+};
+INSTANTIATE_TEST_SUITE_P(All, BadHomogenization, testing::ValuesIn(bad_inputs),
+                         [](const auto& input) { return input.param.name; });
+
+}  // namespace
+}  // namespace pfdm
