@@ -1,5 +1,6 @@
 // The energy release rate by G-theta, on a sharp slit under the displacements of its own field:
-// G = (K_I^2 + K_II^2) (1 - nu^2)/E.
+// G = (K_I^2 + K_II^2) (1 - nu^2)/E; and of a crack between two materials, in a clamped strip (Rice, J. Appl. Mech. 35
+// (1968) 379): what the strip ahead of it stores, G = v^2/(2 (h_1/M_1 + h_2/M_2)), M = lambda + 2 mu.
 
 #include "postproc/fields/energy_release_rate.h"
 #include "tests/verification/near_field.h"
@@ -70,6 +71,46 @@ void expect_exact_value(double K_I, double K_II) {
 TEST(EnergyReleaseRate, OfASlitIsThatOfItsStressIntensity) { expect_exact_value(1.0, 0.0); }
 
 TEST(EnergyReleaseRate, OfAMixedFieldIsTheSumOfBothModes) { expect_exact_value(0.8, 0.6); }
+
+// Two layers of 1 mm, 10 mm long, the lower one clamped, the upper one lifted by v; slit up to the middle;
+// cells of 1 mm / n.
+double of_a_strip(Index n, const IsotropicElasticity& lower, const IsotropicElasticity& upper) {
+  constexpr double layer = 1e-3, v = 1e-6;
+  BoxHexesSettings box;
+  box.origin = {-5.0 * layer, -layer, 0.0};
+  box.axes[0] = {{4.0 * layer, 2 * n, 0.3}, {2.0 * layer, 2 * n, 1.0}, {4.0 * layer, 2 * n, 1.0 / 0.3}};
+  box.axes[1] = {{2.0 * layer, 2 * n, 1.0}};
+  box.axes[2] = {{0.2 * layer, 1, 1.0}};
+  box.base_region = "upper";
+  box.regions = {{.name = "lower", .lower = {-1.0, -1.0, -1.0}, .upper = {1.0, 0.0, 1.0}}};
+  box.slits = {{.name = "slit", .lower = {-1.0, 0.0, -1.0}, .upper = {0.0, 0.0, 1.0}}};
+  const Mesh mesh = make_box_hexes(box);
+  std::vector<IsotropicElasticity> by_region;
+  for (const std::string& name : mesh.region_names) by_region.push_back(name == "lower" ? lower : upper);
+  const FractureModel model =
+      elastic_model(by_region, {plane_on("zmin"), plane_on("zmax"), symmetry_on("xmax"),
+                                displacement_on("ymin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                                displacement_on("ymax", [=](const Vector&) -> Vector { return Vector(0.0, v, 0.0); })});
+  const auto solution = solve_elastic(mesh, model);
+  OutputFields fields;
+  fields.damage = CellField<double>(as_size(mesh.n_cells()), 0.0);
+  fields.strain = solution->cells.strain;
+  fields.gradient = solution->cells.gradient;
+  fields.stress = solution->cells.stress;
+  const TipRegion ring{.name = "tip", .shape = &region_shapes().front(), .inner = 0.3 * layer, .outer = 0.8 * layer};
+  const double due = 0.5 * v * v / (layer / lower.constrained_modulus() + layer / upper.constrained_modulus());
+  return energy_release_rate(mesh, fields, ring).G / due;
+}
+
+TEST(EnergyReleaseRate, OfACrackBetweenTwoMaterialsIsThatOfTheStrip) {
+  const IsotropicElasticity glass = from_young_poisson(70e9, 0.3), polymer = from_young_poisson(3e9, 0.38);
+  for (const auto& [what, upper] : {std::pair{"glass on glass", glass}, std::pair{"polymer on glass", polymer}}) {
+    const double coarse = of_a_strip(10, glass, upper), fine = of_a_strip(20, glass, upper);
+    report_row(what, {{"G/closed form, h = 0.1 mm", coarse}, {"h = 0.05 mm", fine}});
+    EXPECT_NEAR(fine, 1.0, 0.03);
+    EXPECT_LT(std::abs(fine - 1.0), 0.7 * std::abs(coarse - 1.0));
+  }
+}
 
 TEST(EnergyReleaseRate, IsNoneWhereTheRingLeavesTheBody) {
   EXPECT_TRUE(std::isnan(measured(solve(20, 1.0, 0.0), "disc", 0.5e-3, 1.2e-3)));
