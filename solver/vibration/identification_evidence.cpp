@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 namespace pfdm {
@@ -85,12 +86,16 @@ double excess_of_random(const Remainder& r, const VibrationRecord& record, const
   const auto n_bins = static_cast<Index>(std::floor(record.band_high / bin)) - first + 1;
   const auto in_band = [&](const MatrixXcd& all) -> MatrixXcd { return all.middleRows(first, n_bins); };
   std::vector<MatrixXcd> causes;
-  for (const VectorXd& cause :
-       {r.base, r.condition(z.cwiseAbs2().eval()), r.condition(z.array().cube().matrix().eval())}) {
-    MatrixXcd segments = in_band(segments_of(cause, length));
+  const auto add = [&causes](MatrixXcd segments) {
     for (const MatrixXcd& earlier : causes) take_off(segments, earlier);
     causes.push_back(std::move(segments));
-  }
+  };
+  const MatrixXcd base = in_band(segments_of(r.base, length));
+  add(base);
+  add(in_band(segments_of(r.condition(z.cwiseAbs2().eval()), length)));
+  add(in_band(segments_of(r.condition(z.array().cube().matrix().eval()), length)));
+  // What a sample leaves that changes during the test has one sign at its beginning and the other at its end.
+  add(base * VectorXd::LinSpaced(base.cols(), -1.0, 1.0).cast<std::complex<double>>().asDiagonal());
   MatrixXcd left = in_band(segments_of(r.residual, length));
   const double all = left.squaredNorm();
   for (const MatrixXcd& cause : causes) take_off(left, cause);

@@ -16,8 +16,8 @@ struct RecordEvidence {
   double misfit = 0.0;  ///< norm of simulated less measured z'' over that of measured; infinite if it is unbounded
   bool swept = false;
   /// Rms of what moves with the test in the residual, over what noise alone would leave there. Under a swept sine: at
-  /// the driving frequency and two harmonics. Otherwise: coherent with the base's acceleration and with the square and
-  /// the cube of the displacement.
+  /// the driving frequency and two harmonics. Otherwise: coherent with the base's acceleration, also as it grows over
+  /// the test, and with the square and the cube of the displacement.
   double excess = 0.0;
   std::optional<Tone> tone{};    ///< in the residual, if it is no negligible one
   std::optional<Burst> burst{};  ///< likewise; its time is that of the record
