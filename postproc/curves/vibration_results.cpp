@@ -28,7 +28,7 @@ void write_vibration_summary(const std::filesystem::path& path, const VibrationS
                {"threads", s.threads},         {"wall_seconds", s.wall_seconds},
                {"cpu_seconds", cpu_seconds()}, {"peak_memory_bytes", std::llround(peak_memory())}};
   for (const auto& [name, value] : s.figures) json[name] = value;
-  json["tests"] = to_json(s.tests);
+  if (!s.tests.empty()) json["tests"] = to_json(s.tests);
   write_file(path, json.dump(2) + "\n");
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// summary.json of the mass-material model. SI units, units in the names. Files are written whole or not at
-// all; numbers that are not finite become null.
+// summary.json of the mass-material model and of plates. SI units, units in the names. Files are written whole or not
+// at all; numbers that are not finite become null.
 
 #include <cstdint>
 #include <filesystem>
@@ -24,7 +24,7 @@ struct VibrationSummary {
   int threads = 0;
   double wall_seconds = 0.0;
   std::map<std::string, double> figures;  ///< of the whole case
-  std::vector<NamedFigures> tests;
+  std::vector<NamedFigures> tests;        ///< of a plate none
 };
 void write_vibration_summary(const std::filesystem::path& path, const VibrationSummary& summary);
 

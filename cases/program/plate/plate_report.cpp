@@ -91,7 +91,8 @@ Table figures_table(const ReadSummary& summary) {
 }
 
 /// The layer of cells below the seen surface, from above.
-Picture picture_of(const StoredFrame& frame, const char* field, const std::string& caption, const std::string& title) {
+Picture picture_of(const StoredFrame& frame, const char* field, const std::string& caption, const std::string& title,
+                   double factor = 1.0) {
   const Vector lower = frame.lower(), upper = frame.upper(), size = upper - lower;
   Index thin = 0;
   size.minCoeff(&thin);
@@ -109,11 +110,11 @@ Picture picture_of(const StoredFrame& frame, const char* field, const std::strin
                   .cells = {},
                   .lines = {}};
   for (const FieldSlice::Cell& cell : slice.cells) {
-    picture.cells.push_back({.corners = {}, .value = cell.value});
+    picture.cells.push_back({.corners = {}, .value = factor * cell.value});
     for (const Vector& corner : cell.corners)
       picture.cells.back().corners.emplace_back(unit.factor * corner[across], unit.factor * corner[up]);
-    picture.least = std::min(picture.least, cell.value);
-    picture.most = std::max(picture.most, cell.value);
+    picture.least = std::min(picture.least, factor * cell.value);
+    picture.most = std::max(picture.most, factor * cell.value);
   }
   if (!(picture.most > picture.least)) picture.most = picture.least + 1.0;
   return picture;
@@ -144,7 +145,7 @@ ReportPage plate_page(const PlateProgram& program, const Session& session) {
     if (c.heating)
       pictures.blocks.emplace_back(
           picture_of(frame, "temperature_rise", "Temperature below the surface at the end", "rise [K]"));
-    pictures.blocks.emplace_back(picture_of(frame, "heat_source", "Heat source there", "[W/m^3]"));
+    pictures.blocks.emplace_back(picture_of(frame, "heat_source", "Heat source there", "heat source [kW/m^3]", 1e-3));
     page.rows.push_back(std::move(pictures));
   }
   for (PageRow& row : warnings_row(results / "run.log")) page.rows.push_back(std::move(row));
