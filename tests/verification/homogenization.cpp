@@ -248,10 +248,11 @@ TEST_P(Beads, KeepToHashinShtrikman) {
   const IsotropicElasticity fine =
       closest_isotropic(glued.in(make_packed_spheres(finer(packing, 4)), "periodic").stiffness);
   const double bulk_error = fine.bulk_modulus() - coarse.bulk_modulus(), shear_error = fine.mu - coarse.mu;
-  EXPECT_GE(fine.bulk_modulus() + std::abs(bulk_error), bounds.bulk_lower);
-  EXPECT_GE(fine.mu + std::abs(shear_error), bounds.shear_lower);
-  EXPECT_LE(std::abs(bulk_error), 0.01 * bounds.bulk_lower);
-  EXPECT_LE(std::abs(shear_error), 0.03 * bounds.shear_lower);
+  // Of second order, a third of the difference is due.
+  EXPECT_GE(fine.bulk_modulus() + 0.5 * std::abs(bulk_error), bounds.bulk_lower);
+  EXPECT_GE(fine.mu + 0.5 * std::abs(shear_error), bounds.shear_lower);
+  EXPECT_LE(std::abs(bulk_error), 0.02 * bounds.bulk_lower);
+  EXPECT_LE(std::abs(shear_error), 0.05 * bounds.shear_lower);
 }
 
 INSTANTIATE_TEST_SUITE_P(Homogenization, Beads, testing::Values(0.1, 0.25, 0.4));

@@ -24,8 +24,8 @@ CaseFile open_case(const std::filesystem::path& where);
 /// The name of its directory.
 std::string case_name(const CaseFile& file);
 
-/// Of what case.toml says, but for title and comments, and of the data files that it uses; 16 hexadecimal digits
-/// (FNV-1a). `left_out`: tables after a change of which a run may be continued.
+/// Of what case.toml says, but for title and comments, of the numbers that it takes from result files, and of the data
+/// files that it uses; 16 hexadecimal digits (FNV-1a). `left_out`: tables after a change of which a run may be continued.
 std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
                       std::span<const std::string_view> left_out = {});
 
@@ -35,14 +35,14 @@ CaseFile with_text(const CaseFile& file, std::string text);
 /// Of what one table says, and of data files, likewise.
 std::string table_hash(const CaseFile& file, std::string_view table, std::span<const std::filesystem::path> data_files);
 
-/// case.toml with the files that it names as `csv` or `file` called as `renamed` says of each.
+/// case.toml with the files that it names as `csv`, `file` or `from` called as `renamed` says of each.
 std::string with_paths(const CaseFile& file, const std::function<std::string(const std::string&)>& renamed);
 
-/// case.toml, to stand in `folder`: the files that it names as `csv` or `file` are named from there.
+/// case.toml, to stand in `folder`: the files that it names as `csv`, `file` or `from` are named from there.
 std::string moved(const CaseFile& file, const std::filesystem::path& folder);
 
 /// case.toml with one of its tables, [table] and all below it, replaced by `text`, to stand in `folder`: the files that
-/// it names as `csv` or `file` are named from there.
+/// it names as `csv`, `file` or `from` are named from there.
 std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,
                        const std::filesystem::path& folder);
 

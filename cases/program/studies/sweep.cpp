@@ -50,6 +50,7 @@ std::vector<std::string> scatter(const SweepSettings& settings, const CsvTable& 
   std::vector<std::string> lines;
   const std::vector<double>& converged = table.column("converged");
   if (!are_realisations(settings)) return lines;
+  constexpr double rounding = 1e-12;
   for (std::size_t j = table.find("converged") + 1; j < table.names.size(); ++j) {
     std::vector<double> values;
     for (std::size_t i = 0; i < converged.size(); ++i)
@@ -58,9 +59,10 @@ std::vector<std::string> scatter(const SweepSettings& settings, const CsvTable& 
     const double n = static_cast<double>(values.size()), mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
     double squares = 0.0;
     for (const double value : values) squares += (value - mean) * (value - mean);
-    if (squares > 0.0)
+    const double deviation = std::sqrt(squares / (n - 1.0));
+    if (deviation > rounding * std::abs(mean))
       lines.push_back(fmt::format("{}: mean {:.6g}, standard deviation {:.3g}, of {} realisations", table.names[j],
-                                  mean, std::sqrt(squares / (n - 1.0)), values.size()));
+                                  mean, deviation, values.size()));
   }
   return lines;
 }
