@@ -230,7 +230,7 @@ void check_time_scale(const RawRecord& r, double rate, Faults& faults) {
   faults.push_back(
       {"rate_or_band",
        fmt::format("the base is excited from {:.3g} to {:.3g} Hz and not from {:g} to {:g} Hz: the sampling "
-                   "rate may be {:.3g} Hz and not {:g} Hz",
+                   "rate may be {:.4g} Hz and not {:g} Hz",
                    factor * r.band_low, factor * r.band_high, r.band_low, r.band_high, rate / factor, rate),
        false});
 }

@@ -287,7 +287,7 @@ def wrong_model(name, swept):
         return None
     base = Sweep() if swept else Random(duration=12.0)
     sample = make(base) if make is double_mass else make()
-    if not swept and not sample.force and not sample.exponent and len(sample.k) == 1:
+    if not sample.force and not sample.exponent and len(sample.k) == 1:
         y, z = linear(sample, base)
     else:
         y, rows = integrated([sample], base)
