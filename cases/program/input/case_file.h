@@ -25,7 +25,8 @@ CaseFile open_case(const std::filesystem::path& where);
 std::string case_name(const CaseFile& file);
 
 /// Of what case.toml says, but for title and comments, of the numbers that it takes from result files, and of the data
-/// files that it uses; 16 hexadecimal digits (FNV-1a). `left_out`: tables after a change of which a run may be continued.
+/// files that it uses; 16 hexadecimal digits (FNV-1a). `left_out`: tables after a change of which a run may be
+/// continued.
 std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
                       std::span<const std::string_view> left_out = {});
 
