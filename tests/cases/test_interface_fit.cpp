@@ -3,8 +3,8 @@
 
 #include "cases/program/fracture/fracture_report.h"
 #include "cases/program/input/case_file.h"
-#include "postproc/page/display_unit.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/page/display_unit.h"
 #include "tests/cases/glued_blocks.h"
 
 #include <gmock/gmock.h>

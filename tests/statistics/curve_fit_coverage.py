@@ -73,6 +73,8 @@ def fit_with_noise(options, folder, curve, seed, threads):
         shutil.copytree(options.case, case, ignore=shutil.ignore_patterns("results"))
         (case / "results").mkdir()
         (case / "results/runs").symlink_to(folder / "results/runs")
+        text = (case / "case.toml").read_text(encoding="utf-8")  # profiles take runs, and are not counted here
+        (case / "case.toml").write_text(text.replace('intervals = "profile"', 'intervals = "linear"'), encoding="utf-8")
     script = pathlib.Path(__file__).parents[2] / "postproc/plots/make_synthetic.py"
     subprocess.run([sys.executable, script, curve, f"force_{options.component}_N", "force_N", ", ".join(options.truth),
                     "--spacing", str(options.spacing), "--seed", str(seed),
@@ -120,6 +122,7 @@ class Count:
 
 def main():
     options = arguments()
+    options.pfdm = options.pfdm.absolute()
     folder = options.keep.absolute() if options.keep else pathlib.Path(tempfile.mkdtemp())
     shutil.copytree(options.case, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns("results"))
     truth, curve = true_run(options, folder)
