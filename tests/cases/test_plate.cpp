@@ -117,6 +117,50 @@ TEST(Plate, RandomMotionPutsInThePowerOfWhiteNoise) {
   EXPECT_NEAR(summary["mechanical_power_W"], 0.25 * effective, 0.05 * 0.25 * effective);
 }
 
+// Four times the modulus at twice the frequency of a mode that then lies there; cooled in every way at once.
+TEST(Plate, TakesItsModulusFromATableAndCools) {
+  const std::string text =
+      replaced(small_plate(), "young_modulus = \"20 MPa\"\nloss_factor = 0.2", "modulus = { csv = \"modulus.csv\" }") +
+      R"(
+[[cooling]]
+patch = "zmin"
+type = "insulation"
+thickness = "19 mm"
+conductivity = "0.035 W/m/K"
+coefficient = "8 W/m^2/K"
+
+[[cooling]]
+patch = "zmax"
+type = "convection"
+coefficient = "5 W/m^2/K"
+emissivity = 0.9
+
+[[cooling]]
+patch = "xmin"
+type = "temperature"
+temperature = "293.15 K"
+
+[[cooling]]
+patch = "xmax"
+type = "conductance"
+coefficient = "100 W/m^2/K"
+)";
+  const TemporaryCase directory(text);
+  directory.write("modulus.csv",
+                  "frequency_Hz,storage_Pa,loss_Pa\n10,20e6,4e6\n50,20e6,4e6\n51,80e6,8e6\n900,80e6,8e6\n");
+  const json summary = summary_of(directory);
+  const CsvTable modes = read_csv(directory.results() / "modes.csv");
+  const TemporaryCase plain(replaced(small_plate(), "\"20 MPa\"", "\"80 MPa\""));
+  summary_of(plain);
+  const CsvTable due = read_csv(plain.results() / "modes.csv");
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(modes.column("frequency_Hz")[k] / due.column("frequency_Hz")[k], 1.0, 1e-6);
+    EXPECT_NEAR(modes.column("damping_ratio")[k], 0.05, 1e-9);
+  }
+  EXPECT_NEAR(summary["heat_balance_error"], 0.0, 1e-10);
+  EXPECT_GT(summary["heat_lost_J"], 0.5 * summary["heat_J"].get<double>());
+}
+
 TEST(Plate, SaysWhatIsWrong) {
   const BadInput rows[] = {
       {"patch", "patches = [\"xmin\", \"xmax\"]", "patches = [\"xmin\", \"xmaks\"]", {"xmaks", "did you mean", "xmax"}},
