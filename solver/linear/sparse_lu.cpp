@@ -4,6 +4,8 @@
 
 #include <umfpack.h>
 
+#include <vector>
+
 // Of OpenBLAS; another BLAS does not have it.
 extern "C" void openblas_set_num_threads(int n) __attribute__((weak));
 
@@ -15,49 +17,54 @@ const double* numbers(const std::complex<double>* x) { return reinterpret_cast<c
 double* numbers(double* x) { return x; }
 double* numbers(std::complex<double>* x) { return reinterpret_cast<double*>(x); }
 
+// With 32 bits the factors of 40,000 cells are too large to be counted.
+using Long = SuiteSparse_long;
+
 // UMFPACK's names for the two kinds of number; without an array of imaginary parts complex numbers are packed.
 struct Real {
-  static int order(int n, const int* p, const int* i, const double* x, void** symbolic, double* control, double* info) {
-    return umfpack_di_symbolic(n, n, p, i, x, symbolic, control, info);
-  }
-  static int factor(const int* p, const int* i, const double* x, void* symbolic, void** numeric, double* control,
+  static Long order(Long n, const Long* p, const Long* i, const double* x, void** symbolic, double* control,
                     double* info) {
-    return umfpack_di_numeric(p, i, x, symbolic, numeric, control, info);
+    return umfpack_dl_symbolic(n, n, p, i, x, symbolic, control, info);
   }
-  static int solve(const int* p, const int* i, const double* a, double* x, const double* b, void* numeric,
-                   const double* control, double* info) {
-    return umfpack_di_solve(UMFPACK_A, p, i, a, x, b, numeric, control, info);
+  static Long factor(const Long* p, const Long* i, const double* x, void* symbolic, void** numeric, double* control,
+                     double* info) {
+    return umfpack_dl_numeric(p, i, x, symbolic, numeric, control, info);
   }
-  static void defaults(double* control) { umfpack_di_defaults(control); }
+  static Long solve(const Long* p, const Long* i, const double* a, double* x, const double* b, void* numeric,
+                    const double* control, double* info) {
+    return umfpack_dl_solve(UMFPACK_A, p, i, a, x, b, numeric, control, info);
+  }
+  static void defaults(double* control) { umfpack_dl_defaults(control); }
   static void free(void** symbolic, void** numeric) {
-    umfpack_di_free_symbolic(symbolic);
-    umfpack_di_free_numeric(numeric);
+    umfpack_dl_free_symbolic(symbolic);
+    umfpack_dl_free_numeric(numeric);
   }
 };
 
 struct Complex {
-  static int order(int n, const int* p, const int* i, const double* x, void** symbolic, double* control, double* info) {
-    return umfpack_zi_symbolic(n, n, p, i, x, nullptr, symbolic, control, info);
-  }
-  static int factor(const int* p, const int* i, const double* x, void* symbolic, void** numeric, double* control,
+  static Long order(Long n, const Long* p, const Long* i, const double* x, void** symbolic, double* control,
                     double* info) {
-    return umfpack_zi_numeric(p, i, x, nullptr, symbolic, numeric, control, info);
+    return umfpack_zl_symbolic(n, n, p, i, x, nullptr, symbolic, control, info);
   }
-  static int solve(const int* p, const int* i, const double* a, double* x, const double* b, void* numeric,
-                   const double* control, double* info) {
-    return umfpack_zi_solve(UMFPACK_A, p, i, a, nullptr, x, nullptr, b, nullptr, numeric, control, info);
+  static Long factor(const Long* p, const Long* i, const double* x, void* symbolic, void** numeric, double* control,
+                     double* info) {
+    return umfpack_zl_numeric(p, i, x, nullptr, symbolic, numeric, control, info);
   }
-  static void defaults(double* control) { umfpack_zi_defaults(control); }
+  static Long solve(const Long* p, const Long* i, const double* a, double* x, const double* b, void* numeric,
+                    const double* control, double* info) {
+    return umfpack_zl_solve(UMFPACK_A, p, i, a, nullptr, x, nullptr, b, nullptr, numeric, control, info);
+  }
+  static void defaults(double* control) { umfpack_zl_defaults(control); }
   static void free(void** symbolic, void** numeric) {
-    umfpack_zi_free_symbolic(symbolic);
-    umfpack_zi_free_numeric(numeric);
+    umfpack_zl_free_symbolic(symbolic);
+    umfpack_zl_free_numeric(numeric);
   }
 };
 
 template <class Scalar>
 using Calls = std::conditional_t<std::is_same_v<Scalar, double>, Real, Complex>;
 
-void require_done(int status) {
+void require_done(Long status) {
   if (status == UMFPACK_OK) return;
   if (status == UMFPACK_WARNING_singular_matrix) throw ComputationError("a sparse matrix to be factored is singular");
   if (status == UMFPACK_ERROR_out_of_memory)
@@ -70,6 +77,7 @@ void require_done(int status) {
 template <class Scalar>
 struct SparseLu<Scalar>::Data {
   Matrix matrix;
+  std::vector<Long> offsets, rows;
   double control[UMFPACK_CONTROL] = {};
   double info[UMFPACK_INFO] = {};
   void* symbolic = nullptr;
@@ -87,8 +95,10 @@ SparseLu<Scalar>::SparseLu(Matrix matrix) : data_(std::make_unique<Data>()) {
   Calls<Scalar>::defaults(d.control);
   d.control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;  // the pattern is
   d.control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-  const auto n = static_cast<int>(d.matrix.rows());
-  const int *p = d.matrix.outerIndexPtr(), *i = d.matrix.innerIndexPtr();
+  d.offsets.assign(d.matrix.outerIndexPtr(), d.matrix.outerIndexPtr() + d.matrix.cols() + 1);
+  d.rows.assign(d.matrix.innerIndexPtr(), d.matrix.innerIndexPtr() + d.matrix.nonZeros());
+  const Long n = d.matrix.rows();
+  const Long *p = d.offsets.data(), *i = d.rows.data();
   const double* x = numbers(d.matrix.valuePtr());
   require_done(Calls<Scalar>::order(n, p, i, x, &d.symbolic, d.control, d.info));
   require_done(Calls<Scalar>::factor(p, i, x, d.symbolic, &d.numeric, d.control, d.info));
@@ -106,8 +116,8 @@ auto SparseLu<Scalar>::solve(const Column& b) const -> Column {
   const Data& d = *data_;
   Column x(b.size());
   double info[UMFPACK_INFO];
-  require_done(Calls<Scalar>::solve(d.matrix.outerIndexPtr(), d.matrix.innerIndexPtr(), numbers(d.matrix.valuePtr()),
-                                    numbers(x.data()), numbers(b.data()), d.numeric, d.control, info));
+  require_done(Calls<Scalar>::solve(d.offsets.data(), d.rows.data(), numbers(d.matrix.valuePtr()), numbers(x.data()),
+                                    numbers(b.data()), d.numeric, d.control, info));
   return x;
 }
 
