@@ -126,9 +126,6 @@ RecordFile read_record_file(const ConfigTable& table, const fs::path& directory,
   record.base = table.string("base", record.base);
   record.relative = table.string("relative", record.relative);
   record.time = table.string("time", record.time);
-  const std::string accelerations[] = {"relative", "absolute"};
-  if (const auto kind = table.find("acceleration"))
-    record.absolute = kind->one_of(accelerations, "acceleration of the mass") == "absolute";
   if (table.has("unit")) record.unit = table.string("unit");
   if (table.has("rate")) record.rate = table.quantity("rate", dimension::frequency, range::positive);
   record.marks = read_csv_marks(table);
@@ -188,6 +185,9 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
     const ConfigTable record = table.table("record").with_keys(
         {"file", "base", "relative", "acceleration", "time", "unit", "rate", "separator", "decimal", "from", "to"});
     test.record = read_record_file(record, directory, c.data_files);
+    const std::string accelerations[] = {"relative", "absolute"};
+    if (const auto kind = record.find("acceleration"))
+      test.record->absolute = kind->one_of(accelerations, "acceleration of the mass") == "absolute";
     test.band_low = record.quantity("from", dimension::frequency, range::positive, test.band_low);
     test.band_high = record.quantity("to", dimension::frequency, range::positive, test.band_high);
   }
