@@ -62,7 +62,9 @@ void add_model(const FractureCase& fracture, Table& table) {
     return m.varies || m.at(Vector::Zero()).damageable;
   });
   if (has_damage) {
-    table.rows.push_back({"fracture", fmt::format("{}, degradation {}", model.crack->name, model.degradation.name())});
+    table.rows.push_back(
+        {"fracture", fmt::format("{}{}, degradation {}", model.crack->name,
+                                 model.has_strength() ? " with a strength surface" : "", model.degradation.name())});
     table.rows.push_back({"split", std::string(model.split.name())});
   }
   for (const InterfaceSettings& interface : fracture.interfaces)
