@@ -1,0 +1,15 @@
+#pragma once
+// Normal stiffness of a material as the faces of cells see it.
+
+#include "physics/mandel.h"
+
+namespace pfdm {
+
+/// n.C.n [Pa]: what C makes of v (x) n, as a traction on n.
+inline Tensor acoustic_tensor(const MandelMatrix& C, const Vector& n) {
+  Eigen::Matrix<double, 6, 3> strain;
+  for (Index k = 0; k < 3; ++k) strain.col(k) = to_mandel(symmetric_part(Vector::Unit(k) * n.transpose()));
+  return strain.transpose() * C * strain;
+}
+
+}  // namespace pfdm
