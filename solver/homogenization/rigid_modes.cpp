@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace pfdm {
@@ -56,8 +57,8 @@ class RigidModes {
   }
 
   void add_whole_body() {
-    std::vector<Index> nodes;
-    for (Index node = 0; node < unknowns_.n_nodes(); ++node) nodes.push_back(node);
+    std::vector<Index> nodes(as_size(unknowns_.n_nodes()));
+    std::iota(nodes.begin(), nodes.end(), Index{0});
     for (int axis = 0; axis < 3; ++axis) {
       Mode mode;
       for (const Index node : nodes) mode.emplace_back(node, free_part(node, Vector::Unit(axis)));

@@ -87,7 +87,8 @@ std::optional<LostSamples> lost_samples(const VibrationRecord& r, int stiffness_
     for (Index w = 0; w < windows; ++w) {
       if (const double there = left(b); there < least) {
         least = there;
-        found = LostSamples{.time = static_cast<double>(w * (r.n() / windows)) / r.rate, .number = shift};
+        const Index first_sample = w * (r.n() / windows);
+        found = LostSamples{.time = static_cast<double>(first_sample) / r.rate, .number = shift};
       }
       b += as_recorded.col(w) - moved.col(w);
     }

@@ -53,8 +53,8 @@ Table bounds_table(const Json& bounds) {
         std::tuple("hashin_shtrikman", "upper", "Hashin-Shtrikman, upper"),
         std::tuple("reuss_voigt", "upper", "Voigt")}) {
     const Json& pair = bounds.at(key);
-    const auto of = [&](const char* modulus) {
-      return shown(pair.at(fmt::format("{}_modulus_{}_Pa", modulus, end)).get<double>(), "Pa");
+    const auto of = [&pair, side = end](const char* modulus) {
+      return shown(pair.at(fmt::format("{}_modulus_{}_Pa", modulus, side)).get<double>(), "Pa");
     };
     table.rows.push_back({text, of("bulk"), of("shear")});
   }

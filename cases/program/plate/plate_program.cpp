@@ -27,7 +27,7 @@ void check(const PlateProgram& program, Session& session) {
   const Mesh mesh = c.mesh.make();
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(c, mesh));
   if (c.heating) {
-    HeatedBody(mesh, c.material.heat, c.heating->boundary);
+    [[maybe_unused]] const HeatedBody refuses(mesh, c.material.heat, c.heating->boundary);
     mesh.patch(c.heating->surface);
   }
   Log& log = session.log;

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 std::vector<double> scaled(const std::vector<double>& values, double factor) {
   std::vector<double> result;
+  result.reserve(values.size());
   for (const double value : values) result.push_back(factor * value);
   return result;
 }

@@ -18,6 +18,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 // Of the frequency response, in equal ratios.
 std::vector<double> frequencies_of(const PlateCase& c) {
   std::vector<double> frequencies;
+  frequencies.reserve(static_cast<std::size_t>(c.n_frequencies));
   for (int i = 0; i < c.n_frequencies; ++i)
     frequencies.push_back(c.from * std::pow(c.to / c.from, static_cast<double>(i) / (c.n_frequencies - 1)));
   return frequencies;

@@ -39,7 +39,7 @@ std::string marked(const ModelComparison& comparison, const FittedModel& m) {
 
 /// "k1 2.76e+06 N/m"
 std::string shown_estimate(const Estimate& e) {
-  const std::string name = e.name.substr(0, e.name.find("_", 1));
+  const std::string name = e.name.substr(0, e.name.find('_', 1));
   return fmt::format("{} {:.4g}{}{}", name, e.value, e.unit.empty() || e.unit == "1" ? "" : " ",
                      e.unit == "1" ? "" : e.unit);
 }
