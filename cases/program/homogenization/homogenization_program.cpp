@@ -3,13 +3,11 @@
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/homogenization/homogenization_report.h"
 #include "cases/program/homogenization/homogenized_results.h"
-#include "cases/program/session/earlier_results.h"
 #include "cases/program/session/report_parts.h"
-#include "cases/program/session/stopwatch.h"
+#include "cases/program/session/whole_run.h"
 #include "mesh/quality.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/folder_lock.h"
-#include "postproc/files/new_results.h"
 
 #include <fmt/format.h>
 
@@ -60,17 +58,6 @@ void mesh_only(const HomogenizationProgram& program, Session& session) {
   session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
 }
 
-bool has_results(const std::filesystem::path& results) {
-  return std::filesystem::exists(results / homogenized_file) || std::filesystem::exists(results / summary_file);
-}
-
-void remove_earlier_run(const std::filesystem::path& results) {
-  std::error_code ignored;
-  for (const char* file : {summary_file, homogenized_file, load_cases_file, "mesh.vtu"})
-    std::filesystem::remove(results / file, ignored);
-  remove_report(results);
-}
-
 void write_summary_of(const HomogenizationProgram& program, const Session& session, const Mesh& mesh,
                       const Homogenized& result, const EffectiveMaterial& material, double seconds,
                       const std::filesystem::path& folder) {
@@ -119,33 +106,32 @@ void say_result(const HomogenizationProgram& program, const Homogenized& result,
 }
 
 void run_case(const HomogenizationProgram& program, Session& session) {
-  const Stopwatch watch;
   const HomogenizationCase& homogenization = program.homogenization;
   Log& log = session.log;
-  log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, homogenization.title,
-                      session.threads));
   MeshStore own_mesh;
   const Mesh& mesh = find_mesh(program, session.meshes != nullptr ? *session.meshes : own_mesh, log);
   const LinearComposite composite = composite_on(homogenization, mesh);
   homogenization_unknowns(mesh, composite, homogenization.settings);  // what is wrong with the body is said before
-  const FolderLock lock(session.results);
-  NewResults place(session.results, has_results(session.results));
-  log.open_file(place.folder() / "run.log", false);
-  if (place.wait()) say_what_is_replaced(session, program.hash, false);
-  const Homogenized result =
-      homogenize(mesh, composite, homogenization.settings, [&](std::size_t k, const LoadCase& one) {
-        log.step(
-            fmt::format("load case {}: {} iterations, {:.1f} s", component_names[k], one.iterations, watch.seconds()));
-        log.progress(fmt::format("load case {} of 6", k + 1));
-      });
-  const EffectiveMaterial material = effective_material(homogenization, mesh, result);
-  write_homogenized(place.folder(), homogenization, mesh, result, material,
-                    {program.name, program.hash, session.version});
-  if (!session.figures_only) write_mesh(place.folder(), mesh);
-  write_summary_of(program, session, mesh, result, material, watch.seconds(), place.folder());
-  place.take_place([&] { remove_earlier_run(session.results); }, summary_file);
-  say_result(program, result, material, log);
-  log.say(fmt::format("complete after {:.1f} s; results in {}", watch.seconds(), session.results.string()));
+  const auto compute = [&](const std::filesystem::path& folder, const Stopwatch& watch) -> std::string {
+    const Homogenized result =
+        homogenize(mesh, composite, homogenization.settings, [&](std::size_t k, const LoadCase& one) {
+          log.step(fmt::format("load case {}: {} iterations, {:.1f} s", component_names[k], one.iterations,
+                               watch.seconds()));
+          log.progress(fmt::format("load case {} of 6", k + 1));
+        });
+    const EffectiveMaterial material = effective_material(homogenization, mesh, result);
+    write_homogenized(folder, homogenization, mesh, result, material, {program.name, program.hash, session.version});
+    if (!session.figures_only) write_mesh(folder, mesh);
+    write_summary_of(program, session, mesh, result, material, watch.seconds(), folder);
+    say_result(program, result, material, log);
+    return "complete";
+  };
+  run_whole({.name = program.name,
+             .title = homogenization.title,
+             .hash = program.hash,
+             .compute = compute,
+             .results = {homogenized_file, load_cases_file, "mesh.vtu"}},
+            session);
 }
 
 void report(const HomogenizationProgram& program, Session& session) {

@@ -3,14 +3,12 @@
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/plate/plate_report.h"
 #include "cases/program/plate/plate_run.h"
-#include "cases/program/session/earlier_results.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/stop_signal.h"
-#include "cases/program/session/stopwatch.h"
+#include "cases/program/session/whole_run.h"
 #include "mesh/quality.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/folder_lock.h"
-#include "postproc/files/new_results.h"
 
 #include <fmt/format.h>
 
@@ -48,14 +46,6 @@ void mesh_only(const PlateProgram& program, Session& session) {
   session.log.say(describe(mesh_quality(mesh)));
   write_mesh(session.results, mesh);
   session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
-}
-
-void remove_earlier(const fs::path& results) {
-  std::error_code ignored;
-  for (const char* file : {summary_file, response_file, modes_file, temperature_file, surface_file, "fields.pvd"})
-    fs::remove(results / file, ignored);
-  fs::remove_all(results / "fields", ignored);
-  remove_report(results);
 }
 
 /// Heats the body and writes what comes of it; figures of the end join the others.
@@ -126,28 +116,26 @@ void compute(const PlateProgram& program, Session& session, const fs::path& fold
 }
 
 void run_case(const PlateProgram& program, Session& session) {
-  if (session.restart) session.log.say("a plate's run cannot be restarted: starting from the beginning");
-  const Stopwatch watch;
-  const FolderLock lock(session.results);
-  NewResults place(session.results, fs::exists(session.results / summary_file));
-  session.log.open_file(place.folder() / "run.log", false);
-  session.log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, program.parsed.title,
-                              session.threads));
-  if (place.wait()) say_what_is_replaced(session, program.hash, false);
-  VibrationSummary summary{.case_name = program.name,
-                           .status = "complete",
-                           .version = session.version,
-                           .case_hash = program.hash,
-                           .threads = session.threads,
-                           .wall_seconds = 0.0,
-                           .figures = {},
-                           .tests = {}};
-  compute(program, session, place.folder(), summary);
-  summary.wall_seconds = watch.seconds();
-  write_vibration_summary(place.folder() / summary_file, summary);
-  place.take_place([&] { remove_earlier(session.results); }, summary_file);
-  session.log.say(
-      fmt::format("complete after {:.1f} s; results in {}", summary.wall_seconds, session.results.string()));
+  const auto compute_all = [&](const fs::path& folder, const Stopwatch& watch) -> std::string {
+    VibrationSummary summary{.case_name = program.name,
+                             .status = "complete",
+                             .version = session.version,
+                             .case_hash = program.hash,
+                             .threads = session.threads,
+                             .wall_seconds = 0.0,
+                             .figures = {},
+                             .tests = {}};
+    compute(program, session, folder, summary);
+    summary.wall_seconds = watch.seconds();
+    write_vibration_summary(folder / summary_file, summary);
+    return summary.status;
+  };
+  run_whole({.name = program.name,
+             .title = program.parsed.title,
+             .hash = program.hash,
+             .compute = compute_all,
+             .results = {response_file, modes_file, temperature_file, surface_file, "fields.pvd", "fields"}},
+            session);
 }
 
 }  // namespace

@@ -3,14 +3,12 @@
 #include "cases/program/point/endochronic_case.h"
 #include "cases/program/point/endochronic_fit_results.h"
 #include "cases/program/point/endochronic_report.h"
-#include "cases/program/session/earlier_results.h"
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
-#include "cases/program/session/stopwatch.h"
+#include "cases/program/session/whole_run.h"
 #include "postproc/curves/history_csv.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/folder_lock.h"
-#include "postproc/files/new_results.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -75,16 +73,6 @@ void check(const EndochronicProgram& program, Session& session) {
 
 constexpr const char* history_file = "history.csv";
 
-bool has_results(const std::filesystem::path& results) {
-  return std::filesystem::exists(results / history_file) || std::filesystem::exists(results / summary_file);
-}
-
-void remove_earlier_run(const std::filesystem::path& results) {
-  std::error_code ignored;
-  for (const char* file : {summary_file, history_file}) std::filesystem::remove(results / file, ignored);
-  remove_report(results);
-}
-
 void write_results(const EndochronicProgram& program, const HistoryResult& history, const Session& session,
                    const std::filesystem::path& folder, double seconds) {
   write_csv(folder / history_file, history_table(program.point.law, history));
@@ -104,26 +92,28 @@ void write_results(const EndochronicProgram& program, const HistoryResult& histo
 }
 
 void run_case(const EndochronicProgram& program, Session& session) {
-  const Stopwatch watch;
   Log& log = session.log;
-  log.say(fmt::format("pfdm {}, case {}: {}", session.version, program.name, program.point.title));
-  const FolderLock lock(session.results);
-  NewResults place(session.results, has_results(session.results));
-  log.open_file(place.folder() / "run.log", false);
-  if (place.wait()) say_what_is_replaced(session, program.hash, false);
-  say_law(program.point.law, log);
-  const EndochronicLoading& loading = program.point.loading;
-  const HistoryResult history = run_history(program.point.law, loading.segments, loading.settings);
-  const double seconds = watch.seconds();
-  write_results(program, history, session, place.folder(), seconds);
-  if (history.points.size() > 1) place.take_place([&] { remove_earlier_run(session.results); }, summary_file);
-  for (const auto& [name, value] : history_figures(program.point.law, history))
-    log.say(fmt::format("  {} = {:.6g}", name, value));
-  log.say(fmt::format("  newton_iterations = {}", newton_iterations(history)));
-  log.say(fmt::format("{} after {} of {} increments and {:.2f} s; results in {}",
-                      history.converged ? "complete" : "failed", history.points.size() - 1, n_increments(loading),
-                      seconds, session.results.string()));
-  if (!history.converged) throw NoConvergence(fmt::format("case {}: {}", program.name, history.failure));
+  std::string failure;
+  const auto compute = [&](const std::filesystem::path& folder, const Stopwatch& watch) -> std::string {
+    say_law(program.point.law, log);
+    const EndochronicLoading& loading = program.point.loading;
+    const HistoryResult history = run_history(program.point.law, loading.segments, loading.settings);
+    if (!history.converged) failure = fmt::format("case {}: {}", program.name, history.failure);
+    write_results(program, history, session, folder, watch.seconds());
+    if (history.points.size() < 2) throw NoConvergence(failure);
+    for (const auto& [name, value] : history_figures(program.point.law, history))
+      log.say(fmt::format("  {} = {:.6g}", name, value));
+    log.say(fmt::format("  newton_iterations = {}", newton_iterations(history)));
+    log.say(fmt::format("{} of {} increments", history.points.size() - 1, n_increments(loading)));
+    return history.converged ? "complete" : "failed";
+  };
+  run_whole({.name = program.name,
+             .title = program.point.title,
+             .hash = program.hash,
+             .compute = compute,
+             .results = {history_file}},
+            session);
+  if (!failure.empty()) throw NoConvergence(failure);
 }
 
 void say_estimates(const FitFindings& found, Log& log) {

@@ -1,16 +1,14 @@
 #include "cases/program/vibration/mass_material_program.h"
 
-#include "cases/program/session/earlier_results.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/stopwatch.h"
+#include "cases/program/session/whole_run.h"
 #include "cases/program/vibration/mass_material_analysis.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "cases/program/vibration/mass_material_jobs.h"
 #include "cases/program/vibration/mass_material_report.h"
 #include "postproc/curves/summary.h"
 #include "postproc/curves/vibration_results.h"
-#include "postproc/files/folder_lock.h"
-#include "postproc/files/new_results.h"
 #include "postproc/records/signal_table.h"
 #include "solver/vibration/mass_material_simulation.h"
 #include "solver/vibration/signals_spectra.h"
@@ -38,7 +36,6 @@ void require_parameters(const MassMaterialCase& c) {
 
 void say_model(const MassMaterialProgram& program, Log& log) {
   const MassMaterialCase& c = program.parsed;
-  log.say(fmt::format("{}: {}", program.name, c.title));
   log.say(fmt::format("model {}: {}", c.structure, model_structure(c.structure).description));
   if (!c.has_parameters) return;
   const double f0 = std::sqrt(c.model.stiffness.front() / c.model.mass) / (2.0 * std::numbers::pi);
@@ -63,6 +60,7 @@ void say_passivity(const MassMaterialCase& c, const VibrationTest& test, Log& lo
 void check(const MassMaterialProgram& program, Session& session) {
   const MassMaterialCase& c = program.parsed;
   Log& log = session.log;
+  log.say(fmt::format("{}: {}", program.name, c.title));
   say_model(program, log);
   if (c.has_parameters) require_parameters(c);
   for (const VibrationTest& test : c.tests) {
@@ -165,16 +163,13 @@ NamedFigures figures_of(const SimulatedTest& t) {
           {{"samples", t.record.n()}}};
 }
 
-/// Of tests that the case no longer has as well.
-void remove_earlier_results(const fs::path& results) {
-  std::error_code ignored;
-  const std::vector<std::string> tests = tests_of_vibration_summary(results / summary_file);
-  fs::remove(results / summary_file, ignored);
-  remove_report(results);
-  remove_analysis(results);
-  for (const std::string& test : tests)
+/// What a run left there, of tests that the case no longer has as well.
+std::vector<std::string> files_of_earlier(const fs::path& results) {
+  std::vector<std::string> files;
+  for (const std::string& test : tests_of_vibration_summary(results / summary_file))
     for (const std::string_view ending : {std::string_view(), result_endings[0], result_endings[1]})
-      fs::remove(results / fmt::format("{}{}.csv", test, ending), ignored);
+      files.push_back(fmt::format("{}{}.csv", test, ending));
+  return files;
 }
 
 void run_tests(const MassMaterialProgram& program, Session& session, const fs::path& folder,
@@ -204,32 +199,32 @@ void run_tests(const MassMaterialProgram& program, Session& session, const fs::p
 void run_case(const MassMaterialProgram& program, Session& session) {
   const MassMaterialCase& c = program.parsed;
   require_parameters(c);
-  if (session.restart)
-    session.log.say("a simulation of vibration tests cannot be restarted: starting from the beginning");
-  const Stopwatch watch;
-  const FolderLock lock(session.results);
-  NewResults place(session.results, fs::exists(session.results / summary_file));
-  session.log.open_file(place.folder() / "run.log", false);
-  say_model(program, session.log);
-  if (place.wait()) say_what_is_replaced(session, program.hash, false);
-  VibrationSummary summary{.case_name = program.name,
-                           .status = "complete",
-                           .version = session.version,
-                           .case_hash = program.hash,
-                           .threads = session.threads,
-                           .wall_seconds = 0.0,
-                           .figures = {},
-                           .tests = {}};
-  run_tests(program, session, place.folder(), summary);
-  const auto z0 = static_settling_point(c.model, standard_gravity);
-  summary.figures = {{"mass_kg", c.model.mass},
-                     {"static_stiffness_N_per_m", static_stiffness(c.model)},
-                     {"static_settling_point_m", z0 ? *z0 : std::nan("")}};
-  summary.wall_seconds = watch.seconds();
-  write_vibration_summary(place.folder() / summary_file, summary);
-  place.take_place([&] { remove_earlier_results(session.results); }, summary_file);
-  session.log.say(
-      fmt::format("complete after {:.1f} s; results in {}", summary.wall_seconds, session.results.string()));
+  const auto compute = [&](const fs::path& folder, const Stopwatch& watch) -> std::string {
+    say_model(program, session.log);
+    VibrationSummary summary{.case_name = program.name,
+                             .status = "complete",
+                             .version = session.version,
+                             .case_hash = program.hash,
+                             .threads = session.threads,
+                             .wall_seconds = 0.0,
+                             .figures = {},
+                             .tests = {}};
+    run_tests(program, session, folder, summary);
+    const auto z0 = static_settling_point(c.model, standard_gravity);
+    summary.figures = {{"mass_kg", c.model.mass},
+                       {"static_stiffness_N_per_m", static_stiffness(c.model)},
+                       {"static_settling_point_m", z0 ? *z0 : std::nan("")}};
+    summary.wall_seconds = watch.seconds();
+    write_vibration_summary(folder / summary_file, summary);
+    return summary.status;
+  };
+  run_whole({.name = program.name,
+             .title = c.title,
+             .hash = program.hash,
+             .compute = compute,
+             .results = files_of_earlier(session.results),
+             .remove_more = [&] { remove_analysis(session.results); }},
+            session);
 }
 
 }  // namespace
