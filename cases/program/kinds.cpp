@@ -1,5 +1,6 @@
 #include "cases/program/kinds.h"
 
+#include "cases/program/chain/chain_program.h"
 #include "cases/program/fracture/fracture_program.h"
 #include "cases/program/homogenization/homogenization_program.h"
 #include "cases/program/plate/plate_program.h"
@@ -11,6 +12,8 @@ namespace pfdm {
 namespace {
 
 constexpr CaseKind table[] = {
+    {"chain", "jobs of other cases one after the other, which take numbers from each other's results",
+     read_chain_program},
     {"endochronic", "one material point of endochronic plasticity under mixed control", read_endochronic_program},
     {"fracture", "phase-field fracture of a solid under load", read_fracture_program},
     {"homogenize", "effective linear stiffness of a meshed composite by six load cases", read_homogenization_program},

@@ -56,6 +56,9 @@ void make_case(const fs::path& directory, const fs::path& like, std::ostream& ou
   require_empty(directory);
   const CaseFile old = open_case(like);
   read_case(old);  // a copy of what is wrong helps nobody
+  if (old.config.root().string("kind") == "chain")
+    throw InputError(
+        fmt::format("{}: the steps of a chain are cases of their own: copy its folder, and theirs", like.string()));
   const std::string name = whole(directory).filename().string(), old_name = case_name(old);
   std::map<fs::path, fs::path> places;
   std::set<fs::path> taken;

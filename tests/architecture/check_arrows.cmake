@@ -27,6 +27,7 @@ set(rooms
     "cases/program/input: physics postproc/files"
     "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page cases/program/input"
     "cases/program/studies: physics solver/calibration postproc/files postproc/curves cases/program/input cases/program/session"
+    "cases/program/chain: physics postproc/files postproc/page cases/program/input cases/program/session"
     "cases/program/point: physics solver/point postproc/files postproc/curves postproc/page cases/program/input
      cases/program/session"
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/page postproc/records
@@ -40,7 +41,7 @@ set(rooms
      postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/fracture"
     "cases/program: physics solver solver/homogenization solver/point postproc/files postproc/fields postproc/curves postproc/exports
      cases/program/input cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture
-     cases/program/homogenization cases/program/plate")
+     cases/program/homogenization cases/program/plate cases/program/chain")
 set(complaints "")
 
 set(names "")

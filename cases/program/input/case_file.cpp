@@ -45,20 +45,25 @@ std::string seen_from(const std::filesystem::path& folder, const std::filesystem
   return std::filesystem::relative(weakly_canonical(absolute(file)), weakly_canonical(absolute(folder))).string();
 }
 
-/// Calls `see` with every value below this one and its key.
-void visit(std::string_view key, const TomlValue& value,
-           const std::function<void(std::string_view key, const TomlValue& value)>& see) {
-  see(key, value);
+/// Calls `see` with every value below this one and its path, as in "mesh.particles[0].diameter".
+void visit(const std::string& path, const TomlValue& value,
+           const std::function<void(const std::string& path, const TomlValue& value)>& see) {
+  see(path, value);
   if (const auto* list = std::get_if<TomlArray>(&value.value))
-    for (const TomlValue& element : *list) visit("", element, see);
+    for (std::size_t i = 0; i < list->size(); ++i) visit(fmt::format("{}[{}]", path, i), (*list)[i], see);
   if (const auto* table = std::get_if<TomlTable>(&value.value))
-    for (const auto& [name, entry] : *table) visit(name, entry, see);
+    for (const auto& [name, entry] : *table) visit(path.empty() ? name : path + "." + name, entry, see);
+}
+
+bool names_data_file(const std::string& path, const TomlValue& value) {
+  const std::string key = path.substr(path.find_last_of('.') + 1);
+  return (key == "csv" || key == "file") && std::holds_alternative<std::string>(value.value);
 }
 
 /// Numbers that stand in result files count as if they stood here.
 std::uint64_t add_numbers_from_results(std::uint64_t hash, const TomlValue& root,
                                        const std::filesystem::path& directory) {
-  visit("", root, [&](std::string_view, const TomlValue& value) {
+  visit("", root, [&](const std::string&, const TomlValue& value) {
     if (path_of_result(value) != nullptr) hash = add_to_hash(hash, fmt::format("{}", result_number(value, directory)));
   });
   return hash;
@@ -67,9 +72,9 @@ std::uint64_t add_numbers_from_results(std::uint64_t hash, const TomlValue& root
 /// The values that name files, in the order of the text.
 std::vector<const TomlValue*> values_that_name_files(const TomlValue& root) {
   std::vector<const TomlValue*> found;
-  visit("", root, [&](std::string_view key, const TomlValue& value) {
-    if ((key == "csv" || key == "file") && std::holds_alternative<std::string>(value.value)) found.push_back(&value);
-    if (const TomlValue* path = path_of_result(value)) found.push_back(path);
+  visit("", root, [&](const std::string& path, const TomlValue& value) {
+    if (names_data_file(path, value)) found.push_back(&value);
+    if (const TomlValue* result = path_of_result(value)) found.push_back(result);
   });
   std::ranges::sort(found, {}, [](const TomlValue* value) { return std::pair(value->line, value->column); });
   return found;
@@ -102,6 +107,31 @@ std::string case_hash(const CaseFile& file, std::span<const std::filesystem::pat
       hash = add_numbers_from_results(add_to_hash(hash, key + written(value)), value, file.directory);
   for (const std::filesystem::path& data : data_files) hash = add_to_hash(hash, read_file(data));
   return fmt::format("{:016x}", hash);
+}
+
+std::vector<std::filesystem::path> data_files_named(const CaseFile& file) {
+  std::vector<std::filesystem::path> files;
+  visit("", parse_toml(file.text, "case.toml"), [&](const std::string& path, const TomlValue& value) {
+    if (names_data_file(path, value)) files.push_back(file.directory / std::get<std::string>(value.value));
+  });
+  return files;
+}
+
+std::vector<TakenNumber> numbers_taken(const CaseFile& file) {
+  std::vector<TakenNumber> taken;
+  visit("", parse_toml(file.text, "case.toml"), [&](const std::string& path, const TomlValue& value) {
+    if (path_of_result(value) == nullptr) return;
+    const auto& table = std::get<TomlTable>(value.value);
+    const auto text = [&](std::string_view key) {
+      return std::get<std::string>(std::ranges::find(table, key, &TomlEntry::key)->value.value);
+    };
+    taken.push_back({path, text("from"), text("key"), result_number(value, file.directory)});
+  });
+  return taken;
+}
+
+std::string content_hash(const std::filesystem::path& file) {
+  return fmt::format("{:016x}", add_to_hash(hash_of_nothing, read_file(file)));
 }
 
 CaseFile with_text(const CaseFile& file, std::string text) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace pfdm {
 
@@ -30,8 +31,24 @@ std::string case_name(const CaseFile& file);
 std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
                       std::span<const std::string_view> left_out = {});
 
+/// The files that the case names as `csv` or `file`, from its directory on, in the order of the text.
+std::vector<std::filesystem::path> data_files_named(const CaseFile& file);
+
+/// A number that a case takes from a result file (result_number.h).
+struct TakenNumber {
+  std::string into;  ///< "materials.matrix.young_modulus"
+  std::string from;  ///< the file, as the case names it
+  std::string key;   ///< in that file
+  double value = 0.0;
+};
+/// In the order of the text. Throws InputError like result_number().
+std::vector<TakenNumber> numbers_taken(const CaseFile& file);
+
 /// The same case with another text; its paths still start at the directory.
 CaseFile with_text(const CaseFile& file, std::string text);
+
+/// Of what is in a file, likewise.
+std::string content_hash(const std::filesystem::path& file);
 
 /// Of what one table says, and of data files, likewise.
 std::string table_hash(const CaseFile& file, std::string_view table, std::span<const std::filesystem::path> data_files);

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <regex>
 #include <vector>
@@ -21,6 +22,7 @@ struct Reference {
   std::string from;
   std::string key;  // as in "stiffness_Pa[0][0]"
   std::optional<std::string> unit{};
+  bool may_be_null = false;
 };
 
 const TomlValue* entry_of(const TomlTable& table, std::string_view key) {
@@ -76,6 +78,7 @@ double number_at(const Json& root, const Reference& reference) {
     here = there;
   }
   if (here->is_number()) return here->get<double>();
+  if (here->is_null() && reference.may_be_null) return std::numeric_limits<double>::quiet_NaN();
   throw InputError(fmt::format("\"{}\" of {} is not a number", reference.key, reference.from));
 }
 
@@ -133,6 +136,10 @@ double result_number(const TomlValue& value, const fs::path& case_directory) {
 double result_number(const TomlValue& value, const fs::path& case_directory, const Dimension& due) {
   const Reference reference = read_reference(value);
   return unit_of_number(reference, due) * number_in_file(reference, case_directory);
+}
+
+double number_in_results(const fs::path& folder, const std::string& file, const std::string& key) {
+  return number_in_file({.from = file, .key = key, .unit = {}, .may_be_null = true}, folder);
 }
 
 std::string in_names(std::string_view unit) {

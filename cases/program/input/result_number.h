@@ -22,6 +22,10 @@ double result_number(const TomlValue& value, const std::filesystem::path& case_d
 /// The number as it stands in the file.
 double result_number(const TomlValue& value, const std::filesystem::path& case_directory);
 
+/// The number that `key` leads to in a result file of the folder; NaN for null, as of an interval that is
+/// withheld. Throws InputError likewise.
+double number_in_results(const std::filesystem::path& folder, const std::string& file, const std::string& key);
+
 /// A unit as it stands in names of columns and of results: "J_per_m2" of "J/m^2".
 std::string in_names(std::string_view unit);
 

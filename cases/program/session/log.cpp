@@ -34,6 +34,10 @@ Log::Log(std::ostream& console, std::ostream& errors, bool terminal, bool quiet)
 
 Log::~Log() { clear_progress(); }
 
+std::unique_ptr<Log> Log::with_own_file() const {
+  return std::make_unique<Log>(sinks_->stream, sinks_->errors, sinks_->terminal, sinks_->quiet);
+}
+
 void Log::open_file(const std::filesystem::path& file, bool append) {
   std::error_code ignored;  // a link is replaced: what it points to is not this program's to write to
   if (!append || std::filesystem::is_symlink(file, ignored)) std::filesystem::remove(file, ignored);

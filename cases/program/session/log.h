@@ -17,6 +17,9 @@ class Log {
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
+  /// One with another file, or none, for the same console.
+  std::unique_ptr<Log> with_own_file() const;
+
   /// Everything goes to this file too, what was said so far as well. Where `file` is a link, it is replaced. Throws
   /// ComputationError if it cannot be written.
   void open_file(const std::filesystem::path& file, bool append);

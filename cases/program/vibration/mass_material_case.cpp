@@ -59,9 +59,31 @@ std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStr
   return kernel;
 }
 
+void read_sample(const ConfigTable& root, MassMaterialCase& c) {
+  if (!root.has("sample")) return;
+  const ConfigTable table = root.table("sample").with_keys({"length", "area"});
+  c.sample = SampleSize{.length = table.quantity("length", dimension::length, range::positive),
+                        .area = table.quantity("area", dimension::area, range::positive)};
+}
+
+/// A sample that is a bar in tension: k_1 = E A/L, and with a loss factor the damping c = eta (k_1 m)^(1/2), which
+/// dissipates as much at the resonance of mass and k_1.
+void read_modulus(const ConfigTable& table, MassMaterialCase& c) {
+  const auto modulus = table.find("young_modulus"), loss = table.find("loss_factor");
+  if (loss && !modulus) throw loss->error("the loss factor belongs to a \"young_modulus\", which is missing");
+  if (!modulus) return;
+  if (c.has_parameters) throw modulus->error("\"stiffness\" and \"young_modulus\" both give k_1: leave one out");
+  if (!c.sample) throw modulus->error("Young's modulus needs the sample's length and area: [sample]");
+  if (loss && table.has("damping")) throw loss->error("\"damping\" and \"loss_factor\" both give c: leave one out");
+  c.model.stiffness = {modulus->quantity(dimension::stress, range::positive) * c.sample->area / c.sample->length};
+  c.has_parameters = true;
+  if (loss) c.model.damping = loss->number(range::not_negative) * std::sqrt(c.model.stiffness.front() * c.model.mass);
+}
+
 void read_model(const ConfigTable& root, MassMaterialCase& c) {
-  const ConfigTable table = root.table("model").with_keys(
-      {"structure", "mass", "stiffness", "damping", "damping_exponent", "reference_velocity", "kernel"});
+  const ConfigTable table =
+      root.table("model").with_keys({"structure", "mass", "stiffness", "damping", "young_modulus", "loss_factor",
+                                     "damping_exponent", "reference_velocity", "kernel"});
   const ModelStructure& structure = choose(table.at("structure"), model_structures(), "mass-material model");
   c.structure = structure.name;
   c.model.mass = table.quantity("mass", dimension::mass, range::positive);
@@ -82,6 +104,7 @@ void read_model(const ConfigTable& root, MassMaterialCase& c) {
     if (!(c.model.stiffness.front() > 0.0)) throw list.front().error("k_1 must be positive");
   }
   c.model.damping = table.quantity("damping", damping_dimension, range::any, 0.0);
+  read_modulus(table, c);
   c.model.kernel = read_kernel(table, structure);
 }
 
@@ -289,17 +312,13 @@ MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path
   root.with_keys({"kind", "title", "model", "sample", "sampling", "test", "change", "fit", "analysis", "sweep"});
   MassMaterialCase c;
   c.title = root.string("title");
+  read_sample(root, c);
   read_model(root, c);
   read_sampling(root, c);
   read_tests(root, case_directory, c);
   c.changes = read_sample_changes(root);
   read_fit(root, c);
   read_analysis(root, c);
-  if (root.has("sample")) {
-    const ConfigTable table = root.table("sample").with_keys({"length", "area"});
-    c.sample = SampleSize{.length = table.quantity("length", dimension::length, range::positive),
-                          .area = table.quantity("area", dimension::area, range::positive)};
-  }
   return c;
 }
 

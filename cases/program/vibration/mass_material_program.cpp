@@ -34,12 +34,16 @@ void require_parameters(const MassMaterialCase& c) {
                                  static_stiffness(c.model)));
 }
 
+/// Of mass and k1, undamped [Hz].
+double linear_resonance(const MassMaterialCase& c) {
+  return std::sqrt(c.model.stiffness.front() / c.model.mass) / (2.0 * std::numbers::pi);
+}
+
 void say_model(const MassMaterialProgram& program, Log& log) {
   const MassMaterialCase& c = program.parsed;
   log.say(fmt::format("model {}: {}", c.structure, model_structure(c.structure).description));
   if (!c.has_parameters) return;
-  const double f0 = std::sqrt(c.model.stiffness.front() / c.model.mass) / (2.0 * std::numbers::pi);
-  log.say(fmt::format("resonance of mass and k1 at {:.4g} Hz", f0));
+  log.say(fmt::format("resonance of mass and k1 at {:.4g} Hz", linear_resonance(c)));
   const auto z0 = static_settling_point(c.model, standard_gravity);
   if (z0)
     log.say(
@@ -212,6 +216,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
     run_tests(program, session, folder, summary);
     const auto z0 = static_settling_point(c.model, standard_gravity);
     summary.figures = {{"mass_kg", c.model.mass},
+                       {"linear_resonance_Hz", linear_resonance(c)},
                        {"static_stiffness_N_per_m", static_stiffness(c.model)},
                        {"static_settling_point_m", z0 ? *z0 : std::nan("")}};
     summary.wall_seconds = watch.seconds();

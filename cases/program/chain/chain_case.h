@@ -1,0 +1,53 @@
+#pragma once
+// Reads a case of kind "chain": jobs of other cases one after the other, each of which may take numbers and files from
+// the results of those before.
+
+#include "cases/program/input/config.h"
+#include "cases/program/session/runnable_case.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pfdm {
+
+/// What a step can do with its case.
+struct ChainJob {
+  std::string_view name;
+  std::string_view description;
+  std::function<void(Session&)> RunnableCase::*job;
+  std::string_view outcome;  ///< the file of the results that is written last, and that tells of the job
+};
+std::span<const ChainJob> chain_jobs();
+
+/// A number of a step's results that the chain's page shows.
+struct ChainFigure {
+  std::string says;
+  std::string file;                   ///< in the step's results
+  std::string key;                    ///< in that file, as in "isotropic.young_modulus_Pa"
+  std::optional<std::string> unit;    ///< of the number; none: a number without one
+  std::vector<ConfigValue> interval;  ///< keys of its lower and upper end; none: it has none
+  ConfigValue place;                  ///< for messages
+};
+
+struct ChainStep {
+  std::string name;
+  std::filesystem::path where;  ///< of its case: a directory, or a .toml file in it
+  const ChainJob* job = nullptr;
+  std::vector<ChainFigure> figures;
+  ConfigValue place;  ///< for messages
+};
+
+struct ChainCase {
+  std::string title;
+  std::vector<ChainStep> steps;
+};
+
+/// Steps' cases are not read here: what they take from earlier steps may not be there yet.
+ChainCase read_chain_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+
+}  // namespace pfdm

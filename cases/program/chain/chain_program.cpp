@@ -1,0 +1,209 @@
+#include "cases/program/chain/chain_program.h"
+
+#include "cases/program/chain/chain_case.h"
+#include "cases/program/chain/chain_page.h"
+#include "cases/program/chain/chain_record.h"
+#include "cases/program/input/result_number.h"
+#include "cases/program/session/report_parts.h"
+#include "cases/program/session/stopwatch.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/folder_lock.h"
+#include "postproc/files/json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ChainProgram {
+  std::string name;
+  ChainCase chain;
+};
+
+/// A step whose case can be read: all that it takes from others is there.
+struct ReadyStep {
+  const ChainStep& step;
+  CaseFile file;
+  RunnableCase runnable;
+  fs::path results;
+  std::string key;
+
+  fs::path outcome() const { return results / step.job->outcome; }
+  const std::function<void(Session&)>& job() const { return runnable.*(step.job->job); }
+};
+
+ReadyStep get_ready(const ChainStep& step, const Session& session) {
+  return step.place.in_context([&] {
+    CaseFile file = open_case(step.where);
+    if (file.config.root().string("kind") == "chain") throw InputError("a step of a chain cannot be a chain itself");
+    ReadyStep ready{step, file, session.read_case(file), file.directory / "results", ""};
+    if (!ready.job()) throw InputError(fmt::format("this kind of case has no \"{}\"", step.job->name));
+    ready.key = case_hash(file, data_files_named(file));
+    return ready;
+  });
+}
+
+/// The record of a step that need not be done again; null if it must.
+const DoneStep* done_before(const ChainRecord& record, const ReadyStep& ready, const std::string& version) {
+  const DoneStep* const done = record.version == version ? record.find(ready.step.name) : nullptr;
+  if (done == nullptr || done->does != ready.step.job->name || done->key != ready.key) return nullptr;
+  return fs::is_regular_file(ready.outcome()) && content_hash(ready.outcome()) == done->outcome ? done : nullptr;
+}
+
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  const fs::path inner = fs::weakly_canonical(fs::absolute(file)), outer = fs::weakly_canonical(fs::absolute(folder));
+  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
+
+/// Of the step's case and data, those that are results of earlier steps.
+std::vector<std::string> files_taken(const ChainProgram& program, const ReadyStep& ready) {
+  std::vector<fs::path> named = data_files_named(ready.file);
+  if (ready.step.where.extension() == ".toml") named.push_back(ready.step.where);
+  std::vector<std::string> taken;
+  for (const ChainStep& earlier : program.chain.steps) {
+    if (&earlier == &ready.step) break;
+    const fs::path directory = earlier.where.extension() == ".toml" ? earlier.where.parent_path() : earlier.where;
+    for (const fs::path& file : named)
+      if (lies_in(file, directory / "results")) taken.push_back(file.lexically_normal().string());
+  }
+  return taken;
+}
+
+/// "sound" of a fit; empty for other jobs. Throws NoConvergence for one that has failed: nothing may be built on it.
+std::string verdict_of(const ReadyStep& ready, Log& log) {
+  if (ready.step.job->name != "fit") return "";
+  const std::string verdict = read_json(
+      ready.outcome(), "fit", [](const auto& json) { return json.at("verdict").template get<std::string>(); });
+  if (verdict == "failed")
+    throw NoConvergence(fmt::format("step {}: the fit has failed ({} says why); the chain ends here", ready.step.name,
+                                    ready.outcome().string()));
+  if (verdict != "sound")
+    log.warn(fmt::format("step {}: the fit is {} ({} says why); later steps use its estimates all the same",
+                         ready.step.name, verdict, ready.outcome().string()));
+  return verdict;
+}
+
+DoneStep record_of(const ChainProgram& program, const ReadyStep& ready, double seconds, Log& log) {
+  DoneStep done{.name = ready.step.name,
+                .does = std::string(ready.step.job->name),
+                .key = ready.key,
+                .outcome = content_hash(ready.outcome()),
+                .wall_seconds = seconds,
+                .verdict = verdict_of(ready, log),
+                .taken = numbers_taken(ready.file),
+                .files = files_taken(program, ready)};
+  for (const ChainFigure& figure : ready.step.figures) {
+    const auto number = [&](const std::string& key, const ConfigValue& place) {
+      return place.in_context([&] { return number_in_results(ready.results, figure.file, key); });
+    };
+    done.figures.push_back({figure.says, number(figure.key, figure.place), figure.unit.value_or("")});
+    for (const ConfigValue& end : figure.interval) done.figures.back().interval.push_back(number(end.string(), end));
+  }
+  return done;
+}
+
+DoneStep do_step(const ChainProgram& program, const ReadyStep& ready, bool restart, Session& session) {
+  const Stopwatch watch;
+  const std::unique_ptr<Log> log = session.log.with_own_file();
+  Session own{.results = ready.results,
+              .restart = restart && ready.runnable.goes_on,
+              .max_steps = std::nullopt,
+              .until = std::nullopt,
+              .threads = session.threads,
+              .version = session.version,
+              .read_case = session.read_case,
+              .log = *log};
+  make_folder(ready.results);
+  ready.job()(own);
+  return record_of(program, ready, watch.seconds(), session.log);
+}
+
+void say_taken(const ReadyStep& ready, Log& log) {
+  for (const TakenNumber& number : numbers_taken(ready.file))
+    log.say(fmt::format("  {} = {:.6g}, {} of {}", number.into, number.value, number.key, number.from));
+}
+
+void check(const ChainProgram& program, Session& session) {
+  Log& log = session.log;
+  log.say(fmt::format("{}: {}", program.name, program.chain.title));
+  const ChainRecord record = read_chain(session.results);
+  const ChainStep* waited_for = nullptr;  // the first that has to be done
+  for (const ChainStep& step : program.chain.steps) try {
+      const ReadyStep ready = get_ready(step, session);
+      const bool done = done_before(record, ready, session.version) != nullptr;
+      if (!done && waited_for == nullptr) waited_for = &step;
+      log.say(fmt::format("step {}: {}, {}", step.name, step.job->name, done ? "done" : "to be done"));
+      say_taken(ready, log);
+    } catch (const InputError& error) {
+      if (waited_for == nullptr) throw;
+      log.say(
+          fmt::format("step {}: {}, waits for \"{}\" ({})", step.name, step.job->name, waited_for->name, error.what()));
+    }
+  log.say(fmt::format("results go to {}, those of the steps to their own cases", session.results.string()));
+  log.say("the input is valid");
+}
+
+/// What an interruption leaves: steps that come later may still be as they were done.
+ChainRecord with_later_steps(ChainRecord record, const ChainRecord& earlier) {
+  for (const DoneStep& step : earlier.steps)
+    if (record.find(step.name) == nullptr) record.steps.push_back(step);
+  return record;
+}
+
+void run_case(const ChainProgram& program, Session& session) {
+  if (session.max_steps) throw InputError("a chain has no load steps: --max-steps is for the cases of its steps");
+  const FolderLock lock(session.results);
+  Log& log = session.log;
+  log.open_file(session.results / "run.log", false);
+  log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, program.chain.title,
+                      session.threads));
+  const ChainRecord earlier = read_chain(session.results);
+  ChainRecord record{.case_name = program.name, .status = "incomplete", .version = session.version, .steps = {}};
+  const Stopwatch watch;
+  bool restart = session.restart;
+  for (const ChainStep& step : program.chain.steps) {
+    const ReadyStep ready = get_ready(step, session);
+    const std::string place =
+        fmt::format("step {} of {}: {}", record.steps.size() + 1, program.chain.steps.size(), step.name);
+    if (const DoneStep* done = done_before(earlier, ready, session.version)) {
+      log.say(fmt::format("{}: done before", place));
+      record.steps.push_back(*done);
+      continue;
+    }
+    log.say(fmt::format("{}: {} {}", place, step.job->name, step.where.string()));
+    say_taken(ready, log);
+    record.steps.push_back(do_step(program, ready, std::exchange(restart, false), session));
+    write_chain(session.results, with_later_steps(record, earlier));
+  }
+  record.status = "complete";
+  write_chain(session.results, record);
+  write_report(chain_page(record, program.chain.title), session);
+  log.say(fmt::format("complete after {:.1f} s; results in {}", watch.seconds(), session.results.string()));
+}
+
+void report(const ChainProgram& program, Session& session) {
+  const ChainRecord record = read_chain(session.results);
+  if (record.steps.empty())
+    throw InputError(fmt::format("{}: there are no results; pfdm run makes them", session.results.string()));
+  write_report(chain_page(record, program.chain.title), session);
+}
+
+}  // namespace
+
+RunnableCase read_chain_program(const CaseFile& file) {
+  const auto program = std::make_shared<const ChainProgram>(
+      ChainProgram{.name = case_name(file), .chain = read_chain_case(file.config.root(), file.directory)});
+  return {.title = program->chain.title,
+          .check = [program](Session& session) { check(*program, session); },
+          .run = [program](Session& session) { run_case(*program, session); },
+          .report = [program](Session& session) { report(*program, session); },
+          .goes_on = true};
+}
+
+}  // namespace pfdm
