@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -85,6 +86,74 @@ TEST(EndochronicFitCase, FindsTheLawAndWritesACaseThatRuns) {
   EXPECT_NEAR(law.kernel[0].alpha, 700.0, 700.0 * 1e-5);
   EXPECT_EQ(run({"check", fitted.string()}).status, 0) << run({"check", fitted.string()}).err;
   EXPECT_EQ(run({"run", fitted.string(), "--output", (fit.directory.path() / "again").string()}).status, 0);
+}
+
+const std::string predicted_experiment = R"(
+[[fit.experiments]]
+name = "larger cycles"
+csv = "larger.csv"
+predicted = true
+strain = { strain_xx = { column = "strain_xx" } }
+stress = { stress_xx = { column = "stress_xx_Pa", unit = "Pa" } }
+)";
+
+/// Cycles of 0.8 % by the true law in larger.csv, their stress times `factor`.
+void write_larger_cycles(const FitCase& fit, double factor) {
+  const TemporaryCase larger(replaced(cyclic_case(true_kernel, "2.0"), "0.005*sin", "0.008*sin"));
+  ASSERT_EQ(run({"run", larger.path().string(), "--quiet"}).status, 0);
+  const CsvTable history = read_csv(larger.results() / "history.csv");
+  CsvTable table;
+  std::vector<double> stress = history.column("stress_xx_Pa");
+  for (double& value : stress) value *= factor;
+  table.comments = {"synthetic"};
+  table.add("time_s", history.column("time_s"));
+  table.add("strain_xx", history.column("strain_xx"));
+  table.add("stress_xx_Pa", stress);
+  write_csv(fit.directory.path() / "larger.csv", table);
+}
+
+TEST(EndochronicFitCase, PredictsExperimentsThatItIsNotFittedTo) {
+  const FitCase fit(fit_table + predicted_experiment);
+  write_larger_cycles(fit, 1.0);
+  const Outcome outcome = run({"fit", fit.directory.path().string(), "--strict"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto good = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+  ASSERT_EQ(good["experiments"].size(), 2u);
+  EXPECT_EQ(good["residuals"], good["experiments"][0]["data"]) << "the predicted curve is not fitted";
+  EXPECT_FALSE(good["experiments"][1]["fitted"].get<bool>());
+  EXPECT_LT(good["experiments"][1]["relative_misfit"].get<double>(), 1e-5);
+  EXPECT_TRUE(std::filesystem::exists(fit.directory.results() / "fit_larger_cycles.csv"));
+  EXPECT_EQ(run({"report", fit.directory.path().string()}).status, 0);
+
+  write_larger_cycles(fit, 1.1);
+  const Outcome missed = run({"fit", fit.directory.path().string(), "--strict"});
+  EXPECT_EQ(missed.status, 1);
+  const auto bad = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+  EXPECT_EQ(bad["verdict"], "questionable");
+  EXPECT_NE(bad["reasons"].dump().find("larger cycles"), std::string::npos) << bad["reasons"];
+  EXPECT_NEAR(bad["experiments"][1]["relative_misfit"].get<double>(), 0.1 / 1.1, 1e-5);
+}
+
+// The misfit of the case's own law, found from the columns of the curve.
+TEST(EndochronicFitCase, IsComparedWithoutAFit) {
+  const FitCase fit;
+  const Outcome outcome = run({"compare", fit.directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "comparison.json"));
+  const auto& experiment = json["experiments"][0];
+  const CsvTable curve = read_csv(fit.directory.results() / experiment["curve"].get<std::string>());
+  const auto &measured = curve.column("measured_stress_xx_Pa"), &computed = curve.column("computed_stress_xx_Pa");
+  double misfit = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    misfit += std::pow(computed[i] - measured[i], 2);
+    all += std::pow(measured[i], 2);
+  }
+  EXPECT_NEAR(experiment["relative_misfit"].get<double>(), std::sqrt(misfit / all), 1e-9);
+  EXPECT_GT(misfit, 1e-4 * all) << "the first guess is wrong";
+  EXPECT_FALSE(std::filesystem::exists(fit.directory.results() / "fit.json"));
+
+  const TemporaryCase none(cyclic_case(true_kernel, "2.0"));
+  EXPECT_EQ(run({"compare", none.path().string()}).status, 2);
 }
 
 TEST(EndochronicFitCase, EveryMethodRuns) {

@@ -48,7 +48,7 @@ MaterialExperiment::Channel read_channel(const std::string& key, const ConfigVal
 }
 
 MaterialExperiment read_experiment(const ConfigTable& table, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "separator", "decimal", "time", "time_unit", "strain", "stress"});
+  table.with_keys({"name", "csv", "separator", "decimal", "time", "time_unit", "strain", "stress", "predicted"});
   const CsvTable file = read_csv_of(table, directory);
   MaterialExperiment experiment{.name = table.string("name"), .loading = {}, .channels = {}};
   experiment.loading = read_followed_strains(table, directory, file);
@@ -62,9 +62,10 @@ MaterialExperiment read_experiment(const ConfigTable& table, const std::filesyst
   return experiment;
 }
 
-void require_own_files(const ConfigTable& table, const std::vector<MaterialExperiment>& experiments) {
-  const std::string& name = experiments.back().name;
-  for (const MaterialExperiment& other : std::span(experiments).first(experiments.size() - 1))
+/// `experiments`: those before this one.
+void require_own_file(const ConfigTable& table, const std::vector<MaterialExperiment>& experiments) {
+  const std::string name = table.string("name");
+  for (const MaterialExperiment& other : experiments)
     if (fit_curve_file(other.name) == fit_curve_file(name))
       throw table.at("name").error(
           fmt::format("the curves of \"{}\" and \"{}\" would have the same file, {}: use names "
@@ -154,12 +155,17 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
   read_terms(fit, settings);
   read_bounds(fit, law, settings);
   for (const ConfigTable& table : fit.tables("experiments")) {
-    result.experiments.push_back(read_experiment(table, case_directory));
-    require_own_files(table, result.experiments);
+    require_own_file(table, result.experiments);
+    require_own_file(table, result.predicted);
+    const bool predicted = table.boolean("predicted", false);
+    (predicted ? result.predicted : result.experiments).push_back(read_experiment(table, case_directory));
     result.data_files.push_back(case_directory / table.string("csv"));
   }
-  if (result.experiments.empty()) throw fit.at("experiments").error("at least one [[fit.experiments]] is required");
-  require_noise_of_all_or_none(fit, result.experiments);
+  if (result.experiments.empty())
+    throw fit.at("experiments").error("at least one of [[fit.experiments]] is required that is not predicted");
+  std::vector<MaterialExperiment> all = result.experiments;
+  all.insert(all.end(), result.predicted.begin(), result.predicted.end());
+  require_noise_of_all_or_none(fit, all);
   return result;
 }
 

@@ -13,7 +13,8 @@ namespace pfdm {
 struct EndochronicFit {
   const IdentificationMethod* method = nullptr;
   EndochronicIdentificationSettings settings;
-  std::vector<MaterialExperiment> experiments;
+  std::vector<MaterialExperiment> experiments;  ///< that the law is fitted to
+  std::vector<MaterialExperiment> predicted;    ///< that only judge it
   std::vector<std::filesystem::path> data_files;
 };
 

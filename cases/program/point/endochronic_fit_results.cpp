@@ -1,5 +1,6 @@
 #include "cases/program/point/endochronic_fit_results.h"
 
+#include "cases/program/point/endochronic_comparison.h"
 #include "cases/program/point/endochronic_material.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
@@ -12,46 +13,6 @@ namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What was followed, what was measured and what the fitted law answers.
-CsvTable curve(const MaterialExperiment& experiment, const EndochronicLaw& law, const ControlSettings& control) {
-  CsvTable table;
-  table.comments.push_back(fmt::format("experiment {}: measured stress and that of the fitted law", experiment.name));
-  table.add("time_s", experiment.loading.times);
-  const HistoryResult history = run_history(law, {experiment.loading}, control);
-  if (!history.converged) throw ComputationError(fmt::format("experiment {}: {}", experiment.name, history.failure));
-  for (int k = 0; k < n_components; ++k) {
-    const auto name = component_names[static_cast<std::size_t>(k)];
-    if (experiment.loading.conditions[static_cast<std::size_t>(k)].condition.on_strain.isZero()) continue;
-    std::vector<double> strain;
-    for (const HistoryPoint& point : history.points) strain.push_back(point.state.strain[k] / mandel_factor(k));
-    table.add(fmt::format("strain_{}", name), std::move(strain));
-  }
-  for (const MaterialExperiment::Channel& channel : experiment.channels) {
-    const auto name = component_names[static_cast<std::size_t>(channel.component)];
-    std::vector<double> fitted;
-    for (const HistoryPoint& point : history.points)
-      fitted.push_back(point.stress[channel.component] / mandel_factor(channel.component));
-    table.add(fmt::format("measured_stress_{}_Pa", name), channel.stress);
-    table.add(fmt::format("fitted_stress_{}_Pa", name), std::move(fitted));
-  }
-  return table;
-}
-
-std::vector<ExperimentMisfit> misfits(const EndochronicFit& fit, const EndochronicLaw& law) {
-  std::vector<ExperimentMisfit> result;
-  for (const MaterialExperiment& experiment : fit.experiments) {
-    std::size_t n = 0;
-    for (const auto& channel : experiment.channels) n += channel.stress.size();
-    result.push_back(experiment_misfit(experiment.name, n,
-                                       {.rms = rms_misfit(law, experiment, fit.settings.control),
-                                        .rms_measured = rms_stress({experiment}),
-                                        .quantity = "stress",
-                                        .unit = "Pa"},
-                                       fit_curve_file(experiment.name)));
-  }
-  return result;
-}
 
 constexpr double negligible_misfit = 1e-4;  // of the rms stress: what steps and rounding leave
 
@@ -86,13 +47,37 @@ void suspect_law(const EndochronicLaw& law, double misfit, bool model_error, Fit
                     largest));
 }
 
+/// Predicted experiments that the law misses by more than those that it was fitted to: by more than twice the noise or,
+/// where that is not known, by more than three times as large a part of the stress.
+std::vector<std::string> failed_predictions(const EndochronicFit& fit, const EndochronicLaw& law, double misfit) {
+  constexpr double noises = 2.0, times = 3.0;
+  std::vector<std::string> reasons;
+  for (const MaterialExperiment& experiment : fit.predicted) {
+    const double relative = rms_misfit(law, experiment, fit.settings.control) / rms_stress({experiment});
+    const auto residuals = stress_residuals(law, {experiment}, fit.settings.control);
+    double squares = 0.0;
+    if (residuals)
+      for (const double r : *residuals) squares += r * r;
+    const bool known = noise_is_known({experiment});
+    const bool missed = !residuals || (known ? squares > noises * noises * static_cast<double>(residuals->size())
+                                             : relative > times * std::max(misfit, negligible_misfit));
+    if (missed)
+      reasons.push_back(fmt::format("\"{}\" is predicted with a misfit of {:.2g} %, {}", experiment.name,
+                                    100.0 * relative,
+                                    known ? "more than twice its noise"
+                                          : fmt::format("the fitted curves are met within {:.2g} %", 100.0 * misfit)));
+  }
+  return reasons;
+}
+
 FitFindings judged(const EndochronicFit& fit, const EndochronicIdentification& found) {
   FitFindings findings = findings_of(found.fit.parameters, found.fit.result);
   if (!found.remark.empty()) findings.warnings.push_back(found.remark);
   const double misfit = rms_misfit(found.fit.law, fit.experiments, fit.settings.control) / rms_stress(fit.experiments);
-  const bool model_error =
-      judge(findings,
-            {.series = series_of(fit, found.fit.result.residuals), .negligible = negligible_misfit, .misfit = misfit});
+  const bool model_error = judge(findings, {.series = series_of(fit, found.fit.result.residuals),
+                                            .negligible = negligible_misfit,
+                                            .misfit = misfit,
+                                            .reasons = failed_predictions(fit, found.fit.law, misfit)});
   suspect_law(found.fit.law, misfit, model_error, findings);
   return findings;
 }
@@ -101,8 +86,10 @@ FitFindings judged(const EndochronicFit& fit, const EndochronicIdentification& f
 
 FitFindings write_fit_results(const fs::path& results, const CaseFile& file, const EndochronicFit& fit,
                               const EndochronicIdentification& found, const FitRun& run) {
-  for (const MaterialExperiment& experiment : fit.experiments)
-    write_csv(results / fit_curve_file(experiment.name), curve(experiment, found.fit.law, fit.settings.control));
+  for (const auto* experiments : {&fit.experiments, &fit.predicted})
+    for (const MaterialExperiment& experiment : *experiments)
+      write_csv(results / fit_curve_file(experiment.name),
+                answered_curve(experiment, found.fit.law, fit.settings.control, "fitted"));
   for (std::size_t i = 0; i < found.transients.size(); ++i) {
     CsvTable table;
     std::vector<double> zeta, rate, f, weight;
@@ -122,7 +109,7 @@ FitFindings write_fit_results(const fs::path& results, const CaseFile& file, con
                          .method = std::string(fit.method->name),
                          .wall_seconds = run.wall_seconds,
                          .found = judged(fit, found),
-                         .experiments = misfits(fit, found.fit.law),
+                         .experiments = experiment_misfits(fit, found.fit.law),
                          .own = EndochronicFindings{found.tried, found.rounds}};
   write_fit_json(results / "fit.json", report);
   return report.found;

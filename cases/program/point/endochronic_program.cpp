@@ -1,6 +1,7 @@
 #include "cases/program/point/endochronic_program.h"
 
 #include "cases/program/point/endochronic_case.h"
+#include "cases/program/point/endochronic_comparison.h"
 #include "cases/program/point/endochronic_fit_results.h"
 #include "cases/program/point/endochronic_report.h"
 #include "cases/program/session/fit_verdict.h"
@@ -127,8 +128,8 @@ void fit_case(const EndochronicProgram& program, Session& session) {
   EndochronicFit fit = *program.point.fit;
   log.say(fmt::format("pfdm {}, fit of {}: {}", session.version, program.name, program.point.title));
   const FolderLock lock(session.results);
-  log.say(
-      fmt::format("method {}: {}; {} experiments", fit.method->name, fit.method->description, fit.experiments.size()));
+  log.say(fmt::format("method {}: {}; {} experiments, {} more to be predicted", fit.method->name,
+                      fit.method->description, fit.experiments.size(), fit.predicted.size()));
   fit.settings.say = [&log](const std::string& message) { log.say(message); };
   const EndochronicIdentification found = fit.method->identify(program.point.law, fit.experiments, fit.settings);
   const double seconds = watch.seconds();
@@ -166,9 +167,12 @@ RunnableCase read_endochronic_program(const CaseFile& file) {
           },
       .data_files = of_run};
   runnable.fit = [program](Session& session) { fit_case(*program, session); };
+  runnable.compare = [program](Session& session) {
+    compare_with_experiments(*program->point.fit, program->point.law, program->name, program->hash, session);
+  };
   if (!program->point.fit)
-    runnable.fit = job_without_table(file, "fit", "[[fit.experiments]] with the measured strains and stresses",
-                                     "endochronic_calibration");
+    runnable.fit = runnable.compare = job_without_table(
+        file, "fit", "[[fit.experiments]] with the measured strains and stresses", "endochronic_calibration");
   return runnable;
 }
 

@@ -207,14 +207,16 @@ std::vector<PageRow> run_rows(const EndochronicCase& point, const CsvTable& hist
 }
 
 Table estimates_table(const FitReport& fit) {
-  Table table{.caption = fmt::format("Fit, method {}: {}", fit.method, verdict_text(fit.found)),
-              .rows = {{"parameter", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
-              .has_header = true};
+  Table table{
+      .caption = fmt::format("Fit, method {}: {}", fit.method, verdict_text(fit.found)),
+      .rows = {{"parameter", "first guess", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
+      .has_header = true};
   for (const FittedParameter& p : fit.found.parameters) {
     const DisplayUnit unit =
         p.unit == "Pa" ? display_unit(p.estimate, "Pa") : DisplayUnit{.factor = 1.0, .name = p.unit};
     const auto text = [&](double value) { return shown(unit.factor * value); };
-    table.rows.push_back({unit.name == "1" ? p.name : fmt::format("{} [{}]", p.name, unit.name), text(p.estimate),
+    table.rows.push_back({unit.name == "1" ? p.name : fmt::format("{} [{}]", p.name, unit.name), text(p.first_guess),
+                          text(p.estimate),
                           std::isfinite(p.lower) ? fmt::format("{} to {}", text(p.lower), text(p.upper)) : "-"});
   }
   return table;
@@ -239,11 +241,11 @@ Chart fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve) {
   const bool over_strain =
       components.size() == 1 && std::ranges::find(curve.names, "strain_" + components[0]) != curve.names.end();
   const std::vector<double> x = over_strain ? plotted_strain(curve, components[0]) : curve.column("time_s");
-  Chart chart{
-      .caption = fmt::format("Fit to \"{}\", rms misfit {:.2g} %", experiment.name, 100.0 * experiment.relative),
-      .x = {.title = over_strain ? strain_title(components[0]) : "time [s]"},
-      .y = {.title = fmt::format("stress [{}]", unit.name)},
-      .series = {}};
+  Chart chart{.caption = fmt::format("{} \"{}\", rms misfit {:.2g} %", experiment.fitted ? "Fit to" : "Prediction of",
+                                     experiment.name, 100.0 * experiment.relative),
+              .x = {.title = over_strain ? strain_title(components[0]) : "time [s]"},
+              .y = {.title = fmt::format("stress [{}]", unit.name)},
+              .series = {}};
   for (std::size_t i = 0; i < components.size(); ++i) {
     const int colour = 2 * static_cast<int>(i);
     chart.series.push_back({.label = "measured " + components[i],
@@ -251,7 +253,7 @@ Chart fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve) {
                             .y = in_unit(stresses[i], unit),
                             .style = SeriesStyle::points,
                             .colour = colour});
-    chart.series.push_back({.label = "fitted " + components[i],
+    chart.series.push_back({.label = (experiment.fitted ? "fitted " : "predicted ") + components[i],
                             .x = x,
                             .y = in_unit(curve.column(fmt::format("fitted_stress_{}_Pa", components[i])), unit),
                             .colour = colour + 1});
