@@ -1,8 +1,10 @@
 // Cases of kind plate from end to end: a small plate that is computed, and what is wrong with others said.
 
+#include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -115,6 +117,98 @@ TEST(Plate, RandomMotionPutsInThePowerOfWhiteNoise) {
   const CsvTable modes = read_csv(directory.results() / "modes.csv");
   const double effective = modes.column("effective_mass_z")[0] * summary["mass_kg"].get<double>();
   EXPECT_NEAR(summary["mechanical_power_W"], 0.25 * effective, 0.05 * 0.25 * effective);
+}
+
+// A slow sweep is the mean over the band: A^2 m_eff/8 over its width, of little damping; of one in equal ratios over
+// f_1 times their logarithm.
+TEST(Plate, SweepsPutInTheMeanPowerOfTheirBand) {
+  for (const bool logarithmic : {false, true}) {
+    std::string text =
+        replaced(small_plate(), "motion = \"harmonic\"", "motion = \"sweep\"\nfrom = \"20 Hz\"\nto = \"200 Hz\"");
+    if (logarithmic) text = replaced(text, "motion = \"sweep\"", "motion = \"sweep\"\nlaw = \"logarithmic\"");
+    const TemporaryCase directory(replaced(text, "loss_factor = 0.2", "loss_factor = 0.05"));
+    const json summary = summary_of(directory);
+    const CsvTable modes = read_csv(directory.results() / "modes.csv");
+    const double effective = modes.column("effective_mass_z")[0] * summary["mass_kg"].get<double>();
+    const double A = 2.0 * 9.80665;
+    const double width = logarithmic ? modes.column("frequency_Hz")[0] * std::log(10.0) : 180.0;
+    const double power = A * A * effective / (8.0 * width);
+    EXPECT_NEAR(summary["mechanical_power_W"], power, 0.05 * power) << logarithmic;
+  }
+}
+
+/// omega of a plate strip on two simple supports, with shear deformation and rotary inertia (Mindlin), in n half waves.
+double strip_omega(int n, double L, double h, double E, double nu, double rho) {
+  const double k = n * std::numbers::pi / L, shear = 5.0 / 6.0 * E / (2.0 * (1.0 + nu)) * h;
+  const double bending = E / (1.0 - nu * nu) * h * h * h / 12.0, rotary = rho * h * h * h / 12.0, mass = rho * h;
+  const double a = mass * rotary / shear, b = mass + rotary * k * k + mass * bending * k * k / shear;
+  return std::sqrt((b - std::sqrt(b * b - 4.0 * a * bending * k * k * k * k)) / (2.0 * a));
+}
+
+// Half a strip in plane strain: symmetric about its middle, so that it has one and three half waves. The first carries
+// 8/pi^2 of the mass.
+TEST(Plate, PinnedEdgesAreSimpleSupports) {
+  std::string text = replaced(small_plate(), "length = \"10 cm\", cells = 20", "length = \"5 cm\", cells = 40");
+  text = replaced(text, "length = \"8 cm\", cells = 16", "length = \"1 cm\", cells = 1");
+  text = replaced(text, "length = \"8 mm\", cells = 6", "length = \"4 mm\", cells = 8");
+  text = replaced(text, "patches = [\"xmin\", \"xmax\"]\ntype = \"clamped\"",
+                  "patch = \"xmin\"\ntype = \"pinned\"\n[[support]]\npatches = [\"xmax\", \"ymin\", \"ymax\"]\n"
+                  "type = \"symmetry\"");
+  text = replaced(text, "at = [\"5 cm\", \"4 cm\", \"8 mm\"]", "at = [\"5 cm\", \"5 mm\", \"4 mm\"]");
+  text = replaced(text, "from = \"20 Hz\"", "from = \"5 Hz\"");
+  const TemporaryCase directory(text.substr(0, text.find("[heating]")));
+  summary_of(directory);
+  const CsvTable modes = read_csv(directory.results() / "modes.csv");
+  for (const int n : {1, 3}) {
+    const double due = strip_omega(n, 0.1, 4e-3, 20e6, 0.3, 1200.0) / (2.0 * std::numbers::pi);
+    const double found = modes.column("frequency_Hz")[n == 1 ? 0 : 1];
+    EXPECT_NEAR(found / due, 1.0, n == 1 ? 0.01 : 0.02) << n;
+    RecordProperty(fmt::format("mode_{}", n), fmt::format("{:.4f} of {:.4f} Hz", found, due));
+  }
+  EXPECT_NEAR(modes.column("effective_mass_z")[0], 8.0 / std::pow(std::numbers::pi, 2), 0.01);
+}
+
+// The modulus that a mass-material fit identified, as fit.json has it; also where a sweep moves the case.
+TEST(Plate, TakesItsModulusFromAFit) {
+  std::string text = replaced(small_plate(), "young_modulus = \"20 MPa\"\nloss_factor = 0.2",
+                              "modulus = { fit = \"sample/fit.json\" }");
+  text = text.substr(0, text.find("[heating]")) +
+         "[sweep]\nmethod = \"list\"\n[[sweep.parameters]]\nkey = \"material.density\"\nvalues = [\"1200 kg/m^3\", "
+         "\"4800 kg/m^3\"]\n";
+  const TemporaryCase directory(text);
+  FitReport fit{.case_name = "sample",
+                .case_hash = "",
+                .version = "",
+                .method = "output_error",
+                .found = {},
+                .experiments = {},
+                .own = {}};
+  fit.own = VibrationFindings{.structure = "1",
+                              .passivity = {},
+                              .orders = {},
+                              .modulus = {{10.0, 20e6, 4e6}, {50.0, 20e6, 4e6}, {51.0, 80e6, 8e6}, {900.0, 80e6, 8e6}},
+                              .ogden = {},
+                              .repeats = {}};
+  std::filesystem::create_directories(directory.path() / "sample");
+  write_fit_json(directory.path() / "sample" / "fit.json", fit);
+  summary_of(directory);
+  const TemporaryCase plain(replaced(small_plate(), "\"20 MPa\"", "\"80 MPa\""));
+  summary_of(plain);
+  const double due = read_csv(plain.results() / "modes.csv").column("frequency_Hz")[0];
+  const CsvTable modes = read_csv(directory.results() / "modes.csv");
+  EXPECT_NEAR(modes.column("frequency_Hz")[0], due, 1e-6 * due);
+  EXPECT_NEAR(modes.column("damping_ratio")[0], 0.05, 1e-9);
+
+  const Outcome swept = run({"sweep", directory.path().string(), "--quiet"});
+  ASSERT_EQ(swept.status, 0) << swept.err;
+  const CsvTable table = read_csv(directory.results() / "sweep.csv");
+  ASSERT_EQ(table.n_rows(), 2u);
+  EXPECT_EQ(table.column("converged")[1], 1.0);
+  EXPECT_NEAR(table.column("first_resonance_Hz")[0], due, 1e-6 * due);
+  for (const auto& entry : std::filesystem::directory_iterator(directory.results() / "runs")) {
+    const Outcome moved = run({"check", entry.path().string()});  // it names the fit from its own place
+    EXPECT_EQ(moved.status, 0) << moved.err;
+  }
 }
 
 // Four times the modulus at twice the frequency of a mode that then lies there; cooled in every way at once.

@@ -57,7 +57,7 @@ void visit(const std::string& path, const TomlValue& value,
 
 bool names_data_file(const std::string& path, const TomlValue& value) {
   const std::string key = path.substr(path.find_last_of('.') + 1);
-  return (key == "csv" || key == "file") && std::holds_alternative<std::string>(value.value);
+  return (key == "csv" || key == "file" || key == "fit") && std::holds_alternative<std::string>(value.value);
 }
 
 /// Numbers that stand in result files count as if they stood here.

@@ -31,7 +31,7 @@ std::string case_name(const CaseFile& file);
 std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
                       std::span<const std::string_view> left_out = {});
 
-/// The files that the case names as `csv` or `file`, from its directory on, in the order of the text.
+/// The files that the case names as `csv`, `file` or `fit`, from its directory on, in the order of the text.
 std::vector<std::filesystem::path> data_files_named(const CaseFile& file);
 
 /// A number that a case takes from a result file (result_number.h).
@@ -53,10 +53,10 @@ std::string content_hash(const std::filesystem::path& file);
 /// Of what one table says, and of data files, likewise.
 std::string table_hash(const CaseFile& file, std::string_view table, std::span<const std::filesystem::path> data_files);
 
-/// case.toml with the files that it names as `csv`, `file` or `from` called as `renamed` says of each.
+/// case.toml with the files that it names as `csv`, `file`, `fit` or `from` called as `renamed` says of each.
 std::string with_paths(const CaseFile& file, const std::function<std::string(const std::string&)>& renamed);
 
-/// case.toml, to stand in `folder`: the files that it names as `csv`, `file` or `from` are named from there.
+/// case.toml, to stand in `folder`: the files that it names as `csv`, `file`, `fit` or `from` are named from there.
 std::string moved(const CaseFile& file, const std::filesystem::path& folder);
 
 /// case.toml with one of its tables, [table] and all below it, replaced by `text`, to stand in `folder`: the files that
