@@ -1,5 +1,6 @@
 #include "cases/program/new_case.h"
 
+#include "cases/program/chain/chain_case.h"
 #include "cases/program/input/case_file.h"
 #include "cases/program/input/toml_document.h"
 #include "cases/program/kinds.h"
@@ -10,6 +11,7 @@
 
 #include <map>
 #include <set>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -27,14 +29,36 @@ void require_empty(const fs::path& directory) {
         fmt::format("{}: the directory is not empty; a new case goes into a new directory", directory.string()));
 }
 
-/// Of a file of the old case, in the new one.
-fs::path place_of(const fs::path& file, const fs::path& old_directory, std::set<fs::path>& taken) {
-  fs::path place = fs::relative(whole(file), whole(old_directory));
-  if (place.empty() || *place.begin() == "..") place = fs::path("data") / file.filename();
-  for (int n = 2; !taken.insert(place).second; ++n)
-    place.replace_filename(fmt::format("{}_{}{}", file.stem().string(), n, file.extension().string()));
-  return place;
-}
+/// Data files of an old case, and where they go in the new one.
+struct DataCopies {
+  std::map<fs::path, fs::path> places;
+  std::set<fs::path> taken;
+
+  /// `path`, as the old case names a file, for the new one; as it is where there is no such file.
+  std::string renamed(const std::string& path, const fs::path& old_directory) {
+    const fs::path file = old_directory / path;
+    if (!fs::is_regular_file(file)) return path;
+    const fs::path key = whole(file);
+    if (!places.contains(key)) places[key] = place_of(file, old_directory);
+    return places[key].string();
+  }
+
+  void copy_to(const fs::path& directory) const {
+    for (const auto& [from, place] : places) {
+      make_folder((directory / place).parent_path());
+      write_file(directory / place, read_file(from));
+    }
+  }
+
+ private:
+  fs::path place_of(const fs::path& file, const fs::path& old_directory) {
+    fs::path place = fs::relative(whole(file), whole(old_directory));
+    if (place.empty() || *place.begin() == "..") place = fs::path("data") / file.filename();
+    for (int n = 2; !taken.insert(place).second; ++n)
+      place.replace_filename(fmt::format("{}_{}{}", file.stem().string(), n, file.extension().string()));
+    return place;
+  }
+};
 
 std::string readme(const std::string& name, const std::string& like) {
   return fmt::format(
@@ -43,11 +67,43 @@ std::string readme(const std::string& name, const std::string& like) {
       name, like);
 }
 
-void copy_data(const std::map<fs::path, fs::path>& places, const fs::path& directory) {
-  for (const auto& [from, place] : places) {
-    make_folder((directory / place).parent_path());
-    write_file(directory / place, read_file(from));
+/// Of `folder`, the way to `file`, neither of which need be there.
+std::string way_to(const fs::path& file, const fs::path& folder) {
+  return whole(file).lexically_relative(whole(folder)).string();
+}
+
+/// The case of a step, in its new place.
+struct CopiedStep {
+  CaseFile old;
+  fs::path place;
+};
+
+/// What the steps take from each other stays so; other data are copied. The cases of the steps lie within the new
+/// directory, whose case.toml names them there.
+std::string copy_steps(const CaseFile& chain, const fs::path& directory) {
+  std::vector<CopiedStep> steps;
+  for (const ChainStep& step : read_chain_case(chain.config.root(), chain.directory).steps) {
+    const CaseFile old = open_case(step.where);
+    const std::string inside = way_to(old.directory, chain.directory);
+    steps.push_back({old, directory / (inside.starts_with("..") ? fs::path(case_name(old)) : fs::path(inside))});
   }
+  std::string text = chain.text;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto& [old, place] = steps[i];
+    DataCopies data;
+    const std::string own = with_paths(old, [&](const std::string& path) {
+      for (const CopiedStep& other : steps) {
+        const fs::path within = way_to(old.directory / path, other.old.directory / "results");
+        if (!within.string().starts_with("..")) return way_to(other.place / "results" / within, place);
+      }
+      return data.renamed(path, old.directory);
+    });
+    data.copy_to(place);
+    make_folder(place);
+    write_file(place / "case.toml", own);
+    text = with_value(text, fmt::format("step[{}].case", i), quoted_toml(way_to(place, directory)));
+  }
+  return text;
 }
 
 }  // namespace
@@ -56,27 +112,19 @@ void make_case(const fs::path& directory, const fs::path& like, std::ostream& ou
   require_empty(directory);
   const CaseFile old = open_case(like);
   read_case(old);  // a copy of what is wrong helps nobody
-  if (old.config.root().string("kind") == "chain")
-    throw InputError(
-        fmt::format("{}: the steps of a chain are cases of their own: copy its folder, and theirs", like.string()));
   const std::string name = whole(directory).filename().string(), old_name = case_name(old);
-  std::map<fs::path, fs::path> places;
-  std::set<fs::path> taken;
-  std::string text = with_paths(old, [&](const std::string& path) {
-    const fs::path file = old.directory / path;
-    if (!fs::is_regular_file(file)) return path;
-    const fs::path key = whole(file);
-    if (!places.contains(key)) places[key] = place_of(file, old.directory, taken);
-    return places[key].string();
-  });
+  DataCopies data;
+  std::string text = old.config.root().string("kind") == "chain"
+                         ? copy_steps(old, directory)
+                         : with_paths(old, [&](const std::string& path) { return data.renamed(path, old.directory); });
   text = with_value(text, "title",
                     quoted_toml(fmt::format("{} (begun as a copy of {}: edit this title)", name, old_name)));
   make_folder(directory);
-  copy_data(places, directory);
+  data.copy_to(directory);
   write_file(directory / "README.md", readme(name, old_name));
   write_file(directory / "case.toml", text);
   out << fmt::format("made {} like {}: case.toml, README.md", directory.string(), old_name);
-  for (const auto& [from, place] : places) out << ", " << place.string();
+  for (const auto& [from, place] : data.places) out << ", " << place.string();
   out << fmt::format("\nedit case.toml, then: pfdm check {}\n", directory.string());
 }
 

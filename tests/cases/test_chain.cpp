@@ -171,12 +171,30 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongChain{"[[step]]\ncase", "[sweep]\n[[step]]\ncase", "a chain has no sweep"},
                     WrongChain{"file = \"homogenized.json\"", "file = \"../x.json\"", "not the name of a file"}));
 
-TEST_F(Chain, HasNoLoadStepsAndIsNotCopied) {
-  EXPECT_EQ(run({"run", directory.path().string(), "--max-steps", "3"}).status, 2);
+TEST_F(Chain, HasNoLoadSteps) { EXPECT_EQ(run({"run", directory.path().string(), "--max-steps", "3"}).status, 2); }
+
+// With its steps, one of which lies outside: the copy stands for itself.
+TEST_F(Chain, IsCopiedWithItsSteps) {
+  const TemporaryCase outside(block("10 MPa"));
+  const std::string name = outside.path().filename().string();
+  directory.write("case.toml", replaced(chain, "case = \"block\"", "case = \"../" + name + "\""));
+  std::string text = sample;
+  for (int i = 0; i < 2; ++i) {
+    const std::size_t at = text.find("\"../block/");
+    text.replace(at, 10, "\"../../" + name + "/");
+  }
+  put("sample", text);
   const TemporaryCase place("");
-  const Outcome copied = run({"init", (place.path() / "new").string(), "--like", directory.path().string()});
-  EXPECT_EQ(copied.status, 2);
-  EXPECT_THAT(copied.err, HasSubstr("cases of their own"));
+  const fs::path made = place.path() / "deep" / "new";
+  const Outcome copied = run({"init", made.string(), "--like", directory.path().string()});
+  ASSERT_EQ(copied.status, 0) << copied.err;
+  EXPECT_THAT(content_of(made / "case.toml"),
+              AllOf(HasSubstr("case = \"" + name + "\""), HasSubstr("edit this title")));
+  EXPECT_THAT(content_of(made / "sample" / "case.toml"), HasSubstr("\"../" + name + "/results/homogenized.json\""));
+  const Outcome outcome = run({"run", made.string(), "--threads", "1"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(fs::exists(made / name / "results" / "homogenized.json"));
+  EXPECT_FALSE(fs::exists(outside.results()));
 }
 
 }  // namespace

@@ -155,10 +155,10 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
   read_terms(fit, settings);
   read_bounds(fit, law, settings);
   for (const ConfigTable& table : fit.tables("experiments")) {
+    MaterialExperiment experiment = read_experiment(table, case_directory);
     require_own_file(table, result.experiments);
     require_own_file(table, result.predicted);
-    const bool predicted = table.boolean("predicted", false);
-    (predicted ? result.predicted : result.experiments).push_back(read_experiment(table, case_directory));
+    (table.boolean("predicted", false) ? result.predicted : result.experiments).push_back(std::move(experiment));
     result.data_files.push_back(case_directory / table.string("csv"));
   }
   if (result.experiments.empty())
