@@ -171,12 +171,12 @@ CohesiveFigures figures_of(const ColumnRecord& record, const CohesiveLaw& law) {
 }
 
 std::vector<Debonding> debonding_of(const ColumnRecord& record) {
-  const double whole = record.area();
+  const double whole = record.area(), least = record.is_cohesive ? debonded_share : debonded_damage;
   std::vector<Debonding> history;
   for (const std::vector<ColumnSample>& step : record.steps) {
     double plus = 0.0, minus = 0.0;
     for (std::size_t p = 0; p < step.size(); ++p)
-      if (step[p].largest_damage > debonded_damage)
+      if (step[p].largest_damage > least)
         (record.places[p].polar_angle < 0.5 * std::numbers::pi ? plus : minus) += record.places[p].area;
     const bool sphere = record.kind == SurfaceKind::interface;
     history.push_back({.area = plus + minus,

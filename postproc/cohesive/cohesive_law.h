@@ -15,6 +15,10 @@ namespace pfdm {
 /// Damage above which a column counts as debonded.
 constexpr double debonded_damage = 0.95;
 
+/// Share of the toughness beyond which a face of a cohesive interface counts as debonded: what a crack of AT2 with
+/// debonded_damage at its middle has dissipated, d^2, so that both mean the same state.
+constexpr double debonded_share = debonded_damage * debonded_damage;
+
 /// Damage up to which a column counts as sound: it adds less to the separation than columns resolve, about 1.5 % of
 /// the elastic elongation.
 constexpr double sound_damage = 0.01;
@@ -67,7 +71,7 @@ CohesiveFigures figures_of(const ColumnRecord& record, const CohesiveLaw& law);
 
 /// How far a surface has debonded at a load step.
 struct Debonding {
-  double area = 0.0;         ///< of the columns beyond debonded_damage [m^2]
+  double area = 0.0;         ///< of the columns beyond debonded_damage, of the faces beyond debonded_share [m^2]
   double angle_plus = 0.0;   ///< polar angle of the cap of that area about the pole along the axis [rad]; on planes 0
   double angle_minus = 0.0;  ///< likewise about the other pole
 };

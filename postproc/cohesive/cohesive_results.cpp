@@ -102,6 +102,7 @@ Json to_json(const CohesiveReport& report) {
     const ColumnRecord& record = report.records[r];
     Json surface = {{"name", record.name},
                     {"kind", name_of(record.kind)},
+                    {"law_is_given", record.is_cohesive},
                     {"places", record.places.size()},
                     {"never_damaged_places", n_never_damaged(record)},
                     {"area_m2", record.area()},
@@ -141,6 +142,10 @@ std::vector<std::string> surface_remarks(const CohesiveReport& report) {
     if (const std::size_t sound = n_never_damaged(record); sound > 0)
       lines.back() += fmt::format("; {} of {} places never damaged (d at most {:g}): no law", sound,
                                   record.places.size(), sound_damage);
+    if (record.is_cohesive)
+      lines.back() +=
+          "; faces of a cohesive interface, whose law the case gives: separation and traction of the faces, "
+          "surface_energy_J_per_m2: what they dissipated, largest_damage: that over their toughness";
   }
   return lines;
 }
@@ -174,7 +179,7 @@ std::vector<CohesiveResult> evaluate(const ColumnRecord& record) {
   for (CohesiveLaw& law : averaged_laws(record)) {
     CohesiveResult result{.law = std::move(law), .figures = {}, .fits = {}};
     result.figures = figures_of(record, result.law);
-    if (result.figures.is_traced()) {
+    if (result.figures.is_traced() && !record.is_cohesive) {
       std::vector<double> separation, traction;
       for (const ColumnSample& s : result.law.states) {
         separation.push_back(s.separation[0]);
@@ -202,6 +207,8 @@ void write_cohesive_results(const std::filesystem::path& results, const Cohesive
   const std::vector<std::string> surfaces = surface_remarks(report);
   std::vector<std::string> laws = surfaces;
   laws.insert(laws.end(), std::begin(law_remarks), std::end(law_remarks));
+  laws.push_back(
+      fmt::format("made by pfdm {} from the run of case {} ({})", report.version, report.case_name, report.case_hash));
   write_table(results / "cohesive_law.csv", averaged.table(), laws);
   write_table(results / "cohesive_law_places.csv", places.table(), laws);
   std::vector<std::string> debonding = surfaces;

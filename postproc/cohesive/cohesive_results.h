@@ -11,6 +11,7 @@
 #include "postproc/curves/curve_csv.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ namespace pfdm {
 struct CohesiveResult {
   CohesiveLaw law;
   CohesiveFigures figures;
-  std::vector<CohesiveFit> fits;  ///< the best first; of traced laws only
+  std::vector<CohesiveFit> fits;  ///< the best first; of traced laws only, and not of those that are given
 };
 
 /// All of a surface's averaged laws; none if it was never damaged.
@@ -34,6 +35,8 @@ struct CohesiveReport {
   std::vector<std::vector<CohesiveResult>> results;  ///< one list for each record
   std::vector<CurveRow> curve;                       ///< of the run
   int component = 2;                                 ///< of the curve's force
+  /// Of each record the strength in shear that its band has over that in opening, where it is known; empty: of none.
+  std::vector<std::optional<double>> shear_ratios{};
 };
 
 inline constexpr const char* cohesive_files[] = {"cohesive_law.csv", "cohesive_law_places.csv", "cohesive.json",

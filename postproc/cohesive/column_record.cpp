@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* places_file = "places.csv";
+constexpr const char* cohesive_mark = "faces of a cohesive interface";
 constexpr std::string_view components[] = {"n", "1", "2"};
 
 // The one list of what a row holds, for both directions: visit(name, number) for each.
@@ -85,6 +86,7 @@ ColumnRecord read_record(const fs::path& folder) {
   const CsvTable places = read_csv(folder / places_file);
   ColumnRecord record{.name = folder.filename().string(), .places = rows_of<Place>(places, visit_places), .steps = {}};
   if (std::ranges::count(places.comments, name_of(SurfaceKind::plane)) > 0) record.kind = SurfaceKind::plane;
+  record.is_cohesive = std::ranges::count(places.comments, cohesive_mark) > 0;
   std::map<Index, fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder))
     if (const auto step = step_of(entry.path())) files[*step] = entry.path();
@@ -131,6 +133,7 @@ ColumnFiles::ColumnFiles(fs::path folder, const std::vector<ColumnSet>& sets, co
       places.push_back({c.point, c.normal, polar_angle(c.normal, axis), c.area, c.length});
     CsvTable table = table_of(places, visit_places);
     table.comments = {std::string(name_of(set.kind))};
+    if (set.is_cohesive) table.comments.emplace_back(cohesive_mark);
     make_folder(folder_ / set.name);
     write_csv(folder_ / set.name / places_file, table);
   }

@@ -23,6 +23,7 @@ struct Place {
 struct ColumnRecord {
   std::string name;
   SurfaceKind kind = SurfaceKind::interface;
+  bool is_cohesive = false;  ///< the faces of a cohesive interface, whose law is given
   std::vector<Place> places;
   /// One for each load step from 0 on, each with an entry for each place.
   std::vector<std::vector<ColumnSample>> steps;

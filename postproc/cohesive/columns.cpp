@@ -3,6 +3,7 @@
 #include "mesh/disjoint_sets.h"
 #include "physics/error.h"
 #include "physics/plane_stress.h"
+#include "postproc/cohesive/face_columns.h"
 #include "postproc/fields/slice.h"
 #include "solver/parallel.h"
 
@@ -17,18 +18,6 @@ namespace {
 
 // Cosine between a face's normal and the column's from which on the face's traction is that of the column.
 constexpr double facing = 0.98;
-
-// Towards growing polar angle, and across; at a pole any direction will do.
-std::array<Vector, 2> tangents_of(const Vector& normal, const Vector& axis) {
-  Vector first = normal * normal.dot(axis) - axis;
-  if (first.norm() < 1e-6) {
-    Index least = 0;
-    normal.cwiseAbs().minCoeff(&least);
-    first = Vector::Unit(least) - normal * normal[least];
-  }
-  first.normalize();
-  return {first, normal.cross(first)};
-}
 
 // Numbers of the connected parts to which faces belong, faces that share a point being connected; in order of their
 // first faces.
@@ -58,7 +47,7 @@ Column column_from_face(const Mesh& mesh, Index face, Index into, double longest
   Column column;
   column.point = mesh.face_centre[face];
   column.normal = (mesh.owner[face] == into ? -1.0 : 1.0) * mesh.face_area[face].normalized();
-  column.tangents = tangents_of(column.normal, axis);
+  column.tangents = surface_tangents(column.normal, axis);
   column.area = mesh.face_area[face].norm();
   column.segments = walk_line(mesh, into, column.point, column.normal, longest);
   const auto leaves = std::ranges::find_if(
@@ -72,7 +61,8 @@ Column column_from_face(const Mesh& mesh, Index face, Index into, double longest
 
 Column column_through(const Mesh& mesh, Index cell, const Section& section, const Vector& normal, double half_width,
                       const Vector& axis) {
-  Column column{.point = section.centre, .normal = normal, .tangents = tangents_of(normal, axis), .area = section.area};
+  Column column{
+      .point = section.centre, .normal = normal, .tangents = surface_tangents(normal, axis), .area = section.area};
   std::vector<LineSegment> back = walk_line(mesh, cell, section.centre, -normal, half_width);
   const std::vector<LineSegment> forth = walk_line(mesh, cell, section.centre, normal, half_width);
   std::reverse(back.begin(), back.end());
@@ -165,6 +155,17 @@ ColumnSample sample(const Mesh& mesh, const FractureModel& model, const OutputFi
 
 std::string_view name_of(SurfaceKind kind) { return kind == SurfaceKind::plane ? "plane" : "interface"; }
 
+std::array<Vector, 2> surface_tangents(const Vector& normal, const Vector& axis) {
+  Vector first = normal * normal.dot(axis) - axis;
+  if (first.norm() < 1e-6) {
+    Index least = 0;
+    normal.cwiseAbs().minCoeff(&least);
+    first = Vector::Unit(least) - normal * normal[least];
+  }
+  first.normalize();
+  return {first, normal.cross(first)};
+}
+
 double polar_angle(const Vector& normal, const Vector& axis) {
   return std::acos(std::clamp(normal.dot(axis), -1.0, 1.0));
 }
@@ -212,6 +213,7 @@ ColumnSet plane_columns(const Mesh& mesh, const std::string& name, const Vector&
 
 std::vector<ColumnSample> sample_columns(const Mesh& mesh, const FractureModel& model, const OutputFields& output,
                                          const ColumnSet& set) {
+  if (set.is_cohesive) return sample_faces(mesh, model, output, set);
   std::vector<ColumnSample> samples(set.columns.size());
   parallel_for(static_cast<Index>(samples.size()),
                [&](Index i) { samples[as_size(i)] = sample(mesh, model, output, set.columns[as_size(i)]); });

@@ -40,7 +40,11 @@ struct ColumnSet {
   std::string name;
   SurfaceKind kind = SurfaceKind::interface;
   std::vector<Column> columns;
+  bool is_cohesive = false;  ///< faces of a cohesive interface (face_columns.h): their law is given
 };
+
+/// Tangents of a surface, unit length: the first towards growing polar angle, the second across; at a pole any.
+std::array<Vector, 2> surface_tangents(const Vector& normal, const Vector& axis);
 
 /// Angle between a column's normal and the axis, a unit vector [rad]: on a sphere the polar angle.
 double polar_angle(const Vector& normal, const Vector& axis);

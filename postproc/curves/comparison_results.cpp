@@ -71,6 +71,29 @@ Json to_json(const AngleComparison& angle) {
   return json;
 }
 
+Json to_json(const EnergyComparison& energy) {
+  Json json = {{"kind", energy.kind}};
+  add_differences(json, energy.curves, "J");
+  json["model_at_end_J"] = energy.curves.model.back();
+  json["measured_at_end_J"] = energy.curves.measured.back();
+  json["specimens"] = energy.names;
+  return json;
+}
+
+CsvTable energies_table(const std::vector<EnergyComparison>& energies) {
+  CsvTable table;
+  for (const char* name : {"kind", "displacement_m", "model_J", "measured_J"}) table.add(name, {});
+  for (std::size_t k = 0; k < energies.size(); ++k) {
+    table.comments.push_back(fmt::format("kind {}: {}", k, energies[k].kind));
+    const ComparedCurves& curves = energies[k].curves;
+    for (std::size_t i = 0; i < curves.x.size(); ++i) {
+      const double row[] = {static_cast<double>(k), curves.x[i], curves.model[i], curves.measured[i]};
+      for (std::size_t c = 0; c < table.columns.size(); ++c) table.columns[c].push_back(row[c]);
+    }
+  }
+  return table;
+}
+
 void write_curves(const std::filesystem::path& file, const ComparedCurves& curves, const std::string& quantity) {
   CsvTable table;
   table.add("displacement_m", curves.x);
@@ -112,10 +135,18 @@ AngleComparison compare_angles(const SampledCurve& model, const std::vector<Samp
   return angle;
 }
 
+EnergyComparison compare_energies(const std::string& kind, const SampledCurve& model,
+                                  const std::vector<SampledCurve>& specimens) {
+  return {.kind = kind, .curves = compare_curves(model, specimens), .names = names_of(specimens)};
+}
+
 void write_comparison(const std::filesystem::path& results, const ComparisonReport& report) {
   Json json = {{"case", report.case_name}, {"version", report.version}, {"case_hash", report.case_hash}};
   json["force_displacement"] = to_json(report.force);
   json["debonding_angle"] = report.angle ? to_json(*report.angle) : Json();
+  json["energies"] = Json::array();
+  for (const EnergyComparison& energy : report.energies) json["energies"].push_back(to_json(energy));
+  if (!report.energies.empty()) write_csv(results / "comparison_energies.csv", energies_table(report.energies));
   write_curves(results / "comparison.csv", report.force.curves, "force_N");
   if (report.angle) write_curves(results / "comparison_debonding.csv", report.angle->curves, "angle_rad");
   write_file(results / "comparison.json", json.dump(2) + "\n");

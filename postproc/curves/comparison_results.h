@@ -4,6 +4,7 @@
 //   comparison.json            figures of merit
 //   comparison.csv             both force-displacement curves over their common range
 //   comparison_debonding.csv   likewise the debonding angles, where they were measured
+//   comparison_energies.csv    likewise energies, those of one kind after the other
 
 #include "postproc/curves/comparison.h"
 
@@ -36,15 +37,28 @@ struct AngleComparison {
 
 AngleComparison compare_angles(const SampledCurve& model, const std::vector<SampledCurve>& specimens);
 
+/// Of an energy of the run [J] over the displacement [m].
+struct EnergyComparison {
+  std::string kind;
+  ComparedCurves curves;
+  std::vector<std::string> names;
+};
+
+/// Throws InputError like compare_curves.
+EnergyComparison compare_energies(const std::string& kind, const SampledCurve& model,
+                                  const std::vector<SampledCurve>& specimens);
+
 struct ComparisonReport {
   std::string case_name;
   std::string case_hash;
   std::string version;
   ForceComparison force;
   std::optional<AngleComparison> angle;
+  std::vector<EnergyComparison> energies{};
 };
 
-inline constexpr const char* comparison_files[] = {"comparison.json", "comparison.csv", "comparison_debonding.csv"};
+inline constexpr const char* comparison_files[] = {"comparison.json", "comparison.csv", "comparison_debonding.csv",
+                                                   "comparison_energies.csv"};
 
 /// Each written whole or not at all. Throws ComputationError.
 void write_comparison(const std::filesystem::path& results, const ComparisonReport& report);

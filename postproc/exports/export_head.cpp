@@ -41,14 +41,14 @@ std::vector<std::string> export_head(const ExportedLaw& law, const UnitSystem& u
   head.push_back(figure_line("GII", law.shear_energy, units.energy_name));
   head.push_back(figure_line("exponent", law.exponent, ""));
   head.push_back(fmt::format(
-      "Bilinear law: rise to {:.6g} {}, zero at {:.6g} {}; it has the strength and GI, and not the shape of the record",
-      law.onset(), units.length_name, law.final_separation(), units.length_name));
+      "Bilinear law: rise to {:.6g} {}, zero at {:.6g} {}; it has the strength and GI, and not the shape of the {}",
+      law.onset(), units.length_name, law.final_separation(), units.length_name, law.origin));
   head.push_back(fmt::format(
-      "Tables, where this format takes them: T-delta in {} points, within {:.2g} % of the strength at the record's "
-      "states, "
-      "area {:.6g} {}; D-delta in {} points, within {:.2g} %, area {:.6g}; they begin with the stiffness above",
-      law.curve.size(), 100.0 * law.curve_error, area_under(law.curve), units.energy_name, law.damage.size(),
-      100.0 * law.damage_error, area_under(law.damage, law.stiffness.value)));
+      "Tables, where this format takes them: T-delta in {} points, within {:.2g} % of the strength at the states "
+      "of the {}, area {:.6g} {}; D-delta in {} points, within {:.2g} %, area {:.6g}; they begin with the stiffness "
+      "above",
+      law.curve.size(), 100.0 * law.curve_error, law.origin, area_under(law.curve), units.energy_name,
+      law.damage.size(), 100.0 * law.damage_error, area_under(law.damage, law.stiffness.value)));
   return head;
 }
 

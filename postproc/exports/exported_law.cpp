@@ -93,7 +93,8 @@ bool goes_before(const Candidate& a, const Candidate& b) {
 
 std::vector<std::string> names_of(const CohesiveReport& report) {
   std::vector<std::string> names;
-  for (const ColumnRecord& record : report.records) names.push_back(record.name);
+  for (const ColumnRecord& record : report.records)
+    if (!record.is_cohesive) names.push_back(record.name);
   return names;
 }
 
@@ -105,7 +106,7 @@ Candidate choose(const CohesiveReport& report, const ExportChoice& choice) {
   std::vector<Candidate> candidates;
   for (std::size_t r = 0; r < report.records.size(); ++r)
     for (const CohesiveResult& result : report.results[r]) {
-      if (!(result.figures.strength > 0.0)) continue;
+      if (!(result.figures.strength > 0.0) || report.records[r].is_cohesive) continue;
       Candidate candidate{&report.records[r], &result, known_part(result), Extent::open};
       candidate.extent = extent_of(result, candidate.known);
       if ((!choice.surface || candidate.record->name == *choice.surface) &&
@@ -145,6 +146,20 @@ Figure energy_of(const Candidate& c, const ExportChoice& choice) {
   if (whole.value > c.known.work * (1.0 + least_drop)) return whole;
   return {c.known.work, fmt::format("work up to where the law is no longer seen, as {} ({:.4g} J/m^2) is not more",
                                     whole.basis, whole.value)};
+}
+
+/// A band whose energy drives its damage, confined by its neighbours, breaks where T_n^2/M + |T_t|^2/mu reaches a
+/// value, and its separations are T_n/M and T_t/mu times one function of the damage.
+Figure shear_strength_of(const CohesiveReport& report, const Candidate& c, const ExportChoice& choice) {
+  const double strength = c.result->figures.strength;
+  if (choice.shear_strength) return {*choice.shear_strength, "given (--shear-strength)"};
+  const auto r = static_cast<std::size_t>(c.record - report.records.data());
+  if (r < report.shear_ratios.size() && report.shear_ratios[r])
+    return {*report.shear_ratios[r] * strength,
+            fmt::format("(mu/M)^(1/2) = {:.4g} of the normal one, M the modulus of uniaxial strain: the energy of the "
+                        "confined band drives its damage (else --shear-strength)",
+                        *report.shear_ratios[r])};
+  return {strength, "assumed, the normal one: not measured (else --shear-strength)"};
 }
 
 std::string place_of(const Candidate& c) {
@@ -203,9 +218,7 @@ ExportedLaw law_to_export(const CohesiveReport& report, const ExportChoice& choi
   law.energy = energy_of(chosen, choice);
   const double compliance = own_compliance(chosen.known.states, law.strength.value);
   law.stiffness = stiffness_of(law, compliance, choice);
-  law.shear_strength = choice.shear_strength ? Figure{*choice.shear_strength, "given (--shear-strength)"}
-                                             : Figure{law.strength.value,
-                                                      "assumed, the normal one: not measured (else --shear-strength)"};
+  law.shear_strength = shear_strength_of(report, chosen, choice);
   law.shear_energy = choice.shear_energy ? Figure{*choice.shear_energy, "given (--shear-energy)"}
                                          : Figure{law.energy.value,
                                                   "assumed, GI: the phase field has one toughness for all modes (else "

@@ -43,7 +43,8 @@ struct ExportedLaw {
   double initiation = 0.0;             ///< traction at which the law leaves K delta: where D begins [Pa]
   std::vector<TractionPoint> curve{};  ///< from (0, 0) to (final separation, 0)
   std::vector<DamagePoint> damage{};   ///< from the initiation to 1
-  double curve_error = 0.0;            ///< of T-delta at the record's states, over the strength
+  std::string origin = "record";       ///< what the law is of, in the head of the file
+  double curve_error = 0.0;            ///< of T-delta at the states of the origin, over the strength
   double damage_error = 0.0;           ///< of D-delta likewise, everywhere: at most
   std::vector<std::string> remarks{};  ///< source, frame, what was seen; SI
 

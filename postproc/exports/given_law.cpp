@@ -70,6 +70,7 @@ ExportedLaw law_to_export(const GivenLaw& given, const ExportChoice& choice) {
   const std::vector<TractionPoint> states = states_of(given.law, at);
   ExportedLaw law;
   law.surface = given.name;
+  law.origin = "law of the case";
   law.strength = {at.strength, "of the case"};
   law.energy = {at.toughness, "of the case"};
   const double compliance = given.at.stiffness > 0.0 ? 1.0 / given.at.stiffness : own_compliance(states, at.strength);

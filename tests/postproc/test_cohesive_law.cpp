@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace pfdm::test {
 namespace {
@@ -65,6 +66,17 @@ TEST(CohesiveLaw, is_traced_down_to_the_end) {
   const CohesiveFigures figures = figures_of(record, averaged_laws(record).front());
   EXPECT_TRUE(figures.is_traced());
   EXPECT_DOUBLE_EQ(figures.normal_energy, 2e-6 + 12e-6 + 4e-6);
+}
+
+// What an AT2 crack with damage 0.95 has dissipated, 0.9025 of the toughness.
+TEST(CohesiveLaw, counts_cohesive_faces_by_what_they_dissipated) {
+  ColumnRecord record = record_of({0.1, 3.0}, {{sample(0, 1e-6, 0.91)}, {sample(0, 1e-6, 0.89)}});
+  EXPECT_EQ(debonding_of(record).front().area, 0.0);
+  record.is_cohesive = true;
+  const Debonding debonding = debonding_of(record).front();
+  EXPECT_EQ(debonding.area, 2.0);
+  EXPECT_NEAR(debonding.angle_plus, std::numbers::pi / 2, 1e-12);  // half of the whole surface
+  EXPECT_EQ(debonding.angle_minus, 0.0);
 }
 
 // No jump, although the traction drops within a step, and not traced, although none is left.

@@ -317,6 +317,24 @@ TEST(ExportedLaw, NeedsAnEnergyIfItEndsEarly) {
               testing::ThrowsMessage<InputError>(HasSubstr("its area is its energy")));
 }
 
+// That of a confined band, which its case knows.
+TEST(ExportedLaw, HasTheShearStrengthOfItsBand) {
+  CohesiveReport report = report_of(rigid, end_of_record);
+  EXPECT_DOUBLE_EQ(law_to_export(report, {}).shear_strength.value, law_to_export(report, {}).strength.value);
+  report.shear_ratios = {0.25};
+  const ExportedLaw law = law_to_export(report, {});
+  EXPECT_DOUBLE_EQ(law.shear_strength.value, 0.25 * law.strength.value);
+  EXPECT_THAT(law.shear_strength.basis, HasSubstr("(mu/M)^(1/2) = 0.25"));
+  EXPECT_DOUBLE_EQ(law_to_export(report, {.shear_strength = 3e5}).shear_strength.value, 3e5);
+}
+
+// The law of an interface is given, not extracted.
+TEST(ExportedLaw, IsNotOneOfCohesiveFaces) {
+  CohesiveReport report = report_of(rigid, end_of_record);
+  report.records[0].is_cohesive = true;
+  EXPECT_THAT([&] { law_to_export(report, {}); }, testing::ThrowsMessage<InputError>(HasSubstr("no law to export")));
+}
+
 TEST(ExportedLaw, IsTheOneAskedFor) {
   CohesiveReport report = report_of(rigid, end_of_record);
   CohesiveReport other = report_of(breaks, end_of_record, 201);

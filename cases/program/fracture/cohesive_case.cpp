@@ -2,6 +2,8 @@
 
 #include "cases/program/input/amount.h"
 #include "cases/program/input/path_reader.h"
+#include "physics/error.h"
+#include "postproc/cohesive/face_columns.h"
 
 #include <fmt/format.h>
 
@@ -19,22 +21,21 @@ std::vector<Band> two_sided(std::span<const Band> bands) {
   return chosen;
 }
 
-std::vector<Band> read_interfaces(const ConfigTable& table, std::span<const Band> bands) {
-  const auto interfaces = table.find("interfaces");
-  if (!interfaces) return two_sided(bands);
-  std::vector<std::string> names;
+/// Adds the band or the cohesive interface that an entry names.
+void add_named(const ConfigValue& entry, std::span<const Band> bands, std::span<const std::string> interfaces,
+               CohesiveSettings& settings) {
+  std::vector<std::string> names(interfaces.begin(), interfaces.end());
   for (const Band& band : bands) names.push_back(band.region);
-  std::vector<Band> chosen;
-  for (const ConfigValue& entry : interfaces->list()) {
-    const std::string name = entry.one_of(names, "band between two regions ([mesh.layers] or [regions.NAME] band)");
-    chosen.push_back(*std::ranges::find(bands, name, &Band::region));
-    if (chosen.back().neighbours[0] == chosen.back().neighbours[1])
-      throw entry.error(
-          fmt::format("\"{}\" has \"{}\" on both sides, so that no column begins at it; sample it by one of "
-                      "[[cohesive.planes]]",
-                      name, chosen.back().neighbours[0]));
-  }
-  return chosen;
+  const std::string name = entry.one_of(
+      names, "band between two regions ([mesh.layers] or [regions.NAME] band) or cohesive interface ([[interface]])");
+  const auto band = std::ranges::find(bands, name, &Band::region);
+  if (band == bands.end()) return settings.faces.push_back(name);
+  settings.bands.push_back(*band);
+  if (band->neighbours[0] == band->neighbours[1])
+    throw entry.error(
+        fmt::format("\"{}\" has \"{}\" on both sides, so that no column begins at it; sample it by one of "
+                    "[[cohesive.planes]]",
+                    name, band->neighbours[0]));
 }
 
 CohesivePlane read_plane(const ConfigTable& table) {
@@ -48,23 +49,33 @@ CohesivePlane read_plane(const ConfigTable& table) {
 
 }  // namespace
 
-CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> bands, const Vector& axis) {
-  CohesiveSettings settings{.bands = two_sided(bands), .planes = {}, .axis = axis};
+CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> bands,
+                               std::span<const std::string> interfaces, const Vector& axis) {
+  CohesiveSettings settings{
+      .bands = two_sided(bands), .planes = {}, .faces = {interfaces.begin(), interfaces.end()}, .axis = axis};
   if (!root.has("cohesive")) return settings;
   const ConfigTable table = root.table("cohesive").with_keys({"interfaces", "planes"});
-  settings.bands = read_interfaces(table, bands);
+  if (const auto named = table.find("interfaces")) {
+    settings.bands.clear();
+    settings.faces.clear();
+    for (const ConfigValue& entry : named->list()) add_named(entry, bands, interfaces, settings);
+  }
   for (const ConfigTable& plane : table.tables("planes")) {
     settings.planes.push_back(read_plane(plane));
     const std::string& name = settings.planes.back().name;
     const bool taken = std::ranges::count(settings.planes, name, &CohesivePlane::name) > 1 ||
-                       std::ranges::count(settings.bands, name, &Band::region) > 0;
+                       std::ranges::count(settings.bands, name, &Band::region) > 0 ||
+                       std::ranges::count(settings.faces, name) > 0;
     if (taken) throw plane.error(fmt::format("two surfaces are called \"{}\"", name));
   }
   return settings;
 }
 
-std::vector<ColumnSet> column_sets(const CohesiveSettings& settings, const Mesh& mesh) {
+std::vector<ColumnSet> column_sets(const CohesiveSettings& settings, const Mesh& mesh, const FractureModel& model) {
   std::vector<ColumnSet> sets;
+  for (const CohesiveSurface& surface : model.interfaces)
+    if (std::ranges::count(settings.faces, surface.name) > 0)
+      sets.push_back(face_columns(mesh, surface, settings.axis));
   for (const Band& band : settings.bands)
     for (ColumnSet& set : interface_columns(mesh, band.region, band.neighbours[1], settings.axis))
       sets.push_back(std::move(set));

@@ -21,14 +21,18 @@ struct CohesivePlane {
 struct CohesiveSettings {
   std::vector<Band> bands;  ///< whose particles' surfaces are sampled
   std::vector<CohesivePlane> planes;
-  Vector axis = Vector::UnitZ();  ///< of the load
+  std::vector<std::string> faces;  ///< names of [[interface]]s whose faces are recorded
+  Vector axis = Vector::UnitZ();   ///< of the load
 };
 
-/// All bands between two different regions, unless [cohesive] names some. `root` is the whole case file, `axis` the
-/// direction of the curve's displacement. Throws InputError.
-CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> bands, const Vector& axis);
+/// All bands between two different regions and all cohesive interfaces, unless [cohesive] names some. `root` is the
+/// whole case file, `interfaces` the names of its [[interface]]s, `axis` the direction of the curve's displacement.
+/// Throws InputError.
+CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> bands,
+                               std::span<const std::string> interfaces, const Vector& axis);
 
-/// Throws InputError, with file and line, for a surface that the mesh does not have.
-std::vector<ColumnSet> column_sets(const CohesiveSettings& settings, const Mesh& mesh);
+/// `model` has the cohesive interfaces of the mesh. Throws InputError, with file and line, for a surface that the mesh
+/// does not have.
+std::vector<ColumnSet> column_sets(const CohesiveSettings& settings, const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm

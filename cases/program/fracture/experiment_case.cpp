@@ -21,7 +21,8 @@ ConfigTable with_keys_and_preparation(const ConfigTable& table, std::vector<std:
 }
 
 ConfigTable experiment_table(const ConfigTable& root) {
-  return with_keys_and_preparation(root.table("experiment"), {"stiffness_between", "specimens", "debonding"});
+  return with_keys_and_preparation(root.table("experiment"),
+                                   {"stiffness_between", "specimens", "debonding", "energies"});
 }
 
 ConfigTable specimen_table(const ConfigTable& table) {
@@ -109,7 +110,31 @@ MeasuredAngle read_angle(const ConfigTable& table, const std::filesystem::path& 
           .at_positive = table.at("pole").one_of(poles, "pole") == positive_pole};
 }
 
+MeasuredEnergy read_energy(const ConfigTable& table, const std::filesystem::path& directory) {
+  table.with_keys({"name", "csv", "separator", "decimal", "displacement", "energy", "deviation", "of"});
+  return {.curve = read_curve_of(table, directory, "energy", dimension::energy),
+          .kind = &choose(table.at("of"), energy_kinds(), "energy of a run")};
+}
+
+double stored_energy(const EnergyAccount&, const EnergyAccount& now) {
+  double sum = 0.0;
+  for (const EnergyEntry& entry : energy_entries)
+    if (entry.role == EnergyEntry::Role::stored) sum += now.*entry.value;
+  return sum;
+}
+
+constexpr EnergyKind kinds_of_energy[] = {
+    {"work", "work of the load", [](const EnergyAccount&, const EnergyAccount& now) { return now.external_work; }},
+    {"stored", "elastic energy, that of interfaces included", stored_energy},
+    {"dissipated", "surface energy gained and all that was dissipated",
+     [](const EnergyAccount& start, const EnergyAccount& now) {
+       return now.fracture - start.fracture + dissipated(now);
+     }},
+};
+
 }  // namespace
+
+std::span<const EnergyKind> energy_kinds() { return kinds_of_energy; }
 
 std::vector<SampledCurve> specimen_curves(const ExperimentSettings& experiment) {
   std::vector<SampledCurve> curves;
@@ -140,6 +165,8 @@ std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
     settings.specimens.push_back(read_specimen(specimen, table, case_directory));
   if (settings.specimens.empty())
     throw table.error("no measured curve is named; at least one [[experiment.specimens]] is required");
+  for (const ConfigTable& energy : table.tables("energies"))
+    settings.energies.push_back(read_energy(energy, case_directory));
   for (const ConfigTable& debonding : table.tables("debonding")) {
     settings.angles.push_back(read_angle(debonding, case_directory));
     const MeasuredAngle &first = settings.angles.front(), &last = settings.angles.back();

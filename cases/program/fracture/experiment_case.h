@@ -3,10 +3,13 @@
 
 #include "cases/program/input/config.h"
 #include "postproc/curves/measured_curve.h"
+#include "solver/fracture/energy_account.h"
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pfdm {
@@ -18,11 +21,26 @@ struct MeasuredAngle {
   bool at_positive = true;  ///< pole, in the direction of the curve's displacement
 };
 
+/// Which energy of a run a measured one is compared with.
+struct EnergyKind {
+  std::string_view name;                                               ///< in case.toml, and of comparison_NAME.csv
+  std::string_view description;                                        ///< in reports
+  double (*of)(const EnergyAccount& start, const EnergyAccount& now);  ///< [J]
+};
+std::span<const EnergyKind> energy_kinds();
+
+/// An energy [J] over displacements [m], such as another run's.
+struct MeasuredEnergy {
+  SampledCurve curve;
+  const EnergyKind* kind = nullptr;
+};
+
 struct ExperimentSettings {
   std::vector<MeasuredCurve> specimens{};           ///< force [N] over displacement [m]
   double stiffness_from = 0.0, stiffness_to = 0.0;  ///< [m]
   std::vector<MeasuredAngle> angles{};              ///< all at the same pole of the same surface
-  ConfigTable where;                                ///< for messages
+  std::vector<MeasuredEnergy> energies{};
+  ConfigTable where;  ///< for messages
 };
 
 /// The specimens' own curves.

@@ -274,7 +274,10 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   check_histories(fracture, root);
   fracture.staggered = read_solver(root);
   read_output(root, fracture);
-  fracture.cohesive = read_cohesive(root, fracture.materials.bands, Vector::Unit(fracture.output.curve.component));
+  std::vector<std::string> interfaces;
+  for (const InterfaceSettings& interface : fracture.interfaces) interfaces.push_back(interface.name);
+  fracture.cohesive =
+      read_cohesive(root, fracture.materials.bands, interfaces, Vector::Unit(fracture.output.curve.component));
   return fracture;
 }
 

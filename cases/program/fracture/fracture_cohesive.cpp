@@ -1,6 +1,7 @@
 #include "cases/program/fracture/fracture_cohesive.h"
 
 #include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/law_source.h"
 #include "cases/program/input/units.h"
 #include "physics/angle.h"
 #include "physics/error.h"
@@ -43,6 +44,21 @@ std::string extent_of(const ColumnRecord& record) {
   if (sound == n) return fmt::format("{} places: never damaged (d at most {:g}), no law", n, sound_damage);
   const std::string left_out = sound > 0 ? fmt::format(" ({} never damaged, left out)", sound) : "";
   return fmt::format("{} places{}, debonded area {:.4g} m^2", n, left_out, debonding_of(record).back().area);
+}
+
+/// The strength in shear of a record's band over that in opening: (mu/M)^(1/2) where its energy drives the damage.
+std::optional<double> shear_ratio_of(const FractureCase& fracture, const ColumnRecord& record) {
+  constexpr std::string_view driven_by_energy[] = {"none", "volumetric_deviatoric", "star_convex"};
+  const auto band = std::ranges::find_if(fracture.cohesive.bands, [&](const Band& b) {
+    return record.name == b.region || record.name.starts_with(b.region + "_");
+  });
+  if (record.is_cohesive || band == fracture.cohesive.bands.end() || fracture.model.has_strength()) return std::nullopt;
+  const RegionMaterial& material =
+      *std::ranges::find(fracture.materials.by_region, band->region, &RegionMaterial::region);
+  if (material.varies || material.material) return std::nullopt;
+  const RegionModel region = material.at(Vector::Zero());
+  if (std::ranges::count(driven_by_energy, fracture.model.split_of(region).name()) == 0) return std::nullopt;
+  return std::sqrt(region.elasticity.mu / region.elasticity.constrained_modulus());
 }
 
 void say_law(const CohesiveResult& result, SurfaceKind kind, Log& log) {
@@ -118,7 +134,7 @@ const InterfaceSettings* interface_asked_for(const FractureCase& fracture, const
 }
 
 GivenLaw law_of_case(const InterfaceSettings& interface, const std::string& name, const std::string& hash,
-                     const Session& session) {
+                     std::vector<std::string> source, const Session& session) {
   const auto everywhere = [&](const Parameter& parameter, const char* key) {
     if (parameter.varies)
       throw interface.where.at(key).error("a value that varies from place to place cannot be written for other codes");
@@ -136,6 +152,10 @@ GivenLaw law_of_case(const InterfaceSettings& interface, const std::string& name
                   interface.between
                       ? fmt::format("from {} to {}", (*interface.between)[0].string(), (*interface.between)[1].string())
                       : "of the plane")};
+  if (interface.law.law->name == tabulated_law().name)
+    given.remarks.push_back(
+        fmt::format("Table: {}; its head says what it is of", interface.where.at("table").string()));
+  for (std::string& line : source) given.remarks.push_back(std::move(line));
   if (interface.strength_scatter || interface.toughness_scatter)
     given.remarks.emplace_back("Strength or toughness scatter about these values in the case; here they do not");
   return given;
@@ -143,17 +163,22 @@ GivenLaw law_of_case(const InterfaceSettings& interface, const std::string& name
 
 }  // namespace
 
-void write_cohesive_laws(const FractureCase& fracture, const std::string& name, const std::string& hash,
-                         Session& session) {
+void write_cohesive_laws(const FractureCase& fracture, const CaseFile& file, const std::string& name,
+                         const std::string& hash, Session& session) {
   std::optional<Export> wanted;  // what is wrong with it is said before anything is written
   if (!session.exports.formats.empty()) {
     wanted = read_export(session.exports);
-    if (const InterfaceSettings* interface = interface_asked_for(fracture, session.exports))
-      return write_law(*wanted, law_to_export(law_of_case(*interface, name, hash, session), wanted->choice), session);
-  } else if (!fracture.interfaces.empty() && fracture.cohesive.bands.empty() && fracture.cohesive.planes.empty()) {
+    if (const InterfaceSettings* interface = interface_asked_for(fracture, session.exports)) {
+      const auto index = static_cast<std::size_t>(interface - fracture.interfaces.data());
+      std::vector<std::string> source = source_of_law(file, index, interface->name, hash, session);
+      const GivenLaw given = law_of_case(*interface, name, hash, std::move(source), session);
+      return write_law(*wanted, law_to_export(given, wanted->choice), session);
+    }
+  } else if (!fracture.interfaces.empty() && fracture.cohesive.bands.empty() && fracture.cohesive.planes.empty() &&
+             fracture.cohesive.faces.empty()) {
     throw InputError(fmt::format(
-        "{}: there is no band and no plane whose law could be extracted. The laws of [[interface]] are those that the "
-        "case gives: --export FORMAT writes one for another code",
+        "{}: [cohesive] names no interface, no band and no plane. The laws of [[interface]] are those that the case "
+        "gives: --export FORMAT writes one for another code",
         name));
   }
   CohesiveReport report{.case_name = name,
@@ -163,11 +188,16 @@ void write_cohesive_laws(const FractureCase& fracture, const std::string& name, 
                         .results = {},
                         .curve = read_curve_record(session.results, hash),
                         .component = fracture.output.curve.component};
-  for (const ColumnRecord& record : report.records) report.results.push_back(evaluate(record));
+  for (const ColumnRecord& record : report.records) {
+    report.results.push_back(evaluate(record));
+    report.shear_ratios.push_back(shear_ratio_of(fracture, record));
+  }
   write_cohesive_results(session.results, report);
   for (std::size_t r = 0; r < report.records.size(); ++r) {
     const ColumnRecord& record = report.records[r];
-    session.log.say(fmt::format("cohesive law of \"{}\", {}", record.name, extent_of(record)));
+    session.log.say(fmt::format("{} \"{}\", {}", record.is_cohesive ? "cohesive interface" : "cohesive law of",
+                                record.name, extent_of(record)));
+    if (record.is_cohesive) continue;
     for (const CohesiveResult& result : report.results[r]) say_law(result, record.kind, session.log);
   }
   session.log.say(fmt::format("written to {}", (session.results / "cohesive.json").string()));

@@ -2,6 +2,7 @@
 // pfdm cohesive: the traction-separation laws of a fracture case from its results.
 
 #include "cases/program/fracture/fracture_case.h"
+#include "cases/program/input/case_file.h"
 #include "cases/program/session/session.h"
 
 #include <string>
@@ -9,9 +10,9 @@
 namespace pfdm {
 
 /// Reads the columns and the curve in session.results, writes the laws beside them and says their figures. Where the
-/// law of an [[interface]] is to be exported it is taken from the case, without results. Throws InputError where there
-/// is no record.
-void write_cohesive_laws(const FractureCase& fracture, const std::string& name, const std::string& hash,
-                         Session& session);
+/// law of an [[interface]] is to be exported it is taken from the case, without results; `file` is its. Throws
+/// InputError where there is no record.
+void write_cohesive_laws(const FractureCase& fracture, const CaseFile& file, const std::string& name,
+                         const std::string& hash, Session& session);
 
 }  // namespace pfdm

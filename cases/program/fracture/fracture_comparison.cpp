@@ -22,16 +22,22 @@ const ColumnRecord& record_of(const std::vector<ColumnRecord>& records, const Me
 
 AngleComparison compare_debonding(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
                                   const std::vector<ColumnRecord>& records) {
-  const MeasuredAngle& first = experiment.angles.front();
-  const std::vector<Debonding> history = debonding_of(record_of(records, first, experiment.where));
-  SampledCurve model{.name = "computed", .x = {}, .y = {}};
-  for (std::size_t i = 0; i < std::min(history.size(), rows.size()); ++i) {
-    model.x.push_back(rows[i].displacement);
-    model.y.push_back(first.at_positive ? history[i].angle_plus : history[i].angle_minus);
-  }
   std::vector<SampledCurve> measured;
   for (const MeasuredAngle& angle : experiment.angles) measured.push_back(angle.curve);
-  return compare_angles(model, measured);
+  return compare_angles(computed_angle(experiment, rows, records), measured);
+}
+
+std::vector<EnergyComparison> compare_energies_of(const ExperimentSettings& experiment,
+                                                  const std::vector<CurveRow>& rows) {
+  std::vector<EnergyComparison> compared;
+  for (const EnergyKind& kind : energy_kinds()) {
+    std::vector<SampledCurve> measured;
+    for (const MeasuredEnergy& energy : experiment.energies)
+      if (energy.kind == &kind) measured.push_back(energy.curve);
+    if (!measured.empty())
+      compared.push_back(compare_energies(std::string(kind.name), computed_energy(rows, kind), measured));
+  }
+  return compared;
 }
 
 void say(const ForceComparison& force, Log& log) {
@@ -62,6 +68,13 @@ void say(const AngleComparison& angle, Log& log) {
                   onset(angle.model_onset), onset(angle.mean_onset)));
 }
 
+void say(const EnergyComparison& energy, Log& log) {
+  const ComparedCurves& c = energy.curves;
+  log.say(fmt::format("energy {}: {:.4g} J at {:.4g} m, measured {:.4g} J; difference at most {:.2f} % of the largest",
+                      energy.kind, c.model.back(), c.x.back(), c.measured.back(),
+                      100.0 * c.largest / c.largest_measured));
+}
+
 /// What was done to the measured curves, and which of them miss the origin.
 void say_preparation(const ExperimentSettings& experiment, const SampledCurve& model, Log& log) {
   for (const MeasuredCurve& specimen : experiment.specimens) {
@@ -83,6 +96,27 @@ SampledCurve computed_curve(const std::vector<CurveRow>& rows, int component) {
   return driven_curve(curve);
 }
 
+SampledCurve computed_angle(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
+                            const std::vector<ColumnRecord>& records) {
+  const MeasuredAngle& first = experiment.angles.front();
+  const std::vector<Debonding> history = debonding_of(record_of(records, first, experiment.where));
+  SampledCurve model{.name = "computed", .x = {}, .y = {}};
+  for (std::size_t i = 0; i < std::min(history.size(), rows.size()); ++i) {
+    model.x.push_back(rows[i].displacement);
+    model.y.push_back(first.at_positive ? history[i].angle_plus : history[i].angle_minus);
+  }
+  return model;
+}
+
+SampledCurve computed_energy(const std::vector<CurveRow>& rows, const EnergyKind& kind) {
+  SampledCurve curve{.name = "computed", .x = {}, .y = {}};
+  for (const CurveRow& row : rows) {
+    curve.x.push_back(row.displacement);
+    curve.y.push_back(kind.of(rows.front().energy, row.energy));
+  }
+  return driven_curve(curve);
+}
+
 void compare_with_experiment(const FractureCase& fracture, const ExperimentSettings& experiment,
                              const std::string& name, const std::string& hash, Session& session) {
   const std::vector<CurveRow> rows = read_curve_record(session.results, hash);
@@ -96,10 +130,12 @@ void compare_with_experiment(const FractureCase& fracture, const ExperimentSetti
     const std::vector<ColumnRecord> records = read_column_record(session.results, hash);
     report.angle = experiment.where.in_context([&] { return compare_debonding(experiment, rows, records); });
   }
+  report.energies = experiment.where.in_context([&] { return compare_energies_of(experiment, rows); });
   write_comparison(session.results, report);
   say_preparation(experiment, computed, session.log);
   say(report.force, session.log);
   if (report.angle) say(*report.angle, session.log);
+  for (const EnergyComparison& energy : report.energies) say(energy, session.log);
   session.log.say(fmt::format("written to {}", (session.results / "comparison.json").string()));
 }
 

@@ -102,7 +102,7 @@ void check(const FractureProgram& program, Session& session) {
   const Mesh mesh = make_mesh(program, log);
   const FractureRun run = make_run(program, mesh, log);
   warn_of_interfaces(run, log);
-  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh);
+  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
   log.say(fmt::format("{}: {}", program.name, program.fracture.title));
   log.say(fmt::format("cells {}", mesh.n_cells()));
   say_regions(mesh, log);
@@ -159,7 +159,7 @@ RunSummary summary_of(const FractureProgram& program, const Session& session, co
 }
 
 void cohesive(const FractureProgram& program, Session& session) {
-  write_cohesive_laws(program.fracture, program.name, program.hash, session);
+  write_cohesive_laws(program.fracture, program.file, program.name, program.hash, session);
 }
 
 /// A run that steps.
@@ -291,7 +291,7 @@ void run_case(FractureProgram program, Session& session) {
   FractureRun run = make_run(program, mesh, session.log);
   warn_of_interfaces(run, session.log);
   const FractureState initial = run.initial_state();
-  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh);
+  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
   const FolderLock lock(session.results);
   const auto last = state_to_go_on_from(program, initial, session);
   if (last && last->load >= program.fracture.loading.end && status_of_earlier(session.results) == "complete") {

@@ -3,6 +3,7 @@
 #include "cases/program/fracture/fit_on_page.h"
 #include "cases/program/fracture/fracture_pictures.h"
 #include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/fracture_side_by_side.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/angle.h"
 #include "physics/traction_separation.h"
@@ -292,6 +293,9 @@ std::vector<PageRow> run_rows(const FractureStory& story, const std::filesystem:
   blocks.emplace_back(energy_chart(story));
   if (has_law(story.records)) blocks.emplace_back(law_chart(story.records.front()));
   blocks.emplace_back(iterations_chart(story));
+  if (story.experiment)
+    for (PageBlock& block : side_by_side_blocks(*story.experiment, story.curve, story.component(), story.records))
+      blocks.push_back(std::move(block));
   for (PageRow& row : in_pairs(std::move(blocks))) rows.push_back(std::move(row));
   return rows;
 }

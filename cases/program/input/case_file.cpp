@@ -57,7 +57,8 @@ void visit(const std::string& path, const TomlValue& value,
 
 bool names_data_file(const std::string& path, const TomlValue& value) {
   const std::string key = path.substr(path.find_last_of('.') + 1);
-  return (key == "csv" || key == "file" || key == "fit") && std::holds_alternative<std::string>(value.value);
+  return (key == "csv" || key == "file" || key == "fit" || key == "table") &&
+         std::holds_alternative<std::string>(value.value);
 }
 
 /// Numbers that stand in result files count as if they stood here.
@@ -91,11 +92,17 @@ CaseFile open_case(const std::filesystem::path& where) {
   if (is_not_there(file)) throw InputError(fmt::format("{}: it contains no case.toml", where.string()));
   std::string text = read_file(file);
   Config config(text, file.string());
-  return {.directory = directory, .text = std::move(text), .config = std::move(config)};
+  return {.directory = directory, .stem = file.stem().string(), .text = std::move(text), .config = std::move(config)};
 }
 
 std::string case_name(const CaseFile& file) {
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory)).filename().string();
+  constexpr std::string_view usual = "case";
+  const auto directory = std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory));
+  const bool in_results = file.stem != usual && directory.filename() == "results";
+  const std::string name = (in_results ? directory.parent_path() : directory).filename().string();
+  const std::string prefix = std::string(usual) + ".";
+  if (file.stem == usual || file.stem.empty()) return name;
+  return name + "." + (file.stem.starts_with(prefix) ? file.stem.substr(prefix.size()) : file.stem);
 }
 
 std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
@@ -136,7 +143,7 @@ std::string content_hash(const std::filesystem::path& file) {
 
 CaseFile with_text(const CaseFile& file, std::string text) {
   Config config(text, (file.directory / "case.toml").string());
-  return {.directory = file.directory, .text = std::move(text), .config = std::move(config)};
+  return {.directory = file.directory, .stem = file.stem, .text = std::move(text), .config = std::move(config)};
 }
 
 std::string table_hash(const CaseFile& file, std::string_view table,

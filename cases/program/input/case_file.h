@@ -15,6 +15,7 @@ namespace pfdm {
 
 struct CaseFile {
   std::filesystem::path directory;
+  std::string stem{};  ///< of the file, "case" of case.toml
   std::string text;
   Config config;
 };
@@ -22,7 +23,8 @@ struct CaseFile {
 /// `where` is a case directory or a .toml file in it. Throws InputError if there is none or it is no TOML.
 CaseFile open_case(const std::filesystem::path& where);
 
-/// The name of its directory.
+/// The name of its directory, of the case that was run where that is its results; of another file than case.toml with
+/// its stem: "glass_bead_fit.fitted" of glass_bead_fit/results/case.fitted.toml, "glass_bead.coarse" of coarse.toml.
 std::string case_name(const CaseFile& file);
 
 /// Of what case.toml says, but for title and comments, of the numbers that it takes from result files, and of the data
