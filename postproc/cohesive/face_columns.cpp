@@ -66,7 +66,7 @@ std::vector<ColumnSample> sample_faces(const Mesh& mesh, const FractureModel& mo
     const auto i = static_cast<Index>(k);
     // Of the second side from the first; seen from the other one both are reversed.
     const double side = place.normal.dot(area_from_first_side(mesh, surface, k)) > 0.0 ? 1.0 : -1.0;
-    const auto components = [&](const Vector& v) {
+    const auto components = [&](const Vector& v) -> Vector {
       return side * Vector(v.dot(place.normal), v.dot(place.tangents[0]), v.dot(place.tangents[1]));
     };
     samples[k] = {.traction = components(now.traction[i]),

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -66,7 +67,11 @@ TEST(CohesiveInterfaces, ComparesEnergiesWithThoseOfAnotherRun) {
   EXPECT_EQ(energies[1]["kind"], "dissipated");
   EXPECT_NEAR(energies[1]["model_at_end_J"].get<double>(), 1e-4, 1e-9);  // toughness times area
   EXPECT_NEAR(energies[1]["measured_at_end_J"].get<double>(), 1e-4, 1e-12);
-  EXPECT_NEAR(energies[0]["model_at_end_J"].get<double>(), 1e-4, 1e-6);  // nothing is stored any more
+  const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
+  const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_x_N");
+  double work = 0.0;
+  for (std::size_t i = 1; i < u.size(); ++i) work += 0.5 * (force[i] + force[i - 1]) * (u[i] - u[i - 1]);
+  EXPECT_NEAR(energies[0]["model_at_end_J"].get<double>(), work, 1e-6 * work);
   EXPECT_EQ(read_csv(directory.results() / "comparison_energies.csv").column("kind").back(), 1.0);
   EXPECT_EQ(run({"report", directory.path().string()}).status, 0);
   const TemporaryCase wrong(replaced(text, "of = \"work\"", "of = \"heat\""));
@@ -94,6 +99,47 @@ TEST(CohesiveInterfaces, NamesTheCaseOfAnExportedLaw) {
     EXPECT_EQ(head.find("record"), std::string::npos) << head;
     fs::remove_all(to);
   }
+}
+
+const fs::path interface_case = fs::path(PFDM_CASES_DIR) / "glass_bead_interface";
+
+double largest(const CsvTable& table, const std::string& column) {
+  double value = 0.0;
+  for (const double v : table.column(column)) value = std::max(value, std::abs(v));
+  return value;
+}
+
+// What ships as the law of the faces is what the bar beside it makes.
+TEST(CohesiveInterfaces, TheShippedLawIsThatOfItsBar) {
+  const TemporaryCase place(content_of(interface_case / "bar.toml"));
+  ASSERT_EQ(run({"run", place.path().string(), "--quiet"}).status, 0);
+  ASSERT_EQ(run({"cohesive", place.path().string(), "--export", "table"}).status, 0);
+  const fs::path made = place.results() / "cohesive_law" / "table.csv";
+  EXPECT_NE(content_of(made).find("shear_ratio = 0.3273"), std::string::npos) << content_of(made);
+  const CsvTable law = read_csv(made), shipped = read_csv(interface_case / "data/cohesive_law.csv");
+  EXPECT_NEAR(largest(law, "traction_Pa"), largest(shipped, "traction_Pa"), 1e-3 * largest(shipped, "traction_Pa"));
+  EXPECT_NEAR(law.column("separation_m").back(), shipped.column("separation_m").back(), 1e-6);
+  EXPECT_NE(content_of(interface_case / "case.toml").find("shear_ratio = 0.3273"), std::string::npos);
+}
+
+// T_n^2/M + T_t^2/mu drives the damage of a confined band, M = lambda + 2 mu.
+TEST(CohesiveInterfaces, AConfinedBandIsWeakerInShear) {
+  const std::string bar = content_of(interface_case / "bar.toml");
+  std::string shear = replaced(bar, "[\"0 um\", \"0 um\", \"120 um\"]", "[\"400 um\", \"0 um\", \"0 um\"]");
+  shear = replaced(
+      shear, "patches = [\"xmin\", \"xmax\", \"ymin\", \"ymax\"]\ndisplacement = [\"0 um\", \"0 um\", \"free\"]",
+      "patches = [\"xmin\", \"xmax\"]\ndisplacement = [\"free\", \"0 um\", \"0 um\"]\n[[boundary]]\npatches = "
+      "[\"ymin\", \"ymax\"]\ntype = \"symmetry\"");
+  double force[2];
+  for (const bool sheared : {false, true}) {
+    const TemporaryCase place(sheared ? shear : bar);
+    const Outcome outcome = run({"run", place.path().string(), "--quiet"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    force[sheared ? 1 : 0] =
+        largest(read_csv(place.results() / "force_displacement.csv"), sheared ? "force_x_N" : "force_z_N");
+  }
+  const double nu = 0.44, mu_over_M = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu));
+  EXPECT_NEAR(force[1] / force[0], std::sqrt(mu_over_M), 2e-3);
 }
 
 }  // namespace

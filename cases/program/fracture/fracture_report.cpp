@@ -293,10 +293,10 @@ std::vector<PageRow> run_rows(const FractureStory& story, const std::filesystem:
   blocks.emplace_back(energy_chart(story));
   if (has_law(story.records)) blocks.emplace_back(law_chart(story.records.front()));
   blocks.emplace_back(iterations_chart(story));
-  if (story.experiment)
-    for (PageBlock& block : side_by_side_blocks(*story.experiment, story.curve, story.component(), story.records))
-      blocks.push_back(std::move(block));
   for (PageRow& row : in_pairs(std::move(blocks))) rows.push_back(std::move(row));
+  if (story.experiment)
+    for (PageRow& row : side_by_side_rows(*story.experiment, story.curve, story.component(), story.records))
+      rows.push_back(std::move(row));
   return rows;
 }
 

@@ -43,7 +43,7 @@ std::vector<Pair> pairs_of(const ExperimentSettings& experiment, const std::vect
   std::vector<Pair> pairs;
   if (!experiment.angles.empty() && !records.empty()) {
     Pair angle{.caption = "Debonding angle",
-               .axis = "polar angle of the debonded cap",
+               .axis = "angle",
                .si_unit = "degree",
                .computed = computed_angle(experiment, rows, records),
                .measured = {}};
@@ -82,8 +82,8 @@ Table table_of(const Pair& force, const std::vector<Pair>& pairs) {
 
 }  // namespace
 
-std::vector<PageBlock> side_by_side_blocks(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
-                                           int component, const std::vector<ColumnRecord>& records) {
+std::vector<PageRow> side_by_side_rows(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
+                                       int component, const std::vector<ColumnRecord>& records) {
   const std::vector<Pair> pairs = pairs_of(experiment, rows, records);
   if (pairs.empty()) return {};
   const Pair force{.caption = "Force",
@@ -93,8 +93,9 @@ std::vector<PageBlock> side_by_side_blocks(const ExperimentSettings& experiment,
                    .measured = specimen_curves(experiment)};
   std::vector<PageBlock> blocks;
   for (const Pair& pair : pairs) blocks.emplace_back(chart_of(pair));
-  blocks.emplace_back(experiment.where.in_context([&] { return table_of(force, pairs); }));
-  return blocks;
+  std::vector<PageRow> page = in_pairs(std::move(blocks));
+  page.push_back({.blocks = {experiment.where.in_context([&] { return table_of(force, pairs); })}});
+  return page;
 }
 
 }  // namespace pfdm

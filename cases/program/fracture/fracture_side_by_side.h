@@ -14,7 +14,7 @@ namespace pfdm {
 /// A chart for the debonding angle and one for each kind of energy that the experiment names, and a table of their
 /// differences and the force's; nothing without any. `component` of the curve's force. Throws InputError like pfdm
 /// compare.
-std::vector<PageBlock> side_by_side_blocks(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
-                                           int component, const std::vector<ColumnRecord>& records);
+std::vector<PageRow> side_by_side_rows(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
+                                       int component, const std::vector<ColumnRecord>& records);
 
 }  // namespace pfdm
