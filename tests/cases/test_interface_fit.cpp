@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <random>
+#include <sstream>
 
 namespace pfdm {
 namespace {
@@ -74,6 +75,15 @@ Straight measure(const TemporaryCase& directory) {
   return {.strength = found, .toughness = 0.5 * found * (-F0 / slope)};
 }
 
+/// Comments in one line.
+std::string one_line(const std::string& text) {
+  std::string joined;
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+    if (word != "#") joined += word + " ";
+  return joined;
+}
+
 ReportPage page_of(const TemporaryCase& directory, const std::string& hash) {
   const CaseFile file = open_case(directory.path());
   return fracture_page(read_fracture_case(file.config.root(), file.directory),
@@ -122,6 +132,17 @@ TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
   const std::string key = "normal_strength = ";
   const double written = std::stod(deck.substr(deck.find(key) + key.size()));
   EXPECT_NEAR(written, 1e-6 * line.strength, 1e-3 * 1e-6 * line.strength);
+  EXPECT_THAT(one_line(deck), HasSubstr("Source: fitted to 1 curves of case"));
+  EXPECT_THAT(one_line(deck), HasSubstr("verdict sound"));
+  EXPECT_THAT(one_line(deck),
+              HasSubstr(fmt::format("toughness = {:.4g} J/m^2, 95 % interval {:.4g} to {:.4g} by profile",
+                                    fit["parameters"][1]["estimate"].get<double>(), lower, upper)));
+  EXPECT_THAT(one_line(deck), HasSubstr("Validity: no run of this case is there"));
+  // With a run.
+  ASSERT_EQ(run({"run", fitted, "--quiet", "--output", place + "/law"}).status, 0);
+  ASSERT_EQ(run({"cohesive", fitted, "--export", "moose", "--output", place + "/law"}).status, 0);
+  EXPECT_THAT(one_line(content_of(directory.path() / "law" / "cohesive_law" / "moose.i")),
+              HasSubstr("dissipated up to 1 of its toughness"));
 }
 
 TEST(InterfaceFit, IsNoModelOfFractureOnThePage) {
@@ -147,7 +168,8 @@ TEST(InterfaceExport, RefusesWhatIsNotOneLaw) {
   const std::string both = glued_blocks(linear_glue + "name = \"glue\"\n") +
                            "[[interface]]\nplane = { point = [\"0.5 mm\", \"0 mm\", \"0 mm\"], normal = [1, 0, 0] }\n"
                            "law = \"linear\"\nstrength = \"1 MPa\"\ntoughness = \"9 J/m^2\"\n";
-  expect_refusal(both, {}, "--export FORMAT writes one for another code");
+  expect_refusal(both, {}, "there are no results; pfdm run makes them");
+  expect_refusal(both + "[cohesive]\ninterfaces = []\n", {}, "--export FORMAT writes one for another code");
   expect_refusal(both, {"--export", "abaqus"},
                  "--surface: say which interface's law is to be written (available: glue, interface_2)");
   expect_refusal(both, {"--export", "abaqus", "--surface", "band"},

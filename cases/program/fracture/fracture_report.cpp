@@ -293,10 +293,13 @@ std::vector<PageRow> run_rows(const FractureStory& story, const std::filesystem:
   blocks.emplace_back(energy_chart(story));
   if (has_law(story.records)) blocks.emplace_back(law_chart(story.records.front()));
   blocks.emplace_back(iterations_chart(story));
-  for (PageRow& row : in_pairs(std::move(blocks))) rows.push_back(std::move(row));
   if (story.experiment)
-    for (PageRow& row : side_by_side_rows(*story.experiment, story.curve, story.component(), story.records))
-      rows.push_back(std::move(row));
+    for (PageBlock& chart : side_by_side_charts(*story.experiment, story.curve, story.records))
+      blocks.push_back(std::move(chart));
+  for (PageRow& row : in_pairs(std::move(blocks))) rows.push_back(std::move(row));
+  if (!story.experiment) return rows;
+  if (auto table = side_by_side_table(*story.experiment, story.curve, story.component(), story.records))
+    rows.push_back({.blocks = {std::move(*table)}});
   return rows;
 }
 

@@ -82,20 +82,23 @@ Table table_of(const Pair& force, const std::vector<Pair>& pairs) {
 
 }  // namespace
 
-std::vector<PageRow> side_by_side_rows(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
-                                       int component, const std::vector<ColumnRecord>& records) {
+std::vector<PageBlock> side_by_side_charts(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
+                                           const std::vector<ColumnRecord>& records) {
+  std::vector<PageBlock> charts;
+  for (const Pair& pair : pairs_of(experiment, rows, records)) charts.emplace_back(chart_of(pair));
+  return charts;
+}
+
+std::optional<Table> side_by_side_table(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
+                                        int component, const std::vector<ColumnRecord>& records) {
   const std::vector<Pair> pairs = pairs_of(experiment, rows, records);
-  if (pairs.empty()) return {};
+  if (pairs.empty()) return std::nullopt;
   const Pair force{.caption = "Force",
                    .axis = "force",
                    .si_unit = "N",
                    .computed = computed_curve(rows, component),
                    .measured = specimen_curves(experiment)};
-  std::vector<PageBlock> blocks;
-  for (const Pair& pair : pairs) blocks.emplace_back(chart_of(pair));
-  std::vector<PageRow> page = in_pairs(std::move(blocks));
-  page.push_back({.blocks = {experiment.where.in_context([&] { return table_of(force, pairs); })}});
-  return page;
+  return experiment.where.in_context([&] { return table_of(force, pairs); });
 }
 
 }  // namespace pfdm

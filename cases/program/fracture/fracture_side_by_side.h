@@ -7,14 +7,19 @@
 #include "postproc/curves/curve_csv.h"
 #include "postproc/page/report_page.h"
 
+#include <optional>
 #include <vector>
 
 namespace pfdm {
 
-/// A chart for the debonding angle and one for each kind of energy that the experiment names, and a table of their
-/// differences and the force's; nothing without any. `component` of the curve's force. Throws InputError like pfdm
-/// compare.
-std::vector<PageRow> side_by_side_rows(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
-                                       int component, const std::vector<ColumnRecord>& records);
+/// A chart for the debonding angle and one for each kind of energy that the experiment names. Throws InputError for a
+/// surface that the record does not have.
+std::vector<PageBlock> side_by_side_charts(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
+                                           const std::vector<ColumnRecord>& records);
+
+/// Their differences and the force's, `component` of it; nothing where the experiment names none of these. Throws
+/// InputError like pfdm compare.
+std::optional<Table> side_by_side_table(const ExperimentSettings& experiment, const std::vector<CurveRow>& rows,
+                                        int component, const std::vector<ColumnRecord>& records);
 
 }  // namespace pfdm

@@ -55,14 +55,15 @@ std::string content_hash(const std::filesystem::path& file);
 /// Of what one table says, and of data files, likewise.
 std::string table_hash(const CaseFile& file, std::string_view table, std::span<const std::filesystem::path> data_files);
 
-/// case.toml with the files that it names as `csv`, `file`, `fit` or `from` called as `renamed` says of each.
+/// case.toml with the files that it names as `csv`, `file`, `fit`, `table` or `from` called as `renamed` says of each.
 std::string with_paths(const CaseFile& file, const std::function<std::string(const std::string&)>& renamed);
 
-/// case.toml, to stand in `folder`: the files that it names as `csv`, `file`, `fit` or `from` are named from there.
+/// case.toml, to stand in `folder`: the files that it names as `csv`, `file`, `fit`, `table` or `from` are named from
+/// there.
 std::string moved(const CaseFile& file, const std::filesystem::path& folder);
 
 /// case.toml with one of its tables, [table] and all below it, replaced by `text`, to stand in `folder`: the files that
-/// it names as `csv`, `file` or `from` are named from there.
+/// it names as `csv`, `file`, `fit`, `table` or `from` are named from there.
 std::string with_table(const CaseFile& file, std::string_view table, const std::string& text,
                        const std::filesystem::path& folder);
 
