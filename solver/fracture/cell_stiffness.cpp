@@ -65,6 +65,15 @@ bool CellStiffness::drives_by_degradable_part() const {
   return model_.irreversibility != Irreversibility::history && !model_.has_strength();
 }
 
+bool CellStiffness::depends_on_strain() const {
+  constexpr double g = 0.5;
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    if (model_.in_cell(mesh_, c).damageable &&
+        (!has_degradable_part(c) || split(c).secant(elasticity(c), g, 0.0) != split(c).secant(elasticity(c), g, 1.0)))
+      return true;
+  return false;
+}
+
 // The secant moduli are linear in g.
 CellField<IsotropicElasticity> CellStiffness::degradable_part(const FractureState& state) const {
   CellField<IsotropicElasticity> part(as_size(mesh_.n_cells()), {});

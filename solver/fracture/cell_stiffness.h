@@ -37,6 +37,8 @@ class CellStiffness {
   /// Whether the driving energy of every damageable cell is that of the part of the stiffness that damage degrades,
   /// which makes it the derivative of the discrete energy.
   bool drives_by_degradable_part() const;
+  /// Whether the stiffness of some damageable cell depends on its strain, as where cracks close.
+  bool depends_on_strain() const;
   /// What a cell stores [J].
   double stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]

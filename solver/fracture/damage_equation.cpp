@@ -87,6 +87,14 @@ double DamageEquation::local_curvature(Index cell, double d, double psi) const {
                                     (1.0 - model_.residual_stiffness) * degradation.g_second(d) * psi);
 }
 
+double DamageEquation::imbalance(Index cell, const CellField<double>& d, double psi_plus) const {
+  return flux_.balance(cell, d, local_slope(cell, d[cell], psi_plus));
+}
+
+double DamageEquation::diagonal(Index cell, double d, double psi_plus) const {
+  return flux_.diagonal(cell) + local_curvature(cell, d, psi_plus);
+}
+
 void DamageEquation::resist_change(double resistance, const CellField<double>& from) {
   resistance_ = resistance;
   from_ = from;

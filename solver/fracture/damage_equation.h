@@ -38,6 +38,11 @@ class DamageEquation {
   void set_driving_force(CellField<double> force) { force_ = std::move(force); }
   /// Energy that the resistance dissipates up to d [J]: int eta (d - d_n)^2/dt dV.
   double viscous_dissipation(const CellField<double>& d) const;
+  /// The left side of a cell's equation, over the cell [J], with the deferred flux of the last solution; its derivative
+  /// by d is `diagonal`, those by the other cells' are minus the coefficients of `coupling`.
+  double imbalance(Index cell, const CellField<double>& d, double psi_plus) const;
+  double diagonal(Index cell, double d, double psi_plus) const;
+  const SymmetricCoupling& coupling() const { return flux_.coupling(); }
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
   /// Additional source per volume [J/m^3], for manufactured solutions.
   void set_source(CellField<double> source) { source_ = std::move(source); }

@@ -45,6 +45,12 @@ class Relaxation {
   /// The next damage iterate, given the present one and the solution of the damage equation; bounded by `lower` and 1.
   CellField<double> next(const CellField<double>& d, const CellField<double>& answer, const CellField<double>& lower);
 
+  /// The damage has been moved otherwise: no momentum from the iterations before.
+  void lose_momentum() {
+    relaxed_ = {};
+    inertia_ = 1.0;
+  }
+
   /// Whether Anderson acceleration has a limit cycle too: more iterations will hardly converge.
   bool goes_in_circles() const { return mixing_ && circles_ >= most_circles; }
 

@@ -31,6 +31,8 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       faces_(mesh, model, unknowns),
       damage_(mesh, model, unknowns.plane_normal),
       way_(stiffness_.drives_by_degradable_part() ? Relaxation::Way::momentum : Relaxation::Way::secant),
+      has_newton_(way_ == Relaxation::Way::momentum && !stiffness_.depends_on_strain() && !faces_.any() &&
+                  CoupledNewton::suits(mesh, unknowns)),
       psi_plus_(as_size(mesh.n_cells())) {}
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
@@ -77,6 +79,7 @@ struct Staggered::Loop {
   PathLimit path{};
   FacesPath faces_path{};
   Relaxation relaxation{s.way_};
+  std::optional<CoupledNewton> newton{};
   Energies energies{};  // of the last equilibrium
   double stored_at_unit_load = 0.0, energy_before = 0.0;
   Index torn = 0;  // successive iterations in which only the residual stiffness carried the loads
@@ -94,6 +97,8 @@ struct Staggered::Loop {
     if (follows_path()) path = {state.load, fracture_energy + limits.dissipation, limits.dissipation};
     faces_path = {.most_load = state.load, .dissipation = limits.dissipation};
     if (follows_faces() && start.load > 0.0) state.load = start.load;
+    if (s.has_newton_ && !follows_path() && !(s.model_.viscosity > 0.0))
+      newton.emplace(s.mesh_, s.model_, s.stiffness_.degradable_part(state), s.momentum_, s.damage_);
     if (s.model_.viscosity > 0.0) s.damage_.resist_change(s.model_.viscosity / limits.duration, start.damage);
   }
 
@@ -148,6 +153,8 @@ struct Staggered::Loop {
     return growth * growth * (start.energy.elastic + start.energy.interface_energy);
   }
 
+  CoupledNewton::Moved advance(CellField<double>& answer);
+
   void renew_damage() {
     CellField<double> answer = state.damage;
     const double load = state.load;
@@ -159,17 +166,41 @@ struct Staggered::Loop {
     const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
-    outcome.krylov_iterations += report.krylov_iterations;
     outcome.settled = solved && change < s.settings_.damage_tolerance && energy_change < s.settings_.energy_tolerance &&
                       std::abs(load_scale - 1.0) < s.settings_.damage_tolerance;
     outcome.converged = outcome.settled && outcome.residual <= s.settings_.equilibrium_tolerance;
-    state.damage = outcome.converged ? answer : relaxation.next(state.damage, answer, lower);
-    outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
-    outcome.broke_too_much = outcome.growth > limits.growth || outcome.energy_release > limits.energy_release;
+    auto moved = CoupledNewton::Moved::no;
+    if (outcome.converged)
+      state.damage = answer;
+    else
+      moved = advance(answer);
+    outcome.krylov_iterations += report.krylov_iterations;
+    if (moved == CoupledNewton::Moved::no) {  // not while a step of Newton's is on trial
+      outcome.growth = parallel_max(answer.size(), [&](Index c) { return state.damage[c] - start.damage[c]; });
+      outcome.broke_too_much = outcome.growth > limits.growth || outcome.energy_release > limits.energy_release;
+    }
     if (outcome.broke_too_much) outcome.converged = false;
     report = {state.step, outcome.iterations, state.load, change, energy_change, report.krylov_iterations};
   }
 };
+
+// The next damage; Newton's method changes the displacement as well.
+CoupledNewton::Moved Staggered::Loop::advance(CellField<double>& answer) {
+  auto moved = CoupledNewton::Moved::no;
+  if (newton) {
+    const auto lap = s.clock_.lap("coupled_newton");
+    const std::vector<Vector> load = s.momentum_.balance().load_vector(state.load);
+    double energy = energies.stored + s.damage_.fracture_energy(state.damage);
+    for (std::size_t i = 0; i < load.size(); ++i) energy -= load[i].dot(state.displacement[i]);
+    moved = newton->move({energy, lower}, state, answer);
+    report.krylov_iterations += newton->krylov_iterations();
+  }
+  if (moved == CoupledNewton::Moved::on)
+    relaxation.lose_momentum();
+  else
+    state.damage = relaxation.next(state.damage, answer, lower);
+  return moved;
+}
 
 StepOutcome Staggered::alternate(const FractureState& start, FractureState& state, const StepLimits& limits,
                                  const IterationWatch& watch) {

@@ -4,6 +4,7 @@
 
 #include "solver/fracture/cell_stiffness.h"
 #include "solver/fracture/cohesive_newton.h"
+#include "solver/fracture/coupled_newton.h"
 #include "solver/fracture/damage_equation.h"
 #include "solver/fracture/fracture_model.h"
 #include "solver/fracture/iteration_report.h"
@@ -104,6 +105,7 @@ class Staggered {
   CohesiveFaces faces_;
   DamageEquation damage_;
   Relaxation::Way way_;
+  bool has_newton_;  // the response to which is smooth enough for it
   StageClock clock_;
   CellField<double> psi_plus_;  // [J/m^3] of the last equilibrium
   StrengthDrive strength_;      // likewise

@@ -147,6 +147,7 @@ class MomentumOperator {
   std::vector<Vector> patch_displacements(const std::vector<Vector>& u) const;  ///< per patch, area mean [m]
 
  private:
+  friend class StiffnessCoupling;
   // An interior face within one elastic zone.
   struct Link {
     Index face, P, N;

@@ -137,6 +137,13 @@ std::vector<Vector> MomentumSolver::load_vector(double t) const {
   return load;
 }
 
+std::vector<Vector> MomentumSolver::residual(double t, const std::vector<Vector>& u) const {
+  std::vector<Vector> rest = load_vector(t), image(u.size());
+  operator_.apply(u, image);
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= image[i];
+  return rest;
+}
+
 Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vector<Vector>& u) {
   if (is_due_) build_preconditioner();
   std::vector<Vector> load = load_vector(t);

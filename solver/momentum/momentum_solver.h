@@ -54,6 +54,11 @@ class MomentumSolver {
     double good_enough = 0.0;      ///< a residual from which on slow convergence ends the solution
   };
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
+  /// Forces [N] at the load parameter t that the displacements u do not balance; zero where those are prescribed.
+  std::vector<Vector> residual(double t, const std::vector<Vector>& u) const;
+  /// z approximates A^-1 r, after a solve with the moduli of now.
+  void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
+  const std::vector<double>& row_scale() const { return scale_; }  ///< likewise
   /// Forces [N] on the cells, or on all nodes, at every load parameter from now on; empty for none.
   void set_body_force(std::vector<Vector> force);
 
@@ -62,7 +67,6 @@ class MomentumSolver {
   Index n_preconditioners() const { return n_preconditioners_; }
 
  private:
-  void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
   void build_preconditioner();
   bool has_moved(const CellField<IsotropicElasticity>& moduli) const;
   bool renew_preconditioner(const CellField<double>& measure, bool must_be);
