@@ -7,6 +7,7 @@
 // A history is a list of numbers whose meaning is the law's own; the solver copies and stores it.
 
 #include "physics/energy_split.h"
+#include "physics/gradient_stress.h"
 
 #include <algorithm>
 #include <span>
@@ -14,10 +15,6 @@
 #include <vector>
 
 namespace pfdm {
-
-/// d P_iJ / d H_kL [Pa] in row 3 i + J and column 3 k + L. It has no minor symmetries, and no major one where the law
-/// is not associated.
-using GradientTangent = Eigen::Matrix<double, 9, 9>;
 
 struct MaterialStep {
   Tensor from;                      ///< H at the start of the step [-]
@@ -58,6 +55,8 @@ class Material {
 
   std::string_view name() const { return name_; }                        ///< of the law
   const IsotropicElasticity& elasticity() const { return elasticity_; }  ///< of the virgin state
+  /// Whether P is that of F itself; else the law looks at the symmetric part of H alone.
+  virtual bool is_finite_strain() const { return false; }
   /// Whether the response depends on the duration of a step, which must then be positive.
   virtual bool depends_on_rate() const { return false; }
 

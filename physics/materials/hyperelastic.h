@@ -1,0 +1,105 @@
+#pragma once
+// Hyperelastic materials at finite strain: a strain energy W(C) per reference volume, C = F^T F; first Piola-Kirchhoff
+// stress P = dW/dF and its tangent A = dP/dF. All laws but Saint Venant-Kirchhoff's are
+//
+//   W = W_s(C) - p0 ln J + U(J),   J = det F,
+//
+// with a shear part W_s that has the stress p0 I at F = 1. U is
+//   quadratic:   Lambda/2 (J - 1)^2                 (Kamarei, Zeng, Dolbow, Lopez-Pamies, CMAME 448 (2026) 118449)
+//   logarithmic: Lambda/4 (J^2 - 1 - 2 ln J)        (Ciarlet, Geymonat, C. R. Acad. Sci. Paris 295 (1982) 423)
+// and Lambda such that at small strain the law is that of the given elasticity (lambda, mu).
+//
+// The shear parts: with mu_p = share_p mu, I1 = tr C, I2 = (I1^2 - tr C^2)/2 and stretches l_i
+//   neo_hookean            mu/2 (I1 - 3)
+//   mooney_rivlin          (mu - mu_01)/2 (I1 - 3) + mu_01/2 (I2 - 3)
+//   ogden                  sum 2 mu_p/alpha_p^2 (l_1^alpha_p + l_2^alpha_p + l_3^alpha_p - 3)   (Proc. R. Soc. A 326
+//                          (1972) 565)
+//   lopez_pamies           sum 3^(1 - alpha_p)/(2 alpha_p) mu_p (I1^alpha_p - 3^alpha_p)  (C. R. Mecanique 338 (2010)
+//   3) saint_venant_kirchhoff lambda/2 (tr E)^2 + mu E:E,  E = (C - 1)/2, for small strains and large rotations: under
+//                          compression it softens and can invert
+//
+// Formulas start from H = F - 1 and E, so that small strains lose no digits.
+
+#include "physics/mandel.h"
+#include "physics/materials/material.h"
+
+#include <memory>
+#include <vector>
+
+namespace pfdm {
+
+enum class VolumetricForm { quadratic, logarithmic };
+
+struct HyperelasticParameters {
+  IsotropicElasticity elasticity;  ///< at small strain [Pa]
+  VolumetricForm volumetric = VolumetricForm::quadratic;
+  double second_invariant = 0.0;    ///< mu_01/mu of mooney_rivlin, 0 to 1
+  std::vector<double> shares{};     ///< of mu, of ogden and lopez_pamies; they sum to 1
+  std::vector<double> exponents{};  ///< alpha_p, one per share; not zero
+};
+
+/// The shear part by the Green strain E: S - p0 I with S = 2 dW_s/dC, and dS/dE.
+struct ShearEnergy {
+  double energy = 0.0;                            ///< W_s [J/m^3]
+  Mandel stress = Mandel::Zero();                 ///< [Pa]
+  MandelMatrix stiffness = MandelMatrix::Zero();  ///< [Pa]
+};
+
+struct HyperelasticLaw {
+  std::string_view name, description;
+  double (*initial_stress)(const HyperelasticParameters&);  ///< p0 [Pa]
+  ShearEnergy (*shear)(const HyperelasticParameters&, const Tensor& E);
+};
+
+std::span<const HyperelasticLaw> hyperelastic_laws();
+/// Throws InputError for an unknown name.
+const HyperelasticLaw& hyperelastic_law(std::string_view name);
+
+/// W [J/m^3], P [Pa] and A [Pa] at some H.
+struct PotentialAt {
+  double energy = 0.0;
+  Tensor stress = Tensor::Zero();
+  GradientTangent tangent = GradientTangent::Zero();
+};
+
+/// det(1 + H) - 1, exact to rounding for small H.
+double volume_change(const Tensor& H);
+
+class HyperelasticMaterial final : public Material {
+ public:
+  /// Throws InputError for shares that do not sum to 1 or are not as many as the exponents, an exponent of zero, a
+  /// second_invariant outside 0 to 1, a Poisson's ratio above 0.499, and parameters that make Lambda negative or the
+  /// shear modulus not that of the elasticity.
+  HyperelasticMaterial(const HyperelasticLaw& law, HyperelasticParameters parameters);
+
+  bool is_finite_strain() const override { return true; }
+  std::size_t history_size() const override { return 0; }
+
+  /// Requires det F > 0.
+  PotentialAt potential(const Tensor& H) const;
+  /// Of W_c = W(J^(1/3) 1) where J < 1, zero elsewhere: the part that a split into volumetric (J >= 1) and isochoric
+  /// energy keeps from damage.
+  PotentialAt compression(const Tensor& H) const;
+
+  MaterialResponse update(const MaterialStep& step, std::span<double> history) const override;
+  Tensor stress(const Tensor& H, std::span<const double> history) const override;
+  /// Of the splits `none` and `volumetric_deviatoric`.
+  MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const override;
+
+ private:
+  // A function of J alone: its value [J/m^3], slope and curvature [Pa].
+  struct OfVolume {
+    double value = 0.0, slope = 0.0, curvature = 0.0;
+  };
+  OfVolume volumetric(double change) const;
+  OfVolume dilation(double change) const;
+
+  const HyperelasticLaw& law_;
+  HyperelasticParameters p_;
+  double p0_ = 0.0, Lambda_ = 0.0;  // [Pa]
+};
+
+/// Throws InputError as the constructor does.
+std::shared_ptr<const Material> make_hyperelastic(std::string_view law, HyperelasticParameters parameters);
+
+}  // namespace pfdm
