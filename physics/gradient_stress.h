@@ -15,7 +15,7 @@ using Components = Eigen::Matrix<double, 9, 1>;
 inline Components to_components(const Tensor& a) {
   return (Components() << a(0, 0), a(0, 1), a(0, 2), a(1, 0), a(1, 1), a(1, 2), a(2, 0), a(2, 1), a(2, 2)).finished();
 }
-inline Tensor to_tensor(const Components& v) {
+inline Tensor from_components(const Components& v) {
   return (Tensor() << v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]).finished();
 }
 

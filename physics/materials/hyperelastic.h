@@ -46,7 +46,7 @@ struct ShearEnergy {
 };
 
 struct HyperelasticLaw {
-  std::string_view name, description;
+  std::string_view name;
   double (*initial_stress)(const HyperelasticParameters&);  ///< p0 [Pa]
   ShearEnergy (*shear)(const HyperelasticParameters&, const Tensor& E);
 };
@@ -68,7 +68,7 @@ double volume_change(const Tensor& H);
 class HyperelasticMaterial final : public Material {
  public:
   /// Throws InputError for shares that do not sum to 1 or are not as many as the exponents, an exponent of zero, a
-  /// second_invariant outside 0 to 1, a Poisson's ratio above 0.499, and parameters that make Lambda negative or the
+  /// second_invariant outside 0 to 1, a Poisson's ratio above 0.49, and parameters that make Lambda negative or the
   /// shear modulus not that of the elasticity.
   HyperelasticMaterial(const HyperelasticLaw& law, HyperelasticParameters parameters);
 

@@ -72,15 +72,11 @@ ShearEnergy saint_venant_kirchhoff(const Parameters& p, const Tensor& E) {
 }
 
 constexpr HyperelasticLaw table[] = {
-    {"neo_hookean", "finite strain: mu/2 (I1 - 3) - mu ln J + U(J); volumetric", shear_modulus, neo_hookean},
-    {"mooney_rivlin", "finite strain: terms in I1 and I2; second_invariant, volumetric",
-     [](const Parameters& p) { return (1.0 + p.second_invariant) * p.elasticity.mu; }, mooney_rivlin},
-    {"ogden", "finite strain: powers of the principal stretches (Ogden 1972); exponents, shares, volumetric",
-     ogden_initial_stress, ogden},
-    {"lopez_pamies", "finite strain: powers of I1 (Lopez-Pamies 2010); exponents, shares, volumetric", sum_of_shares,
-     lopez_pamies},
-    {"saint_venant_kirchhoff", "large rotations of small strains: linear in Green's strain",
-     [](const Parameters&) { return 0.0; }, saint_venant_kirchhoff},
+    {"neo_hookean", shear_modulus, neo_hookean},
+    {"mooney_rivlin", [](const Parameters& p) { return (1.0 + p.second_invariant) * p.elasticity.mu; }, mooney_rivlin},
+    {"ogden", ogden_initial_stress, ogden},
+    {"lopez_pamies", sum_of_shares, lopez_pamies},
+    {"saint_venant_kirchhoff", [](const Parameters&) { return 0.0; }, saint_venant_kirchhoff},
 };
 
 }  // namespace

@@ -40,6 +40,8 @@ std::vector<NamedField> frame_fields(const Mesh& mesh, const OutputFields& outpu
                                  {"material", &mesh.region, double_precision},
                                  {"energy_density", &output.energy_density, single_precision, "J/m^3"},
                                  {"driving_energy", &output.driving_energy, single_precision, "J/m^3"}};
+  if (output.deformation_gradient.size() > 0)
+    fields.push_back({"deformation_gradient", &output.deformation_gradient, single_precision, "1", true});
   for (const OutputHistory& history : output.history) {
     if (history.tensor.size() > 0)
       fields.push_back({history.name, &history.tensor, single_precision, std::string(history.unit)});

@@ -10,6 +10,7 @@
 namespace pfdm {
 
 /// damage, displacement [m], stress [Pa], strain, material, energy_density [J/m^3], driving_energy [J/m^3];
+/// at finite strain also deformation_gradient, stress being Cauchy's and strain Green's;
 /// besides, what the histories of the materials show, as plastic_strain.
 /// Points into both arguments.
 std::vector<NamedField> frame_fields(const Mesh& mesh, const OutputFields& output);

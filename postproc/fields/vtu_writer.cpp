@@ -189,6 +189,12 @@ vtkSmartPointer<vtkDataArray> to_array(const CellField<Tensor>& field, Precision
   return array;
 }
 
+vtkSmartPointer<vtkDataArray> all_components(const CellField<Tensor>& field, Precision precision) {
+  return copy(field, precision, 9, [](const Tensor& a) {
+    return std::array{a(0, 0), a(0, 1), a(0, 2), a(1, 0), a(1, 1), a(1, 2), a(2, 0), a(2, 1), a(2, 2)};
+  });
+}
+
 vtkSmartPointer<vtkDataArray> to_array(const CellField<Index>& field, Precision) {
   static_assert(sizeof(Index) == sizeof(int));
   return view<vtkIntArray>(field.data(), field.size(), 1);
@@ -198,6 +204,8 @@ vtkSmartPointer<vtkDataArray> to_array(const NamedField& field, Index n_cells) {
   const auto convert = [&](const auto* values) {
     if (values->size() != n_cells)
       throw InputError(fmt::format("the field \"{}\" has {} values for {} cells", field.name, values->size(), n_cells));
+    if constexpr (std::is_same_v<decltype(values), const CellField<Tensor>*>)
+      if (field.all_components) return all_components(*values, field.precision);
     return to_array(*values, field.precision);
   };
   auto array = std::visit(convert, field.values);

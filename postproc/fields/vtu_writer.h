@@ -16,7 +16,8 @@ namespace pfdm {
 enum class Precision { single_precision, double_precision };
 
 /// A field under the name it has in the file. Points to the values: they have to outlive the write.
-/// Of a tensor the symmetric part is written, six components named XX YY ZZ XY YZ XZ as in ParaView.
+/// Of a tensor the symmetric part is written, six components named XX YY ZZ XY YZ XZ as in ParaView, or all nine, row
+/// by row.
 struct NamedField {
   using Values = std::variant<const CellField<double>*, const CellField<Vector>*, const CellField<Tensor>*,
                               const CellField<Index>*>;
@@ -24,6 +25,7 @@ struct NamedField {
   Values values;
   Precision precision = Precision::double_precision;  ///< integers have 32 bits whatever it says
   std::string unit{};                                 ///< VTK's UNITS_LABEL; empty: none
+  bool all_components = false;                        ///< of a tensor
 };
 
 /// A point of the mesh that some of the cells around it have once more.

@@ -23,6 +23,14 @@ struct CellHistories {
     values.assign(first.back(), 0.0);
   }
 
+  /// Virgin gradients of as many cells, whose laws remember nothing else.
+  static CellHistories gradients_only(std::size_t n_cells) {
+    CellHistories histories;
+    for (std::size_t c = 0; c <= n_cells; ++c) histories.first.push_back(c * n_gradient);
+    histories.values.assign(n_cells * n_gradient, 0.0);
+    return histories;
+  }
+
   Eigen::Map<Tensor> gradient(Index cell) { return Eigen::Map<Tensor>(values.data() + first[as_size(cell)]); }
   Eigen::Map<const Tensor> gradient(Index cell) const {
     return Eigen::Map<const Tensor>(values.data() + first[as_size(cell)]);

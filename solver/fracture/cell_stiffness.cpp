@@ -15,7 +15,7 @@ constexpr float least_share = 1.0F / 256.0F, recovery = 1.05F;
 }  // namespace
 
 CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model)
-    : mesh_(mesh), model_(model), materials_(mesh, model), is_isotropic_(model.is_isotropic()) {}
+    : mesh_(mesh), model_(model), materials_(mesh, model), finite_(mesh, model), is_isotropic_(model.is_isotropic()) {}
 
 void CellStiffness::start_step(double duration) {
   materials_.start_step(duration);
@@ -39,11 +39,28 @@ double CellStiffness::factor(Index cell, double d) const {
   return (1.0 - model_.residual_stiffness) * model_.degradation_of(region).g(d) + model_.residual_stiffness;
 }
 
+CellField<double> CellStiffness::factors(const FractureState& state) const {
+  CellField<double> g(as_size(mesh_.n_cells()));
+  parallel_for(mesh_.n_cells(), [&](Index c) { g[c] = factor(c, state.damage[c]); });
+  return g;
+}
+
+bool CellStiffness::relinearise(const CellHistories& start, const MomentumOperator& balance,
+                                FractureState& state) const {
+  return finite_.follow(balance.reconstructed_gradients(state.displacement), factors(state), start, state.histories);
+}
+
+Tensor CellStiffness::cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,
+                                    const Vector& plane_normal) const {
+  return finite_.cauchy_stress(cell, mechanics, factor(cell, state.damage[cell]), state.histories, plane_normal);
+}
+
 void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
   const auto n = as_size(mesh_.n_cells());
-  CellField<double> g(n);
-  parallel_for(mesh_.n_cells(), [&](Index c) { g[c] = factor(c, state.damage[c]); });
-  if (is_isotropic_) {
+  const CellField<double> g = factors(state);
+  if (finite_.any()) {
+    momentum.set_tangent(finite_.linearised(g, state.histories), g);
+  } else if (is_isotropic_) {
     CellField<IsotropicElasticity> moduli(n);
     parallel_for(mesh_.n_cells(), [&](Index c) { moduli[c] = split(c).secant(elasticity(c), g[c], state.closure[c]); });
     momentum.set_moduli(moduli, g, materials_.any() ? linearised(state, g, moduli) : CellField<LinearStress>());
@@ -56,7 +73,8 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
 
 bool CellStiffness::has_degradable_part(Index cell) const {
   const EnergySplit& law = split(cell);
-  return model_.in_cell(mesh_, cell).damageable && !materials_.has(cell) && law.has_secant() && law.is_variational();
+  return model_.in_cell(mesh_, cell).damageable && !finite_.any() && !materials_.has(cell) && law.has_secant() &&
+         law.is_variational();
 }
 
 bool CellStiffness::drives_by_degradable_part() const {
@@ -118,6 +136,7 @@ double CellStiffness::integrate(const CellMechanics& mechanics, const FractureSt
 }
 
 double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
+  if (finite_.any()) return finite_.driving_energy(cell, mechanics, factor(cell, state.damage[cell]), state.histories);
   if (materials_.has(cell)) return materials_.energy(cell, state.histories).driving;
   return has_degradable_part(cell) ? mechanics.part_energy[cell]
                                    : split(cell).energy(elasticity(cell), mechanics.strain[cell]).psi_plus;
@@ -125,6 +144,7 @@ double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics,
 
 // Half the work on the elastic strain, and what is locked up.
 double CellStiffness::stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
+  if (finite_.any()) return finite_.stored_energy(cell, mechanics, factor(cell, state.damage[cell]), state.histories);
   if (!materials_.has(cell)) return mechanics.energy[cell];
   const MaterialEnergy material = materials_.energy(cell, state.histories);
   const double on_inelastic = 0.5 * contract(mechanics.stress[cell], material.inelastic);
@@ -150,6 +170,7 @@ double CellStiffness::plastic_dissipation(const FractureState& from, const Fract
 }
 
 double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {
+  if (finite_.any()) return 0.0;  // the laws have followed already (finite_newton.h)
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     return split(c).has_secant() ? follow_with_closure(c, closing_strain(c, mechanics, state), state)
                                  : follow_with_tangent(c, mechanics.strain[c], state);

@@ -4,6 +4,7 @@
 // tangent, which is the secant as well (energies of second degree), so that the solves are Newton's steps. Cells with a
 // history are linearised about it, with a stress of their own.
 
+#include "solver/fracture/finite_cells.h"
 #include "solver/fracture/fracture_model.h"
 #include "solver/fracture/material_cells.h"
 #include "solver/fracture/state.h"
@@ -47,9 +48,16 @@ class CellStiffness {
   /// Energy dissipated by the materials [J] from one state to the other.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   const MaterialCells& materials() const { return materials_; }
+  const FiniteCells& finite() const { return finite_; }
+  /// At finite strain: the cells are linearised about the displacements of the state, as far as they are sound. False,
+  /// and nothing is changed, where one of them would turn inside out.
+  bool relinearise(const CellHistories& start, const MomentumOperator& balance, FractureState& state) const;
+  Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,
+                       const Vector& plane_normal) const;
 
  private:
   double factor(Index cell, double d) const;  // g, the residual stiffness included
+  CellField<double> factors(const FractureState& state) const;
   CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
                                      const CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
@@ -63,6 +71,7 @@ class CellStiffness {
   const Mesh& mesh_;
   const FractureModel& model_;
   MaterialCells materials_;
+  FiniteCells finite_;
   bool is_isotropic_;         // every split has isotropic secant moduli
   CellField<float> closing_;  // per cell: last change of the closure, and
   CellField<Index> turns_;    // number of its reversals within the step

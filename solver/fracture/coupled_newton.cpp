@@ -120,7 +120,7 @@ CoupledNewton::Direction CoupledNewton::solve(const Iterate& at, const FractureS
                                               const CellField<double>& answer) {
   System system(*this, at, state, answer);
   // The first guess is the step of the alternation; cells that the answer puts on a bound go there.
-  std::vector<Vector> b = momentum_.residual(state.load, state.displacement), x(system.size(), Vector::Zero());
+  std::vector<Vector> b = momentum_.unbalanced_forces(state.load, state.displacement), x(system.size(), Vector::Zero());
   b.resize(system.size(), Vector::Zero());
   for (Index c = 0; c < system.n_cells; ++c) {
     system.of(x, c) = (answer[c] - state.damage[c]) * system.root[c];

@@ -10,6 +10,11 @@ bool FractureModel::is_isotropic() const {
          std::ranges::all_of(regions, [&](const RegionModel& region) { return has_secant(region.split); });
 }
 
+bool FractureModel::is_finite_strain() const {
+  return std::ranges::any_of(
+      regions, [](const RegionModel& region) { return region.material && region.material->is_finite_strain(); });
+}
+
 bool FractureModel::has_strength() const {
   return std::ranges::any_of(regions, [](const RegionModel& region) { return region.strength.is_chosen(); });
 }

@@ -79,6 +79,8 @@ struct FractureModel {
   const Degradation& degradation_of(const RegionModel& region) const {
     return region.degradation.is_chosen() ? region.degradation : degradation;
   }
+  /// Whether the laws of the materials are of finite strain: those of all regions, or of none.
+  bool is_finite_strain() const;
   bool has_strength() const;  ///< whether some region has a strength model
   /// The least damage that a step from this one may end with.
   CellField<double> lower_bound(const CellField<double>& damage) const;

@@ -89,7 +89,8 @@ struct FractureRun::Parts {
     if (m.viscosity > 0.0 && !(loading.duration > 0.0))
       throw InputError("viscosity (fracture.viscosity) requires loading.duration, the time in which t grows by 1");
     for (const RegionModel& region : m.regions)
-      if (region.material) require_history(m, *region.material);
+      if (region.material && !m.is_finite_strain()) require_history(m, *region.material);
+    if (m.is_finite_strain()) require_finite(m);
     if (m.has_strength()) require_strength(m);
     if (!std::isfinite(loading.maximum_dissipation)) return;
     if (m.viscosity > 0.0)
@@ -111,6 +112,37 @@ struct FractureRun::Parts {
                           patch.name));
       }
     }
+  }
+
+  // What has not been worked out for finite strain is refused.
+  void require_finite(const FractureModel& m) const {
+    const auto refuse = [](std::string_view what) {
+      throw InputError(fmt::format("materials of finite strain cannot be combined with {}", what));
+    };
+    for (std::size_t r = 0; r < m.regions.size(); ++r) {
+      const RegionModel& region = m.regions[r];
+      if (!region.material || !region.material->is_finite_strain())
+        throw InputError(fmt::format(
+            "region \"{}\" has a material of small strain and another region one of finite strain; give all "
+            "of them laws of finite strain (saint_venant_kirchhoff for stiff ones), or none",
+            mesh.region_names[r]));
+      const std::string_view split = m.split_of(region).name();
+      if (!region.damageable) continue;
+      if (split != "none" && split != "volumetric_deviatoric")
+        throw InputError(
+            fmt::format("materials of finite strain can only be combined with the energy splits \"none\" and "
+                        "\"volumetric_deviatoric\", not \"{}\"",
+                        split));
+      if (split != "none" && region.material->name() == "saint_venant_kirchhoff")
+        refuse(
+            "the energy split \"volumetric_deviatoric\" where their law is saint_venant_kirchhoff, which is not "
+            "convex");
+    }
+    if (m.has_strength()) refuse("the model \"strength\"");
+    if (!m.interfaces.empty()) refuse("cohesive interfaces");
+    if (unknowns.plane_stress) refuse("plane stress");
+    if (std::isfinite(loading.maximum_dissipation))
+      refuse("dissipation control (loading.maximum_dissipation): their displacements are not proportional to the load");
   }
 
   static void require_strength(const FractureModel& m) {
@@ -142,7 +174,7 @@ struct FractureRun::Parts {
   }
 
   // At given damage and with boundary values that are, displacements are proportional to the load.
-  bool is_proportional() const { return !staggered.stiffness().materials().any(); }
+  bool is_proportional() const { return !staggered.stiffness().materials().any() && !model.is_finite_strain(); }
 
   bool follows_faces() const { return !model.interfaces.empty() && std::isfinite(loading.maximum_dissipation); }
 
@@ -271,6 +303,16 @@ struct FractureRun::Parts {
     return r;
   }
 
+  void show_finite_strain(const CellMechanics& mechanics, const FractureState& state, OutputFields& fields) {
+    fields.deformation_gradient = CellField<Tensor>(as_size(mesh.n_cells()));
+    parallel_for(mesh.n_cells(), [&](Index c) {
+      const Tensor F = Tensor::Identity() + mechanics.gradient[c];
+      fields.deformation_gradient[c] = F;
+      fields.strain[c] = 0.5 * (F.transpose() * F - Tensor::Identity());
+      fields.stress[c] = staggered.stiffness().cauchy_stress(c, mechanics, state, unknowns.plane_normal);
+    });
+  }
+
   std::vector<Vector> sum_by_patch(const std::vector<Vector>& boundary_force) const {
     std::vector<Vector> sums(mesh.patches.size(), Vector::Zero());
     for (std::size_t p = 0; p < mesh.patches.size(); ++p)
@@ -293,7 +335,9 @@ FractureState FractureRun::initial_state() const {
   state.damage = parts_->model.initial_damage.size() > 0 ? parts_->model.initial_damage : CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
-  state.histories = parts_->staggered.stiffness().materials().virgin_histories();
+  const CellStiffness& stiffness = parts_->staggered.stiffness();
+  state.histories =
+      model().is_finite_strain() ? stiffness.finite().virgin_histories() : stiffness.materials().virgin_histories();
   state.interfaces = parts_->staggered.faces().virgin_histories();
   if (!parts_->model.is_isotropic()) state.tangent_strain = CellField<Tensor>(n);
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
@@ -347,6 +391,7 @@ OutputFields FractureRun::output(const FractureState& state) {
                       .driving_energy = state.driving_energy,
                       .fracture_energy_density = staggered.damage_equation().fracture_energy_density(state.damage),
                       .traction = staggered.momentum().balance().tractions(state.displacement)};
+  if (model().is_finite_strain()) parts_->show_finite_strain(mechanics, state, fields);
   if (parts_->unknowns.plane_stress) fields.plane_stress_normal = parts_->unknowns.plane_normal;
   fields.interfaces = staggered.faces().output(staggered.momentum().balance(), state);
   fields.history = staggered.stiffness().materials().output(state.histories);

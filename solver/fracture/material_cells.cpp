@@ -24,7 +24,8 @@ OutputHistory& output_field(const HistoryField& field, std::size_t n_cells, std:
 }  // namespace
 
 MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {
-  any_ = std::ranges::any_of(model.regions, [](const RegionModel& region) { return region.material != nullptr; });
+  any_ = !model.is_finite_strain() &&
+         std::ranges::any_of(model.regions, [](const RegionModel& region) { return region.material != nullptr; });
   if (!any_) return;
   const auto n = as_size(mesh.n_cells());
   material_ = CellField<const Material*>(n, nullptr);

@@ -64,11 +64,14 @@ struct OutputInterface {
 
 /// Fields for output at a converged state.
 struct OutputFields {
-  CellField<Vector> displacement;    ///< [m]
-  CellField<double> damage;          ///< [-]
-  CellField<Tensor> stress;          ///< [Pa]
-  CellField<Tensor> strain;          ///< [-]
-  CellField<Tensor> gradient{};      ///< of the displacement, du_i/dx_j [-]
+  CellField<Vector> displacement;  ///< [m]
+  CellField<double> damage;        ///< [-]
+  CellField<Tensor> stress;        ///< [Pa]
+  CellField<Tensor> strain;        ///< [-]
+  CellField<Tensor> gradient{};    ///< of the displacement, du_i/dx_j [-]
+  /// F [-]; only at finite strain, where `stress` is Cauchy's, `strain` Green's, `traction` P N per reference area, and
+  /// energies are per reference volume.
+  CellField<Tensor> deformation_gradient{};
   CellField<double> energy_density;  ///< degraded elastic energy [J/m^3]
   CellField<double> driving_energy;  ///< [J/m^3]
   /// Discrete surface energy over the cell's volume, half of a face's to each of its cells [J/m^3].

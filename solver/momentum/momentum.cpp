@@ -1,6 +1,5 @@
 #include "solver/momentum/momentum.h"
 
-#include "solver/momentum/acoustic_tensor.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -159,28 +158,37 @@ void MomentumOperator::set_stiffness(CellField<MandelMatrix> stiffness, const Ce
   condense(stiffness);
   stiffness_ = std::move(stiffness);
   gradient_.update(g, part);
+  set_face_tensors();
+}
+
+void MomentumOperator::set_face_tensors() {
   link_tensors_.resize(links_.size());
   side_tensors_.resize(sides_.size());
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     const Link& link = links_[as_size(i)];
-    const Tensor a = acoustic_tensor(stiffness_[link.P], link.n) / std::abs(link.d_P.dot(link.n));
-    const Tensor b = acoustic_tensor(stiffness_[link.N], link.n) / std::abs(link.d_N.dot(link.n));
+    const double h_P = std::abs(link.d_P.dot(link.n)), h_N = std::abs(link.d_N.dot(link.n));
+    const Tensor a = acoustic(link.P, link.n) / h_P, b = acoustic(link.N, link.n) / h_N;
     const Tensor softness = (a + b).inverse(), weight = b * softness;
-    link_tensors_[as_size(i)] = {.weight = weight, .c = symmetric_part(weight * a), .softness = softness};
+    const Tensor c = is_finite() ? jump_tensor(link, h_P, h_N) : symmetric_part(weight * a);
+    link_tensors_[as_size(i)] = {.weight = weight, .c = c, .softness = softness};
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];
-    side_tensors_[as_size(i)] = acoustic_tensor(stiffness_[side.cell], side.n) / std::abs(side.d.dot(side.n));
+    side_tensors_[as_size(i)] = capped_acoustic(side.cell, side.n) / std::abs(side.d.dot(side.n));
   });
 }
 
 void MomentumOperator::find_gradients(const std::vector<Vector>& u) const {
-  parallel_for(mesh_.n_cells(), [&](Index c) { gradients_[c] = gradient_.of(u.data(), c); });
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    gradients_[c] = gradient_.of(u.data(), c);
+    renew_stress(c);
+  });
   if (pressure_.any()) pressure_.read(u);
   if (!unknowns_.is_axisymmetric()) return;
   const Vector &r = unknowns_.radial, &across = unknowns_.plane_normal;
   parallel_for(mesh_.n_cells(), [&](Index c) {
     gradients_[c] += (r.dot(u[as_size(c)]) / r.dot(mesh_.cell_centre[c])) * across * across.transpose();
+    renew_stress(c);
     sector_stress_[c] = across.dot(normal_stress(c, across)) + pressure_.mean(c);
   });
 }
@@ -205,10 +213,8 @@ void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const
 }
 
 void MomentumOperator::add_initial_forces() const {
-  if (!has_linear_stress()) return;
-  const auto traction = [&](Index cell, const Vector& n) -> Vector {
-    return to_tensor(linear_stress_[cell].initial) * n;
-  };
+  if (!has_initial_stress()) return;
+  const auto traction = [&](Index cell, const Vector& n) { return initial_traction(cell, n); };
   const auto n_links = static_cast<Index>(links_.size());
   parallel_for(n_links, [&](Index i) {
     const Link& link = links_[as_size(i)];
@@ -301,7 +307,7 @@ std::vector<Vector> MomentumOperator::load_vector(double t) const {
     }
   }
   keep_in_plane(load);
-  if (has_linear_stress()) take_away_initial_forces(load);
+  if (has_initial_stress()) take_away_initial_forces(load);
   return load;
 }
 

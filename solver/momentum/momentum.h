@@ -39,9 +39,14 @@
 // Periodic faces: the image has no unknown of its own, but the displacement of its node plus what is prescribed between
 // the two, and its forces act on that node: t_P + t_N = 0 as on an interface, whose sides lie at different places.
 //
+// Finite strain (total Lagrangian; momentum_finite.cpp): normals, areas and distances are those of the reference mesh,
+// sigma is the first Piola-Kirchhoff stress P = A : H + P_0 of the law linearised at the last displacement gradients H,
+// by the same least squares, and a = (N.A.N)/h.
+//
 // Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
 // are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements.
 
+#include "physics/gradient_stress.h"
 #include "physics/plane_stress.h"
 #include "solver/linear/block_matrix.h"
 #include "solver/momentum/cell_pressure.h"
@@ -69,6 +74,10 @@ struct CellMechanics {
   CellField<double> part_energy{};
   /// By least squares, as used in the tractions of the faces [-]; empty unless some material is linearised.
   CellField<Tensor> reconstructed_strain{};
+  /// At finite strain `stress` is the first Piola-Kirchhoff stress, `energy` half the work of what tractions and face
+  /// displacements differ by from those of the mean gradient, 1/2 sum A t.(u_f - u_c - gradient d), and this is H by
+  /// least squares [-]; else empty.
+  CellField<Tensor> reconstructed_gradient{};
   FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
 };
 
@@ -92,6 +101,11 @@ class MomentumOperator {
   void relax_flat_cells();
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
+
+  /// Finite strain: the law of every cell linearised, with major symmetry of A. No plane stress, no pressures.
+  void set_tangent(CellField<GradientStress> law, const CellField<double>& g, double part = 0.0);
+  /// H of every cell by least squares, of which the tractions are made [-].
+  CellField<Tensor> reconstructed_gradients(const std::vector<Vector>& u) const;
 
   /// In the order of the split faces.
   void set_springs(std::vector<FaceSpring> springs) { springs_ = std::move(springs); }
@@ -206,9 +220,23 @@ class MomentumOperator {
   double side_flux(const Side& side, const Vector& u_f) const;
   void balance_pressures(std::vector<Vector>& out) const;
   bool has_linear_stress() const { return linear_stress_.size() > 0; }
-  bool is_isotropic() const { return stiffness_.size() == 0; }
+  bool is_finite() const { return tangent_.size() > 0; }
+  bool is_isotropic() const { return stiffness_.size() == 0 && !is_finite(); }
+  bool has_initial_stress() const { return has_linear_stress() || is_finite(); }
+  Vector initial_traction(Index cell, const Vector& n) const {
+    return is_finite() ? (tangent_[cell].initial * n).eval() : (to_tensor(linear_stress_[cell].initial) * n).eval();
+  }
+  // a h, of cells that are not isotropic; at finite strain its positive part.
+  Tensor acoustic(Index cell, const Vector& n) const;
+  Tensor capped_acoustic(Index cell, const Vector& n) const;
+  Tensor jump_tensor(const Link& link, double h_P, double h_N) const;
+  void set_face_tensors();
   void find_gradients(const std::vector<Vector>& u) const;
+  void renew_stress(Index cell) const {
+    if (is_finite()) stresses_[cell] = from_components(tangent_[cell].A * to_components(gradients_[cell]));
+  }
   Vector normal_stress(Index cell, const Vector& n) const {
+    if (is_finite()) return stresses_[cell] * n;
     const Tensor& G = gradients_[cell];
     if (!is_isotropic()) return to_tensor(stiffness_[cell] * to_mandel(symmetric_part(G))) * n;
     if (has_linear_stress()) return to_tensor(linear_stress_[cell].C * to_mandel(symmetric_part(G))) * n;
@@ -219,6 +247,7 @@ class MomentumOperator {
   Vector normal_stress(Index cell, const Vector& n, const Vector& d) const {
     return pressure_.any() ? (normal_stress(cell, n) + pressure_.at(cell, d) * n).eval() : normal_stress(cell, n);
   }
+  static constexpr double moderate_lambda = 1.5;  // lambda_s / mu of undamaged polyhedra, at most
   static CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns);
   void renew_liquidity();
   double jump_modulus(Index cell) const;
@@ -262,6 +291,7 @@ class MomentumOperator {
   CellField<double> liquidity_;            // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is
   CellField<MandelMatrix> stiffness_;      // empty while all cells are isotropic, as are the tensors of the faces
   CellField<LinearStress> linear_stress_;  // may be empty
+  CellField<GradientStress> tangent_;      // of finite strain; else empty
   CellField<StrainAcross> strain_across_;  // empty but in plane stress
   std::vector<Link> links_;
   bool has_relaxed_flat_cells_ = false;
@@ -283,6 +313,7 @@ class MomentumOperator {
   mutable CellPressure pressure_;
   mutable std::vector<double> flux_;     // as forces_: u_f.S [m^3]; empty without pressures
   mutable CellField<Tensor> gradients_;  // work space of apply
+  mutable CellField<Tensor> stresses_;   // likewise, at finite strain: A : H [Pa]
   mutable std::vector<Vector> forces_;   // per link, then per side: A t outwards from P or from the side's cell
 };
 

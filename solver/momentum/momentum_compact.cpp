@@ -1,6 +1,5 @@
 // The compact matrix of the momentum balance (momentum.h).
 
-#include "solver/momentum/acoustic_tensor.h"
 #include "solver/momentum/momentum.h"
 
 #include <numeric>
@@ -10,11 +9,6 @@ namespace {
 
 Tensor scaling(double along, double across, const Vector& n) {
   return across * Tensor::Identity() + (along - across) * n * n.transpose();
-}
-
-// (h_P A_P^-1 + h_N A_N^-1)^-1
-Tensor in_series(const Tensor& A_P, double h_P, const Tensor& A_N, double h_N) {
-  return symmetric_part((h_P * A_P.inverse() + h_N * A_N.inverse()).inverse());
 }
 
 // Makes the matrix diagonal in the direction n. Nothing else may hold the body there, so it could be singular.
@@ -31,9 +25,7 @@ void decouple(const Vector& n, BlockTriplets& matrix) {
 
 Tensor MomentumOperator::compact_link(const Link& link) const {
   const double h_P = bounded_height(link.d_P, link.n), h_N = bounded_height(link.d_N, link.n);
-  if (!is_isotropic())
-    return link.area * in_series(acoustic_tensor(stiffness_[link.P], link.n), h_P,
-                                 acoustic_tensor(stiffness_[link.N], link.n), h_N);
+  if (!is_isotropic()) return link.area * jump_tensor(link, h_P, h_N);
   const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
   const double full = 1.0 / (h_P / P.constrained_modulus() + h_N / N.constrained_modulus());
   const double along = jump_stiffness(link.P, link.N, h_P, h_N, full);
@@ -43,15 +35,15 @@ Tensor MomentumOperator::compact_link(const Link& link) const {
 
 Tensor MomentumOperator::compact_side(const Side& side) const {
   const double h = bounded_height(side.d, side.n);
-  if (!is_isotropic()) return (side.area / h) * acoustic_tensor(stiffness_[side.cell], side.n);
+  if (!is_isotropic()) return (side.area / h) * capped_acoustic(side.cell, side.n);
   return (side.area / h) * scaling(jump_modulus(side.cell), moduli_[side.cell].mu, side.n);
 }
 
 // What a displacement along r stretches across the sector pulls back.
 Tensor MomentumOperator::compact_sector(Index cell) const {
   const Vector &r = unknowns_.radial, &across = unknowns_.plane_normal;
-  const double modulus = is_isotropic() ? moduli_[cell].constrained_modulus()
-                                        : across.dot(acoustic_tensor(stiffness_[cell], across) * across);
+  const double modulus =
+      is_isotropic() ? moduli_[cell].constrained_modulus() : across.dot(acoustic(cell, across) * across);
   return sector_area_[cell].norm() * modulus / r.dot(mesh_.cell_centre[cell]) * r * r.transpose();
 }
 

@@ -8,8 +8,6 @@
 namespace pfdm {
 namespace {
 
-constexpr double moderate_lambda = 1.5;  // lambda_s / mu of the undamaged material, at most
-
 // Tangential stiffness of the faces between polyhedra with closed cracks, over c along the normal. Measured on
 // glass_bead_quick: with 0.01 some solves still do not converge, from 0.025 to 0.3 all do and the forces agree. Cells
 // beside tetrahedra have none, which takes fewer staggered iterations.

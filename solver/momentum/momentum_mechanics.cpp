@@ -26,8 +26,7 @@ Vector MomentumOperator::face_displacement(std::size_t i, const std::vector<Vect
   const Vector from_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
   const Vector from_N = u[as_size(link.N)] + gradients_[link.N] * link.d_N;
   Vector stress_jump = normal_stress(link.N, link.n, link.d_N) - normal_stress(link.P, link.n, link.d_P);
-  if (has_linear_stress())
-    stress_jump += to_tensor(linear_stress_[link.N].initial - linear_stress_[link.P].initial) * link.n;
+  if (has_initial_stress()) stress_jump += initial_traction(link.N, link.n) - initial_traction(link.P, link.n);
   const Vector towards_N =
       is_isotropic() ? weigh(i, from_N - from_P) : link_tensors_[i].weight.transpose() * (from_N - from_P);
   return from_P + towards_N + give(i, stress_jump);
@@ -122,7 +121,7 @@ double MomentumOperator::part_energy(Index cell, const IsotropicElasticity& part
 
 CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted wanted,
                                           const CellField<IsotropicElasticity>& part) const {
-  const bool with_gradient = wanted == Wanted::all;
+  const bool with_gradient = wanted == Wanted::all || is_finite();
   compute_forces(u);
   FaceField<Vector> u_face = face_displacements(u);
   const auto n = as_size(mesh_.n_cells());
@@ -154,6 +153,11 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
     if (part.size() > 0 && part[c].mu > 0.0)
       result.part_energy[c] = part_energy(c, part[c], result.strain[c], u_face, u);
     if (with_gradient) result.gradient[c] = gradient;
+    if (is_finite()) {
+      result.stress[c] = moment * closure_[c] / volume;
+      result.energy[c] = work - 0.5 * contract(moment, gradient);
+      return;
+    }
     const Vector& normal = unknowns_.plane_normal;
     result.stress[c] = symmetric_part((moment * closure_[c]) / volume);
     if (!unknowns_.is_axisymmetric())
@@ -165,6 +169,7 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
       result.reconstructed_strain[c] = symmetric_part(with_strain_across(c, gradients_[c]));
     });
   }
+  if (is_finite()) result.reconstructed_gradient = gradients_;
   result.face_displacement = std::move(u_face);
   return result;
 }

@@ -38,6 +38,15 @@ void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const Cell
   if (renew_preconditioner(trace, false)) built_moduli_ = {};
 }
 
+void MomentumSolver::set_tangent(CellField<GradientStress> law, const CellField<double>& g) {
+  CellField<double> trace(as_size(law.size()));
+  parallel_for(law.size(), [&](Index c) { trace[c] = std::abs(law[c].A.trace()); });
+  if (starts_afresh_) is_built_ = false;
+  reference_load_.reset();
+  operator_.set_tangent(std::move(law), g, gradient_lag());
+  if (renew_preconditioner(trace, struggled_)) built_moduli_ = {};
+}
+
 double MomentumSolver::gradient_lag() {
   const bool exact = std::exchange(starts_afresh_, false) || !is_built_;
   return exact ? 0.0 : bearable_lag;
@@ -125,6 +134,17 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
   return reference_;
 }
 
+double MomentumSolver::residual(double t, const std::vector<Vector>& u) {
+  if (is_due_) build_preconditioner();
+  std::vector<Vector> rest = load_vector(t), image(u.size());
+  const double reference = reference_norm(t, rest);
+  if (reference == 0.0) return 0.0;
+  operator_.add_spring_offsets(rest);
+  operator_.apply(u, image);
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= image[i];
+  return scaled_norm(rest, scale_) / reference;
+}
+
 void MomentumSolver::set_body_force(std::vector<Vector> force) {
   assert(force.empty() || force.size() == as_size(unknowns_.n_cells) || force.size() == as_size(unknowns_.n_nodes()));
   body_force_ = std::move(force);
@@ -137,7 +157,7 @@ std::vector<Vector> MomentumSolver::load_vector(double t) const {
   return load;
 }
 
-std::vector<Vector> MomentumSolver::residual(double t, const std::vector<Vector>& u) const {
+std::vector<Vector> MomentumSolver::unbalanced_forces(double t, const std::vector<Vector>& u) const {
   std::vector<Vector> rest = load_vector(t), image(u.size());
   operator_.apply(u, image);
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= image[i];

@@ -33,6 +33,8 @@ class MomentumSolver {
                   CellField<LinearStress> stress = {});
   /// The same with a general stiffness [Pa]; the preconditioner is rebuilt by changes of its trace.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
+  /// The same for finite strain (MomentumOperator::set_tangent); the preconditioner is rebuilt by changes of its trace.
+  void set_tangent(CellField<GradientStress> law, const CellField<double>& g);
   /// The laws of the split faces about their separations. The preconditioner is rebuilt when a face together with the
   /// cells beside it, whose stiffness is `bond` [Pa/m], has changed its stiffness by more than a factor of 2.
   void set_springs(std::vector<FaceSpring> springs, const std::vector<double>& bond);
@@ -55,10 +57,12 @@ class MomentumSolver {
   };
   Equilibrium solve(double t, const Tolerance& tolerance, std::vector<Vector>& u);
   /// Forces [N] at the load parameter t that the displacements u do not balance; zero where those are prescribed.
-  std::vector<Vector> residual(double t, const std::vector<Vector>& u) const;
+  std::vector<Vector> unbalanced_forces(double t, const std::vector<Vector>& u) const;
   /// z approximates A^-1 r, after a solve with the moduli of now.
   void precondition(const std::vector<Vector>& r, std::vector<Vector>& z);
   const std::vector<double>& row_scale() const { return scale_; }  ///< likewise
+  /// Residual of these displacements, relative as that of a solution. Prescribed values are not compared.
+  double residual(double t, const std::vector<Vector>& u);
   /// Forces [N] on the cells, or on all nodes, at every load parameter from now on; empty for none.
   void set_body_force(std::vector<Vector> force);
 

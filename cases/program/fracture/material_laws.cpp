@@ -2,6 +2,7 @@
 
 #include "cases/program/point/endochronic_material.h"
 #include "physics/materials/endochronic_material.h"
+#include "physics/materials/hyperelastic.h"
 #include "physics/materials/j2_plasticity.h"
 
 namespace pfdm {
@@ -45,7 +46,72 @@ constexpr MaterialLaw j2_plasticity{
         },
 };
 
-constexpr MaterialLaw table[] = {linear_elastic, endochronic, j2_plasticity};
+HyperelasticParameters read_volumetric(const ConfigTable& material) {
+  HyperelasticParameters p{.elasticity = read_elasticity(material)};
+  const std::string forms[] = {"quadratic", "logarithmic"};
+  const auto form = material.find("volumetric");
+  if (form && form->one_of(forms, "volumetric energy") == "logarithmic") p.volumetric = VolumetricForm::logarithmic;
+  return p;
+}
+
+HyperelasticParameters read_powers(const ConfigTable& material) {
+  HyperelasticParameters p = read_volumetric(material);
+  for (const ConfigValue& entry : material.at("exponents").list()) p.exponents.push_back(entry.number());
+  for (const ConfigValue& entry : material.at("shares").list()) p.shares.push_back(entry.number());
+  return p;
+}
+
+std::shared_ptr<const Material> make(const ConfigTable& material, std::string_view law,
+                                     const HyperelasticParameters& p) {
+  return material.at("law").in_context([&] { return make_hyperelastic(law, p); });
+}
+
+constexpr std::string_view volumetric_keys[] = {"volumetric"};
+constexpr std::string_view mooney_rivlin_keys[] = {"volumetric", "second_invariant"};
+constexpr std::string_view power_keys[] = {"volumetric", "exponents", "shares"};
+
+constexpr MaterialLaw neo_hookean{
+    .name = "neo_hookean",
+    .description = "finite strain: mu/2 (I1 - 3) - mu ln J + U(J); volumetric",
+    .keys = volumetric_keys,
+    .read = [](const ConfigTable& m) { return make(m, "neo_hookean", read_volumetric(m)); },
+};
+
+constexpr MaterialLaw mooney_rivlin{
+    .name = "mooney_rivlin",
+    .description = "finite strain: terms in I1 and I2; second_invariant, volumetric",
+    .keys = mooney_rivlin_keys,
+    .read =
+        [](const ConfigTable& m) {
+          HyperelasticParameters p = read_volumetric(m);
+          p.second_invariant = m.number("second_invariant", range::fraction);
+          return make(m, "mooney_rivlin", p);
+        },
+};
+
+constexpr MaterialLaw ogden{
+    .name = "ogden",
+    .description = "finite strain: powers of the principal stretches (Ogden 1972); exponents, shares, volumetric",
+    .keys = power_keys,
+    .read = [](const ConfigTable& m) { return make(m, "ogden", read_powers(m)); },
+};
+
+constexpr MaterialLaw lopez_pamies{
+    .name = "lopez_pamies",
+    .description = "finite strain: powers of I1 (Lopez-Pamies 2010); exponents, shares, volumetric",
+    .keys = power_keys,
+    .read = [](const ConfigTable& m) { return make(m, "lopez_pamies", read_powers(m)); },
+};
+
+constexpr MaterialLaw saint_venant_kirchhoff{
+    .name = "saint_venant_kirchhoff",
+    .description = "large rotations of small strains: linear in Green's strain",
+    .keys = {},
+    .read = [](const ConfigTable& m) { return make(m, "saint_venant_kirchhoff", {.elasticity = read_elasticity(m)}); },
+};
+
+constexpr MaterialLaw table[] = {linear_elastic, endochronic, j2_plasticity, neo_hookean,
+                                 mooney_rivlin,  ogden,       lopez_pamies,  saint_venant_kirchhoff};
 
 }  // namespace
 

@@ -1,0 +1,87 @@
+#include "solver/fracture/finite_newton.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+constexpr Index most_steps = 30, most_cuts = 8;
+constexpr double linear_reduction = 0.02;  // of the residual by one linear solve
+constexpr double little_descent = 1.0 - 1e-4;
+
+/// Finds the part of a Newton step that may be taken.
+struct LineSearch {
+  const CellStiffness& stiffness;
+  const CellHistories& start;
+  MomentumSolver& momentum;
+  FractureState& state;
+  const std::vector<Vector> from;
+
+  void go_back(double before, double& residual) {
+    state.displacement = from;
+    if (!stiffness.relinearise(start, momentum.balance(), state)) return;
+    stiffness.set(state, momentum);
+    residual = before;
+  }
+
+  // The state's displacements are those at the end of the whole step. Returns the fraction of it, or 0; `residual` is
+  // that which has to fall, unless it is small enough, and becomes the one there.
+  double shorten(double small_enough, double& residual) {
+    const std::vector<Vector> whole = state.displacement;
+    const double before = residual;
+    residual = std::numeric_limits<double>::infinity();
+    double part = 1.0;
+    for (Index cuts = 0; cuts <= most_cuts; ++cuts, part *= 0.5) {
+      parallel_for(static_cast<Index>(whole.size()), [&](Index i) {
+        state.displacement[as_size(i)] = from[as_size(i)] + part * (whole[as_size(i)] - from[as_size(i)]);
+      });
+      if (!stiffness.relinearise(start, momentum.balance(), state)) continue;
+      stiffness.set(state, momentum);
+      residual = momentum.residual(state.load, state.displacement);
+      if (residual < little_descent * before || residual <= small_enough) return part;
+    }
+    if (std::isfinite(residual)) go_back(before, residual);
+    return 0.0;
+  }
+};
+
+}  // namespace
+
+Equilibrium solve_finite(const CellStiffness& stiffness, const CellHistories& start,
+                         const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum, FractureState& state) {
+  Equilibrium total;
+  double target = 0.0;
+  for (Index step = 0; step < most_steps; ++step) {
+    LineSearch search{stiffness, start, momentum, state, state.displacement};
+    const Equilibrium linear = momentum.solve(state.load,
+                                              {.reduction = std::max(linear_reduction, 0.5 * tolerance.reduction),
+                                               .ceiling = std::numeric_limits<double>::max(),
+                                               .floor = 0.3 * tolerance.floor,
+                                               .most_iterations = tolerance.most_iterations - total.iterations,
+                                               .good_enough = 0.0},
+                                              state.displacement);
+    if (step == 0) {
+      total.initial_residual = linear.initial_residual;
+      target = std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * linear.initial_residual));
+    }
+    total.iterations += linear.iterations;
+    total.residual = linear.initial_residual;
+    if (linear.iterations == 0) {
+      total.converged = linear.converged;
+      break;
+    }
+    const double part = search.shorten(target, total.residual);
+    total.converged = part == 1.0 && total.residual <= target;
+    const bool stagnates = total.residual <= tolerance.good_enough && total.residual > 0.5 * linear.initial_residual;
+    if (part == 0.0 && total.residual > std::max(target, tolerance.good_enough))
+      total.residual = std::numeric_limits<double>::infinity();
+    if (total.converged || stagnates || part == 0.0 || total.iterations >= tolerance.most_iterations) break;
+  }
+  return total;
+}
+
+}  // namespace pfdm
