@@ -47,6 +47,49 @@ TEST(MaterialLaws, AnUndamageableBarOfJ2PlasticityHardensAsItsLawSays) {
   EXPECT_GT(curve.column("plastic_dissipation_J").back(), 0.0);
 }
 
+// Plane strain, held sideways: P_11 of diag(l, 1, 1) is mu (l - 1/l) + lambda (l - 1), to a stretch of 2.
+TEST(MaterialLaws, AnUndamageableBarOfRubberStretchesAsItsLawSays) {
+  std::string text = with_material("law = \"neo_hookean\"\ndamageable = false\n");
+  text = replaced(text, "0.015 mm", "20 mm");
+  text = replaced(text, "frames_at = [\"0.006 mm\"]", "frames_at = [\"20 mm\"]");
+  const TemporaryCase directory(text);
+  const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
+  const auto &force = curve.column("force_x_N"), &u = curve.column("displacement_m");
+  const double E = 30e9, nu = 0.2, mu = E / (2.0 + 2.0 * nu), lambda = 2.0 * mu * nu / (1.0 - 2.0 * nu);
+  for (std::size_t i = 1; i < u.size(); ++i) {
+    const double l = 1.0 + u[i] / 20e-3, P = mu * (l - 1.0 / l) + lambda * (l - 1.0);
+    EXPECT_NEAR(force[i], P * 1e-6, 1e-5 * P * 1e-6) << i;
+  }
+  const double l = 1.0 + u.back() / 20e-3;
+  const double W = 0.5 * mu * (l * l - 1.0) - mu * std::log(l) + 0.5 * lambda * (l - 1.0) * (l - 1.0);
+  EXPECT_NEAR(curve.column("elastic_energy_J").back(), W * 20e-9, 1e-5 * W * 20e-9);
+  bool shown = false;
+  for (const auto& entry : std::filesystem::directory_iterator(directory.results() / "fields"))
+    shown = shown || content_of(entry.path()).find("deformation_gradient") != std::string::npos;
+  EXPECT_TRUE(shown);
+}
+
+struct Refused {
+  const char *keys, *split, *message;
+};
+
+TEST(MaterialLaws, WhatFiniteStrainCannotBeCombinedWithIsRefused) {
+  for (const auto& [keys, split, message] :
+       {Refused{"law = \"neo_hookean\"\n", "spectral", "only be combined with the energy splits"},
+        Refused{"law = \"neo_hookean\"\nsecond_invariant = 0.5\n", "none", "not known here"},
+        Refused{"law = \"ogden\"\nexponents = [2.0]\nshares = [0.5]\n", "none", "sum to 0.5"},
+        Refused{"law = \"ogden\"\nexponents = [2.0]\n", "none", "\"shares\" is missing"},
+        Refused{"law = \"saint_venant_kirchhoff\"\n", "volumetric_deviatoric", "not convex"}}) {
+    SCOPED_TRACE(message);
+    const TemporaryCase directory(replaced(with_material(keys), "\"none\"", "\"" + std::string(split) + "\""));
+    const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+  }
+}
+
 TEST(MaterialLaws, FramesShowTheHistory) {
   const TemporaryCase directory(with_material(j2));
   ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);

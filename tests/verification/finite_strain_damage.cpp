@@ -1,0 +1,136 @@
+// Damage at finite strain: the homogeneous response, a broken layer that is stretched without end, a bar that breaks.
+
+#include "tests/verification/support.h"
+
+#include "physics/materials/hyperelastic.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm::verification {
+namespace {
+
+const IsotropicElasticity rubber = from_young_poisson(1.5e6, 0.45);
+
+// A block along x, held on all its sides: F = diag(stretch, 1, 1).
+Mesh block(Index n, double length) {
+  return make_box_hexes({.axes = {{{{.length = length, .n = n}}, {{.length = 0.25, .n = 1}}, {{.length = 0.25, .n = 1}}}},
+                         .regions = {},
+                         .slits = {}});
+}
+
+std::vector<BoundaryCondition> pulled(double elongation) {
+  std::vector<BoundaryCondition> boundary{moved("xmax", {true, true, true}, [elongation](const Vector&, double t) -> Vector {
+    return elongation * t * Vector::UnitX();
+  })};
+  boundary.push_back(symmetry_on("xmin"));
+  for (const char* patch : {"ymin", "ymax", "zmin", "zmax"})
+    boundary.push_back(moved(patch, {false, true, true}, [](const Vector&, double) { return Vector(0.0, 0.0, 0.0); }));
+  return boundary;
+}
+
+FractureModel damaged_model(std::string_view crack, double Gc, double ell, std::vector<BoundaryCondition> boundary,
+                            std::string_view split) {
+  FractureModel model = elastic_model({rubber}, std::move(boundary));
+  model.regions[0].material = make_hyperelastic("neo_hookean", {.elasticity = rubber});
+  model.regions[0].damageable = true;
+  model.regions[0].Gc = Gc;
+  model.regions[0].ell = ell;
+  model.crack = &crack_geometry(crack);
+  model.degradation = degradation("quadratic");
+  model.split = energy_split(split);
+  return model;
+}
+
+// W and P_11 of diag(l, 1, 1), by hand.
+double energy_at(double l) {
+  return 0.5 * rubber.mu * (l * l - 1.0) - rubber.mu * std::log(l) + 0.5 * rubber.lambda * (l - 1.0) * (l - 1.0);
+}
+double stress_at(double l) { return rubber.mu * (l - 1.0 / l) + rubber.lambda * (l - 1.0); }
+
+std::size_t patch_number(const Mesh& mesh, const char* name) {
+  return static_cast<std::size_t>(&mesh.patch(name) - mesh.patches.data());
+}
+
+// AT2: d = 2 W/(2 W + Gc/ell), sigma = (1 - d)^2 P.
+TEST(FiniteStrainDamage, HomogeneousResponseToAStretchOfTwo) {
+  const Mesh mesh = block(2, 1.0);
+  const double Gc = 4e7, ell = 100.0;  // too long to localise
+  FractureModel model = damaged_model("AT2", Gc, ell, pulled(1.0), "none");
+  FractureRun run(mesh, model, {.damage_tolerance = 1e-8, .energy_tolerance = 1e-10, .equilibrium_tolerance = 1e-9},
+                  {.initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
+  double worst = 0.0;
+  const FractureState end = run_to_end(run, [&](const FractureState& state, const StepReport& report) {
+    if (report.step == 0) return;
+    const double l = 1.0 + state.load, W = energy_at(l), d = 2.0 * W / (2.0 * W + Gc / ell);
+    const double g = (1.0 - 1e-6) * (1.0 - d) * (1.0 - d) + 1e-6;
+    const double force = report.reaction[patch_number(mesh, "xmax")].x() / 0.0625;
+    worst = std::max({worst, std::abs(force / (g * stress_at(l)) - 1.0), std::abs(report.max_damage / d - 1.0)});
+  });
+  report_row("homogeneous", {{"damage at the end", end.damage[0]}, {"largest relative error", worst}});
+  EXPECT_LE(worst, 1e-4);
+}
+
+// The middle layer is broken from the beginning: it takes the whole elongation, the halves stay as they are.
+TEST(FiniteStrainDamage, ABrokenLayerStretchesWithoutEnd) {
+  const Mesh mesh = block(21, 1.0);
+  FractureModel model = damaged_model("AT2", 100.0, 0.05, pulled(2.0), "volumetric_deviatoric");
+  model.initial_damage = CellField<double>(as_size(mesh.n_cells()), 0.0);
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (std::abs(mesh.cell_centre[c].x() - 0.5) < 0.03) model.initial_damage[c] = 1.0;
+  FractureRun run(mesh, model, {}, {.initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
+  StepReport last;
+  const FractureState end = run_to_end(run, [&](const FractureState&, const StepReport& report) { last = report; });
+  double left = 0.0, right = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    if (mesh.cell_centre[c].x() < 0.2) left = std::max(left, std::abs(end.displacement[as_size(c)].x()));
+    if (mesh.cell_centre[c].x() > 0.8) right = std::max(right, std::abs(end.displacement[as_size(c)].x() - 2.0));
+  }
+  const double force = last.reaction[patch_number(mesh, "xmax")].x() / 0.0625 / stress_at(3.0);
+  report_row("broken layer, elongation 2", {{"left half", left}, {"right half", right}, {"force", force}});
+  EXPECT_LE(left, 2e-3);
+  EXPECT_LE(right, 2e-3);
+  EXPECT_LE(std::abs(force), 1e-3);
+}
+
+// A bar of AT1 damages from W = 3 Gc/(16 ell) on and breaks at once: until then work is stored, and the crack takes Gc.
+TEST(FiniteStrainDamage, WorkOfABreakingBarIsAccountedFor) {
+  const Mesh mesh = block(40, 1.0);
+  const double Gc = 1.5e5, ell = 0.1;
+  for (const char* split : {"none", "volumetric_deviatoric"}) {
+    FractureModel model = damaged_model("AT1", Gc, ell, pulled(1.2), split);
+    model.initial_damage = CellField<double>(as_size(mesh.n_cells()), 0.0);
+    for (Index c = 19; c < 21; ++c) model.initial_damage[c] = 0.05;
+    FractureRun run(mesh, model, {.damage_tolerance = 1e-5, .energy_tolerance = 1e-7},
+                    {.initial_increment = 0.02,
+                     .maximum_increment = 0.02,
+                     .energy_release = 0.02,
+                     .finest_increment = 1e-4,
+                     .stops = {}});
+    EnergyAccount first;
+    double broke_at = 0.0, before = 0.0, work = 0.0;
+    StepReport last;
+    run_to_end(run, [&](const FractureState& state, const StepReport& report) {
+      if (report.step == 0) first = report.energy;
+      if (report.max_damage < 0.95) broke_at = state.load;
+      work = std::max(work, report.energy.external_work);
+      if (report.max_damage < 0.95)
+        before = std::max(before, std::abs(left_over(first, report.energy)) / std::max(work, 1.0));
+      last = report;
+    });
+    report_row(fmt::format("bar, split {}", split), {{"breaks at", broke_at},
+                                                     {"unaccounted before", before},
+                                                     {"surface energy / Gc A", last.energy.fracture / (Gc * 0.0625)},
+                                                     {"iterations", double(run.staggered_iterations())},
+                                                     {"steps", double(last.step)}});
+    EXPECT_LE(before, 0.01);
+    EXPECT_GT(last.max_damage, 0.99);
+    EXPECT_NEAR(last.energy.fracture / (Gc * 0.0625), 1.0, 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace pfdm::verification
