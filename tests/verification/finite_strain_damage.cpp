@@ -17,15 +17,16 @@ const IsotropicElasticity rubber = from_young_poisson(1.5e6, 0.45);
 
 // A block along x, held on all its sides: F = diag(stretch, 1, 1).
 Mesh block(Index n, double length) {
-  return make_box_hexes({.axes = {{{{.length = length, .n = n}}, {{.length = 0.25, .n = 1}}, {{.length = 0.25, .n = 1}}}},
-                         .regions = {},
-                         .slits = {}});
+  return make_box_hexes(
+      {.axes = {{{{.length = length, .n = n}}, {{.length = 0.25, .n = 1}}, {{.length = 0.25, .n = 1}}}},
+       .regions = {},
+       .slits = {}});
 }
 
 std::vector<BoundaryCondition> pulled(double elongation) {
-  std::vector<BoundaryCondition> boundary{moved("xmax", {true, true, true}, [elongation](const Vector&, double t) -> Vector {
-    return elongation * t * Vector::UnitX();
-  })};
+  std::vector<BoundaryCondition> boundary{
+      moved("xmax", {true, true, true},
+            [elongation](const Vector&, double t) -> Vector { return elongation * t * Vector::UnitX(); })};
   boundary.push_back(symmetry_on("xmin"));
   for (const char* patch : {"ymin", "ymax", "zmin", "zmax"})
     boundary.push_back(moved(patch, {false, true, true}, [](const Vector&, double) { return Vector(0.0, 0.0, 0.0); }));

@@ -102,7 +102,9 @@ void check_histories(const FractureCase& fracture, const ConfigTable& root) {
   const auto unsuited = std::ranges::find_if(splits, [](const EnergySplit& split) { return !split.has_secant(); });
   for (const RegionMaterial& region : fracture.materials.by_region) {
     if (!region.material) continue;
-    if (unsuited != splits.end()) throw region.where.error(unsuited_split(*region.material, *unsuited));
+    const bool is_small_strain = !region.material->is_finite_strain();  // the others have splits of their own
+    if (is_small_strain && unsuited != splits.end())
+      throw region.where.error(unsuited_split(*region.material, *unsuited));
     if (region.material->depends_on_rate() && !(fracture.loading.duration > 0.0))
       throw region.where.error(
           "the material's rate factor requires the time in which the load parameter grows by 1: duration = \"1 s\" in "
