@@ -41,7 +41,7 @@ CellField<Tensor> MomentumOperator::reconstructed_gradients(const std::vector<Ve
 Tensor MomentumOperator::acoustic(Index cell, const Vector& n) const {
   if (!is_finite()) return acoustic_tensor(stiffness_[cell], n);
   constexpr double negligible = 1e-12;
-  const Tensor Q = symmetric_part(acoustic_tensor(tangent_[cell].A, n));
+  Tensor Q = symmetric_part(acoustic_tensor(tangent_[cell].A, n));
   if (is_positive(Q)) return Q;
   return with_eigenvalues(Q, [&](double e) { return std::max(std::abs(e), negligible * Q.norm()); });
 }
@@ -49,10 +49,10 @@ Tensor MomentumOperator::acoustic(Index cell, const Vector& n) const {
 // In polyhedra at finite strain the largest eigenvalue, lambda + 2 mu at small strain, is reduced to the jump's share
 // of it, as momentum_jump.cpp does; stretched along n it is smaller, and the share too small.
 Tensor MomentumOperator::capped_acoustic(Index cell, const Vector& n) const {
-  const Tensor Q = acoustic(cell, n);
+  Tensor Q = acoustic(cell, n);
   if (!is_finite() || jump_share_[cell] == 1.0) return Q;
   const Eigen::SelfAdjointEigenSolver<Tensor> eigen(Q, Eigen::EigenvaluesOnly);
-  const Vector e = eigen.eigenvalues();
+  const Vector& e = eigen.eigenvalues();
   const double most = std::max(jump_share_[cell] * e[2], (moderate_lambda + 2.0) * e[1]);
   return e[2] > most ? with_eigenvalues(Q, [&](double value) { return std::min(value, most); }) : Q;
 }
@@ -61,7 +61,7 @@ Tensor MomentumOperator::capped_acoustic(Index cell, const Vector& n) const {
 // where the stiffness of the cells differs.
 Tensor MomentumOperator::jump_tensor(const Link& link, double h_P, double h_N) const {
   const Tensor Q_P = acoustic(link.P, link.n), Q_N = acoustic(link.N, link.n);
-  const Tensor full = in_series(Q_P, h_P, Q_N, h_N);
+  Tensor full = in_series(Q_P, h_P, Q_N, h_N);
   if (!is_finite() || (jump_share_[link.P] == 1.0 && jump_share_[link.N] == 1.0)) return full;
   const double t_P = Q_P.trace(), t_N = Q_N.trace();
   const double theta = 1.0 - std::min(t_P, t_N) / std::max(t_P, t_N);

@@ -141,6 +141,7 @@ struct Strip {
                     {.end = 1.0, .initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
     state = run.initial_state();
     std::vector<Index> iterations;
+    iterations.reserve(static_cast<std::size_t>(n_steps));
     for (Index k = 0; k < n_steps; ++k) iterations.push_back(run.step(state).staggered_iterations);
     return iterations;
   }

@@ -24,6 +24,7 @@ std::shared_ptr<const Material> neo_hookean(const IsotropicElasticity& elasticit
 FractureModel finite_model(const std::vector<std::shared_ptr<const Material>>& by_region,
                            std::vector<BoundaryCondition> boundary) {
   std::vector<IsotropicElasticity> elasticity;
+  elasticity.reserve(by_region.size());
   for (const auto& material : by_region) elasticity.push_back(material->elasticity());
   FractureModel model = elastic_model(elasticity, std::move(boundary));
   for (std::size_t r = 0; r < by_region.size(); ++r) model.regions[r].material = by_region[r];

@@ -78,8 +78,8 @@ std::vector<std::string> files_taken(const ChainProgram& program, const ReadySte
 /// "sound" of a fit; empty for other jobs. Throws NoConvergence for one that has failed: nothing may be built on it.
 std::string verdict_of(const ReadyStep& ready, Log& log) {
   if (ready.step.job->name != "fit") return "";
-  const std::string verdict = read_json(
-      ready.outcome(), "fit", [](const auto& json) { return json.at("verdict").template get<std::string>(); });
+  std::string verdict = read_json(ready.outcome(), "fit",
+                                  [](const auto& json) { return json.at("verdict").template get<std::string>(); });
   if (verdict == "failed")
     throw NoConvergence(fmt::format("step {}: the fit has failed ({} says why); the chain ends here", ready.step.name,
                                     ready.outcome().string()));

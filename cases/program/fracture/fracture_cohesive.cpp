@@ -127,6 +127,7 @@ const InterfaceSettings* interface_asked_for(const FractureCase& fracture, const
   if (interfaces.empty() || !fracture.cohesive.bands.empty() || !fracture.cohesive.planes.empty()) return nullptr;
   if (!words.surface && interfaces.size() == 1) return &interfaces.front();
   std::vector<std::string> names;
+  names.reserve(interfaces.size());
   for (const InterfaceSettings& interface : interfaces) names.push_back(interface.name);
   const std::string there = fmt::format("available: {}", fmt::join(names, ", "));
   throw InputError(words.surface ? fmt::format("--surface: there is no surface \"{}\" ({})", *words.surface, there)

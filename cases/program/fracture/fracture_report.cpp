@@ -152,7 +152,7 @@ void add_specimens(Chart& chart, const std::vector<MeasuredCurve>& specimens, co
                               .y = in_unit(measured.as_recorded.y, y),
                               .style = SeriesStyle::dashed,
                               .colour = 7});
-    chart.series.push_back({.label = "measured, " + specimen.name, .x = at, .y = values, .colour = colour++});
+    chart.series.push_back({.label = specimen.name, .x = at, .y = values, .colour = colour++});
   }
 }
 
