@@ -89,7 +89,8 @@ std::string copy_steps(const CaseFile& chain, const fs::path& directory) {
   }
   std::string text = chain.text;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const auto& [old, place] = steps[i];
+    const CaseFile& old = steps[i].old;
+    const fs::path& place = steps[i].place;
     DataCopies data;
     const std::string own = with_paths(old, [&](const std::string& path) {
       for (const CopiedStep& other : steps) {

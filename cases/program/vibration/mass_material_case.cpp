@@ -180,7 +180,7 @@ constexpr FitMethod methods[] = {
 /// As ISO 8601 has it, so that dates sort.
 std::string read_date(const ConfigValue& value) {
   int year = 0, month = 0, day = 0, length = 0;
-  const std::string text = value.string();
+  std::string text = value.string();
   const bool fits = std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &length) == 3 && length == 10 &&
                     std::ssize(text) == length;
   const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
