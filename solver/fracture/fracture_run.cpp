@@ -1,6 +1,7 @@
 #include "solver/fracture/fracture_run.h"
 
 #include "physics/error.h"
+#include "solver/fracture/combinations.h"
 #include "solver/fracture/residual_stiffness.h"
 #include "solver/fracture/staggered.h"
 #include "solver/momentum/rigid_motion.h"
@@ -21,20 +22,6 @@ constexpr double bearable_share =
 constexpr double growth = 1.5, cut = 0.5;
 constexpr double aim = 0.7;              // of the limits on damage growth and energy release
 constexpr double load_rounding = 1e-12;  // of the load parameter
-
-void require_complete(const Mesh& mesh, const FractureModel& model) {
-  if (model.regions.size() != mesh.region_names.size())
-    throw InputError(
-        fmt::format("the mesh has {} regions, the model {}", mesh.region_names.size(), model.regions.size()));
-  if (model.crack == nullptr || !model.degradation.is_chosen() || !model.split.is_chosen())
-    throw InputError("the model names no crack geometric function, degradation or energy split");
-  for (std::size_t r = 0; r < model.regions.size(); ++r) {
-    const RegionModel& region = model.regions[r];
-    if (region.damageable && !(region.Gc > 0.0 && region.ell > 0.0))
-      throw InputError(
-          fmt::format("region \"{}\" can be damaged but has no positive toughness and length", mesh.region_names[r]));
-  }
-}
 
 /// An increment that was tried.
 struct Trial {
@@ -63,8 +50,7 @@ struct FractureRun::Parts {
         staggered(m, model, unknowns, settings),
         maximum_iterations(settings.maximum_iterations),
         residual_stiffness(model.residual_stiffness) {
-    require_plain_interfaces();
-    require_path(model);
+    require_combination(mesh, model, unknowns, loading);
     relax_initial_damage();
   }
 
@@ -73,104 +59,6 @@ struct FractureRun::Parts {
     if (model.initial_damage.size() == 0) return;
     model.initial_damage = staggered.damage_equation().relaxed(model.initial_damage);
     require_held(mesh, unknowns, model.initial_damage);
-  }
-
-  void require_plain_interfaces() const {
-    if (model.interfaces.empty()) return;
-    if (follows_faces() && std::ranges::any_of(model.regions, &RegionModel::damageable))
-      throw InputError(
-          "dissipation control (loading.maximum_dissipation) can be combined with cohesive interfaces only where no "
-          "region is damageable");
-  }
-
-  // Dissipation control requires displacements proportional to the load, a dissipation that only grows, and no
-  // dependence on time: the load may decrease.
-  void require_path(const FractureModel& m) const {
-    if (m.viscosity > 0.0 && !(loading.duration > 0.0))
-      throw InputError("viscosity (fracture.viscosity) requires loading.duration, the time in which t grows by 1");
-    for (const RegionModel& region : m.regions)
-      if (region.material && !m.is_finite_strain()) require_history(m, *region.material);
-    if (m.is_finite_strain()) require_finite(m);
-    if (m.has_strength()) require_strength(m);
-    if (!std::isfinite(loading.maximum_dissipation)) return;
-    if (m.viscosity > 0.0)
-      throw InputError(
-          "dissipation control (loading.maximum_dissipation) cannot be combined with viscosity: the load may decrease, "
-          "time cannot");
-    if (m.irreversibility != Irreversibility::bounds)
-      throw InputError("dissipation control (loading.maximum_dissipation) requires the irreversibility \"bounds\"");
-    for (const PatchCondition& on : unknowns.conditions) {
-      if (!on.condition.value) continue;
-      const Patch& patch = mesh.patches[as_size(on.patch)];
-      for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
-        const Vector full = on.condition.value(mesh.face_centre[f], loading.end);
-        const Vector half = on.condition.value(mesh.face_centre[f], 0.5 * loading.end);
-        if ((full - 2.0 * half).norm() > 1e-9 * full.norm())
-          throw InputError(
-              fmt::format("dissipation control (loading.maximum_dissipation) requires boundary values proportional to "
-                          "t; those of patch \"{}\" are not",
-                          patch.name));
-      }
-    }
-  }
-
-  // What has not been worked out for finite strain is refused.
-  void require_finite(const FractureModel& m) const {
-    const auto refuse = [](std::string_view what) {
-      throw InputError(fmt::format("materials of finite strain cannot be combined with {}", what));
-    };
-    for (std::size_t r = 0; r < m.regions.size(); ++r) {
-      const RegionModel& region = m.regions[r];
-      if (!region.material || !region.material->is_finite_strain())
-        throw InputError(fmt::format(
-            "region \"{}\" has a material of small strain and another region one of finite strain; give all "
-            "of them laws of finite strain (saint_venant_kirchhoff for stiff ones), or none",
-            mesh.region_names[r]));
-      const std::string_view split = m.split_of(region).name();
-      if (!region.damageable) continue;
-      if (split != "none" && split != "volumetric_deviatoric")
-        throw InputError(
-            fmt::format("materials of finite strain can only be combined with the energy splits \"none\" and "
-                        "\"volumetric_deviatoric\", not \"{}\"",
-                        split));
-      if (split != "none" && region.material->name() == "saint_venant_kirchhoff")
-        refuse(
-            "the energy split \"volumetric_deviatoric\" where their law is saint_venant_kirchhoff, which is not "
-            "convex");
-    }
-    if (m.has_strength()) refuse("the model \"strength\"");
-    if (!m.interfaces.empty()) refuse("cohesive interfaces");
-    if (unknowns.plane_stress) refuse("plane stress");
-    if (std::isfinite(loading.maximum_dissipation))
-      refuse("dissipation control (loading.maximum_dissipation): their displacements are not proportional to the load");
-  }
-
-  static void require_strength(const FractureModel& m) {
-    if (m.irreversibility == Irreversibility::history)
-      throw InputError("a strength model requires the irreversibility \"bounds\" or \"crack_set\"");
-    for (const RegionModel& region : m.regions) {
-      if (!region.damageable) continue;
-      if (region.material || m.degradation_of(region).name() != "quadratic")
-        throw InputError("a strength model requires linear elastic materials and the degradation \"quadratic\"");
-    }
-  }
-
-  void require_history(const FractureModel& m, const Material& law) const {
-    if (!m.is_isotropic())
-      throw InputError(
-          fmt::format("materials of the law \"{}\" can only be combined with energy splits that have isotropic secant "
-                      "moduli: {}",
-                      law.name(), splits_with_secant()));
-    if (law.depends_on_rate() && !(loading.duration > 0.0))
-      throw InputError(
-          fmt::format("a material of the law \"{}\" that depends on the rate requires loading.duration, the time in "
-                      "which t grows by 1",
-                      law.name()));
-    if (std::isfinite(loading.maximum_dissipation))
-      throw InputError(
-          fmt::format("dissipation control (loading.maximum_dissipation) cannot be combined with materials of the law "
-                      "\"{}\": their displacements are not proportional to the load",
-                      law.name()));
   }
 
   // At given damage and with boundary values that are, displacements are proportional to the load.

@@ -1,0 +1,17 @@
+#pragma once
+// What may be combined with what in a fracture run. Each check throws InputError that says what excludes what.
+
+#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/fracture_run.h"
+#include "solver/momentum/unknowns.h"
+
+namespace pfdm {
+
+/// Every region of the mesh has what the model needs of it.
+void require_complete(const Mesh& mesh, const FractureModel& model);
+
+/// Splits, materials, strength models, interfaces and the way the load is found.
+void require_combination(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
+                         const LoadingSettings& loading);
+
+}  // namespace pfdm
