@@ -156,14 +156,12 @@ constexpr const char* law_remarks[] = {
     "frame: n, the normal, from the particle outwards (of a plane: the normal given in [cohesive]); 1, the tangent of",
     "growing polar angle, away from the direction of the load; 2 = n x 1. Components are those of the outer side (of a",
     "plane: the side that n points to) against the inner one",
-    "separation_m, traction_Pa: along n; opening and tension are > 0. separation_1_m, traction_1_Pa: along 1; likewise "
-    "2",
+    "separation_m, traction_Pa: along n; opening and tension are > 0. Those with _1_: along 1; with _2_: along 2",
     "traction: at the middle of the column (of a plane: on it). separation: of the whole column, beyond elastic strain",
     "energy per area: int traction_Pa d separation_m, plus those of 1 and 2; surface_energy_J_per_m2: what damage took",
     "largest_damage: of the column's cells, 0 to 1",
-    "polar_angle_from_deg, polar_angle_to_deg: of n from the direction of the load, in degrees; the law is the mean of "
-    "the",
-    "places between them, in bins of 15 degrees",
+    "polar_angle_from_deg, polar_angle_to_deg: of n from the direction of the load, in degrees; the law is the mean",
+    "of the places between them, in bins of 15 degrees",
     "pfdm cohesive CASE --export FORMAT writes a law as input of other codes",
 };
 

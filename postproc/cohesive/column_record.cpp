@@ -151,6 +151,7 @@ std::vector<ColumnRecord> read_columns(const fs::path& folder) {
     if (fs::exists(entry.path() / places_file)) sets.push_back(entry.path());
   std::sort(sets.begin(), sets.end());
   std::vector<ColumnRecord> records;
+  records.reserve(sets.size());
   for (const fs::path& set : sets) records.push_back(read_record(set));
   return records;
 }

@@ -138,11 +138,10 @@ Figure energy_of(const Candidate& c, const ExportChoice& choice) {
         fmt::format("the law of \"{}\" is not known to its end ({}): give the interface's energy, as in --energy \"10 "
                     "J/m^2\", or run the case further",
                     c.record->name, why_open(c)));
-  const Figure whole = choice.energy
-                           ? Figure{*choice.energy, "given (--energy)"}
-                           : Figure{c.result->figures.surface_energy,
-                                    "surface energy that the columns dissipated, as the law is not seen to its end "
-                                    "(else --energy)"};
+  Figure whole = choice.energy ? Figure{*choice.energy, "given (--energy)"}
+                               : Figure{c.result->figures.surface_energy,
+                                        "surface energy that the columns dissipated, as the law is not seen to its end "
+                                        "(else --energy)"};
   if (whole.value > c.known.work * (1.0 + least_drop)) return whole;
   return {c.known.work, fmt::format("work up to where the law is no longer seen, as {} ({:.4g} J/m^2) is not more",
                                     whole.basis, whole.value)};

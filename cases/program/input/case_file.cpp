@@ -99,7 +99,7 @@ std::string case_name(const CaseFile& file) {
   constexpr std::string_view usual = "case";
   const auto directory = std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory));
   const bool in_results = file.stem != usual && directory.filename() == "results";
-  const std::string name = (in_results ? directory.parent_path() : directory).filename().string();
+  std::string name = (in_results ? directory.parent_path() : directory).filename().string();
   const std::string prefix = std::string(usual) + ".";
   if (file.stem == usual || file.stem.empty()) return name;
   return name + "." + (file.stem.starts_with(prefix) ? file.stem.substr(prefix.size()) : file.stem);
@@ -159,6 +159,7 @@ std::string with_paths(const CaseFile& file, const std::function<std::string(con
   const TomlValue root = parse_toml(file.text, "case.toml");
   const std::vector<const TomlValue*> values = values_that_name_files(root);
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const TomlValue* value : values) names.push_back(renamed(std::get<std::string>(value->value)));
   std::string text = file.text;
   for (std::size_t i = values.size(); i-- > 0;)  // from the end: what stands before stays put
