@@ -117,14 +117,7 @@ void compute(const PlateProgram& program, Session& session, const fs::path& fold
 
 void run_case(const PlateProgram& program, Session& session) {
   const auto compute_all = [&](const fs::path& folder, const Stopwatch& watch) -> std::string {
-    VibrationSummary summary{.case_name = program.name,
-                             .status = "complete",
-                             .version = session.version,
-                             .case_hash = program.hash,
-                             .threads = session.threads,
-                             .wall_seconds = 0.0,
-                             .figures = {},
-                             .tests = {}};
+    VibrationSummary summary = complete_summary(program.name, program.hash, session);
     compute(program, session, folder, summary);
     summary.wall_seconds = watch.seconds();
     write_vibration_summary(folder / summary_file, summary);

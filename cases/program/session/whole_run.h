@@ -3,6 +3,7 @@
 
 #include "cases/program/session/session.h"
 #include "cases/program/session/stopwatch.h"
+#include "postproc/curves/vibration_results.h"
 
 #include <filesystem>
 #include <functional>
@@ -22,6 +23,9 @@ struct WholeRun {
       results;  ///< files and folders of a run, beside summary.json: those of an earlier one go away
   std::function<void()> remove_more = nullptr;  ///< what else of an earlier run goes away; may be empty
 };
+
+/// What every run says of itself; time, figures and tests are to be added.
+VibrationSummary complete_summary(const std::string& name, const std::string& hash, const Session& session);
 
 /// Locks the results' folder, computes, and puts the results there. Throws ComputationError.
 void run_whole(const WholeRun& run, Session& session);

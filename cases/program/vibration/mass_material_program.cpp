@@ -205,14 +205,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
   require_parameters(c);
   const auto compute = [&](const fs::path& folder, const Stopwatch& watch) -> std::string {
     say_model(program, session.log);
-    VibrationSummary summary{.case_name = program.name,
-                             .status = "complete",
-                             .version = session.version,
-                             .case_hash = program.hash,
-                             .threads = session.threads,
-                             .wall_seconds = 0.0,
-                             .figures = {},
-                             .tests = {}};
+    VibrationSummary summary = complete_summary(program.name, program.hash, session);
     run_tests(program, session, folder, summary);
     const auto z0 = static_settling_point(c.model, standard_gravity);
     summary.figures = {{"mass_kg", c.model.mass},
