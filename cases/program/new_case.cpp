@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -78,32 +79,46 @@ struct CopiedStep {
   fs::path place;
 };
 
-/// What the steps take from each other stays so; other data are copied. The cases of the steps lie within the new
-/// directory, whose case.toml names them there.
+/// The new place of what lies in the results of a step; nothing of other files.
+std::optional<fs::path> place_in_results(const std::vector<CopiedStep>& steps, const fs::path& file) {
+  for (const CopiedStep& step : steps) {
+    const fs::path within = way_to(file, step.old.directory / "results");
+    if (!within.string().starts_with("..")) return step.place / "results" / within;
+  }
+  return std::nullopt;
+}
+
+void copy_step(const CopiedStep& step, const std::vector<CopiedStep>& steps) {
+  DataCopies data;
+  const std::string text = with_paths(step.old, [&](const std::string& path) {
+    const auto taken = place_in_results(steps, step.old.directory / path);
+    return taken ? way_to(*taken, step.place) : data.renamed(path, step.old.directory);
+  });
+  data.copy_to(step.place);
+  make_folder(step.place);
+  write_file(step.place / "case.toml", text);
+}
+
+/// What the steps take from each other stays so, a case that an earlier step writes too; other cases and data are
+/// copied. The cases of the steps lie within the new directory, whose case.toml names them there.
 std::string copy_steps(const CaseFile& chain, const fs::path& directory) {
   std::vector<CopiedStep> steps;
-  for (const ChainStep& step : read_chain_case(chain.config.root(), chain.directory).steps) {
-    const CaseFile old = open_case(step.where);
+  std::string text = chain.text;
+  const auto set_case = [&](std::size_t i, const fs::path& place) {
+    text = with_value(text, fmt::format("step[{}].case", i), quoted_toml(way_to(place, directory)));
+  };
+  const std::vector<ChainStep> old_steps = read_chain_case(chain.config.root(), chain.directory).steps;
+  for (std::size_t i = 0; i < old_steps.size(); ++i) {
+    if (const auto written = place_in_results(steps, old_steps[i].where)) {
+      set_case(i, *written);
+      continue;
+    }
+    const CaseFile old = open_case(old_steps[i].where);
     const std::string inside = way_to(old.directory, chain.directory);
     steps.push_back({old, directory / (inside.starts_with("..") ? fs::path(case_name(old)) : fs::path(inside))});
+    set_case(i, steps.back().place);
   }
-  std::string text = chain.text;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const CaseFile& old = steps[i].old;
-    const fs::path& place = steps[i].place;
-    DataCopies data;
-    const std::string own = with_paths(old, [&](const std::string& path) {
-      for (const CopiedStep& other : steps) {
-        const fs::path within = way_to(old.directory / path, other.old.directory / "results");
-        if (!within.string().starts_with("..")) return way_to(other.place / "results" / within, place);
-      }
-      return data.renamed(path, old.directory);
-    });
-    data.copy_to(place);
-    make_folder(place);
-    write_file(place / "case.toml", own);
-    text = with_value(text, fmt::format("step[{}].case", i), quoted_toml(way_to(place, directory)));
-  }
+  for (const CopiedStep& step : steps) copy_step(step, steps);
   return text;
 }
 

@@ -197,5 +197,18 @@ TEST_F(Chain, IsCopiedWithItsSteps) {
   EXPECT_FALSE(fs::exists(outside.results()));
 }
 
+// A step may be a case that an earlier one writes, as case.fitted.toml: it is not there yet, and no copy of it is made.
+TEST_F(Chain, IsCopiedWithoutTheCasesThatItsStepsWrite) {
+  directory.write("case.toml", replaced(chain, "case = \"sample\"", "case = \"block/results/case.fitted.toml\""));
+  const TemporaryCase place("");
+  const fs::path made = place.path() / "new";
+  const Outcome copied = run({"init", made.string(), "--like", directory.path().string()});
+  ASSERT_EQ(copied.status, 0) << copied.err;
+  EXPECT_THAT(content_of(made / "case.toml"),
+              AllOf(HasSubstr("case = \"block\""), HasSubstr("case = \"block/results/case.fitted.toml\"")));
+  EXPECT_TRUE(fs::exists(made / "block" / "case.toml"));
+  EXPECT_FALSE(fs::exists(made / "block" / "results"));
+}
+
 }  // namespace
 }  // namespace pfdm
