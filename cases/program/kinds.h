@@ -1,19 +1,13 @@
 #pragma once
-// The kinds of case, and what each can do. To add one, write its `read` and a row of the table at the foot of
-// kinds.cpp.
+// The kinds of case that this program knows.
 
-#include "cases/program/session/runnable_case.h"
+#include "cases/program/session/case_kind.h"
 
 #include <span>
-#include <string_view>
 
 namespace pfdm {
 
-struct CaseKind {
-  std::string_view name;
-  std::string_view description;
-  RunnableCase (*read)(const CaseFile& file);
-};
+/// The table of the executable: all kinds (kinds.cpp), or the one of pfdm_fracture (fracture_kind_only.cpp).
 std::span<const CaseKind> case_kinds();
 
 /// Throws InputError for whatever is wrong with the file, unknown keys included.

@@ -1,26 +1,8 @@
 #include "cases/program/listing.h"
 
-#include "cases/program/fracture/boundary_reader.h"
-#include "cases/program/fracture/fracture_case.h"
-#include "cases/program/fracture/interface_reader.h"
-#include "cases/program/fracture/material_laws.h"
-#include "cases/program/fracture/mesh_recipe.h"
 #include "cases/program/input/case_file.h"
 #include "cases/program/kinds.h"
-#include "cases/program/plate/plate_case.h"
-#include "cases/program/vibration/mass_material_case.h"
-#include "physics/crack_geometry.h"
-#include "physics/degradation.h"
-#include "physics/energy_split.h"
-#include "physics/hardening.h"
-#include "physics/mass_material.h"
-#include "physics/softening_law.h"
-#include "physics/strength_model.h"
-#include "physics/traction_separation.h"
 #include "postproc/curves/summary.h"
-#include "postproc/fields/energy_release_rate.h"
-#include "solver/homogenization/homogenization.h"
-#include "solver/point/endochronic_identification.h"
 
 #include <fmt/format.h>
 
@@ -32,10 +14,9 @@
 namespace pfdm {
 namespace {
 
-template <class Row>
-void list_table(std::ostream& out, std::string_view heading, std::span<const Row> rows) {
-  out << heading << '\n';
-  for (const Row& row : rows) out << fmt::format("  {:<22} {}\n", row.name, row.description);
+void list_table(std::ostream& out, const LawTable& table) {
+  out << table.heading << '\n';
+  for (const auto& [name, description] : table.rows) out << fmt::format("  {:<22} {}\n", name, description);
 }
 
 namespace fs = std::filesystem;
@@ -114,32 +95,12 @@ std::optional<std::string> nearest_case(const fs::path& where, const fs::path& c
 }
 
 void list_laws(std::ostream& out) {
-  list_table(out, "kinds of case (kind)", case_kinds());
-  list_table(out, "mesh generators ([mesh] generator)", mesh_generators());
-  list_table(out, "cells ([mesh] cells)", cell_kinds());
-  list_table(out, "laws of materials ([materials.NAME] law)", material_laws());
-  list_table(out, "crack geometric functions ([fracture] model)", crack_geometries());
-  list_table(out, "strength models ([fracture] model)", strength_laws());
-  list_table(out, "degradation functions ([fracture] degradation)", degradations());
-  list_table(out, "softening laws of the rational degradation ([fracture] softening)", softening_laws());
-  list_table(out, "traction-separation laws that pfdm cohesive fits", traction_separation_laws());
-  list_table(out, "laws of cohesive interfaces ([[interface]] law)", interface_laws());
-  list_table(out, "their mixed mode ([[interface]] mixed_mode)", mixed_modes());
-  list_table(out, "energy splits ([fracture] split)", energy_splits());
-  list_table(out, "hardening of the endochronic law ([material.hardening] law)", hardening_laws());
-  list_table(out, "rate factors of the endochronic law ([material.rate] law)", rate_factors());
-  list_table(out, "identification of the endochronic law ([fit] method)", identification_methods());
-  list_table(out, "linear solvers ([solver] linear)", linear_solvers());
-  list_table(out, "boundary conditions ([[boundary]] type)", boundary_types());
-  list_table(out, "boundary conditions of a homogenisation ([homogenization] boundary)", homogenization_loadings());
-  list_table(out, "displacement fields (displacement = { field = ... })", displacement_fields());
-  list_table(out, "energy release rate of a crack ([[output.energy_release_rate]] shape)", region_shapes());
-  list_table(out, "mass-material models ([model] structure)", model_structures());
-  list_table(out, "excitations ([[test]] excitation.type)", excitation_types());
-  list_table(out, "identification ([fit] method)", fit_methods());
-  list_table(out, "supports of a plate ([[support]] type)", support_types());
-  list_table(out, "motions of its base ([base] motion)", base_motions());
-  list_table(out, "cooling of its surface ([[cooling]] type)", cooling_types());
+  list_table(out, law_table("kinds of case (kind)", case_kinds()));
+  for (const CaseKind& kind : case_kinds()) {
+    if (kind.laws == nullptr) continue;
+    out << fmt::format("\n{}: {}\n", kind.name, kind.description);
+    for (const LawTable& table : kind.laws()) list_table(out, table);
+  }
 }
 
 }  // namespace pfdm

@@ -5,16 +5,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 namespace pfdm {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 constexpr int format = 1;
-// In the order of FitReport::own. Each is also the name of the object that has what only this kind tells.
-const std::array<std::string, 3> kinds{"fracture", "endochronic", "mass_material"};
 
 Json to_json(const std::vector<FittedParameter>& parameters) {
   Json list = Json::array();
@@ -93,17 +89,6 @@ Json to_json(const FractureFindings& own) {
           {"runs", {{"made", own.runs.made}, {"reused", own.runs.reused}, {"not_converged", own.runs.failed}}}};
 }
 
-Json to_json(const EndochronicFindings& own) {
-  Json json = Json::object();
-  for (const TriedKernel& t : own.tried)
-    json["kernel_terms_tried"].push_back(
-        {{"terms", t.n_terms}, {"rms_misfit_Pa", t.rms}, {"bayesian_information", t.information}});
-  for (const StaggeredRound& r : own.rounds)
-    json["staggered_rounds"].push_back(
-        {{"rms_misfit_after_hardening_Pa", r.rms_after_hardening}, {"rms_misfit_after_kernel_Pa", r.rms_after_kernel}});
-  return json;
-}
-
 std::optional<FittedProfile> profile_in(const Json& parameter) {
   if (!parameter.contains("profile")) return std::nullopt;
   const Json& p = parameter.at("profile");
@@ -156,13 +141,17 @@ FitReport report_in(const Json& json) {
                              .message = json.at("message"),
                              .parameters = parameters_in(json.at("parameters"))},
                    .experiments = {},
-                   .own = {}};
+                   .own = {.kind = json.at("kind")}};
   for (const Json& e : json.at("experiments")) report.experiments.push_back(experiment_in(e));
-  if (json.at("kind").get<std::string>() == kinds[2]) report.own = vibration_findings_in(json.at(kinds[2]));
+  report.own.json = json.at(report.own.kind).dump();
   return report;
 }
 
 }  // namespace
+
+OwnFindings own_findings(const FractureFindings& findings) {
+  return {.kind = "fracture", .json = to_json(findings).dump()};
+}
 
 FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result) {
   FitFindings found{.converged = result.converged,
@@ -236,9 +225,8 @@ ExperimentMisfit experiment_misfit(std::string name, std::size_t n_data, const E
 }
 
 void write_fit_json(const std::filesystem::path& file, const FitReport& report) {
-  const std::string& kind = kinds[report.own.index()];
   Json json = {{"format", format},
-               {"kind", kind},
+               {"kind", report.own.kind},
                {"case", report.case_name},
                {"version", report.version},
                {"case_hash", report.case_hash},
@@ -247,7 +235,7 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
                {"confidence", report.confidence}};
   json.update(to_json(report.found));
   json["experiments"] = to_json(report.experiments);
-  json[kind] = std::visit([](const auto& own) { return to_json(own); }, report.own);
+  json[report.own.kind] = Json::parse(report.own.json);
   write_file(file, json.dump(2) + "\n");
 }
 

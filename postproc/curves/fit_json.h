@@ -2,15 +2,12 @@
 // fit.json of every kind of case: what a fit found, how sure it is, and how it came there. What is to be said of all
 // fits belongs in FitReport and write_fit_json(); cases/README.md lists the fields.
 
-#include "postproc/curves/vibration_fit.h"
 #include "solver/calibration/calibration_verdict.h"
-#include "solver/point/endochronic_identification.h"
 
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace pfdm {
@@ -98,17 +95,17 @@ struct RunCounts {
   int made = 0, reused = 0, failed = 0;
 };
 
-// What only one kind of case tells.
+/// What only one kind of case tells: an object of fit.json that has its name.
+struct OwnFindings {
+  std::string kind;         ///< of the case, as in "fracture"
+  std::string json = "{}";  ///< text of the object
+};
 
 struct FractureFindings {
   std::vector<FitStage> earlier_stages;
   RunCounts runs;
 };
-
-struct EndochronicFindings {
-  std::vector<TriedKernel> tried;
-  std::vector<StaggeredRound> rounds;
-};
+OwnFindings own_findings(const FractureFindings& findings);
 
 struct FitReport {
   std::string case_name;
@@ -119,13 +116,13 @@ struct FitReport {
   double confidence = 0.95;  ///< of the intervals
   FitFindings found;
   std::vector<ExperimentMisfit> experiments;
-  std::variant<FractureFindings, EndochronicFindings, VibrationFindings> own;
+  OwnFindings own;
 };
 
 /// Written whole or not at all; numbers that are not finite become null. Throws ComputationError.
 void write_fit_json(const std::filesystem::path& path, const FitReport& report);
 
-/// What reports show of it: parameters, experiments, method and time, and what a mass-material fit tells of its own.
+/// What reports show of it: parameters, experiments, method and time, and what the kind of case tells of its own.
 /// Throws InputError that names the file for what is no such fit, or one of another format.
 FitReport read_fit_json(const std::filesystem::path& path);
 

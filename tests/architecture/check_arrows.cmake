@@ -19,7 +19,9 @@ set(rooms
     "solver/vibration: physics solver solver/linear solver/calibration"
     "postproc/files: physics"
     "postproc/fields: physics mesh solver solver/momentum solver/fracture postproc/files"
-    "postproc/curves: physics solver/fracture solver/calibration solver/point solver/vibration postproc/files"
+    "postproc/curves: physics solver/fracture solver/calibration postproc/files"
+    "postproc/point: physics solver/point postproc/files postproc/curves"
+    "postproc/vibration: physics solver/vibration solver/calibration postproc/files postproc/curves"
     "postproc/cohesive: physics mesh solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"
     "postproc/exports: physics mesh solver/fracture postproc/files postproc/cohesive"
     "postproc/page: physics postproc/files"
@@ -28,18 +30,17 @@ set(rooms
     "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page cases/program/input"
     "cases/program/studies: physics solver/calibration postproc/files postproc/curves cases/program/input cases/program/session"
     "cases/program/chain: physics postproc/files postproc/page cases/program/input cases/program/session"
-    "cases/program/point: physics solver/point postproc/files postproc/curves postproc/page cases/program/input
+    "cases/program/point: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
      cases/program/session"
-    "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/page postproc/records
+    "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/vibration postproc/page postproc/records
      cases/program/input cases/program/session"
     "cases/program/fracture: physics mesh solver/momentum solver/fracture postproc/files postproc/fields postproc/curves
-     postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies
-     cases/program/point"
+     postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics postproc/files
-     postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/fracture"
+     postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session cases/program/fracture"
     "cases/program/homogenization: physics mesh solver/momentum solver/fracture solver/homogenization postproc/files
      postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/fracture"
-    "cases/program: physics solver solver/homogenization solver/point postproc/files postproc/fields postproc/curves postproc/exports
+    "cases/program: physics solver postproc/files postproc/curves postproc/exports
      cases/program/input cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture
      cases/program/homogenization cases/program/plate cases/program/chain")
 set(complaints "")

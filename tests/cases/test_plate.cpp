@@ -2,6 +2,7 @@
 
 #include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/vibration/vibration_fit.h"
 #include "tests/cases/temporary_case.h"
 
 #include <fmt/format.h>
@@ -183,12 +184,13 @@ TEST(Plate, TakesItsModulusFromAFit) {
                 .found = {},
                 .experiments = {},
                 .own = {}};
-  fit.own = VibrationFindings{.structure = "1",
-                              .passivity = {},
-                              .orders = {},
-                              .modulus = {{10.0, 20e6, 4e6}, {50.0, 20e6, 4e6}, {51.0, 80e6, 8e6}, {900.0, 80e6, 8e6}},
-                              .ogden = {},
-                              .repeats = {}};
+  fit.own = own_findings(
+      VibrationFindings{.structure = "1",
+                        .passivity = {},
+                        .orders = {},
+                        .modulus = {{10.0, 20e6, 4e6}, {50.0, 20e6, 4e6}, {51.0, 80e6, 8e6}, {900.0, 80e6, 8e6}},
+                        .ogden = {},
+                        .repeats = {}});
   std::filesystem::create_directories(directory.path() / "sample");
   write_fit_json(directory.path() / "sample" / "fit.json", fit);
   summary_of(directory);

@@ -1,5 +1,7 @@
 #include "physics/error.h"
 #include "postproc/curves/fit_json.h"
+#include "postproc/point/endochronic_fit.h"
+#include "postproc/vibration/vibration_fit.h"
 #include "tests/postproc/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -48,12 +50,12 @@ nlohmann::json written(const FitReport& report) {
 TEST(FitJson, ComesBackAsItWasWritten) {
   const TemporaryFolder folder;
   FitReport report = example();
-  report.own = VibrationFindings{.structure = "4b",
-                                 .passivity = {},
-                                 .orders = {},
-                                 .modulus = {{100.0, 3e6, 2e5}},
-                                 .ogden = OgdenFit{.terms = {{1e5, 2.0}}},
-                                 .repeats = {}};
+  report.own = own_findings(VibrationFindings{.structure = "4b",
+                                              .passivity = {},
+                                              .orders = {},
+                                              .modulus = {{100.0, 3e6, 2e5}},
+                                              .ogden = OgdenFit{.terms = {{1e5, 2.0}}},
+                                              .repeats = {}});
   write_fit_json(folder / "fit.json", report);
   const FitReport back = read_fit_json(folder / "fit.json");
   EXPECT_EQ(back.case_hash, "0123");
@@ -66,18 +68,18 @@ TEST(FitJson, ComesBackAsItWasWritten) {
   EXPECT_EQ(back.experiments[0].absolute->rms, 0.5);
   EXPECT_FALSE(back.experiments[1].fitted);
   EXPECT_FALSE(back.experiments[1].absolute);
-  const auto& own = std::get<VibrationFindings>(back.own);
-  EXPECT_EQ(own.structure, "4b");
-  EXPECT_EQ(own.modulus[0].loss, 2e5);
-  EXPECT_EQ(own.ogden->terms[0].alpha, 2.0);
+  const auto own = vibration_findings(back.own);
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->structure, "4b");
+  EXPECT_EQ(own->modulus[0].loss, 2e5);
+  EXPECT_EQ(own->ogden->terms[0].alpha, 2.0);
 }
 
 TEST(FitJson, HasTheSameFieldsForEveryKind) {
   FitReport report = example();
   std::vector<std::set<std::string>> fields;
-  for (const decltype(report.own)& own :
-       {decltype(report.own)(FractureFindings{}), decltype(report.own)(EndochronicFindings{}),
-        decltype(report.own)(VibrationFindings{})}) {
+  for (const OwnFindings& own :
+       {own_findings(FractureFindings{}), own_findings(EndochronicFindings{}), own_findings(VibrationFindings{})}) {
     report.own = own;
     const nlohmann::json json = written(report);
     const std::string kind = json["kind"];
@@ -88,6 +90,12 @@ TEST(FitJson, HasTheSameFieldsForEveryKind) {
   }
   EXPECT_EQ(fields[0], fields[1]);
   EXPECT_EQ(fields[0], fields[2]);
+}
+
+TEST(FitJson, TellsVibrationFindingsOfNoOtherKind) {
+  EXPECT_FALSE(vibration_findings(own_findings(FractureFindings{})));
+  EXPECT_THAT(message_of<InputError>([] { vibration_findings({.kind = "mass_material", .json = "{}"}); }),
+              HasSubstr("no findings of a mass-material fit"));
 }
 
 TEST(FitJson, WritesWhatIsNotKnownAsNull) {

@@ -194,9 +194,7 @@ void report(const ChainProgram& program, Session& session) {
   write_report(chain_page(record, program.chain.title), session);
 }
 
-}  // namespace
-
-RunnableCase read_chain_program(const CaseFile& file) {
+RunnableCase read_program(const CaseFile& file) {
   const auto program = std::make_shared<const ChainProgram>(
       ChainProgram{.name = case_name(file), .chain = read_chain_case(file.config.root(), file.directory)});
   return {.title = program->chain.title,
@@ -204,6 +202,14 @@ RunnableCase read_chain_program(const CaseFile& file) {
           .run = [program](Session& session) { run_case(*program, session); },
           .report = [program](Session& session) { report(*program, session); },
           .goes_on = true};
+}
+
+}  // namespace
+
+CaseKind chain_kind() {
+  return {.name = "chain",
+          .description = "jobs of other cases one after the other, which take numbers from each other's results",
+          .read = read_program};
 }
 
 }  // namespace pfdm

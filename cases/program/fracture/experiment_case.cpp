@@ -1,6 +1,6 @@
 #include "cases/program/fracture/experiment_case.h"
 
-#include "cases/program/point/control_values.h"
+#include "cases/program/input/csv_columns.h"
 
 #include <fmt/format.h>
 

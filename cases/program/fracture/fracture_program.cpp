@@ -4,6 +4,7 @@
 #include "cases/program/fracture/fracture_case.h"
 #include "cases/program/fracture/fracture_cohesive.h"
 #include "cases/program/fracture/fracture_comparison.h"
+#include "cases/program/fracture/fracture_laws.h"
 #include "cases/program/fracture/fracture_report.h"
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/fracture/progress.h"
@@ -340,9 +341,7 @@ void report(const FractureProgram& program, Session& session) {
                session);
 }
 
-}  // namespace
-
-RunnableCase read_fracture_program(const CaseFile& file) {
+RunnableCase read_program(const CaseFile& file) {
   auto program = std::make_shared<FractureProgram>(FractureProgram{.file = file});
   program->fracture = read_fracture_case(file.config.root(), file.directory);
   program->experiment = read_experiment(file.config.root(), file.directory);
@@ -370,6 +369,15 @@ RunnableCase read_fracture_program(const CaseFile& file) {
                                      "[experiment] with the measured curve",
                                      "bar_fit");
   return runnable;
+}
+
+}  // namespace
+
+CaseKind fracture_kind() {
+  return {.name = "fracture",
+          .description = "phase-field fracture of a solid under load",
+          .read = read_program,
+          .laws = fracture_laws};
 }
 
 }  // namespace pfdm

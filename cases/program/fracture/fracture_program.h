@@ -1,10 +1,10 @@
 #pragma once
 // A case of kind "fracture" as a program: what check, mesh and run do with it.
 
-#include "cases/program/session/runnable_case.h"
+#include "cases/program/session/case_kind.h"
 
 namespace pfdm {
 
-RunnableCase read_fracture_program(const CaseFile& file);
+CaseKind fracture_kind();
 
 }  // namespace pfdm

@@ -1,6 +1,6 @@
 #include "cases/program/fracture/material_laws.h"
 
-#include "cases/program/point/endochronic_material.h"
+#include "cases/program/input/endochronic_reader.h"
 #include "physics/materials/endochronic_material.h"
 #include "physics/materials/hyperelastic.h"
 #include "physics/materials/j2_plasticity.h"

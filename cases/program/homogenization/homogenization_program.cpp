@@ -138,9 +138,7 @@ void report(const HomogenizationProgram& program, Session& session) {
   write_report(homogenization_page(program.homogenization.title, program.name, program.hash, session.results), session);
 }
 
-}  // namespace
-
-RunnableCase read_homogenization_program(const CaseFile& file) {
+RunnableCase read_program(const CaseFile& file) {
   auto program = std::make_shared<HomogenizationProgram>(
       HomogenizationProgram{.file = file, .homogenization = {}, .name = {}, .hash = {}, .mesh_hash = {}});
   program->homogenization = read_homogenization_case(file.config.root(), file.directory);
@@ -159,6 +157,19 @@ RunnableCase read_homogenization_program(const CaseFile& file) {
                 if (session.meshes != nullptr) find_mesh(*program, *session.meshes, session.log);
               },
           .data_files = data};
+}
+
+std::vector<LawTable> laws() {
+  return {law_table("boundary conditions ([homogenization] boundary)", homogenization_loadings())};
+}
+
+}  // namespace
+
+CaseKind homogenization_kind() {
+  return {.name = "homogenize",
+          .description = "effective linear stiffness of a meshed composite by six load cases",
+          .read = read_program,
+          .laws = laws};
 }
 
 }  // namespace pfdm

@@ -4,6 +4,7 @@
 #include "cases/program/input/path_reader.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/vibration/vibration_fit.h"
 
 #include <fmt/format.h>
 
@@ -65,8 +66,8 @@ std::vector<ModulusAt> modulus_of_csv(const fs::path& file) {
 
 std::vector<ModulusAt> modulus_of_fit(const fs::path& file) {
   const FitReport fit = read_fit_json(file);
-  const auto* findings = std::get_if<VibrationFindings>(&fit.own);
-  if (findings == nullptr || findings->modulus.empty())
+  const auto findings = vibration_findings(fit.own);
+  if (!findings || findings->modulus.empty())
     throw InputError(
         fmt::format("{}: this fit tells no Young's modulus over frequency; a mass-material case with "
                     "[sample] does",

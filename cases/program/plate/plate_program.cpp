@@ -88,7 +88,7 @@ void run_heating(const PlateCase& c, const PlateRun& run, const Mesh& mesh, doub
                   {"heat_balance_error", missing / last.work}});
 }
 
-void compute(const PlateProgram& program, Session& session, const fs::path& folder, VibrationSummary& summary) {
+void compute(const PlateProgram& program, Session& session, const fs::path& folder, FiguresSummary& summary) {
   const PlateCase& c = program.parsed;
   const Mesh mesh = c.mesh.make();
   const PlateRun run(c, mesh);
@@ -117,10 +117,10 @@ void compute(const PlateProgram& program, Session& session, const fs::path& fold
 
 void run_case(const PlateProgram& program, Session& session) {
   const auto compute_all = [&](const fs::path& folder, const Stopwatch& watch) -> std::string {
-    VibrationSummary summary = complete_summary(program.name, program.hash, session);
+    FiguresSummary summary = complete_summary(program.name, program.hash, session);
     compute(program, session, folder, summary);
     summary.wall_seconds = watch.seconds();
-    write_vibration_summary(folder / summary_file, summary);
+    write_figures_summary(folder / summary_file, summary);
     return summary.status;
   };
   run_whole({.name = program.name,
@@ -131,9 +131,7 @@ void run_case(const PlateProgram& program, Session& session) {
             session);
 }
 
-}  // namespace
-
-RunnableCase read_plate_program(const CaseFile& file) {
+RunnableCase read_program(const CaseFile& file) {
   auto program = std::make_shared<PlateProgram>();
   program->parsed = read_plate_case(file.config.root(), file.directory);
   program->name = case_name(file);
@@ -144,6 +142,21 @@ RunnableCase read_plate_program(const CaseFile& file) {
           .run = [program](Session& session) { run_case(*program, session); },
           .report = [program](Session& session) { write_report(plate_page(*program, session), session); },
           .data_files = program->parsed.data_files};
+}
+
+std::vector<LawTable> laws() {
+  return {law_table("supports ([[support]] type)", support_types()),
+          law_table("motions of the base ([base] motion)", base_motions()),
+          law_table("cooling of the surface ([[cooling]] type)", cooling_types())};
+}
+
+}  // namespace
+
+CaseKind plate_kind() {
+  return {.name = "plate",
+          .description = "viscoelastic plate or other body on a shaker: modes, frequency response, heating",
+          .read = read_program,
+          .laws = laws};
 }
 
 }  // namespace pfdm

@@ -1,10 +1,10 @@
 #pragma once
 // A case of kind "plate" as a program: what check, mesh, run and report do with it.
 
-#include "cases/program/session/runnable_case.h"
+#include "cases/program/session/case_kind.h"
 
 namespace pfdm {
 
-RunnableCase read_plate_program(const CaseFile& file);
+CaseKind plate_kind();
 
 }  // namespace pfdm

@@ -2,7 +2,7 @@
 // The files of a run of a plate case, and what the page reads back of them. SI units, units in the names.
 
 #include "cases/program/plate/plate_case.h"
-#include "postproc/curves/vibration_results.h"
+#include "postproc/curves/figures_summary.h"
 #include "postproc/fields/pvd.h"
 #include "postproc/fields/vtu_writer.h"
 #include "solver/dynamics/modes.h"

@@ -1,9 +1,10 @@
 #include "cases/program/point/endochronic_fit_results.h"
 
+#include "cases/program/input/endochronic_reader.h"
 #include "cases/program/point/endochronic_comparison.h"
-#include "cases/program/point/endochronic_material.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
+#include "postproc/point/endochronic_fit.h"
 
 #include <fmt/format.h>
 
@@ -110,7 +111,7 @@ FitFindings write_fit_results(const fs::path& results, const CaseFile& file, con
                          .wall_seconds = run.wall_seconds,
                          .found = judged(fit, found),
                          .experiments = experiment_misfits(fit, found.fit.law),
-                         .own = EndochronicFindings{found.tried, found.rounds}};
+                         .own = own_findings(EndochronicFindings{found.tried, found.rounds})};
   write_fit_json(results / "fit.json", report);
   return report.found;
 }

@@ -1,5 +1,6 @@
 #include "cases/program/point/endochronic_loading.h"
 
+#include "cases/program/input/csv_columns.h"
 #include "cases/program/point/control_values.h"
 
 #include <fmt/format.h>

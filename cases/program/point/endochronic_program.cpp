@@ -7,9 +7,9 @@
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/whole_run.h"
-#include "postproc/curves/history_csv.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/folder_lock.h"
+#include "postproc/point/history_csv.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -145,9 +145,7 @@ void fit_case(const EndochronicProgram& program, Session& session) {
   say_verdict(findings, session);
 }
 
-}  // namespace
-
-RunnableCase read_endochronic_program(const CaseFile& file) {
+RunnableCase read_program(const CaseFile& file) {
   auto program =
       std::make_shared<EndochronicProgram>(EndochronicProgram{.file = file, .point = {}, .name = {}, .hash = {}});
   program->point = read_endochronic_case(file.config.root(), file.directory);
@@ -174,6 +172,21 @@ RunnableCase read_endochronic_program(const CaseFile& file) {
     runnable.fit = runnable.compare = job_without_table(
         file, "fit", "[[fit.experiments]] with the measured strains and stresses", "endochronic_calibration");
   return runnable;
+}
+
+std::vector<LawTable> laws() {
+  return {law_table("hardening ([material.hardening] law)", hardening_laws()),
+          law_table("rate factors ([material.rate] law)", rate_factors()),
+          law_table("identification ([fit] method)", identification_methods())};
+}
+
+}  // namespace
+
+CaseKind endochronic_kind() {
+  return {.name = "endochronic",
+          .description = "one material point of endochronic plasticity under mixed control",
+          .read = read_program,
+          .laws = laws};
 }
 
 }  // namespace pfdm

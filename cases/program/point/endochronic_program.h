@@ -1,10 +1,10 @@
 #pragma once
 // A case of kind "endochronic" as a program: what check, run and fit do with it.
 
-#include "cases/program/session/runnable_case.h"
+#include "cases/program/session/case_kind.h"
 
 namespace pfdm {
 
-RunnableCase read_endochronic_program(const CaseFile& file);
+CaseKind endochronic_kind();
 
 }  // namespace pfdm

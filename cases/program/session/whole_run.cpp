@@ -31,7 +31,7 @@ void remove_earlier(const WholeRun& run, const fs::path& folder) {
 
 }  // namespace
 
-VibrationSummary complete_summary(const std::string& name, const std::string& hash, const Session& session) {
+FiguresSummary complete_summary(const std::string& name, const std::string& hash, const Session& session) {
   return {.case_name = name,
           .status = "complete",
           .version = session.version,

@@ -3,7 +3,7 @@
 
 #include "cases/program/session/session.h"
 #include "cases/program/session/stopwatch.h"
-#include "postproc/curves/vibration_results.h"
+#include "postproc/curves/figures_summary.h"
 
 #include <filesystem>
 #include <functional>
@@ -25,7 +25,7 @@ struct WholeRun {
 };
 
 /// What every run says of itself; time, figures and tests are to be added.
-VibrationSummary complete_summary(const std::string& name, const std::string& hash, const Session& session);
+FiguresSummary complete_summary(const std::string& name, const std::string& hash, const Session& session);
 
 /// Locks the results' folder, computes, and puts the results there. Throws ComputationError.
 void run_whole(const WholeRun& run, Session& session);

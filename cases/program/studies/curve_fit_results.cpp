@@ -108,15 +108,15 @@ void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& p
 
 void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Session& session) {
   const fs::path& results = session.results;
-  const FitReport report{
-      .case_name = job.name,
-      .case_hash = job.hash,
-      .version = session.version,
-      .method = "force_displacement",
-      .wall_seconds = found.seconds,
-      .found = merged(found.stages),
-      .experiments = misfits(found),
-      .own = FractureFindings{.earlier_stages = {found.stages.begin(), found.stages.end() - 1}, .runs = found.runs}};
+  const FitReport report{.case_name = job.name,
+                         .case_hash = job.hash,
+                         .version = session.version,
+                         .method = "force_displacement",
+                         .wall_seconds = found.seconds,
+                         .found = merged(found.stages),
+                         .experiments = misfits(found),
+                         .own = own_findings(FractureFindings{
+                             .earlier_stages = {found.stages.begin(), found.stages.end() - 1}, .runs = found.runs})};
   write_csv(results / fitted_curve_file, curve_table(job, found));
   const CaseFile fitted = with_values(job.file, found.parameters, found.values);
   write_file(results / "case.fitted.toml",

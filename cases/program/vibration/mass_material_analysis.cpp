@@ -1,9 +1,9 @@
 #include "cases/program/vibration/mass_material_analysis.h"
 
-#include "postproc/curves/analysis_json.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/records/signal_table.h"
+#include "postproc/vibration/analysis_json.h"
 #include "solver/vibration/identification.h"
 #include "solver/vibration/signals_filter.h"
 

@@ -8,6 +8,7 @@
 #include "postproc/curves/fit_json.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
+#include "postproc/vibration/vibration_fit.h"
 #include "solver/vibration/identification.h"
 
 #include <fmt/format.h>
@@ -170,7 +171,7 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   report.case_name = program.name;
   report.version = session.version;
   report.case_hash = program.hash;
-  report.own = found.own;
+  report.own = own_findings(found.own);
   report.wall_seconds = watch.seconds();
   session.log.open_file(session.results / "fit.log", false);
   remove_comparison(session.results);

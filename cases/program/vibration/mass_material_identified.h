@@ -4,6 +4,7 @@
 #include "cases/program/session/log.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "postproc/curves/fit_json.h"
+#include "postproc/vibration/vibration_fit.h"
 #include "solver/vibration/identification.h"
 
 #include <limits>

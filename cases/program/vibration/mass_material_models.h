@@ -3,8 +3,8 @@
 
 #include "cases/program/vibration/mass_material_identified.h"
 #include "cases/program/vibration/mass_material_jobs.h"
-#include "postproc/curves/vibration_models.h"
 #include "postproc/page/report_page.h"
+#include "postproc/vibration/vibration_models.h"
 
 #include <filesystem>
 #include <string>

@@ -7,8 +7,8 @@
 #include "cases/program/vibration/mass_material_case.h"
 #include "cases/program/vibration/mass_material_jobs.h"
 #include "cases/program/vibration/mass_material_report.h"
+#include "postproc/curves/figures_summary.h"
 #include "postproc/curves/summary.h"
-#include "postproc/curves/vibration_results.h"
 #include "postproc/records/signal_table.h"
 #include "solver/vibration/mass_material_simulation.h"
 #include "solver/vibration/signals_spectra.h"
@@ -170,14 +170,13 @@ NamedFigures figures_of(const SimulatedTest& t) {
 /// What a run left there, of tests that the case no longer has as well.
 std::vector<std::string> files_of_earlier(const fs::path& results) {
   std::vector<std::string> files;
-  for (const std::string& test : tests_of_vibration_summary(results / summary_file))
+  for (const std::string& test : tests_of_figures_summary(results / summary_file))
     for (const std::string_view ending : {std::string_view(), result_endings[0], result_endings[1]})
       files.push_back(fmt::format("{}{}.csv", test, ending));
   return files;
 }
 
-void run_tests(const MassMaterialProgram& program, Session& session, const fs::path& folder,
-               VibrationSummary& summary) {
+void run_tests(const MassMaterialProgram& program, Session& session, const fs::path& folder, FiguresSummary& summary) {
   const MassMaterialCase& c = program.parsed;
   for (std::size_t i = 0; i < c.tests.size(); ++i) {
     const VibrationTest& test = c.tests[i];
@@ -205,7 +204,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
   require_parameters(c);
   const auto compute = [&](const fs::path& folder, const Stopwatch& watch) -> std::string {
     say_model(program, session.log);
-    VibrationSummary summary = complete_summary(program.name, program.hash, session);
+    FiguresSummary summary = complete_summary(program.name, program.hash, session);
     run_tests(program, session, folder, summary);
     const auto z0 = static_settling_point(c.model, standard_gravity);
     summary.figures = {{"mass_kg", c.model.mass},
@@ -213,7 +212,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
                        {"static_stiffness_N_per_m", static_stiffness(c.model)},
                        {"static_settling_point_m", z0 ? *z0 : std::nan("")}};
     summary.wall_seconds = watch.seconds();
-    write_vibration_summary(folder / summary_file, summary);
+    write_figures_summary(folder / summary_file, summary);
     return summary.status;
   };
   run_whole({.name = program.name,
@@ -225,9 +224,7 @@ void run_case(const MassMaterialProgram& program, Session& session) {
             session);
 }
 
-}  // namespace
-
-RunnableCase read_mass_material_program(const CaseFile& file) {
+RunnableCase read_program(const CaseFile& file) {
   auto program =
       std::make_shared<MassMaterialProgram>(MassMaterialProgram{.file = file, .parsed = {}, .name = {}, .hash = {}});
   program->parsed = read_mass_material_case(file.config.root(), file.directory);
@@ -245,6 +242,21 @@ RunnableCase read_mass_material_program(const CaseFile& file) {
                 write_test_pages(*program, session);
               },
           .data_files = program->parsed.data_files};
+}
+
+std::vector<LawTable> laws() {
+  return {law_table("mass-material models ([model] structure)", model_structures()),
+          law_table("excitations ([[test]] excitation.type)", excitation_types()),
+          law_table("identification ([fit] method)", fit_methods())};
+}
+
+}  // namespace
+
+CaseKind mass_material_kind() {
+  return {.name = "mass_material",
+          .description = "mass on a sample on a shaker: simulation and identification",
+          .read = read_program,
+          .laws = laws};
 }
 
 }  // namespace pfdm

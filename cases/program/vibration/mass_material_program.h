@@ -1,10 +1,10 @@
 #pragma once
 // A case of kind "mass_material" as a program: what check, run and fit do with it.
 
-#include "cases/program/session/runnable_case.h"
+#include "cases/program/session/case_kind.h"
 
 namespace pfdm {
 
-RunnableCase read_mass_material_program(const CaseFile& file);
+CaseKind mass_material_kind();
 
 }  // namespace pfdm

@@ -5,6 +5,7 @@
 #include "cases/program/vibration/mass_material_models.h"
 #include "cases/program/vibration/vibration_charts.h"
 #include "postproc/curves/fit_json.h"
+#include "postproc/vibration/vibration_fit.h"
 #include "solver/vibration/identification.h"
 
 #include <fmt/format.h>
@@ -33,10 +34,10 @@ struct VibrationStory {
   std::vector<VibrationRecord> records;
   std::size_t shown = 0;  // the record with the largest level
   std::optional<FitReport> fit{};
+  std::optional<VibrationFindings> findings{};  // of the fit
   std::optional<Model> model{};
   std::optional<VectorXd> predicted{};  // z'' [m/s^2]
   const VibrationRecord& record() const { return records[shown]; }
-  const VibrationFindings* findings() const { return fit ? &std::get<VibrationFindings>(fit->own) : nullptr; }
 };
 
 std::optional<Model> model_of(const MassMaterialCase& c, bool fitted, const fs::path& results) {
@@ -56,6 +57,7 @@ VibrationStory story_of(const MassMaterialProgram& program, Session& session) {
     story.records.push_back(record_of(test, session.results, session.log));
   const auto level = [](const VibrationRecord& r) { return rms_of(r.base); };
   story.shown = static_cast<std::size_t>(std::ranges::max_element(story.records, {}, level) - story.records.begin());
+  if (story.fit) story.findings = vibration_findings(story.fit->own);
   story.model = model_of(program.parsed, story.fit.has_value(), session.results);
   if (story.model) story.predicted = predicted_response(story.model->parameters, story.record());
   return story;
@@ -110,7 +112,7 @@ std::string with_bracketed_unit(const std::string& name) {
 }
 
 Table model_table(const VibrationStory& story) {
-  const std::string structure = story.fit ? story.findings()->structure : story.program.parsed.structure;
+  const std::string structure = story.findings ? story.findings->structure : story.program.parsed.structure;
   Table table{.caption = fmt::format("Model {}", structure), .rows = {}, .has_header = true};
   if (story.fit) {
     table.caption += fmt::format(", fit {}", verdict_text(story.fit->found));
@@ -118,8 +120,8 @@ Table model_table(const VibrationStory& story) {
     for (const FittedParameter& p : story.fit->found.parameters)
       table.rows.push_back({with_bracketed_unit(p.name), shown(p.estimate),
                             std::isfinite(p.lower) ? fmt::format("{} to {}", shown(p.lower), shown(p.upper)) : "-"});
-    if (const auto& ogden = story.findings()->ogden)
-      for (const OgdenTerm& term : ogden->terms)
+    if (story.findings && story.findings->ogden)
+      for (const OgdenTerm& term : story.findings->ogden->terms)
         table.rows.push_back({"Ogden: mu, alpha", shown(term.mu, "Pa"), shown(term.alpha)});
   } else if (story.model) {
     table.rows.push_back({"parameter", "value"});
@@ -286,10 +288,10 @@ ReportPage mass_material_page(const MassMaterialProgram& program, Session& sessi
   page.rows.push_back({.blocks = {base_chart(record), response_chart(record), excerpt_chart(story)}});
   page.rows.push_back({.blocks = {magnitude_chart(story, measured, model), phase_chart(story, measured, model)}});
   PageRow last{.blocks = {density_chart(record, measured), coherence_chart(record, measured)}};
-  const VibrationFindings* findings = story.findings();
-  if (findings != nullptr && !findings->modulus.empty()) last.blocks.emplace_back(modulus_chart(findings->modulus));
+  const auto& findings = story.findings;
+  if (findings && !findings->modulus.empty()) last.blocks.emplace_back(modulus_chart(findings->modulus));
   page.rows.push_back(std::move(last));
-  if (findings != nullptr && findings->repeats) add_repeats(page, *findings->repeats);
+  if (findings && findings->repeats) add_repeats(page, *findings->repeats);
   if (const auto models = find_of_case(session.results / models_file, program.hash, read_model_comparison))
     add_models(page, *models, record, segments, session.results);
   for (const char* log : {"run.log", "fit.log"})

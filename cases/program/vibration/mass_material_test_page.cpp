@@ -4,8 +4,8 @@
 #include "cases/program/session/report_parts.h"
 #include "cases/program/vibration/mass_material_analysis.h"
 #include "cases/program/vibration/vibration_charts.h"
-#include "postproc/curves/analysis_json.h"
 #include "postproc/page/page_drawing.h"
+#include "postproc/vibration/analysis_json.h"
 #include "solver/vibration/identification.h"
 #include "solver/vibration/signals_filter.h"
 

@@ -1,4 +1,4 @@
-#include "postproc/curves/history_csv.h"
+#include "postproc/point/history_csv.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "postproc/curves/vibration_models.h"
+#include "postproc/vibration/vibration_models.h"
 
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/json.h"

@@ -1,4 +1,4 @@
-#include "postproc/curves/analysis_json.h"
+#include "postproc/vibration/analysis_json.h"
 
 #include "physics/mass_material.h"
 #include "postproc/files/atomic_file.h"

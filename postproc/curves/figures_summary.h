@@ -1,6 +1,6 @@
 #pragma once
-// summary.json of the mass-material model and of plates. SI units, units in the names. Files are written whole or not
-// at all; numbers that are not finite become null.
+// summary.json of a run that has no force-displacement curve. SI units, units in the names. Files are written whole or
+// not at all; numbers that are not finite become null.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,7 @@ struct NamedFigures {
   std::map<std::string, std::int64_t> counts{};
 };
 
-struct VibrationSummary {
+struct FiguresSummary {
   std::string case_name;
   std::string status;
   std::string version;
@@ -24,11 +24,11 @@ struct VibrationSummary {
   int threads = 0;
   double wall_seconds = 0.0;
   std::map<std::string, double> figures;  ///< of the whole case
-  std::vector<NamedFigures> tests;        ///< of a plate none
+  std::vector<NamedFigures> tests;        ///< of a vibration case
 };
-void write_vibration_summary(const std::filesystem::path& path, const VibrationSummary& summary);
+void write_figures_summary(const std::filesystem::path& path, const FiguresSummary& summary);
 
 /// The names of the tests whose results a summary tells of; none if the file is no such summary.
-std::vector<std::string> tests_of_vibration_summary(const std::filesystem::path& path);
+std::vector<std::string> tests_of_figures_summary(const std::filesystem::path& path);
 
 }  // namespace pfdm

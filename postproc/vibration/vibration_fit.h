@@ -1,10 +1,9 @@
 #pragma once
 // What fit.json tells of the mass-material model alone. SI units, units in the names.
 
+#include "postproc/curves/fit_json.h"
 #include "solver/vibration/identification_repeats.h"
 #include "solver/vibration/ogden_fit.h"
-
-#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
@@ -28,8 +27,10 @@ struct VibrationFindings {
   std::optional<RepeatedIdentification> repeats;
 };
 
-nlohmann::ordered_json to_json(const VibrationFindings& findings);
-/// Without what no report shows: passivity and orders.
-VibrationFindings vibration_findings_in(const nlohmann::ordered_json& json);
+OwnFindings own_findings(const VibrationFindings& findings);
+
+/// Without what no report shows: passivity and orders; nothing of a fit of another kind of case. Throws InputError for
+/// text that is no such findings.
+std::optional<VibrationFindings> vibration_findings(const OwnFindings& own);
 
 }  // namespace pfdm

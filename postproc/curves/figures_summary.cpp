@@ -1,4 +1,4 @@
-#include "postproc/curves/vibration_results.h"
+#include "postproc/curves/figures_summary.h"
 
 #include "postproc/curves/summary.h"
 #include "postproc/files/atomic_file.h"
@@ -22,7 +22,7 @@ Json to_json(const std::vector<NamedFigures>& tests) {
 
 }  // namespace
 
-void write_vibration_summary(const std::filesystem::path& path, const VibrationSummary& s) {
+void write_figures_summary(const std::filesystem::path& path, const FiguresSummary& s) {
   Json json = {{"case", s.case_name},          {"status", s.status},
                {"version", s.version},         {"case_hash", s.case_hash},
                {"threads", s.threads},         {"wall_seconds", s.wall_seconds},
@@ -32,7 +32,7 @@ void write_vibration_summary(const std::filesystem::path& path, const VibrationS
   write_file(path, json.dump(2) + "\n");
 }
 
-std::vector<std::string> tests_of_vibration_summary(const std::filesystem::path& path) {
+std::vector<std::string> tests_of_figures_summary(const std::filesystem::path& path) {
   try {
     return read_json(path, "summary", [](const Json& json) {
       std::vector<std::string> names;

@@ -1,4 +1,4 @@
-#include "cases/program/point/endochronic_material.h"
+#include "cases/program/input/endochronic_reader.h"
 
 #include "cases/program/input/law_reader.h"
 

@@ -1,4 +1,4 @@
-#include "postproc/curves/vibration_fit.h"
+#include "postproc/vibration/vibration_fit.h"
 
 #include "postproc/files/json.h"
 
@@ -122,7 +122,7 @@ OgdenFit ogden_in(const Json& json) {
   return fit;
 }
 
-}  // namespace
+constexpr const char* kind = "mass_material";
 
 Json to_json(const VibrationFindings& f) {
   return {{"structure", f.structure},
@@ -135,7 +135,7 @@ Json to_json(const VibrationFindings& f) {
           {"repeatability", f.repeats ? to_json(*f.repeats) : Json()}};
 }
 
-VibrationFindings vibration_findings_in(const Json& json) {
+VibrationFindings findings_in(const Json& json) {
   VibrationFindings findings{
       .structure = json.at("structure"), .passivity = {}, .orders = {}, .modulus = {}, .ogden = {}, .repeats = {}};
   for (const Json& row : json.at("youngs_modulus"))
@@ -144,6 +144,19 @@ VibrationFindings vibration_findings_in(const Json& json) {
   if (!json.at("ogden").is_null()) findings.ogden = ogden_in(json.at("ogden"));
   if (!json.at("repeatability").is_null()) findings.repeats = repeats_in(json.at("repeatability"));
   return findings;
+}
+
+}  // namespace
+
+OwnFindings own_findings(const VibrationFindings& findings) { return {.kind = kind, .json = to_json(findings).dump()}; }
+
+std::optional<VibrationFindings> vibration_findings(const OwnFindings& own) {
+  if (own.kind != kind) return std::nullopt;
+  try {
+    return findings_in(Json::parse(own.json));
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("these are no findings of a mass-material fit: {}", error.what()));
+  }
 }
 
 }  // namespace pfdm
