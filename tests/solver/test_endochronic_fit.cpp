@@ -83,7 +83,7 @@ TEST(EndochronicFit, TransientGivesTheHardeningPointByPoint) {
   for (const HardeningPoint& p : points)
     largest = std::max(largest, std::abs(p.f / truth.hardening(p.zeta, 0.0).f - 1.0));
   std::printf("largest relative error of f: %.2g\n", largest);
-  EXPECT_LE(largest, 1e-6);
+  EXPECT_LE(largest, 1e-11);
   const EndochronicIdentification found = identification_method("hardening").identify(start, {data}, {});
   EXPECT_NEAR(found.fit.law.hardening.with_path.p[0], 3.0, 1e-6);
   EXPECT_NEAR(found.fit.law.hardening.with_path.p[1], 6.0, 1e-6);
