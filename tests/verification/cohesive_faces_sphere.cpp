@@ -80,7 +80,7 @@ PartOfSphere sector() {
           .sides = {axisymmetric_on("front"), axisymmetric_on("back"), symmetry_on("equator")}};
 }
 
-void expect_lames_shells_and_the_law(const PartOfSphere& part) {
+void expect_lames_shells_and_the_law(const PartOfSphere& part, double most_of_load) {
   const Sphere sphere;
   const Mesh& mesh = part.mesh;
   const double end = sphere.outside(1.05 * 2.0 * Sphere::Gc / Sphere::ft).u;
@@ -122,14 +122,14 @@ void expect_lames_shells_and_the_law(const PartOfSphere& part) {
   report_row("sphere with cohesive faces", {{"largest error of the load", worst_load},
                                             {"of the opening/final", worst_opening / final_opening},
                                             {"opening reached/final", most / final_opening}});
-  EXPECT_LE(worst_load, 5e-3);
+  EXPECT_LE(worst_load, most_of_load);
   EXPECT_LE(worst_opening, 5e-3 * final_opening);
   EXPECT_GT(most, final_opening);
 }
 
-TEST(SphereWithCohesiveFaces, OpensAsLamesShellsAndTheLaw) { expect_lames_shells_and_the_law(narrow_cone()); }
+TEST(SphereWithCohesiveFaces, OpensAsLamesShellsAndTheLaw) { expect_lames_shells_and_the_law(narrow_cone(), 1.5e-3); }
 
-TEST(SphereWithCohesiveFaces, OpensAlikeInAnAxisymmetricSector) { expect_lames_shells_and_the_law(sector()); }
+TEST(SphereWithCohesiveFaces, OpensAlikeInAnAxisymmetricSector) { expect_lames_shells_and_the_law(sector(), 4e-3); }
 
 // The same on tetrahedra and polyhedra: the closed form, of a separation in the law's softening part, prescribed on the
 // surface of a cube.
@@ -199,9 +199,12 @@ TEST(SphereWithCohesiveFaces, OpensEvenlyInACube) {
 TEST(SphereWithCohesiveFaces, OpensMoreExactlyInAFinerCube) {
   const OpenedInACube coarse = opened_in_a_cube(sphere_in_cube(2, 0, 2.0, 0.5), "coarse"),
                       fine = opened_in_a_cube(sphere_in_cube(4, 0, 2.0, 0.25), "fine");
-  EXPECT_LT(std::abs(fine.opening - 1.0), 0.6 * std::abs(coarse.opening - 1.0));
-  EXPECT_LT(std::abs(fine.traction - 1.0), 0.6 * std::abs(coarse.traction - 1.0));
-  EXPECT_LT(fine.worst, coarse.worst);
+  EXPECT_NEAR(coarse.opening, 1.0, 0.2);
+  EXPECT_NEAR(coarse.traction, 1.0, 0.2);
+  EXPECT_LT(std::abs(fine.opening - 1.0), 0.3 * std::abs(coarse.opening - 1.0));
+  EXPECT_LT(std::abs(fine.traction - 1.0), 0.3 * std::abs(coarse.traction - 1.0));
+  EXPECT_LT(fine.worst, 0.1);
+  EXPECT_LT(fine.worst, 0.3 * coarse.worst);
 }
 
 }  // namespace
