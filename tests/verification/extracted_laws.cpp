@@ -85,9 +85,10 @@ TEST_P(ExtractedFromBar, IsTheProducedLaw) {
   EXPECT_NEAR(figures.normal_energy, area, 1e-3 * area);
   EXPECT_LE(std::abs(figures.tangential_energy), 1e-9 * area);
   EXPECT_TRUE(std::isnan(figures.initial_stiffness)) << "a rigid rise";
-  EXPECT_LE(fits.front().rms, 0.02);
+  // Cornelissen's law is none of those that are fitted.
+  EXPECT_EQ(fits.front().law, softening == "cornelissen" ? "hyperbolic" : softening);
+  EXPECT_LE(fits.front().rms, softening == "cornelissen" ? 0.015 : 0.0015);
   if (softening == "linear") {
-    EXPECT_EQ(fits.front().law, "linear");
     EXPECT_NEAR(figures.surface_energy, Bar::Gc, 0.02 * Bar::Gc);
   }
 }
@@ -111,7 +112,13 @@ FractureState state_with(const Bar& bar, const Profile& profile) {
   return state;
 }
 
-void expect_profile_law(const std::string& name, const std::vector<Profile>& profiles) {
+// Largest errors of the law and the strength, over the strength, and of the area, over Gc; the bulk's share of what
+// the columns lengthen at the strength.
+struct LawBounds {
+  double law, strength, area, bulk;
+};
+
+void expect_profile_law(const std::string& name, const std::vector<Profile>& profiles, const LawBounds& bounds) {
   // The strain of a nearly broken bar is a peak of width 2 (1 - d)^1.5 ell.
   const Bar bar({.law = name,
                  .cells_per_length = 10,
@@ -133,22 +140,23 @@ void expect_profile_law(const std::string& name, const std::vector<Profile>& pro
                         std::abs(state.separation[0] - profiles[i].separation) * slope / bar.strength()});
   }
   const CohesiveFigures figures = figures_of(extraction.record(), law);
-  report_row("extracted from a bar, " + name,
-             {{"largest error/strength", largest},
-              {"strength/closed form's", figures.strength / bar.strength()},
-              {"area/Gc", figures.normal_energy / Bar::Gc},
-              {"surface energy/Gc", figures.surface_energy / Bar::Gc},
-              {"bulk's share of 40 ell's separation at the strength",
-               figures.bulk_separation / (figures.bulk_separation + figures.critical_separation)}});
-  EXPECT_LE(largest, 1e-3);
-  EXPECT_NEAR(figures.strength, bar.strength(), 0.01 * bar.strength());
-  EXPECT_NEAR(figures.normal_energy, Bar::Gc, 0.02 * Bar::Gc);
+  const double of_bulk = figures.bulk_separation / (figures.bulk_separation + figures.critical_separation);
+  report_row("extracted from a bar, " + name, {{"largest error/strength", largest},
+                                               {"strength/closed form's", figures.strength / bar.strength()},
+                                               {"area/Gc", figures.normal_energy / Bar::Gc},
+                                               {"surface energy/Gc", figures.surface_energy / Bar::Gc},
+                                               {"bulk's share of 40 ell's separation at the strength", of_bulk}});
+  EXPECT_LE(largest, bounds.law);
+  EXPECT_NEAR(figures.strength, bar.strength(), bounds.strength * bar.strength());
+  EXPECT_NEAR(figures.normal_energy, Bar::Gc, bounds.area * Bar::Gc);
+  EXPECT_NEAR(of_bulk, bounds.bulk, 1e-6);
 }
 
 TEST(ExtractedFromProfiles, At1) {
   std::vector<Profile> profiles;
   for (int i = 0; i <= 40; ++i) profiles.push_back(at1_profile(0.005 + 0.895 * i / 40.0));
-  expect_profile_law("AT1", profiles);
+  expect_profile_law("AT1", profiles,
+                     {.law = 1e-4, .strength = 0.01, .area = 0.02, .bulk = 0.0});  // neither end of the law is whole
 }
 
 TEST(ExtractedFromProfiles, At2) {
@@ -159,7 +167,7 @@ TEST(ExtractedFromProfiles, At2) {
                                  .separation = 0.0,
                                  .far_damage = 0.25}};
   for (int i = 0; i <= 40; ++i) profiles.push_back(at2_profile(0.2 * std::pow(0.0425, i / 40.0)));
-  expect_profile_law("AT2", profiles);
+  expect_profile_law("AT2", profiles, {.law = 1e-3, .strength = 1e-3, .area = 5e-3, .bulk = 1.0});
 }
 
 }  // namespace

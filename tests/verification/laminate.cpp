@@ -169,9 +169,9 @@ class TwoMaterials : public testing::TestWithParam<LoadAndCells> {
                             .materials = {from_young_poisson(75e6, 0.44), from_young_poisson(75e6 * ratio, 0.3)},
                             .load = std::get<0>(GetParam())};
     const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
-    EXPECT_LE(e.transmitted, 1e-10);
-    EXPECT_LE(e.displacement, 1e-10);
-    EXPECT_LE(e.stress, 6e-9);
+    EXPECT_LE(e.transmitted, ratio > 1e4 ? 1e-10 : 2e-11);
+    EXPECT_LE(e.displacement, ratio > 1e4 ? 1e-10 : 1e-11);
+    EXPECT_LE(e.stress, ratio > 1e4 ? 6e-9 : 2e-10);
   }
 };
 
@@ -187,17 +187,19 @@ INSTANTIATE_TEST_SUITE_P(Laminate, TwoMaterials, loads_and_cells, [](const auto&
 // One material whose middle is broken: nothing but g tells the layers apart.
 class BrokenLayer : public testing::TestWithParam<LoadAndCells> {
  protected:
+  static bool of_polyhedra() { return std::get<1>(GetParam()) == Cells::polyhedra; }
+
   static void expect_series(Index n_broken, double nu) {
     const Laminate laminate{.layers = {{0.45, 4, 0}, {0.1, n_broken, 0, 1e-6}, {0.45, 4, 0}},
                             .materials = {from_young_poisson(75e6, nu)},
                             .load = std::get<0>(GetParam())};
     const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
-    EXPECT_LE(e.transmitted, 2.5e-7);
+    EXPECT_LE(e.transmitted, of_polyhedra() ? 2.5e-7 : 1e-7);
     EXPECT_LE(e.stress, 0.25);  // along the layers; without the g-weights of the gradients it is 1e4
-    EXPECT_LE(e.displacement, 2e-7);
-    EXPECT_LE(e.weakest_strain, 6e-7);
+    EXPECT_LE(e.displacement, of_polyhedra() ? 2e-7 : 1e-9);
+    EXPECT_LE(e.weakest_strain, of_polyhedra() ? 6e-7 : 2e-9);
     // Against 1e-6 of the broken strain: a polyhedron's jump term is not the two sides' in full (README.md).
-    EXPECT_LE(e.sound_strain, std::get<1>(GetParam()) == Cells::polyhedra ? 0.1 : 5e-7);
+    EXPECT_LE(e.sound_strain, of_polyhedra() ? 0.1 : 5e-7);
   }
 };
 
@@ -216,9 +218,9 @@ TEST_P(BrokenLayer, OfGradedStiffnessTransmitsTheSeriesStress) {
     const Laminate laminate{
         .layers = layers, .materials = {from_young_poisson(75e6, nu)}, .load = std::get<0>(GetParam())};
     const LaminateErrors e = errors_of(laminate, std::get<1>(GetParam()));
-    EXPECT_LE(e.transmitted, 4e-7);
-    EXPECT_LE(e.displacement, 5e-6);
-    EXPECT_LE(e.sound_strain, 0.02);
+    EXPECT_LE(e.transmitted, of_polyhedra() ? 4e-7 : 3e-8);
+    EXPECT_LE(e.displacement, of_polyhedra() ? 5e-6 : 1e-10);
+    EXPECT_LE(e.sound_strain, of_polyhedra() ? 0.02 : 2e-7);
   }
 }
 

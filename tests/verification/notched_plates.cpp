@@ -86,12 +86,12 @@ TEST(NotchedPlates, InTensionBreaksInOneJump) {
   const Broken on = load(notched_plate("none", ell, x, axis(0.47, 22, 0.06, 0.47, 22, h)), 1, false, 0.006 * mm,
                          {.initial_increment = 0.05, .damage_growth = 0.05, .finest_increment = 2e-3, .stops = {}});
   EXPECT_NEAR(on.peak().force, 701.0, 0.04 * 701.0);
-  EXPECT_NEAR(on.peak().displacement, 5.55e-3 * mm, 0.1e-3 * mm);
+  EXPECT_NEAR(on.peak().displacement, 5.55e-3 * mm, 0.03e-3 * mm);
   const auto after = std::next(on.rows.begin(), &on.peak() - on.rows.data() + 1);
   ASSERT_LT(after, on.rows.end());
   EXPECT_LT(after->force, 0.01 * on.peak().force);
   EXPECT_LT(after->displacement - on.peak().displacement, 0.003 * 0.006 * mm);  // the peak is resolved
-  EXPECT_LE(on.iterations, 600);
+  EXPECT_LE(on.iterations, 300);
 }
 
 // Twice the length ell of the case, h = ell/2: the crack leaves the notch downwards, where the plate is in tension.
@@ -103,7 +103,7 @@ TEST(NotchedPlates, InShearCracksDownwards) {
   Plate plate = notched_plate("spectral", ell, x, y);
   const Mesh mesh = plate.mesh;
   const Broken on = load(std::move(plate), 0, true, 0.011 * mm, {.initial_increment = 0.05, .stops = {}});
-  EXPECT_NEAR(on.peak().force, 401.0, 0.03 * 401.0);  // 531 N with half that length
+  EXPECT_NEAR(on.peak().force, 401.0, 0.01 * 401.0);  // 531 N with half that length
   double lowest = 1.0, highest = 0.0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     if (on.damage[c] < 0.9) continue;
