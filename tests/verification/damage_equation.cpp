@@ -81,7 +81,8 @@ Result solve(const Mesh& mesh, const std::string& law, const Manufactured& exact
   return result;
 }
 
-void expect_order(const std::string& label, const std::vector<Result>& results, double least_order) {
+void expect_order(const std::string& label, const std::vector<Result>& results, double least_order,
+                  double most_of_finest) {
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Result& r = results[i];
     const double order = i == 0 ? 0.0 : observed_order(results[i - 1].error, results[i - 1].cells, r.error, r.cells);
@@ -93,9 +94,10 @@ void expect_order(const std::string& label, const std::vector<Result>& results, 
                        {"most d", r.most}});
     EXPECT_GE(r.least, 0.0);
     EXPECT_LE(r.most, 1.0);
-    EXPECT_LT(r.corrections, 26);
+    EXPECT_LE(r.corrections, 18);
   }
   const Result &coarse = results.front(), &fine = results.back();
+  EXPECT_LE(fine.error, most_of_finest) << label;
   EXPECT_GE(observed_order(coarse.error, coarse.cells, fine.error, fine.cells), least_order) << label;
 }
 
@@ -126,7 +128,7 @@ TEST(DamageEquationVerification, SecondOrderOnTetrahedra) {
   for (const std::string law : {"AT2", "AT1"}) {
     std::vector<Result> results;
     for (const double size : {0.2, 0.125, 0.08}) results.push_back(solve(tetrahedra(size), law, waves));
-    expect_order(law + " on tetrahedra", results, 1.8);
+    expect_order(law + " on tetrahedra", results, 1.9, 7e-4);
   }
 }
 
@@ -134,7 +136,7 @@ TEST(DamageEquationVerification, SecondOrderOnPolyhedra) {
   std::vector<Result> results;
   for (const double size : {0.2, 0.125, 0.08})
     results.push_back(solve(barycentric_dual(tetrahedra(size)), "AT2", waves));
-  expect_order("AT2 on polyhedra", results, 1.8);
+  expect_order("AT2 on polyhedra", results, 1.8, 1.5e-3);
 }
 
 // (Gc/2) (int d^2 / ell + ell |grad d|^2) of the waves.
@@ -171,8 +173,8 @@ TEST(DamageEquationVerification, SecondOrderOnPrismLayers) {
     everywhere.push_back(solve(mesh, "AT2", shell));
     in_layers.push_back(solve(mesh, "AT2", shell, "interface"));
   }
-  expect_order("AT2 around a sphere", everywhere, 1.8);
-  expect_order("AT2 in its prism layers", in_layers, 1.8);
+  expect_order("AT2 around a sphere", everywhere, 2.2, 2e-3);
+  expect_order("AT2 in its prism layers", in_layers, 2.4, 7e-3);
 }
 
 }  // namespace

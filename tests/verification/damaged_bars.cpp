@@ -73,7 +73,7 @@ TEST(DamagedBars, At1SofteningFollowsTheClosedForm) {
   EXPECT_GE(fine.states, 10);
   EXPECT_LT(fine.lowest_stress, 0.85);
   EXPECT_LE(fine.largest, 1e-3);
-  EXPECT_LT(fine.largest, 0.6 * coarse.largest);
+  EXPECT_LT(fine.largest, 0.45 * coarse.largest);
 }
 
 // ---- Path-following: a bar twenty lengths long snaps back, and is followed until it has broken.
@@ -127,6 +127,7 @@ TEST(DamagedBars, PathIsFollowedPastSnapBack) {
   EXPECT_LE(fine.branch, 0.0075);
   EXPECT_LE(fine.foot, 0.01);
   EXPECT_LE(coarse.imbalance, 0.005);
+  EXPECT_LE(fine.imbalance, 0.01);
   EXPECT_LE(halved.imbalance, 0.6 * coarse.imbalance);
 }
 
@@ -265,7 +266,7 @@ void expect_law(const std::string& law, const Profile& profile) {
                                 {"error of the separation at ell/10", ratios[0] - 1.0},
                                 {"at ell/20", ratios[1] - 1.0}});
   EXPECT_LE(errors[0], 2e-3);
-  EXPECT_LE(errors[1], 0.4 * errors[0]) << "second order";
+  EXPECT_LE(errors[1], 0.31 * errors[0]) << "second order";
   for (const double ratio : ratios) EXPECT_NEAR(ratio, 1.0, 1e-5);
 }
 

@@ -105,7 +105,7 @@ TEST_P(Cells, DrivingEnergiesAddUpToTheEnergy) {
   }
   report_row("sum of g psi V over the energy",
              {{"driving energies", sum / energy}, {"those of the mean strains", of_mean_strain / energy}});
-  EXPECT_NEAR(sum / energy, 1.0, 1e-3);
+  EXPECT_NEAR(sum / energy, 1.0, 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Energy, Cells, ::testing::Bool(),

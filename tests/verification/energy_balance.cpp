@@ -17,7 +17,7 @@ void expect_balance(const std::string& label, double coarse, double fine, double
 TEST(EnergyBalance, HomogeneousBarOfAt2) {
   const Bar bar({.law = "AT2", .cells_per_length = 5, .length = 8.0, .pinned_ends = false});
   expect_balance("AT2 bar to beyond its strength", bar.run({{1.9, 10}}).back().imbalance,
-                 bar.run({{1.9, 20}}).back().imbalance, 5e-3, 0.4);
+                 bar.run({{1.9, 20}}).back().imbalance, 5e-3, 0.28);
 }
 
 TEST(EnergyBalance, SofteningBarOfAt1) {
@@ -28,7 +28,7 @@ TEST(EnergyBalance, SofteningBarOfAt1) {
     EXPECT_GT(last.fracture_energy, 0.1);
     return last.imbalance;
   };
-  expect_balance("AT1 bar, softening", imbalance(3), imbalance(6), 1e-4, 0.6);
+  expect_balance("AT1 bar, softening", imbalance(3), imbalance(6), 1e-4, 0.4);
 }
 
 // Until shortly before the bead debonds.
@@ -51,7 +51,7 @@ TEST(EnergyBalance, BeadBeforeItDebonds) {
     const double coarse = bead_imbalance(mesh, split, 5), fine = bead_imbalance(mesh, split, 10);
     report_row("bead, split " + split, {{"(W - E_el - E_frac)/W", coarse}, {"with half the increment", fine}});
     EXPECT_LE(std::abs(coarse), 1.5e-3);
-    EXPECT_LE(std::abs(fine), 1e-3);
+    EXPECT_LE(std::abs(fine), 4e-4);
   }
 }
 

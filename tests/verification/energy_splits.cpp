@@ -129,6 +129,7 @@ TEST(EnergySplits, AHomogeneousPlateFollowsTheLaw) {
   shear(0, 1) = shear(1, 0) = 1e-3;
   mixed << 1e-3, 6e-4, -2e-4, 6e-4, -8e-4, 3e-4, -2e-4, 3e-4, -5e-4;
   constexpr double d = 0.9, g = (1.0 - residual_stiffness) * (1.0 - d) * (1.0 - d) + residual_stiffness;
+  double of_stress = 0.0, of_energy = 0.0;  // largest errors
   for (const SplitLaw& law : energy_splits()) {
     if (!law.variational) continue;
     SCOPED_TRACE(law.name);
@@ -141,11 +142,14 @@ TEST(EnergySplits, AHomogeneousPlateFollowsTheLaw) {
         const Equilibrated on = equilibrium(mesh, model, CellField<double>(as_size(mesh.n_cells()), d));
         const Tensor expected = degraded_stress(split, steel, g, strain);
         const auto [plus, minus] = split.energy(steel, strain);
-        EXPECT_NEAR(on.energy, g * plus + minus, 1e-9 * (plus + minus));
+        of_energy = std::max(of_energy, std::abs(on.energy - (g * plus + minus)) / (plus + minus));
         for (Index c = 0; c < mesh.n_cells(); ++c)
-          EXPECT_LE((on.cells.stress[c] - expected).norm(), 1e-8 * stress(steel, strain).norm());
+          of_stress = std::max(of_stress, (on.cells.stress[c] - expected).norm() / stress(steel, strain).norm());
+        EXPECT_LE(of_energy, 1e-12);
+        EXPECT_LE(of_stress, 3e-11);
       }
   }
+  report_row("homogeneous plates", {{"stress", of_stress}, {"energy", of_energy}});
 }
 
 // The strain across a plate in plane stress, by bisection.
@@ -166,6 +170,7 @@ TEST(EnergySplits, AHomogeneousPlateInPlaneStressFollowsTheLaw) {
   shear(0, 1) = shear(1, 0) = 1e-3;
   mixed << 1e-3, 6e-4, 0.0, 6e-4, -8e-4, 0.0, 0.0, 0.0, 0.0;
   constexpr double d = 0.9, g = (1.0 - residual_stiffness) * (1.0 - d) * (1.0 - d) + residual_stiffness;
+  double of_stress = 0.0, of_strain = 0.0, of_energy = 0.0, of_driving = 0.0;  // largest errors
   for (const SplitLaw& law : energy_splits()) {
     SCOPED_TRACE(law.name);
     const EnergySplit split(law, {2.0});
@@ -181,14 +186,21 @@ TEST(EnergySplits, AHomogeneousPlateInPlaneStressFollowsTheLaw) {
       const Tensor expected = degraded_stress(split, steel, g, strain);
       const CellStiffness stiffness(mesh, model);
       const double driving = split.energy(steel, strain).psi_plus;
-      EXPECT_NEAR(on.energy, 0.5 * contract(expected, strain), 1e-9 * energy_density(steel, strain));
+      const double whole = energy_density(steel, strain);
+      of_energy = std::max(of_energy, std::abs(on.energy - 0.5 * contract(expected, strain)) / whole);
       for (Index c = 0; c < mesh.n_cells(); ++c) {
-        EXPECT_LE((on.cells.stress[c] - expected).norm(), 1e-8 * stress(steel, strain).norm());
-        EXPECT_LE((on.cells.strain[c] - strain).norm(), 1e-8 * strain.norm());
-        EXPECT_NEAR(stiffness.driving_energy(c, on.cells, on.state), driving, 1e-8 * energy_density(steel, strain));
+        of_stress = std::max(of_stress, (on.cells.stress[c] - expected).norm() / stress(steel, strain).norm());
+        of_strain = std::max(of_strain, (on.cells.strain[c] - strain).norm() / strain.norm());
+        of_driving = std::max(of_driving, std::abs(stiffness.driving_energy(c, on.cells, on.state) - driving) / whole);
       }
+      EXPECT_LE(of_energy, 2e-10);
+      EXPECT_LE(of_stress, 8e-9);
+      EXPECT_LE(of_strain, 1e-8);
+      EXPECT_LE(of_driving, 1e-8);
     }
   }
+  report_row("plane stress",
+             {{"stress", of_stress}, {"strain", of_strain}, {"energy", of_energy}, {"driving energy", of_driving}});
 }
 
 std::vector<BoundaryCondition> pressed(double displacement, double sideways = 0.0) {
@@ -220,11 +232,14 @@ void expect_recovery(const char* split, bool sides_may_move) {
                {{"displacement", displacement},
                 {"force", reaction(mesh, on, "ymax")[1]},
                 {"iterations", static_cast<double>(on.iterations)}});
+    EXPECT_LE(on.iterations, 14);
     return reaction(mesh, on, "ymax")[1];
   };
-  const double sound = force(1e-3, false);
-  EXPECT_LE(std::abs(force(1e-3, true)), 1e-4 * sound);
-  EXPECT_NEAR(force(-1e-3, true), -sound, 1e-4 * sound);
+  const double sound = force(1e-3, false), pulled = force(1e-3, true), pressed_shut = force(-1e-3, true);
+  report_row(std::string(split) + ", over the sound plate's",
+             {{"pulled", pulled / sound}, {"pressed shut, and 1", pressed_shut / sound + 1.0}});
+  EXPECT_NEAR(pulled, 0.0, 4e-5 * sound);
+  EXPECT_NEAR(pressed_shut, -sound, (sides_may_move ? 1e-4 : 1e-11) * sound);
   EXPECT_NEAR(force(-1e-3, false), -sound, 1e-9 * sound);
 }
 

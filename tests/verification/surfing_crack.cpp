@@ -78,8 +78,9 @@ TEST(SurfingCrack, FollowsTheFieldAndDissipatesItsToughness) {
                            {"lost in jumps from cell to cell over Gc", lost}});
   EXPECT_NEAR(advance, speed * (last.load - first.load), 1e-3 * advance);
   EXPECT_NEAR(dissipated, 1.0 + h * h / (32.0 * ell * ell), 0.01);
-  EXPECT_NEAR(last.G / Gc, dissipated + lost, 0.03);  // what flows in is what is spent
-  EXPECT_LT(last.G / Gc, 1.13);
+  EXPECT_NEAR(last.G / Gc, dissipated + lost, 0.02);  // what flows in is what is spent
+  EXPECT_NEAR(last.G / Gc, 1.0, 0.01);
+  EXPECT_NEAR(lost, 0.0, 0.02);
 }
 
 }  // namespace
