@@ -61,8 +61,8 @@ TEST(Homogenization, HomogeneousBoxIsExact) {
                    {{"error", error},
                     {"energies", result.energy_difference()},
                     {"iterations", static_cast<double>(most_iterations(result))}});
-        EXPECT_LE(error, 1e-8);
-        EXPECT_LE(result.energy_difference(), 1e-8);
+        EXPECT_LE(error, 3e-10);
+        EXPECT_LE(result.energy_difference(), 2e-11);
         EXPECT_NEAR(result.fraction[0], 1.0, 1e-10);
       }
   }
@@ -106,9 +106,9 @@ TEST(Homogenization, PeriodicLaminateIsExact) {
     const double shear = std::abs(result.stiffness(3, 3) / exact(3, 3) - 1.0);
     report_row(fmt::format("ratio {}", ratio),
                {{"error", error}, {"across", across}, {"shear", shear}, {"asymmetry", result.asymmetry}});
-    EXPECT_LE(error, 1e-9);
-    EXPECT_LE(across, 1e-8);
-    EXPECT_LE(shear, 1e-8);
+    EXPECT_LE(error, 1e-11);
+    EXPECT_LE(across, 4e-11);
+    EXPECT_LE(shear, ratio > 100.0 ? 4e-9 : 1e-11);
     EXPECT_LE(result.energy_difference(), 1e-8);
     for (const char* loading : {"uniform traction", "uniform displacement"}) {
       const MandelMatrix C = homogenized(mesh, materials, loading).stiffness;
@@ -208,8 +208,13 @@ struct Glued {
                 {"constitutive", result.constitutive_difference()},
                 {"iterations", static_cast<double>(most_iterations(result))}});
     EXPECT_NEAR(result.fraction[as_size(mesh.region_index("particle"))], fraction, 1e-9);
-    EXPECT_LE(result.energy_difference(), 1e-3);
+    EXPECT_LE(result.energy_difference(), 2e-4);
+    EXPECT_LE(most_iterations(result), most_of(loading));
     return result;
+  }
+
+  static Index most_of(const std::string& loading) {
+    return loading == "uniform traction" ? 85 : loading == "periodic" ? 46 : 34;
   }
 
   ModulusBounds bounds() const {
