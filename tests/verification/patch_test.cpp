@@ -45,7 +45,8 @@ std::vector<BoundaryCondition> exact_boundary(const Mesh& mesh, const LinearCase
   return all;
 }
 
-void expect_exact(const Mesh& mesh, const LinearCase& exact, const std::vector<BoundaryCondition>& boundary) {
+void expect_exact(const Mesh& mesh, const LinearCase& exact, const std::vector<BoundaryCondition>& boundary,
+                  double most_of_displacement = 3e-11) {
   const std::vector<IsotropicElasticity> by_region(mesh.region_names.size(), exact.material);
   const auto solution = solve_elastic(mesh, elastic_model(by_region, boundary), {}, 1e-13);
   EXPECT_TRUE(solution->equilibrium.converged);
@@ -62,9 +63,10 @@ void expect_exact(const Mesh& mesh, const LinearCase& exact, const std::vector<B
               {"reactions", reaction_imbalance(mesh, *solution)},
               {"energy", energy_imbalance(mesh, *solution)},
               {"iterations", solution->equilibrium.iterations}});
-  EXPECT_LE(u, 2e-10);
-  EXPECT_LE(stress, exact.material.poisson_ratio() > 0.4995 ? 1e-9 : 1e-10);
-  EXPECT_LE(strain, 1e-10);
+  EXPECT_LE(u, most_of_displacement);
+  const double nu = exact.material.poisson_ratio();
+  EXPECT_LE(stress, nu > 0.4995 ? 1e-9 : (nu > 0.45 ? 5e-11 : 1e-11));
+  EXPECT_LE(strain, 4e-11);
   EXPECT_LE(reaction_imbalance(mesh, *solution), 2e-11);
   EXPECT_LE(energy_imbalance(mesh, *solution), 2e-11);
 }
@@ -104,6 +106,8 @@ const std::vector<NamedMesh> meshes{
     {"WarpedHexes", warped_hexes},
 };
 
+double most_on(const NamedMesh& mesh) { return mesh.name.ends_with("Hexes") ? 2e-10 : 3e-11; }
+
 struct NamedMasks {
   std::string name;
   Masks of_patch;
@@ -130,7 +134,7 @@ TEST_P(PatchTest, IsExact) {
   const auto& [mesh_kind, masks] = GetParam();
   const Mesh mesh = mesh_kind.make();
   const LinearCase exact;
-  expect_exact(mesh, exact, exact_boundary(mesh, exact, masks.of_patch));
+  expect_exact(mesh, exact, exact_boundary(mesh, exact, masks.of_patch), most_on(mesh_kind));
 }
 
 // Its dilation is mu/lambda of the other cases', so that tractions are as large: those of theirs would be lambda/mu
@@ -142,7 +146,7 @@ TEST_P(PatchTest, IsExactForNearlyIncompressibleMaterials) {
     const IsotropicElasticity material = from_young_poisson(75e6, nu);
     const double taken_away = (1.0 - material.mu / material.lambda) * general_slope.trace() / 3.0;
     const LinearCase exact{.slope = general_slope - taken_away * Tensor::Identity(), .material = material};
-    expect_exact(mesh, exact, exact_boundary(mesh, exact, masks.of_patch));
+    expect_exact(mesh, exact, exact_boundary(mesh, exact, masks.of_patch), most_on(mesh_kind));
   }
 }
 
