@@ -117,6 +117,7 @@ double core_traction_error(const Mesh& mesh, const ElasticSolution& solution, do
 
 struct ShellErrors {
   double core_traction = 0.0, displacement = 0.0, shell_strain = 0.0, stress_within = 0.0, stress_beyond = 0.0;
+  Index iterations = 0;
 };
 
 ShellErrors errors_of(const Shell& shell) {
@@ -152,7 +153,8 @@ ShellErrors errors_of(const Shell& shell) {
           mesh, cells.stress, sound_stress,
           [&](Index c) { return g[c] == 1.0 && mesh.region[c] != bead && radius(c) < shell.lower(); }),
       .stress_beyond = relative_stress_error(mesh, cells.stress, sound_stress,
-                                             [&](Index c) { return g[c] == 1.0 && radius(c) > shell.upper(); })};
+                                             [&](Index c) { return g[c] == 1.0 && radius(c) > shell.upper(); }),
+      .iterations = solution->equilibrium.iterations};
   report_row(fmt::format("g {:g} in {} layers{}, {} cells", shell.g, shell.n_broken, shell.closed ? ", closed" : "",
                          mesh.n_cells()),
              {{"traction on the sphere", e.core_traction},
@@ -160,12 +162,19 @@ ShellErrors errors_of(const Shell& shell) {
               {"strain in the shell", e.shell_strain},
               {"stress within it", e.stress_within},
               {"beyond it", e.stress_beyond},
-              {"iterations", solution->equilibrium.iterations},
+              {"iterations", e.iterations},
               {"CPU s", solution->cpu_seconds}});
   return e;
 }
 
 class BrokenShell : public testing::TestWithParam<std::tuple<Index, double, bool, Cells>> {};
+
+// A third more than are taken; prisms of 1e-6 that are open are the hardest.
+Index most_iterations(Index n_broken, double g, bool closed, bool of_polyhedra) {
+  if (of_polyhedra) return closed ? 155 : 117;
+  if (closed) return 112;
+  return n_broken == 4 && g < 1e-3 ? 490 : 170;
+}
 
 // A twenty-faced sphere of 1280 triangles is 1 % smaller than round; the stress within the shell, a small one, suffers
 // from the gradients along the layers next to the jump of g (README.md). In a liquid shell of one layer of polyhedra
@@ -173,11 +182,16 @@ class BrokenShell : public testing::TestWithParam<std::tuple<Index, double, bool
 TEST_P(BrokenShell, LoadsTheSphereAsInTheClosedForm) {
   const auto [n_broken, g, closed, cells] = GetParam();
   const ShellErrors e = errors_of({n_broken, g, closed, cells});
-  EXPECT_LE(e.core_traction, closed && cells == Cells::polyhedra ? 5e-2 : 2.5e-2);
-  EXPECT_LE(e.displacement, 1e-2);
-  EXPECT_LE(e.shell_strain, cells == Cells::polyhedra ? 3.5e-2 : 2.5e-2);
-  EXPECT_LE(e.stress_beyond, 1.5e-2);
-  EXPECT_LE(e.stress_within, 0.25);
+  const bool of_polyhedra = cells == Cells::polyhedra;
+  if (closed)
+    EXPECT_LE(e.core_traction, !of_polyhedra ? 5e-3 : (n_broken == 1 && g < 1e-3 ? 5e-2 : 2e-2));
+  else
+    EXPECT_LE(e.core_traction, 2.5e-2);
+  EXPECT_LE(e.displacement, closed ? 1.5e-3 : 1e-2);
+  EXPECT_LE(e.shell_strain, of_polyhedra ? 3.5e-2 : 2.5e-2);
+  EXPECT_LE(e.stress_beyond, closed ? 2e-3 : (of_polyhedra ? 1.2e-2 : 1.5e-2));
+  EXPECT_LE(e.stress_within, closed ? 0.06 : 0.25);
+  EXPECT_LE(e.iterations, most_iterations(n_broken, g, closed, of_polyhedra));
 }
 
 std::string name_of(const testing::TestParamInfo<BrokenShell::ParamType>& test) {
@@ -208,6 +222,7 @@ TEST(BrokenShellOfPrisms, SlipsWithinAndLoadsTheSphereAsInTheClosedForm) {
     EXPECT_LE(e.displacement, 1.5e-3);
     EXPECT_LE(e.shell_strain, 0.3);
     EXPECT_LE(e.stress_beyond, 2e-3);
+    EXPECT_LE(e.iterations, 147);
   }
 }
 

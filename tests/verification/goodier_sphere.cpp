@@ -104,6 +104,7 @@ TEST_P(TwentyLayers, MeetTheTargets) {
   EXPECT_LE(e.displacement, 7e-4);
   EXPECT_LE(e.stress, 1.3e-2);
   EXPECT_LE(e.pole, 0.7e-2);
+  EXPECT_LE(e.iterations, 87);
 }
 
 INSTANTIATE_TEST_SUITE_P(GoodierSphere, TwentyLayers, testing::Values(70e9 / 75e6, 1e6));
@@ -126,7 +127,7 @@ TEST(GoodierSphere, ConvergesAtSecondOrderInDisplacement) {
   };
   report_row("order between the finest two",
              {{"u", order(&SphereErrors::displacement)}, {"stress", order(&SphereErrors::stress)}});
-  EXPECT_GE(order(&SphereErrors::displacement), 1.8);
+  EXPECT_GE(order(&SphereErrors::displacement), 2.0);
   EXPECT_GE(order(&SphereErrors::stress), 0.9);
 }
 
@@ -165,10 +166,12 @@ Mesh sector(Index scale) {
 
 TEST(GoodierSphere, HoldsOnASector) {
   const SphereErrors coarse = errors_of({}, sector(1)), fine = errors_of({}, sector(2));
-  EXPECT_LE(coarse.displacement, 1e-2);
-  EXPECT_LE(fine.displacement, 0.4 * coarse.displacement);
-  EXPECT_LE(fine.stress, 0.7 * coarse.stress);
+  EXPECT_LE(coarse.displacement, 3e-3);
+  EXPECT_LE(coarse.stress, 3e-2);
+  EXPECT_LE(fine.displacement, 0.31 * coarse.displacement);
+  EXPECT_LE(fine.stress, 0.35 * coarse.stress);
   EXPECT_LE(fine.pole, 2e-2);
+  EXPECT_LE(fine.iterations, 27);
 }
 
 // The dual of 46,000 tetrahedra and prisms.
