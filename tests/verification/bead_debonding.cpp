@@ -105,8 +105,8 @@ TEST(BeadDebonding, FromACapFallsWithTheRadius) {
                                                       {"stress, MPa (200)", large / MPa},
                                                       {"over predicted (200)", large / predicted(200.0 * um)},
                                                       {"exponent", exponent}});
-  EXPECT_NEAR(small / predicted(50.0 * um), 1.0, 0.15);
-  EXPECT_NEAR(large / predicted(200.0 * um), 1.1, 0.15);
+  EXPECT_NEAR(small / predicted(50.0 * um), 1.0, 0.1);
+  EXPECT_NEAR(large / predicted(200.0 * um), 1.0, 0.05);
   EXPECT_NEAR(exponent, -0.5, 0.08);
 }
 
