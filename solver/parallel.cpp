@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -10,7 +11,8 @@
 namespace pfdm {
 namespace {
 
-// Workers wait a short while actively, since loops follow each other closely, then sleep.
+// Workers wait a short while actively, since loops follow each other closely, then sleep. A loop ends when its tasks
+// are done, whether or not all workers have come: on a loaded machine a worker may come many loops late.
 class ThreadPool {
  public:
   ~ThreadPool() { stop(); }
@@ -19,50 +21,60 @@ class ThreadPool {
     if (n == size()) return;
     stop();
     stopping_ = false;
-    for (int i = 1; i < n; ++i) workers_.emplace_back([this, seen = generation_.load()] { work(seen); });
+    for (int i = 1; i < n; ++i) workers_.emplace_back([this, seen = loop_of(ticket_)] { work(seen); });
   }
 
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
   void run(Index n_tasks, const std::function<void(Index)>& task) {
+    const std::uint64_t loop = loop_of(ticket_);
+    ticket_ = (loop << loop_shift) | all_taken;  // first: nobody then takes a task of one loop for another's
     task_ = &task;
     n_tasks_ = n_tasks;
-    next_.store(0, std::memory_order_relaxed);
-    busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
+    n_done_ = 0;
     {
       const std::lock_guard lock(mutex_);
-      generation_.fetch_add(1, std::memory_order_release);
+      ticket_ = (loop + 1) << loop_shift;
     }
     wake_.notify_all();
-    take_tasks();
-    while (busy_.load(std::memory_order_acquire) > 0) std::this_thread::yield();
+    do_tasks();
+    while (n_done_ < n_tasks) std::this_thread::yield();
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   }
 
  private:
-  void take_tasks() {
-    for (Index i = next_.fetch_add(1); i < n_tasks_; i = next_.fetch_add(1)) {
+  static constexpr int loop_shift = 32;
+  static constexpr std::uint64_t all_taken = 0xffffffff;
+  static std::uint64_t loop_of(std::uint64_t ticket) { return ticket >> loop_shift; }
+
+  void do_tasks() {
+    std::uint64_t ticket = ticket_;
+    while (true) {
+      const auto* task = task_.load();
+      const std::uint64_t i = ticket & all_taken;
+      if (i >= static_cast<std::uint64_t>(n_tasks_.load())) return;
+      if (!ticket_.compare_exchange_weak(ticket, ticket + 1)) continue;  // with the ticket as it is now
       try {
-        (*task_)(i);
+        (*task)(static_cast<Index>(i));
       } catch (...) {
         const std::lock_guard lock(mutex_);
         if (!error_) error_ = std::current_exception();
       }
+      ++n_done_;
+      ticket = ticket_;
     }
   }
 
-  void work(long seen) {
+  void work(std::uint64_t seen) {
     while (true) {
-      for (int spin = 0; spin < 2000 && generation_.load(std::memory_order_acquire) == seen; ++spin)
-        std::this_thread::yield();
-      if (generation_.load(std::memory_order_acquire) == seen) {
+      for (int spin = 0; spin < 2000 && loop_of(ticket_) == seen; ++spin) std::this_thread::yield();
+      if (loop_of(ticket_) == seen) {
         std::unique_lock lock(mutex_);
-        wake_.wait(lock, [&] { return stopping_ || generation_.load(std::memory_order_acquire) != seen; });
+        wake_.wait(lock, [&] { return stopping_ || loop_of(ticket_) != seen; });
       }
       if (stopping_) return;
-      seen = generation_.load(std::memory_order_acquire);
-      take_tasks();
-      busy_.fetch_sub(1, std::memory_order_release);
+      seen = loop_of(ticket_);
+      do_tasks();
     }
   }
 
@@ -70,7 +82,7 @@ class ThreadPool {
     {
       const std::lock_guard lock(mutex_);
       stopping_ = true;
-      generation_.fetch_add(1, std::memory_order_release);
+      ticket_ = ((loop_of(ticket_) + 1) << loop_shift) | all_taken;
     }
     wake_.notify_all();
     for (std::thread& w : workers_) w.join();
@@ -80,12 +92,10 @@ class ThreadPool {
   std::vector<std::thread> workers_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::atomic<long> generation_{0};
   std::atomic<bool> stopping_{false};
-  std::atomic<Index> next_{0};
-  std::atomic<int> busy_{0};
-  const std::function<void(Index)>* task_ = nullptr;
-  Index n_tasks_ = 0;
+  std::atomic<std::uint64_t> ticket_{0};  // number of the loop, and of its next task in the lower half
+  std::atomic<const std::function<void(Index)>*> task_{nullptr};
+  std::atomic<Index> n_tasks_{0}, n_done_{0};
   std::exception_ptr error_;
 };
 

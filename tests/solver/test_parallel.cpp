@@ -25,6 +25,19 @@ TEST_F(Parallel, VisitsEveryItemOnce) {
   }
 }
 
+// A worker that comes late to one loop must not do a task of it for the next one.
+TEST_F(Parallel, LoopsThatFollowEachOtherAtOnceKeepTheirTasksApart) {
+  for (const int threads : {2, 3, 4, 8}) {
+    set_threads(threads);
+    for (int loop = 0; loop < 2000; ++loop) {
+      const Index n = 1 + loop % 5;
+      std::vector<int> done(as_size(n), -1);
+      detail::run_tasks(n, [&](Index i) { done[as_size(i)] = loop + i; });
+      for (Index i = 0; i < n; ++i) ASSERT_EQ(done[as_size(i)], loop + i) << threads << " threads";
+    }
+  }
+}
+
 TEST_F(Parallel, SumsAreBitwiseTheSameForAnyNumberOfThreads) {
   // Terms of very different size: any other order of summation gives another last digit.
   const auto term = [](Index i) { return std::sin(1.0 + i) * std::pow(10.0, i % 17); };
