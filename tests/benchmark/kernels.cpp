@@ -18,7 +18,8 @@
 namespace pfdm {
 namespace {
 
-constexpr Index small = 8, usual = 12, large = 19;  // subdivisions of the icosahedron: 40, 110, 390 thousand cells
+// Subdivisions of the icosahedron: 40, 110, 390, 1,000 thousand cells.
+constexpr Index small = 8, usual = 12, large = 19, largest = 26;
 
 ParticlesInBoxSettings bead_in_cube(Index subdivision) {
   ParticlesInBoxSettings settings;
@@ -178,6 +179,7 @@ BENCHMARK(elastic_solve)
     ->Args({usual, 1})
     ->Args({usual, 2})
     ->Args({large, 1})
+    ->Args({largest, 1})
     ->Apply(as_measured);
 BENCHMARK(meshing)->Apply(as_measured);
 BENCHMARK(frame_writing)->Apply(as_measured);
