@@ -25,6 +25,30 @@ struct GradientStress {
   Tensor initial = Tensor::Zero();              ///< [Pa]
 };
 
+/// det(1 + H) - 1, exact to rounding for small H.
+inline double volume_change(const Tensor& H) {
+  const double second = 0.5 * (H.trace() * H.trace() - (H * H).trace());
+  return H.trace() + second + H.determinant();
+}
+
+/// cof F = J F^-T, of any F: area vectors S of the reference become cof F S.
+inline Tensor cofactor(const Tensor& F) {
+  Tensor cof;
+  cof.col(0) = F.col(1).cross(F.col(2));
+  cof.col(1) = F.col(2).cross(F.col(0));
+  cof.col(2) = F.col(0).cross(F.col(1));
+  return cof;
+}
+
+/// Its derivative at F in the direction G.
+inline Tensor cofactor_change(const Tensor& F, const Tensor& G) {
+  Tensor change;
+  change.col(0) = F.col(1).cross(G.col(2)) + G.col(1).cross(F.col(2));
+  change.col(1) = F.col(2).cross(G.col(0)) + G.col(2).cross(F.col(0));
+  change.col(2) = F.col(0).cross(G.col(1)) + G.col(0).cross(F.col(1));
+  return change;
+}
+
 /// N.A.N [Pa]: what A makes of v (x) N, as a traction on N.
 inline Tensor acoustic_tensor(const GradientTangent& A, const Vector& N) {
   Tensor Q = Tensor::Zero();

@@ -4,15 +4,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace pfdm {
 namespace {
 
-// Measured on tetrahedra: without a pressure unknown 0.49 takes ten times the iterations of 0.3, 0.499 does not
-// converge.
-constexpr double largest_poisson_ratio = 0.49;
+// Poisson's ratio above which cells have a pressure, and lambda_s/mu; as at small strain (solver/momentum/unknowns.cpp,
+// cell_pressure.h). Without a pressure 0.49 takes ten times the iterations of 0.3, 0.499 does not converge.
+constexpr double nearly_incompressible = 0.47, moderate_lambda = 2.5;
+constexpr double least_volume = 0.1;  // J from which on functions of J go on by their expansion
 
 using GreenSlope = Eigen::Matrix<double, 6, 9>;
 
@@ -36,28 +38,25 @@ PotentialAt by_gradient(double energy, const Tensor& F, const Mandel& S, const M
   return result;
 }
 
-// A -> B A B of symmetric tensors.
-MandelMatrix product_map(const Tensor& B) {
-  MandelMatrix map;
-  for (Index k = 0; k < n_components; ++k) map.col(k) = to_mandel(B * to_tensor(Mandel(Mandel::Unit(k))) * B);
-  return map;
-}
-
-// What a function f(J) adds to S and dS/dE: S = J f' C^-1.
-void add(double J, double slope, double curvature, const Tensor& inverse_C, Mandel& S, MandelMatrix& C) {
-  const Mandel inverse = to_mandel(inverse_C);
-  S += J * slope * inverse;
-  C += J * (slope + J * curvature) * inverse * inverse.transpose();
-  C -= 2.0 * J * slope * product_map(inverse_C);
+// What a function of J adds.
+PotentialAt by_volume(const Tensor& F, double value, double slope, double curvature) {
+  const Tensor cof = cofactor(F);
+  const Components normal = to_components(cof);
+  PotentialAt result{.energy = value, .stress = slope * cof, .tangent = curvature * normal * normal.transpose()};
+  for (Index k = 0; k < 3; ++k)
+    for (Index L = 0; L < 3; ++L)
+      result.tangent.col(3 * k + L) +=
+          slope * to_components(cofactor_change(F, Vector::Unit(k) * Vector::Unit(L).transpose()));
+  return result;
 }
 
 void check(const HyperelasticLaw& law, const HyperelasticParameters& p) {
   const double nu = p.elasticity.poisson_ratio();
-  if (nu > largest_poisson_ratio * (1.0 + 1e-9))
+  if (law.name == "saint_venant_kirchhoff" && nu > nearly_incompressible * (1.0 + 1e-9))
     throw InputError(
-        fmt::format("a material of the law \"{}\" with a Poisson's ratio of {}: materials of finite strain have no "
-                    "pressure unknown; at most {} is allowed",
-                    law.name, nu, largest_poisson_ratio));
+        fmt::format("a material of the law \"{}\" with a Poisson's ratio of {}: this law has no pressure unknown; at "
+                    "most {} is allowed",
+                    law.name, nu, nearly_incompressible));
   if (!(p.second_invariant >= 0.0 && p.second_invariant <= 1.0))
     throw InputError(fmt::format("second_invariant is {}; it must be between 0 and 1", p.second_invariant));
   if (p.shares.size() != p.exponents.size())
@@ -72,11 +71,6 @@ void check(const HyperelasticLaw& law, const HyperelasticParameters& p) {
 }
 
 }  // namespace
-
-double volume_change(const Tensor& H) {
-  const double second = 0.5 * (H.trace() * H.trace() - (H * H).trace());
-  return H.trace() + second + H.determinant();
-}
 
 HyperelasticMaterial::HyperelasticMaterial(const HyperelasticLaw& law, HyperelasticParameters parameters)
     : Material(law.name, parameters.elasticity), law_(law), p_(std::move(parameters)) {
@@ -93,34 +87,61 @@ HyperelasticMaterial::HyperelasticMaterial(const HyperelasticLaw& law, Hyperelas
                     "stiffness against changes of volume beyond its shear part's, {:.4g} Pa; a larger Poisson's ratio "
                     "is required",
                     law_.name, elasticity().poisson_ratio(), Lambda_));
+  const double moderate = std::max(moderate_lambda * elasticity().mu - C(0, 1), 0.0);
+  if (elasticity().poisson_ratio() > nearly_incompressible)
+    pressure_modulus_ = std::max(Lambda_ - moderate, 0.5 * Lambda_);
 }
 
 // U.
-HyperelasticMaterial::OfVolume HyperelasticMaterial::volumetric(double change) const {
-  if (p_.volumetric == VolumetricForm::quadratic) return {0.5 * Lambda_ * change * change, Lambda_ * change, Lambda_};
+HyperelasticMaterial::OfVolume HyperelasticMaterial::volumetric(double Lambda, double change) const {
+  if (p_.volumetric == VolumetricForm::quadratic) return {0.5 * Lambda * change * change, Lambda * change, Lambda};
   const double J = 1.0 + change, square = change * (2.0 + change);  // J^2 - 1
-  return {0.25 * Lambda_ * (square - 2.0 * std::log1p(change)), 0.5 * Lambda_ * square / J,
-          0.5 * Lambda_ * (1.0 + 1.0 / (J * J))};
+  return {0.25 * Lambda * (square - 2.0 * std::log1p(change)), 0.5 * Lambda * square / J,
+          0.5 * Lambda * (1.0 + 1.0 / (J * J))};
 }
 
-PotentialAt HyperelasticMaterial::potential(const Tensor& H) const {
+// -p0 ln J + U, of J >= least_volume.
+HyperelasticMaterial::OfVolume HyperelasticMaterial::of_volume(double Lambda, double change) const {
+  const double J = 1.0 + change;
+  const OfVolume U = volumetric(Lambda, change);
+  return {U.value - p0_ * std::log1p(change), U.slope - p0_ / J, U.curvature + p0_ / (J * J)};
+}
+
+VolumeAt HyperelasticMaterial::volume(double q, double g) const {
+  const double modulus = g * pressure_modulus_, x = q / modulus;
+  if (p_.volumetric == VolumetricForm::quadratic) return {x, 1.0 / modulus};
+  const double root = std::sqrt(1.0 + x * x);
+  return {x + x * x / (root + 1.0), (1.0 + x / root) / modulus};
+}
+
+// From J - 1 = `change` on, if that is less than where the function f is given.
+auto HyperelasticMaterial::extended(double change, const auto& f) -> OfVolume {
+  if (1.0 + change >= least_volume) return f(change);
+  const OfVolume at = f(least_volume - 1.0);
+  const double by = 1.0 + change - least_volume;
+  return {at.value + (at.slope + 0.5 * at.curvature * by) * by, at.slope + at.curvature * by, at.curvature};
+}
+
+PotentialAt HyperelasticMaterial::potential_with(double Lambda, const Tensor& H) const {
   const Tensor F = Tensor::Identity() + H, E = green_strain(H);
-  const double change = volume_change(H);
+  const double change = volume_change(H), J = 1.0 + change;
   const ShearEnergy shear = law_.shear(p_, E);
-  const OfVolume U = volumetric(change);
-  const Tensor inverse = (F.transpose() * F).inverse();
-  Mandel S = shear.stress;
-  MandelMatrix C = shear.stiffness;
-  add(1.0 + change, U.slope, U.curvature, inverse, S, C);
-  S += 2.0 * p0_ * to_mandel(symmetric_part(inverse * E));  // p0 (1 - C^-1)
-  C += 2.0 * p0_ * product_map(inverse);
-  return by_gradient(shear.energy - p0_ * std::log1p(change) + U.value, F, S, C);
+  const OfVolume f = extended(change, [&](double at) { return of_volume(Lambda, at); });
+  const PotentialAt by_J = by_volume(F, f.value, f.slope, f.curvature);
+  PotentialAt result = by_gradient(shear.energy, F, shear.stress, shear.stiffness);
+  result.energy += by_J.energy;
+  result.tangent += by_J.tangent + p0_ * GradientTangent::Identity();
+  if (J < least_volume)
+    result.stress += p0_ * F + by_J.stress;
+  else  // p0 (F - F^-T) = 2 p0 F^-T E, without its cancellation
+    result.stress += cofactor(F) * ((2.0 * p0_ / J) * E + volumetric(Lambda, change).slope * Tensor::Identity());
+  return result;
 }
 
 // W(l 1) with l = J^(1/3): its slope by J is P_11/l^2, as dJ = 3 l^2 dl.
-HyperelasticMaterial::OfVolume HyperelasticMaterial::dilation(double change) const {
+HyperelasticMaterial::OfVolume HyperelasticMaterial::dilation(double Lambda, double change) const {
   const double stretch = std::cbrt(1.0 + change);
-  const PotentialAt at = potential(Tensor(std::expm1(std::log1p(change) / 3.0) * Tensor::Identity()));
+  const PotentialAt at = potential_with(Lambda, Tensor(std::expm1(std::log1p(change) / 3.0) * Tensor::Identity()));
   const double p = at.stress(0, 0) / (stretch * stretch);
   const GradientTangent& A = at.tangent;
   const double dP = A(0, 0) + A(0, 4) + A(0, 8);  // of P_11 by the stretch
@@ -128,15 +149,20 @@ HyperelasticMaterial::OfVolume HyperelasticMaterial::dilation(double change) con
   return {at.energy, p, by_stretch / (3.0 * stretch * stretch)};
 }
 
-PotentialAt HyperelasticMaterial::compression(const Tensor& H) const {
+PotentialAt HyperelasticMaterial::compression_with(double Lambda, const Tensor& H) const {
   const double change = volume_change(H);
   if (change >= 0.0) return {};
-  const Tensor F = Tensor::Identity() + H;
-  const OfVolume f = dilation(change);
-  Mandel S = Mandel::Zero();
-  MandelMatrix C = MandelMatrix::Zero();
-  add(1.0 + change, f.slope, f.curvature, (F.transpose() * F).inverse(), S, C);
-  return by_gradient(f.value, F, S, C);
+  const OfVolume f = extended(change, [&](double at) { return dilation(Lambda, at); });
+  return by_volume(Tensor::Identity() + H, f.value, f.slope, f.curvature);
+}
+
+// At F = 1 the trace of N.A.N is 4 mu + lambda.
+double HyperelasticMaterial::shear_modulus(const Tensor& F, const GradientTangent& A, double lambda) const {
+  if (!law_.stiffens) return elasticity().mu;
+  const Tensor cof = cofactor(F);
+  double sum = 0.0;
+  for (Index k = 0; k < 3; ++k) sum += acoustic_tensor(A, Vector::Unit(k)).trace() - lambda * cof.col(k).squaredNorm();
+  return std::clamp(sum / 12.0, 0.5 * elasticity().mu, 50.0 * elasticity().mu);
 }
 
 MaterialResponse HyperelasticMaterial::update(const MaterialStep& step, std::span<double>) const {

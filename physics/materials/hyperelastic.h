@@ -19,6 +19,12 @@
 //                          compression it softens and can invert
 //
 // Formulas start from H = F - 1 and E, so that small strains lose no digits.
+//
+// Where J < 0.1 the functions of J, -p0 ln J + U and W_c, go on as their expansion to second order about J = 0.1: the
+// energy, convex in J still, and its stress are finite for any F, also where a cell has turned inside out.
+//
+// Nearly incompressible materials (nu > 0.47): an unknown pressure q = c U'(J) carries the share c of U that is beyond
+// lambda_s = 2.5 mu (solver/momentum/cell_pressure.h), P = dW_m/dF + q cof F with W_m = W - c U.
 
 #include "physics/mandel.h"
 #include "physics/materials/material.h"
@@ -49,6 +55,7 @@ struct HyperelasticLaw {
   std::string_view name;
   double (*initial_stress)(const HyperelasticParameters&);  ///< p0 [Pa]
   ShearEnergy (*shear)(const HyperelasticParameters&, const Tensor& E);
+  bool stiffens = true;  ///< N.(dP/dF).N varies with F by more than cof F and J
 };
 
 std::span<const HyperelasticLaw> hyperelastic_laws();
@@ -62,24 +69,37 @@ struct PotentialAt {
   GradientTangent tangent = GradientTangent::Zero();
 };
 
-/// det(1 + H) - 1, exact to rounding for small H.
-double volume_change(const Tensor& H);
+/// Volume by the pressure q that the share c of U has.
+struct VolumeAt {
+  double change = 0.0;  ///< J - 1
+  double slope = 0.0;   ///< dJ/dq [1/Pa]
+};
 
 class HyperelasticMaterial final : public Material {
  public:
   /// Throws InputError for shares that do not sum to 1 or are not as many as the exponents, an exponent of zero, a
-  /// second_invariant outside 0 to 1, a Poisson's ratio above 0.49, and parameters that make Lambda negative or the
-  /// shear modulus not that of the elasticity.
+  /// second_invariant outside 0 to 1, a Poisson's ratio above 0.47 for saint_venant_kirchhoff, which has no
+  /// pressure, and parameters that make Lambda negative or the shear modulus not that of the elasticity.
   HyperelasticMaterial(const HyperelasticLaw& law, HyperelasticParameters parameters);
 
   bool is_finite_strain() const override { return true; }
   std::size_t history_size() const override { return 0; }
 
-  /// Requires det F > 0.
-  PotentialAt potential(const Tensor& H) const;
+  /// Of W. Of laws whose shear part is not finite for every F the energy may be infinite or NaN where det F <= 0.
+  PotentialAt potential(const Tensor& H) const { return potential_with(Lambda_, H); }
   /// Of W_c = W(J^(1/3) 1) where J < 1, zero elsewhere: the part that a split into volumetric (J >= 1) and isochoric
   /// energy keeps from damage.
-  PotentialAt compression(const Tensor& H) const;
+  PotentialAt compression(const Tensor& H) const { return compression_with(Lambda_, H); }
+  /// The same of W_m, which has no share c of U.
+  PotentialAt moderate_potential(const Tensor& H) const { return potential_with(Lambda_ - pressure_modulus_, H); }
+  PotentialAt moderate_compression(const Tensor& H) const { return compression_with(Lambda_ - pressure_modulus_, H); }
+  /// Of the tangent A at F, which has this lambda at F = 1: mu, or a mean over three directions of laws that stiffen
+  /// [Pa].
+  double shear_modulus(const Tensor& F, const GradientTangent& A, double lambda) const;
+  /// c Lambda [Pa]; zero of materials that have no pressure.
+  double pressure_modulus() const { return pressure_modulus_; }
+  /// Where c Lambda is multiplied by g.
+  VolumeAt volume(double q, double g) const;
 
   MaterialResponse update(const MaterialStep& step, std::span<double> history) const override;
   Tensor stress(const Tensor& H, std::span<const double> history) const override;
@@ -91,12 +111,17 @@ class HyperelasticMaterial final : public Material {
   struct OfVolume {
     double value = 0.0, slope = 0.0, curvature = 0.0;
   };
-  OfVolume volumetric(double change) const;
-  OfVolume dilation(double change) const;
+  PotentialAt potential_with(double Lambda, const Tensor& H) const;
+  PotentialAt compression_with(double Lambda, const Tensor& H) const;
+  OfVolume volumetric(double Lambda, double change) const;
+  OfVolume of_volume(double Lambda, double change) const;
+  static OfVolume extended(double change, const auto& f);
+  OfVolume dilation(double Lambda, double change) const;
 
   const HyperelasticLaw& law_;
   HyperelasticParameters p_;
   double p0_ = 0.0, Lambda_ = 0.0;  // [Pa]
+  double pressure_modulus_ = 0.0;   // [Pa]
 };
 
 /// Throws InputError as the constructor does.

@@ -72,11 +72,11 @@ ShearEnergy saint_venant_kirchhoff(const Parameters& p, const Tensor& E) {
 }
 
 constexpr HyperelasticLaw table[] = {
-    {"neo_hookean", shear_modulus, neo_hookean},
+    {"neo_hookean", shear_modulus, neo_hookean, false},
     {"mooney_rivlin", [](const Parameters& p) { return (1.0 + p.second_invariant) * p.elasticity.mu; }, mooney_rivlin},
     {"ogden", ogden_initial_stress, ogden},
     {"lopez_pamies", sum_of_shares, lopez_pamies},
-    {"saint_venant_kirchhoff", [](const Parameters&) { return 0.0; }, saint_venant_kirchhoff},
+    {"saint_venant_kirchhoff", [](const Parameters&) { return 0.0; }, saint_venant_kirchhoff, false},
 };
 
 }  // namespace

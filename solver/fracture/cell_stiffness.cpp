@@ -45,21 +45,17 @@ CellField<double> CellStiffness::factors(const FractureState& state) const {
   return g;
 }
 
-bool CellStiffness::relinearise(const CellHistories& start, const MomentumOperator& balance,
-                                FractureState& state) const {
-  return finite_.follow(balance.reconstructed_gradients(state.displacement), factors(state), start, state.histories);
-}
-
 Tensor CellStiffness::cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,
                                     const Vector& plane_normal) const {
-  return finite_.cauchy_stress(cell, mechanics, factor(cell, state.damage[cell]), state.histories, plane_normal);
+  return finite_.cauchy_stress(cell, mechanics, factor(cell, state.damage[cell]), plane_normal);
 }
 
 void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
   const auto n = as_size(mesh_.n_cells());
   const CellField<double> g = factors(state);
   if (finite_.any()) {
-    momentum.set_tangent(finite_.linearised(g, state.histories), g);
+    const auto law = [&](Index c, const Tensor& H) { return finite_.law(c, H, g[c], state.closure[c]); };
+    momentum.set_finite(law, g, state.displacement);
   } else if (is_isotropic_) {
     CellField<IsotropicElasticity> moduli(n);
     parallel_for(mesh_.n_cells(), [&](Index c) { moduli[c] = split(c).secant(elasticity(c), g[c], state.closure[c]); });
@@ -136,7 +132,7 @@ double CellStiffness::integrate(const CellMechanics& mechanics, const FractureSt
 }
 
 double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  if (finite_.any()) return finite_.driving_energy(cell, mechanics, factor(cell, state.damage[cell]), state.histories);
+  if (finite_.any()) return finite_.driving_energy(cell, mechanics, factor(cell, state.damage[cell]));
   if (materials_.has(cell)) return materials_.energy(cell, state.histories).driving;
   return has_degradable_part(cell) ? mechanics.part_energy[cell]
                                    : split(cell).energy(elasticity(cell), mechanics.strain[cell]).psi_plus;
@@ -144,7 +140,7 @@ double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics,
 
 // Half the work on the elastic strain, and what is locked up.
 double CellStiffness::stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  if (finite_.any()) return finite_.stored_energy(cell, mechanics, factor(cell, state.damage[cell]), state.histories);
+  if (finite_.any()) return finite_.stored_energy(cell, mechanics, factor(cell, state.damage[cell]));
   if (!materials_.has(cell)) return mechanics.energy[cell];
   const MaterialEnergy material = materials_.energy(cell, state.histories);
   const double on_inelastic = 0.5 * contract(mechanics.stress[cell], material.inelastic);
@@ -170,7 +166,10 @@ double CellStiffness::plastic_dissipation(const FractureState& from, const Fract
 }
 
 double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {
-  if (finite_.any()) return 0.0;  // the laws have followed already (finite_newton.h)
+  if (finite_.any()) {
+    parallel_for(mesh_.n_cells(), [&](Index c) { state.closure[c] = finite_.closure(c, mechanics.gradient[c]); });
+    return 0.0;
+  }
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     return split(c).has_secant() ? follow_with_closure(c, closing_strain(c, mechanics, state), state)
                                  : follow_with_tangent(c, mechanics.strain[c], state);

@@ -49,9 +49,6 @@ class CellStiffness {
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   const MaterialCells& materials() const { return materials_; }
   const FiniteCells& finite() const { return finite_; }
-  /// At finite strain: the cells are linearised about the displacements of the state, as far as they are sound. False,
-  /// and nothing is changed, where one of them would turn inside out.
-  bool relinearise(const CellHistories& start, const MomentumOperator& balance, FractureState& state) const;
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,
                        const Vector& plane_normal) const;
 

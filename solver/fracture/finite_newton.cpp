@@ -13,55 +13,70 @@ constexpr Index most_steps = 30, most_cuts = 8;
 constexpr double linear_reduction = 0.02;  // of the residual by one linear solve
 constexpr double little_descent = 1.0 - 1e-4;
 
+double work(const std::vector<Vector>& force, const std::vector<Vector>& step, Index n_nodes) {
+  return parallel_sum(n_nodes, [&](Index i) { return force[as_size(i)].dot(step[as_size(i)]); });
+}
+
 /// Finds the part of a Newton step that may be taken.
 struct LineSearch {
   const CellStiffness& stiffness;
-  const CellHistories& start;
   MomentumSolver& momentum;
   FractureState& state;
   const std::vector<Vector> from;
+  const std::vector<Vector> rest;  // unbalanced forces there
+
+  LineSearch(const CellStiffness& law, MomentumSolver& balance, FractureState& at)
+      : stiffness(law),
+        momentum(balance),
+        state(at),
+        from(at.displacement),
+        rest(balance.unbalanced_forces(at.load, at.displacement)) {}
 
   void go_back(double before, double& residual) {
     state.displacement = from;
-    if (!stiffness.relinearise(start, momentum.balance(), state)) return;
     stiffness.set(state, momentum);
     residual = before;
+  }
+
+  bool works_less(const std::vector<Vector>& step) const {
+    constexpr double less = 0.5;
+    const Index n = momentum.n_nodes();
+    const double now = work(momentum.unbalanced_forces(state.load, state.displacement), step, n);
+    return std::abs(now) <= less * std::abs(work(rest, step, n));
   }
 
   // The state's displacements are those at the end of the whole step. Returns the fraction of it, or 0; `residual` is
   // that which has to fall, unless it is small enough, and becomes the one there.
   double shorten(double small_enough, double& residual) {
-    const std::vector<Vector> whole = state.displacement;
+    std::vector<Vector> step = state.displacement;
+    for (std::size_t i = 0; i < step.size(); ++i) step[i] -= from[i];
     const double before = residual;
-    residual = std::numeric_limits<double>::infinity();
     double part = 1.0;
     for (Index cuts = 0; cuts <= most_cuts; ++cuts, part *= 0.5) {
-      parallel_for(static_cast<Index>(whole.size()), [&](Index i) {
-        state.displacement[as_size(i)] = from[as_size(i)] + part * (whole[as_size(i)] - from[as_size(i)]);
-      });
-      if (!stiffness.relinearise(start, momentum.balance(), state)) continue;
+      parallel_for(static_cast<Index>(step.size()),
+                   [&](Index i) { state.displacement[as_size(i)] = from[as_size(i)] + part * step[as_size(i)]; });
       stiffness.set(state, momentum);
       residual = momentum.residual(state.load, state.displacement);
-      if (residual < little_descent * before || residual <= small_enough) return part;
+      if (residual < little_descent * before || residual <= small_enough || works_less(step)) return part;
     }
-    if (std::isfinite(residual)) go_back(before, residual);
+    go_back(before, residual);
     return 0.0;
   }
 };
 
 }  // namespace
 
-Equilibrium solve_finite(const CellStiffness& stiffness, const CellHistories& start,
-                         const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum, FractureState& state) {
+Equilibrium solve_finite(const CellStiffness& stiffness, const MomentumSolver::Tolerance& tolerance,
+                         MomentumSolver& momentum, FractureState& state) {
   Equilibrium total;
   double target = 0.0;
   for (Index step = 0; step < most_steps; ++step) {
-    LineSearch search{stiffness, start, momentum, state, state.displacement};
+    LineSearch search(stiffness, momentum, state);
     const Equilibrium linear = momentum.solve(state.load,
                                               {.reduction = std::max(linear_reduction, 0.5 * tolerance.reduction),
                                                .ceiling = std::numeric_limits<double>::max(),
-                                               .floor = 0.3 * tolerance.floor,
-                                               .most_iterations = tolerance.most_iterations - total.iterations,
+                                               .floor = 0.1 * tolerance.floor,
+                                               .most_iterations = tolerance.most_iterations,
                                                .good_enough = 0.0},
                                               state.displacement);
     if (step == 0) {
@@ -79,7 +94,7 @@ Equilibrium solve_finite(const CellStiffness& stiffness, const CellHistories& st
     const bool stagnates = total.residual <= tolerance.good_enough && total.residual > 0.5 * linear.initial_residual;
     if (part == 0.0 && total.residual > std::max(target, tolerance.good_enough))
       total.residual = std::numeric_limits<double>::infinity();
-    if (total.converged || stagnates || part == 0.0 || total.iterations >= tolerance.most_iterations) break;
+    if (total.converged || stagnates || part == 0.0) break;
   }
   return total;
 }

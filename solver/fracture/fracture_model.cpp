@@ -39,8 +39,9 @@ ElasticBody elastic_body(const FractureModel& model) {
   }
   for (const CohesiveSurface& surface : model.interfaces)
     body.split_faces.insert(body.split_faces.end(), surface.faces.begin(), surface.faces.end());
-  body.has_pressure =
-      model.is_isotropic() && std::ranges::none_of(model.regions, [](const auto& r) { return r.material != nullptr; });
+  body.has_pressure = model.is_isotropic() && std::ranges::none_of(model.regions, [](const RegionModel& r) {
+                        return r.material != nullptr && !r.material->is_finite_strain();
+                      });
   return body;
 }
 

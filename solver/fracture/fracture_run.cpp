@@ -223,9 +223,7 @@ FractureState FractureRun::initial_state() const {
   state.damage = parts_->model.initial_damage.size() > 0 ? parts_->model.initial_damage : CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
-  const CellStiffness& stiffness = parts_->staggered.stiffness();
-  state.histories =
-      model().is_finite_strain() ? stiffness.finite().virgin_histories() : stiffness.materials().virgin_histories();
+  state.histories = parts_->staggered.stiffness().materials().virgin_histories();
   state.interfaces = parts_->staggered.faces().virgin_histories();
   if (!parts_->model.is_isotropic()) state.tangent_strain = CellField<Tensor>(n);
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());

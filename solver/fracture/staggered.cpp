@@ -224,7 +224,7 @@ Equilibrium Staggered::solve_momentum(const FractureState& start, FractureState&
   const auto lap = clock_.lap("momentum");
   if (faces_.any())
     return solve_with_faces(faces_, start.interfaces, state.load, tolerance, momentum_, state.displacement);
-  if (stiffness_.finite().any()) return solve_finite(stiffness_, start.histories, tolerance, momentum_, state);
+  if (stiffness_.finite().any()) return solve_finite(stiffness_, tolerance, momentum_, state);
   return momentum_.solve(state.load, tolerance, state.displacement);
 }
 

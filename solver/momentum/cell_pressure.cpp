@@ -59,8 +59,12 @@ void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellF
     const double kept = moderate_lambda * sound.mu / sound.lambda * moduli[c].lambda;
     modulus_[c] = moduli[c].lambda - kept;
     moduli[c].lambda = kept;
-    counts_[c] = likeness(c, g);
   }
+  weigh(g);
+}
+
+void CellPressure::weigh(const CellField<double>& g) {
+  for (const Index c : unknowns_.pressure_cells) counts_[c] = likeness(c, g);
 }
 
 // The least ratio of a neighbour's stiffness factor to the cell's own, or the other way round.

@@ -32,6 +32,8 @@ class CellPressure {
   /// Reduces lambda to lambda_s in the moduli of the cells with a pressure, which carries the rest. In a damaged cell
   /// both are the same fractions of lambda as in the undamaged one. g are the stiffness factors.
   void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+  /// The part of it that does not concern the moduli: at finite strain, whose laws know their own.
+  void weigh(const CellField<double>& g);
   /// The pressures among the unknowns, and their gradients.
   void read(const std::vector<Vector>& u);
 

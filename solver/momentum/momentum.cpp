@@ -178,19 +178,22 @@ void MomentumOperator::set_face_tensors() {
   });
 }
 
-void MomentumOperator::find_gradients(const std::vector<Vector>& u) const {
-  parallel_for(mesh_.n_cells(), [&](Index c) {
-    gradients_[c] = gradient_.of(u.data(), c);
-    renew_stress(c);
-  });
-  if (pressure_.any()) pressure_.read(u);
-  if (!unknowns_.is_axisymmetric()) return;
+void MomentumOperator::reconstruct(const std::vector<Vector>& u) const {
   const Vector &r = unknowns_.radial, &across = unknowns_.plane_normal;
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    gradients_[c] += (r.dot(u[as_size(c)]) / r.dot(mesh_.cell_centre[c])) * across * across.transpose();
-    renew_stress(c);
-    sector_stress_[c] = across.dot(normal_stress(c, across)) + pressure_.mean(c);
+    gradients_[c] = gradient_.of(u.data(), c);
+    if (unknowns_.is_axisymmetric())
+      gradients_[c] += (r.dot(u[as_size(c)]) / r.dot(mesh_.cell_centre[c])) * across * across.transpose();
   });
+  if (pressure_.any()) pressure_.read(u);
+}
+
+void MomentumOperator::find_gradients(const std::vector<Vector>& u) const {
+  reconstruct(u);
+  if (is_finite()) return find_linear_stresses();
+  const Vector& across = unknowns_.plane_normal;
+  parallel_for(sector_stress_.size(),
+               [&](Index c) { sector_stress_[c] = across.dot(normal_stress(c, across)) + pressure_.mean(c); });
 }
 
 void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const {
@@ -198,35 +201,42 @@ void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const
   const auto n_links = static_cast<Index>(links_.size());
   parallel_for(n_links, [&](Index i) {
     const Link& link = links_[as_size(i)];
-    const Vector stress_P = normal_stress(link.P, link.n, link.d_P), stress_N = normal_stress(link.N, link.n, link.d_N);
+    const Vector stress_P = linear_traction(link.P, link.n, link.d_P, turn_P(as_size(i)));
+    const Vector stress_N = linear_traction(link.N, link.n, link.d_N, turn_N(as_size(i)));
     const Vector u_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
     const Vector jump = u[as_size(link.N)] + gradients_[link.N] * link.d_N - u_P;
     if (!flux_.empty()) flux_[as_size(i)] = link_flux(as_size(i), u_P, jump, stress_N - stress_P);
+    if (!moved_.empty()) moved_[as_size(i)] = linear_face_displacement(as_size(i), u_P, jump, stress_N - stress_P);
     forces_[as_size(i)] = link.area * (stress_N + weigh(as_size(i), stress_P - stress_N) + pull(as_size(i), jump));
+    if (!jump_turns_.empty()) forces_[as_size(i)] += link.area * turned_jump(as_size(i));
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];
     const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - gradients_[side.cell] * side.d;
-    forces_[as_size(n_links + i)] = side.area * (normal_stress(side.cell, side.n, side.d) + hold(as_size(i), gap));
+    const Vector stress = linear_traction(side.cell, side.n, side.d, turn_of_side(as_size(i)));
+    forces_[as_size(n_links + i)] = side.area * (stress + hold(as_size(i), gap));
     if (!flux_.empty()) flux_[as_size(n_links + i)] = side_flux(side, u[as_size(side.node)]);
   });
 }
 
 void MomentumOperator::add_initial_forces() const {
   if (!has_initial_stress()) return;
-  const auto traction = [&](Index cell, const Vector& n) { return initial_traction(cell, n); };
   const auto n_links = static_cast<Index>(links_.size());
   parallel_for(n_links, [&](Index i) {
     const Link& link = links_[as_size(i)];
-    const Vector on_P = traction(link.P, link.n), on_N = traction(link.N, link.n);
+    const Vector on_P = initial_traction(link.P, link.n, turn_P(as_size(i)));
+    const Vector on_N = initial_traction(link.N, link.n, turn_N(as_size(i)));
     forces_[as_size(i)] += link.area * (on_N + weigh(as_size(i), on_P - on_N));
+    if (!jump_turns_.empty()) forces_[as_size(i)] += link.area * jump_turns_[as_size(i)].initial;
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];
-    forces_[as_size(n_links + i)] += side.area * traction(side.cell, side.n);
+    forces_[as_size(n_links + i)] += side.area * initial_traction(side.cell, side.n, turn_of_side(as_size(i)));
   });
   const Vector& across = unknowns_.plane_normal;
-  parallel_for(sector_stress_.size(), [&](Index c) { sector_stress_[c] += across.dot(traction(c, across)); });
+  parallel_for(sector_stress_.size(), [&](Index c) {
+    sector_stress_[c] += is_finite() ? initial_sector_[c] : across.dot(to_tensor(linear_stress_[c].initial) * across);
+  });
 }
 
 void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
@@ -238,7 +248,10 @@ void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& 
   compute_linear_forces(u);
   sum_forces(out);
   pull_by_springs(u, out);
-  balance_pressures(out);
+  if (is_finite())
+    balance_finite_pressures(u, out);
+  else
+    balance_pressures(out);
 }
 
 void MomentumOperator::pull_by_springs(const std::vector<Vector>& u, std::vector<Vector>& out) const {
@@ -294,7 +307,7 @@ void MomentumOperator::keep_in_plane(std::vector<Vector>& v) const {
   parallel_for(unknowns_.n_nodes(), [&](Index i) { v[as_size(i)] -= n.dot(v[as_size(i)]) * n; });
 }
 
-std::vector<Vector> MomentumOperator::load_vector(double t) const {
+std::vector<Vector> MomentumOperator::traction_forces(double t) const {
   std::vector<Vector> load(as_size(unknowns_.n_unknowns()), Vector::Zero());
   for (const PatchCondition& on : unknowns_.conditions) {
     const BoundaryCondition& condition = on.condition;
@@ -307,6 +320,11 @@ std::vector<Vector> MomentumOperator::load_vector(double t) const {
     }
   }
   keep_in_plane(load);
+  return load;
+}
+
+std::vector<Vector> MomentumOperator::load_vector(double t) const {
+  std::vector<Vector> load = traction_forces(t);
   if (has_initial_stress()) take_away_initial_forces(load);
   return load;
 }
@@ -337,12 +355,15 @@ void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
 }
 
 void MomentumOperator::take_away_initial_forces(std::vector<Vector>& load) const {
-  std::vector<Vector> initial(load.size());
+  std::vector<Vector> initial(load.size(), Vector::Zero());
   std::fill(forces_.begin(), forces_.end(), Vector::Zero());
   std::fill(sector_stress_.begin(), sector_stress_.end(), 0.0);
   add_initial_forces();
   sum_forces(initial);
   for (std::size_t i = 0; i < load.size(); ++i) load[i] -= initial[i];
+  for (std::size_t k = 0; k < volume_rows_.size(); ++k)
+    load[as_size(unknowns_.n_nodes()) + k] -=
+        mesh_.cell_volume[unknowns_.pressure_cells[k]] * volume_rows_[k].initial * Vector::UnitX();
 }
 
 }  // namespace pfdm

@@ -39,9 +39,15 @@
 // Periodic faces: the image has no unknown of its own, but the displacement of its node plus what is prescribed between
 // the two, and its forces act on that node: t_P + t_N = 0 as on an interface, whose sides lie at different places.
 //
-// Finite strain (total Lagrangian; momentum_finite.cpp): normals, areas and distances are those of the reference mesh,
-// sigma is the first Piola-Kirchhoff stress P = A : H + P_0 of the law linearised at the last displacement gradients H,
-// by the same least squares, and a = (N.A.N)/h.
+// Finite strain (total Lagrangian; momentum_finite.cpp): normals N, areas and distances are those of the reference
+// mesh, sigma is the first Piola-Kirchhoff stress P(H) at the displacement gradients H of the same least squares, and
+//
+//   a = (mu I + (lambda + mu/J^2) c c^T) / h,  c = cof F N,
+//
+// the acoustic tensor N.(dP/dF).N of the neo-Hookean law, with a mean shear modulus of the tangent for the others. It
+// is objective, positive definite for any F, and smooth; its derivative is part of the linearised balance. Pressures
+// add q c to the traction and have V (J(q) - 1) = V (det F - 1) for their equation, F being the mean gradient of the
+// two-sided face displacements.
 //
 // Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
 // are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements.
@@ -50,6 +56,7 @@
 #include "physics/plane_stress.h"
 #include "solver/linear/block_matrix.h"
 #include "solver/momentum/cell_pressure.h"
+#include "solver/momentum/finite_law.h"
 #include "solver/momentum/unknowns.h"
 #include "solver/scalar/gradient.h"
 
@@ -102,10 +109,15 @@ class MomentumOperator {
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
 
-  /// Finite strain: the law of every cell linearised, with major symmetry of A. No plane stress, no pressures.
-  void set_tangent(CellField<GradientStress> law, const CellField<double>& g, double part = 0.0);
-  /// H of every cell by least squares, of which the tractions are made [-].
-  CellField<Tensor> reconstructed_gradients(const std::vector<Vector>& u) const;
+  /// Finite strain: the balance linearised about the displacements u. There it is exact. No plane stress.
+  void set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double part = 0.0);
+  bool is_finite() const { return finite_.size() > 0; }
+  const CellField<Tensor>& deformation() const { return F_; }  ///< F by least squares, at which it is linearised
+  CellField<double> face_stiffness() const;                    ///< a measure of a h at finite strain [Pa]
+  /// Whether it has lost most of its stiffness.
+  bool is_soft(Index cell) const {
+    return finite_[cell].face.mu < 0.05 * unknowns_.sound[as_size(unknowns_.zone[cell])].mu;
+  }
 
   /// In the order of the split faces.
   void set_springs(std::vector<FaceSpring> springs) { springs_ = std::move(springs); }
@@ -132,7 +144,9 @@ class MomentumOperator {
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
   /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Without initial stresses.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
-  /// Forces from prescribed tractions at the load parameter t and from initial stresses, [N].
+  /// Forces from prescribed tractions at the load parameter t [N].
+  std::vector<Vector> traction_forces(double t) const;
+  /// The same with those from initial stresses, [N].
   std::vector<Vector> load_vector(double t) const;
   /// Writes the prescribed components of the boundary nodes at the load parameter t.
   void prescribe(double t, std::vector<Vector>& u) const;
@@ -190,6 +204,30 @@ class MomentumOperator {
     Tensor c;         // [Pa/m]
     Tensor softness;  // (a + b)^-1 [m/Pa]
   };
+  // What the traction on one side of a face changes by with its c = cof F N: turn dc, through a and the pressure; and
+  // the constant part of the linearised traction.
+  struct FaceTurn {
+    Tensor turn;     // [Pa]
+    Vector swell;    // by J [Pa]
+    Vector initial;  // [Pa]
+  };
+  // m of a h = mu 1 + m c c^T, and dm/dJ.
+  struct Push {
+    double stiffness = 0.0, slope = 0.0;  // [Pa]
+    Push operator/(double h) const { return {stiffness / h, slope / h}; }
+  };
+  // Of a link where the jump has a stiffness other than that of the tractions: what that adds, likewise.
+  struct JumpTurn {
+    Tensor P, N;              // [Pa]
+    Vector swell_P, swell_N;  // [Pa]
+    Vector initial;           // [Pa]
+  };
+  // Equation of a pressure, J(q) = det F of the mean gradient, linearised.
+  struct VolumeRow {
+    double slope;     // dJ/dq [1/Pa]
+    Tensor cofactor;  // of F
+    double initial;   // its constant part
+  };
   struct SignedForce {
     Index force;
     double sign;
@@ -220,23 +258,42 @@ class MomentumOperator {
   double side_flux(const Side& side, const Vector& u_f) const;
   void balance_pressures(std::vector<Vector>& out) const;
   bool has_linear_stress() const { return linear_stress_.size() > 0; }
-  bool is_finite() const { return tangent_.size() > 0; }
   bool is_isotropic() const { return stiffness_.size() == 0 && !is_finite(); }
   bool has_initial_stress() const { return has_linear_stress() || is_finite(); }
-  Vector initial_traction(Index cell, const Vector& n) const {
-    return is_finite() ? (tangent_[cell].initial * n).eval() : (to_tensor(linear_stress_[cell].initial) * n).eval();
+  // On the P side, the N side of a link, or on a side: `turn` is its number among face_turns_.
+  Vector initial_traction(Index cell, const Vector& n, std::size_t turn) const {
+    return is_finite() ? face_turns_[turn].initial : (to_tensor(linear_stress_[cell].initial) * n).eval();
   }
-  // a h, of cells that are not isotropic; at finite strain its positive part.
+  static std::size_t turn_P(std::size_t link) { return 2 * link; }
+  static std::size_t turn_N(std::size_t link) { return 2 * link + 1; }
+  std::size_t turn_of_side(std::size_t side) const { return 2 * links_.size() + side; }
+  // a h, of cells that are not isotropic.
   Tensor acoustic(Index cell, const Vector& n) const;
   Tensor capped_acoustic(Index cell, const Vector& n) const;
+  Push capped_push(Index cell) const;
   Tensor jump_tensor(const Link& link, double h_P, double h_N) const;
+  double stiffness_difference(const Link& link) const;
   void set_face_tensors();
+  void reconstruct(const std::vector<Vector>& u) const;
   void find_gradients(const std::vector<Vector>& u) const;
-  void renew_stress(Index cell) const {
-    if (is_finite()) stresses_[cell] = from_components(tangent_[cell].A * to_components(gradients_[cell]));
-  }
+  // Of finite strain.
+  Vector true_traction(Index cell, const Vector& n, const Vector& d) const;
+  FaceTurn face_turn(Index cell, const Vector& n, const Vector& d, const Push& m, const Vector& y) const;
+  void turn_link(std::size_t i, const std::vector<Vector>& u);
+  void turn_jump(std::size_t i, const Vector& jump);
+  void turn_side(std::size_t i, const std::vector<Vector>& u);
+  void find_initial_sector_stress();
+  void find_linear_stresses() const;
+  Vector turned_jump(std::size_t i) const;
+  Vector linear_face_displacement(std::size_t i, const Vector& u_P, const Vector& jump,
+                                  const Vector& stress_jump) const;
+  Tensor mean_gradient(Index cell, const std::vector<Vector>& u) const;
+  void balance_finite_pressures(const std::vector<Vector>& u, std::vector<Vector>& out) const;
+  void find_initial_volumes(const std::vector<Vector>& u);
+  void find_pressure_forces(const CellField<double>& tension) const;
+  void find_finite_pressure_forces(const CellField<double>& q) const;
+  Vector moved_with(Index cell, Index face, const std::vector<Vector>& u) const;
   Vector normal_stress(Index cell, const Vector& n) const {
-    if (is_finite()) return stresses_[cell] * n;
     const Tensor& G = gradients_[cell];
     if (!is_isotropic()) return to_tensor(stiffness_[cell] * to_mandel(symmetric_part(G))) * n;
     if (has_linear_stress()) return to_tensor(linear_stress_[cell].C * to_mandel(symmetric_part(G))) * n;
@@ -246,6 +303,13 @@ class MomentumOperator {
   // At the distance d from the cell's centre; only the pressure varies within a cell.
   Vector normal_stress(Index cell, const Vector& n, const Vector& d) const {
     return pressure_.any() ? (normal_stress(cell, n) + pressure_.at(cell, d) * n).eval() : normal_stress(cell, n);
+  }
+  // Part of it that varies with the displacements.
+  Vector linear_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn) const {
+    if (!is_finite()) return normal_stress(cell, n, d);
+    const FaceTurn& by = face_turns_[turn];
+    const Vector t = stresses_[cell] * n + by.turn * (cofactor_change_[cell] * n) + by.swell * volume_rate_[cell];
+    return pressure_.any() ? (t + pressure_.at(cell, d) * (cofactor_[cell] * n)).eval() : t;
   }
   static constexpr double moderate_lambda = 1.5;  // lambda_s / mu of undamaged polyhedra, at most
   static CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns);
@@ -291,7 +355,14 @@ class MomentumOperator {
   CellField<double> liquidity_;            // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is
   CellField<MandelMatrix> stiffness_;      // empty while all cells are isotropic, as are the tensors of the faces
   CellField<LinearStress> linear_stress_;  // may be empty
-  CellField<GradientStress> tangent_;      // of finite strain; else empty
+  CellField<FiniteLaw> finite_;            // of finite strain, as what follows; else empty
+  CellField<Tensor> F_, cofactor_;         // at which the laws are linearised
+  CellField<Push> push_;                   // of their faces
+  std::vector<FaceTurn> face_turns_;       // two per link, then one per side
+  std::vector<JumpTurn> jump_turns_;       // per link; empty where the jump's stiffness is that of the tractions
+  std::vector<VolumeRow> volume_rows_;     // per pressure
+  CellField<double> pressure_at_;          // q there [Pa]; zero without
+  CellField<double> initial_sector_;       // of sector_stress_ [Pa]
   CellField<StrainAcross> strain_across_;  // empty but in plane stress
   std::vector<Link> links_;
   bool has_relaxed_flat_cells_ = false;
@@ -311,10 +382,13 @@ class MomentumOperator {
   CellField<Vector> sector_area_;
   mutable CellField<double> sector_stress_;
   mutable CellPressure pressure_;
-  mutable std::vector<double> flux_;     // as forces_: u_f.S [m^3]; empty without pressures
-  mutable CellField<Tensor> gradients_;  // work space of apply
-  mutable CellField<Tensor> stresses_;   // likewise, at finite strain: A : H [Pa]
-  mutable std::vector<Vector> forces_;   // per link, then per side: A t outwards from P or from the side's cell
+  mutable std::vector<double> flux_;           // as forces_: u_f.S [m^3]; empty without pressures
+  mutable CellField<Tensor> gradients_;        // work space of apply
+  mutable CellField<Tensor> stresses_;         // likewise, at finite strain: A : H [Pa]
+  mutable CellField<Tensor> cofactor_change_;  // and that of cof F by H,
+  mutable CellField<double> volume_rate_;      // of J
+  mutable std::vector<Vector> moved_;          // with pressures: the linearised displacement of each link [m]
+  mutable std::vector<Vector> forces_;         // per link, then per side: A t outwards from P or from the side's cell
 };
 
 }  // namespace pfdm

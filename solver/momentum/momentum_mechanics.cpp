@@ -25,8 +25,10 @@ Vector MomentumOperator::face_displacement(std::size_t i, const std::vector<Vect
   const Link& link = links_[i];
   const Vector from_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
   const Vector from_N = u[as_size(link.N)] + gradients_[link.N] * link.d_N;
-  Vector stress_jump = normal_stress(link.N, link.n, link.d_N) - normal_stress(link.P, link.n, link.d_P);
-  if (has_initial_stress()) stress_jump += initial_traction(link.N, link.n) - initial_traction(link.P, link.n);
+  Vector stress_jump =
+      linear_traction(link.N, link.n, link.d_N, turn_N(i)) - linear_traction(link.P, link.n, link.d_P, turn_P(i));
+  if (has_initial_stress())
+    stress_jump += initial_traction(link.N, link.n, turn_N(i)) - initial_traction(link.P, link.n, turn_P(i));
   const Vector towards_N =
       is_isotropic() ? weigh(i, from_N - from_P) : link_tensors_[i].weight.transpose() * (from_N - from_P);
   return from_P + towards_N + give(i, stress_jump);
@@ -91,7 +93,10 @@ Vector MomentumOperator::seen_from(Index cell, Index face, const FaceField<Vecto
                                    const std::vector<Vector>& u) const {
   if (const Index node = unknowns_.node_beside(mesh_, cell, face); node != unknowns_.node_of_face[face])
     return u[as_size(node)];
-  if (force_of_face_[as_size(face)] >= 0) return u_face[face];
+  return force_of_face_[as_size(face)] >= 0 ? u_face[face] : moved_with(cell, face, u);
+}
+
+Vector MomentumOperator::moved_with(Index cell, Index face, const std::vector<Vector>& u) const {
   if (unknowns_.is_axisymmetric()) {
     const Vector along = mesh_.face_area[face].normalized();
     const Vector moved = u[as_size(cell)] + gradients_[cell] * (mesh_.face_centre[face] - mesh_.cell_centre[cell]);

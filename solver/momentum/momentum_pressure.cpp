@@ -40,9 +40,12 @@ std::vector<double> MomentumOperator::pressure_compliance() const {
   // again.
   constexpr double answer = 4.0;
   std::vector<double> compliance;
-  for (const Index c : unknowns_.pressure_cells)
-    compliance.push_back(mesh_.cell_volume[c] *
-                         (1.0 / pressure_.modulus(c) + answer / moduli_[c].constrained_modulus()));
+  for (std::size_t k = 0; k < unknowns_.pressure_cells.size(); ++k) {
+    const Index c = unknowns_.pressure_cells[k];
+    const double own = is_finite() ? volume_rows_[k].slope : 1.0 / pressure_.modulus(c);
+    const IsotropicElasticity& moduli = is_finite() ? finite_[c].face : moduli_[c];
+    compliance.push_back(mesh_.cell_volume[c] * (own + answer / moduli.constrained_modulus()));
+  }
   return compliance;
 }
 
@@ -50,6 +53,16 @@ void MomentumOperator::take_away_pressure_forces(const std::vector<Vector>& q, s
   const std::vector<Index>& cells = unknowns_.pressure_cells;
   CellField<double> tension(as_size(mesh_.n_cells()), 0.0);
   for (std::size_t k = 0; k < cells.size(); ++k) tension[cells[k]] = q[as_size(unknowns_.n_nodes()) + k][0];
+  if (is_finite())
+    find_finite_pressure_forces(tension);
+  else
+    find_pressure_forces(tension);
+  std::vector<Vector> of_pressures(r.size());
+  sum_forces(of_pressures);
+  parallel_for(unknowns_.n_nodes(), [&](Index i) { r[as_size(i)] -= of_pressures[as_size(i)]; });
+}
+
+void MomentumOperator::find_pressure_forces(const CellField<double>& tension) const {
   const auto n_links = static_cast<Index>(links_.size());
   parallel_for(n_links, [&](Index i) {
     const Link& link = links_[as_size(i)];
@@ -61,9 +74,6 @@ void MomentumOperator::take_away_pressure_forces(const std::vector<Vector>& q, s
     forces_[as_size(n_links + i)] = (side.area * tension[side.cell]) * side.n;
   });
   parallel_for(sector_stress_.size(), [&](Index c) { sector_stress_[c] = tension[c]; });
-  std::vector<Vector> of_pressures(r.size());
-  sum_forces(of_pressures);
-  parallel_for(unknowns_.n_nodes(), [&](Index i) { r[as_size(i)] -= of_pressures[as_size(i)]; });
 }
 
 }  // namespace pfdm

@@ -38,13 +38,23 @@ void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const Cell
   if (renew_preconditioner(trace, false)) built_moduli_ = {};
 }
 
-void MomentumSolver::set_tangent(CellField<GradientStress> law, const CellField<double>& g) {
-  CellField<double> trace(as_size(law.size()));
-  parallel_for(law.size(), [&](Index c) { trace[c] = std::abs(law[c].A.trace()); });
+void MomentumSolver::set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u) {
   if (starts_afresh_) is_built_ = false;
-  reference_load_.reset();
-  operator_.set_tangent(std::move(law), g, gradient_lag());
-  if (renew_preconditioner(trace, struggled_)) built_moduli_ = {};
+  operator_.set_finite(law, g, u, gradient_lag());
+  const CellField<double> measure = operator_.face_stiffness();
+  if (is_built_ && !struggled_ && !has_changed(measure) && !has_deformed()) return;
+  built_measure_ = measure;
+  built_deformation_ = operator_.deformation();
+  is_built_ = is_due_ = true;
+}
+
+// Turned or stretched by a good part. Broken cells may do as they like: their stiffness counts.
+bool MomentumSolver::has_deformed() const {
+  constexpr double much = 0.5;
+  const CellField<Tensor>& F = operator_.deformation();
+  return parallel_max(F.size(), [&](Index c) {
+           return operator_.is_soft(c) ? 0.0 : (F[c] - built_deformation_[c]).norm();
+         }) > much;
 }
 
 double MomentumSolver::gradient_lag() {
@@ -62,13 +72,15 @@ bool MomentumSolver::has_moved(const CellField<IsotropicElasticity>& moduli) con
          }) > bearable_ratio;
 }
 
+bool MomentumSolver::has_changed(const CellField<double>& measure) const {
+  const CellField<double>& built = built_measure_;
+  return parallel_max(measure.size(), [&](Index c) { return std::max(measure[c] / built[c], built[c] / measure[c]); }) >
+         bearable_ratio;
+}
+
 // Returns whether it will be rebuilt.
 bool MomentumSolver::renew_preconditioner(const CellField<double>& measure, bool must_be) {
-  const CellField<double>& built = built_measure_;
-  const bool moved = is_built_ && parallel_max(measure.size(), [&](Index c) {
-                                    return std::max(measure[c] / built[c], built[c] / measure[c]);
-                                  }) > bearable_ratio;
-  if (is_built_ && !moved && !must_be) return false;
+  if (is_built_ && !has_changed(measure) && !must_be) return false;
   built_measure_ = measure;
   is_built_ = is_due_ = true;
   if (unknowns_.split_faces.empty()) build_preconditioner();  // the others wait for their springs
@@ -128,14 +140,21 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
   std::vector<Vector> prescribed(load.size(), Vector::Zero()), image(load.size());
   operator_.prescribe(t, prescribed);
   operator_.apply(prescribed, image);
-  for (std::size_t i = 0; i < load.size(); ++i) image[i] = load[i] - image[i];
+  std::vector<Vector> given = load;
+  if (operator_.is_finite()) {  // the linearised law's constant part belongs to the displacements of now
+    given = operator_.traction_forces(t);
+    add_body_force(given);
+  }
+  for (std::size_t i = 0; i < load.size(); ++i) image[i] = given[i] - image[i];
   reference_load_ = t;
   reference_ = scaled_norm(image, scale_);
   return reference_;
 }
 
 double MomentumSolver::residual(double t, const std::vector<Vector>& u) {
-  if (is_due_) build_preconditioner();
+  // At finite strain residuals are compared between linearisations.
+  const bool keeps_scale = operator_.is_finite() && !scale_.empty();
+  if (is_due_ && !keeps_scale) build_preconditioner();
   std::vector<Vector> rest = load_vector(t), image(u.size());
   const double reference = reference_norm(t, rest);
   if (reference == 0.0) return 0.0;
@@ -153,8 +172,12 @@ void MomentumSolver::set_body_force(std::vector<Vector> force) {
 
 std::vector<Vector> MomentumSolver::load_vector(double t) const {
   std::vector<Vector> load = operator_.load_vector(t);
-  for (std::size_t c = 0; c < body_force_.size(); ++c) load[c] += body_force_[c];
+  add_body_force(load);
   return load;
+}
+
+void MomentumSolver::add_body_force(std::vector<Vector>& load) const {
+  for (std::size_t c = 0; c < body_force_.size(); ++c) load[c] += body_force_[c];
 }
 
 std::vector<Vector> MomentumSolver::unbalanced_forces(double t, const std::vector<Vector>& u) const {

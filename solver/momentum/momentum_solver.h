@@ -33,8 +33,10 @@ class MomentumSolver {
                   CellField<LinearStress> stress = {});
   /// The same with a general stiffness [Pa]; the preconditioner is rebuilt by changes of its trace.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
-  /// The same for finite strain (MomentumOperator::set_tangent); the preconditioner is rebuilt by changes of its trace.
-  void set_tangent(CellField<GradientStress> law, const CellField<double>& g);
+  /// Finite strain: the balance is linearised about the displacements u (MomentumOperator::set_finite). The next solve
+  /// rebuilds the preconditioner if the stiffness of some cell's faces has changed by more than a factor of 2, or has
+  /// turned.
+  void set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u);
   /// The laws of the split faces about their separations. The preconditioner is rebuilt when a face together with the
   /// cells beside it, whose stiffness is `bond` [Pa/m], has changed its stiffness by more than a factor of 2.
   void set_springs(std::vector<FaceSpring> springs, const std::vector<double>& bond);
@@ -68,11 +70,15 @@ class MomentumSolver {
 
   MomentumOperator& balance() { return operator_; }
   const MomentumOperator& balance() const { return operator_; }
+  Index n_nodes() const { return unknowns_.n_nodes(); }
   Index n_preconditioners() const { return n_preconditioners_; }
 
  private:
   void build_preconditioner();
   bool has_moved(const CellField<IsotropicElasticity>& moduli) const;
+  bool has_changed(const CellField<double>& measure) const;
+  bool has_deformed() const;
+  void add_body_force(std::vector<Vector>& load) const;
   bool renew_preconditioner(const CellField<double>& measure, bool must_be);
   double gradient_lag();
   std::vector<Vector> load_vector(double t) const;
@@ -86,6 +92,7 @@ class MomentumSolver {
   bool is_due_ = false;
   CellField<double> built_measure_;              // of the cells' stiffness: any measure, but always the same
   CellField<IsotropicElasticity> built_moduli_;  // empty for a general stiffness
+  CellField<Tensor> built_deformation_;          // F; empty at small strain
   bool starts_afresh_ = false;
   bool struggled_ = false;  // the last solve did not converge
   std::vector<double> scale_;

@@ -1,0 +1,27 @@
+#pragma once
+// The law of a cell at finite strain, linearised, as the momentum balance takes it.
+
+#include "physics/gradient_stress.h"
+#include "physics/materials/hyperelastic.h"
+
+#include <functional>
+
+namespace pfdm {
+
+struct FiniteLaw {
+  Tensor stress = Tensor::Zero();               ///< P at the gradient H, without that of a pressure [Pa]
+  GradientTangent A = GradientTangent::Zero();  ///< dP/dH there [Pa]
+  /// Of the faces (momentum.h).
+  IsotropicElasticity face;
+  /// Of cells with a pressure: J by the pressure q, with the fractions of its modulus that are left where q > 0 and
+  /// where q < 0.
+  const HyperelasticMaterial* pressure = nullptr;
+  double open = 1.0, closed = 1.0;
+
+  VolumeAt volume(double q) const { return pressure->volume(q, q > 0.0 ? open : closed); }
+};
+
+/// Of a cell, at its displacement gradient H.
+using FiniteLawAt = std::function<FiniteLaw(Index cell, const Tensor& H)>;
+
+}  // namespace pfdm
