@@ -4,26 +4,38 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace pfdm {
 
 BaseResponse::BaseResponse(const VibratingBody& body, const Vector& direction, std::span<const Harmonic> wanted,
                            double tolerance, Eigen::Index most_vectors)
-    : body_(body), direction_(direction), space_(body, body.inertial_answer(body.rigid(direction))) {
-  for (bool goes_on = true; goes_on;) {
-    goes_on = space_.extend();
-    H_ = space_.projection();
-    if (goes_on && space_.n_projected() % 4 != 0) continue;
-    double worst = 0.0;
-    for (const Harmonic& at : wanted) worst = std::max(worst, residual(at));
-    if (worst <= tolerance) break;
-    if (!goes_on || space_.n_projected() >= most_vectors)
+    : body_(body),
+      direction_(direction),
+      space_(body, body.inertial_answer(body.rigid(direction))),
+      tolerance_(tolerance),
+      most_vectors_(most_vectors) {
+  reach(wanted);
+}
+
+void BaseResponse::reach(std::span<const Harmonic> wanted) {
+  const auto is_reached = [&] {
+    return std::ranges::all_of(wanted, [&](const Harmonic& at) { return residual(at) <= tolerance_; });
+  };
+  while (space_.n_projected() == 0 || !(is_complete_ || is_reached())) {
+    if (space_.n_projected() >= most_vectors_)
       throw ComputationError(
           "the response to the base's motion did not converge: the highest frequency is too high "
           "for this mesh");
+    for (int k = 0; k < 4 && !is_complete_; ++k) is_complete_ = !space_.extend();
+    H_ = space_.projection();
   }
-  mass_moment_.resize(space_.n_projected());
-  const Eigen::VectorXd rigid = body.rigid(direction);
-  for (Eigen::Index j = 0; j < mass_moment_.size(); ++j) mass_moment_[j] = body.inner(rigid, space_.vector(j));
+  if (!is_reached())
+    throw ComputationError("the response to the base's motion did not converge: no further vector is found");
+  const Eigen::Index n_known = mass_moment_.size();
+  mass_moment_.conservativeResize(space_.n_projected());
+  const Eigen::VectorXd rigid = body_.rigid(direction_);
+  for (Eigen::Index j = n_known; j < mass_moment_.size(); ++j) mass_moment_[j] = body_.inner(rigid, space_.vector(j));
 }
 
 Eigen::VectorXcd BaseResponse::weights(const Harmonic& at) const {

@@ -27,6 +27,8 @@ class BaseResponse {
   /// `wanted`. Throws ComputationError if that takes more than `most_vectors`.
   BaseResponse(const VibratingBody& body, const Vector& direction, std::span<const Harmonic> wanted,
                double tolerance = 1e-7, Eigen::Index most_vectors = 200);
+  /// Extends the space as far as the residual at all of these asks for. Throws likewise.
+  void reach(std::span<const Harmonic> wanted);
 
   /// u of all unknowns, pressures of the modulus of K included [m per m/s^2].
   Eigen::VectorXcd displacement(const Harmonic& at) const;
@@ -44,6 +46,9 @@ class BaseResponse {
   const VibratingBody& body_;
   Vector direction_;
   KrylovSpace space_;
+  double tolerance_;
+  Eigen::Index most_vectors_;
+  bool is_complete_ = false;
   Eigen::MatrixXd H_;
   Eigen::VectorXd mass_moment_;  // d.M v of each vector
 };

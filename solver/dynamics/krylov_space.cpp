@@ -4,10 +4,16 @@
 
 namespace pfdm {
 
-KrylovSpace::KrylovSpace(const VibratingBody& body, const Eigen::VectorXd& start)
-    : body_(body), start_norm_(std::sqrt(body.inner(start, start))) {
+KrylovSpace::KrylovSpace(const VibratingBody& body, Eigen::VectorXd start, std::vector<Eigen::VectorXd> locked)
+    : body_(body), locked_(std::move(locked)) {
+  take_away_locked(start);
+  start_norm_ = std::sqrt(body.inner(start, start));
   if (!(start_norm_ > 0.0)) throw ComputationError("the load on a vibrating body does not move it");
   vectors_.emplace_back(start / start_norm_);
+}
+
+void KrylovSpace::take_away_locked(Eigen::VectorXd& v) const {
+  for (const Eigen::VectorXd& q : locked_) v -= body_.inner(q, v) * q;
 }
 
 // Gram-Schmidt, twice: once leaves the rounding of large components.
@@ -18,6 +24,7 @@ bool KrylovSpace::extend() {
   H_.conservativeResizeLike(Eigen::MatrixXd::Zero(m + 1, m + 1));
   if (m > 0) H_(m, m - 1) = remainder_;
   for (int pass = 0; pass < 2; ++pass) {
+    take_away_locked(next);
     const Eigen::VectorXd weighted = body_.mass().cwiseProduct(next);
     Eigen::VectorXd part(m + 1);
     for (Eigen::Index j = 0; j <= m; ++j) part[j] = vectors_[static_cast<std::size_t>(j)].dot(weighted);

@@ -11,7 +11,9 @@ namespace pfdm {
 class KrylovSpace {
  public:
   /// `start` is K^-1 of something, so that it has the displacements of the faces and the pressures that belong to it.
-  KrylovSpace(const VibratingBody& body, const Eigen::VectorXd& start);
+  /// `locked`: orthonormal vectors that A maps into their own span; the space then is one of A without what it makes of
+  /// them: its eigenvalues are the others of A.
+  KrylovSpace(const VibratingBody& body, Eigen::VectorXd start, std::vector<Eigen::VectorXd> locked = {});
 
   /// One more vector. Returns false if the space is complete: it holds A of all its vectors.
   bool extend();
@@ -27,8 +29,11 @@ class KrylovSpace {
   const Eigen::VectorXd& vector(Eigen::Index j) const { return vectors_[static_cast<std::size_t>(j)]; }
 
  private:
+  void take_away_locked(Eigen::VectorXd& v) const;
+
   const VibratingBody& body_;
-  double start_norm_;
+  std::vector<Eigen::VectorXd> locked_;
+  double start_norm_ = 0.0;
   std::vector<Eigen::VectorXd> vectors_;
   Eigen::MatrixXd H_;
   double remainder_ = 0.0;

@@ -10,4 +10,7 @@ namespace pfdm {
 /// move. `damage`, per cell: those that are as good as broken hold nothing together; empty: there are none.
 void require_held(const Mesh& mesh, const Unknowns& unknowns, const CellField<double>& damage = {});
 
+/// place_unknowns() without this check: nothing needs to hold the body, and its stiffness may be singular.
+Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body);
+
 }  // namespace pfdm

@@ -156,7 +156,7 @@ void hold(const ElasticBody& body, Unknowns& unknowns) {
 
 }  // namespace
 
-Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
+Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   Unknowns unknowns;
   unknowns.n_cells = mesh.n_cells();
   unknowns.zone = elastic_zones(mesh, body);
@@ -189,8 +189,13 @@ Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
   require_front_and_back(mesh, unknowns);
   place_sector(sector_normals, unknowns);
   hold(body, unknowns);
-  require_held(mesh, unknowns);
   unknowns.pressure_cells = pressure_cells(mesh, body, unknowns);
+  return unknowns;
+}
+
+Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
+  Unknowns unknowns = place_floating_unknowns(mesh, body);
+  require_held(mesh, unknowns);
   return unknowns;
 }
 

@@ -3,6 +3,7 @@
 #include "physics/error.h"
 #include "solver/dynamics/base_response.h"
 #include "solver/dynamics/modes.h"
+#include "solver/dynamics/spline_grid.h"
 
 #include "tests/physics/physics_checks.h"
 #include "tests/solver/solver_checks.h"
@@ -71,6 +72,58 @@ TEST(Dynamics, ModesAreEigenvectorsAndCarryTheWholeMass) {
   for (const double mass : carried) {
     EXPECT_LT(mass, 101.0);  // the operator is not quite symmetric
     EXPECT_GT(mass, 80.0);
+  }
+}
+
+// A thin plate, also with pressures.
+TEST(Dynamics, IterativeAnswersAreThoseOfTheFactors) {
+  const Mesh mesh = box(16, 12, 4, {1.0, 0.8, 0.04});
+  for (const double nu : {0.3, 0.45, 0.49}) {
+    const ElasticBody elastic = body_of(mesh, nu, {clamped("xmin"), clamped("xmax")});
+    const VibratingBody factored(mesh, elastic, {1000.0}), iterative(mesh, elastic, {1000.0}, {.most_factored = 0});
+    const Eigen::VectorXd due = factored.inertial_answer(factored.rigid(Vector::UnitZ())),
+                          found = iterative.inertial_answer(iterative.rigid(Vector::UnitZ()));
+    EXPECT_LT((found - due).norm(), 1e-6 * due.norm()) << nu;
+    EXPECT_THAT(iterative.method(), testing::StartsWith("1 solutions of "));
+    EXPECT_LT(std::stod(iterative.method().substr(15)), 100.0) << iterative.method();
+    if (nu != 0.45) continue;
+    const std::vector<Mode> of_factors = lowest_modes(factored, 3), of_iterations = lowest_modes(iterative, 3);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(of_iterations[k].omega / of_factors[k].omega, 1.0, 1e-6);
+  }
+}
+
+TEST(Dynamics, RigidMotionsOfABodyThatFloatsHaveNoFrequency) {
+  const Mesh mesh = box(6, 4, 3, {1.0, 0.5, 0.2});
+  const VibratingBody body(mesh, body_of(mesh, 0.3, {}), {1000.0}, {.shift = 1000.0});
+  const std::vector<Mode> modes = lowest_modes(body, 7);
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(modes[k].omega, 0.0);
+  EXPECT_GT(modes[6].omega, 0.0);
+  const Eigen::VectorXd inertia = modes[6].omega * modes[6].omega * body.mass().cwiseProduct(modes[6].shape);
+  EXPECT_LT((body.stiffness() * modes[6].shape - inertia).norm(), 1e-6 * inertia.norm());
+}
+
+// Their sum is one, and their gradients are their derivatives.
+TEST(Dynamics, SplinesAreOneInSum) {
+  const SplineGrid grid({-1.0, 0.0, 0.0}, {3.0, 2.0, 0.2}, 100, 400);
+  EXPECT_LE(grid.n_functions(), 400);
+  EXPECT_GT(grid.n_boxes(), 1);
+  RandomNumbers random;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Vector x = Vector(1.0, 1.0, 0.1) + random.vector().cwiseProduct(Vector(2.0, 1.0, 0.1));
+    const Index box = grid.box_of(x);
+    const auto value = grid.values(box, x);
+    const auto gradient = grid.gradients(box, x);
+    double sum = 0.0;
+    Vector slope = Vector::Zero();
+    for (std::size_t m = 0; m < value.size(); ++m) {
+      sum += value[m];
+      slope += gradient[m];
+      const Vector dx(0.0, 1e-6, 0.0);
+      const double due = (grid.values(box, x + dx)[m] - grid.values(box, x - dx)[m]) / 2e-6;
+      EXPECT_NEAR(gradient[m].y(), due, 1e-6);
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+    EXPECT_LT(slope.norm(), 1e-10);
   }
 }
 

@@ -115,6 +115,38 @@ TEST(VibratingBodies, BeamsInPlaneStrain) {
   EXPECT_NEAR(thin[1] / 21.9941, 1.0, 0.015);
 }
 
+// Nothing holds it: its rigid motions, three in the plane and six in space, have no frequency. Timoshenko's beam with
+// free ends, in plane strain and in space, where each bending mode comes twice.
+TEST(VibratingBodies, FreeFreeBeams) {
+  const double length = 0.254, D_over = E / (12.0 * rho);
+  const struct {
+    const char* name;
+    double ratio;
+    std::array<Index, 3> cells;
+    bool in_space;
+    std::array<double, 3> due;
+  } rows[] = {{"1:20, free, plane strain", 20.0, {80, 1, 8}, false, {22.1920, 60.3203, 115.965}},
+              {"1:50, free, plane strain", 50.0, {100, 1, 8}, false, {22.3439, 61.4488, 120.060}},
+              {"1:20, free, in space", 20.0, {40, 8, 6}, true, {22.1920, 43.3610, 60.3203}}};
+  for (const auto& row : rows) {
+    const double h = length / row.ratio, unit = h / (length * length) * std::sqrt(D_over);
+    std::vector<BoundaryCondition> boundary;
+    if (!row.in_space) boundary = {plane_on("ymin"), plane_on("ymax")};
+    const Mesh mesh = box({length, row.in_space ? 2.0 * h : h, h}, row.cells);
+    const VibratingBody body(mesh, body_of(0.0, boundary), {rho}, {.shift = 100.0 * unit * unit});
+    const std::size_t n_rigid = row.in_space ? 6 : 3;
+    const std::vector<Mode> modes = lowest_modes(body, static_cast<int>(n_rigid + 3));
+    for (std::size_t k = 0; k < n_rigid; ++k) EXPECT_EQ(modes[k].omega, 0.0) << row.name;
+    std::array<double, 3> found{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      found[k] = modes[n_rigid + k].omega / (row.due[k] * unit);
+      EXPECT_NEAR(found[k], 1.0, 0.015) << row.name;
+      EXPECT_LT(modes[n_rigid + k].participation.norm(), 1e-3 * std::sqrt(body.total_mass())) << row.name;
+    }
+    report_row(row.name, {{"1", found[0]}, {"2", found[1]}, {"3", found[2]}});
+  }
+}
+
 // A strip in cylindrical bending, 50 times as long as thick, eta = 0.1, on a base that moves across it: both its first
 // two symmetric resonances, at 13.92 and 74.46 Hz.
 TEST(VibratingBodies, StripOnAShaker) {

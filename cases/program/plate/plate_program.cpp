@@ -93,8 +93,8 @@ void compute(const PlateProgram& program, Session& session, const fs::path& fold
   const Mesh mesh = c.mesh.make();
   const PlateRun run(c, mesh);
   Log& log = session.log;
-  log.say(fmt::format("cells {}, {} entries of factors, {} vectors of the frequency response", mesh.n_cells(),
-                      run.body().n_factor_entries(), run.dimension()));
+  log.say(fmt::format("cells {}, {}, {} vectors of the frequency response", mesh.n_cells(), run.body().method(),
+                      run.dimension()));
   const double temperature = c.heating ? c.heating->surroundings : c.material.reference;
   const std::vector<Resonance> resonances = run.resonances(temperature);
   write_resonances(folder, resonances);
