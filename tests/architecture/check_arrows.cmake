@@ -36,8 +36,9 @@ set(rooms
      cases/program/input cases/program/session"
     "cases/program/fracture: physics mesh solver/momentum solver/fracture postproc/files postproc/fields postproc/curves
      postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies"
-    "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics postproc/files
-     postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session cases/program/fracture"
+    "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics solver/calibration
+     postproc/files postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session
+     cases/program/studies cases/program/fracture"
     "cases/program/homogenization: physics mesh solver/momentum solver/fracture solver/homogenization postproc/files
      postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/fracture"
     "cases/program: physics solver postproc/files postproc/curves postproc/exports

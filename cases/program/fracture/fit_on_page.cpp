@@ -31,22 +31,6 @@ std::string profile_text(const FittedParameter& p) {
                      end(p.profile->upper, p.profile->upper_open));
 }
 
-Table estimates_table(const FitReport& fit) {
-  const std::vector<FittedParameter>& parameters = fit.found.parameters;
-  const bool has_profiles = std::ranges::any_of(parameters, [](const auto& p) { return p.profile.has_value(); });
-  Table table{
-      .caption = fmt::format("Fit: {}", verdict_text(fit.found)),
-      .rows = {{"parameter", "first guess", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
-      .has_header = true};
-  if (has_profiles) table.rows.front().emplace_back("by profile likelihood");
-  for (const FittedParameter& p : parameters) {
-    table.rows.push_back({p.name, value_text(p.first_guess, p.unit), value_text(p.estimate, p.unit),
-                          between_text(p.lower, p.upper, p.unit)});
-    if (has_profiles) table.rows.back().push_back(profile_text(p));
-  }
-  return table;
-}
-
 Chart curves_chart(const ExperimentMisfit& experiment, const CsvTable& curves) {
   const std::vector<double>&u = curves.column("displacement_m"), &measured = curves.column("measured_force_N"),
         &first = curves.column("first_force_N"), &fitted = curves.column("model_force_N");
@@ -62,6 +46,22 @@ Chart curves_chart(const ExperimentMisfit& experiment, const CsvTable& curves) {
 }
 
 }  // namespace
+
+Table estimates_table(const FitReport& fit) {
+  const std::vector<FittedParameter>& parameters = fit.found.parameters;
+  const bool has_profiles = std::ranges::any_of(parameters, [](const auto& p) { return p.profile.has_value(); });
+  Table table{
+      .caption = fmt::format("Fit: {}", verdict_text(fit.found)),
+      .rows = {{"parameter", "first guess", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
+      .has_header = true};
+  if (has_profiles) table.rows.front().emplace_back("by profile likelihood");
+  for (const FittedParameter& p : parameters) {
+    table.rows.push_back({p.name, value_text(p.first_guess, p.unit), value_text(p.estimate, p.unit),
+                          between_text(p.lower, p.upper, p.unit)});
+    if (has_profiles) table.rows.back().push_back(profile_text(p));
+  }
+  return table;
+}
 
 std::vector<PageRow> fit_on_page(const FitReport& fit, const std::filesystem::path& results) {
   std::vector<PageRow> rows{{.blocks = {estimates_table(fit)}}};

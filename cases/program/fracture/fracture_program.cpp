@@ -90,7 +90,7 @@ double estimated_memory(const Mesh& mesh) {
 }
 
 void check_fit(const FractureProgram& program, Log& log) {
-  require_start_within_bounds(*program.fit);
+  require_start_within_bounds(program.fit->where, program.fit->parameters);
   for (const CurveFitParameter& parameter : program.fit->parameters)
     log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
                         parameter.in_case.shown(parameter.in_fit.lower),

@@ -1,5 +1,6 @@
 #include "cases/program/input/units.h"
 
+#include "cases/program/input/heat_units.h"
 #include "postproc/files/text_file.h"
 
 #include "physics/error.h"
@@ -16,14 +17,29 @@
 namespace pfdm {
 namespace {
 
-constexpr const Dimension* named_dimensions[] = {
-    &dimension::length,    &dimension::area,         &dimension::volume,
-    &dimension::mass,      &dimension::time,         &dimension::frequency,
-    &dimension::velocity,  &dimension::acceleration, &dimension::acceleration_density,
-    &dimension::density,   &dimension::force,        &dimension::energy,
-    &dimension::stress,    &dimension::toughness,    &dimension::temperature,
-    &dimension::viscosity, &dimension::compliance,   &dimension::interface_stiffness,
-    &dimension::number};
+constexpr const Dimension* named_dimensions[] = {&dimension::length,
+                                                 &dimension::area,
+                                                 &dimension::volume,
+                                                 &dimension::mass,
+                                                 &dimension::time,
+                                                 &dimension::frequency,
+                                                 &dimension::velocity,
+                                                 &dimension::acceleration,
+                                                 &dimension::acceleration_density,
+                                                 &dimension::density,
+                                                 &dimension::force,
+                                                 &dimension::energy,
+                                                 &dimension::stress,
+                                                 &dimension::toughness,
+                                                 &dimension::temperature,
+                                                 &dimension::viscosity,
+                                                 &dimension::compliance,
+                                                 &dimension::interface_stiffness,
+                                                 &dimension::conductivity,
+                                                 &dimension::specific_heat,
+                                                 &dimension::heat_transfer,
+                                                 &dimension::per_temperature,
+                                                 &dimension::number};
 
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
 

@@ -1,6 +1,7 @@
 #include "cases/program/plate/plate_case.h"
 
 #include "cases/program/input/amount.h"
+#include "cases/program/input/heat_units.h"
 #include "cases/program/input/path_reader.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
@@ -17,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Dimension conductivity_dimension{"thermal conductivity", "W/m/K", "0.25 W/m/K"};
-constexpr Dimension specific_heat_dimension{"specific heat", "J/kg/K", "1600 J/kg/K"};
-constexpr Dimension conductance_dimension{"heat transfer coefficient", "W/m^2/K", "10 W/m^2/K"};
-constexpr Dimension slope_dimension{"relative change with temperature", "1/K", "-0.01 1/K"};
 constexpr Range loss_range{0.0, 2.0, true, "above 0 and below 2"};
 constexpr Range counts{2.0, 100000.0, false, "at least 2"};
 constexpr Range modes{1.0, 100.0, false, "between 1 and 100"};
@@ -113,13 +110,13 @@ PlateMaterial read_material(const ConfigTable& root, const fs::path& directory, 
   material.modulus = read_modulus(table, directory, data_files);
   if (table.has("conductivity") || root.has("heating"))
     material.heat = {
-        .conductivity = table.quantity("conductivity", conductivity_dimension, range::positive),
-        .capacity = material.density * table.quantity("specific_heat", specific_heat_dimension, range::positive)};
+        .conductivity = table.quantity("conductivity", dimension::conductivity, range::positive),
+        .capacity = material.density * table.quantity("specific_heat", dimension::specific_heat, range::positive)};
   if (const auto temperature = table.find("temperature")) {
     const ConfigTable slopes = temperature->table().with_keys({"reference", "modulus", "loss_factor"});
     material.reference = slopes.quantity("reference", dimension::temperature, range::positive);
-    material.modulus_slope = slopes.quantity("modulus", slope_dimension, range::any, 0.0);
-    material.loss_slope = slopes.quantity("loss_factor", slope_dimension, range::any, 0.0);
+    material.modulus_slope = slopes.quantity("modulus", dimension::per_temperature, range::any, 0.0);
+    material.loss_slope = slopes.quantity("loss_factor", dimension::per_temperature, range::any, 0.0);
   }
   return material;
 }
@@ -188,7 +185,7 @@ DiffusionBoundary read_cooling(const ConfigTable& table, double surroundings) {
   table.with_keys(
       {"patch", "patches", "type", "coefficient", "emissivity", "thickness", "conductivity", "temperature"});
   const std::string_view type = choose(table.at("type"), cooling_types(), "type of cooling").name;
-  const auto coefficient = [&] { return table.quantity("coefficient", conductance_dimension, range::positive); };
+  const auto coefficient = [&] { return table.quantity("coefficient", dimension::heat_transfer, range::positive); };
   if (type == "temperature")
     return {.patch = {},
             .kind = Kind::value,
@@ -200,7 +197,7 @@ DiffusionBoundary read_cooling(const ConfigTable& table, double surroundings) {
   if (type == "insulation")
     boundary.coefficient = conductance_of_insulation(
         table.quantity("thickness", dimension::length, range::positive),
-        table.quantity("conductivity", conductivity_dimension, range::positive), boundary.coefficient);
+        table.quantity("conductivity", dimension::conductivity, range::positive), boundary.coefficient);
   return boundary;
 }
 
@@ -252,8 +249,8 @@ Harmonic PlateMaterial::at(double frequency, double temperature) const {
 }
 
 PlateCase read_plate_case(const ConfigTable& root, const fs::path& case_directory) {
-  const ConfigTable table = root.with_keys(
-      {"kind", "title", "mesh", "material", "support", "base", "response", "heating", "cooling", "output", "sweep"});
+  const ConfigTable table = root.with_keys({"kind", "title", "mesh", "material", "support", "base", "response",
+                                            "heating", "cooling", "output", "fit", "sweep"});
   PlateCase c;
   c.title = table.string("title");
   c.mesh = read_mesh_recipe(table.table("mesh"), {.case_directory = case_directory, .ell = {}});

@@ -1,6 +1,7 @@
 #include "cases/program/plate/plate_program.h"
 
 #include "cases/program/fracture/fracture_results.h"
+#include "cases/program/plate/plate_fit.h"
 #include "cases/program/plate/plate_report.h"
 #include "cases/program/plate/plate_run.h"
 #include "cases/program/session/report_parts.h"
@@ -19,6 +20,8 @@ namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view no_part_of_the_run[] = {"fit", "sweep"};
 
 void check(const PlateProgram& program, Session& session) {
   const PlateCase& c = program.parsed;
@@ -52,7 +55,7 @@ void mesh_only(const PlateProgram& program, Session& session) {
 void run_heating(const PlateCase& c, const PlateRun& run, const Mesh& mesh, double frequency, const fs::path& folder,
                  Session& session, std::map<std::string, double>& figures) {
   PlateFrames frames(folder, mesh);
-  if (c.excitation.type == "harmonic") frames.set_motion(run.motion(frequency, c.heating->surroundings));
+  if (c.excitation.type == "harmonic") frames.set_motion(run.motion(frequency, c.heating->surroundings), c.direction);
   std::vector<HeatingRow> rows;
   std::vector<double> surface;
   const LooksForStop looks;
@@ -132,16 +135,24 @@ void run_case(const PlateProgram& program, Session& session) {
 }
 
 RunnableCase read_program(const CaseFile& file) {
-  auto program = std::make_shared<PlateProgram>();
+  auto program = std::make_shared<PlateProgram>(PlateProgram{.file = file, .parsed = {}, .name = {}, .hash = {}});
   program->parsed = read_plate_case(file.config.root(), file.directory);
+  program->fit = read_plate_fit(file, program->parsed);
   program->name = case_name(file);
-  program->hash = case_hash(file, program->parsed.data_files);
-  return {.title = program->parsed.title,
-          .check = [program](Session& session) { check(*program, session); },
-          .mesh = [program](Session& session) { mesh_only(*program, session); },
-          .run = [program](Session& session) { run_case(*program, session); },
-          .report = [program](Session& session) { write_report(plate_page(*program, session), session); },
-          .data_files = program->parsed.data_files};
+  program->hash = case_hash(file, program->parsed.data_files, no_part_of_the_run);
+  RunnableCase runnable{.title = program->parsed.title,
+                        .check = [program](Session& session) { check(*program, session); },
+                        .mesh = [program](Session& session) { mesh_only(*program, session); },
+                        .run = [program](Session& session) { run_case(*program, session); },
+                        .fit = [program](Session& session) { fit_plate(*program, session); },
+                        .report = [program](Session& session) { write_report(plate_page(*program, session), session); },
+                        .data_files = program->parsed.data_files};
+  if (!program->fit)
+    runnable.fit = job_without_table(file, "fit",
+                                     "[[fit.parameters]] with their bounds, and the measured curves as "
+                                     "[[fit.responses]] or [[fit.temperatures]]",
+                                     "plate_fit");
+  return runnable;
 }
 
 std::vector<LawTable> laws() {

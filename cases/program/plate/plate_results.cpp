@@ -81,13 +81,22 @@ PlateFrames::PlateFrames(std::filesystem::path folder, const Mesh& mesh)
       writer_(mesh, {.time_unit = "s"}),
       series_((make_folder(folder_ / "fields"), folder_ / "fields.pvd")),
       real_(as_size(mesh.n_cells()), Vector::Zero()),
-      imaginary_(real_) {}
+      imaginary_(real_),
+      deflection_(as_size(mesh.n_cells()), 0.0) {}
 
-void PlateFrames::set_motion(const Eigen::VectorXcd& u) {
+void PlateFrames::set_motion(const Eigen::VectorXcd& u, const Vector& direction) {
+  std::complex<double> largest = 0.0;
+  const auto along = [&](Index c) -> std::complex<double> {
+    return {direction.dot(real_[c]), direction.dot(imaginary_[c])};
+  };
   for (Index c = 0; c < real_.size(); ++c) {
     real_[c] = u.segment<3>(3 * Eigen::Index{c}).real();
     imaginary_[c] = u.segment<3>(3 * Eigen::Index{c}).imag();
+    if (std::abs(along(c)) > std::abs(largest)) largest = along(c);
   }
+  if (largest == 0.0) return;
+  const std::complex<double> moment = std::abs(largest) / largest;
+  for (Index c = 0; c < real_.size(); ++c) deflection_[c] = (along(c) * moment).real();
 }
 
 void PlateFrames::add(double time, const CellField<double>& source, const CellField<double>& rise) {
@@ -96,6 +105,7 @@ void PlateFrames::add(double time, const CellField<double>& source, const CellFi
   writer_.write(folder_ / file,
                 {{.name = "displacement_real", .values = &real_, .precision = single, .unit = "m"},
                  {.name = "displacement_imaginary", .values = &imaginary_, .precision = single, .unit = "m"},
+                 {.name = "deflection", .values = &deflection_, .precision = single, .unit = "m"},
                  {.name = "heat_source", .values = &source, .precision = single, .unit = "W/m^3"},
                  {.name = "temperature_rise", .values = &rise, .precision = single, .unit = "K"}},
                 time);

@@ -1,7 +1,7 @@
 #pragma once
 // The files of a run of a plate case, and what the page reads back of them. SI units, units in the names.
 
-#include "cases/program/plate/plate_case.h"
+#include "cases/program/plate/plate_fit_case.h"
 #include "postproc/curves/figures_summary.h"
 #include "postproc/fields/pvd.h"
 #include "postproc/fields/vtu_writer.h"
@@ -19,7 +19,9 @@ inline constexpr const char* temperature_file = "temperature.csv";
 inline constexpr const char* surface_file = "surface_temperature.csv";
 
 struct PlateProgram {
+  CaseFile file;
   PlateCase parsed;
+  std::optional<PlateFit> fit{};
   std::string name;
   std::string hash;
 };
@@ -60,8 +62,9 @@ void write_surface(const std::filesystem::path& folder, const Mesh& mesh, const 
 class PlateFrames {
  public:
   PlateFrames(std::filesystem::path folder, const Mesh& mesh);
-  /// u per cell at the level of the excitation [m].
-  void set_motion(const Eigen::VectorXcd& u);
+  /// u per cell at the level of the excitation [m]. The deflection is u along the base's direction at the moment at
+  /// which it is largest anywhere.
+  void set_motion(const Eigen::VectorXcd& u, const Vector& direction);
   void add(double time, const CellField<double>& source, const CellField<double>& rise);
 
  private:
@@ -69,6 +72,7 @@ class PlateFrames {
   VtuWriter writer_;
   PvdSeries series_;
   CellField<Vector> real_, imaginary_;
+  CellField<double> deflection_;
 };
 
 }  // namespace pfdm

@@ -52,20 +52,32 @@ Index nearest_unknown(const VibratingBody& body, const Vector& place) {
 }
 
 PlateRun::PlateRun(const PlateCase& c, const Mesh& mesh)
-    : case_(c),
+    : case_(&c),
+      modulus_(c.material.young_modulus()),
       mesh_(mesh),
       body_(mesh, elastic_body(c, mesh), std::vector<double>(mesh.region_names.size(), c.material.density)),
       modes_(lowest_modes(body_, c.n_modes)),
       response_(body_, c.direction, all_harmonics()) {}
 
+void PlateRun::take(const PlateCase& c) {
+  case_ = &c;
+  response_.reach(all_harmonics());
+}
+
+Harmonic PlateRun::at(double frequency, double temperature) const {
+  Harmonic harmonic = case_->material.at(frequency, temperature);
+  harmonic.factor *= case_->material.young_modulus() / modulus_;
+  return harmonic;
+}
+
 std::vector<Harmonic> PlateRun::all_harmonics() const {
   std::vector<Harmonic> all;
-  const double temperature = temperature_at_start(case_);
-  for (const double f : frequencies_of(case_)) all.push_back(case_.material.at(f, temperature));
-  if (const auto& base = case_.excitation; base.frequency)
-    all.push_back(case_.material.at(*base.frequency, temperature));
+  const double temperature = temperature_at_start(*case_);
+  for (const double f : frequencies_of(*case_)) all.push_back(at(f, temperature));
+  if (const auto& base = case_->excitation; base.frequency)
+    all.push_back(at(*base.frequency, temperature));
   else if (base.type != "harmonic")
-    for (const Part& part : parts(0.0)) all.push_back(case_.material.at(part.frequency, temperature));
+    for (const Part& part : parts(0.0)) all.push_back(at(part.frequency, temperature));
   return all;
 }
 
@@ -74,8 +86,8 @@ std::vector<Resonance> PlateRun::resonances(double temperature) const {
   std::vector<Resonance> all;
   for (const Mode& mode : modes_) {
     double f = mode.omega / two_pi;
-    for (int i = 0; i < 100; ++i) f = mode.omega / two_pi * std::sqrt(case_.material.at(f, temperature).factor.real());
-    const std::complex<double> factor = case_.material.at(f, temperature).factor;
+    for (int i = 0; i < 100; ++i) f = mode.omega / two_pi * std::sqrt(at(f, temperature).factor.real());
+    const std::complex<double> factor = at(f, temperature).factor;
     all.push_back({.frequency = f,
                    .loss_factor = factor.imag() / factor.real(),
                    .effective_mass = mode.participation.cwiseAbs2() / body_.total_mass()});
@@ -84,40 +96,43 @@ std::vector<Resonance> PlateRun::resonances(double temperature) const {
 }
 
 ResponseTable PlateRun::response() const {
-  ResponseTable table{.frequency = frequencies_of(case_), .H1 = {}, .power = {}};
-  for (const ResponsePoint& point : case_.points) {
-    const Index unknown = nearest_unknown(body_, point.at);
-    table.H1.emplace_back();
-    for (const double f : table.frequency)
-      table.H1.back().push_back(response_.transmission(case_.material.at(f, temperature_at_start(case_)), unknown));
-  }
-  for (const double f : table.frequency)
-    table.power.push_back(response_.power(case_.material.at(f, temperature_at_start(case_))));
+  ResponseTable table{.frequency = frequencies_of(*case_), .H1 = {}, .power = {}};
+  for (const ResponsePoint& point : case_->points) table.H1.push_back(transmissions(point.at, table.frequency));
+  for (const double f : table.frequency) table.power.push_back(response_.power(at(f, temperature_at_start(*case_))));
   return table;
+}
+
+std::vector<std::complex<double>> PlateRun::transmissions(const Vector& place,
+                                                          std::span<const double> frequencies) const {
+  const Index unknown = nearest_unknown(body_, place);
+  std::vector<std::complex<double>> H1;
+  H1.reserve(frequencies.size());
+  for (const double f : frequencies) H1.push_back(response_.transmission(at(f, temperature_at_start(*case_)), unknown));
+  return H1;
 }
 
 // The largest power of the response's frequencies, improved between its neighbours.
 double PlateRun::driving_frequency(double temperature) const {
-  if (case_.excitation.frequency) return *case_.excitation.frequency;
-  const std::vector<double> f = frequencies_of(case_);
-  const auto power = [&](double at) { return response_.power(case_.material.at(at, temperature)); };
+  if (case_->excitation.frequency) return *case_->excitation.frequency;
+  const std::vector<double> all = frequencies_of(*case_);
+  const auto power = [&](double f) { return response_.power(at(f, temperature)); };
   std::size_t best = 0;
-  for (std::size_t i = 1; i < f.size(); ++i)
-    if (power(f[i]) > power(f[best])) best = i;
-  if (best == 0 || best + 1 == f.size())
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (power(all[i]) > power(all[best])) best = i;
+  if (best == 0 || best + 1 == all.size())
     throw InputError(fmt::format(
-        "[response] the power is largest at its end, {:.4g} Hz: no resonance lies between its ends", f[best]));
-  return boost::math::tools::brent_find_minima([&](double at) { return -power(at); }, f[best - 1], f[best + 1], 30)
+        "[response] the power is largest at its end, {:.4g} Hz: no resonance lies between its ends", all[best]));
+  return boost::math::tools::brent_find_minima([&](double f) { return -power(f); }, all[best - 1], all[best + 1], 30)
       .first;
 }
 
 std::vector<PlateRun::Part> PlateRun::parts(double frequency) const {
-  const PlateExcitation& base = case_.excitation;
+  const PlateExcitation& base = case_->excitation;
   const double mean_square = base.level * base.level;
   if (base.type == "harmonic") return {{frequency, mean_square}};
   // The middles of intervals, in equal ratios: of a random motion 2 S df, of a sweep the part of its time.
   std::vector<Part> all;
-  const int n = case_.n_frequencies;
+  const int n = case_->n_frequencies;
   const double ratio = std::pow(base.to / base.from, 1.0 / n);
   for (int i = 0; i < n; ++i) {
     const double lower = base.from * std::pow(ratio, i), upper = lower * ratio;
@@ -134,11 +149,11 @@ PlateRun::Heat PlateRun::heat_of(const std::vector<Part>& all, double temperatur
   Heat heat{.source = CellField<double>(as_size(mesh_.n_cells()), 0.0)};
   double by_strain = 0.0;
   for (const Part& part : all) {
-    const Harmonic at = case_.material.at(part.frequency, temperature);
-    const CellField<double> strain = strain_power(body_, response_.displacement(at));
+    const Harmonic harmonic = at(part.frequency, temperature);
+    const CellField<double> strain = strain_power(body_, response_.displacement(harmonic));
     const double share = parallel_sum(mesh_.n_cells(), [&](Index c) { return mesh_.cell_volume[c] * strain[c]; });
-    const double power = response_.power(at) * part.weight;
-    by_strain += 0.5 * at.omega * at.factor.imag() * part.weight * share;
+    const double power = response_.power(harmonic) * part.weight;
+    by_strain += 0.5 * harmonic.omega * harmonic.factor.imag() * part.weight * share;
     parallel_for(mesh_.n_cells(), [&](Index c) { heat.source[c] += power / share * strain[c]; });
     heat.power += power;
   }
@@ -147,13 +162,13 @@ PlateRun::Heat PlateRun::heat_of(const std::vector<Part>& all, double temperatur
 }
 
 Eigen::VectorXcd PlateRun::motion(double frequency, double temperature) const {
-  return case_.excitation.level * response_.displacement(case_.material.at(frequency, temperature));
+  return case_->excitation.level * response_.displacement(at(frequency, temperature));
 }
 
 // To first order the modulus of a warm body is that at its temperature, weighted by the heat source.
 void PlateRun::heat(double frequency, const Done& done) const {
-  const PlateHeating& heating = *case_.heating;
-  HeatedBody body(mesh_, case_.material.heat, heating.boundary);
+  const PlateHeating& heating = *case_->heating;
+  HeatedBody body(mesh_, case_->material.heat, heating.boundary);
   const std::vector<Part> all = parts(frequency);
   const auto over_volume = [&](const auto& density) {
     return parallel_sum(mesh_.n_cells(), [&](Index c) { return mesh_.cell_volume[c] * density(c); });
@@ -177,7 +192,7 @@ void PlateRun::heat(double frequency, const Done& done) const {
     row.surface = body.surface(heating.surface);
     row.mean_rise = over_volume([&](Index c) { return body.rise()[c]; }) / volume;
     row.largest_rise = *std::ranges::max_element(body.rise());
-    if (case_.material.depends_on_temperature()) {
+    if (case_->material.depends_on_temperature()) {
       temperature =
           heating.surroundings + over_volume([&](Index c) { return heat.source[c] * body.rise()[c]; }) / row.power;
       heat = heat_of(all, temperature);

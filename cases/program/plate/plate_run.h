@@ -16,11 +16,18 @@ Index nearest_unknown(const VibratingBody& body, const Vector& place);
 
 class PlateRun {
  public:
+  /// The case and the mesh must outlive the run.
   PlateRun(const PlateCase& c, const Mesh& mesh);
+  /// From now on of this case, which differs from the first one in its modulus, loss, excitation, heat and cooling
+  /// only: the same body, a factor on its stiffness. Must outlive the run. Throws ComputationError like
+  /// BaseResponse::reach().
+  void take(const PlateCase& c);
 
   const VibratingBody& body() const { return body_; }
   std::vector<Resonance> resonances(double temperature) const;
   ResponseTable response() const;
+  /// H1 of a place at the temperature of the start.
+  std::vector<std::complex<double>> transmissions(const Vector& place, std::span<const double> frequencies) const;
   /// Of the base's motion: the given one, or that of the largest power at the temperature [Hz]; only of a harmonic one.
   double driving_frequency(double temperature) const;
   Eigen::Index dimension() const { return response_.dimension(); }
@@ -41,11 +48,14 @@ class PlateRun {
     double power = 0.0;        // mechanical [W]
     double correction = 0.0;   // of the strain energy's heat, relative
   };
+  /// c of the stiffness that the body has.
+  Harmonic at(double frequency, double temperature) const;
   std::vector<Harmonic> all_harmonics() const;
   std::vector<Part> parts(double frequency) const;
   Heat heat_of(const std::vector<Part>& parts, double temperature) const;
 
-  const PlateCase& case_;
+  const PlateCase* case_;
+  double modulus_;  // of the body's stiffness [Pa]
   const Mesh& mesh_;
   VibratingBody body_;
   std::vector<Mode> modes_;

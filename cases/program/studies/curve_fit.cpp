@@ -280,7 +280,7 @@ class CurveFit {
 }  // namespace
 
 void fit_curve(const CurveFitJob& job, Session& session) {
-  require_start_within_bounds(job.settings);
+  require_start_within_bounds(job.settings.where, job.settings.parameters);
   const FolderLock lock(session.results);
   session.log.say(
       fmt::format("pfdm {}, fit of {}: {}; {} threads", session.version, job.name, job.title, session.threads));

@@ -121,14 +121,27 @@ void require_each_in_a_stage(const CurveFitSettings& settings, const ConfigTable
 
 }  // namespace
 
-void require_start_within_bounds(const CurveFitSettings& settings) {
-  const std::vector<ConfigTable> tables = settings.where.tables("parameters");
-  for (std::size_t j = 0; j < settings.parameters.size(); ++j) {
-    const auto& [in_case, p] = settings.parameters[j];
+void require_start_within_bounds(const ConfigTable& fit, const std::vector<CurveFitParameter>& parameters) {
+  const std::vector<ConfigTable> tables = fit.tables("parameters");
+  for (std::size_t j = 0; j < parameters.size(); ++j) {
+    const auto& [in_case, p] = parameters[j];
     if (p.lower <= p.first && p.first <= p.upper) continue;
     throw tables[j].at("bounds").error(fmt::format(
         "the case's own value, {}, from which the fit starts, is outside these bounds", in_case.shown(p.first)));
   }
+}
+
+std::vector<CurveFitParameter> read_fit_parameters(const ConfigTable& fit, const CaseFile& file) {
+  std::vector<CurveFitParameter> parameters;
+  for (const ConfigTable& table : fit.tables("parameters")) {
+    parameters.push_back(read_parameter(table, file));
+    for (std::size_t j = 0; j + 1 < parameters.size(); ++j)
+      for (const std::string& key : parameters.back().in_case.keys)
+        if (std::ranges::count(parameters[j].in_case.keys, key) > 0)
+          throw table.at("key").error(fmt::format("\"{}\" is named twice", key));
+  }
+  if (parameters.empty()) throw fit.error("at least one [[fit.parameters]] is required");
+  return parameters;
 }
 
 std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
@@ -141,14 +154,7 @@ std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
   const std::string kinds[] = {"linear", "profile"};
   if (const auto intervals = fit.find("intervals"))
     settings.profiles = intervals->one_of(kinds, "kind of intervals") == "profile";
-  for (const ConfigTable& table : fit.tables("parameters")) {
-    settings.parameters.push_back(read_parameter(table, file));
-    for (std::size_t j = 0; j + 1 < settings.parameters.size(); ++j)
-      for (const std::string& key : settings.parameters.back().in_case.keys)
-        if (std::ranges::count(settings.parameters[j].in_case.keys, key) > 0)
-          throw table.at("key").error(fmt::format("\"{}\" is named twice", key));
-  }
-  if (settings.parameters.empty()) throw fit.error("at least one [[fit.parameters]] is required");
+  settings.parameters = read_fit_parameters(fit, file);
   const CurveFitStage whole = whole_stage(fit, settings.parameters);
   for (const ConfigTable& table : fit.tables("stages"))
     settings.stages.push_back(read_stage(table, whole, settings.parameters));

@@ -32,11 +32,14 @@ struct CurveFitSettings {
   ConfigTable where;      ///< [fit], for messages
 };
 
+/// [[fit.parameters]], of any kind of case. Throws InputError that names file and line.
+std::vector<CurveFitParameter> read_fit_parameters(const ConfigTable& fit, const CaseFile& file);
+
 /// Nothing if there is no [fit]. Throws InputError that names file and line.
 std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file);
 
 /// Throws InputError if the case's own values, from which the fit starts, are not within the bounds. Of no concern to
 /// other runs of the case.
-void require_start_within_bounds(const CurveFitSettings& settings);
+void require_start_within_bounds(const ConfigTable& fit, const std::vector<CurveFitParameter>& parameters);
 
 }  // namespace pfdm

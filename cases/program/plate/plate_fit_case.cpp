@@ -1,0 +1,104 @@
+#include "cases/program/plate/plate_fit_case.h"
+
+#include "cases/program/input/csv_columns.h"
+#include "cases/program/input/path_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+constexpr Range relative_range{0.0, 1.0, true, "above 0 and below 1"};
+constexpr Range starts_range{1.0, 1000.0, false, "between 1 and 1000"};
+
+// Values with which the body's stiffness has a factor at most. Its mesh, density and Poisson's ratio stay.
+void require_same_body(const ConfigTable& fit, const std::vector<CurveFitParameter>& parameters) {
+  const auto may_change = [](const std::string& key) {
+    if (key == "material.density" || key == "material.poisson_ratio") return false;
+    return std::ranges::any_of(std::array{"material.", "heating.", "cooling[", "base."},
+                               [&](const char* table) { return key.starts_with(table); });
+  };
+  const std::vector<ConfigTable> tables = fit.tables("parameters");
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    for (const std::string& key : parameters[j].in_case.keys)
+      if (!may_change(key))
+        throw tables[j].at("key").error(
+            fmt::format("\"{}\" cannot be estimated: only values of [material] but density and Poisson's ratio, of "
+                        "[[cooling]], [heating] and [base]",
+                        key));
+}
+
+std::vector<double> read_values(const ConfigTable& table, const CsvTable& file, std::string_view key,
+                                const Dimension& due) {
+  return read_column(table.table(key).with_keys({"column", "unit"}), file, "column", "unit", due);
+}
+
+void require_positive(const ConfigValue& where, const std::vector<double>& values) {
+  const auto bad = std::ranges::find_if(values, [](double value) { return !(value > 0.0); });
+  if (bad != values.end())
+    throw where.error(fmt::format("row {} is {:g}; all have to be positive", bad - values.begin() + 1, *bad));
+}
+
+MeasuredResponse read_response(const ConfigTable& table, const PlateCase& c, const std::filesystem::path& directory) {
+  table.with_keys({"name", "csv", "separator", "decimal", "point", "frequency", "magnitude", "phase", "deviation"});
+  MeasuredResponse response{.name = read_plain_name(table.at("name"), "a curve"),
+                            .frequency = {},
+                            .magnitude = {},
+                            .phase = {},
+                            .deviation = table.number("deviation", relative_range)};
+  std::vector<std::string> names;
+  for (const ResponsePoint& point : c.points) names.push_back(point.name);
+  const std::string& point = table.at("point").one_of(names, "name of [[response.points]]");
+  response.at = std::ranges::find(c.points, point, &ResponsePoint::name)->at;
+  const CsvTable file = read_csv_of(table, directory);
+  response.frequency = read_values(table, file, "frequency", dimension::frequency);
+  response.magnitude = read_values(table, file, "magnitude", dimension::number);
+  require_positive(table.at("frequency"), response.frequency);
+  require_positive(table.at("magnitude"), response.magnitude);
+  if (table.has("phase")) response.phase = read_values(table, file, "phase", dimension::angle);
+  return response;
+}
+
+MeasuredRise read_rise(const ConfigTable& table, const PlateCase& c, const std::filesystem::path& directory) {
+  table.with_keys({"name", "csv", "separator", "decimal", "of", "time", "rise", "deviation"});
+  if (!c.heating) throw table.error("temperatures are measured, and the case has no [heating]");
+  const std::string kinds[] = {"mean", "largest"};
+  MeasuredRise rise{.name = read_plain_name(table.at("name"), "a curve"),
+                    .is_largest = table.at("of").one_of(kinds, "rise of the surface") == "largest",
+                    .time = {},
+                    .rise = {},
+                    .deviation = table.quantity("deviation", dimension::temperature, range::positive)};
+  const CsvTable file = read_csv_of(table, directory);
+  rise.time = read_values(table, file, "time", dimension::time);
+  rise.rise = read_values(table, file, "rise", dimension::temperature);
+  if (!std::ranges::is_sorted(rise.time)) throw table.at("time").error("the times do not rise");
+  if (rise.time.front() < 0.0 || rise.time.back() > c.heating->duration * (1.0 + 1e-9))
+    throw table.at("time").error(fmt::format("the times are from {:g} to {:g} s; [heating] lasts {:g} s",
+                                             rise.time.front(), rise.time.back(), c.heating->duration));
+  return rise;
+}
+
+}  // namespace
+
+std::optional<PlateFit> read_plate_fit(const CaseFile& file, const PlateCase& c) {
+  const ConfigTable root = file.config.root();
+  if (!root.has("fit")) return std::nullopt;
+  const ConfigTable table = root.table("fit").with_keys({"parameters", "responses", "temperatures", "starts"});
+  PlateFit fit{.parameters = read_fit_parameters(table, file),
+               .responses = {},
+               .rises = {},
+               .starts = static_cast<int>(table.integer("starts", starts_range, 1)),
+               .where = table};
+  require_same_body(table, fit.parameters);
+  for (const ConfigTable& response : table.tables("responses"))
+    fit.responses.push_back(read_response(response, c, file.directory));
+  for (const ConfigTable& rise : table.tables("temperatures")) fit.rises.push_back(read_rise(rise, c, file.directory));
+  if (fit.responses.empty() && fit.rises.empty())
+    throw table.error("it needs measured curves: [[fit.responses]], [[fit.temperatures]] or both");
+  return fit;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,56 @@
+#pragma once
+// A plate as a model of what is measured on it: H1 and the rise of its surface's temperature from values of its case.
+
+#include "cases/program/plate/plate_fit_case.h"
+#include "cases/program/plate/plate_run.h"
+#include "postproc/curves/fit_json.h"
+
+#include <span>
+#include <string>
+
+namespace pfdm {
+
+/// What the plate does where it was measured.
+struct PlateCurves {
+  std::vector<std::vector<std::complex<double>>> H1;  ///< of each response
+  std::vector<std::vector<double>> rise;              ///< of each measured rise [K]
+};
+
+/// One mesh, whose stiffness is solved with once.
+class PlateModel {
+ public:
+  /// All must outlive the model.
+  PlateModel(const CaseFile& file, const PlateFit& fit, const PlateCase& c, const Mesh& mesh);
+
+  /// The case with these values of the parameters [SI].
+  PlateCase with(std::span<const double> values) const;
+  /// Nothing where the case has no resonance within its response, or makes no sense.
+  std::optional<PlateCurves> curves(const PlateCase& c);
+  /// Of model less measurement over their standard deviation: magnitudes (of their logarithms) and phases of each
+  /// response, then the rises.
+  std::optional<std::vector<double>> residuals(const PlateCase& c);
+  /// In that order.
+  std::vector<ResidualSeries> series(const std::vector<double>& residuals) const;
+
+ private:
+  std::vector<std::vector<double>> rises();
+
+  const CaseFile& file_;
+  const PlateFit& fit_;
+  std::vector<CaseParameter> parameters_;
+  PlateCase case_;
+  PlateRun run_;
+};
+
+/// What a model that is wrong may lack: the rms of the residuals would fall to this with it.
+struct FitSuspect {
+  std::string what;
+  double rms = 0.0;
+};
+
+/// What the model may lack, and what of the residuals would be left with it and the parameters estimated anew, to first
+/// order; the one that leaves least first.
+std::vector<FitSuspect> suspects_of(PlateModel& model, const PlateFit& fit, const std::vector<double>& values,
+                                    const std::vector<double>& residuals);
+
+}  // namespace pfdm
