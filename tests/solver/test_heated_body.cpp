@@ -122,6 +122,57 @@ TEST(HeatedBody, ManufacturedOnTetrahedraAndPolyhedra) {
 
 // A plate with uniform heat: rise q t/(rho c_p) insulated; q h_p/(2 h) (1 - exp(-t/tau)) with convection on both faces,
 // tau = rho c_p h_p/(2 h), while it is thermally thin.
+// A ball of radius 1 that is heated evenly within an infinite body, k = rho c = 1: the rise is the integral over time
+// of
+//
+//   F = 1/2 [erf((1 - r)/(2 sqrt t)) + erf((1 + r)/(2 sqrt t))] - sqrt(t/pi)/r [exp(-(1 - r)^2/4t) - exp(-(1 +
+//   r)^2/4t)]
+//
+// (Carslaw, Jaeger, Conduction of Heat in Solids, 10.3).
+double rise_of_ball(double r, double until) {
+  const auto F = [r](double t) {
+    if (t == 0.0) return r < 1.0 ? 1.0 : 0.0;
+    const double below = (1.0 - r) / (2.0 * std::sqrt(t)), above = (1.0 + r) / (2.0 * std::sqrt(t));
+    return 0.5 * (std::erf(below) + std::erf(above)) -
+           std::sqrt(t / std::numbers::pi) / r * (std::exp(-below * below) - std::exp(-above * above));
+  };
+  constexpr int n = 400;
+  double sum = 0.0;
+  for (int i = 0; i <= n; ++i) sum += (i == 0 || i == n ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * F(until * i / n);
+  return sum * until / (3.0 * n);
+}
+
+// Rms over the ball and its surroundings up to r = 1.5, relative to the largest rise.
+double ball_error(Index subdivision) {
+  constexpr double until = 0.125;
+  const Mesh mesh = tetrahedra_and_prisms(subdivision, subdivision);
+  HeatedBody body(mesh, {.conductivity = 1.0, .capacity = 1.0}, {});
+  CellField<double> source(as_size(mesh.n_cells()), 0.0);
+  double heated = 0.0, sum = 0.0, volume = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (mesh.cell_centre[c].norm() < 1.0) {
+      source[c] = 1.0;
+      heated += mesh.cell_volume[c];
+    }
+  body.set_source(source);
+  for (int i = 0; i < 100; ++i) body.step(until / 100.0);
+  EXPECT_NEAR(body.account().heat, until * heated, 1e-10 * heated);
+  EXPECT_NEAR(body.account().stored, body.account().heat, 1e-10 * heated);
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (const double r = mesh.cell_centre[c].norm(); r < 1.5) {
+      sum += mesh.cell_volume[c] * std::pow(body.rise()[c] - rise_of_ball(r, until), 2);
+      volume += mesh.cell_volume[c];
+    }
+  return std::sqrt(sum / volume) / rise_of_ball(1e-3, until);
+}
+
+TEST(HeatedBody, BallHeatedWithinABody) {
+  const double coarse = ball_error(2), fine = ball_error(4);
+  RecordProperty("error", std::to_string(coarse) + ", " + std::to_string(fine));
+  EXPECT_LT(fine, 0.02);
+  EXPECT_GT(std::log2(coarse / fine), 1.7);
+}
+
 TEST(HeatedBody, UniformHeatInAPlate) {
   const double thickness = 0.0127, q = 1250.0, capacity = 1.92e6, h = 10.0;
   const Mesh mesh = box(6, 5, 10, {0.1778, 0.254, thickness});
