@@ -6,10 +6,56 @@
 namespace pfdm {
 namespace {
 
+constexpr double least_modulus = 1e-9;  // of a pressure, over the undamaged one
 constexpr double closing_range = 0.02;  // of J below 1, over which the faces of a cell become those of a closed crack
 
 PotentialAt difference(const PotentialAt& a, const PotentialAt& b) {
   return {a.energy - b.energy, a.stress - b.stress, a.tangent - b.tangent};
+}
+
+// What is left of the volumetric energy c U of a material with a pressure, and its derivative by g.
+struct Relaxed {
+  double value = 1.0, slope = 1.0;
+};
+Relaxed relaxed(const HyperelasticMaterial& material, double g) {
+  const double ratio = material.pressure_modulus() / (CellPressure::moderate_lambda * material.elasticity().mu);
+  const double lost = 1.0 - g, by = 1.0 + ratio * lost * lost;
+  return {g / by, (by + 2.0 * ratio * g * lost) / (by * by)};
+}
+
+// 1 in cells that have to keep their orientation, 0 in broken ones, over a decade of g.
+double soundness(double g) {
+  constexpr double broken = 3e-4, sound = 3e-3;
+  const double x = std::clamp(std::log(g / broken) / std::log(sound / broken), 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+// What W becomes in broken cells, mu/2 (F:F - 3).
+PotentialAt network(const HyperelasticMaterial& material, const Tensor& H) {
+  const double mu = material.elasticity().mu;
+  return {0.5 * mu * (2.0 * H.trace() + H.squaredNorm()), mu * (Tensor::Identity() + H),
+          mu * GradientTangent::Identity()};
+}
+
+PotentialAt blend(double w, const PotentialAt& a, const PotentialAt& b) {
+  return {w * a.energy + (1.0 - w) * b.energy, w * a.stress + (1.0 - w) * b.stress,
+          w * a.tangent + (1.0 - w) * b.tangent};
+}
+
+// The degraded part with what broken cells have of it.
+auto in_damage(const HyperelasticMaterial& material, const Tensor& H, double g, auto parts) {
+  const double w = soundness(g);
+  if (w == 1.0) return parts;
+  const PotentialAt n = network(material, H);
+  parts.degraded.energy += (1.0 - w) * (n.energy - parts.degraded.energy - parts.kept.energy);
+  parts.degraded.stress += (1.0 - w) * (n.stress - parts.degraded.stress - parts.kept.stress);
+  return parts;
+}
+
+// The part of c U that is degraded, over J >= 1 only if compression is kept.
+PotentialAt of_pressure(const HyperelasticMaterial& material, const Tensor& H, bool keeps_compression) {
+  if (!(material.pressure_modulus() > 0.0) || (keeps_compression && volume_change(H) < 0.0)) return {};
+  return difference(material.potential(H), material.moderate_potential(H));
 }
 
 }  // namespace
@@ -36,7 +82,9 @@ FiniteCells::Parts FiniteCells::parts(Index cell, const Tensor& H) const {
 FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure) const {
   const HyperelasticMaterial& material = *material_[cell];
   const bool keeps = keeps_compression_[cell] != 0;
-  const PotentialAt whole = material.moderate_potential(H);
+  const double w = soundness(g);
+  PotentialAt whole = material.moderate_potential(H);
+  if (w < 1.0) whole = blend(w, whole, network(material, H));
   FiniteLaw law{.stress = g * whole.stress, .A = g * whole.tangent, .face = {}};
   if (keeps && g < 1.0) {
     const PotentialAt kept = material.moderate_compression(H);
@@ -46,13 +94,13 @@ FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure
   IsotropicElasticity sound = material.elasticity();
   if (material.pressure_modulus() > 0.0) {
     law.pressure = &material;
-    law.open = g;
-    law.closed = keeps ? 1.0 : g;
+    law.open = std::max(w * relaxed(material, g).value, least_modulus);
+    law.closed = keeps ? 1.0 : law.open;
     sound.lambda -= material.pressure_modulus();
   }
   sound.mu = material.shear_modulus(Tensor::Identity() + H, whole.tangent, sound.lambda);
-  const double K = (keeps ? g + closure * (1.0 - g) : g) * sound.bulk_modulus(), mu = g * sound.mu;
-  law.face = {.lambda = K - 2.0 / 3.0 * mu, .mu = mu};
+  law.face = {.lambda = w * g * sound.lambda, .mu = g * sound.mu};
+  if (keeps) law.face.lambda += closure * (1.0 - g) * sound.bulk_modulus();
   return law;
 }
 
@@ -61,14 +109,20 @@ double FiniteCells::closure(Index cell, const Tensor& H) const {
 }
 
 double FiniteCells::stored_energy(Index cell, const CellMechanics& mechanics, double g) const {
-  const Parts at = parts(cell, mechanics.gradient[cell]);
-  return mesh_.cell_volume[cell] * (g * at.degraded.energy + at.kept.energy) + mechanics.energy[cell];
+  const Tensor& H = mechanics.gradient[cell];
+  const Parts at = in_damage(*material_[cell], H, g, parts(cell, H));
+  const double by_volume = of_pressure(*material_[cell], H, keeps_compression_[cell] != 0).energy;
+  const double relaxation = (relaxed(*material_[cell], g).value - g) * by_volume;
+  return mesh_.cell_volume[cell] * (g * at.degraded.energy + at.kept.energy + relaxation) + mechanics.energy[cell];
 }
 
 double FiniteCells::driving_energy(Index cell, const CellMechanics& mechanics, double g) const {
-  const Parts at = parts(cell, mechanics.gradient[cell]);
+  const Tensor& H = mechanics.gradient[cell];
+  const Parts at = in_damage(*material_[cell], H, g, parts(cell, H));
+  const double by_volume = of_pressure(*material_[cell], H, keeps_compression_[cell] != 0).energy;
+  const double relaxation = (relaxed(*material_[cell], g).slope - 1.0) * by_volume;
   const double varying = at.kept.energy > 0.0 ? 0.0 : mechanics.energy[cell] / (g * mesh_.cell_volume[cell]);
-  return std::max(at.degraded.energy + varying, 0.0);
+  return std::max(at.degraded.energy + relaxation + varying, 0.0);
 }
 
 Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, double g,
@@ -76,9 +130,12 @@ Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, do
   const Tensor& H = mechanics.gradient[cell];
   Tensor P = mechanics.stress[cell];
   if (!plane_normal.isZero()) {
-    const Parts at = parts(cell, H);
+    const Parts at = in_damage(*material_[cell], H, g, parts(cell, H));
+    const HyperelasticMaterial& material = *material_[cell];
+    const Tensor by_volume = of_pressure(material, H, keeps_compression_[cell] != 0).stress;
+    const Tensor whole = g * at.degraded.stress + at.kept.stress + (relaxed(material, g).value - g) * by_volume;
     const Tensor across = plane_normal * plane_normal.transpose();
-    P += across * (g * at.degraded.stress + at.kept.stress - P) * across;
+    P += across * (whole - P) * across;
   }
   const Tensor F = Tensor::Identity() + H;
   return symmetric_part(P * F.transpose() / F.determinant());

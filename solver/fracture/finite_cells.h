@@ -5,9 +5,21 @@
 //   none                   W = g W(F)
 //   volumetric_deviatoric  W = g (W(F) - W_c) + W_c,  W_c = W(J^(1/3) 1) where J < 1, else 0
 //
-// Broken cells may stretch without end or turn inside out: W and its stress are finite for any F (the functions of J go
-// on as parabolas below J = 0.1), their tangent is that of the true stress, and no step is refused for the sake of a
-// cell's orientation.
+// Broken cells may stretch without end or turn inside out, and nothing stalls:
+//
+// - The functions of J go on as parabolas below J = 0.1: W and its stress are finite for any F.
+// - Between g = 3e-3 and 3e-4, W becomes mu/2 (F:F - 3), a network that keeps nothing but its shear modulus, times g.
+//   Its stress g mu F is linear, objective and has a positive definite tangent; at rest it pulls with g mu. (Wang,
+//   Lazarov, Sigmund, Jensen, Comput. Methods Appl. Mech. Engrg. 276 (2014) 453, blend to a linear energy likewise, but
+//   one that is not objective.)
+// - Nearly incompressible materials cannot open a crack without moving their surroundings. The part of U that a pressure
+//   carries (hyperelastic.h) is lost faster than g, kappa -> g kappa/(1 + kappa/kappa_s (1 - g)^2) with kappa_s = 2.5 mu:
+//   a sound cell loses it as W, a broken one is compressible. (Li, Bouklas, Int. J. Solids Struct. 182-183 (2020) 193,
+//   relax it by another power of 1 - d.)
+// - What Newton's method cannot bridge of a change of the damage is halved (staggered.cpp).
+//
+// Compression is kept at J < 1 only by volumetric_deviatoric; there cells half broken may have no equilibrium that is
+// found.
 
 #include "mesh/mesh.h"
 #include "physics/materials/hyperelastic.h"

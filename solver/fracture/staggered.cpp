@@ -81,7 +81,9 @@ struct Staggered::Loop {
   FacesPath faces_path{};
   Relaxation relaxation{s.way_};
   std::optional<CoupledNewton> newton{};
-  Energies energies{};  // of the last equilibrium
+  Energies energies{};                      // of the last equilibrium
+  CellField<double> last_damage{};          // at finite strain, likewise
+  std::vector<Vector> last_displacement{};  // and
   double stored_at_unit_load = 0.0, energy_before = 0.0;
   Index torn = 0;  // successive iterations in which only the residual stiffness carried the loads
   StepOutcome outcome{};
@@ -127,11 +129,28 @@ struct Staggered::Loop {
                                               .ceiling = outcome.settled ? required : 1e-4,
                                               .floor = 0.1 * required,
                                               .most_iterations = inner_iterations};
-    const Equilibrium equilibrium = follows_faces() ? s.follow_faces(start, faces_path, tolerance, state)
-                                                    : s.solve_momentum(start, state, tolerance);
+    Equilibrium equilibrium = follows_faces() ? s.follow_faces(start, faces_path, tolerance, state)
+                                              : s.solve_momentum(start, state, tolerance);
+    if (s.stiffness_.finite().any()) equilibrium = approach(tolerance, equilibrium);
     outcome.failed = !std::isfinite(equilibrium.residual);
     outcome.residual = equilibrium.residual;
     report.krylov_iterations = equilibrium.iterations;
+  }
+
+  // At finite strain Newton's method may not bridge all of what the damage has changed by since the last equilibrium:
+  // half of it then, and so on. The iteration goes on from there.
+  Equilibrium approach(const MomentumSolver::Tolerance& tolerance, Equilibrium equilibrium) {
+    constexpr Index most_halvings = 6;
+    for (Index k = 0; k < most_halvings && !std::isfinite(equilibrium.residual) && last_damage.size() > 0; ++k) {
+      state.displacement = last_displacement;
+      for (Index c = 0; c < last_damage.size(); ++c) state.damage[c] = 0.5 * (last_damage[c] + state.damage[c]);
+      relaxation.lose_momentum();
+      s.degrade(state);
+      equilibrium = s.solve_momentum(start, state, tolerance);
+    }
+    last_damage = state.damage;
+    last_displacement = state.displacement;
+    return equilibrium;
   }
 
   void renew_driving_energy() {
