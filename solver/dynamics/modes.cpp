@@ -101,6 +101,7 @@ std::vector<Mode> lowest_modes(const VibratingBody& body, int count, double tole
   if (count > most) throw InputError(fmt::format("the mesh has no {} modes", count));
   const std::vector<Eigen::VectorXd> rigid = rigid_motions(body);
   std::vector<Mode> modes;
+  modes.reserve(rigid.size());
   for (const Eigen::VectorXd& motion : rigid) modes.push_back(mode_of(body, 0.0, motion));
   const int n_elastic = count - static_cast<int>(rigid.size());
   if (n_elastic <= 0) return {modes.begin(), modes.begin() + count};

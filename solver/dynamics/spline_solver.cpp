@@ -66,6 +66,7 @@ class SplineSpace {
  private:
   std::vector<Vector> places() const {
     std::vector<Vector> places;
+    places.reserve(as_size(unknowns_.n_nodes()));
     for (Index c = 0; c < mesh_.n_cells(); ++c) places.push_back(mesh_.cell_centre[c]);
     for (const Index f : unknowns_.face_of_node) places.push_back(mesh_.face_centre[f]);
     return places;

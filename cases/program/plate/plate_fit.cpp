@@ -26,12 +26,14 @@ double rms(const std::vector<double>& values) {
 
 std::vector<double> magnitudes(const std::vector<std::complex<double>>& H1) {
   std::vector<double> result;
+  result.reserve(H1.size());
   for (const auto& H : H1) result.push_back(std::abs(H));
   return result;
 }
 
 std::vector<double> phases(const std::vector<std::complex<double>>& H1) {
   std::vector<double> result;
+  result.reserve(H1.size());
   for (const auto& H : H1) result.push_back(std::arg(H));
   return result;
 }

@@ -120,6 +120,7 @@ std::string cooling_text(const PlateCase& c) {
 
 std::string points_text(const PlateCase& c) {
   std::vector<std::string> texts;
+  texts.reserve(c.points.size());
   for (const ResponsePoint& point : c.points)
     texts.push_back(fmt::format("{} ({:.4g}, {:.4g}, {:.4g}) mm", point.name, 1e3 * point.at.x(), 1e3 * point.at.y(),
                                 1e3 * point.at.z()));
@@ -140,6 +141,7 @@ Table set_up_table(const PlateCase& c, const ReadSummary& summary) {
            : fmt::format("modulus over frequency, nu {:.3g}, {:.4g} kg/m^3", m.poisson_ratio, m.density)});
   table.rows.push_back({"supports", supports_text(c) + "; other edges free"});
   table.rows.push_back({"motion of the base", base_text(c)});
+  table.rows.push_back({"points", points_text(c)});
   if (!c.heating) return table;
   table.rows.push_back(
       {"conduction", fmt::format("{:.3g} W/m/K, {:.4g} J/kg/K", m.heat.conductivity, m.heat.capacity / m.density)});

@@ -15,6 +15,7 @@ CsvTable computed() {
 template <class Rows, class Get>
 std::vector<double> column(const Rows& rows, const Get& get) {
   std::vector<double> values;
+  values.reserve(rows.size());
   for (const auto& row : rows) values.push_back(get(row));
   return values;
 }
