@@ -184,7 +184,7 @@ double MomentumOperator::stiffness_difference(const Link& link) const {
 // c: the stiffness of both sides in series; between polyhedra that of the capped ones, blended back to the full one
 // where the stiffness of the cells differs.
 Tensor MomentumOperator::jump_tensor(const Link& link, double h_P, double h_N) const {
-  const Tensor full = in_series(acoustic(link.P, link.n), h_P, acoustic(link.N, link.n), h_N);
+  Tensor full = in_series(acoustic(link.P, link.n), h_P, acoustic(link.N, link.n), h_N);
   if (!is_finite() || (jump_share_[link.P] == 1.0 && jump_share_[link.N] == 1.0)) return full;
   const Tensor small = in_series(capped_acoustic(link.P, link.n), h_P, capped_acoustic(link.N, link.n), h_N);
   return small + stiffness_difference(link) * (full - small);
