@@ -13,10 +13,9 @@
 //   Lazarov, Sigmund, Jensen, Comput. Methods Appl. Mech. Engrg. 276 (2014) 453, blend to a linear energy likewise, but
 //   one that is not objective.)
 // - Nearly incompressible materials cannot open a crack without moving their surroundings. The part of U that a
-// pressure
-//   carries (hyperelastic.h) is lost faster than g, kappa -> g kappa/(1 + kappa/kappa_s (1 - g)^2) with kappa_s = 2.5
-//   mu: a sound cell loses it as W, a broken one is compressible. (Li, Bouklas, Int. J. Solids Struct. 182-183 (2020)
-//   193, relax it by another power of 1 - d.)
+//   pressure carries (hyperelastic.h) is lost faster than g, kappa -> g kappa/(1 + kappa/kappa_s (1 - g)^2) with
+//   kappa_s = 2.5 mu: a sound cell loses it as W, a broken one is compressible. (Li, Bouklas, Int. J. Solids Struct.
+//   182-183 (2020) 193, relax it by another power of 1 - d.)
 // - What Newton's method cannot bridge of a change of the damage is halved (staggered.cpp).
 //
 // Known limit: half broken, nearly incompressible cells beside a debonded pole may have no equilibrium that is found,
