@@ -41,11 +41,11 @@ constexpr CrackGeometry wu{
     .support = 0.5 * std::numbers::pi,
 };
 
-constexpr CrackGeometry table[] = {at2, at1, wu};
+constexpr CrackGeometry all_geometries[] = {at2, at1, wu};
 
 }  // namespace
 
-std::span<const CrackGeometry> crack_geometries() { return table; }
+std::span<const CrackGeometry> crack_geometries() { return all_geometries; }
 
 const CrackGeometry& crack_geometry(std::string_view name) {
   return find_by_name(crack_geometries(), name, "crack geometric function");

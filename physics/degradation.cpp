@@ -82,13 +82,13 @@ constexpr DegradationLaw cubic{
     .parameters = cubic_parameters,
 };
 
-constexpr DegradationLaw table[] = {quadratic, cubic, rational};
+constexpr DegradationLaw all_degradations[] = {quadratic, cubic, rational};
 
 }  // namespace
 
 Degradation rational_degradation(const RationalCoefficients& c) { return {rational, {c.p, c.a1, c.a2, c.a3}}; }
 
-std::span<const DegradationLaw> degradations() { return table; }
+std::span<const DegradationLaw> degradations() { return all_degradations; }
 
 const DegradationLaw& degradation_law(std::string_view name) {
   return find_by_name(degradations(), name, "degradation function");

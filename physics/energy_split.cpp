@@ -182,7 +182,7 @@ constexpr SplitLaw drucker_prager{
     .parameters = drucker_prager_parameters,
 };
 
-constexpr SplitLaw table[] = {none, volumetric_deviatoric, star_convex, spectral, no_tension, drucker_prager, rankine};
+constexpr SplitLaw all_splits[] = {none, volumetric_deviatoric, star_convex, spectral, no_tension, drucker_prager, rankine};
 
 }  // namespace
 
@@ -206,11 +206,11 @@ Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, d
   return to_tensor(degraded_tangent(split, c, g, eps) * to_mandel(eps));
 }
 
-std::span<const SplitLaw> energy_splits() { return table; }
+std::span<const SplitLaw> energy_splits() { return all_splits; }
 
 std::string splits_with_secant() {
   std::vector<std::string_view> names;
-  for (const SplitLaw& law : table)
+  for (const SplitLaw& law : all_splits)
     if (law.secant != nullptr) names.push_back(law.name);
   return fmt::format("{}", fmt::join(names, ", "));
 }

@@ -55,7 +55,7 @@ double bisect_settling(const MassMaterial& model, double weight, double above, d
 }
 
 // The kernel orders "various" of Table A2 are none here. Table 4 has numbers of its own; its model 1 is 4b with M = 1.
-constexpr ModelStructure table[] = {
+constexpr ModelStructure all_structures[] = {
     {"1", "k1 z, c z', no kernel (Table A2 model 1)", 1, false, none, 0},
     {"2", "k1 z ... k5 z^5, c z', no kernel (Table A2 model 2)", 5, false, none, 0},
     {"3", "k1 z ... k5 z^5, c z'|z'|^lambda, no kernel (Table A2 model 3)", 5, true, none, 0},
@@ -180,7 +180,7 @@ Passivity passivity(const MassMaterial& model, double omega_low, double omega_hi
 
 double dissipative_sign(KernelForcing forcing) { return forcing == displacement || forcing == stiffness_ ? -1.0 : 1.0; }
 
-std::span<const ModelStructure> model_structures() { return table; }
+std::span<const ModelStructure> model_structures() { return all_structures; }
 
 const ModelStructure& model_structure(std::string_view name) {
   return find_by_name(model_structures(), name, "mass-material model");

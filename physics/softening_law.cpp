@@ -73,7 +73,7 @@ constexpr SofteningLaw cornelissen{
         },
 };
 
-constexpr SofteningLaw table[] = {linear, exponential, hyperbolic, cornelissen};
+constexpr SofteningLaw all_softening_laws[] = {linear, exponential, hyperbolic, cornelissen};
 
 double second_coefficient(const SofteningLaw& law) {
   return 2.0 * std::pow(2.0 * law.initial_slope, 2.0 / 3.0) - law.exponent - 0.5;
@@ -81,7 +81,7 @@ double second_coefficient(const SofteningLaw& law) {
 
 }  // namespace
 
-std::span<const SofteningLaw> softening_laws() { return table; }
+std::span<const SofteningLaw> softening_laws() { return all_softening_laws; }
 
 const SofteningLaw& softening_law(std::string_view name) {
   return find_by_name(softening_laws(), name, "softening law");

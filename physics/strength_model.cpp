@@ -50,7 +50,7 @@ constexpr StrengthLaw drucker_prager{
         },
 };
 
-constexpr StrengthLaw table[] = {drucker_prager};
+constexpr StrengthLaw all_strength_laws[] = {drucker_prager};
 
 void require_surface(const StrengthData& data) {
   if (data.tensile > 0.0 && 3.0 * data.hydrostatic > data.tensile) return;
@@ -80,7 +80,7 @@ double StrengthModel::force(const Tensor& sigma) const {
 
 double StrengthModel::surface(const Tensor& sigma) const { return law_->surface(data_, sigma.trace(), sqrt_J2(sigma)); }
 
-std::span<const StrengthLaw> strength_laws() { return table; }
+std::span<const StrengthLaw> strength_laws() { return all_strength_laws; }
 
 const StrengthLaw& strength_law(std::string_view name) { return find_by_name(strength_laws(), name, "strength model"); }
 

@@ -71,7 +71,7 @@ ShearEnergy saint_venant_kirchhoff(const Parameters& p, const Tensor& E) {
           .stiffness = stiffness_matrix(p.elasticity)};
 }
 
-constexpr HyperelasticLaw table[] = {
+constexpr HyperelasticLaw all_hyperelastic[] = {
     {"neo_hookean", shear_modulus, neo_hookean, false},
     {"mooney_rivlin", [](const Parameters& p) { return (1.0 + p.second_invariant) * p.elasticity.mu; }, mooney_rivlin},
     {"ogden", ogden_initial_stress, ogden},
@@ -81,7 +81,7 @@ constexpr HyperelasticLaw table[] = {
 
 }  // namespace
 
-std::span<const HyperelasticLaw> hyperelastic_laws() { return table; }
+std::span<const HyperelasticLaw> hyperelastic_laws() { return all_hyperelastic; }
 
 const HyperelasticLaw& hyperelastic_law(std::string_view name) {
   return find_by_name(hyperelastic_laws(), name, "hyperelastic law");

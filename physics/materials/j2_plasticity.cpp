@@ -12,7 +12,6 @@
 namespace pfdm {
 namespace {
 
-constexpr std::size_t plastic_strain = 0, equivalent = 6, n_numbers = 7;  // places in the history
 constexpr double sqrt_2_3 = std::numbers::sqrt2 / std::numbers::sqrt3;
 
 class J2Plasticity final : public SmallStrainMaterial {
@@ -58,6 +57,8 @@ class J2Plasticity final : public SmallStrainMaterial {
   }
 
  private:
+  static constexpr std::size_t plastic_strain = 0, equivalent = 6, n_numbers = 7;  // places in the history
+
   J2Parameters law_;
 };
 

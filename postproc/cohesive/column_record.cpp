@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* places_file = "places.csv";
 constexpr const char* cohesive_mark = "faces of a cohesive interface";
-constexpr std::string_view components[] = {"n", "1", "2"};
+constexpr std::string_view axis_names[] = {"n", "1", "2"};
 
 // The one list of what a row holds, for both directions: visit(name, number) for each.
 template <class Sample, class Visit>
 void visit_sample(Sample& sample, const Visit& visit) {
-  for (Index k = 0; k < 3; ++k) visit(fmt::format("traction_{}_Pa", components[k]), sample.traction[k]);
-  for (Index k = 0; k < 3; ++k) visit(fmt::format("separation_{}_m", components[k]), sample.separation[k]);
-  for (Index k = 0; k < 3; ++k) visit(fmt::format("bulk_separation_{}_m", components[k]), sample.bulk[k]);
+  for (Index k = 0; k < 3; ++k) visit(fmt::format("traction_{}_Pa", axis_names[k]), sample.traction[k]);
+  for (Index k = 0; k < 3; ++k) visit(fmt::format("separation_{}_m", axis_names[k]), sample.separation[k]);
+  for (Index k = 0; k < 3; ++k) visit(fmt::format("bulk_separation_{}_m", axis_names[k]), sample.bulk[k]);
   visit("surface_energy_J_per_m2", sample.surface_energy);
   visit("largest_damage", sample.largest_damage);
 }

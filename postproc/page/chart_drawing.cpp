@@ -10,7 +10,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double line_width = 0.9, dot_width = 2.2;  // [pt]
+constexpr double curve_width = 0.9, point_width = 2.2;  // [pt]
 
 struct Range {
   double least = std::numeric_limits<double>::infinity();
@@ -68,9 +68,9 @@ std::vector<Piece> pieces_of(const Series& series, const Chart& chart, const Axe
 /// Between two gaps a single point makes no line and no band.
 void draw_piece(Paper& paper, const Piece& piece, const Series& series) {
   if (has_dots(series))
-    for (const PaperPoint& point : piece.line) paper.stroke({&point, 1}, {series_colour(series.colour), dot_width});
+    for (const PaperPoint& point : piece.line) paper.stroke({&point, 1}, {series_colour(series.colour), point_width});
   if (piece.line.size() < 2) return;
-  if (has_line(series)) paper.stroke(piece.line, series_pen(series, line_width));
+  if (has_line(series)) paper.stroke(piece.line, series_pen(series, curve_width));
   if (series.style != SeriesStyle::band) return;
   std::vector<PaperPoint> polygon = piece.line;
   polygon.insert(polygon.end(), piece.upper.rbegin(), piece.upper.rend());

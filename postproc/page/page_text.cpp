@@ -8,7 +8,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double title_size = 15.0, subtitle_size = 8.0, caption_size = 8.5, text_size = 7.5;  // [pt]
+constexpr double page_title_size = 15.0, subtitle_size = 8.0, caption_size = 8.5, text_size = 7.5;  // [pt]
 constexpr double line_height = 10.5, caption_height = 13.0, key_height = 10.0;                 // [pt]
 constexpr double column_gap = 10.0;                                                            // [pt]
 constexpr double least_last_column = 0.35;                                                     // of a table's width
@@ -84,9 +84,9 @@ void draw_swatch(Paper& paper, const PaperPoint& left, double width, const Serie
 }  // namespace
 
 Rectangle below_title(Paper& paper, const Rectangle& place, const std::string& title, const std::string& subtitle) {
-  paper.text(title, {place.left, place.top() - title_size},
-             {.size = fitting_size(title, title_size, place.width, true), .bold = true});
-  double y = place.top() - title_size - 4.0;
+  paper.text(title, {place.left, place.top() - page_title_size},
+             {.size = fitting_size(title, page_title_size, place.width, true), .bold = true});
+  double y = place.top() - page_title_size - 4.0;
   for (const std::string& line : broken(subtitle, subtitle_size, place.width))
     paper.text(line, {place.left, y -= line_height}, {.size = subtitle_size, .colour = grey});
   y -= 5.0;

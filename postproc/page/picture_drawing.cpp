@@ -13,7 +13,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double label_size = 7.0, title_size = 7.5;                           // [pt]
+constexpr double number_size = 7.0, colours_title_size = 7.5;                  // [pt]
 constexpr double room_left = 34.0, room_above = 4.0, room_for_colours = 42.0;  // [pt]
 
 struct ColourPoint {
@@ -70,10 +70,10 @@ void draw_colours(Paper& paper, const Rectangle& window, const Picture& picture)
                                      std::max(1, static_cast<int>(bar.height / 20.0)));
   for (std::size_t i = 0; i < ticks.positions.size(); ++i) {
     const double y = bar.bottom + bar.height * (ticks.positions[i] - picture.least) / (picture.most - picture.least);
-    paper.text(ticks.labels[i], {bar.right() + 3.0, y - 2.5}, {.size = label_size});
+    paper.text(ticks.labels[i], {bar.right() + 3.0, y - 2.5}, {.size = number_size});
   }
   paper.text(picture.value_title, {bar.right() + 25.0, bar.bottom + 0.5 * bar.height},
-             {.size = fitting_size(picture.value_title, title_size, bar.height),
+             {.size = fitting_size(picture.value_title, colours_title_size, bar.height),
               .angle = 0.5 * std::numbers::pi,
               .alignment = 0.5});
 }

@@ -12,7 +12,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double tolerance = 1e-6;  // of the box's edges, and of areas
+constexpr double side_tolerance = 1e-6;  // of the box's edges, and of areas
 constexpr std::array<std::string_view, 6> side_names{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 
 // The side that a boundary face lies in; 6: none.
@@ -22,7 +22,7 @@ std::size_t side_of(const Mesh& mesh, const BoxSides& sides, Index face) {
   for (int axis = 0; axis < 3; ++axis)
     for (const bool at_end : {false, true}) {
       const double plane = at_end ? sides.upper[axis] : sides.lower[axis];
-      if (std::abs(x[axis] - plane) < tolerance * size[axis] && (at_end ? n[axis] : -n[axis]) > 1.0 - tolerance)
+      if (std::abs(x[axis] - plane) < side_tolerance * size[axis] && (at_end ? n[axis] : -n[axis]) > 1.0 - side_tolerance)
         return as_size(2 * axis + (at_end ? 1 : 0));
     }
   return 6;
@@ -35,7 +35,7 @@ void require_covered(const Mesh& mesh, const BoxSides& sides) {
     const double due = size.prod() / size[axis];
     double area = 0.0;
     for (const Index face : sides.faces[s]) area += mesh.face_area[face].norm();
-    if (std::abs(area - due) > tolerance * due)
+    if (std::abs(area - due) > side_tolerance * due)
       throw InputError(
           fmt::format("the faces of the body in the plane of {} cover {:.4g} % of that side of the box around it; "
                       "homogenisation needs a body that fills a box whose edges are along x, y and z (voids inside it "
@@ -107,14 +107,14 @@ BoxSides find_box_sides(const Mesh& mesh) {
 
 std::vector<PeriodicFaces> match_opposite_sides(const Mesh& mesh, const BoxSides& sides) {
   std::vector<PeriodicFaces> pairs;
-  const double alike = tolerance * (sides.upper - sides.lower).minCoeff();
+  const double alike = side_tolerance * (sides.upper - sides.lower).minCoeff();
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<Index>&low = sides.faces[as_size(2 * axis)], &high = sides.faces[as_size(2 * axis + 1)];
     const FacesByPlace places(mesh, high, axis, alike);
     for (const Index face : low) {
       const Index image = places.find(mesh.face_centre[face]);
       const double area = mesh.face_area[face].norm();
-      if (image < 0 || low.size() != high.size() || std::abs(mesh.face_area[image].norm() - area) > tolerance * area)
+      if (image < 0 || low.size() != high.size() || std::abs(mesh.face_area[image].norm() - area) > side_tolerance * area)
         throw InputError(fmt::format(
             "the faces of {} and {} do not match: that of {} at ({:.4g}, {:.4g}, {:.4g}) m has no translate on the "
             "other side; periodic boundary conditions need a mesh whose opposite sides are cut alike, the others do "

@@ -13,7 +13,6 @@ namespace pfdm {
 namespace {
 
 constexpr Range at_least_one{1.0, std::numeric_limits<double>::infinity(), false, "at least 1"};
-constexpr Range any_seed{0.0, 1e15, false, "zero or positive"};
 
 std::vector<std::string_view> known_keys() {
   std::vector<std::string_view> keys{"name",
@@ -44,7 +43,7 @@ std::optional<Scatter> read_scatter(const ConfigTable& table, std::string_view k
   if (!value) return std::nullopt;
   const ConfigTable scatter = value->table().with_keys({"coefficient", "correlation_length", "seed"});
   return Scatter{scatter.number("coefficient", range::positive),
-                 RandomField(static_cast<std::uint64_t>(scatter.integer("seed", any_seed)),
+                 RandomField(static_cast<std::uint64_t>(scatter.integer("seed", range::seed)),
                              scatter.quantity("correlation_length", dimension::length, range::positive))};
 }
 

@@ -110,12 +110,12 @@ constexpr MaterialLaw saint_venant_kirchhoff{
     .read = [](const ConfigTable& m) { return make(m, "saint_venant_kirchhoff", {.elasticity = read_elasticity(m)}); },
 };
 
-constexpr MaterialLaw table[] = {linear_elastic, endochronic, j2_plasticity, neo_hookean,
-                                 mooney_rivlin,  ogden,       lopez_pamies,  saint_venant_kirchhoff};
+constexpr MaterialLaw all_material_laws[] = {linear_elastic, endochronic, j2_plasticity, neo_hookean,
+                                             mooney_rivlin,  ogden,       lopez_pamies,  saint_venant_kirchhoff};
 
 }  // namespace
 
-std::span<const MaterialLaw> material_laws() { return table; }
+std::span<const MaterialLaw> material_laws() { return all_material_laws; }
 
 const MaterialLaw& law_of_material(const ConfigTable& material) {
   if (const auto law = material.find("law")) return choose(*law, material_laws(), "law of a material");

@@ -22,7 +22,6 @@
 namespace pfdm {
 namespace {
 
-constexpr Range cell_count{1.0, 1e6, false, "at least 1"};
 constexpr Range azimuth_range{std::numeric_limits<double>::min(), 0.25 * std::numbers::pi + 1e-9, false,
                               "more than 0 and at most 45 degrees"};
 constexpr std::string_view box_keys[] = {"name", "lower", "upper"};
@@ -30,7 +29,7 @@ const std::vector<std::string> box_sides{"xmin", "xmax", "ymin", "ymax", "zmin",
 
 AxisBlock read_block(const ConfigTable& block, std::string_view key, const Dimension& due) {
   return {.length = block.quantity(key, due, range::positive),
-          .n = static_cast<Index>(block.integer("cells", cell_count)),
+          .n = static_cast<Index>(block.integer("cells", range::count)),
           .ratio = block.number("ratio", range::positive, 1.0)};
 }
 
@@ -187,7 +186,7 @@ constexpr CellKind cell_kind_table[] = {
     {"polyhedra", "the barycentric dual of tetrahedra and prisms: a polyhedron for each of their vertices", polyhedra},
 };
 
-constexpr MeshGenerator table[] = {
+constexpr MeshGenerator all_generators[] = {
     {"particles_in_box", "a box of tetrahedra with spheres in prism layers", read_particles_in_box},
     {"packed_spheres", "a box of tetrahedra with many spheres, packed at random or placed", read_packed_spheres},
     {"box_hexes", "a box of hexahedra, graded along each axis, with regions, slits and holes", read_box_hexes},
@@ -199,7 +198,7 @@ constexpr MeshGenerator table[] = {
 
 }  // namespace
 
-std::span<const MeshGenerator> mesh_generators() { return table; }
+std::span<const MeshGenerator> mesh_generators() { return all_generators; }
 std::span<const CellKind> cell_kinds() { return cell_kind_table; }
 
 MeshRecipe read_mesh_recipe(const ConfigTable& settings, const MeshSurroundings& around) {

@@ -15,11 +15,9 @@
 namespace pfdm {
 namespace {
 
-constexpr Range cell_count{1.0, 1e6, false, "at least 1"};
 constexpr Range dihedral_range{0.0, 30.0, false, "between 0 and 30 degrees"};
 constexpr Range sphere_count{1.0, 5000.0, false, "between 1 and 5000"};
 constexpr Range packable{0.0, 0.6, true, "between 0 and 0.6"};
-constexpr Range any_seed{0.0, 1e15, false, "zero or positive"};
 constexpr Range up_to_one{1e-3, 1.0, false, "between 0.001 and 1"};
 
 struct Layers {
@@ -30,7 +28,7 @@ struct Layers {
 
 Layers read_layers(const ConfigTable& table) {
   table.with_keys({"count", "thickness", "region"});
-  return {.count = static_cast<Index>(table.integer("count", cell_count)),
+  return {.count = static_cast<Index>(table.integer("count", range::count)),
           .thickness = table.quantity("thickness", dimension::length, range::positive),
           .region = table.has("region") ? read_plain_name(table.at("region"), "a folder") : "interface"};
 }
@@ -48,7 +46,7 @@ void read_surface_size(const ConfigTable& table, const MeshSurroundings& around,
                        std::optional<double>& ell) {
   if (table.has("subdivisions") == table.has("surface_size"))
     throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\" or { ell = 1.0 }");
-  particle.subdivision = static_cast<Index>(table.integer("subdivisions", cell_count, 0));
+  particle.subdivision = static_cast<Index>(table.integer("subdivisions", range::count, 0));
   if (const auto size = table.find("surface_size")) {
     particle.surface_size = read_size(*size, around.ell);
     if (size->is_table()) ell = around.ell;
@@ -223,7 +221,7 @@ MeshRecipe read_packed_spheres(const ConfigTable& given, const MeshSurroundings&
               "subdivisions", "surface_size", "edges_over_gap", "smallest_surface_size"});
   PackedSpheresSettings settings;
   settings.box = read_box_of_tetrahedra(table);
-  settings.seed = static_cast<std::uint64_t>(table.integer("seed", any_seed, 1));
+  settings.seed = static_cast<std::uint64_t>(table.integer("seed", range::seed, 1));
   settings.like.region = table.string("sphere_region", "particle");
   settings.numbered = table.boolean("numbered", false);
   std::optional<double> ell;

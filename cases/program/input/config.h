@@ -32,6 +32,8 @@ inline constexpr Range any{};
 inline constexpr Range positive{0.0, std::numeric_limits<double>::infinity(), true, "positive"};
 inline constexpr Range not_negative{0.0, std::numeric_limits<double>::infinity(), false, "zero or positive"};
 inline constexpr Range fraction{0.0, 1.0, false, "between 0 and 1"};
+inline constexpr Range count{1.0, 1e6, false, "at least 1"};
+inline constexpr Range seed{0.0, 1e15, false, "zero or positive"};
 /// What the solver is tested for.
 inline constexpr Range poisson_ratio{-1.0 + std::numeric_limits<double>::epsilon(), 0.4999, false,
                                      "above -1 and at most 0.4999"};

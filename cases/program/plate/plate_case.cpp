@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr Range loss_range{0.0, 2.0, true, "above 0 and below 2"};
 constexpr Range counts{2.0, 100000.0, false, "at least 2"};
-constexpr Range modes{1.0, 100.0, false, "between 1 and 100"};
-constexpr Range frames{1.0, 1000.0, false, "at least 1"};
+constexpr Range mode_count{1.0, 100.0, false, "between 1 and 100"};
+constexpr Range frame_count{1.0, 1000.0, false, "at least 1"};
 
 constexpr PlateWord support_table[] = {
     {"clamped", "moves with the base in all directions"},
@@ -172,7 +172,7 @@ void read_response(const ConfigTable& root, PlateCase& c) {
   c.to = table.quantity("to", dimension::frequency, range::positive);
   if (c.from >= c.to) throw table.at("to").error("the response must end above \"from\"");
   c.n_frequencies = static_cast<int>(table.integer("frequencies", counts, 200));
-  c.n_modes = static_cast<int>(table.integer("modes", modes, 6));
+  c.n_modes = static_cast<int>(table.integer("modes", mode_count, 6));
   for (const ConfigTable& point : table.tables("points")) {
     point.with_keys({"name", "at"});
     c.points.push_back({.name = read_plain_name(point.at("name"), "a column"), .at = read_point(point.at("at"))});
@@ -262,7 +262,7 @@ PlateCase read_plate_case(const ConfigTable& root, const fs::path& case_director
   read_response(table, c);
   c.heating = read_heating(table, c.mesh);
   if (table.has("output"))
-    c.n_frames = static_cast<int>(table.table("output").with_keys({"frames"}).integer("frames", frames, c.n_frames));
+    c.n_frames = static_cast<int>(table.table("output").with_keys({"frames"}).integer("frames", frame_count, c.n_frames));
   return c;
 }
 

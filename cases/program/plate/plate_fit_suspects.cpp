@@ -8,7 +8,7 @@
 namespace pfdm {
 namespace {
 
-using Column = std::vector<double>;
+using Derivatives = std::vector<double>;
 
 // The modulus and the loss factor times powers of the frequency, over the range of the response.
 PlateCase with_powers(PlateCase c, double of_modulus, double of_loss) {
@@ -44,8 +44,8 @@ PlateCase with_level(PlateCase c, double factor) {
 }
 
 // What an error of the measurement adds to the residuals.
-Column of_measurement(const PlateFit& fit, double magnitude, double phase_per_hertz, double rise) {
-  Column column;
+Derivatives of_measurement(const PlateFit& fit, double magnitude, double phase_per_hertz, double rise) {
+  Derivatives column;
   for (const MeasuredResponse& response : fit.responses) {
     for (std::size_t i = 0; i < response.magnitude.size(); ++i) column.push_back(magnitude / response.deviation);
     for (std::size_t i = 0; i < response.phase.size(); ++i)
@@ -57,17 +57,18 @@ Column of_measurement(const PlateFit& fit, double magnitude, double phase_per_he
 }
 
 // (residuals at the varied case - residuals) / step; nothing where it cannot be.
-std::optional<Column> difference(PlateModel& model, const PlateCase& varied, const Column& residuals, double step) {
+std::optional<Derivatives> difference(PlateModel& model, const PlateCase& varied, const Derivatives& residuals,
+                                      double step) {
   auto column = model.residuals(varied);
   if (!column) return std::nullopt;
   for (std::size_t i = 0; i < column->size(); ++i) (*column)[i] = ((*column)[i] - residuals[i]) / step;
   return column;
 }
 
-std::vector<Column> columns_of_parameters(PlateModel& model, const std::vector<double>& values,
-                                          const Column& residuals) {
+std::vector<Derivatives> columns_of_parameters(PlateModel& model, const std::vector<double>& values,
+                                               const Derivatives& residuals) {
   constexpr double step = 1e-4;
-  std::vector<Column> columns;
+  std::vector<Derivatives> columns;
   for (std::size_t j = 0; j < values.size(); ++j) {
     std::vector<double> varied = values;
     varied[j] *= 1.0 + step;
@@ -82,11 +83,11 @@ std::vector<FitSuspect> suspects_of(PlateModel& model, const PlateFit& fit, cons
                                     const std::vector<double>& residuals) {
   constexpr double step = 1e-3;
   const PlateCase c = model.with(values);
-  const std::vector<Column> of_parameters = columns_of_parameters(model, values, residuals);
+  const std::vector<Derivatives> of_parameters = columns_of_parameters(model, values, residuals);
   std::vector<FitSuspect> suspects;
-  const auto try_column = [&](const char* what, std::optional<Column> column) {
+  const auto try_column = [&](const char* what, std::optional<Derivatives> column) {
     if (!column || std::ranges::all_of(*column, [](double x) { return x == 0.0; })) return;
-    std::vector<Column> columns = of_parameters;
+    std::vector<Derivatives> columns = of_parameters;
     columns.push_back(std::move(*column));
     suspects.push_back({what, rms_left_by(residuals, columns)});
   };

@@ -13,7 +13,6 @@ namespace {
 
 constexpr Range count_range{2.0, 1e6, false, "between 2 and 1000000"};
 constexpr Range samples_range{1.0, 1e6, false, "between 1 and 1000000"};
-constexpr Range seed_range{0.0, 1e15, false, "zero or positive"};
 
 /// Values between two ends, evenly spaced or so in their logarithms.
 struct Interval {
@@ -85,7 +84,7 @@ Points side_by_side(const std::vector<std::vector<double>>& values, const Config
 Points samples(const std::vector<ConfigTable>& tables, const std::vector<CaseParameter>& parameters,
                const ConfigTable& sweep) {
   const auto n = static_cast<std::size_t>(sweep.integer("samples", samples_range));
-  const auto seed = static_cast<std::uint64_t>(sweep.integer("seed", seed_range, 1));
+  const auto seed = static_cast<std::uint64_t>(sweep.integer("seed", range::seed, 1));
   Points points = latin_hypercube(n, parameters.size(), seed);
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const Interval interval = read_interval(tables[j], parameters[j]);
