@@ -56,8 +56,8 @@ VectorXd density_scale(const Segments& s, double rate) {
 }
 
 VectorXd frequencies(Index length, double rate) {
-  return VectorXd::LinSpaced(length / 2 + 1, 0.0, static_cast<double>(length / 2)) *
-         (rate / static_cast<double>(length));
+  const Index last = length / 2;
+  return VectorXd::LinSpaced(last + 1, 0.0, static_cast<double>(last)) * (rate / static_cast<double>(length));
 }
 
 /// Overlapping segments are correlated (Welch 1967, eq. 12): n/(1 + 2 sum (1 - k/n) rho_k).

@@ -182,9 +182,11 @@ BaseNodes nodes_of(const Excitation& excitation, double rate, int substeps) {
   const auto n = static_cast<Index>(std::floor(excitation.duration * rate + 1e-9)) + 1;
   BaseNodes nodes{.rate = rate, .substeps = substeps, .values = VectorXd(4 * substeps * (n - 1) + 1)};
   constexpr auto at = lobatto();
-  for (Index i = 0; i < nodes.values.size(); ++i)
-    nodes.values[i] =
-        excitation.acceleration((static_cast<double>(i / 4) + at[static_cast<std::size_t>(i % 4)]) / (rate * substeps));
+  for (Index i = 0; i < nodes.values.size(); ++i) {
+    const Index substep = i / 4;
+    const double time = (static_cast<double>(substep) + at[static_cast<std::size_t>(i % 4)]) / (rate * substeps);
+    nodes.values[i] = excitation.acceleration(time);
+  }
   return nodes;
 }
 

@@ -181,6 +181,7 @@ void analyse_mass_material(const MassMaterialProgram& program, Session& session)
                         .analysed = now(),
                         .records = {}};
   std::vector<VibrationRecord> records;
+  records.reserve(c.tests.size());
   for (const VibrationTest& test : c.tests) records.push_back(record_of(test, session.results, session.log));
   const std::vector<NamedModel> models = models_at_hand(c, session.results);
   std::vector<RecordAnalysis> analyses;
