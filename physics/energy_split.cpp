@@ -182,7 +182,8 @@ constexpr SplitLaw drucker_prager{
     .parameters = drucker_prager_parameters,
 };
 
-constexpr SplitLaw all_splits[] = {none, volumetric_deviatoric, star_convex, spectral, no_tension, drucker_prager, rankine};
+constexpr SplitLaw all_splits[] = {none,       volumetric_deviatoric, star_convex, spectral,
+                                   no_tension, drucker_prager,        rankine};
 
 }  // namespace
 

@@ -9,9 +9,9 @@ namespace pfdm {
 namespace {
 
 constexpr double page_title_size = 15.0, subtitle_size = 8.0, caption_size = 8.5, text_size = 7.5;  // [pt]
-constexpr double line_height = 10.5, caption_height = 13.0, key_height = 10.0;                 // [pt]
-constexpr double column_gap = 10.0;                                                            // [pt]
-constexpr double least_last_column = 0.35;                                                     // of a table's width
+constexpr double line_height = 10.5, caption_height = 13.0, key_height = 10.0;                      // [pt]
+constexpr double column_gap = 10.0;                                                                 // [pt]
+constexpr double least_last_column = 0.35;  // of a table's width
 constexpr Colour grey{0.35, 0.35, 0.35};
 
 /// Words in as many lines as they take.

@@ -22,7 +22,8 @@ std::size_t side_of(const Mesh& mesh, const BoxSides& sides, Index face) {
   for (int axis = 0; axis < 3; ++axis)
     for (const bool at_end : {false, true}) {
       const double plane = at_end ? sides.upper[axis] : sides.lower[axis];
-      if (std::abs(x[axis] - plane) < side_tolerance * size[axis] && (at_end ? n[axis] : -n[axis]) > 1.0 - side_tolerance)
+      if (std::abs(x[axis] - plane) < side_tolerance * size[axis] &&
+          (at_end ? n[axis] : -n[axis]) > 1.0 - side_tolerance)
         return as_size(2 * axis + (at_end ? 1 : 0));
     }
   return 6;
@@ -114,7 +115,8 @@ std::vector<PeriodicFaces> match_opposite_sides(const Mesh& mesh, const BoxSides
     for (const Index face : low) {
       const Index image = places.find(mesh.face_centre[face]);
       const double area = mesh.face_area[face].norm();
-      if (image < 0 || low.size() != high.size() || std::abs(mesh.face_area[image].norm() - area) > side_tolerance * area)
+      if (image < 0 || low.size() != high.size() ||
+          std::abs(mesh.face_area[image].norm() - area) > side_tolerance * area)
         throw InputError(fmt::format(
             "the faces of {} and {} do not match: that of {} at ({:.4g}, {:.4g}, {:.4g}) m has no translate on the "
             "other side; periodic boundary conditions need a mesh whose opposite sides are cut alike, the others do "

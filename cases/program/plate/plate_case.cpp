@@ -262,7 +262,8 @@ PlateCase read_plate_case(const ConfigTable& root, const fs::path& case_director
   read_response(table, c);
   c.heating = read_heating(table, c.mesh);
   if (table.has("output"))
-    c.n_frames = static_cast<int>(table.table("output").with_keys({"frames"}).integer("frames", frame_count, c.n_frames));
+    c.n_frames =
+        static_cast<int>(table.table("output").with_keys({"frames"}).integer("frames", frame_count, c.n_frames));
   return c;
 }
 
