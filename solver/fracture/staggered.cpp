@@ -175,6 +175,15 @@ struct Staggered::Loop {
 
   CoupledNewton::Moved advance(CellField<double>& answer);
 
+  // The L2 norm of what the damage changes by, over that of the damage.
+  double mean_change(const CellField<double>& answer) const {
+    const auto square = [&](const auto& value) {
+      return parallel_sum(answer.size(), [&](Index c) { return s.mesh_.cell_volume[c] * value(c) * value(c); });
+    };
+    const double change = square([&](Index c) { return answer[c] - state.damage[c]; });
+    return std::sqrt(change / std::max(square([&](Index c) { return answer[c]; }), 1e-300));
+  }
+
   void renew_damage() {
     CellField<double> answer = state.damage;
     const double load = state.load;
@@ -182,11 +191,14 @@ struct Staggered::Loop {
         follows_path() ? s.follow_path(start, path, state, answer) : s.solve_damage(start, state, answer);
     const double load_scale = state.load / load;
     const double change = parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
+    const bool damage_is_settled =
+        change < s.settings_.damage_tolerance ||
+        (s.settings_.damage_tolerance_l2 > 0.0 && mean_change(answer) < s.settings_.damage_tolerance_l2);
     const double energy = load_scale * load_scale * energies.stored + s.damage_.fracture_energy(answer) + energies.torn;
     const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
-    outcome.settled = solved && change < s.settings_.damage_tolerance && energy_change < s.settings_.energy_tolerance &&
+    outcome.settled = solved && damage_is_settled && energy_change < s.settings_.energy_tolerance &&
                       std::abs(load_scale - 1.0) < s.settings_.damage_tolerance;
     outcome.converged = outcome.settled && outcome.residual <= s.settings_.equilibrium_tolerance;
     auto moved = CoupledNewton::Moved::no;

@@ -158,9 +158,12 @@ LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model
 StaggeredSettings read_solver(const ConfigTable& root) {
   StaggeredSettings settings;
   if (!root.has("solver")) return settings;
-  const ConfigTable table = root.table("solver").with_keys(
-      {"damage_tolerance", "energy_tolerance", "equilibrium_tolerance", "maximum_iterations", "linear"});
+  const ConfigTable table =
+      root.table("solver").with_keys({"damage_tolerance", "damage_tolerance_l2", "energy_tolerance",
+                                      "equilibrium_tolerance", "maximum_iterations", "linear"});
   settings.damage_tolerance = table.number("damage_tolerance", above_zero_to_one, settings.damage_tolerance);
+  if (table.has("damage_tolerance_l2"))
+    settings.damage_tolerance_l2 = table.number("damage_tolerance_l2", above_zero_to_one);
   settings.energy_tolerance = table.number("energy_tolerance", above_zero_to_one, settings.energy_tolerance);
   settings.equilibrium_tolerance = table.number("equilibrium_tolerance", solvable, settings.equilibrium_tolerance);
   settings.maximum_iterations =
