@@ -85,7 +85,8 @@ TEST(Dynamics, IterativeAnswersAreThoseOfTheFactors) {
                           found = iterative.inertial_answer(iterative.rigid(Vector::UnitZ()));
     EXPECT_LT((found - due).norm(), 1e-6 * due.norm()) << nu;
     EXPECT_THAT(iterative.method(), testing::StartsWith("1 solutions of "));
-    EXPECT_LT(std::stod(iterative.method().substr(15)), 100.0) << iterative.method();
+    // 74, 87, 80 measured; on Debian 13 75, 86, 109: there a second cycle of 80 is begun. Without the splines 238.
+    EXPECT_LT(std::stod(iterative.method().substr(15)), 160.0) << iterative.method();
     if (nu != 0.45) continue;
     const std::vector<Mode> of_factors = lowest_modes(factored, 3), of_iterations = lowest_modes(iterative, 3);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(of_iterations[k].omega / of_factors[k].omega, 1.0, 1e-6);
