@@ -1,6 +1,7 @@
 #include "solver/fracture/cohesive_faces.h"
 
 #include "physics/error.h"
+#include "physics/gradient_stress.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,15 @@ namespace pfdm {
 namespace {
 
 constexpr double rigid_stiffness = 1e3;  // over that of the cells beside the face
+
+// w x v = across(n, v) dn, where n turns by dn = w x n.
+Tensor across(const Vector& n, const Vector& v) { return n.dot(v) * Tensor::Identity() - n * v.transpose(); }
+
+// Of c/|c|, by c.
+Tensor by_length(const Vector& c) {
+  const Vector n = c.normalized();
+  return (Tensor::Identity() - n * n.transpose()) / c.norm();
+}
 
 /// Without what softens: the symmetric part's negative eigenvalues are zero.
 Tensor convex_part(const Tensor& tangent) {
@@ -81,8 +91,12 @@ void CohesiveFaces::add(std::size_t number, const CohesiveSurface& surface, std:
         fmt::format("interface \"{}\": with the stiffness {:.4g} Pa/m the rise to the strength takes more than the "
                     "toughness; at least strength^2 / (2 toughness) = {:.4g} Pa/m",
                     surface.name, at.stiffness, 0.5 * at.strength * at.strength / at.toughness));
-  faces_.push_back(
-      {.surface = number, .n = mesh_.face_area[f].normalized(), .area = mesh_.face_area[f].norm(), .at = at});
+  faces_.push_back({.surface = number,
+                    .P = mesh_.owner[f],
+                    .N = mesh_.neighbour[f],
+                    .n = mesh_.face_area[f].normalized(),
+                    .area = mesh_.face_area[f].norm(),
+                    .at = at});
 }
 
 double CohesiveFaces::bond(Index face) const {
@@ -94,17 +108,41 @@ double CohesiveFaces::bond(Index face) const {
   return 1.0 / (softness(mesh_.owner[face]) + softness(mesh_.neighbour[face]));
 }
 
+Vector CohesiveFaces::normal(const Face& face, const MomentumOperator& balance) const {
+  if (!balance.is_finite()) return face.n;
+  const Vector c_P = balance.cofactors()[face.P] * face.n, c_N = balance.cofactors()[face.N] * face.n;
+  return (c_P.normalized() + c_N.normalized()).normalized();
+}
+
+// The law is isotropic: if its normal alone turns by w, its traction changes by w x T - K (w x delta).
+void CohesiveFaces::turn(const Face& face, const MomentumOperator& balance, const Vector& separation,
+                         const InterfaceResponse& at, FaceSpring& spring) const {
+  const Vector c_P = balance.cofactors()[face.P] * face.n, c_N = balance.cofactors()[face.N] * face.n;
+  const Vector sum = c_P.normalized() + c_N.normalized(), n = sum.normalized();
+  const Tensor by_sum = (across(n, at.traction) - at.tangent * across(n, separation)) * by_length(sum);
+  spring.turn_P = by_sum * by_length(c_P);
+  spring.turn_N = by_sum * by_length(c_N);
+  const auto change = [&](Index cell) {
+    const Tensor& F = balance.deformation()[cell];
+    return (cofactor_change(F, F - Tensor::Identity()) * face.n).eval();
+  };
+  spring.offset -= spring.turn_P * change(face.P) + spring.turn_N * change(face.N);
+}
+
 void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before, Way way,
                               MomentumSolver& momentum) const {
   std::vector<FaceSpring> springs(faces_.size());
   parallel_for(static_cast<Index>(faces_.size()), [&](Index i) {
     const auto k = as_size(i);
     const Vector separation = momentum.balance().separation(k, u);
-    const InterfaceResponse response = law(faces_[k]).respond(faces_[k].at, faces_[k].n, separation, before[k]);
+    const Vector n = normal(faces_[k], momentum.balance());
+    const InterfaceResponse response = law(faces_[k]).respond(faces_[k].at, n, separation, before[k]);
     const Tensor stiffness = way == Way::tangent ? response.tangent : convex_part(response.tangent);
     springs[k] = {.stiffness = stiffness,
                   .offset = response.traction - stiffness * separation,
                   .secant = way == Way::tangent ? response.secant : stiffness};
+    if (way == Way::tangent && momentum.balance().is_finite())
+      turn(faces_[k], momentum.balance(), separation, response, springs[k]);
   });
   momentum.set_springs(std::move(springs), bond_);
 }
@@ -124,9 +162,10 @@ void CohesiveFaces::settle(const std::vector<InterfaceHistory>& before, const Mo
     const Tensor give = s.give + s.give_beyond;
     const Vector now = balance.separation(k, u);
     const Vector due = now + s.give * s.traction - s.give_beyond * s.traction_beyond;
-    const auto separation = separation_between(law(face), face.at, face.n, before[k], give, due, now);
+    const Vector n = normal(face, balance);
+    const auto separation = separation_between(law(face), face.at, n, before[k], give, due, now);
     if (!separation) return;
-    const Vector traction = law(face).respond(face.at, face.n, *separation, before[k]).traction;
+    const Vector traction = law(face).respond(face.at, n, *separation, before[k]).traction;
     balance.part(k, s.give * (traction - s.traction), -(s.give_beyond * (traction + s.traction_beyond)), u);
   });
 }
@@ -137,7 +176,8 @@ double CohesiveFaces::advance(const MomentumOperator& balance, const std::vector
   return parallel_sum(static_cast<Index>(faces_.size()), [&](Index i) {
     const auto k = as_size(i);
     const Face& face = faces_[k];
-    const InterfaceResponse response = law(face).respond(face.at, face.n, balance.separation(k, u), before[k]);
+    const InterfaceResponse response =
+        law(face).respond(face.at, normal(face, balance), balance.separation(k, u), before[k]);
     after[k] = response.history;
     return face.area * response.stored;
   });
@@ -185,9 +225,10 @@ std::vector<OutputInterface> CohesiveFaces::output(const MomentumOperator& balan
       const Vector separation = balance.separation(k, state.displacement);
       const double sign = surface.sign.empty() ? 1.0 : surface.sign[as_size(i)];
       out.separation[i] = sign * separation;
-      out.opening[i] = face.n.dot(separation);
+      const Vector along = normal(face, balance);
+      out.opening[i] = along.dot(separation);
       out.damage[i] = law(face).damage(face.at, state.interfaces[k]);
-      out.traction[i] = sign * law(face).respond(face.at, face.n, separation, state.interfaces[k]).traction;
+      out.traction[i] = sign * law(face).respond(face.at, along, separation, state.interfaces[k]).traction;
     }
     list.push_back(std::move(out));
   }

@@ -5,6 +5,14 @@
 // An interface that is rigid at first has the stiffness of the cells beside it, C^-1 = (h_P/M_P + h_N/M_N)^-1, times
 // 1000: it gives by a thousandth of what they do, and stiffens in compression likewise.
 //
+// Finite strain: separation and traction are those of a pair of points that were one, the traction per reference area.
+// The law sees them in a frame that follows the body; its normal n is the mean of the unit normals of both sides,
+// cof F N / |cof F N| with F of the cells beside the face (two arcs of one circle that have slid along each other then
+// touch, to the second order). Opened interfaces pull along their separation, and have no moment; the pressure of
+// closed ones does have one once they have slid, p |slip| per area, which nothing balances: contact is between points
+// that were one, and right as long as they stay neighbours. Separations and n are those about which the balance is
+// linearised.
+//
 // Where the law falls more steeply than C^-1 the two cells tear a face at a jump, whatever the load does elsewhere: the
 // solution of one face is unique, and the process zone resolved, only with smaller cells (warnings).
 
@@ -52,12 +60,16 @@ class CohesiveFaces {
  private:
   struct Face {
     std::size_t surface;
-    Vector n;  // from the owner to the neighbour
+    Index P, N;  // owner and neighbour
+    Vector n;    // from P to N
     double area;
     InterfaceStrength at;
   };
   void add(std::size_t number, const CohesiveSurface& surface, std::size_t k);
   double bond(Index face) const;
+  Vector normal(const Face& face, const MomentumOperator& balance) const;
+  void turn(const Face& face, const MomentumOperator& balance, const Vector& separation, const InterfaceResponse& at,
+            FaceSpring& spring) const;
   const InterfaceLaw& law(const Face& face) const { return model_.interfaces[face.surface].law; }
 
   const Mesh& mesh_;

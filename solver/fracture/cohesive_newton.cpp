@@ -1,5 +1,6 @@
 #include "solver/fracture/cohesive_newton.h"
 
+#include "solver/fracture/finite_newton.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace pfdm {
 namespace {
 
-constexpr Index most_solves = 1000;
+constexpr Index most_solves = 1000, most_finite_solves = 200;
 constexpr double falls = 0.7;                 // of the residual by a step of Newton's that leads on
 constexpr double linear_reduction = 0.02;     // of the residual of the linearised equation
 constexpr double convex_reduction = 0.1;      // likewise, without what softens
@@ -70,20 +71,32 @@ double target_of(const MomentumSolver::Tolerance& tolerance, double initial) {
   return std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * initial));
 }
 
+// Halves a step while it turns a sound cell inside out.
+void shorten(const std::vector<Vector>& from, const CellLaws& cells, MomentumSolver& momentum, std::vector<Vector>& u) {
+  constexpr int most_halvings = 8;
+  cells();
+  for (int k = 0; k < most_halvings && inverts(momentum.balance()); ++k) {
+    parallel_for(static_cast<Index>(u.size()),
+                 [&](Index i) { u[as_size(i)] = 0.5 * (from[as_size(i)] + u[as_size(i)]); });
+    cells();
+  }
+}
+
 }  // namespace
 
 Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
-                             const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum,
-                             std::vector<Vector>& u) {
+                             const MomentumSolver::Tolerance& tolerance, const CellLaws& cells,
+                             MomentumSolver& momentum, std::vector<Vector>& u) {
   Equilibrium whole{.converged = false, .iterations = 0, .initial_residual = 0.0, .residual = 0.0};
   double target = 0.0, last = std::numeric_limits<double>::infinity();
   WayOut way_out(u);
   std::vector<Vector> from;  // before the step
   CohesiveFaces::Way way = CohesiveFaces::Way::tangent;
-  for (Index k = 0; k < most_solves; ++k) {
+  const Index most = cells ? most_finite_solves : most_solves;
+  for (Index k = 0; k < most; ++k) {
     // The residual at the start of a solve is that of the true laws.
     const bool newton = way == CohesiveFaces::Way::tangent;
-    if (tolerance.good_enough > 0.0) from = u;
+    if (cells || tolerance.good_enough > 0.0) from = u;
     faces.linearise(u, before, way, momentum);
     const Equilibrium step =
         momentum.solve(t,
@@ -92,6 +105,7 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
                         .floor = 0.5 * target,
                         .most_iterations = newton ? most_newton_iterations : tolerance.most_iterations},
                        u);
+    if (cells) shorten(from, cells, momentum, u);
     whole.iterations += step.iterations;
     whole.residual = step.initial_residual;
     if (k == 0) {
@@ -103,12 +117,15 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
     const bool solved = step.residual < bearable_rest * step.initial_residual;
     if (step.initial_residual <= tolerance.good_enough && !(solved && step.initial_residual < falls * last)) {
       u = std::move(from);
+      if (cells) cells();
       return whole;
     }
     if (way_out.is_marching() || step.initial_residual > falls * last) faces.settle(before, momentum.balance(), u);
     last = step.initial_residual;
     way = way_out.next(step.initial_residual, solved, u);
+    if (cells) cells();
   }
+  if (cells) whole.residual = std::numeric_limits<double>::infinity();
   return whole;
 }
 

@@ -7,13 +7,19 @@
 
 #include "solver/fracture/cohesive_faces.h"
 
+#include <functional>
+
 namespace pfdm {
 
+/// Linearises the balance about the u that is solved for; empty at small strain.
+using CellLaws = std::function<void()>;
+
 /// Equilibrium with the laws of the faces at the load t: as MomentumSolver::solve, the residual being that with the
-/// laws at u.
+/// laws at u. At finite strain a step is halved while a sound cell turns inside out, the residual is infinite if no
+/// equilibrium is found, and the balance is left linearised about u.
 Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
-                             const MomentumSolver::Tolerance& tolerance, MomentumSolver& momentum,
-                             std::vector<Vector>& u);
+                             const MomentumSolver::Tolerance& tolerance, const CellLaws& cells,
+                             MomentumSolver& momentum, std::vector<Vector>& u);
 
 /// The same where a step may dissipate no more than so much: the load is an unknown then, at most `most_load`, and
 /// falls below that of the step before where the body snaps back. Each iteration solves the linearised equations at two

@@ -44,6 +44,21 @@ void require_path(const Mesh& mesh, const FractureModel& m, const Unknowns& unkn
   }
 }
 
+// Opened interfaces have to pull along their separation, or they would transfer a moment. The slip of the friction is
+// not turned with the body.
+void require_finite_interfaces(const FractureModel& m) {
+  for (const CohesiveSurface& surface : m.interfaces) {
+    if (surface.law.shear_ratio != 1.0)
+      throw InputError(
+          fmt::format("materials of finite strain can only be combined with cohesive interfaces whose shear_ratio is "
+                      "1; that of \"{}\" is {:g}",
+                      surface.name, surface.law.shear_ratio));
+    if (surface.law.friction > 0.0)
+      throw InputError(fmt::format(
+          "materials of finite strain cannot be combined with the friction of the interface \"{}\"", surface.name));
+  }
+}
+
 // What has not been worked out for finite strain is refused.
 void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns,
                     const LoadingSettings& loading) {
@@ -70,7 +85,7 @@ void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& un
           "convex");
   }
   if (m.has_strength()) refuse("the model \"strength\"");
-  if (!m.interfaces.empty()) refuse("cohesive interfaces");
+  require_finite_interfaces(m);
   if (unknowns.plane_stress) refuse("plane stress");
   if (controls_dissipation(loading))
     refuse("dissipation control (loading.maximum_dissipation): their displacements are not proportional to the load");

@@ -38,15 +38,6 @@ struct LineSearch {
     residual = before;
   }
 
-  // Some cell that still carries load.
-  bool inverts() const {
-    constexpr double least_volume = 0.1;
-    const MomentumOperator& balance = momentum.balance();
-    return parallel_sum(balance.deformation().size(), [&](Index c) {
-             return !balance.is_soft(c) && balance.deformation()[c].determinant() < least_volume ? 1.0 : 0.0;
-           }) > 0.0;
-  }
-
   bool works_less(const std::vector<Vector>& step) const {
     constexpr double less = 0.5;
     const Index n = momentum.n_nodes();
@@ -65,7 +56,7 @@ struct LineSearch {
       parallel_for(static_cast<Index>(step.size()),
                    [&](Index i) { state.displacement[as_size(i)] = from[as_size(i)] + part * step[as_size(i)]; });
       stiffness.set(state, momentum);
-      if (inverts()) continue;
+      if (inverts(momentum.balance())) continue;
       residual = momentum.residual(state.load, state.displacement);
       if (residual < little_descent * before || residual <= small_enough || works_less(step)) return part;
     }
@@ -75,6 +66,13 @@ struct LineSearch {
 };
 
 }  // namespace
+
+bool inverts(const MomentumOperator& balance) {
+  constexpr double least_volume = 0.1;
+  return parallel_sum(balance.deformation().size(), [&](Index c) {
+           return !balance.is_soft(c) && balance.deformation()[c].determinant() < least_volume ? 1.0 : 0.0;
+         }) > 0.0;
+}
 
 Equilibrium solve_finite(const CellStiffness& stiffness, const MomentumSolver::Tolerance& tolerance,
                          MomentumSolver& momentum, FractureState& state) {

@@ -11,4 +11,7 @@ namespace pfdm {
 Equilibrium solve_finite(const CellStiffness& stiffness, const MomentumSolver::Tolerance& tolerance,
                          MomentumSolver& momentum, FractureState& state);
 
+/// Whether some cell that still carries load has nearly turned inside out, where the balance is linearised.
+bool inverts(const MomentumOperator& balance);
+
 }  // namespace pfdm

@@ -253,8 +253,10 @@ void Staggered::degrade(const FractureState& state) {
 Equilibrium Staggered::solve_momentum(const FractureState& start, FractureState& state,
                                       const MomentumSolver::Tolerance& tolerance) {
   const auto lap = clock_.lap("momentum");
-  if (faces_.any())
-    return solve_with_faces(faces_, start.interfaces, state.load, tolerance, momentum_, state.displacement);
+  if (faces_.any()) {
+    const CellLaws cells = stiffness_.finite().any() ? [&] { stiffness_.set(state, momentum_); } : CellLaws();
+    return solve_with_faces(faces_, start.interfaces, state.load, tolerance, cells, momentum_, state.displacement);
+  }
   if (stiffness_.finite().any()) return solve_finite(stiffness_, tolerance, momentum_, state);
   return momentum_.solve(state.load, tolerance, state.displacement);
 }

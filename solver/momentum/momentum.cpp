@@ -99,7 +99,12 @@ void MomentumOperator::add_sides() {
     if (shared) second_side_of_node_[k] = add(node, f, mesh_.neighbour[f], -1.0);
   }
   for (const Index f : unknowns_.split_faces)
-    split_faces_.push_back({unknowns_.node_of_face[f], unknowns_.neighbour_node[f], mesh_.face_area[f].norm()});
+    split_faces_.push_back({.node = unknowns_.node_of_face[f],
+                            .beyond = unknowns_.neighbour_node[f],
+                            .area = mesh_.face_area[f].norm(),
+                            .P = mesh_.owner[f],
+                            .N = mesh_.neighbour[f],
+                            .n = mesh_.face_area[f].normalized()});
 }
 
 void MomentumOperator::list_forces_of_cells() {
@@ -257,7 +262,8 @@ void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& 
 void MomentumOperator::pull_by_springs(const std::vector<Vector>& u, std::vector<Vector>& out) const {
   parallel_for(static_cast<Index>(springs_.size()), [&](Index k) {
     const SplitFace& face = split_faces_[as_size(k)];
-    const Vector force = face.area * (springs_[as_size(k)].stiffness * separation(as_size(k), u));
+    Vector force = face.area * (springs_[as_size(k)].stiffness * separation(as_size(k), u));
+    if (is_finite()) force += face.area * turned_spring(as_size(k));
     out[as_size(face.node)] -= force;
     out[as_size(face.beyond)] += force;
   });

@@ -34,7 +34,8 @@
 // else lambda_s replaces lambda (cell_pressure.h).
 //
 // Split faces: each side has a node and a traction of its own, t_P and t_N as above, and a law of their separation
-// joins them, t_P = T(u_f,N - u_f,P) = -t_N. It is linearised within each solve, T = K (u_f,N - u_f,P) + T_0.
+// joins them, t_P = T(u_f,N - u_f,P) = -t_N. It is linearised within each solve, T = K (u_f,N - u_f,P) + T_0. At
+// finite strain T also turns with the two sides, that is with c = cof F N of both cells.
 //
 // Periodic faces: the image has no unknown of its own, but the displacement of its node plus what is prescribed between
 // the two, and its forces act on that node: t_P + t_N = 0 as on an interface, whose sides lie at different places.
@@ -93,6 +94,9 @@ struct FaceSpring {
   Tensor stiffness;  ///< K of the traction on the owner's side, K delta + offset [Pa/m]
   Vector offset;     ///< [Pa]
   Tensor secant;     ///< for the preconditioner: symmetric, positive semi-definite [Pa/m]
+  /// At finite strain: what the traction changes by with cof F N of the owner and of the neighbour [Pa]. The offset is
+  /// then that of a traction K delta + offset + turn_P (dc_P/dF : H_P) N + turn_N (dc_N/dF : H_N) N.
+  Tensor turn_P = Tensor::Zero(), turn_N = Tensor::Zero();
 };
 
 class MomentumOperator {
@@ -112,8 +116,9 @@ class MomentumOperator {
   /// Finite strain: the balance linearised about the displacements u. There it is exact. No plane stress.
   void set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double part = 0.0);
   bool is_finite() const { return finite_.size() > 0; }
-  const CellField<Tensor>& deformation() const { return F_; }  ///< F by least squares, at which it is linearised
-  CellField<double> face_stiffness() const;                    ///< a measure of a h at finite strain [Pa]
+  const CellField<Tensor>& deformation() const { return F_; }       ///< F by least squares, at which it is linearised
+  const CellField<Tensor>& cofactors() const { return cofactor_; }  ///< likewise
+  CellField<double> face_stiffness() const;                         ///< a measure of a h at finite strain [Pa]
   /// Whether it has lost most of its stiffness.
   bool is_soft(Index cell) const {
     return finite_[cell].face.mu < 0.05 * unknowns_.sound[as_size(unknowns_.zone[cell])].mu;
@@ -197,6 +202,8 @@ class MomentumOperator {
   struct SplitFace {
     Index node, beyond;  // on the owner's and on the neighbour's side
     double area;
+    Index P, N;  // owner and neighbour
+    Vector n;    // from P to N
   };
   // Weight and c of a link whose cells are not isotropic.
   struct LinkTensors {
@@ -246,6 +253,7 @@ class MomentumOperator {
   void add_links();
   void add_sides();
   void list_forces_of_cells();
+  Vector turned_spring(std::size_t k) const;
   void pull_by_springs(const std::vector<Vector>& u, std::vector<Vector>& out) const;
   // Forces of the displacements, of the initial stresses, and of both, into forces_.
   void compute_linear_forces(const std::vector<Vector>& u) const;

@@ -145,6 +145,12 @@ Vector MomentumOperator::turned_jump(std::size_t i) const {
          turn.N * (cofactor_change_[link.N] * link.n) + turn.swell_N * volume_rate_[link.N];
 }
 
+Vector MomentumOperator::turned_spring(std::size_t k) const {
+  const SplitFace& face = split_faces_[k];
+  const FaceSpring& spring = springs_[k];
+  return spring.turn_P * (cofactor_change_[face.P] * face.n) + spring.turn_N * (cofactor_change_[face.N] * face.n);
+}
+
 void MomentumOperator::turn_side(std::size_t i, const std::vector<Vector>& u) {
   const Side& side = sides_[i];
   const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - gradients_[side.cell] * side.d;

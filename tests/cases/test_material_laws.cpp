@@ -90,6 +90,22 @@ TEST(MaterialLaws, WhatFiniteStrainCannotBeCombinedWithIsRefused) {
   }
 }
 
+// The frame of an interface's law turns with the body.
+TEST(MaterialLaws, InterfacesThatDoNotTurnWithTheBodyAreRefused) {
+  const std::string rubber = with_material("law = \"neo_hookean\"\ndamageable = false\n");
+  const std::string interface =
+      "\n[[interface]]\nbetween = [\"bar\", \"weak\"]\nlaw = \"linear\"\nstrength = \"3 MPa\"\ntoughness = \"80 "
+      "J/m^2\"\n";
+  for (const auto& [keys, message] : {std::pair{"shear_ratio = 0.7\n", "whose shear_ratio is 1; that of"},
+                                      std::pair{"friction = 0.3\n", "cannot be combined with the friction"}}) {
+    SCOPED_TRACE(message);
+    const TemporaryCase directory(rubber + interface + keys);
+    const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+  }
+}
+
 TEST(MaterialLaws, FramesShowTheHistory) {
   const TemporaryCase directory(with_material(j2));
   ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);

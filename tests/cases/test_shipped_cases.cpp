@@ -70,5 +70,28 @@ TEST(ShippedCases, QuickBeadDebondsAsItsReadmeSays) {
   EXPECT_EQ(cohesive["surfaces"][0]["laws"].back()["jump_at_step"], 8);
 }
 
+// As it is shipped, through the jump of the lower pole, in its 15th step.
+TEST(ShippedCases, BeadInRubberDebondsAsItsReadmeSays) {
+  const TemporaryCase place("");
+  const std::string bead = PFDM_CASES_DIR "/glass_bead_rubber";
+  const Outcome outcome = run({"run", bead, "--output", place.results().string(), "--max-steps", "15", "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable curve = read_csv(place.results() / "force_displacement.csv");
+  ASSERT_EQ(curve.n_rows(), 16u);
+  const auto u = [&](std::size_t i) { return curve.column("displacement_m")[i]; };
+  const auto force = [&](std::size_t i) { return curve.column("force_z_N")[i]; };
+  EXPECT_NEAR(u(10), 200e-6, 1e-9);
+  EXPECT_NEAR(force(10), 0.3242, 1e-4);
+  EXPECT_NEAR(u(14), 257.5e-6, 0.1e-6);
+  EXPECT_NEAR(force(14), 0.399, 1e-3);
+  EXPECT_NEAR(u(15), 259.5e-6, 0.1e-6);
+  EXPECT_NEAR(force(15), 0.369, 2e-3);
+  for (std::size_t i = 1; i < 16; ++i) {
+    const double kept = curve.column("elastic_energy_J")[i] + curve.column("interface_energy_J")[i] +
+                        curve.column("interface_dissipation_J")[i];
+    EXPECT_NEAR(kept / curve.column("external_work_J")[i], i < 15 ? 1.0 : 0.989, 3.5e-3) << "step " << i;
+  }
+}
+
 }  // namespace
 }  // namespace pfdm
