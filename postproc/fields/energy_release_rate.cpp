@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace pfdm {
 namespace {
@@ -42,6 +43,54 @@ double extent_along(const Mesh& mesh, const Vector& axis) {
   return most - least;
 }
 
+// int q over the faces of a cell: its gradient times the volume. It sums to exactly zero over the body, as a gradient
+// does.
+Vector gradient_of(const Mesh& mesh, const FaceField<double>& q, Index c) {
+  Vector gradient = Vector::Zero();
+  for (const Index f : mesh.faces_of_cell(c)) gradient += (mesh.owner[f] == c ? q[f] : -q[f]) * mesh.face_area[f];
+  return gradient;
+}
+
+FaceField<double> weights(const Mesh& mesh, const TipRegion& region, const Vector& tip) {
+  FaceField<double> q(as_size(mesh.n_faces()));
+  parallel_for(mesh.n_faces(), [&](Index f) { q[f] = weight_at(region, tip, mesh.face_centre[f]); });
+  return q;
+}
+
+// The elasticities of the ring's cells above and below the crack, if each side has one.
+std::optional<InterfaceCrack> crack_between(const Mesh& mesh, const FractureModel& model, const TipRegion& region,
+                                            const CellField<Vector>& gradient, const Vector& tip) {
+  std::optional<IsotropicElasticity> upper, lower;
+  const Vector across = region.front.cross(region.direction);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    if (gradient[c].squaredNorm() == 0.0) continue;
+    std::optional<IsotropicElasticity>& side = (mesh.cell_centre[c] - tip).dot(across) >= 0.0 ? upper : lower;
+    const IsotropicElasticity& elasticity = model.in_cell(mesh, c).elasticity;
+    if (side && !(*side == elasticity)) return std::nullopt;
+    side = elasticity;
+  }
+  if (!upper || !lower) return std::nullopt;
+  return InterfaceCrack{.upper = *upper, .lower = *lower, .reference_length = region.reference_length};
+}
+
+// The mixed part of G of the body's field and the near field with K, times the extent along the front [J/m].
+double interaction(const Mesh& mesh, const OutputFields& output, const TipRegion& region, const InterfaceCrack& crack,
+                   const CellField<Vector>& gradient, const Vector& tip, std::complex<double> K) {
+  Tensor axes;  // rows: along, across, front
+  axes << region.direction.transpose(), region.front.cross(region.direction).transpose(), region.front.transpose();
+  return parallel_sum(mesh.n_cells(), [&](Index c) {
+    if (gradient[c].squaredNorm() == 0.0) return 0.0;
+    const Vector r = axes * (mesh.cell_centre[c] - tip), q = axes * gradient[c];
+    const Tensor sigma = axes * output.stress[c] * axes.transpose(), eps = axes * output.strain[c] * axes.transpose();
+    const Vector slope = axes * (output.gradient[c] * region.direction);
+    const NearField near = near_field(crack, r.x(), r.y(), K);
+    const Vector near_slope(near.slope.real(), near.slope.imag(), 0.0);
+    Tensor near_sigma = Tensor::Zero();
+    near_sigma.topLeftCorner<2, 2>() << near.s_xx, near.s_xy, near.s_xy, near.s_yy;
+    return slope.dot(near_sigma * q) + near_slope.dot(sigma * q) - near_sigma.cwiseProduct(eps).sum() * q.x();
+  });
+}
+
 }  // namespace
 
 std::span<const RegionShape> region_shapes() { return shape_table; }
@@ -67,13 +116,10 @@ Vector crack_tip(const Mesh& mesh, const CellField<double>& damage, const TipReg
 
 EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, const TipRegion& region) {
   EnergyRelease result{.tip = crack_tip(mesh, output.damage, region)};
-  FaceField<double> q(as_size(mesh.n_faces()));
-  parallel_for(mesh.n_faces(), [&](Index f) { q[f] = weight_at(region, result.tip, mesh.face_centre[f]); });
-  // grad q from its values on the faces (Gauss): it sums to exactly zero over the body, as a gradient does.
+  const FaceField<double> q = weights(mesh, region, result.tip);
   CellField<double> release(as_size(mesh.n_cells()));
   parallel_for(mesh.n_cells(), [&](Index c) {
-    Vector gradient = Vector::Zero();  // times the volume
-    for (const Index f : mesh.faces_of_cell(c)) gradient += (mesh.owner[f] == c ? q[f] : -q[f]) * mesh.face_area[f];
+    const Vector gradient = gradient_of(mesh, q, c);
     const Tensor& sigma = output.stress[c];
     const double psi = 0.5 * sigma.cwiseProduct(output.strain[c]).sum();
     release[c] = (output.gradient[c] * region.direction).dot(sigma * gradient) - psi * region.direction.dot(gradient);
@@ -86,6 +132,24 @@ EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, 
       leaves_body(mesh, region, q) ? std::numeric_limits<double>::quiet_NaN() : sum / extent_along(mesh, region.front);
   result.damaged_share = size > 0.0 ? damaged / size : 0.0;
   return result;
+}
+
+StressIntensity stress_intensity(const Mesh& mesh, const FractureModel& model, const OutputFields& output,
+                                 const TipRegion& region) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const StressIntensity unknown{none, none, none};
+  const Vector tip = crack_tip(mesh, output.damage, region);
+  const FaceField<double> q = weights(mesh, region, tip);
+  if (leaves_body(mesh, region, q) || model.is_finite_strain()) return unknown;
+  CellField<Vector> gradient(as_size(mesh.n_cells()));
+  parallel_for(mesh.n_cells(), [&](Index c) { gradient[c] = gradient_of(mesh, q, c); });
+  std::optional<InterfaceCrack> crack = crack_between(mesh, model, region, gradient, tip);
+  if (!crack) return unknown;
+  crack->plane_stress = output.plane_stress_normal.squaredNorm() > 0.0;
+  const double scale = 0.5 * crack->modulus() / extent_along(mesh, region.front);
+  const double K1 = scale * interaction(mesh, output, region, *crack, gradient, tip, {1.0, 0.0});
+  const double K2 = scale * interaction(mesh, output, region, *crack, gradient, tip, {0.0, 1.0});
+  return {K1, K2, std::atan2(K2, K1)};
 }
 
 }  // namespace pfdm

@@ -9,7 +9,13 @@
 // outer one, B the extent of the body along the crack front. Only the elastic part of the Eshelby tensor takes part:
 // what is measured is the energy that flows into the tip region from the far field, if the ring between the distances
 // lies in sound material but for the crack's wake, which carries nothing.
+//
+// The stress intensities of both modes by the interaction integral (Yau, Wang, Corten, J. Appl. Mech. 47 (1980) 335; of
+// a crack between two materials Matos et al., Int. J. Fract. 40 (1989) 235): the mixed part of G of the body's field
+// and of the near field with K1 = 1, and with K2 = 1.
 
+#include "physics/interface_crack.h"
+#include "solver/fracture/fracture_model.h"
 #include "solver/fracture/state.h"
 
 #include "mesh/mesh.h"
@@ -41,6 +47,7 @@ struct TipRegion {
   double tip_damage = 0.9;
   double corridor =
       std::numeric_limits<double>::infinity();  ///< beside the line from `point` [m]; damage beyond is no tip
+  double reference_length = 0.0;                ///< of the stress intensities [m]; 0: they are not asked for
 };
 
 /// The foremost place along the region's direction where the damage passes the threshold, between cell centres; the
@@ -56,5 +63,15 @@ struct EnergyRelease {
 };
 
 EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, const TipRegion& region);
+
+/// At the region's reference length; see physics/interface_crack.h. All NaN where G is, at finite strain, and where the
+/// ring has cells of two elasticities on one side of the crack.
+struct StressIntensity {
+  double K1 = 0.0, K2 = 0.0;  ///< [Pa m^1/2]
+  double phase_angle = 0.0;   ///< atan2(K2, K1) [radian]
+};
+
+StressIntensity stress_intensity(const Mesh& mesh, const FractureModel& model, const OutputFields& output,
+                                 const TipRegion& region);
 
 }  // namespace pfdm

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 
 namespace pfdm::verification {
 namespace {
@@ -18,7 +19,14 @@ constexpr double E = 210e9, nu = 0.3, G_exact = 2700.0;
 struct SlitPlate {
   Mesh mesh;
   OutputFields fields;
+  FractureModel model{};
 };
+
+StressIntensity intensity_of(const SlitPlate& plate, TipRegion ring, double length) {
+  ring.shape = &region_shapes().front();
+  ring.reference_length = length;
+  return stress_intensity(plate.mesh, plate.model, plate.fields, ring);
+}
 
 // A square of 2 mm, slit to its middle, n cells a side; K in units of sqrt(E' G).
 SlitPlate solve(Index n, double K_I, double K_II) {
@@ -34,8 +42,8 @@ SlitPlate solve(Index n, double K_I, double K_II) {
   for (const char* side : {"xmin", "xmax", "ymin", "ymax"})
     boundary.push_back(
         displacement_on(side, [=](const Vector& x) { return near_field(elasticity, x, K * K_I, K * K_II); }));
-  const FractureModel model = elastic_model({elasticity}, boundary);
-  const auto solution = solve_elastic(plate.mesh, model);
+  plate.model = elastic_model({elasticity}, boundary);
+  const auto solution = solve_elastic(plate.mesh, plate.model);
   plate.fields.damage = CellField<double>(as_size(plate.mesh.n_cells()), 0.0);
   plate.fields.strain = solution->cells.strain;
   plate.fields.gradient = solution->cells.gradient;
@@ -112,6 +120,131 @@ TEST(EnergyReleaseRate, OfACrackBetweenTwoMaterialsIsThatOfTheStrip) {
     EXPECT_NEAR(fine, 1.0, 0.001);
     EXPECT_LT(std::abs(fine - 1.0), 0.4 * std::abs(coarse - 1.0));
   }
+}
+
+// In one material K1 and K2 are those of Williams' field, of which the boundary is displaced.
+TEST(StressIntensity, OfASlitIsThatOfItsField) {
+  const double unit = std::sqrt(E / (1.0 - nu * nu) * G_exact);
+  for (const auto& [K_I, K_II] : {std::pair{1.0, 0.0}, std::pair{0.8, 0.6}, std::pair{0.0, 1.0}}) {
+    const SlitPlate plate = solve(80, K_I, K_II);
+    const StressIntensity K = intensity_of(plate, {.name = "tip", .inner = 0.3e-3, .outer = 0.8e-3}, 1e-3);
+    const double due = std::atan2(K_II, K_I);
+    report_row(
+        "K_I, K_II = " + std::to_string(K_I) + ", " + std::to_string(K_II),
+        {{"K1", K.K1 / unit}, {"K2", K.K2 / unit}, {"phase angle - due [degree]", 57.29578 * (K.phase_angle - due)}});
+    EXPECT_NEAR(K.K1 / unit, K_I, 0.01);
+    EXPECT_NEAR(K.K2 / unit, K_II, 0.01);
+    EXPECT_NEAR(K.phase_angle, due, 0.005);
+    const SlitPlate coarse = solve(40, K_I, K_II);
+    const StressIntensity K_coarse = intensity_of(coarse, {.name = "tip", .inner = 0.3e-3, .outer = 0.8e-3}, 1e-3);
+    EXPECT_LT(std::hypot(K.K1 / unit - K_I, K.K2 / unit - K_II),
+              0.6 * std::hypot(K_coarse.K1 / unit - K_I, K_coarse.K2 / unit - K_II));
+  }
+}
+
+using Complex = std::complex<double>;
+
+// The field of a crack |x| < a between two half-planes under s_yy + i s_xy = T far away (Rice, Sih, J. Appl. Mech. 32
+// (1965) 418): on y = 0 s_yy + i s_xy = T (x + 2 i eps a) (x^2 - a^2)^(-1/2) ((x - a)/(x + a))^(i eps).
+struct CentralCrack {
+  IsotropicElasticity upper, lower;
+  double a;
+  Complex T;
+
+  static double kappa(const IsotropicElasticity& c) { return 3.0 - 4.0 * c.poisson_ratio(); }
+  double eps() const {  // by Dundurs' beta
+    const double k1 = kappa(upper), k2 = kappa(lower);
+    const double beta =
+        (upper.mu * (k2 - 1.0) - lower.mu * (k1 - 1.0)) / (upper.mu * (k2 + 1.0) + lower.mu * (k1 + 1.0));
+    return std::log((1.0 - beta) / (1.0 + beta)) / (2.0 * std::numbers::pi);
+  }
+  // Integral of that function along the axis, and its conjugate's; s = 1 or -1.
+  Complex f(Complex z, double s) const {
+    const Complex i(0.0, 1.0);
+    return std::sqrt(z - a) * std::sqrt(z + a) * std::exp(s * i * eps() * (std::log(z - a) - std::log(z + a)));
+  }
+  Complex f_slope(Complex z, double s) const {
+    const Complex i(0.0, 1.0);
+    return (z + s * 2.0 * i * eps() * a) / ((z - a) * (z + a)) * f(z, s);
+  }
+  Vector displacement(const Vector& x, bool above) const {
+    const Complex z(x.x(), above ? std::max(x.y(), 1e-15) : std::min(x.y(), -1e-15));
+    const double growth = std::exp((above ? 2.0 : -2.0) * std::numbers::pi * eps());
+    const IsotropicElasticity& c = above ? upper : lower;
+    const Complex A = std::conj(T) / (1.0 + growth), B = growth * T / (1.0 + growth);
+    const Complex u =
+        (kappa(c) * A * f(z, -1.0) - std::conj(B * f(z, 1.0)) - (z - std::conj(z)) * std::conj(A * f_slope(z, -1.0))) /
+        (2.0 * c.mu);
+    return {u.real(), u.imag(), 0.0};
+  }
+  // (K1 + i K2) at the length L, as published: sqrt(pi a) T (1 + 2 i eps) (2 a)^(-i eps) L^(i eps).
+  Complex K(double L) const {
+    const Complex i(0.0, 1.0);
+    return std::sqrt(std::numbers::pi * a) * T * (1.0 + 2.0 * i * eps()) *
+           std::exp(i * eps() * std::log(L / (2.0 * a)));
+  }
+};
+
+// A square of three crack lengths a side, its sides displaced as that field is; n cells in half the crack.
+SlitPlate solve(const CentralCrack& crack, Index n) {
+  const double half = 3.0 * crack.a;
+  BoxHexesSettings box;
+  box.origin = {-half, -half, 0.0};
+  box.axes = {{{{2.0 * half, 6 * n, 1.0}}, {{2.0 * half, 6 * n, 1.0}}, {{crack.a / 4.0, 1, 1.0}}}};
+  box.base_region = "upper";
+  box.regions = {{.name = "lower", .lower = {-1.0, -1.0, -1.0}, .upper = {1.0, 0.0, 1.0}}};
+  box.slits = {{"slit", {-crack.a, 0.0, 0.0}, {crack.a, 0.0, 1.0}}};
+  SlitPlate plate{.mesh = make_box_hexes(box), .fields = {}};
+  std::vector<IsotropicElasticity> by_region;
+  for (const std::string& name : plate.mesh.region_names)
+    by_region.push_back(name == "lower" ? crack.lower : crack.upper);
+  std::vector<BoundaryCondition> boundary{plane_on("zmin"), plane_on("zmax")};
+  for (const char* side : {"xmin", "xmax", "ymin", "ymax"})
+    boundary.push_back(displacement_on(side, [=](const Vector& x) { return crack.displacement(x, x.y() >= 0.0); }));
+  plate.model = elastic_model(by_region, boundary);
+  const auto solution = solve_elastic(plate.mesh, plate.model);
+  plate.fields.damage = CellField<double>(as_size(plate.mesh.n_cells()), 0.0);
+  plate.fields.strain = solution->cells.strain;
+  plate.fields.gradient = solution->cells.gradient;
+  plate.fields.stress = solution->cells.stress;
+  return plate;
+}
+
+TEST(StressIntensity, OfACrackBetweenGlassAndPolymerIsTheClosedForm) {
+  const IsotropicElasticity glass = from_young_poisson(70e9, 0.3), polymer = from_young_poisson(3e9, 0.38);
+  constexpr double a = 1e-3, L = 1e-4;
+  const TipRegion ring{.name = "tip", .point = {a, 0.0, 0.0}, .inner = 0.3 * a, .outer = 0.8 * a};
+  for (const Complex T : {Complex(1e6, 0.0), Complex(1e6, 1e6), Complex(0.0, 1e6)}) {
+    const CentralCrack crack{.upper = polymer, .lower = glass, .a = a, .T = T};
+    const Complex due = crack.K(L);
+    for (const Index n : {10, 20}) {
+      const SlitPlate plate = solve(crack, n);
+      const StressIntensity K = intensity_of(plate, ring, L);
+      const double ratio = std::hypot(K.K1, K.K2) / std::abs(due), angle = K.phase_angle - std::arg(due);
+      report_row("T = " + std::to_string(T.real()) + ", " + std::to_string(T.imag()) + ", n = " + std::to_string(n),
+                 {{"|K|/closed form", ratio},
+                  {"phase angle, closed form [degree]", 57.29578 * std::arg(due)},
+                  {"error [degree]", 57.29578 * angle}});
+      EXPECT_NEAR(ratio, 1.0, 0.03);
+      EXPECT_NEAR(angle, 0.0, 0.03 * std::max(std::abs(std::arg(due)), 0.3));
+      // G of the same field.
+      TipRegion disc = ring;
+      disc.shape = &region_shapes().front();
+      const InterfaceCrack interface { .upper = polymer, .lower = glass };
+      EXPECT_NEAR(energy_release_rate(plate.mesh, plate.fields, disc).G * interface.modulus() / std::norm(due), 1.0,
+                  0.06);
+    }
+  }
+}
+
+TEST(StressIntensity, IsNoneWhereTheRingHasTwoMaterialsOnOneSide) {
+  SlitPlate plate = solve(20, 1.0, 0.0);
+  plate.model.cells = CellField<RegionModel>(as_size(plate.mesh.n_cells()), plate.model.regions.front());
+  const TipRegion ring{.name = "tip", .inner = 0.3e-3, .outer = 0.8e-3};
+  EXPECT_FALSE(std::isnan(intensity_of(plate, ring, 1e-3).K1));
+  for (Index c = 0; c < plate.mesh.n_cells(); ++c)
+    if (plate.mesh.cell_centre[c].x() > 0.3e-3) plate.model.cells[c].elasticity = from_young_poisson(70e9, 0.3);
+  EXPECT_TRUE(std::isnan(intensity_of(plate, ring, 1e-3).K1));
 }
 
 TEST(EnergyReleaseRate, IsNoneWhereTheRingLeavesTheBody) {

@@ -25,7 +25,8 @@ void read_tip(const ConfigTable& table, TipRegion& region) {
 }
 
 TipRegion read_region(const ConfigTable& table) {
-  table.with_keys({"name", "point", "direction", "front", "shape", "inner", "outer", "tip", "tip_damage", "corridor"});
+  table.with_keys({"name", "point", "direction", "front", "shape", "inner", "outer", "tip", "tip_damage", "corridor",
+                   "reference_length"});
   TipRegion region;
   region.name = read_plain_name(table.at("name"), "a column");
   region.point = read_point(table.at("point"));
@@ -38,6 +39,7 @@ TipRegion read_region(const ConfigTable& table) {
   region.inner = table.quantity("inner", dimension::length, range::positive);
   region.outer = table.quantity("outer", dimension::length, range::positive);
   if (!(region.outer > region.inner)) throw table.at("outer").error("it must be larger than inner");
+  region.reference_length = table.quantity("reference_length", dimension::length, range::positive, 0.0);
   read_tip(table, region);
   return region;
 }

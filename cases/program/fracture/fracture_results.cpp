@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace pfdm {
@@ -30,6 +31,8 @@ constexpr const char* interfaces_file = "interfaces.pvd";
 constexpr const char* interfaces_folder = "interfaces";
 constexpr const char* columns_folder = "columns";
 constexpr const char* energy_release_file = "energy_release_rate.csv";
+constexpr std::string_view headline_endings[] = {"_G_J_per_m2", "_K1_Pa_sqrt_m", "_K2_Pa_sqrt_m",
+                                                 "_phase_angle_degree"};
 
 constexpr double bearable_damaged_share = 0.05;  // of the integrand of an energy release rate
 
@@ -77,9 +80,12 @@ void require_results(const fs::path& results, const std::string& case_hash) {
 
 std::vector<std::string> energy_release_columns(const std::vector<TipRegion>& regions) {
   std::vector<std::string> names{"step", "load"};
-  for (const TipRegion& region : regions)
-    for (const char* what : {"tip_x_m", "tip_y_m", "tip_z_m", "G_J_per_m2", "damaged_share"})
-      names.push_back(fmt::format("{}_{}", region.name, what));
+  for (const TipRegion& region : regions) {
+    std::vector<const char*> columns{"tip_x_m", "tip_y_m", "tip_z_m", "G_J_per_m2", "damaged_share"};
+    if (region.reference_length > 0.0)
+      columns.insert(columns.end(), {"K1_Pa_sqrt_m", "K2_Pa_sqrt_m", "phase_angle_degree"});
+    for (const char* what : columns) names.push_back(fmt::format("{}_{}", region.name, what));
+  }
   return names;
 }
 
@@ -94,6 +100,14 @@ std::optional<std::string> doubt_about(const EnergyRelease& release, const std::
         "only where the ring between inner and outer lies in undamaged material",
         region, 100.0 * release.damaged_share);
   return std::nullopt;
+}
+
+std::string no_intensity(const std::string& region) {
+  return fmt::format(
+      "energy release rate \"{}\": no stress intensities: they are those of small strain, with one elasticity in the "
+      "part "
+      "of the ring on each side of the crack",
+      region);
 }
 
 /// Continues a list of frames up to the last step, or starts one.
@@ -255,8 +269,13 @@ void FractureResults::add_energy_release(const FractureState& state, const Outpu
     const TipRegion& region = fracture_.output.tips[i];
     const EnergyRelease release = energy_release_rate(mesh_, output, region);
     row.insert(row.end(), {release.tip.x(), release.tip.y(), release.tip.z(), release.G, release.damaged_share});
+    std::optional<std::string> doubt = doubt_about(release, region.name);
+    if (region.reference_length > 0.0) {
+      const StressIntensity intensity = stress_intensity(mesh_, model_, output, region);
+      row.insert(row.end(), {intensity.K1, intensity.K2, intensity.phase_angle * 180.0 / std::numbers::pi});
+      if (!doubt && std::isnan(intensity.K1)) doubt = no_intensity(region.name);
+    }
     if (warned_of_tip_[i]) continue;
-    const std::optional<std::string> doubt = doubt_about(release, region.name);
     if (doubt) warnings.push_back(*doubt);
     warned_of_tip_[i] = doubt.has_value();
   }
@@ -321,7 +340,8 @@ std::map<std::string, double> FractureResults::last_energy_release() const {
   if (!files_->energy_release || files_->energy_release->rows().empty()) return figures;
   const std::vector<std::string>& names = files_->energy_release->names();
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i].ends_with("_G_J_per_m2")) figures["final_" + names[i]] = files_->energy_release->rows().back()[i];
+    if (std::ranges::any_of(headline_endings, [&](std::string_view end) { return names[i].ends_with(end); }))
+      figures["final_" + names[i]] = files_->energy_release->rows().back()[i];
   return figures;
 }
 
