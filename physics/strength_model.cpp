@@ -1,5 +1,6 @@
 #include "physics/strength_model.h"
 
+#include "physics/materials/biot_stress.h"
 #include "physics/registry.h"
 
 #include <cmath>
@@ -9,10 +10,6 @@ namespace pfdm {
 namespace {
 
 constexpr double sqrt3 = std::numbers::sqrt3;
-
-double energy_at_tensile_strength(const StrengthData& data) {
-  return 0.5 * data.tensile * data.tensile / data.elasticity.young_modulus();
-}
 
 double sqrt_J2(const Tensor& sigma) {
   const Tensor s = deviator(sigma);
@@ -43,7 +40,7 @@ constexpr StrengthLaw drucker_prager{
     .coefficients =
         [](const StrengthData& d, double delta) {
           const double ts = d.tensile, hs = d.hydrostatic, surface = delta * d.Gc / (8.0 * d.ell);
-          const double W_ts = energy_at_tensile_strength(d), W_hs = 0.5 * hs * hs / d.elasticity.bulk_modulus();
+          const auto [W_ts, W_hs] = energies_at_strengths(d);
           return StrengthCoefficients{.by_shear = sqrt3 * (3.0 * hs - ts) / (hs * ts) * surface +
                                                   2.0 * W_hs / (sqrt3 * hs) - 2.0 * sqrt3 * W_ts / ts,
                                       .by_trace = surface / hs - 2.0 * W_hs / (3.0 * hs)};
@@ -69,7 +66,14 @@ double hydrostatic_strength(double tensile, double compressive) {
   return 2.0 / 3.0 * tensile * compressive / (compressive - tensile);
 }
 
-double largest_length(const StrengthData& data) { return 3.0 * data.Gc / (16.0 * energy_at_tensile_strength(data)); }
+StrengthEnergies energies_at_strengths(const StrengthData& data) {
+  const double ts = data.tensile, hs = data.hydrostatic;
+  if (const auto* finite = dynamic_cast<const HyperelasticMaterial*>(data.material.get()))
+    return {energy_at_biot_stress(*finite, ts * Vector::UnitX()), energy_at_biot_stress(*finite, hs * Vector::Ones())};
+  return {0.5 * ts * ts / data.elasticity.young_modulus(), 0.5 * hs * hs / data.elasticity.bulk_modulus()};
+}
+
+double largest_length(const StrengthData& data) { return 3.0 * data.Gc / (16.0 * energies_at_strengths(data).tensile); }
 
 StrengthModel::StrengthModel(const StrengthLaw& law, const StrengthData& data, double delta)
     : law_(&law), data_(data), delta_(delta), coefficients_((require_surface(data), law.coefficients(data, delta))) {}

@@ -8,14 +8,18 @@
 // psi_open = psi_plus where the undamaged stress has tr sigma >= 0, else 0; c [J/m^3] is a linear function of the
 // invariants of that stress. Its coefficients, which depend on ell, are such that a sound cell begins to break at the
 // strengths, whatever ell; in other directions of stress it does on a surface that tends to the given one as ell -> 0.
-// The factor delta has a long crack dissipate Gc.
+// The factor delta has a long crack dissipate Gc. At finite strain the stress is Biot's and the energies at the
+// strengths are those of the material's own law (Kumar, Lopez-Pamies, J. Mech. Phys. Solids 150 (2021) 104359).
 
 #include "physics/elasticity.h"
 
+#include <memory>
 #include <span>
 #include <string_view>
 
 namespace pfdm {
+
+class Material;
 
 /// What the law of a material is made of.
 struct StrengthData {
@@ -24,7 +28,17 @@ struct StrengthData {
   double hydrostatic = 0.0;  ///< strength in hydrostatic tension [Pa]; more than a third of the tensile one
   double Gc = 0.0;           ///< [J/m^2]
   double ell = 0.0;          ///< [m]
+  /// Hyperelastic: the strengths are Biot stresses; null: linear elastic.
+  std::shared_ptr<const Material> material{};
 };
+
+/// Energy densities of the undamaged material [J/m^3].
+struct StrengthEnergies {
+  double tensile = 0.0;      ///< at the strength in uniaxial tension
+  double hydrostatic = 0.0;  ///< at that in hydrostatic tension
+};
+/// Throws InputError if a hyperelastic material does not reach a strength.
+StrengthEnergies energies_at_strengths(const StrengthData& data);
 
 /// c = by_shear sqrt(J2) + by_trace tr(sigma), of dimension one [J/m^3 per Pa].
 struct StrengthCoefficients {
@@ -47,7 +61,8 @@ struct StrengthLaw {
 /// The strength in hydrostatic tension of a Drucker-Prager surface [Pa], compressive > tensile > 0.
 double hydrostatic_strength(double tensile, double compressive);
 
-/// 3 Gc/(16 W), W the energy density at the tensile strength: ell has to be smaller [m].
+/// 3 Gc/(16 W), W the energy density at the tensile strength: ell has to be smaller [m]. Throws InputError as
+/// energies_at_strengths does.
 double largest_length(const StrengthData& data);
 
 /// A strength model with its parameters.
@@ -61,7 +76,7 @@ class StrengthModel {
   const StrengthLaw& law() const { return *law_; }
   const StrengthData& data() const { return data_; }
   double delta() const { return delta_; }
-  /// c [J/m^3] at the undamaged stress [Pa].
+  /// c [J/m^3] at the undamaged stress [Pa]; here and below Biot's at finite strain.
   double force(const Tensor& sigma) const;
   /// Whether psi_plus drives damage at the undamaged stress.
   static bool opens(const Tensor& sigma) { return sigma.trace() >= 0.0; }

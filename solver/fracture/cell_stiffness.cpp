@@ -138,6 +138,11 @@ double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics,
                                    : split(cell).energy(elasticity(cell), mechanics.strain[cell]).psi_plus;
 }
 
+Tensor CellStiffness::undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
+  if (finite_.any()) return finite_.undamaged_biot_stress(cell, mechanics, factor(cell, state.damage[cell]));
+  return stress(elasticity(cell), mechanics.strain[cell]);
+}
+
 // Half the work on the elastic strain, and what is locked up.
 double CellStiffness::stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
   if (finite_.any()) return finite_.stored_energy(cell, mechanics, factor(cell, state.damage[cell]));

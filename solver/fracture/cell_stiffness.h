@@ -47,6 +47,8 @@ class CellStiffness {
   double residual_energy(Index cell, double psi_plus, double d) const;
   /// Energy dissipated by the materials [J] from one state to the other.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
+  /// Of the undamaged material [Pa], on which strength depends: at finite strain Biot's.
+  Tensor undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   const MaterialCells& materials() const { return materials_; }
   const FiniteCells& finite() const { return finite_; }
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,

@@ -84,7 +84,6 @@ void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& un
           "the energy split \"volumetric_deviatoric\" where their law is saint_venant_kirchhoff, which is not "
           "convex");
   }
-  if (m.has_strength()) refuse("the model \"strength\"");
   require_finite_interfaces(m);
   if (unknowns.plane_stress) refuse("plane stress");
   if (controls_dissipation(loading))
@@ -96,8 +95,10 @@ void require_strength(const FractureModel& m) {
     throw InputError("a strength model requires the irreversibility \"bounds\" or \"crack_set\"");
   for (const RegionModel& region : m.regions) {
     if (!region.damageable) continue;
-    if (region.material || m.degradation_of(region).name() != "quadratic")
-      throw InputError("a strength model requires linear elastic materials and the degradation \"quadratic\"");
+    const bool is_elastic = !region.material || region.material->is_finite_strain();
+    if (!is_elastic || m.degradation_of(region).name() != "quadratic")
+      throw InputError(
+          "a strength model requires linear elastic or hyperelastic materials and the degradation \"quadratic\"");
   }
 }
 

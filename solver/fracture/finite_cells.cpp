@@ -1,5 +1,7 @@
 #include "solver/fracture/finite_cells.h"
 
+#include "physics/materials/biot_stress.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -123,6 +125,14 @@ double FiniteCells::driving_energy(Index cell, const CellMechanics& mechanics, d
   const double relaxation = (relaxed(*material_[cell], g).slope - 1.0) * by_volume;
   const double varying = at.kept.energy > 0.0 ? 0.0 : mechanics.energy[cell] / (g * mesh_.cell_volume[cell]);
   return std::max(at.degraded.energy + relaxation + varying, 0.0);
+}
+
+Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {
+  const HyperelasticMaterial& material = *material_[cell];
+  const Tensor& H = mechanics.gradient[cell];
+  const Parts at = in_damage(material, H, g, parts(cell, H));
+  const Tensor by_volume = of_pressure(material, H, keeps_compression_[cell] != 0).stress;
+  return biot_stress(H, at.degraded.stress + at.kept.stress + (relaxed(material, g).value / g - 1.0) * by_volume);
 }
 
 Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, double g,

@@ -23,7 +23,7 @@ double round_down(double x) {
 bool holds_all(double residual, double elastic) { return residual > everything * elastic; }
 
 bool has_collapsed(const ResidualShare& share) {
-  return holds_all(share.residual, share.elastic) && share.traction_work > share.elastic;
+  return holds_all(share.residual, share.elastic) && share.traction_work > std::max(share.elastic, 0.0);
 }
 
 std::string ResidualStiffness::remark(const ResidualShare& share, double energy_before, double load) {

@@ -278,7 +278,7 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   energies.stored += energies.interfaces;
   energies.torn = faces_.dissipated(faces_.virgin_histories(), state.interfaces);
   parallel_for(mesh_.n_cells(), [&](Index c) { psi_plus_[c] = stiffness_.driving_energy(c, mechanics, state); });
-  strength_ = strength_drive(mesh_, model_, mechanics, psi_plus_);
+  strength_ = strength_drive(mesh_, model_, stiffness_, mechanics, state, psi_plus_);
   energies.residual = drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_.follow(mechanics, state);
   return energies;
@@ -291,7 +291,7 @@ StrengthDrive Staggered::strength_drive_of(const FractureState& state) {
       state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
   CellField<double> psi(as_size(mesh_.n_cells()));
   parallel_for(mesh_.n_cells(), [&](Index c) { psi[c] = stiffness_.driving_energy(c, mechanics, state); });
-  return strength_drive(mesh_, model_, mechanics, psi);
+  return strength_drive(mesh_, model_, stiffness_, mechanics, state, psi);
 }
 
 // The driving energy of the last equilibrium with its displacements times `scale`. Returns what the residual stiffness
@@ -358,11 +358,8 @@ bool Staggered::follow_path(const FractureState& start, const PathLimit& limit, 
 ResidualShare Staggered::residual_share(const FractureState& state, const Energies& energies) {
   ResidualShare share{.elastic = energies.stored, .residual = energies.residual};
   if (!holds_all(share.residual, share.elastic)) return share;
-  const std::vector<Vector> force = momentum_.balance().boundary_forces(state.displacement);
-  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k)
-    if (const Index f = unknowns_.face_of_node[k]; !mesh_.is_interior(f))
-      share.traction_work += force[as_size(f - mesh_.n_interior_faces())].dot(
-          unknowns_.free_directions[k] * state.displacement[as_size(unknowns_.n_cells) + k]);
+  const std::vector<Vector> force = momentum_.balance().traction_forces(state.load);
+  for (std::size_t i = 0; i < force.size(); ++i) share.traction_work += force[i].dot(state.displacement[i]);
   return share;
 }
 

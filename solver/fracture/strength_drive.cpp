@@ -4,7 +4,8 @@
 
 namespace pfdm {
 
-StrengthDrive strength_drive(const Mesh& mesh, const FractureModel& model, const CellMechanics& mechanics,
+StrengthDrive strength_drive(const Mesh& mesh, const FractureModel& model, const CellStiffness& stiffness,
+                             const CellMechanics& mechanics, const FractureState& state,
                              const CellField<double>& psi_plus) {
   if (!model.has_strength()) return {};
   const auto n = as_size(mesh.n_cells());
@@ -12,7 +13,7 @@ StrengthDrive strength_drive(const Mesh& mesh, const FractureModel& model, const
   parallel_for(mesh.n_cells(), [&](Index c) {
     const RegionModel& region = model.in_cell(mesh, c);
     if (!region.strength.is_chosen() || !region.damageable) return;
-    const Tensor sigma = stress(region.elasticity, mechanics.strain[c]);
+    const Tensor sigma = stiffness.undamaged_stress(c, mechanics, state);
     drive.force[c] = region.strength.force(sigma);
     if (!StrengthModel::opens(sigma)) drive.closed[c] = psi_plus[c];
   });

@@ -5,7 +5,9 @@
 // the damage equation says; the rest, -(g(d) c + g'(d) (psi_plus - psi_open)) dd, is dissipated besides. In tension it
 // is negative: the surface energy counts delta Gc, of which a crack dissipates Gc in all.
 
+#include "solver/fracture/cell_stiffness.h"
 #include "solver/fracture/fracture_model.h"
+#include "solver/fracture/state.h"
 #include "solver/momentum/momentum.h"
 
 namespace pfdm {
@@ -16,7 +18,8 @@ struct StrengthDrive {
   CellField<double> closed;  ///< psi_plus - psi_open
 };
 
-StrengthDrive strength_drive(const Mesh& mesh, const FractureModel& model, const CellMechanics& mechanics,
+StrengthDrive strength_drive(const Mesh& mesh, const FractureModel& model, const CellStiffness& stiffness,
+                             const CellMechanics& mechanics, const FractureState& state,
                              const CellField<double>& psi_plus);
 
 /// Dissipated besides the surface energy [J] while the damage goes from one field to the other and the driving force

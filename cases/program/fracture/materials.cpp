@@ -45,9 +45,11 @@ double hydrostatic_strength_of(const MaterialKeys& keys, const std::string& regi
 
 StrengthModel make_strength(const MaterialKeys& keys, const RegionModel& model, const std::string& region,
                             const StrengthChoice& choice, const ConfigTable& table, const Vector& x) {
-  if (keys.material || (keys.degradation && keys.degradation->name() != "quadratic"))
+  const bool is_elastic = !keys.material || keys.material->is_finite_strain();
+  if (!is_elastic || (keys.degradation && keys.degradation->name() != "quadratic"))
     throw table.error(fmt::format(
-        "region \"{}\": the model of strength requires the degradation \"quadratic\" and a linear elastic material",
+        "region \"{}\": the model of strength requires the degradation \"quadratic\" and a linear elastic or "
+        "hyperelastic material",
         region));
   if (!keys.strength)
     throw table.error(
@@ -58,9 +60,12 @@ StrengthModel make_strength(const MaterialKeys& keys, const RegionModel& model, 
                           .tensile = keys.strength->at(x),
                           .hydrostatic = hydrostatic_strength_of(keys, region, table, x),
                           .Gc = model.Gc,
-                          .ell = model.ell};
-  const double delta = choice.delta.value_or(choice.law->delta(data, choice.mesh_size));
-  return table.in_context([&] { return StrengthModel(*choice.law, data, delta); });
+                          .ell = model.ell,
+                          .material = keys.material};
+  return table.in_context([&] {
+    const double delta = choice.delta ? *choice.delta : choice.law->delta(data, choice.mesh_size);
+    return StrengthModel(*choice.law, data, delta);
+  });
 }
 
 RegionModel make_model(const MaterialKeys& keys, const std::string& region, const MaterialDefaults& defaults,
