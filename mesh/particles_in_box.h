@@ -1,6 +1,6 @@
 #pragma once
-// A box of matrix with spherical particles, each in thin prism layers if wanted: wedges in the layers, tetrahedra
-// inside the particles and in the matrix, all conforming. Without particles: a box of tetrahedra.
+// A box of matrix with particles, spheres or of any shape, each in thin prism layers if wanted: wedges in the layers,
+// tetrahedra inside the particles and in the matrix, all conforming. Without particles: a box of tetrahedra.
 
 #include <limits>
 #include <string>
@@ -23,6 +23,9 @@ struct Particle {
   /// In place of that icosahedron, if it has triangles: directions of the points, and the triangles. `subdivision` then
   /// only tells the size of the cells around it.
   TriangleSurface directions{};
+  /// In place of the sphere, if it has triangles: a closed surface about `centre` [m]. `radius` is not used then;
+  /// `surface_size` is the edge length of its triangles, and tells the size of the cells around it.
+  TriangleSurface shape{};
   std::string region = "bead";
   Index n_layers = 0;            ///< 0: the particle's surface itself is the interface
   double layer_thickness = 0.0;  ///< of all layers together [m]
@@ -36,7 +39,7 @@ struct ParticlesInBoxSettings {
   std::string matrix_region = "matrix";
   /// Wanted edge length in the matrix: that of the nearest outermost layer + grading * distance from it, at most
   /// size_far; inside a particle that of its surface + grading * depth, at most particle_size_factor times that of the
-  /// surface.
+  /// surface (of spheres only).
   double grading = 0.4;                                                   ///< [-]
   double size_far = std::numeric_limits<double>::infinity();              ///< [m]
   double particle_size_factor = std::numeric_limits<double>::infinity();  ///< [-]; 1: uniform
@@ -45,9 +48,9 @@ struct ParticlesInBoxSettings {
   double min_dihedral_angle = 10.0;    ///< of tetrahedra, as far as the surfaces allow [degrees]
 };
 
-/// Patches xmin, xmax, ymin, ymax, zmin, zmax. Layers are of equal thickness, their side faces are plane. The same
-/// settings give the same mesh. Throws InputError naming particle and numbers if one leaves the box, touches another or
-/// has a size that is not positive; ComputationError if the mesh does not fill the box.
+/// Patches xmin, xmax, ymin, ymax, zmin, zmax. Layers are of equal thickness, around spheres their side faces are
+/// plane. The same settings give the same mesh. Throws InputError naming particle and numbers if one leaves the box,
+/// touches another or has a size that is not positive; ComputationError if the mesh does not fill the box.
 Mesh make_particles_in_box(const ParticlesInBoxSettings& settings);
 
 }  // namespace pfdm

@@ -16,6 +16,9 @@ struct SizeSource {
   double core;        ///< radius of the particle without its layers [m]
   double core_size;   ///< wanted on the particle's surface [m]
   double core_limit;  ///< largest wanted inside the particle [m]
+  /// Of a particle that is no sphere: points of its surface with its layers, all in that ball. Both sizes are then
+  /// outer_size, wanted where they are, and nothing limits the size inside [m]
+  std::vector<Vector> points{};
 };
 
 class SizeField {

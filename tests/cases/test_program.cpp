@@ -75,6 +75,7 @@ direction = [0, 1, 0]
 tip = "foremost"
 inner = "0.1 mm"
 outer = "0.4 mm"
+reference_length = "1 mm"
 [[output.energy_release_rate]]
 name = "end"
 point = ["20 mm", "0.5 mm", "0.5 mm"]
@@ -110,6 +111,7 @@ TEST(Program, WritesEnergyReleaseRatesAtEveryStep) {
   const std::string table = content_of(directory.results() / "energy_release_rate.csv");
   EXPECT_EQ(table.substr(0, table.find('\n')),
             "step,load,middle_tip_x_m,middle_tip_y_m,middle_tip_z_m,middle_G_J_per_m2,middle_damaged_share,"
+            "middle_K1_Pa_sqrt_m,middle_K2_Pa_sqrt_m,middle_phase_angle_degree,"
             "end_tip_x_m,end_tip_y_m,end_tip_z_m,end_G_J_per_m2,end_damaged_share");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 12);
   EXPECT_NE(table.find(",nan,"), std::string::npos);
@@ -118,6 +120,8 @@ TEST(Program, WritesEnergyReleaseRatesAtEveryStep) {
   const nlohmann::json summary = summary_in(directory.results());
   EXPECT_TRUE(summary["final_middle_G_J_per_m2"].is_number());
   EXPECT_TRUE(summary["final_end_G_J_per_m2"].is_null());
+  EXPECT_TRUE(summary["final_middle_K2_Pa_sqrt_m"].is_number());
+  EXPECT_TRUE(summary["final_middle_phase_angle_degree"].is_number());
   expect_to_go_on_to_the_same_curve(measured_bar_case());
 }
 

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/particles_recipe.h"
 
+#include "cases/program/fracture/shape_recipe.h"
 #include "cases/program/input/amount.h"
 #include "cases/program/input/path_reader.h"
 #include "mesh/packed_spheres.h"
@@ -42,15 +43,20 @@ double read_size(const ConfigValue& value, std::optional<double> ell) {
 }
 
 /// `ell` becomes that of [fracture] if the size depends on it.
+void read_edge_length(const ConfigTable& table, const MeshSurroundings& around, Particle& particle,
+                      std::optional<double>& ell) {
+  const auto size = table.find("surface_size");
+  if (!size) return;
+  particle.surface_size = read_size(*size, around.ell);
+  if (size->is_table()) ell = around.ell;
+}
+
 void read_surface_size(const ConfigTable& table, const MeshSurroundings& around, Particle& particle,
                        std::optional<double>& ell) {
   if (table.has("subdivisions") == table.has("surface_size"))
     throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\" or { ell = 1.0 }");
   particle.subdivision = static_cast<Index>(table.integer("subdivisions", range::count, 0));
-  if (const auto size = table.find("surface_size")) {
-    particle.surface_size = read_size(*size, around.ell);
-    if (size->is_table()) ell = around.ell;
-  }
+  read_edge_length(table, around, particle, ell);
 }
 
 void set_layers(const Layers& layers, Particle& particle) {
@@ -59,15 +65,27 @@ void set_layers(const Layers& layers, Particle& particle) {
   particle.layer_region = layers.region;
 }
 
-Particle read_particle(const ConfigTable& table, const Layers& common_layers, const MeshSurroundings& around,
-                       std::optional<double>& ell) {
+Particle read_sphere(const ConfigTable& table, const MeshSurroundings& around, std::optional<double>& ell) {
   table.with_keys({"centre", "diameter", "region", "subdivisions", "surface_size", "angle", "layers"});
   Particle particle;
-  if (const auto centre = table.find("centre")) particle.centre = read_point(*centre);
   particle.radius = 0.5 * table.quantity("diameter", dimension::length, range::positive);
-  particle.region = table.string("region", particle.region);
   read_surface_size(table, around, particle, ell);
   particle.angle = table.quantity("angle", dimension::angle, range::any, particle.angle);
+  return particle;
+}
+
+/// `shapes` gets an entry: that of the particle, or none.
+Particle read_particle(const ConfigTable& table, const Layers& common_layers, const MeshSurroundings& around,
+                       std::optional<double>& ell, std::vector<std::optional<ShapeRecipe>>& shapes) {
+  shapes.emplace_back();
+  if (table.has("surface")) shapes.back() = read_shape(table, around.case_directory);
+  Particle particle;
+  if (!shapes.back())
+    particle = read_sphere(table, around, ell);
+  else
+    read_edge_length(table, around, particle, ell);
+  if (const auto centre = table.find("centre")) particle.centre = read_point(*centre);
+  particle.region = table.string("region", particle.region);
   set_layers(table.has("layers") ? read_layers(table.table("layers")) : common_layers, particle);
   return particle;
 }
@@ -201,6 +219,12 @@ void read_drawn_spheres(const ConfigTable& table, PackedSpheresSettings& setting
       table.in_context([&] { return draw_diameters(distribution, count, volume, ratios, settings.seed); });
 }
 
+Mesh with_shapes(ParticlesInBoxSettings settings, const std::vector<std::optional<ShapeRecipe>>& shapes) {
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    if (shapes[i]) settings.particles[i].shape = make_shape(*shapes[i], settings.particles[i].surface_size);
+  return make_particles_in_box(settings);
+}
+
 }  // namespace
 
 MeshRecipe read_particles_in_box(const ConfigTable& given, const MeshSurroundings& around) {
@@ -208,9 +232,12 @@ MeshRecipe read_particles_in_box(const ConfigTable& given, const MeshSurrounding
   ParticlesInBoxSettings settings = read_box_of_tetrahedra(table);
   const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : Layers{};
   std::optional<double> ell;
+  std::vector<std::optional<ShapeRecipe>> shapes;
   for (const ConfigTable& particle : table.tables("particles"))
-    settings.particles.push_back(read_particle(particle, layers, around, ell));
-  MeshRecipe recipe = recipe_of(settings, [settings] { return make_particles_in_box(settings); });
+    settings.particles.push_back(read_particle(particle, layers, around, ell, shapes));
+  MeshRecipe recipe = recipe_of(settings, [settings, shapes] { return with_shapes(settings, shapes); });
+  for (const auto& shape : shapes)
+    if (shape) recipe.data_files.push_back(shape->file);
   recipe.ell = ell;
   return recipe;
 }

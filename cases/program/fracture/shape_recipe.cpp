@@ -1,0 +1,72 @@
+#include "cases/program/fracture/shape_recipe.h"
+
+#include "cases/program/input/amount.h"
+#include "cases/program/input/path_reader.h"
+#include "cases/program/input/units.h"
+#include "mesh/particle_shape.h"
+#include "mesh/sphere_refinement.h"
+#include "mesh/surface_file.h"
+#include "mesh/surface_remeshing.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr Range sharp_range{0.0, std::numbers::pi, true, "more than 0 and less than 180 degrees"};
+
+Tensor read_rotation(const ConfigTable& table) {
+  const double angle = table.quantity("angle", dimension::angle, range::any, 0.0);
+  const auto axis = table.find("axis");
+  const Vector direction = axis ? read_direction(*axis).normalized() : Vector::UnitZ().eval();
+  return Eigen::AngleAxisd(angle, direction).toRotationMatrix();
+}
+
+// Of the coordinates in the file [m].
+double read_scale(const ConfigTable& table, const TriangleSurface& surface) {
+  if (table.has("diameter") == table.has("length_unit"))
+    throw table.error(
+        "give either length_unit, the unit of the coordinates in the surface's file, as in \"mm\", or diameter, that "
+        "of "
+        "the sphere of the same volume");
+  if (table.has("length_unit")) {
+    const ConfigValue unit = table.at("length_unit");
+    return unit.in_context([&] { return unit_in_si(unit.string(), dimension::length); }) *
+           table.number("scale", range::positive, 1.0);
+  }
+  if (table.has("scale"))
+    throw table.at("scale").error("it cannot be combined with diameter, which says how large the particle is");
+  const double diameter = table.quantity("diameter", dimension::length, range::positive);
+  return diameter / std::cbrt(6.0 / std::numbers::pi * enclosed_volume(surface));
+}
+
+TriangleSurface read_surface(const ConfigValue& value, const std::filesystem::path& file) {
+  return value.in_context([&] {
+    TriangleSurface surface = read_surface_file(file);
+    check_surfaces({{file.string(), surface}});
+    return surface;
+  });
+}
+
+}  // namespace
+
+ShapeRecipe read_shape(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  table.with_keys({"surface", "length_unit", "scale", "diameter", "axis", "angle", "sharp_angle", "surface_size",
+                   "centre", "region", "layers"});
+  ShapeRecipe recipe{.file = read_data_file(table.at("surface"), case_directory)};
+  recipe.surface = read_surface(table.at("surface"), recipe.file);
+  recipe.scale = read_scale(table, recipe.surface);
+  recipe.rotation = read_rotation(table);
+  recipe.sharp_angle = table.quantity("sharp_angle", dimension::angle, sharp_range, recipe.sharp_angle);
+  table.at("surface_size");  // the one size that there is
+  return recipe;
+}
+
+TriangleSurface make_shape(const ShapeRecipe& recipe, double size) {
+  const TriangleSurface placed = about_centroid(recipe.surface, recipe.scale, recipe.rotation);
+  return remeshed({recipe.file.string(), placed}, size, recipe.sharp_angle);
+}
+
+}  // namespace pfdm
