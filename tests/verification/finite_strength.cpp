@@ -1,5 +1,5 @@
-// The strength model at finite strain: one cell under 100 directions of Biot stress, and a cell that softens at small
-// strain beside the model of small strain.
+// The strength model at finite strain: one cell under 100 directions of Biot stress, a cell that softens at small
+// strain beside the model of small strain, and a bar.
 
 #include "tests/verification/finite.h"
 
@@ -189,6 +189,38 @@ TEST(FiniteStrength, IsThatOfSmallStrainAtSmallStrain) {
   EXPECT_GT(small, 0.01);
   EXPECT_LT(small, 0.9);
   EXPECT_NEAR(finite / small, 1.0, 1e-6);
+}
+
+// Half of a bar of 1 mm, 50 cells, two of them beside each other across; the first 40 um are 1 % weaker.
+FractureRun bar_in_tension(const Mesh& mesh) {
+  std::vector<BoundaryCondition> boundary{moved(
+      "xmax", {true, false, false}, [](const Vector&, double t) -> Vector { return 0.13e-3 * t * Vector::UnitX(); })};
+  for (const char* patch : {"xmin", "ymin", "zmin"}) boundary.push_back(symmetry_on(patch));
+  FractureModel model = strength_model(polyurethane, 80e-6, std::move(boundary));
+  model.cells = CellField<RegionModel>(as_size(mesh.n_cells()), model.regions[0]);
+  StrengthData weak = model.regions[0].strength.data();
+  weak.tensile *= 0.99, weak.hydrostatic *= 0.99;
+  const StrengthLaw& law = strength_law("strength");
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (mesh.cell_centre[c].x() < 40e-6) model.cells[c].strength = {law, weak, law.delta(weak, 0.0)};
+  return {mesh, model, {}, {.energy_release = 0.02, .finest_increment = 5e-3, .stops = {}}};
+}
+
+TEST(FiniteStrength, ABarBreaksAtItsStrength) {
+  const Mesh mesh =
+      make_box_hexes({.axes = {{{{0.5e-3, 25, 1.0}}, {{1e-3, 2, 1.0}}, {{1e-3, 1, 1.0}}}}, .regions = {}, .slits = {}});
+  FractureRun run = bar_in_tension(mesh);
+  double peak = 0.0, at_peak = 0.0, last = 0.0;
+  run_to_end(run, [&](const FractureState& state, const StepReport& report) {
+    last = report.reaction[static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data())].x() / 1e-6;
+    if (last > peak) peak = last, at_peak = 1.0 + 0.13e-3 * state.load / 0.5e-3;
+  });
+  report_row(
+      "bar",
+      {{"peak over strength", peak / ts}, {"stretch there", at_peak}, {"force at the end over peak", last / peak}});
+  EXPECT_NEAR(peak / ts, 1.0, 0.01);
+  EXPECT_NEAR(at_peak, 1.2342, 0.005);
+  EXPECT_LT(last, 0.95 * peak);
 }
 
 }  // namespace
