@@ -187,7 +187,9 @@ constexpr CellKind cell_kind_table[] = {
 };
 
 constexpr MeshGenerator all_generators[] = {
-    {"particles_in_box", "a box of tetrahedra with spheres in prism layers", read_particles_in_box},
+    {"particles_in_box",
+     "a box of tetrahedra with spheres, or particles from STL and OBJ files, in prism layers or without",
+     read_particles_in_box},
     {"packed_spheres", "a box of tetrahedra with many spheres, packed at random or placed", read_packed_spheres},
     {"box_hexes", "a box of hexahedra, graded along each axis, with regions, slits and holes", read_box_hexes},
     {"sphere_sector", "concentric shells about the axis z, one cell wide in azimuth: axisymmetric problems",
