@@ -1,4 +1,5 @@
-// The report's iteration, its Prony series and energies. All records are synthetic.
+// The report's iteration, its Prony series and energies; kernel terms in the order of their rates. All records are
+// synthetic.
 
 #include "solver/vibration/identification_ten_steps.h"
 #include "solver/vibration/impulse_response.h"
@@ -89,6 +90,26 @@ TEST(TenSteps, ThePencilKeepsWhatCancels) {
   EXPECT_LT((impulse_response(pencil.terms, 120, 6000.0) - g).norm(), 1e-4 * g.norm());
   const std::vector<HereditaryTerm> of_most_energy{terms[2], terms[3]};
   EXPECT_GT((impulse_response(of_most_energy, 120, 6000.0) - g).norm(), 0.9 * g.norm());
+}
+
+// The rates of two terms pass each other during the search: the estimates are named by their order at its end.
+TEST(OutputError, TermsAreInTheOrderOfTheirRatesAtTheEnd) {
+  const MassMaterial t = linear_truth();
+  const VibrationRecord record = random_record(t, 6.0, 1);
+  MassMaterial start = t;
+  start.kernel = {{2900.0, t.kernel[1].beta}, {3000.0, t.kernel[0].beta}};
+  IdentificationSettings settings;
+  settings.mass = t.mass;
+  settings.replicates = 100;
+  const OutputErrorFit found = refine_output(std::span(&record, 1), start, settings);
+  ASSERT_TRUE(found.converged);
+  EXPECT_LT(largest_error(found.model, t), 1e-6);
+  EXPECT_GT(found.path.front().parameters[2], found.path.front().parameters[4]);  // they did pass
+  for (std::size_t i = 0; i < found.estimates.size(); ++i) {
+    const Estimate& e = found.estimates[i];
+    EXPECT_LE(e.lower, e.value * (1.0 + 1e-6)) << e.name;
+    EXPECT_GE(e.upper, e.value * (1.0 - 1e-6)) << e.name;
+  }
 }
 
 }  // namespace
