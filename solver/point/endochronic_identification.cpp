@@ -182,6 +182,16 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
   return result;
 }
 
+/// Of the strains that are followed, in all experiments.
+double largest_increment(const Experiments& experiments, const ControlSettings& control) {
+  double largest = 0.0;
+  for (const MaterialExperiment& experiment : experiments)
+    for (const LoadSegment::Condition& c : experiment.loading.conditions)
+      for (std::size_t i = 1; c.condition.on_stress.isZero() && i < c.values.size(); ++i)
+        largest = std::max(largest, std::abs(c.values[i] - c.values[i - 1]));
+  return std::min(largest, control.largest_increment);
+}
+
 constexpr IdentificationMethod table[] = {
     {"joint", "kernel and hardening at once by least squares", identify_joint},
     {"kernel", "the kernel by least squares, the hardening fixed", identify_kernel},
@@ -198,6 +208,24 @@ std::span<const IdentificationMethod> identification_methods() { return table; }
 
 const IdentificationMethod& identification_method(std::string_view name) {
   return find_by_name(identification_methods(), name, "method of identification");
+}
+
+// Residuals r and Jacobian J, of standard deviation s: a change d of r moves the estimates by (J'J)^-1 J'd, each by at
+// most |d|/s of its standard errors (Cauchy, Schwarz).
+std::optional<double> effect_of_steps(const LawFit& fit, const std::vector<MaterialExperiment>& experiments,
+                                      const ControlSettings& control) {
+  ControlSettings finer = control;
+  finer.largest_increment = 0.25 * largest_increment(experiments, control);
+  const auto now = stress_residuals(fit.law, experiments, control),
+             then = stress_residuals(fit.law, experiments, finer);
+  if (!now || !then) return std::nullopt;
+  double change = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < now->size(); ++i) {
+    change += std::pow((*now)[i] - (*then)[i], 2);
+    squares += std::pow((*now)[i], 2);
+  }
+  const double deviation = noise_is_known(experiments) ? 1.0 : std::sqrt(squares / static_cast<double>(now->size()));
+  return deviation > 0.0 ? std::sqrt(change) / deviation : 0.0;
 }
 
 double rms_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,

@@ -8,6 +8,7 @@
 #include "solver/point/endochronic_transient.h"
 
 #include <functional>
+#include <optional>
 
 namespace pfdm {
 
@@ -54,6 +55,12 @@ struct IdentificationMethod {
 std::span<const IdentificationMethod> identification_methods();
 /// Throws InputError naming those there are.
 const IdentificationMethod& identification_method(std::string_view name);
+
+/// By how many of its standard errors an estimate may be off, at most, because the model takes the increments of the
+/// curves as its steps: norm of what quarter steps change in the residuals, over their standard deviation (1 where the
+/// noise is known). Nothing where the law cannot follow.
+std::optional<double> effect_of_steps(const LawFit& fit, const std::vector<MaterialExperiment>& experiments,
+                                      const ControlSettings& control);
 
 /// Rms of model less measurement over all experiments [Pa].
 double rms_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,

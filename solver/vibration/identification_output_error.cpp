@@ -13,7 +13,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -259,6 +263,41 @@ void sort_terms(MassMaterial& m) {
   std::ranges::sort(m.kernel, {}, [](const HereditaryTerm& term) { return term.alpha.real(); });
 }
 
+/// Columns of the coordinates in the order in which the terms' rates rise; none if they already do. The rates may have
+/// passed each other during the search.
+std::optional<std::vector<Index>> rising_order(const MassMaterial& m, Index n_coordinates) {
+  std::vector<Index> first;  // of each term
+  Index n_terms = 0;
+  for (const HereditaryTerm& term : m.kernel) {
+    first.push_back(n_terms);
+    n_terms += term.is_pair() ? 4 : 2;
+  }
+  std::vector<std::size_t> terms(m.kernel.size());
+  std::iota(terms.begin(), terms.end(), std::size_t{0});
+  std::ranges::stable_sort(terms, {}, [&](std::size_t i) { return m.kernel[i].alpha.real(); });
+  if (std::ranges::is_sorted(terms)) return std::nullopt;
+  std::vector<Index> columns(static_cast<std::size_t>(n_coordinates - n_terms));
+  std::iota(columns.begin(), columns.end(), Index{0});
+  for (const std::size_t i : terms)
+    for (Index k = 0; k < (m.kernel[i].is_pair() ? 4 : 2); ++k)
+      columns.push_back(n_coordinates - n_terms + first[i] + k);
+  return columns;
+}
+
+/// With the terms in the order of their rates: the coordinates that belong to it.
+ParameterCoordinates put_in_order(Minimum& found, const ParameterCoordinates& coordinates, MassMaterial start,
+                                  const ExcitedRange& range) {
+  const MassMaterial m = coordinates.model(found.x);
+  const auto columns = rising_order(m, found.x.size());
+  if (!columns) return coordinates;
+  found.x = VectorXd(found.x(*columns));
+  found.jacobian = MatrixXd(found.jacobian(Eigen::all, *columns));
+  for (LeastSquaresPoint& point : found.path) point.x = VectorXd(point.x(*columns));
+  start.kernel = m.kernel;  // which terms are pairs
+  sort_terms(start);
+  return {start, range};
+}
+
 /// All that follows from where a search has ended, but for the intervals.
 OutputErrorFit fit_at(const Minimum& found, const Responses& responses, const ParameterCoordinates& coordinates,
                       int evaluations) {
@@ -302,9 +341,11 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   MassMaterial sorted = start;
   sort_terms(sorted);
   const Responses responses(records, settings.crop);
-  const ParameterCoordinates coordinates(sorted, excited_range(records));
+  const ExcitedRange range = excited_range(records);
+  ParameterCoordinates coordinates(sorted, range);
   int evaluations = 0;
   Minimum found = least_output_error(records, responses, coordinates, sorted, is_near, settings.crop, evaluations);
+  coordinates = put_in_order(found, coordinates, sorted, range);
   const bool bounded = found.residuals.allFinite();
   const auto bias = bounded
                         ? base_noise_bias(records, coordinates, found.x, found.residuals, found.jacobian, settings.crop)

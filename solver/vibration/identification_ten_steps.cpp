@@ -1,10 +1,12 @@
-// regress_ten_steps of identification.h: the report's iteration (A4.3) for kernels of higher order, as it is described.
-// Stiffness and damping by least squares with v given; v as what is left; its kernel as a Prony series of M1 terms from
-// the frequency response of v on f; the M terms of the most energy; v from them; and again. Kept for comparison: after
-// the first least squares v is orthogonal to the stiffness and damping columns, so that the iteration hardly moves.
+// ten_steps, and regress_ten_steps of identification.h: the report's iteration (A4.3) for kernels of higher order, as
+// it is described. Stiffness and damping by least squares with v given; v as what is left; its kernel as a Prony series
+// of M1 terms from the frequency response of v on f; the M terms of the most energy; v from them; and again. Kept for
+// comparison: after the first least squares v is orthogonal to the stiffness and damping columns, so that the iteration
+// hardly moves.
+
+#include "solver/vibration/identification_ten_steps.h"
 
 #include "solver/linear/dense_algebra.h"
-#include "solver/vibration/identification.h"
 #include "solver/vibration/identification_conditioning.h"
 #include "solver/vibration/signals_spectra.h"
 
@@ -105,48 +107,65 @@ double energy(const HereditaryTerm& term, double t2) {
   return 2.0 * std::norm(term.beta) * part + 2.0 * oscillating.real();
 }
 
-/// Steps 6 to 8: the kernel of v on f.
-std::vector<HereditaryTerm> reduced_kernel(const Signals& s, const VectorXd& v, int order, int prony_order) {
-  const double rate = s.condition.rate();
+/// Step 6: the frequency response of v on f within the band.
+struct BandResponse {
+  VectorXd frequency;  // [Hz]
+  VectorXcd G;
+};
+
+BandResponse band_response(const Signals& s, const VectorXd& v) {
   SegmentSettings segments;
   segments.length = std::min<Index>(2048, s.forcing.size());
-  const Spectra spectra_fv = spectra(s.forcing, v, rate, segments);
+  const Spectra spectra_fv = spectra(s.forcing, v, s.condition.rate(), segments);
   const VectorXcd all = frequency_response(spectra_fv, ResponseEstimator::h1);
   std::vector<Index> bins;
   for (Index k = 0; k < all.size(); ++k)
     if (spectra_fv.frequency[k] >= s.low && spectra_fv.frequency[k] <= s.high) bins.push_back(k);
-  const VectorXcd G = all(bins);
-  const VectorXd angle = 2.0 * std::numbers::pi / rate * spectra_fv.frequency(bins);
-  // Stable poles only, one of each pair; then their weights, linear, in continuous time (the sum over samples would
-  // count g(0) in full).
-  std::vector<HereditaryTerm> terms;
-  for (const Complex pole : prony_poles(G, angle, prony_order)) {
-    if (std::abs(pole) >= 1.0 || pole.imag() < 0.0 || (pole.imag() == 0.0 && pole.real() <= 0.0)) continue;
-    terms.push_back({-std::log(pole) * rate, 0.0});
-  }
-  MatrixXcd basis(G.size(), 2 * std::ssize(terms));
-  for (Index k = 0; k < G.size(); ++k)
+  return {spectra_fv.frequency(bins), all(bins)};
+}
+
+/// Weights of the terms, linear, in continuous time (the sum over samples would count g(0) in full).
+void weigh(std::vector<HereditaryTerm>& terms, const BandResponse& measured) {
+  MatrixXcd basis(measured.G.size(), 2 * std::ssize(terms));
+  for (Index k = 0; k < measured.G.size(); ++k)
     for (Index i = 0; i < std::ssize(terms); ++i) {
-      const Complex jw(0.0, angle[k] * rate);
+      const Complex jw(0.0, 2.0 * std::numbers::pi * measured.frequency[k]);
       const HereditaryTerm& term = terms[static_cast<std::size_t>(i)];
       const Complex one = 1.0 / (jw + term.alpha);
       const Complex other = term.is_pair() ? 1.0 / (jw + std::conj(term.alpha)) : Complex(0.0);
       basis(k, 2 * i) = one + other;
       basis(k, 2 * i + 1) = Complex(0.0, 1.0) * (term.is_pair() ? one - other : Complex(0.0));
     }
-  const VectorXd beta = scaled_least_squares(stacked(basis), stacked(G));
+  const VectorXd beta = scaled_least_squares(stacked(basis), stacked(measured.G));
   for (std::size_t i = 0; i < terms.size(); ++i)
     terms[i].beta = {beta[static_cast<Index>(2 * i)], terms[i].is_pair() ? beta[static_cast<Index>(2 * i) + 1] : 0.0};
-  const double t2 = 0.02;
-  std::ranges::sort(terms, std::ranges::greater(), [&](const HereditaryTerm& term) { return energy(term, t2); });
-  std::vector<HereditaryTerm> kept;
+}
+
+/// Step 7: stable poles only, one of each pair, and their weights. Step 8: those of the most energy are kept.
+std::vector<PronyTerm> prony_series(const BandResponse& measured, double rate, int order, int prony_order) {
+  std::vector<HereditaryTerm> terms;
+  for (const Complex pole : prony_poles(measured.G, 2.0 * std::numbers::pi / rate * measured.frequency, prony_order)) {
+    if (std::abs(pole) >= 1.0 || pole.imag() < 0.0 || (pole.imag() == 0.0 && pole.real() <= 0.0)) continue;
+    terms.push_back({-std::log(pole) * rate, 0.0});
+  }
+  weigh(terms, measured);
+  std::vector<PronyTerm> series;
+  for (const HereditaryTerm& term : terms) series.push_back({.term = term, .energy = energy(term, ten_step_duration)});
+  std::ranges::sort(series, std::ranges::greater(), &PronyTerm::energy);
   int n = 0;
-  for (const HereditaryTerm& term : terms) {
-    const int states = term.is_pair() ? 2 : 1;
+  for (PronyTerm& term : series) {
+    const int states = term.term.is_pair() ? 2 : 1;
     if (n + states > order) continue;
-    kept.push_back(term);
+    term.kept = true;
     n += states;
   }
+  return series;
+}
+
+std::vector<HereditaryTerm> kept_terms(const std::vector<PronyTerm>& series) {
+  std::vector<HereditaryTerm> kept;
+  for (const PronyTerm& term : series)
+    if (term.kept) kept.push_back(term.term);
   return kept;
 }
 
@@ -170,13 +189,13 @@ VectorXd kernel_values(const MassMaterial& m) {
 
 }  // namespace
 
-Regression regress_ten_steps(std::span<const VibrationRecord> records, const ModelStructure& structure, int order,
-                             const IdentificationSettings& settings, int prony_order, int maximum_iterations) {
+TenSteps ten_steps(std::span<const VibrationRecord> records, const ModelStructure& structure, int order,
+                   const IdentificationSettings& settings, int prony_order, int maximum_iterations) {
   const double lambda =
       structure.nonlinear_damping ? regress_separable(records, structure, 0, settings)->model.damping_exponent : 0.0;
   const Signals s = prepare(records.front(), structure, lambda, settings);
-  Regression result;
-  MassMaterial& m = result.model;
+  TenSteps result;
+  MassMaterial& m = result.regression.model;
   m = {.mass = settings.mass,
        .damping_exponent = lambda,
        .reference_velocity = settings.reference_velocity,
@@ -184,24 +203,55 @@ Regression regress_ten_steps(std::span<const VibrationRecord> records, const Mod
   VectorXd v = VectorXd::Zero(s.q.size());  // step 3
   VectorXd p;
   VectorXd kernel;
-  for (int i = 0; i < maximum_iterations; ++i) {
-    const VectorXd now = scaled_least_squares(s.A, s.q - v);  // step 4
-    const VectorXd rest = s.q - s.A * now;                    // step 5
-    m.kernel = reduced_kernel(s, rest, order, prony_order);
+  for (int i = 0; i < maximum_iterations && !result.settled; ++i) {
+    const VectorXd now = scaled_least_squares(s.A, s.q - v);      // step 4
+    const BandResponse rest = band_response(s, s.q - s.A * now);  // steps 5, 6
+    result.series = prony_series(rest, s.condition.rate(), order, prony_order);
+    result.frequency = rest.frequency;
+    result.response = rest.G;
+    m.kernel = kept_terms(result.series);
     v = hereditary(s, m);
-    result.misfit = (s.A * now + v - s.q).norm() / s.q.norm();
     const VectorXd found = kernel_values(m);
-    const bool settled = i > 0 && largest_change(now, p) < 1e-3 && found.size() == kernel.size() &&
-                         (found.size() == 0 || largest_change(found, kernel) < 1e-2);  // step 9
+    result.settled = i > 0 && largest_change(now, p) < 1e-3 && found.size() == kernel.size() &&
+                     (found.size() == 0 || largest_change(found, kernel) < 1e-2);  // step 9
+    result.iterations.push_back({.damping = now[0],
+                                 .stiffness = {now.data() + 1, now.data() + now.size()},
+                                 .misfit = (s.A * now + v - s.q).norm() / s.q.norm()});
     p = now;
     kernel = found;
-    if (settled) break;
   }
-  m.damping = p[0];
-  m.stiffness.assign(p.data() + 1, p.data() + p.size());
+  const TenStep& last = result.iterations.back();
+  result.regression.misfit = last.misfit;
+  m.damping = last.damping;
+  m.stiffness = last.stiffness;
   if (structure.forcing == KernelForcing::stiffness)
     for (HereditaryTerm& term : m.kernel) term.beta /= m.stiffness.front();
   return result;
+}
+
+Regression regress_ten_steps(std::span<const VibrationRecord> records, const ModelStructure& structure, int order,
+                             const IdentificationSettings& settings, int prony_order, int maximum_iterations) {
+  return ten_steps(records, structure, order, settings, prony_order, maximum_iterations).regression;
+}
+
+VectorXd impulse_response(std::span<const HereditaryTerm> terms, Index n, double rate) {
+  VectorXd g = VectorXd::Zero(n);
+  for (const HereditaryTerm& term : terms)
+    for (Index k = 0; k < n; ++k)
+      g[k] +=
+          (term.is_pair() ? 2.0 : 1.0) * (term.beta * std::exp(-term.alpha * (static_cast<double>(k) / rate))).real();
+  return g;
+}
+
+VectorXcd frequency_response(std::span<const HereditaryTerm> terms, const VectorXd& frequency) {
+  VectorXcd G = VectorXcd::Zero(frequency.size());
+  for (const HereditaryTerm& term : terms)
+    for (Index k = 0; k < frequency.size(); ++k) {
+      const Complex jw(0.0, 2.0 * std::numbers::pi * frequency[k]);
+      G[k] += term.beta / (jw + term.alpha);
+      if (term.is_pair()) G[k] += std::conj(term.beta) / (jw + std::conj(term.alpha));
+    }
+  return G;
 }
 
 }  // namespace pfdm

@@ -376,6 +376,55 @@ TEST(MassMaterialProgram, OffersTheReportsLeastSquares) {
   EXPECT_TRUE(fit["parameters"][0]["lower"].is_null());
 }
 
+/// Rows of a CSV file below remark, names and units.
+std::vector<std::vector<double>> rows_of(const fs::path& file) {
+  std::istringstream text(content_of(file));
+  std::vector<std::vector<double>> rows;
+  int above = 2;  // names and units
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("#") || above-- > 0) continue;
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream numbers(line);
+    rows.emplace_back();
+    for (double x = 0.0; numbers >> x;) rows.back().push_back(x);
+  }
+  return rows;
+}
+
+// Iterations, Prony series and the kernel's responses of the report's A4.3; another method's fit takes them away.
+TEST(MassMaterialProgram, DocumentsTheTenSteps) {
+  const std::string ten_step = replaced(soft_case() + "method = \"ten_step\"\nkernel_order = 2\n", "[fit]\n",
+                                        "[fit]\nstructure = \"linear_4b\"\n");
+  const TemporaryCase directory(ten_step);
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("ten steps: "), std::string::npos) << outcome.out;
+  const fs::path folder = directory.results() / "ten_steps";
+  const auto iterations = rows_of(folder / "iterations.csv"), series = rows_of(folder / "prony_series.csv");
+  const json parameters = parsed(directory.results() / "fit.json")["parameters"];
+  ASSERT_FALSE(iterations.empty());
+  EXPECT_DOUBLE_EQ(iterations.back()[2], parameters[0]["estimate"].get<double>());
+  EXPECT_DOUBLE_EQ(iterations.back()[1], parameters[1]["estimate"].get<double>());
+  ASSERT_FALSE(series.empty());
+  for (std::size_t i = 1; i < series.size(); ++i) EXPECT_GE(series[i - 1][4], series[i][4]);
+  // At t = 0 the impulse response is the sum of the weights, that of a pair twice the real part.
+  double sum = 0.0, kept = 0.0;
+  for (const auto& term : series) {
+    const double weight = (term[1] != 0.0 ? 2.0 : 1.0) * term[2];
+    sum += weight;
+    kept += term[5] * weight;
+  }
+  const auto impulse = rows_of(folder / "kernel_impulse.csv");
+  ASSERT_FALSE(impulse.empty());
+  EXPECT_NEAR(impulse[0][1], sum, 1e-9 * std::abs(sum));
+  EXPECT_NEAR(impulse[0][2], kept, 1e-9 * std::abs(kept));
+  EXPECT_EQ(rows_of(folder / "kernel_response.csv").front().size(), 9U);
+  directory.write("case.toml", soft_case());
+  ASSERT_EQ(run({"fit", directory.path().string()}).status, 0);
+  EXPECT_FALSE(fs::exists(folder));
+}
+
 TEST(MassMaterialProgram, SaysHowManyKernelTermsAMethodTakes) {
   const auto checked = [](const char* fit) {
     const TemporaryCase directory(soft_case() + fit);

@@ -164,6 +164,31 @@ TEST(EndochronicFit, HardeningIsNotBiasedByNoise) {
   }
 }
 
+// With the curve's own increments of 4e-4 and little noise, the steps of the model move the estimates: by no more than
+// is said, and not by much less. Quarter steps leave a sixteenth.
+TEST(EndochronicFit, SaysHowFarItsStepsMoveTheEstimates) {
+  const std::vector<double> strain = independent::triangles(0.008, 8, 80);
+  const std::vector<double> stress = independent::stress_of({}, strain, 100);
+  double square = 0.0;
+  for (const double s : stress) square += s * s / static_cast<double>(stress.size());
+  const std::vector<MaterialExperiment> data{independent::tension_test(strain, stress, 4e-4 * std::sqrt(square), 1)};
+  const EndochronicLaw start = two_term_law({{30e9, 700.0}, {4e9, 60.0}});
+  const ControlSettings finer{.largest_increment = 1e-4};
+  const LawFit coarse = identification_method("hardening").identify(start, data, {}).fit;
+  const LawFit fine = identification_method("hardening").identify(start, data, {.control = finer}).fit;
+  const auto effect = effect_of_steps(coarse, data, {}), left = effect_of_steps(fine, data, finer);
+  ASSERT_TRUE(effect && left);
+  EXPECT_NEAR(*left / *effect, 1.0 / 16.0, 0.02);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const FitEstimate &a = coarse.result.estimates[i], &b = fine.result.estimates[i];
+    largest = std::max(largest, std::abs(a.value - b.value) / a.standard_error);
+  }
+  std::printf("steps move the estimates by %.3g standard errors, by %.3g at most\n", largest, *effect);
+  EXPECT_LE(largest, 1.1 * *effect);
+  EXPECT_GE(largest, 0.2 * *effect);
+}
+
 // The rounds of the report's scheme end on no estimate; those of the joint fit hold the truth.
 TEST(EndochronicFit, StaggeredPassesOverToTheJointFit) {
   const std::map<std::string, double> truth{{"C_1", 30e9},     {"alpha_1", 700.0}, {"C_2", 4e9},

@@ -114,6 +114,16 @@ def integrated(samples, base, rate=RATE):
     return y, relative
 
 
+def dynamic_stiffness(sample, s):
+    """k + c s + s sum of beta/(s + alpha) of a linear sample."""
+    total = sample.k[0] + sample.c * s
+    for alpha, beta in zip(sample.alpha, sample.beta):
+        total = total + s * beta / (s + alpha)
+        if np.imag(alpha):
+            total = total + s * np.conj(beta) / (s + np.conj(alpha))
+    return total
+
+
 def by_fourier(sample, base, rate=RATE, finer=4):
     """z'' of a linear sample from rest under a sweep, which begins and ends at rest: transformed at a finer rate, with two
     seconds of rest behind it."""
@@ -121,12 +131,7 @@ def by_fourier(sample, base, rate=RATE, finer=4):
     y = np.zeros(n + int(2 * rate) * finer)
     y[:n] = base(np.arange(n) / (rate * finer))
     s = 2j * np.pi * np.fft.rfftfreq(len(y), 1 / (rate * finer))
-    dynamic = sample.k[0] + sample.c * s
-    for alpha, beta in zip(sample.alpha, sample.beta):
-        dynamic = dynamic + s * beta / (s + alpha)
-        if np.imag(alpha):
-            dynamic = dynamic + s * np.conj(beta) / (s + np.conj(alpha))
-    z = -sample.mass * s**2 / (dynamic + sample.mass * s**2) * np.fft.rfft(y)
+    z = -sample.mass * s**2 / (dynamic_stiffness(sample, s) + sample.mass * s**2) * np.fft.rfft(y)
     return y[:n:finer], np.fft.irfft(z, len(y))[:n:finer]
 
 
@@ -158,6 +163,18 @@ def linear(sample, base, rate=RATE):
     for omega, amplitude in zip(base.omega, s**2 * z):
         relative += (amplitude * np.exp(1j * omega * t)).real
     return base.sines(t), relative
+
+
+def steady_random(sample, level, duration, seed, rate=RATE, low=Random.low, high=Random.high):
+    """Base and z'' of a linear sample in stationary random motion: Gaussian noise of a flat density between low and high [Hz],
+    level: its rms [m/s^2]. All frequencies of the record are there, as on a shaker; it repeats after its duration."""
+    n = int(round(duration * rate))
+    draw, s = np.random.default_rng(seed), 2j * np.pi * np.fft.rfftfreq(n, 1 / rate)
+    within = (abs(s) >= 2 * np.pi * low) & (abs(s) <= 2 * np.pi * high)
+    y = within * (draw.standard_normal(len(s)) + 1j * draw.standard_normal(len(s)))
+    y *= level / np.sqrt(np.mean(np.fft.irfft(y, n)**2))
+    z = -sample.mass * s**2 / (dynamic_stiffness(sample, s) + sample.mass * s**2) * y
+    return np.fft.irfft(y, n), np.fft.irfft(z, n)
 
 
 def noisy(base, relative, decibel, seed):

@@ -71,6 +71,17 @@ std::vector<std::string> failed_predictions(const EndochronicFit& fit, const End
   return reasons;
 }
 
+/// A second-order scheme: steps of a quarter leave a sixteenth of the error.
+void warn_of_steps(const EndochronicFit& fit, const EndochronicIdentification& found, FitFindings& findings) {
+  constexpr double noticed = 0.3;  // of the standard errors
+  const auto effect = effect_of_steps(found.fit, fit.experiments, fit.settings.control);
+  if (effect && *effect > noticed)
+    findings.warnings.push_back(fmt::format(
+        "the increments of the curves are the steps of the model, which may move an estimate by up to {:.2g} of "
+        "its standard errors; a smaller \"largest_strain_increment\" divides them",
+        *effect));
+}
+
 FitFindings judged(const EndochronicFit& fit, const EndochronicIdentification& found) {
   FitFindings findings = findings_of(found.fit.parameters, found.fit.result);
   if (!found.remark.empty()) findings.warnings.push_back(found.remark);
@@ -80,6 +91,7 @@ FitFindings judged(const EndochronicFit& fit, const EndochronicIdentification& f
                                             .misfit = misfit,
                                             .reasons = failed_predictions(fit, found.fit.law, misfit)});
   suspect_law(found.fit.law, misfit, model_error, findings);
+  if (findings.verdict == Verdict::sound) warn_of_steps(fit, found, findings);
   return findings;
 }
 

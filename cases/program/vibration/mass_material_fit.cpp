@@ -5,6 +5,7 @@
 #include "cases/program/vibration/mass_material_identified.h"
 #include "cases/program/vibration/mass_material_jobs.h"
 #include "cases/program/vibration/mass_material_models.h"
+#include "cases/program/vibration/mass_material_ten_steps.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
@@ -176,6 +177,7 @@ void fit_mass_material(const MassMaterialProgram& program, Session& session) {
   session.log.open_file(session.results / "fit.log", false);
   remove_comparison(session.results);
   write_fit_json(session.results / "fit.json", report);
+  write_ten_steps(session.results, found.ten_steps, records.fitted.front().rate, session.log);
   const auto write_case = [&](const fs::path& file, const IdentifiedModel& model) {
     write_file(file, with_table(program.file, "model", model_text(model.own.structure, model.model), session.results));
   };

@@ -69,7 +69,10 @@ IdentifiedModel by_ten_steps(const MassMaterialRecords& records, const ModelStru
   if (structure.forcing == KernelForcing::none)
     throw InputError(fmt::format("[fit] \"ten_step\" finds kernels; model \"{}\" has none", structure.name));
   const int order = c.fit.kernel_order.value_or(structure.kernel_order.value_or(2));
-  return without_intervals(regress_ten_steps(records.fitted, structure, order, settings_of(c)), records);
+  TenSteps steps = ten_steps(records.fitted, structure, order, settings_of(c));
+  IdentifiedModel found = without_intervals(steps.regression, records);
+  found.ten_steps = std::move(steps);
+  return found;
 }
 
 IdentifiedModel by_least_squares(const MassMaterialRecords& records, const ModelStructure& structure,

@@ -6,8 +6,10 @@
 #include "postproc/curves/fit_json.h"
 #include "postproc/vibration/vibration_fit.h"
 #include "solver/vibration/identification.h"
+#include "solver/vibration/identification_ten_steps.h"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,7 @@ struct IdentifiedModel {
   VibrationFindings own{};
   std::vector<std::string> doubts{};                      ///< of the method itself
   double bic = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not of this method
+  std::optional<TenSteps> ten_steps{};                    ///< of that method alone
 };
 
 /// What [fit] asks for; `log`, if any, is told what is being done.
