@@ -10,7 +10,7 @@
 namespace pfdm {
 namespace {
 
-constexpr Index most_solves = 1000, most_finite_solves = 200;
+constexpr Index most_solves = 1000, most_finite_solves = 600;
 constexpr double falls = 0.7;                 // of the residual by a step of Newton's that leads on
 constexpr double linear_reduction = 0.02;     // of the residual of the linearised equation
 constexpr double convex_reduction = 0.1;      // likewise, without what softens
