@@ -46,7 +46,7 @@ def stress(turns, points):
     return np.array(strain), np.array(found)
 
 
-def write_case(folder, method, strain, measured, noise):
+def write_case(folder, method, strain, measured, noise, increment=None):
     kernel, f_inf, b = FIRST[method]
     terms = ", ".join(f'{{ C = "{C} Pa", alpha = {alpha} }}' for C, alpha in kernel)
     text = f"""kind = "endochronic"
@@ -64,6 +64,7 @@ b = {b}
 control = {{ strain_xx = {{ csv = "curve.csv", column = "strain_xx" }} }}
 [fit]
 method = "{method}"
+{f"largest_strain_increment = {increment}" if increment else ""}
 estimate = ["kernel", "hardening"]
 [[fit.experiments]]
 name = "cycles"
@@ -84,6 +85,7 @@ def main():
     parser.add_argument("method", choices=FIRST)
     parser.add_argument("--noise", type=float, default=0.2, help="per cent of the rms stress")
     parser.add_argument("--number", type=int, default=20)
+    parser.add_argument("--increment", type=float, help="largest_strain_increment; default: those of the curve, 4e-4 at most")
     options = parser.parse_args()
     options.pfdm = options.pfdm.resolve()
     amplitude = [0.002, -0.002, 0.004, -0.004, 0.006, -0.006, 0.008, -0.008, 0.008, -0.008]
@@ -98,7 +100,8 @@ def main():
         folder = pathlib.Path(temporary)
         for seed in range(1, options.number + 1):
             draw = np.random.default_rng(seed)
-            write_case(folder, options.method, strain, clean + deviation * draw.standard_normal(len(clean)), deviation)
+            write_case(folder, options.method, strain, clean + deviation * draw.standard_normal(len(clean)), deviation,
+                       options.increment)
             verdict, reasons, seconds = judged(options.pfdm, folder)
             if verdict != "sound":
                 print(f"seed {seed}: {verdict}: {'; '.join(reasons)}")
