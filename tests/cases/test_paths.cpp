@@ -109,10 +109,12 @@ INSTANTIATE_TEST_SUITE_P(Program, BadName, testing::ValuesIn(bad_names),
 TEST(CaseFile, NamesTheSameFilesFromElsewhere) {
   const TemporaryCase directory(
       "both = [{ csv = \"a.csv\" }, { csv = 'data/b \"2\".csv' }]  # csv = \"no.csv\"\n"
-      "[\"x.y\"]\n\"file\" = \"../c.csv\"\ntitle = \"csv = \\\"d.csv\\\"\"\ntable = \"law.csv\"\n");
+      "[\"x.y\"]\n\"file\" = \"../c.csv\"\ntitle = \"csv = \\\"d.csv\\\"\"\ntable = \"law.csv\"\n"
+      "[[mesh.particles]]\nsurface = \"grain.stl\"\n[heating]\nsurface = \"zmax\"\n");
   EXPECT_EQ(moved(open_case(directory.path()), directory.results()),
             "both = [{ csv = \"../a.csv\" }, { csv = \"../data/b \\\"2\\\".csv\" }]  # csv = \"no.csv\"\n"
-            "[\"x.y\"]\n\"file\" = \"../../c.csv\"\ntitle = \"csv = \\\"d.csv\\\"\"\ntable = \"../law.csv\"\n");
+            "[\"x.y\"]\n\"file\" = \"../../c.csv\"\ntitle = \"csv = \\\"d.csv\\\"\"\ntable = \"../law.csv\"\n"
+            "[[mesh.particles]]\nsurface = \"../grain.stl\"\n[heating]\nsurface = \"zmax\"\n");
 }
 
 TEST(CaseFile, KeepsTablesWithDigitsBehindTheOneThatIsReplaced) {

@@ -57,7 +57,8 @@ void visit(const std::string& path, const TomlValue& value,
 
 bool names_data_file(const std::string& path, const TomlValue& value) {
   const std::string key = path.substr(path.find_last_of('.') + 1);
-  return (key == "csv" || key == "file" || key == "fit" || key == "table") &&
+  const bool is_of_particle = key == "surface" && path.starts_with("mesh.particles[");  // elsewhere a patch, or a name
+  return (key == "csv" || key == "file" || key == "fit" || key == "table" || is_of_particle) &&
          std::holds_alternative<std::string>(value.value);
 }
 
