@@ -1,6 +1,7 @@
 #include "mesh/surface_checks.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
@@ -36,6 +37,9 @@ void check_alone(const NamedSurface& named) {
   append(mesh, named);
   if (mesh.number_of_faces() == 0) throw InputError(fmt::format("the surface of {} has no triangles", named.name));
   if (!CGAL::is_closed(mesh)) throw InputError(fmt::format("the surface of {} is not closed", named.name));
+  const auto piece = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:piece").first;
+  if (const std::size_t n = PMP::connected_components(mesh, piece); n != 1)
+    throw InputError(fmt::format("the surface of {} has {} separate pieces; it may have one", named.name, n));
   if (!PMP::is_outward_oriented(mesh))
     throw InputError(fmt::format("the surface of {} is inside out: its triangles run clockwise", named.name));
 }

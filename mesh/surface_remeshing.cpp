@@ -1,11 +1,13 @@
 #include "mesh/surface_remeshing.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <fmt/format.h>
+
+#include <numbers>
 
 #include "physics/error.h"
 
@@ -45,10 +47,12 @@ TriangleSurface triangle_surface(CgalMesh& mesh) {
   return surface;
 }
 
-void check_one_piece(const std::string& name, CgalMesh& mesh) {
-  const auto piece = mesh.add_property_map<CgalMesh::Face_index, std::size_t>("f:piece").first;
-  const std::size_t n = PMP::connected_components(mesh, piece);
-  if (n != 1) throw InputError(fmt::format("the surface of {} has {} separate pieces; it may have one", name, n));
+void check_number(const std::string& name, const CgalMesh& mesh, double size) {
+  constexpr double most = 1e7;
+  const double n = 4.0 / std::numbers::sqrt3 * PMP::area(mesh) / (size * size);
+  if (!(n < most))
+    throw InputError(
+        fmt::format("the surface of {} would get {:.2g} triangles of {:g} m; at most {:.2g}", name, n, size, most));
 }
 
 }  // namespace
@@ -56,7 +60,7 @@ void check_one_piece(const std::string& name, CgalMesh& mesh) {
 TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
   check_surfaces({given});
   CgalMesh mesh = cgal_mesh(given.surface);
-  check_one_piece(given.name, mesh);
+  check_number(given.name, mesh, size);
   const auto kept = mesh.add_property_map<CgalMesh::Edge_index, bool>("e:kept", false).first;
   PMP::detect_sharp_edges(mesh, sharp * 180.0 / std::numbers::pi, kept);
   std::vector<CgalMesh::Edge_index> sharp_edges;

@@ -109,9 +109,9 @@ TEST(ParticleShapesCase, CarriesACohesiveInterface) {
 }
 
 TEST(ParticleShapesCase, SaysWhatIsWrong) {
-  const auto message = [](const std::string& particle, const std::string& surface) {
+  const auto message = [](const std::string& particle, const std::string& surface, const char* command = "check") {
     const TemporaryCase directory(block(particle));
-    const Outcome outcome = with_surface(directory, surface, "check");
+    const Outcome outcome = with_surface(directory, surface, command);
     EXPECT_EQ(outcome.status, 2);
     return outcome.err;
   };
@@ -122,6 +122,10 @@ TEST(ParticleShapesCase, SaysWhatIsWrong) {
   EXPECT_THAT(message("length_unit = \"mm\"\n", cube()), HasSubstr("surface_size"));
   EXPECT_THAT(message(placed() + "subdivisions = 3\n", cube()), HasSubstr("subdivisions"));
   EXPECT_THAT(message("diameter = \"1 mm\"\nscale = 2\nsurface_size = \"0.1 mm\"\n", cube()), HasSubstr("scale"));
+  const std::string unit = "length_unit = \"mm\"\nscale = 0.4\n";
+  EXPECT_THAT(message(unit + "surface_size = \"10 nm\"\n", cube(), "mesh"), HasSubstr("2.2e+10 triangles"));
+  EXPECT_THAT(message(unit + "surface_size = \"0.6 mm\"\nsharp_angle = \"120 degree\"\n", cube(), "mesh"),
+              HasSubstr("of its volume"));
 }
 
 }  // namespace

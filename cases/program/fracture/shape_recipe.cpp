@@ -7,10 +7,13 @@
 #include "mesh/sphere_refinement.h"
 #include "mesh/surface_file.h"
 #include "mesh/surface_remeshing.h"
+#include "physics/error.h"
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <numbers>
 
 namespace pfdm {
 namespace {
@@ -66,7 +69,15 @@ ShapeRecipe read_shape(const ConfigTable& table, const std::filesystem::path& ca
 
 TriangleSurface make_shape(const ShapeRecipe& recipe, double size) {
   const TriangleSurface placed = about_centroid(recipe.surface, recipe.scale, recipe.rotation);
-  return remeshed({recipe.file.string(), placed}, size, recipe.sharp_angle);
+  constexpr double least = 0.7;
+  TriangleSurface surface = remeshed({recipe.file.string(), placed}, size, recipe.sharp_angle);
+  const double kept = enclosed_volume(surface) / enclosed_volume(placed);
+  if (!(kept >= least))
+    throw InputError(
+        fmt::format("the surface {}: triangles of {:g} m leave {:.2g} of its volume; at least {:g} is "
+                    "required: give a smaller surface_size",
+                    recipe.file.string(), size, kept, least));
+  return surface;
 }
 
 }  // namespace pfdm
