@@ -2,8 +2,8 @@
 // The field around the tip of a crack between two half-planes (Rice, J. Appl. Mech. 55 (1988) 98; Hutchinson, Suo, Adv.
 // Appl. Mech. 29 (1992) 63), plane strain or plane stress. The crack is the line along < 0, across = 0. Ahead of it
 //
-//   s_yy + i s_xy = (K1 + i K2) (r/L)^(i eps) / sqrt(2 pi r),   eps = ln[(k_1/mu_1 + 1/mu_2)/(k_2/mu_2 + 1/mu_1)]/(2
-//   pi)
+//   s_yy + i s_xy = (K1 + i K2) (r/L)^(i eps) / sqrt(2 pi r),
+//   eps = ln[(k_1/mu_1 + 1/mu_2)/(k_2/mu_2 + 1/mu_1)] / (2 pi),
 //
 // with k = 3 - 4 nu or (3 - nu)/(1 + nu), 1 the upper material (across > 0), L a reference length: K1 and K2 are those
 // "at L", and the phase angle at L is atan2(K2, K1). In one material eps = 0, L does not matter and K1, K2 are K_I,

@@ -30,7 +30,7 @@ PrincipalForces principal_forces(const HyperelasticMaterial& material, const Vec
 // a fifth.
 bool find_stretches(const HyperelasticMaterial& material, const Vector& wanted, Vector& H) {
   constexpr int most_steps = 50;
-  constexpr double precision = 1e-12, longest = 0.2;
+  constexpr double precision = 1e-10, longest = 0.2;
   for (int k = 0; k < most_steps; ++k) {
     const PrincipalForces at = principal_forces(material, H);
     const Vector missing = wanted - at.force;

@@ -65,6 +65,7 @@ std::optional<InterfaceCrack> crack_between(const Mesh& mesh, const FractureMode
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     if (gradient[c].squaredNorm() == 0.0) continue;
     std::optional<IsotropicElasticity>& side = (mesh.cell_centre[c] - tip).dot(across) >= 0.0 ? upper : lower;
+    if (model.in_cell(mesh, c).material) return std::nullopt;
     const IsotropicElasticity& elasticity = model.in_cell(mesh, c).elasticity;
     if (side && !(*side == elasticity)) return std::nullopt;
     side = elasticity;

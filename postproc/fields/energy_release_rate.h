@@ -65,7 +65,7 @@ struct EnergyRelease {
 EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, const TipRegion& region);
 
 /// At the region's reference length; see physics/interface_crack.h. All NaN where G is, at finite strain, and where the
-/// ring has cells of two elasticities on one side of the crack.
+/// ring has cells of two elasticities on one side of the crack, or of materials with a history.
 struct StressIntensity {
   double K1 = 0.0, K2 = 0.0;  ///< [Pa m^1/2]
   double phase_angle = 0.0;   ///< atan2(K2, K1) [radian]

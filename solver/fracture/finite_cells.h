@@ -45,7 +45,8 @@ class FiniteCells {
   /// Its derivative by g, per volume [J/m^3].
   double driving_energy(Index cell, const CellMechanics& mechanics, double g) const;
 
-  /// Biot stress [Pa] over g at the mean gradient: of the undamaged material, where pressures are not yet relaxed.
+  /// Biot stress [Pa] of the undamaged material at the mean gradient; pressures that damage has relaxed count as they
+  /// are.
   Tensor undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const;
 
   /// Cauchy stress [Pa] from the first Piola-Kirchhoff stress of the tractions, with that across a plane mesh.

@@ -104,9 +104,8 @@ std::optional<std::string> doubt_about(const EnergyRelease& release, const std::
 
 std::string no_intensity(const std::string& region) {
   return fmt::format(
-      "energy release rate \"{}\": no stress intensities: they are those of small strain, with one elasticity in the "
-      "part "
-      "of the ring on each side of the crack",
+      "energy release rate \"{}\": no stress intensities: they are those of linear elasticity at small strain, with a "
+      "single elasticity in the part of the ring on each side of the crack",
       region);
 }
 
