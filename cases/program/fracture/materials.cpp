@@ -163,7 +163,7 @@ RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& nam
 MaterialKeys read_own_keys(const ConfigTable& given, const MaterialDefaults& defaults) {
   if (defaults.elastic_with) {
     std::vector<std::string_view> allowed = elastic_keys_with(*defaults.elastic_with);
-    allowed.push_back("regions");
+    allowed.emplace_back("regions");
     return read_elastic_keys(given.with_keys(allowed));
   }
   const MaterialLaw& law = law_of_material(given);
