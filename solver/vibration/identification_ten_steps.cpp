@@ -150,6 +150,7 @@ std::vector<PronyTerm> prony_series(const BandResponse& measured, double rate, i
   }
   weigh(terms, measured);
   std::vector<PronyTerm> series;
+  series.reserve(terms.size());
   for (const HereditaryTerm& term : terms) series.push_back({.term = term, .energy = energy(term, ten_step_duration)});
   std::ranges::sort(series, std::ranges::greater(), &PronyTerm::energy);
   int n = 0;
