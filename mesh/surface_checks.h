@@ -12,8 +12,8 @@ struct NamedSurface {
   TriangleSurface surface;
 };
 
-/// Every surface must be closed, in one piece, and look outwards, and no triangle may cross another, of its own surface or of a
-/// different one. Throws InputError that names the surface and what is wrong with it.
+/// Every surface must be closed, in one piece, and look outwards, and no triangle may cross another, of its own surface
+/// or of a different one. Throws InputError that names the surface and what is wrong with it.
 void check_surfaces(const std::vector<NamedSurface>& surfaces);
 
 }  // namespace pfdm

@@ -28,6 +28,17 @@ StressIntensity intensity_of(const SlitPlate& plate, TipRegion ring, double leng
   return stress_intensity(plate.mesh, plate.model, plate.fields, ring);
 }
 
+// Undamaged, in equilibrium.
+OutputFields elastic_fields(const Mesh& mesh, const FractureModel& model) {
+  const auto solution = solve_elastic(mesh, model);
+  OutputFields fields;
+  fields.damage = CellField<double>(as_size(mesh.n_cells()), 0.0);
+  fields.strain = solution->cells.strain;
+  fields.gradient = solution->cells.gradient;
+  fields.stress = solution->cells.stress;
+  return fields;
+}
+
 // A square of 2 mm, slit to its middle, n cells a side; K in units of sqrt(E' G).
 SlitPlate solve(Index n, double K_I, double K_II) {
   constexpr double half = 1e-3;
@@ -43,11 +54,7 @@ SlitPlate solve(Index n, double K_I, double K_II) {
     boundary.push_back(
         displacement_on(side, [=](const Vector& x) { return near_field(elasticity, x, K * K_I, K * K_II); }));
   plate.model = elastic_model({elasticity}, boundary);
-  const auto solution = solve_elastic(plate.mesh, plate.model);
-  plate.fields.damage = CellField<double>(as_size(plate.mesh.n_cells()), 0.0);
-  plate.fields.strain = solution->cells.strain;
-  plate.fields.gradient = solution->cells.gradient;
-  plate.fields.stress = solution->cells.stress;
+  plate.fields = elastic_fields(plate.mesh, plate.model);
   return plate;
 }
 
@@ -100,12 +107,7 @@ double of_a_strip(Index n, const IsotropicElasticity& lower, const IsotropicElas
       elastic_model(by_region, {plane_on("zmin"), plane_on("zmax"), symmetry_on("xmax"),
                                 displacement_on("ymin", [](const Vector&) -> Vector { return Vector::Zero(); }),
                                 displacement_on("ymax", [=](const Vector&) -> Vector { return Vector(0.0, v, 0.0); })});
-  const auto solution = solve_elastic(mesh, model);
-  OutputFields fields;
-  fields.damage = CellField<double>(as_size(mesh.n_cells()), 0.0);
-  fields.strain = solution->cells.strain;
-  fields.gradient = solution->cells.gradient;
-  fields.stress = solution->cells.stress;
+  const OutputFields fields = elastic_fields(mesh, model);
   const TipRegion ring{.name = "tip", .shape = &region_shapes().front(), .inner = 0.3 * layer, .outer = 0.8 * layer};
   const double due = 0.5 * v * v / (layer / lower.constrained_modulus() + layer / upper.constrained_modulus());
   return energy_release_rate(mesh, fields, ring).G / due;
@@ -202,11 +204,7 @@ SlitPlate solve(const CentralCrack& crack, Index n) {
   for (const char* side : {"xmin", "xmax", "ymin", "ymax"})
     boundary.push_back(displacement_on(side, [=](const Vector& x) { return crack.displacement(x, x.y() >= 0.0); }));
   plate.model = elastic_model(by_region, boundary);
-  const auto solution = solve_elastic(plate.mesh, plate.model);
-  plate.fields.damage = CellField<double>(as_size(plate.mesh.n_cells()), 0.0);
-  plate.fields.strain = solution->cells.strain;
-  plate.fields.gradient = solution->cells.gradient;
-  plate.fields.stress = solution->cells.stress;
+  plate.fields = elastic_fields(plate.mesh, plate.model);
   return plate;
 }
 

@@ -32,8 +32,7 @@ double read_scale(const ConfigTable& table, const TriangleSurface& surface) {
   if (table.has("diameter") == table.has("length_unit"))
     throw table.error(
         "give either length_unit, the unit of the coordinates in the surface's file, as in \"mm\", or diameter, that "
-        "of "
-        "the sphere of the same volume");
+        "of the sphere of the same volume");
   if (table.has("length_unit")) {
     const ConfigValue unit = table.at("length_unit");
     return unit.in_context([&] { return unit_in_si(unit.string(), dimension::length); }) *
