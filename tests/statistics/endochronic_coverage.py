@@ -8,15 +8,12 @@ The uniaxial response is integrated by SciPy from the law as an ordinary differe
 program. Noise is white, in per cent of the rms stress. All data are synthetic."""
 
 import argparse
-import json
 import pathlib
-import tempfile
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from vibration_corpus import judged
-from vibration_coverage import Tally
+from fits_over_seeds import Tally, options_of, repeat
 
 E, NU = 117e9, 0.34
 KERNEL = [(40e9, 2000.0), (7e9, 300.0)]  # C [Pa], alpha
@@ -84,10 +81,8 @@ def main():
     parser.add_argument("pfdm", type=pathlib.Path)
     parser.add_argument("method", choices=FIRST)
     parser.add_argument("--noise", type=float, default=0.2, help="per cent of the rms stress")
-    parser.add_argument("--number", type=int, default=20)
     parser.add_argument("--increment", type=float, help="largest_strain_increment; default: those of the curve, 4e-4 at most")
-    options = parser.parse_args()
-    options.pfdm = options.pfdm.resolve()
+    options = options_of(parser, 20)
     amplitude = [0.002, -0.002, 0.004, -0.004, 0.006, -0.006, 0.008, -0.008, 0.008, -0.008]
     strain, clean = stress(amplitude, 40)
     deviation = options.noise / 100 * np.sqrt(np.mean(clean**2))
@@ -95,22 +90,13 @@ def main():
     if options.method == "staggered":
         for i, (C, alpha) in enumerate(KERNEL, 1):
             truth[f"C_{i}"], truth[f"alpha_{i}"] = C, alpha
-    tally = Tally(truth)
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = pathlib.Path(temporary)
-        for seed in range(1, options.number + 1):
-            draw = np.random.default_rng(seed)
-            write_case(folder, options.method, strain, clean + deviation * draw.standard_normal(len(clean)), deviation,
-                       options.increment)
-            verdict, reasons, seconds = judged(options.pfdm, folder)
-            if verdict != "sound":
-                print(f"seed {seed}: {verdict}: {'; '.join(reasons)}")
-            file = folder / "results/fit.json"
-            fit = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {"parameters": []}
-            file.unlink(missing_ok=True)
-            tally.add(verdict, fit["parameters"], seconds)
-            if seed % 10 == 0 or seed == options.number:
-                tally.say(seed)
+
+    def noisy_case(folder, seed):
+        draw = np.random.default_rng(seed)
+        measured = clean + deviation * draw.standard_normal(len(clean))
+        write_case(folder, options.method, strain, measured, deviation, options.increment)
+
+    repeat(options, Tally(truth), noisy_case, every=10)
 
 
 if __name__ == "__main__":
