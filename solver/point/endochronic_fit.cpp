@@ -22,9 +22,20 @@ FitParameter positive(std::string name, std::string_view unit, double first) {
           .log_scale = true};
 }
 
+/// f_1_2 ...: at the first rate and the second zeta ...; f_1_1 fixes the scale of the intrinsic time.
+template <class FactorType, class Visit>
+void visit_rate_table(FactorType& factor, const Visit& visit) {
+  const RateTable table = rate_table(factor.p);
+  const std::size_t first = factor.p.size() - table.f.size();
+  for (std::size_t i = 0; i < table.rate.size(); ++i)
+    for (std::size_t j = 0; j < table.zeta.size(); ++j)
+      if (i + j > 0) visit(fmt::format("f_{}_{}", i + 1, j + 1), "1", factor.p[first + table.at(i, j)]);
+}
+
 /// Calls visit(name, unit, value) for every chosen parameter of a factor.
 template <class FactorType, class Visit>
 void visit_factor(FactorType& factor, const Visit& visit) {
+  if (factor.law->of_path_and_rate != nullptr) return visit_rate_table(factor, visit);
   if (factor.law->tabulated) {
     const std::size_t n = factor.p.size() / 2;
     for (std::size_t i = 1; i < n; ++i) visit(fmt::format("f_{}", i + 1), "1", factor.p[n + i]);

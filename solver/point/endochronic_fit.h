@@ -24,8 +24,9 @@ struct MaterialExperiment {
 /// What is estimated; f_0 is not, so that the scale of the intrinsic time is fixed by f(0) = f_0.
 struct FitChoice {
   bool kernel = true;
-  bool hardening = true;  ///< parameters of the hardening law; of a table, f at all points but the first
-  bool rate = false;      ///< parameters of the rate factor but for its reference rate
+  bool hardening =
+      true;  ///< parameters of the hardening law; of a table, f at all points but the first: f_2 ..., f_1_2 ...
+  bool rate = false;  ///< parameters of the rate factor but for its reference rate
   bool young_modulus = false;
 };
 

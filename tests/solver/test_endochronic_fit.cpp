@@ -218,5 +218,30 @@ TEST(EndochronicFit, TableOfHardening) {
   EXPECT_EQ(found.fit.law.hardening.with_path.p[3], 1.0);  // the gauge
 }
 
+// A5.2.2: f over path and rate from tests at three rates, by all at once and from the transient response.
+TEST(EndochronicFit, TableOfPathAndRate) {
+  const std::vector<double> zeta{0.0, 0.01, 0.05}, rate{1e-5, 1e-3, 1e-1};
+  const auto with_table = [&](const std::vector<double>& f) {
+    EndochronicLaw law = three_term_law();
+    law.hardening.with_path = make_factor(hardening_law("table_with_rate"), rate_table_parameters(zeta, rate, f));
+    return law;
+  };
+  const std::vector<double> true_f{1.0, 1.3, 1.8, 1.1, 1.5, 2.0, 1.2, 1.6, 2.4};
+  const EndochronicLaw truth = with_table(true_f), start = with_table(std::vector<double>(9, 1.0));
+  std::vector<MaterialExperiment> data;
+  for (const double duration : {4000.0, 60.0, 0.5}) {
+    const Path path = [&](double t) { return 0.006 * std::sin(8.0 * std::numbers::pi * t / duration); };
+    data.push_back(measured(truth, tension_path(path, 240, duration), {0}, 0.0, 1));
+  }
+  for (const char* method : {"joint", "hardening"}) {
+    SCOPED_TRACE(method);
+    const EndochronicIdentification found = identification_method(method).identify(start, data, {});
+    const RateTable table = rate_table(found.fit.law.hardening.with_path.p);
+    for (std::size_t i = 0; i < true_f.size(); ++i) EXPECT_NEAR(table.f[i], true_f[i], 1e-4) << i;
+    EXPECT_EQ(table.f[0], 1.0);  // the gauge
+    EXPECT_EQ(found.fit.parameters.back().name, "f_3_3");
+  }
+}
+
 }  // namespace
 }  // namespace pfdm

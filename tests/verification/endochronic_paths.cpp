@@ -117,6 +117,72 @@ TEST(EndochronicPaths, T6ConstantPlasticRate) {
   }
 }
 
+// Half the way between two rates, in ln, f = f_0 + b zeta is the mean of the rows. At a constant plastic rate
+// sigma = sqrt(6) C/(alpha + b) (F - f_0 (F/f_0)^(-alpha/b)), F = f_0 + b sqrt(3/2) eps_p (T5 with f_0).
+TEST(EndochronicPaths, TableOfPathAndRateAtAConstantRate) {
+  EndochronicLaw law = one_term_law();
+  const double rate = 1e-3, zeta_rate = std::sqrt(1.5) * rate;
+  law.hardening.with_path =
+      make_factor(hardening_law("table_with_rate"),
+                  rate_table_parameters({0.0, 1.0}, {zeta_rate / 7.0, 7.0 * zeta_rate}, {1.0, 21.0, 1.4, 41.4}));
+  const auto [C, alpha] = law.kernel[0];
+  const double f_0 = 1.2, b = 30.0;
+  const Path sigma = [&](double t) {
+    const double F = f_0 + b * zeta_rate * t;
+    return std::sqrt(6.0) * C / (alpha + b) * (F - f_0 * std::pow(F / f_0, -alpha / b));
+  };
+  const Path strain = [&](double t) { return sigma(t) / law.elasticity.young_modulus() + rate * t; };
+  const auto error = [&](int n) {
+    double largest = 0.0;
+    for (const HistoryPoint& point : run(law, tension_path(strain, n, 20.0)).points)
+      largest = std::max(largest, std::abs(point.stress[0] - sigma(point.time)) / sigma(20.0));
+    return largest;
+  };
+  const double order = std::log2(error(640) / error(1280));
+  fmt::print("table of path and rate: error {:.2g} at 1280 steps, order {:.3f}\n", error(1280), order);
+  EXPECT_NEAR(order, 2.0, 0.05);
+  EXPECT_LT(error(1280), 1e-6);
+}
+
+// Rates that jump, and turn: strain rates of 1e-4, 1e-2, 1e-5, -1e-3 and 0.1 /s. Stress and zeta from the rate form of
+// the law, E (eps' - p') = sum 3 C_r p' - alpha_r sigma_r zeta'/f(zeta, zeta'), zeta' = sqrt(3/2) |p'|, solved for p'
+// by bisection and integrated with scipy's DOP853 at a tolerance of 1e-11.
+TEST(EndochronicPaths, RateJumpsUnderATableOfPathAndRate) {
+  struct At {
+    double strain, sigma, zeta;
+  };
+  constexpr At expected[] = {{0.004, 1.2938851623e+08, 0.0035445528},
+                             {0.008, 1.7581228886e+08, 0.0079575727},
+                             {0.012, 1.6581646506e+08, 0.0129611875},
+                             {-0.002, -1.9433095053e+08, 0.0263376268},
+                             {0.004, 1.4337980255e+08, 0.0301509720}};
+  constexpr double rates[] = {1e-4, 1e-2, 1e-5, -1e-3, 0.1};
+  EndochronicLaw law = one_term_law();
+  law.kernel = {{60e9, 3000.0}, {15e9, 500.0}};
+  law.hardening.with_path = make_factor(
+      hardening_law("table_with_rate"),
+      rate_table_parameters({0.0, 0.004, 0.02}, {1e-5, 1e-3, 1e-1}, {1.0, 1.2, 1.5, 1.1, 1.4, 1.6, 1.3, 1.5, 2.0}));
+  const auto error = [&](int n) {
+    std::vector<LoadSegment> segments;
+    double from = 0.0;
+    for (std::size_t i = 0; i < std::size(rates); from = expected[i++].strain)
+      segments.push_back(tension_path([=, rate = rates[i]](double t) { return from + rate * t; }, n,
+                                      (expected[i].strain - from) / rates[i]));
+    const HistoryResult result = run_history(law, segments);
+    EXPECT_TRUE(result.converged) << result.failure;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < std::size(rates); ++i) {
+      const HistoryPoint& point = result.points[(i + 1) * static_cast<std::size_t>(n)];
+      largest = std::max(largest, std::abs(point.stress[0] - expected[i].sigma) / 1.9e8);
+      largest = std::max(largest, std::abs(point.state.zeta - expected[i].zeta) / 0.03);
+    }
+    return largest;
+  };
+  fmt::print("rate jumps: error {:.2g}, {:.2g}, {:.2g} at 100, 400, 1600 steps\n", error(100), error(400), error(1600));
+  EXPECT_LT(error(1600), 1e-7);
+  EXPECT_LT(error(1600), 0.08 * error(400));  // second order: 1/16
+}
+
 struct Reference {
   double time, sigma, tau, zeta;
 };
