@@ -1,5 +1,7 @@
 #include "solver/point/mixed_control.h"
 
+#include "solver/point/rest_flow.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,6 +56,10 @@ class StepSolver {
 
  private:
   void begin(const Mandel& guess) {
+    if (const auto flow = flowing_increment(law_, state_, {rows_.on_stress, rows_.on_strain, change_}, dt_)) {
+      take(*flow);
+      if (now_.converged) return;
+    }
     if (!guess.isZero()) {
       take(guess);
       if (now_.converged && error() < 0.3 * change_.lpNorm<Eigen::Infinity>()) return;
