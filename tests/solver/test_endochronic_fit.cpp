@@ -243,5 +243,56 @@ TEST(EndochronicFit, TableOfPathAndRate) {
   }
 }
 
+/// Loaded at a constant rate in 40 steps of time, then held at times that grow by a tenth.
+LoadSegment loaded_and_held(double rate, double loading, double held) {
+  LoadSegment segment = tension_path([=](double t) { return rate * t; }, 40, loading);
+  auto& values = segment.conditions[0].values;
+  for (double step = 0.02 * loading; segment.times.back() < loading + held; step *= 1.1) {
+    segment.times.push_back(segment.times.back() + step);
+    values.push_back(rate * loading);
+  }
+  for (auto& condition : segment.conditions) condition.values.resize(segment.times.size(), 0.0);
+  return segment;
+}
+
+// Three tests on one material: a rate that jumps, a strain that is held, a stress that is held.
+TEST(EndochronicFit, RateJumpsRelaxationAndCreepAtOnce) {
+  EndochronicLaw truth = one_term_law();
+  truth.kernel = {{300e9, 15000.0}, {30e9, 1000.0}};
+  truth.hardening = {.with_path = saturating(1.4, 60.0), .with_rate = logarithmic_rate(0.1, 1e-4)};
+  LoadSegment jumps = tension_path([](double t) { return 1e-4 * t; }, 60, 60.0);
+  for (int i = 1; i <= 60; ++i) {
+    jumps.times.push_back(60.0 + 0.01 * i);
+    for (auto& condition : jumps.conditions) condition.values.push_back(0.0);
+    jumps.conditions[0].values.back() = 0.006 + 1e-4 * i;
+  }
+  LoadSegment creep = loaded_and_held(140e6, 1.0, 1000.0);
+  creep.conditions[0].condition = on_stress(0);
+  EndochronicLaw start = truth;
+  start.kernel = {{200e9, 9000.0}, {45e9, 1500.0}};
+  start.hardening = {.with_path = saturating(1.2, 30.0), .with_rate = logarithmic_rate(0.06, 1e-4)};
+  for (const double noise : {0.0, 0.005}) {
+    const std::vector<MaterialExperiment> data{
+        measured(truth, jumps, {0}, noise * 150e6, 1),
+        measured(truth, loaded_and_held(0.01, 1.0, 1000.0), {0}, noise * 150e6, 2),
+        measured(truth, creep, {0}, noise * 0.005, 3, true)};
+    const EndochronicIdentification found =
+        identification_method("joint").identify(start, data, {.choice = {.rate = true}});
+    if (noise == 0.0) {
+      expect_parameters(found.fit.law, truth, 1e-5, 1e-5, 1e-5, 1e-5);
+      EXPECT_NEAR(found.fit.law.hardening.with_rate.p[0], 0.1, 1e-6);
+      EXPECT_LT(relative_misfit(found.fit.law, data, {}), 1e-6);
+      continue;
+    }
+    const std::vector<double> expected{300e9, 15000.0, 30e9, 1000.0, 1.4, 60.0, 0.1};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const FitEstimate& e = found.fit.result.estimates[i];
+      EXPECT_NEAR(e.value, expected[i], 4.0 * (e.upper_95 - e.lower_95) / 3.92) << found.fit.parameters[i].name;
+    }
+    EXPECT_NEAR(found.fit.result.sum_of_squares, static_cast<double>(n_measured(data)),
+                0.2 * static_cast<double>(n_measured(data)));
+  }
+}
+
 }  // namespace
 }  // namespace pfdm
