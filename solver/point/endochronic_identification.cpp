@@ -184,16 +184,6 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
   return result;
 }
 
-/// Of the strains that are followed, in all experiments.
-double largest_increment(const Experiments& experiments, const ControlSettings& control) {
-  double largest = 0.0;
-  for (const MaterialExperiment& experiment : experiments)
-    for (const LoadSegment::Condition& c : experiment.loading.conditions)
-      for (std::size_t i = 1; c.condition.on_stress.isZero() && i < c.values.size(); ++i)
-        largest = std::max(largest, std::abs(c.values[i] - c.values[i - 1]));
-  return std::min(largest, control.largest_increment);
-}
-
 constexpr IdentificationMethod table[] = {
     {"joint", "kernel and hardening at once by least squares", identify_joint},
     {"kernel", "the kernel by least squares, the hardening fixed", identify_kernel},
@@ -217,7 +207,7 @@ const IdentificationMethod& identification_method(std::string_view name) {
 std::optional<double> effect_of_steps(const LawFit& fit, const std::vector<MaterialExperiment>& experiments,
                                       const ControlSettings& control) {
   ControlSettings finer = control;
-  finer.largest_increment = 0.25 * largest_increment(experiments, control);
+  finer.substeps = 4 * control.substeps;
   const auto now = fit_residuals(fit.law, experiments, control), then = fit_residuals(fit.law, experiments, finer);
   if (!now || !then) return std::nullopt;
   double change = 0.0, squares = 0.0;

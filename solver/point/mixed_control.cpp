@@ -181,7 +181,7 @@ class SegmentRunner {
     for (std::size_t k = 0; k < 6; ++k)
       if (conditions_[k].on_stress.isZero())
         largest = std::max(largest, std::abs(target(k, i, 1.0) - target(k, i, 0.0)));
-    return 1.0 / std::max(1.0, std::ceil(largest / settings_.largest_increment));
+    return 1.0 / (settings_.substeps * std::max(1.0, std::ceil(largest / settings_.largest_increment)));
   }
 
   bool take(std::size_t i, double done, double part) {

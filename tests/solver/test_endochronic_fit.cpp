@@ -173,7 +173,7 @@ TEST(EndochronicFit, SaysHowFarItsStepsMoveTheEstimates) {
   for (const double s : stress) square += s * s / static_cast<double>(stress.size());
   const std::vector<MaterialExperiment> data{independent::tension_test(strain, stress, 4e-4 * std::sqrt(square), 1)};
   const EndochronicLaw start = two_term_law({{30e9, 700.0}, {4e9, 60.0}});
-  const ControlSettings finer{.largest_increment = 1e-4};
+  const ControlSettings finer{.substeps = 4};
   const LawFit coarse = identification_method("hardening").identify(start, data, {}).fit;
   const LawFit fine = identification_method("hardening").identify(start, data, {.control = finer}).fit;
   const auto effect = effect_of_steps(coarse, data, {}), left = effect_of_steps(fine, data, finer);

@@ -148,7 +148,7 @@ def curves(study):
             in_parts("creep", TRUE_RATES, [(140e6, ramp(1.0)), (0.0, held)], "stress")]
 
 
-def write_case(folder, study, tests, noise, seed, increment=None):
+def write_case(folder, study, tests, noise, seed, substeps, increment):
     draw = np.random.default_rng(seed)
     text = f'kind = "endochronic"\ntitle = "coverage (synthetic)"\n{FIRST[study].toml()}'
     text += f"""[loading]
@@ -156,6 +156,7 @@ def write_case(folder, study, tests, noise, seed, increment=None):
 control = {{ strain_xx = {{ csv = "{tests[0].name}.csv", column = "strain_xx" }} }}
 [fit]
 method = "{'joint' if study == 'rates' else study}"
+substeps = {substeps}
 {f"largest_strain_increment = {increment}" if increment else ""}
 estimate = ["kernel", "hardening"{', "rate"' if study == "rates" else ""}]
 """
@@ -169,12 +170,13 @@ def main():
     parser.add_argument("pfdm", type=pathlib.Path)
     parser.add_argument("study", choices=FIRST)
     parser.add_argument("--noise", type=float, default=0.2, help="per cent of the rms")
-    parser.add_argument("--increment", type=float,
-                        help="largest_strain_increment; default: those of the curves, of cycles 4e-4 at most")
+    parser.add_argument("--increment", type=float, help="largest_strain_increment; default: none")
+    parser.add_argument("--substeps", type=int, default=1, help="of the curves' increments, of cycles 4e-4 at most")
     options = options_of(parser, 20)
     law, tests = TRUE_RATES if options.study == "rates" else TRUE, curves(options.study)
     repeat(options, Tally(law.truth(options.study != "hardening")),
-           lambda folder, seed: write_case(folder, options.study, tests, options.noise / 100, seed, options.increment),
+           lambda folder, seed: write_case(folder, options.study, tests, options.noise / 100, seed, options.substeps,
+                                           options.increment),
            every=10)
 
 

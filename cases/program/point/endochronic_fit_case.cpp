@@ -15,6 +15,7 @@ namespace pfdm {
 namespace {
 
 constexpr Range terms_range{1.0, 12.0, false, "between 1 and 12"};
+constexpr Range substeps_range{1.0, 1000.0, false, "between 1 and 1000"};
 constexpr Range starts_range{1.0, 1000.0, false, "between 1 and 1000"};
 
 /// What [strain] or [stress] of an experiment says of a component; shear strains as tensor components.
@@ -179,7 +180,8 @@ std::string fit_curve_file(const std::string& experiment) {
 
 EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw& law,
                                     const std::filesystem::path& case_directory) {
-  fit.with_keys({"method", "estimate", "terms", "starts", "largest_strain_increment", "bounds", "experiments"});
+  fit.with_keys(
+      {"method", "estimate", "terms", "starts", "largest_strain_increment", "substeps", "bounds", "experiments"});
   EndochronicFit result;
   result.method = fit.has("method") ? &choose(fit.at("method"), identification_methods(), "method of identification")
                                     : &identification_method("joint");
@@ -188,6 +190,7 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
   settings.fit.starts = static_cast<int>(fit.integer("starts", starts_range, 1));
   settings.control.largest_increment =
       fit.number("largest_strain_increment", range::positive, settings.control.largest_increment);
+  settings.control.substeps = static_cast<int>(fit.integer("substeps", substeps_range, 1));
   read_terms(fit, settings);
   read_bounds(fit, law, settings);
   for (const ConfigTable& table : fit.tables("experiments")) {

@@ -80,7 +80,7 @@ void warn_of_steps(const EndochronicFit& fit, const EndochronicIdentification& f
   if (effect && *effect > noticed)
     findings.warnings.push_back(fmt::format(
         "the increments of the curves are the steps of the model, which may move an estimate by up to {:.2g} of "
-        "its standard errors; a smaller \"largest_strain_increment\" divides them",
+        "its standard errors; \"substeps\" divides them",
         *effect));
 }
 
