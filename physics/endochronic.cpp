@@ -94,17 +94,34 @@ double largest_dzeta(const Step& step) {
   return step.de.norm() + sum / (2.0 * step.law.elasticity.mu);
 }
 
-/// The root for a vanishing step, |mu de + a dzeta| = b dzeta, which is a quadratic equation.
+/// The equation of a vanishing step is |mu de + a dzeta| = b dzeta.
+struct VanishingStep {
+  Mandel a;
+  double b;
+};
+
+VanishingStep vanishing(const Step& step, double rate) {
+  const double f = step.law.hardening(step.old.zeta, rate).f;
+  VanishingStep result{.a = Mandel::Zero(), .b = step.law.elasticity.mu};
+  for (std::size_t r = 0; r < step.law.kernel.size(); ++r) {
+    result.a += (0.5 * step.law.kernel[r].alpha / f) * step.old.s[r];
+    result.b += step.law.kernel[r].C;
+  }
+  return result;
+}
+
+/// Whether the plastic strain goes on at constant strain; a law that does not look at the rate never lets it.
+bool relaxes(const Step& step) {
+  if (!step.law.hardening.depends_on_rate()) return false;
+  const auto [a, b] = vanishing(step, 0.0);
+  return a.norm() > b;
+}
+
+/// The root for a vanishing step, a quadratic equation.
 double first_guess(const Step& step, double largest) {
   const double mu = step.law.elasticity.mu;
   const double rate = step.law.hardening.depends_on_rate() ? step.de.norm() / step.dt : 0.0;
-  const double f = step.law.hardening(step.old.zeta, rate).f;
-  Mandel a = Mandel::Zero();
-  double b = mu;
-  for (std::size_t r = 0; r < step.law.kernel.size(); ++r) {
-    a += (0.5 * step.law.kernel[r].alpha / f) * step.old.s[r];
-    b += step.law.kernel[r].C;
-  }
+  const auto [a, b] = vanishing(step, rate);
   const double along = mu * a.dot(step.de);
   const double load = mu * mu * step.de.squaredNorm();
   const double curvature = b * b - a.squaredNorm();
@@ -239,7 +256,7 @@ EndochronicUpdate update(const EndochronicLaw& law, const EndochronicState& stat
   const Step step{law, state, deviator(strain_increment), dt};
   if (!strain_increment.allFinite() || (law.hardening.depends_on_rate() && !(dt > 0.0))) return result;
   result.state.strain += strain_increment;
-  if (step.de.squaredNorm() == 0.0) return volumetric_step(step, std::move(result));
+  if (step.de.squaredNorm() == 0.0 && !relaxes(step)) return volumetric_step(step, std::move(result));
   const Solution solution = solve(step);
   const Trial& t = solution.trial;
   result.iterations = solution.iterations;
@@ -255,6 +272,11 @@ EndochronicUpdate update(const EndochronicLaw& law, const EndochronicState& stat
   assert(!result.converged || invariant_error(law, result.state) <=
                                   1e-9 * (result.stress.norm() + law.elasticity.mu * result.state.strain.norm()));
   return result;
+}
+
+StepOfPath step_of_path(const EndochronicLaw& law, const EndochronicState& state, double dzeta, double dt) {
+  const Trial t = evaluate({law, state, Mandel::Zero(), dt}, dzeta);
+  return {.shift = t.A, .stiffness = law.elasticity.mu + t.g};
 }
 
 }  // namespace pfdm

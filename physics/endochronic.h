@@ -70,8 +70,17 @@ struct EndochronicUpdate {
 };
 
 /// A step of `strain_increment` in the time dt [s], which only laws that depend on the rate look at. Not converged only
-/// if the input is not finite (or dt is not positive where the rate matters).
+/// if the input is not finite (or dt is not positive where the rate matters). At constant strain the stress relaxes
+/// where it is higher than the law bears at rest: the branch that strain rates lead to as they fall to zero.
 EndochronicUpdate update(const EndochronicLaw& law, const EndochronicState& state, const Mandel& strain_increment,
                          double dt);
+
+/// What a step would be if its path grew by a given dzeta: linear in the strain, d eps_p = (mu de + shift) / stiffness.
+/// It is a step of the law where |mu de + shift| = stiffness dzeta.
+struct StepOfPath {
+  Mandel shift;            ///< 1/2 sum s_r (1 - exp(-alpha_r dz)) [Pa]
+  double stiffness = 0.0;  ///< mu + sum C_r phi1(alpha_r dz) [Pa]
+};
+StepOfPath step_of_path(const EndochronicLaw& law, const EndochronicState& state, double dzeta, double dt);
 
 }  // namespace pfdm

@@ -1,6 +1,6 @@
 #pragma once
 // Measured or simulated signals as columns with names and units, and the files that hold them: CSV with a row of units,
-// MATLAB's .mat, universal files (dataset 58), HDF5.
+// MATLAB's .mat, universal files (dataset 58), HDF5, WAV.
 
 #include "postproc/files/csv_table.h"
 
@@ -46,8 +46,13 @@ SignalTable read_signals_uff(const std::filesystem::path& path);
 /// gives its unit, that of the file's root called "remark" its remark. The only reader that knows HDF5.
 SignalTable read_signals_hdf5(const std::filesystem::path& path);
 
-/// By the file's extension: .csv, .mat, .uff and .unv, .h5 and .hdf5. Throws InputError for another. `marks` are those
-/// of a .csv.
+/// The channels of a WAV file (integers of 8 to 32 bits, divided by the largest; floating point as it stands): "time",
+/// then channel_1, channel_2 ... without a unit. Title and comment are the remark. The only reader that knows
+/// libsndfile.
+SignalTable read_signals_wav(const std::filesystem::path& path);
+
+/// By the file's extension: .csv, .mat, .uff and .unv, .h5 and .hdf5, .wav. Throws InputError for another. `marks` are
+/// those of a .csv.
 SignalTable read_signals(const std::filesystem::path& path, const CsvMarks& marks = {});
 
 }  // namespace pfdm

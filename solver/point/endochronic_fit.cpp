@@ -22,9 +22,20 @@ FitParameter positive(std::string name, std::string_view unit, double first) {
           .log_scale = true};
 }
 
+/// f_1_2 ...: at the first rate and the second zeta ...; f_1_1 fixes the scale of the intrinsic time.
+template <class FactorType, class Visit>
+void visit_rate_table(FactorType& factor, const Visit& visit) {
+  const RateTable table = rate_table(factor.p);
+  const std::size_t first = factor.p.size() - table.f.size();
+  for (std::size_t i = 0; i < table.rate.size(); ++i)
+    for (std::size_t j = 0; j < table.zeta.size(); ++j)
+      if (i + j > 0) visit(fmt::format("f_{}_{}", i + 1, j + 1), "1", factor.p[first + table.at(i, j)]);
+}
+
 /// Calls visit(name, unit, value) for every chosen parameter of a factor.
 template <class FactorType, class Visit>
 void visit_factor(FactorType& factor, const Visit& visit) {
+  if (factor.law->of_path_and_rate != nullptr) return visit_rate_table(factor, visit);
   if (factor.law->tabulated) {
     const std::size_t n = factor.p.size() / 2;
     for (std::size_t i = 1; i < n; ++i) visit(fmt::format("f_{}", i + 1), "1", factor.p[n + i]);
@@ -90,13 +101,15 @@ std::optional<std::vector<std::vector<double>>> respond(const EndochronicLaw& la
                                                         const ControlSettings& settings) {
   const HistoryResult history = run_history(law, {experiment.loading}, settings);
   if (!history.converged) return std::nullopt;
-  std::vector<std::vector<double>> stresses;
+  std::vector<std::vector<double>> answers;
   for (const MaterialExperiment::Channel& channel : experiment.channels) {
-    stresses.emplace_back();
-    for (const HistoryPoint& point : history.points)
-      stresses.back().push_back(point.stress[channel.component] / mandel_factor(channel.component));
+    answers.emplace_back();
+    for (const HistoryPoint& point : history.points) {
+      const Mandel& measured = experiment.follows_stress ? point.state.strain : point.stress;
+      answers.back().push_back(measured[channel.component] / mandel_factor(channel.component));
+    }
   }
-  return stresses;
+  return answers;
 }
 
 bool noise_is_known(const std::vector<MaterialExperiment>& experiments) {
@@ -105,36 +118,39 @@ bool noise_is_known(const std::vector<MaterialExperiment>& experiments) {
   });
 }
 
-std::size_t n_stresses(const std::vector<MaterialExperiment>& experiments) {
+std::size_t n_measured(const std::vector<MaterialExperiment>& experiments) {
   std::size_t n = 0;
   for (const MaterialExperiment& experiment : experiments)
-    for (const MaterialExperiment::Channel& channel : experiment.channels) n += channel.stress.size();
+    for (const MaterialExperiment::Channel& channel : experiment.channels) n += channel.values.size();
   return n;
 }
 
-double rms_stress(const std::vector<MaterialExperiment>& experiments) {
+double rms_measured(const std::vector<MaterialExperiment>& experiments, bool strains) {
   double sum = 0.0, n = 0.0;
-  for (const MaterialExperiment& experiment : experiments)
+  for (const MaterialExperiment& experiment : experiments) {
+    if (experiment.follows_stress != strains) continue;
     for (const MaterialExperiment::Channel& channel : experiment.channels) {
-      for (const double sigma : channel.stress) sum += sigma * sigma;
-      n += static_cast<double>(channel.stress.size());
+      for (const double value : channel.values) sum += value * value;
+      n += static_cast<double>(channel.values.size());
     }
+  }
   return std::sqrt(sum / n);
 }
 
-std::optional<std::vector<double>> stress_residuals(const EndochronicLaw& law,
-                                                    const std::vector<MaterialExperiment>& experiments,
-                                                    const ControlSettings& settings) {
+std::optional<std::vector<double>> fit_residuals(const EndochronicLaw& law,
+                                                 const std::vector<MaterialExperiment>& experiments,
+                                                 const ControlSettings& settings) {
   const bool known = noise_is_known(experiments);
-  const double scale = rms_stress(experiments);
+  const double of_stress = rms_measured(experiments), of_strain = rms_measured(experiments, true);
   std::vector<double> residuals;
   for (const MaterialExperiment& experiment : experiments) {
     const auto model = respond(law, experiment, settings);
     if (!model) return std::nullopt;
+    const double scale = experiment.follows_stress ? of_strain : of_stress;
     for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
       const MaterialExperiment::Channel& channel = experiment.channels[c];
-      for (std::size_t i = 0; i < channel.stress.size(); ++i)
-        residuals.push_back(((*model)[c][i] - channel.stress[i]) / (known ? channel.noise : scale));
+      for (std::size_t i = 0; i < channel.values.size(); ++i)
+        residuals.push_back(((*model)[c][i] - channel.values[i]) / (known ? channel.noise : scale));
     }
   }
   return residuals;
@@ -146,7 +162,31 @@ double rms_misfit(const EndochronicLaw& law, const MaterialExperiment& experimen
   double sum = 0.0, n = 0.0;
   for (std::size_t c = 0; c < model->size(); ++c)
     for (std::size_t i = 0; i < (*model)[c].size(); ++i, n += 1.0)
-      sum += std::pow((*model)[c][i] - experiment.channels[c].stress[i], 2);
+      sum += std::pow((*model)[c][i] - experiment.channels[c].values[i], 2);
+  return std::sqrt(sum / n);
+}
+
+double rms_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                  const ControlSettings& settings) {
+  double sum = 0.0, n = 0.0;
+  for (const MaterialExperiment& experiment : experiments) {
+    if (experiment.follows_stress) continue;
+    const auto here = static_cast<double>(n_measured({experiment}));
+    sum += here * std::pow(rms_misfit(law, experiment, settings), 2);
+    n += here;
+  }
+  return std::sqrt(sum / n);
+}
+
+double relative_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                       const ControlSettings& settings) {
+  double sum = 0.0, n = 0.0;
+  for (const MaterialExperiment& experiment : experiments) {
+    const auto here = static_cast<double>(n_measured({experiment}));
+    const double scale = rms_measured(experiments, experiment.follows_stress);
+    sum += here * std::pow(rms_misfit(law, experiment, settings) / scale, 2);
+    n += here;
+  }
   return std::sqrt(sum / n);
 }
 
@@ -163,7 +203,7 @@ LawFit fit_law(const EndochronicLaw& law, const FitChoice& choice, const std::ve
                              .residuals = [&](std::span<const double> values) -> std::optional<std::vector<double>> {
                                const auto trial = with_values(base, choice, values);
                                if (!trial) return std::nullopt;
-                               return stress_residuals(*trial, experiments, control);
+                               return fit_residuals(*trial, experiments, control);
                              },
                              .noise_is_known = noise_is_known(experiments)};
     FitSettings now = settings;

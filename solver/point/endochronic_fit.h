@@ -1,5 +1,6 @@
 #pragma once
-// The endochronic law as a forward model: measured strains drive it, its stresses are compared with measured ones.
+// The endochronic law as a forward model: measured strains drive it, its stresses are compared with measured ones; or,
+// as in creep, measured stresses drive it and its strains are compared.
 
 #include "solver/calibration/calibration.h"
 #include "solver/point/mixed_control.h"
@@ -13,19 +14,21 @@ namespace pfdm {
 struct MaterialExperiment {
   struct Channel {
     int component = 0;           ///< 0 ... 5
-    std::vector<double> stress;  ///< measured, at the times of the loading [Pa]
-    double noise = 0.0;          ///< standard deviation [Pa]; 0: not known
+    std::vector<double> values;  ///< measured, at the times of the loading: stress [Pa] or (tensor) strain
+    double noise = 0.0;          ///< standard deviation, as the values; 0: not known
   };
   std::string name;
-  LoadSegment loading;  ///< measured strains that are followed; the other pairs are free of stress
+  LoadSegment loading;  ///< measured strains (stresses) that are followed; the other pairs are free of stress
   std::vector<Channel> channels;
+  bool follows_stress = false;  ///< its channels are strains
 };
 
 /// What is estimated; f_0 is not, so that the scale of the intrinsic time is fixed by f(0) = f_0.
 struct FitChoice {
   bool kernel = true;
-  bool hardening = true;  ///< parameters of the hardening law; of a table, f at all points but the first
-  bool rate = false;      ///< parameters of the rate factor but for its reference rate
+  bool hardening =
+      true;  ///< parameters of the hardening law; of a table, f at all points but the first: f_2 ..., f_1_2 ...
+  bool rate = false;  ///< parameters of the rate factor but for its reference rate
   bool young_modulus = false;
 };
 
@@ -35,25 +38,32 @@ std::vector<FitParameter> fit_parameters(const EndochronicLaw& law, const FitCho
 std::optional<EndochronicLaw> with_values(const EndochronicLaw& law, const FitChoice& choice,
                                           std::span<const double> values);
 
-/// Stress of the channels of one experiment [Pa]; nothing where the law cannot follow the strains.
+/// What the channels of one experiment would measure; nothing where the law cannot follow.
 std::optional<std::vector<std::vector<double>>> respond(const EndochronicLaw& law, const MaterialExperiment& experiment,
                                                         const ControlSettings& settings = {});
 
 /// Whether every channel says how noisy it is.
 bool noise_is_known(const std::vector<MaterialExperiment>& experiments);
 
-/// Model less measurement over the noise, or over the rms of all measured stresses where the noise is not known.
-std::optional<std::vector<double>> stress_residuals(const EndochronicLaw& law,
-                                                    const std::vector<MaterialExperiment>& experiments,
-                                                    const ControlSettings& settings = {});
+/// Model less measurement over the noise, or over the rms of all measured stresses (strains) where the noise is not
+/// known.
+std::optional<std::vector<double>> fit_residuals(const EndochronicLaw& law,
+                                                 const std::vector<MaterialExperiment>& experiments,
+                                                 const ControlSettings& settings = {});
 
-/// How many stresses were measured in all.
-std::size_t n_stresses(const std::vector<MaterialExperiment>& experiments);
-/// Rms of all measured stresses [Pa].
-double rms_stress(const std::vector<MaterialExperiment>& experiments);
-/// Rms of model less measurement of one experiment [Pa]; infinite where the law cannot follow.
+/// How many values were measured in all.
+std::size_t n_measured(const std::vector<MaterialExperiment>& experiments);
+/// Rms of all measured stresses [Pa]; of those experiments that measure strains, their rms.
+double rms_measured(const std::vector<MaterialExperiment>& experiments, bool strains = false);
+/// Rms of model less measurement of one experiment [Pa, or strain]; infinite where the law cannot follow.
 double rms_misfit(const EndochronicLaw& law, const MaterialExperiment& experiment,
                   const ControlSettings& settings = {});
+/// Of all stresses [Pa].
+double rms_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                  const ControlSettings& settings);
+/// Rms of model less measurement, of stresses over their rms and of strains over theirs.
+double relative_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                       const ControlSettings& settings);
 
 struct LawFit {
   EndochronicLaw law;

@@ -38,7 +38,7 @@ EndochronicIdentification select(const EndochronicLaw& law, const FitChoice& cho
     const FitResult& result = fitted.result;
     tried.push_back(
         {n, rms_misfit(fitted.law, experiments, settings.control),
-         bayesian_information(result.sum_of_squares, n_stresses(experiments), fitted.parameters.size(), negligible)});
+         bayesian_information(result.sum_of_squares, n_measured(experiments), fitted.parameters.size(), negligible)});
     settings.say(fmt::format("{} terms: rms misfit {:.6g} Pa, Bayesian information {:.6g}", n, tried.back().rms,
                              tried.back().information));
     const bool better = std::ranges::all_of(
@@ -101,7 +101,9 @@ std::optional<EndochronicLaw> fit_hardening(const EndochronicLaw& law,
 
 std::vector<std::vector<HardeningPoint>> transients_of(const EndochronicLaw& law, const Experiments& experiments) {
   std::vector<std::vector<HardeningPoint>> transients;
-  for (const MaterialExperiment& experiment : experiments) transients.push_back(transient_hardening(law, experiment));
+  for (const MaterialExperiment& experiment : experiments)
+    transients.push_back(experiment.follows_stress ? std::vector<HardeningPoint>{}
+                                                   : transient_hardening(law, experiment));
   return transients;
 }
 
@@ -182,16 +184,6 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
   return result;
 }
 
-/// Of the strains that are followed, in all experiments.
-double largest_increment(const Experiments& experiments, const ControlSettings& control) {
-  double largest = 0.0;
-  for (const MaterialExperiment& experiment : experiments)
-    for (const LoadSegment::Condition& c : experiment.loading.conditions)
-      for (std::size_t i = 1; c.condition.on_stress.isZero() && i < c.values.size(); ++i)
-        largest = std::max(largest, std::abs(c.values[i] - c.values[i - 1]));
-  return std::min(largest, control.largest_increment);
-}
-
 constexpr IdentificationMethod table[] = {
     {"joint", "kernel and hardening at once by least squares", identify_joint},
     {"kernel", "the kernel by least squares, the hardening fixed", identify_kernel},
@@ -215,9 +207,8 @@ const IdentificationMethod& identification_method(std::string_view name) {
 std::optional<double> effect_of_steps(const LawFit& fit, const std::vector<MaterialExperiment>& experiments,
                                       const ControlSettings& control) {
   ControlSettings finer = control;
-  finer.largest_increment = 0.25 * largest_increment(experiments, control);
-  const auto now = stress_residuals(fit.law, experiments, control),
-             then = stress_residuals(fit.law, experiments, finer);
+  finer.substeps = 4 * control.substeps;
+  const auto now = fit_residuals(fit.law, experiments, control), then = fit_residuals(fit.law, experiments, finer);
   if (!now || !then) return std::nullopt;
   double change = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < now->size(); ++i) {
@@ -226,19 +217,6 @@ std::optional<double> effect_of_steps(const LawFit& fit, const std::vector<Mater
   }
   const double deviation = noise_is_known(experiments) ? 1.0 : std::sqrt(squares / static_cast<double>(now->size()));
   return deviation > 0.0 ? std::sqrt(change) / deviation : 0.0;
-}
-
-double rms_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
-                  const ControlSettings& control) {
-  double sum = 0.0, n = 0.0;
-  for (const MaterialExperiment& experiment : experiments) {
-    double here = 0.0;
-    for (const MaterialExperiment::Channel& channel : experiment.channels)
-      here += static_cast<double>(channel.stress.size());
-    sum += here * std::pow(rms_misfit(law, experiment, control), 2);
-    n += here;
-  }
-  return std::sqrt(sum / n);
 }
 
 }  // namespace pfdm

@@ -62,8 +62,4 @@ const IdentificationMethod& identification_method(std::string_view name);
 std::optional<double> effect_of_steps(const LawFit& fit, const std::vector<MaterialExperiment>& experiments,
                                       const ControlSettings& control);
 
-/// Rms of model less measurement over all experiments [Pa].
-double rms_misfit(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
-                  const ControlSettings& control);
-
 }  // namespace pfdm

@@ -87,6 +87,7 @@ Eigen::MatrixXd unit_responses(const EndochronicLaw& law, const std::vector<Mate
                                const std::vector<double>& alphas, Eigen::VectorXd& measured) {
   std::vector<double> rows, data;
   for (const MaterialExperiment& experiment : experiments) {
+    if (experiment.follows_stress) continue;
     const PlasticHistory history = plastic_history(law.elasticity, experiment);
     Kernel units;
     for (const double alpha : alphas) units.push_back({1.0, alpha});
@@ -112,6 +113,7 @@ Eigen::MatrixXd unit_responses(const EndochronicLaw& law, const std::vector<Mate
 std::vector<double> alpha_grid(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments) {
   double largest = 0.0, path = 0.0, n = 0.0;
   for (const MaterialExperiment& experiment : experiments) {
+    if (experiment.follows_stress) continue;
     const PlasticHistory history = plastic_history(law.elasticity, experiment);
     for (std::size_t i = 1; i < history.s.size(); ++i, n += 1.0) {
       largest = std::max(largest, history.plastic_strain[i].norm());
@@ -155,7 +157,7 @@ PlasticHistory plastic_history(const IsotropicElasticity& elasticity, const Mate
   for (std::size_t i = 0; i < history.time.size(); ++i) {
     Mandel stress = Mandel::Zero();
     for (const MaterialExperiment::Channel& channel : experiment.channels)
-      stress[channel.component] = mandel_factor(channel.component) * channel.stress[i];
+      stress[channel.component] = mandel_factor(channel.component) * channel.values[i];
     const Mandel elastic = elastic_strain(elasticity, stress);
     Mandel plastic = Mandel::Zero();
     std::array<bool, 6> known{};

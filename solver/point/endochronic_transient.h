@@ -6,7 +6,8 @@
 
 namespace pfdm {
 
-/// Deviatoric stress and plastic strain at every time of an experiment.
+/// Deviatoric stress and plastic strain at every time of an experiment that follows strains; the others tell nothing
+/// here.
 struct PlasticHistory {
   std::vector<double> time;  ///< [s]
   std::vector<Mandel> s;     ///< [Pa]

@@ -1,5 +1,7 @@
 #include "solver/point/mixed_control.h"
 
+#include "solver/point/rest_flow.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,6 +56,10 @@ class StepSolver {
 
  private:
   void begin(const Mandel& guess) {
+    if (const auto flow = flowing_increment(law_, state_, {rows_.on_stress, rows_.on_strain, change_}, dt_)) {
+      take(*flow);
+      if (now_.converged) return;
+    }
     if (!guess.isZero()) {
       take(guess);
       if (now_.converged && error() < 0.3 * change_.lpNorm<Eigen::Infinity>()) return;
@@ -175,7 +181,7 @@ class SegmentRunner {
     for (std::size_t k = 0; k < 6; ++k)
       if (conditions_[k].on_stress.isZero())
         largest = std::max(largest, std::abs(target(k, i, 1.0) - target(k, i, 0.0)));
-    return 1.0 / std::max(1.0, std::ceil(largest / settings_.largest_increment));
+    return 1.0 / (settings_.substeps * std::max(1.0, std::ceil(largest / settings_.largest_increment)));
   }
 
   bool take(std::size_t i, double done, double part) {

@@ -42,6 +42,7 @@ struct ControlSettings {
   int maximum_halvings = 12;
   double tolerance = 1e-12;  ///< of a condition, relative to the strain increment
   double largest_increment = std::numeric_limits<double>::infinity();  ///< of a prescribed strain, else it is cut
+  int substeps = 1;  ///< that each increment, or what it is cut into, is divided into
 };
 
 struct ControlledStep {

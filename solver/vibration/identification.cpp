@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -65,8 +66,18 @@ bool is_linear_viscoelastic(const ModelStructure& structure) {
   return structure.stiffness_order == 1 && !structure.nonlinear_damping && structure.forcing == KernelForcing::velocity;
 }
 
-bool long_enough_for_spectra(std::span<const VibrationRecord> records) {
-  return std::ranges::all_of(records, [](const VibrationRecord& r) { return r.n() >= 16 * SegmentSettings{}.length; });
+/// Where a model with so many kernel terms starts; none if it has no passive parameters.
+using StartOfOrder = std::function<std::optional<Regression>(int order)>;
+
+/// From the complex stiffness where the spectra show it, else from the equation of motion.
+StartOfOrder start_of_order(std::span<const VibrationRecord> records, const ModelStructure& structure,
+                            const IdentificationSettings& settings) {
+  if (is_linear_viscoelastic(structure) && segment_length(records))
+    return [=, &settings](int order) -> std::optional<Regression> {
+      StiffnessFit fit = fit_stiffness(records, order, settings);
+      return Regression{.model = std::move(fit.model), .misfit = std::sqrt(fit.chi2)};
+    };
+  return [=, &structure, &settings](int order) { return regress_separable(records, structure, order, settings); };
 }
 
 bool is_doubted(std::span<const VibrationRecord> records, const MassMaterial& model, double crop) {
@@ -98,6 +109,7 @@ std::optional<Trial> pair_trial(std::span<const VibrationRecord> records, MassMa
 /// it has as many parameters.
 std::optional<Trial> output_trial(std::span<const VibrationRecord> records, const ModelStructure& structure,
                                   std::vector<OrderTrial>& orders, const IdentificationSettings& settings) {
+  const StartOfOrder start_of = start_of_order(records, structure, settings);
   std::optional<Trial> best;
   bool pairs = may_have_pair(structure, settings);
   const auto better_pair = [&]() -> std::optional<Trial> {
@@ -109,7 +121,7 @@ std::optional<Trial> output_trial(std::span<const VibrationRecord> records, cons
   for (const int order : orders_to_try(structure, settings)) {
     if (order == 2)
       if (auto pair = better_pair()) return pair;
-    auto start = regress_separable(records, structure, order, settings);
+    auto start = start_of(order);
     auto trial = start ? tried(records, std::move(*start), settings) : std::nullopt;
     if (!trial) continue;
     orders.push_back(trial->result);
@@ -168,7 +180,7 @@ Passivity passivity_in_band(const MassMaterial& model, std::span<const Vibration
 Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
                         const IdentificationSettings& settings) {
   std::vector<OrderTrial> orders;
-  const bool linear = is_linear_viscoelastic(structure) && long_enough_for_spectra(records);
+  const bool linear = is_linear_viscoelastic(structure) && segment_length(records) == SegmentSettings{}.length;
   auto best =
       linear ? linear_trial(records, structure, orders, settings) : output_trial(records, structure, orders, settings);
   if (!best)

@@ -98,8 +98,9 @@ struct Averaged {
 
 Averaged average(std::span<const VibrationRecord> records) {
   Averaged all;
+  const SegmentSettings segments{.length = segment_length(records).value_or(SegmentSettings{}.length)};
   for (const VibrationRecord& r : records) {
-    const Spectra s = spectra(r.base, r.relative, r.rate);
+    const Spectra s = spectra(r.base, r.relative, r.rate, segments);
     all.low = std::max(all.low, r.band_low);
     all.high = std::min(all.high, r.band_high);
     Spectra& sum = all.spectra;
@@ -140,6 +141,26 @@ Best best_of_order(const Band& band, double mass, int order) {
 
 }  // namespace
 
+std::optional<Index> segment_length(std::span<const VibrationRecord> records) {
+  constexpr Index least_segments = 16;
+  constexpr double least_frequencies = 100.0;
+  constexpr Index longest = SegmentSettings{}.length;
+  const double rate = records.front().rate;
+  Index samples = std::numeric_limits<Index>::max();
+  double low = 0.0, high = std::numeric_limits<double>::infinity();
+  for (const VibrationRecord& r : records) {
+    if (r.rate != rate) return std::nullopt;
+    samples = std::min(samples, r.n());
+    low = std::max(low, r.band_low);
+    high = std::min(high, r.band_high);
+  }
+  Index length = longest;
+  while (length > 1 && samples < least_segments * length) length /= 2;
+  const double frequencies = (high - low) * static_cast<double>(length) / rate;
+  if (length < longest && !(frequencies >= least_frequencies)) return std::nullopt;
+  return length;
+}
+
 StiffnessFit fit_stiffness(const Spectra& s, double mass, double low, double high, int order) {
   const Band band = band_of(s, low, high);
   if (band.omega.size() < 4 * (order + 1)) throw InputError("too few frequencies lie in the band that is excited");
@@ -167,6 +188,12 @@ StiffnessIdentification identify_stiffness(std::span<const VibrationRecord> reco
     result.fit = std::move(fit);
   }
   return result;
+}
+
+StiffnessFit fit_stiffness(std::span<const VibrationRecord> records, int order,
+                           const IdentificationSettings& settings) {
+  const Averaged all = average(records);
+  return fit_stiffness(all.spectra, settings.mass, all.low, all.high, order);
 }
 
 }  // namespace pfdm

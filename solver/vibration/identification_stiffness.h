@@ -6,7 +6,14 @@
 #include "solver/vibration/identification.h"
 #include "solver/vibration/signals_spectra.h"
 
+#include <optional>
+
 namespace pfdm {
+
+/// Samples in the segments of the records' spectra: 8192, or the largest power of two that leaves sixteen of them, end
+/// to end, in the shortest record. None if so short ones resolve fewer than 100 frequencies of what all records excite,
+/// or if the records differ in their sampling rate.
+std::optional<Eigen::Index> segment_length(std::span<const VibrationRecord> records);
 
 struct StiffnessFit {
   MassMaterial model;
@@ -22,8 +29,12 @@ struct StiffnessIdentification {
   StiffnessFit fit;
   std::vector<OrderTrial> orders;
 };
-/// Orders from 0 on until BIC no longer falls.
+/// Orders from 0 on until BIC no longer falls. Segments shorter than 8192 samples blur the resonance by more than noise
+/// does: the estimates are then near, but their BIC does not tell the order.
 StiffnessIdentification identify_stiffness(std::span<const VibrationRecord> records,
                                            const IdentificationSettings& settings);
+
+/// Of this order alone.
+StiffnessFit fit_stiffness(std::span<const VibrationRecord> records, int order, const IdentificationSettings& settings);
 
 }  // namespace pfdm

@@ -11,9 +11,11 @@ namespace pfdm {
 
 /// When and how hard a test was.
 struct ScheduledRun {
-  double level = 0.0;  ///< [m/s^2]
-  double age = 0.0;    ///< of the sample [s]
-  int run = 1;         ///< number within its day
+  double level = 0.0;      ///< [m/s^2]; of random motion its rms
+  double age = 0.0;        ///< of the sample [s]
+  int run = 1;             ///< number within its day
+  double density = 0.0;    ///< of random motion in its band [m^2/s^4/Hz]; 0: a sine
+  bool fractured = false;  ///< the sample broke in this test
   double level_in_g0() const;
   double age_in_days() const;
   /// Tests of one whole day of age are of the same day.

@@ -104,8 +104,12 @@ TEST(EndochronicCase, HashTellsLoadingsApart) {
   EXPECT_EQ(hash(one), hash(titled));
 }
 
-TEST(EndochronicCase, MaterialIsWrittenAsItIsRead) {
-  const TemporaryCase directory(tension_case());
+constexpr const char* saturating_law = "law = \"saturating\"\nf_inf = 2.0\nb = 6.0";
+constexpr const char* law_with_rate =
+    "law = \"table_with_rate\"\nzeta = [0, 0.02]\nrate = [\"1e-4 1/s\", \"60 1/min\", \"2 1/s\"]\n"
+    "f = [[1, 1.5], [1.1, 1.7], [1.2, 2]]";
+
+void expect_to_be_read_again(const TemporaryCase& directory) {
   const auto read = [&] { return read_endochronic_law(open_case(directory.path()).config.root().table("material")); };
   const EndochronicLaw law = read();
   std::string text = "kind = \"endochronic\"\ntitle = \"again\"\n" + to_toml(law);
@@ -115,7 +119,16 @@ TEST(EndochronicCase, MaterialIsWrittenAsItIsRead) {
   EXPECT_NEAR(again.elasticity.mu, law.elasticity.mu, 1e-14 * law.elasticity.mu);
   EXPECT_EQ(again.hardening.with_path.p, law.hardening.with_path.p);
   EXPECT_EQ(again.hardening.with_rate.p, law.hardening.with_rate.p);
+  EXPECT_EQ(again.hardening.with_path.law, law.hardening.with_path.law);
   EXPECT_EQ(again.hardening.with_rate.law, law.hardening.with_rate.law);
+}
+
+TEST(EndochronicCase, MaterialIsWrittenAsItIsRead) {
+  expect_to_be_read_again(TemporaryCase(tension_case()));
+  const TemporaryCase with_rate(replaced(tension_case(), saturating_law, law_with_rate));
+  EXPECT_EQ(run({"run", with_rate.path().string(), "--quiet"}).status, 0);
+  EXPECT_EQ(run({"report", with_rate.path().string()}).status, 0);
+  expect_to_be_read_again(with_rate);
 }
 
 class BadEndochronicCase : public testing::TestWithParam<BadInput> {};
@@ -155,6 +168,14 @@ const BadInput bad_inputs[] = {
      "law = \"saturating\"\nf_inf = 2.0\nb = 6.0",
      "law = \"table\"\npoints = [[0, 1], [0, 2]]",
      {"case.toml:9: [material.hardening] zeta must increase"}},
+    {"table_with_rate_of_unequal_rows",
+     saturating_law,
+     "law = \"table_with_rate\"\nzeta = [0, 1]\nrate = [\"1 1/s\", \"2 1/s\"]\nf = [[1, 1], [1, 1, 1]]",
+     {"[material.hardening] f"}},
+    {"table_with_rate_whose_rates_fall",
+     saturating_law,
+     "law = \"table_with_rate\"\nzeta = [0, 1]\nrate = [\"2 1/s\", \"1 1/s\"]\nf = [[1, 1], [1, 1]]",
+     {"[material.hardening] the rate must increase"}},
     {"unknown_component",
      "strain_xx = \"1 %\"",
      "strain_xz_ = 1",

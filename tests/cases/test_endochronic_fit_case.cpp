@@ -134,6 +134,45 @@ TEST(EndochronicFitCase, PredictsExperimentsThatItIsNotFittedTo) {
   EXPECT_NEAR(bad["experiments"][1]["relative_misfit"].get<double>(), 0.1 / 1.1, 1e-5);
 }
 
+const std::string creep_experiment = R"(
+[[fit.experiments]]
+name = "creep"
+csv = "creep.csv"
+controlled = "stress"
+stress = { stress_xx = { column = "stress_xx_Pa" } }
+strain = { strain_xx = { column = "strain_xx" }, strain_yy = { column = "strain_yy" } }
+)";
+
+/// A test at given stress by the true law in creep.csv.
+void write_creep(const FitCase& fit) {
+  std::string text = cyclic_case(true_kernel, "2.0");
+  const TemporaryCase creep(text.substr(0, text.find("control = ")) +
+                            "control = { stress_xx = { expr = \"1e8*sin(2*pi*t)\", unit = \"Pa\" } }\n");
+  ASSERT_EQ(run({"run", creep.path().string(), "--quiet"}).status, 0);
+  fit.directory.write("creep.csv", "# synthetic\n" + content_of(creep.results() / "history.csv"));
+}
+
+TEST(EndochronicFitCase, FitsStrainsAtGivenStressToo) {
+  const FitCase fit(fit_table + creep_experiment);
+  write_creep(fit);
+  const Outcome outcome = run({"fit", fit.directory.path().string(), "--strict"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(content_of(fit.directory.results() / "fit.json"));
+  EXPECT_NEAR(json["parameters"][0]["estimate"].get<double>(), 30e9, 30e9 * 1e-5);
+  EXPECT_EQ(json["experiments"][1]["quantity"], "strain");
+  EXPECT_EQ(json["experiments"][1]["data"], 182);
+  EXPECT_EQ(json["residuals"], 91 + 182);
+  EXPECT_LT(json["experiments"][1]["relative_misfit"].get<double>(), 1e-6);
+  const CsvTable curve = read_csv(fit.directory.results() / "fit_creep.csv");
+  const auto &measured = curve.column("measured_strain_yy"), &fitted = curve.column("fitted_strain_yy");
+  for (std::size_t i = 0; i < measured.size(); ++i) EXPECT_NEAR(fitted[i], measured[i], 1e-8);
+  EXPECT_EQ(curve.column("stress_xx_Pa").size(), 91u);
+  EXPECT_EQ(run({"report", fit.directory.path().string()}).status, 0);
+  EXPECT_EQ(run({"compare", fit.directory.path().string()}).status, 0);
+  const auto compared = nlohmann::json::parse(content_of(fit.directory.results() / "comparison.json"));
+  EXPECT_GT(compared["experiments"][1]["rms_misfit_1"].get<double>(), 1e-5) << "the first guess is wrong";
+}
+
 // The misfit of the case's own law, found from the columns of the curve.
 TEST(EndochronicFitCase, IsComparedWithoutAFit) {
   const FitCase fit;
@@ -183,7 +222,7 @@ TEST(EndochronicFitCase, CurvesOfAnotherLawAreNamedAsSuch) {
       table.comments = {"made by the test"};
       table.add("time_s", test.loading.times);
       table.add("strain_xx", strain);
-      table.add("stress_xx_Pa", test.channels[0].stress);
+      table.add("stress_xx_Pa", test.channels[0].values);
       write_csv(fit.directory.path() / "cycles.csv", table);
       const Outcome outcome = run({"fit", fit.directory.path().string(), "--strict"});
       EXPECT_EQ(outcome.status, 1);
@@ -237,6 +276,8 @@ const BadFit bad_fits[] = {
      "\"strain_xx\" } "
      "}\nstress = { stress_xx = { column = \"stress_xx_Pa\" } }\n[[fit.experiments]]",
      "name: the curves of \"cycles 0_5 %\" and \"cycles 0.5 %\" would have the same file, fit_cycles_0_5__.csv"},
+    {"stress_of_a_test_at_given_stress", "csv = \"cycles.csv\"", "csv = \"cycles.csv\"\ncontrolled = \"stress\"",
+     "at least one of [[fit.experiments]] is required that is not predicted and has measured stresses"},
     {"no_file", "\"cycles.csv\"", "\"circles.csv\"", "csv: cannot read"},
     {"no_column", "column = \"stress_xx_Pa\"", "column = \"stress\"", "there is no column \"stress\""},
     {"unit", "unit = \"Pa\"", "unit = \"mm\"", "expected a stress"},
@@ -250,7 +291,7 @@ const BadFit bad_fits[] = {
      "strain = { strain_xx = { column = \"strain_xx\" }, strain_xy = { column = \"strain_xy\" } }\nstress = { "
      "stress_xx = "
      "{ column = \"stress_xx_Pa\", noise = \"1 MPa\" }, stress_xy = { column = \"stress_xy_Pa\" } }",
-     "noise is given for 1 of 2 measured stresses"},
+     "noise is given for 1 of 2 measured curves"},
 };
 
 INSTANTIATE_TEST_SUITE_P(EndochronicProgram, BadFitCase, testing::ValuesIn(bad_fits),

@@ -300,6 +300,35 @@ TEST(MassMaterialProgram, TellsSpreadAndDriftOverASchedule) {
   EXPECT_EQ(run({"report", directory.path().string()}).status, 0);
 }
 
+// The rows of two samples of Table A1.
+TEST(MassMaterialProgram, ShowsTheStatusOfItsSchedule) {
+  const auto rows_of = [](const std::string& sample, const std::vector<std::string>& tests) {
+    std::string text = replaced(soft_case(), "[sampling]", sample + "[sampling]");
+    text = text.substr(0, text.find("[[test]]"));
+    for (std::size_t i = 0; i < tests.size(); ++i)
+      text += fmt::format(
+          "[[test]]\nname = \"t{}\"\nschedule = {{ {} }}\nexcitation = {{ type = \"swept_sine\", level = "
+          "\"1 g0\", from = \"15 Hz\", to = \"70 Hz\", duration = \"4 s\" }}\n",
+          i, tests[i]);
+    const TemporaryCase directory(text);
+    return schedule_rows(read_mass_material_case(open_case(directory.path()).config.root(), directory.path()));
+  };
+  using Rows = std::vector<std::vector<std::string>>;
+  const std::vector<std::string> second{
+      "level = \"0.025 g0^2/Hz\", age = \"86 day\"",  "level = \"0.05 g0^2/Hz\", age = \"86 day\"",
+      "level = \"0.025 g0^2/Hz\", age = \"102 day\"", "level = \"0.05 g0^2/Hz\", age = \"102 day\"",
+      "level = \"1 g0\", age = \"109 day\"",          "level = \"2 g0\", age = \"109 day\", fractured = true"};
+  EXPECT_EQ(rows_of("name = \"P00_Q000_Q00_C02\"\ncomposition = \"HTPB 100 %\"\ncured = \"2016-02-29\"\n"
+                    "planned_random = 10\nplanned_harmonic = 10\n",
+                    second),
+            (Rows{{"sample", "random, 0.025 g0²/Hz, day", "random, 0.05 g0²/Hz, day", "random, done of planned",
+                   "harmonic, 1 g0, day", "harmonic, 2 g0, day", "harmonic, done of planned"},
+                  {"P00_Q000_Q00_C02, HTPB 100 %, cured 2016-02-29", "86, 102", "86, 102", "4/10", "109", "109F",
+                   "2/10 F"}}));
+  EXPECT_EQ(rows_of("planned_harmonic = 3\n", {"level = \"0.015 g0^2/Hz\", age = \"4.5 day\""})[1],
+            (std::vector<std::string>{"a soft sample", "4", "1/-", "0/3"}));
+}
+
 struct BadSchedule {
   const char* name;
   const char* good;

@@ -62,6 +62,7 @@ TEST(Units, RefusesWhatIsNotFinite) {
 
 TEST(Units, GivesTheFactorOfAUnit) {
   EXPECT_DOUBLE_EQ(unit_in_si("um", dimension::length), 1e-6);
+  EXPECT_DOUBLE_EQ(unit_in_si("50 g0", dimension::acceleration), 490.3325);  // the full scale of a file of integers
   EXPECT_DOUBLE_EQ(unit_in_si("degC", dimension::temperature), 1.0);
   EXPECT_THROW(unit_in_si("kg", dimension::length), InputError);
 }

@@ -1,4 +1,4 @@
-// Vibration records in universal and HDF5 files; those in data/ were written by other programs.
+// Vibration records in universal, HDF5 and WAV files; those in data/ were written by other programs.
 
 #include "physics/error.h"
 #include "postproc/records/signal_table.h"
@@ -224,6 +224,38 @@ TEST(Hdf5, SaysWhatIsWrongWithAFile) {
   half.resize(half.size() / 2);
   put(folder / "half.h5", half);
   EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "half.h5"); }), HasSubstr("half.h5"));
+}
+
+TEST(Wav, IsReadAsAnotherProgramWroteIt) {
+  const SignalTable table = read_signals(data / "float.wav"), integers = read_signals(data / "integer.wav");
+  EXPECT_EQ(table.remark, "synthetic: made by SciPy for a test");
+  ASSERT_EQ(table.columns.size(), 3u);
+  EXPECT_EQ(table.columns[0].name, "time");
+  EXPECT_EQ(table.columns[0].unit, "s");
+  EXPECT_EQ(table.columns[1].name, "channel_1");
+  EXPECT_EQ(table.columns[2].name, "channel_2");
+  EXPECT_EQ(table.columns[2].unit, "");
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_NEAR(table.columns[0].values[i], i / 100.0, 1e-15);
+    EXPECT_EQ(table.columns[1].values[i], static_cast<double>(static_cast<float>(base(i))));
+    EXPECT_EQ(table.columns[2].values[i], static_cast<double>(static_cast<float>(relative(i))));
+    EXPECT_EQ(integers.columns[1].values[i], std::round(32768.0 * base(i) / 4.0) / 32768.0);
+    EXPECT_EQ(integers.columns[2].values[i], std::round(32768.0 * relative(i) / 4.0) / 32768.0);
+  }
+}
+
+TEST(Wav, SaysWhatIsWrongWithAFile) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& content) {
+    put(folder / "bad.wav", content);
+    return message_of<InputError>([&] { read_signals(folder / "bad.wav"); });
+  };
+  EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "none.wav"); }), HasSubstr("none.wav"));
+  EXPECT_THAT(refused("no such thing"), HasSubstr("bad.wav: not a WAV file"));
+  EXPECT_THAT(refused(content_of(data / "float.wav").substr(0, 100)), HasSubstr("bad.wav: the file is cut short"));
+  std::string empty = content_of(data / "integer.wav").substr(0, 44);
+  std::fill(empty.begin() + 40, empty.end(), '\0');
+  EXPECT_THAT(refused(empty), HasSubstr("bad.wav: the file has no samples"));
 }
 
 }  // namespace

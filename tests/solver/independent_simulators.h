@@ -237,7 +237,7 @@ inline MaterialExperiment tension_test(const std::vector<double>& strain, std::v
       condition.condition.on_stress[k] = 1.0;
     }
   }
-  experiment.channels.push_back({.component = 0, .stress = std::move(stress), .noise = stated ? noise : 0.0});
+  experiment.channels.push_back({.component = 0, .values = std::move(stress), .noise = stated ? noise : 0.0});
   return experiment;
 }
 

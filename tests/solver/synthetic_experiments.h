@@ -10,18 +10,20 @@
 
 namespace pfdm {
 
-/// Stress of the channels of a loading, with normal noise added.
+/// What the channels of a loading measure, stresses or strains, with normal noise added.
 inline MaterialExperiment measured(const EndochronicLaw& law, const LoadSegment& loading,
-                                   const std::vector<int>& components, double noise, unsigned seed) {
-  MaterialExperiment experiment{.name = "synthetic", .loading = loading, .channels = {}};
-  for (const int k : components) experiment.channels.push_back({.component = k, .stress = {}, .noise = 0.0});
+                                   const std::vector<int>& components, double noise, unsigned seed,
+                                   bool follows_stress = false) {
+  MaterialExperiment experiment{
+      .name = "synthetic", .loading = loading, .channels = {}, .follows_stress = follows_stress};
+  for (const int k : components) experiment.channels.push_back({.component = k, .values = {}, .noise = 0.0});
   const auto stresses = respond(law, experiment);
   std::mt19937 engine(seed);
   std::normal_distribution<double> normal(0.0, 1.0);
   for (std::size_t c = 0; c < components.size(); ++c) {
-    experiment.channels[c].stress = stresses.value()[c];
+    experiment.channels[c].values = stresses.value()[c];
     experiment.channels[c].noise = noise;
-    for (double& sigma : experiment.channels[c].stress) sigma += noise * normal(engine);
+    for (double& sigma : experiment.channels[c].values) sigma += noise * normal(engine);
   }
   return experiment;
 }

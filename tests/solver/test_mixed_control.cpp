@@ -138,6 +138,23 @@ TEST(EndochronicControl, CutsPrescribedStrainsIntoSubsteps) {
   ASSERT_TRUE(coarse.converged && fine.converged);
   EXPECT_EQ(coarse.points.back().substeps, 20);
   EXPECT_NEAR(coarse.points.back().stress[0], fine.points.back().stress[0], 1e-9 * fine.points.back().stress[0]);
+  const HistoryResult both = run_history(law, {segment}, {.largest_increment = 4e-4 * (1.0 + 1e-9), .substeps = 4});
+  EXPECT_EQ(both.points.back().substeps, 20);
+  EXPECT_NEAR(both.points.back().stress[0], fine.points.back().stress[0], 1e-9 * fine.points.back().stress[0]);
+}
+
+TEST(EndochronicControl, CutsHeldTimesIntoSubsteps) {
+  EndochronicLaw law = three_term_law();
+  law.hardening.with_rate = logarithmic_rate(0.2, 1e-4);
+  const auto held = [&](int steps, int substeps) {
+    const LoadSegment loaded = tension_path([](double t) { return 0.01 * t; }, 10 * steps),
+                      kept = tension_path([](double) { return 0.01; }, steps, 10.0);
+    const HistoryResult result = run_history(law, {loaded, kept}, {.substeps = substeps});
+    EXPECT_TRUE(result.converged) << result.failure;
+    EXPECT_LT(result.points.back().stress[0], 0.95 * result.points[static_cast<std::size_t>(10 * steps)].stress[0]);
+    return result.points.back().stress[0];
+  };
+  EXPECT_NEAR(held(1, 40), held(40, 1), 1e-9 * held(40, 1));
 }
 
 }  // namespace

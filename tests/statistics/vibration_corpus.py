@@ -10,17 +10,15 @@ vibration_simulator.py, which shares nothing with the program."""
 
 import argparse
 import functools
-import json
 import pathlib
 import re
-import resource
-import subprocess
 import sys
 import tempfile
 
 import numpy as np
 from scipy.signal import butter, sosfilt
 
+from fits_over_seeds import judged
 from vibration_simulator import (DAMPING, MASS, OMEGA, RATE, SCALE, STIFFNESS, VELOCITY, Random, Sample, Sweep,
                                  integrated, linear, noisy, polynomial)
 
@@ -347,22 +345,6 @@ def write_case(folder, structure, swept, pairs, rate=None, kernel_order=None, re
     if kernel_order is not None:
         text += f"kernel_order = {kernel_order}\n"
     (folder / "case.toml").write_text(text, encoding="utf-8")
-
-
-def judged(pfdm, folder):
-    """Verdict ("refused" where the records are not read), reasons, CPU seconds."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([pfdm, "fit", folder, "--quiet", "--threads", "1"], capture_output=True, text=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    seconds = after.ru_utime - before.ru_utime
-    if done.returncode == 2:
-        return "refused", [done.stderr.strip()], seconds
-    if done.returncode not in (0, 1):
-        raise RuntimeError(f"{folder}: status {done.returncode}: {done.stderr}")
-    if not (folder / "results/fit.json").exists():
-        return "failed", [done.stderr.strip()], seconds
-    fit = json.loads((folder / "results/fit.json").read_text(encoding="utf-8"))
-    return fit["verdict"], fit["reasons"], seconds
 
 
 class Tally:

@@ -9,15 +9,13 @@ Noise of the same level, relative to the rms of each channel, is added to base a
 vibration_simulator.py, which shares nothing with the program. All are synthetic."""
 
 import argparse
-import json
 import pathlib
-import sys
-import tempfile
 
 import numpy as np
 from scipy.io import savemat
 
-from vibration_corpus import QUINTIC, judged
+from fits_over_seeds import Tally, options_of, repeat
+from vibration_corpus import QUINTIC
 from vibration_simulator import (DAMPING, MASS, RATE, STIFFNESS, VELOCITY, Random, Sample, Sweep, integrated, noisy,
                                  polynomial, steady_random)
 
@@ -85,68 +83,16 @@ def errors_of_pair(found, truth):
             "k1": found["k1_N_per_m"] / truth["k1_N_per_m"] - 1}
 
 
-class Tally:
-    def __init__(self, truth):
-        self.truth, self.seconds = truth, 0.0
-        self.verdicts, self.estimates, self.deviations, self.held, self.worst = {}, [], [], [], {}
-
-    def add(self, verdict, parameters, seconds):
-        found = {p["name"]: p["estimate"] for p in parameters}
-        self.seconds += seconds
-        same = found.keys() == self.truth.keys()
-        self.verdicts[verdict, same] = self.verdicts.get((verdict, same), 0) + 1
-        if not same:
-            return
-        self.estimates.append([found[name] for name in self.truth])
-        by_name = {p["name"]: p for p in parameters}
-        if verdict == "sound":  # others have no intervals
-            self.held.append([by_name[n]["lower"] <= t <= by_name[n]["upper"] for n, t in self.truth.items()])
-            self.deviations.append([by_name[n]["standard_error"] for n in self.truth])
-        if "alpha1_imaginary_per_s" in found:
-            for name, error in errors_of_pair(found, self.truth).items():
-                self.worst[name] = max(self.worst.get(name, 0.0), abs(error))
-
-    def say(self, number):
-        print(f"{number} fits, {self.seconds / number:.1f} CPU s each: " + ", ".join(
-            f"{n} {verdict} with {'the terms of the truth' if same else 'OTHER TERMS'}"
-            for (verdict, same), n in self.verdicts.items()))
-        if self.worst:
-            print("largest error: " + ", ".join(f"{name} {100 * e:.3g} %" for name, e in self.worst.items()))
-        if len(self.held) < 2:
-            return
-        estimates, stated = np.array(self.estimates), np.sqrt(np.mean(np.square(self.deviations), axis=0))
-        for i, (name, true) in enumerate(self.truth.items()):
-            scatter = estimates[:, i].std(ddof=1)
-            print(f"{name:>32} held in {np.sum(self.held, axis=0)[i]} of {len(self.held)}; mean error "
-                  f"{(estimates[:, i].mean() - true) / scatter:+.2f} and stated standard error {stated[i] / scatter:.2f} "
-                  f"of the scatter, which is {100 * scatter / abs(true):.3g} %")
-        sys.stdout.flush()
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("pfdm", type=pathlib.Path)
     parser.add_argument("study", choices=STUDIES)
-    parser.add_argument("--number", type=int, default=100)
     parser.add_argument("--decibel", type=float, default=40.0)
     parser.add_argument("--duration", type=float, default=24.0, help="of random motion [s]")
-    options = parser.parse_args()
-    options.pfdm = options.pfdm.resolve()
+    options = options_of(parser, 100)
     study = STUDIES[options.study](options)
-    tally = Tally(study.truth())
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = pathlib.Path(temporary)
-        for seed in range(1, options.number + 1):
-            write_case(folder, study, options.decibel, seed)
-            verdict, reasons, seconds = judged(options.pfdm, folder)
-            if verdict != "sound":
-                print(f"seed {seed}: {verdict}: {'; '.join(reasons)}")
-            file = folder / "results/fit.json"
-            fit = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {"parameters": []}
-            file.unlink(missing_ok=True)
-            tally.add(verdict, fit["parameters"], seconds)
-            if seed % 20 == 0 or seed == options.number:
-                tally.say(seed)
+    tally = Tally(study.truth(), errors_of_pair if options.study.startswith("pairs") else None)
+    repeat(options, tally, lambda folder, seed: write_case(folder, study, options.decibel, seed))
 
 
 if __name__ == "__main__":

@@ -117,6 +117,139 @@ TEST(EndochronicPaths, T6ConstantPlasticRate) {
   }
 }
 
+// Half the way between two rates, in ln, f = f_0 + b zeta is the mean of the rows. At a constant plastic rate
+// sigma = sqrt(6) C/(alpha + b) (F - f_0 (F/f_0)^(-alpha/b)), F = f_0 + b sqrt(3/2) eps_p (T5 with f_0).
+TEST(EndochronicPaths, TableOfPathAndRateAtAConstantRate) {
+  EndochronicLaw law = one_term_law();
+  const double rate = 1e-3, zeta_rate = std::sqrt(1.5) * rate;
+  law.hardening.with_path =
+      make_factor(hardening_law("table_with_rate"),
+                  rate_table_parameters({0.0, 1.0}, {zeta_rate / 7.0, 7.0 * zeta_rate}, {1.0, 21.0, 1.4, 41.4}));
+  const auto [C, alpha] = law.kernel[0];
+  const double f_0 = 1.2, b = 30.0;
+  const Path sigma = [&](double t) {
+    const double F = f_0 + b * zeta_rate * t;
+    return std::sqrt(6.0) * C / (alpha + b) * (F - f_0 * std::pow(F / f_0, -alpha / b));
+  };
+  const Path strain = [&](double t) { return sigma(t) / law.elasticity.young_modulus() + rate * t; };
+  const auto error = [&](int n) {
+    double largest = 0.0;
+    for (const HistoryPoint& point : run(law, tension_path(strain, n, 20.0)).points)
+      largest = std::max(largest, std::abs(point.stress[0] - sigma(point.time)) / sigma(20.0));
+    return largest;
+  };
+  const double order = std::log2(error(640) / error(1280));
+  fmt::print("table of path and rate: error {:.2g} at 1280 steps, order {:.3f}\n", error(1280), order);
+  EXPECT_NEAR(order, 2.0, 0.05);
+  EXPECT_LT(error(1280), 1e-6);
+}
+
+// Rates that jump, and turn: strain rates of 1e-4, 1e-2, 1e-5, -1e-3 and 0.1 /s. Stress and zeta from the rate form of
+// the law, E (eps' - p') = sum 3 C_r p' - alpha_r sigma_r zeta'/f(zeta, zeta'), zeta' = sqrt(3/2) |p'|, solved for p'
+// by bisection and integrated with scipy's DOP853 at a tolerance of 1e-11.
+TEST(EndochronicPaths, RateJumpsUnderATableOfPathAndRate) {
+  struct At {
+    double strain, sigma, zeta;
+  };
+  constexpr At expected[] = {{0.004, 1.2938851623e+08, 0.0035445528},
+                             {0.008, 1.7581228886e+08, 0.0079575727},
+                             {0.012, 1.6581646506e+08, 0.0129611875},
+                             {-0.002, -1.9433095053e+08, 0.0263376268},
+                             {0.004, 1.4337980255e+08, 0.0301509720}};
+  constexpr double rates[] = {1e-4, 1e-2, 1e-5, -1e-3, 0.1};
+  EndochronicLaw law = one_term_law();
+  law.kernel = {{60e9, 3000.0}, {15e9, 500.0}};
+  law.hardening.with_path = make_factor(
+      hardening_law("table_with_rate"),
+      rate_table_parameters({0.0, 0.004, 0.02}, {1e-5, 1e-3, 1e-1}, {1.0, 1.2, 1.5, 1.1, 1.4, 1.6, 1.3, 1.5, 2.0}));
+  const auto error = [&](int n) {
+    std::vector<LoadSegment> segments;
+    double from = 0.0;
+    for (std::size_t i = 0; i < std::size(rates); from = expected[i++].strain)
+      segments.push_back(tension_path([=, rate = rates[i]](double t) { return from + rate * t; }, n,
+                                      (expected[i].strain - from) / rates[i]));
+    const HistoryResult result = run_history(law, segments);
+    EXPECT_TRUE(result.converged) << result.failure;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < std::size(rates); ++i) {
+      const HistoryPoint& point = result.points[(i + 1) * static_cast<std::size_t>(n)];
+      largest = std::max(largest, std::abs(point.stress[0] - expected[i].sigma) / 1.9e8);
+      largest = std::max(largest, std::abs(point.state.zeta - expected[i].zeta) / 0.03);
+    }
+    return largest;
+  };
+  fmt::print("rate jumps: error {:.2g}, {:.2g}, {:.2g} at 100, 400, 1600 steps\n", error(100), error(400), error(1600));
+  EXPECT_LT(error(1600), 1e-7);
+  EXPECT_LT(error(1600), 0.08 * error(400));  // second order: 1/16
+}
+
+/// Two terms, a hardening f and a rate factor: at rest it bears less than under load.
+EndochronicLaw creeping_law() {
+  EndochronicLaw law = one_term_law();
+  law.kernel = {{300e9, 15000.0}, {30e9, 1000.0}};
+  law.hardening = {.with_path = saturating(1.4, 60.0), .with_rate = logarithmic_rate(0.1, 1e-4)};
+  return law;
+}
+
+/// A part of a loading: until a time, with a constant rate of strain [1/s] or of stress [Pa/s]; then what is to be
+/// found.
+struct Held {
+  double until, rate, strain, sigma, zeta;
+};
+
+/// Largest error of strain, stress and zeta over their largest values, so many steps a part.
+double error_of_holds(std::span<const Held> parts, bool of_stress, int n) {
+  std::vector<LoadSegment> segments;
+  double from = 0.0, at = 0.0, largest = 0.0;
+  for (const Held& part : parts) {
+    const Path path = [=](double t) { return at + part.rate * t; };
+    LoadSegment segment = tension_path(path, n, part.until - from);
+    if (of_stress) segment.conditions[0].condition = on_stress(0);
+    segments.push_back(std::move(segment));
+    at += part.rate * (part.until - from);
+    from = part.until;
+  }
+  const HistoryResult result = run_history(creeping_law(), segments);
+  EXPECT_TRUE(result.converged) << result.failure;
+  const auto off = [](double found, double expected, double scale) { return std::abs(found - expected) / scale; };
+  for (std::size_t i = 0; i < std::min(parts.size(), (result.points.size() - 1) / static_cast<std::size_t>(n)); ++i) {
+    const HistoryPoint& point = result.points[(i + 1) * static_cast<std::size_t>(n)];
+    largest =
+        std::max({largest, off(point.state.strain[0], parts[i].strain, parts.back().strain),
+                  off(point.stress[0], parts[i].sigma, 2e8), off(point.state.zeta, parts[i].zeta, parts.back().zeta)});
+  }
+  return largest;
+}
+
+// The rate form of the law with the larger of its roots, E (eps' - p') = 3 sum C_r p' - sum alpha_r sigma_r zeta'/f,
+// integrated with scipy's LSODA at a tolerance of 1e-9: loaded at 0.01 /s, held for 1000 s, loaded again at 1e-4 /s.
+TEST(EndochronicPaths, RelaxationAtConstantStrain) {
+  constexpr Held parts[] = {
+      {1.0, 0.01, 0.01, 2.107992325e+08, 0.0100408224},    {2.0, 0.0, 0.01, 1.875211327e+08, 0.0102844953},
+      {11.0, 0.0, 0.01, 1.837531707e+08, 0.0103239380},    {101.0, 0.0, 0.01, 1.837527231e+08, 0.0103239427},
+      {1001.0, 0.0, 0.01, 1.837527231e+08, 0.0103239427},  {1011.0, 1e-4, 0.011, 1.677183003e+08, 0.0117165344},
+      {1021.0, 1e-4, 0.012, 1.635160529e+08, 0.0129852680}};
+  const double coarse = error_of_holds(parts, false, 100), middle = error_of_holds(parts, false, 400),
+               fine = error_of_holds(parts, false, 1600);
+  fmt::print("relaxation: {:.2g}, {:.2g}, {:.2g} with 100, 400, 1600 steps a part\n", coarse, middle, fine);
+  EXPECT_LT(fine, 1e-6);
+  EXPECT_LT(fine, 0.08 * middle);  // second order: 1/16
+}
+
+// Likewise: loaded at 140 MPa/s, and the stress held for 1000 s.
+TEST(EndochronicPaths, CreepAtConstantStress) {
+  constexpr Held parts[] = {{1.0, 140e6, 0.002500466653, 140e6, 0.0015969270},
+                            {2.0, 0.0, 0.003096934676, 140e6, 0.0023274482},
+                            {11.0, 0.0, 0.004172123007, 140e6, 0.0036442796},
+                            {101.0, 0.0, 0.006567610339, 140e6, 0.0065781404},
+                            {1001.0, 0.0, 0.007221928498, 140e6, 0.0073795132}};
+  const double coarse = error_of_holds(parts, true, 100), middle = error_of_holds(parts, true, 400),
+               fine = error_of_holds(parts, true, 1600);
+  fmt::print("creep: {:.2g}, {:.2g}, {:.2g} with 100, 400, 1600 steps a part\n", coarse, middle, fine);
+  EXPECT_LT(fine, 1e-6);
+  EXPECT_LT(fine, 0.08 * middle);  // second order: 1/16
+}
+
 struct Reference {
   double time, sigma, tau, zeta;
 };

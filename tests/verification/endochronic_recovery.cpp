@@ -45,7 +45,7 @@ void study(double noise, int repetitions, int points) {
   const EndochronicLaw truth = three_term_law();
   const std::vector<MaterialExperiment> clean{measured(truth, eight_cycles(points), {0}, 0.0, 1)};
   double peak = 0.0;
-  for (const double sigma : clean[0].channels[0].stress) peak = std::max(peak, std::abs(sigma));
+  for (const double sigma : clean[0].channels[0].values) peak = std::max(peak, std::abs(sigma));
   std::vector<Tally> tallies = tallies_of(truth, {});
   std::vector<double> curve;
   for (int i = 0; i < repetitions; ++i) {

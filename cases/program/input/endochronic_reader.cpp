@@ -31,9 +31,23 @@ std::vector<double> read_points(const ConfigTable& table) {
   return zeta;
 }
 
+/// A row of f for each rate.
+std::vector<double> read_rate_table(const ConfigTable& table) {
+  std::vector<double> zeta, rate, f;
+  for (const ConfigValue& value : table.at("zeta").list()) zeta.push_back(value.number());
+  for (const ConfigValue& value : table.at("rate").list()) rate.push_back(value.quantity(dimension::rate));
+  const auto rows = table.at("f").list(rate.size());
+  for (const ConfigValue& row : rows)
+    for (const ConfigValue& value : row.list(zeta.size())) f.push_back(value.number());
+  return rate_table_parameters(std::move(zeta), rate, f);
+}
+
 std::vector<std::string_view> keys_of(const FactorLaw& law) {
   std::vector<std::string_view> keys = keys_of_law(law.parameters);
-  if (law.tabulated) keys.emplace_back("points");
+  if (law.of_path_and_rate != nullptr)
+    keys.insert(keys.end(), {"zeta", "rate", "f"});
+  else if (law.tabulated)
+    keys.emplace_back("points");
   return keys;
 }
 
@@ -44,13 +58,25 @@ Factor read_factor(const ConfigTable& material, std::string_view key, std::span<
   const FactorLaw& law = choose(table.at("law"), laws, what);
   table.with_keys(keys_of(law));
   std::vector<double> p;
-  if (law.tabulated) p = read_points(table);
+  if (law.tabulated) p = law.of_path_and_rate != nullptr ? read_rate_table(table) : read_points(table);
   for (const LawParameter& due : law.parameters) p.push_back(read_law_parameter(table, due));
   return table.in_context([&] { return make_factor(law, p); });
 }
 
+std::string rate_table_toml(std::span<const double> p) {
+  const RateTable table = rate_table(p);
+  std::vector<std::string> rates, rows;
+  for (std::size_t i = 0; i < table.rate.size(); ++i) {
+    rates.push_back(fmt::format("\"{} 1/s\"", table.rate[i]));
+    rows.push_back(fmt::format("[{}]", fmt::join(table.f.subspan(table.at(i, 0), table.zeta.size()), ", ")));
+  }
+  return fmt::format("zeta = [{}]\nrate = [{}]\nf = [\n  {},\n]\n", fmt::join(table.zeta, ", "), fmt::join(rates, ", "),
+                     fmt::join(rows, ",\n  "));
+}
+
 std::string factor_toml(std::string_view key, const Factor& factor) {
   std::string text = fmt::format("\n[material.{}]\nlaw = \"{}\"\n", key, factor.law->name);
+  if (factor.law->of_path_and_rate != nullptr) return text + rate_table_toml(factor.p);
   if (factor.law->tabulated) {
     const std::size_t n = factor.p.size() / 2;
     std::vector<std::string> points;

@@ -13,7 +13,7 @@ find_package(muparser REQUIRED)
 find_package(Boost 1.74 REQUIRED) # headers only: Odeint
 find_package(Ceres 2.1 REQUIRED)
 
-# TetGen, SuiteSparse, UDUNITS-2, FFTW, Cairo, matio and the serial HDF5 ship no CMake package in Debian 12.
+# TetGen, SuiteSparse, UDUNITS-2, FFTW, Cairo, matio, libsndfile and the serial HDF5 ship no CMake package in Debian 12.
 function(pfdm_import_library target header library)
   find_path(${target}_INCLUDE_DIR ${header} PATH_SUFFIXES suitesparse udunits2 cairo hdf5/serial REQUIRED)
   find_library(${target}_LIBRARY ${library} REQUIRED)
@@ -29,6 +29,7 @@ pfdm_import_library(external_udunits udunits2.h udunits2)
 pfdm_import_library(external_fftw fftw3.h fftw3)
 pfdm_import_library(external_cairo cairo.h cairo)
 pfdm_import_library(external_matio matio.h matio)
+pfdm_import_library(external_sndfile sndfile.h sndfile)
 pfdm_import_library(external_hdf5 hdf5.h hdf5_serial)
 target_compile_definitions(external_hdf5 INTERFACE H5_USE_110_API) # which newer releases have too
 

@@ -6,31 +6,53 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace pfdm {
 
+namespace {
+
+/// "stress_xx_Pa" or "strain_xx", and what it is along a history.
+std::string column_name(bool is_stress, int component) {
+  const auto name = component_names[static_cast<std::size_t>(component)];
+  return is_stress ? fmt::format("stress_{}_Pa", name) : fmt::format("strain_{}", name);
+}
+
+std::vector<double> along(const HistoryResult& history, bool is_stress, int component) {
+  std::vector<double> values;
+  for (const HistoryPoint& point : history.points)
+    values.push_back((is_stress ? point.stress : point.state.strain)[component] / mandel_factor(component));
+  return values;
+}
+
+/// Whether pair k of an experiment is not just free of stress.
+bool is_followed(const MaterialExperiment& experiment, std::size_t k) {
+  const LoadSegment::Condition& c = experiment.loading.conditions[k];
+  const bool strain = !c.condition.on_strain.isZero();
+  if (!experiment.follows_stress) return strain;
+  return !strain && std::ranges::any_of(c.values, [](double value) { return value != 0.0; });
+}
+
+}  // namespace
+
 CsvTable answered_curve(const MaterialExperiment& experiment, const EndochronicLaw& law, const ControlSettings& control,
                         std::string_view answer) {
+  const bool stress_is_followed = experiment.follows_stress;
   CsvTable table;
-  table.comments.push_back(fmt::format("experiment {}: measured stress and that of the law", experiment.name));
+  table.comments.push_back(fmt::format("experiment {}: measured {} and that of the law", experiment.name,
+                                       stress_is_followed ? "strain" : "stress"));
   table.add("time_s", experiment.loading.times);
   const HistoryResult history = run_history(law, {experiment.loading}, control);
   if (!history.converged) throw ComputationError(fmt::format("experiment {}: {}", experiment.name, history.failure));
-  for (int k = 0; k < n_components; ++k) {
-    const auto name = component_names[static_cast<std::size_t>(k)];
-    if (experiment.loading.conditions[static_cast<std::size_t>(k)].condition.on_strain.isZero()) continue;
-    std::vector<double> strain;
-    for (const HistoryPoint& point : history.points) strain.push_back(point.state.strain[k] / mandel_factor(k));
-    table.add(fmt::format("strain_{}", name), std::move(strain));
-  }
+  for (int k = 0; k < n_components; ++k)
+    if (is_followed(experiment, static_cast<std::size_t>(k)))
+      table.add(column_name(stress_is_followed, k), along(history, stress_is_followed, k));
   for (const MaterialExperiment::Channel& channel : experiment.channels) {
-    const auto name = component_names[static_cast<std::size_t>(channel.component)];
-    std::vector<double> fitted;
-    for (const HistoryPoint& point : history.points)
-      fitted.push_back(point.stress[channel.component] / mandel_factor(channel.component));
-    table.add(fmt::format("measured_stress_{}_Pa", name), channel.stress);
-    table.add(fmt::format("{}_stress_{}_Pa", answer, name), std::move(fitted));
+    const std::string name = column_name(!stress_is_followed, channel.component);
+    table.add("measured_" + name, channel.values);
+    table.add(fmt::format("{}_{}", answer, name), along(history, !stress_is_followed, channel.component));
   }
   return table;
 }
@@ -39,13 +61,12 @@ std::vector<ExperimentMisfit> experiment_misfits(const EndochronicFit& fit, cons
   std::vector<ExperimentMisfit> result;
   for (const auto& [experiments, fitted] : {std::pair(&fit.experiments, true), std::pair(&fit.predicted, false)})
     for (const MaterialExperiment& experiment : *experiments) {
-      std::size_t n = 0;
-      for (const auto& channel : experiment.channels) n += channel.stress.size();
-      result.push_back(experiment_misfit(experiment.name, n,
+      const bool strains = experiment.follows_stress;
+      result.push_back(experiment_misfit(experiment.name, n_measured({experiment}),
                                          {.rms = rms_misfit(law, experiment, fit.settings.control),
-                                          .rms_measured = rms_stress({experiment}),
-                                          .quantity = "stress",
-                                          .unit = "Pa"},
+                                          .rms_measured = rms_measured({experiment}, strains),
+                                          .quantity = strains ? "strain" : "stress",
+                                          .unit = strains ? "1" : "Pa"},
                                          fit_curve_file(experiment.name)));
       result.back().fitted = fitted;
     }
@@ -64,15 +85,16 @@ void compare_with_experiments(const EndochronicFit& fit, const EndochronicLaw& l
   for (std::size_t i = 0; i < misfits.size(); ++i) {
     const ExperimentMisfit& m = misfits[i];
     const std::string file = "comparison_" + m.curve.substr(m.curve.find('_') + 1);
+    const auto& [quantity, unit] = std::tie(m.absolute->quantity, m.absolute->unit);
     write_csv(session.results / file, curves[i]);
     list.push_back({{"name", m.name},
                     {"data", m.n_data},
                     {"relative_misfit", m.relative},
-                    {"rms_misfit_Pa", m.absolute->rms},
-                    {"rms_stress_Pa", m.absolute->rms_measured},
+                    {fmt::format("rms_misfit_{}", unit), m.absolute->rms},
+                    {fmt::format("rms_{}_{}", quantity, unit), m.absolute->rms_measured},
                     {"curve", file}});
-    session.log.say(fmt::format("{:<24} rms misfit {:.4g} Pa, {:.3g} % of the rms stress", m.name, m.absolute->rms,
-                                100.0 * m.relative));
+    session.log.say(fmt::format("{:<24} rms misfit {:.4g}{}, {:.3g} % of the rms {}", m.name, m.absolute->rms,
+                                unit == "1" ? "" : " " + unit, 100.0 * m.relative, quantity));
   }
   const nlohmann::ordered_json json = {
       {"case", case_name}, {"case_hash", case_hash}, {"pfdm_version", session.version}, {"experiments", list}};

@@ -15,51 +15,88 @@ namespace pfdm {
 namespace {
 
 constexpr Range terms_range{1.0, 12.0, false, "between 1 and 12"};
+constexpr Range substeps_range{1.0, 1000.0, false, "between 1 and 1000"};
 constexpr Range starts_range{1.0, 1000.0, false, "between 1 and 1000"};
 
-/// Strains that were measured are followed; pairs without one are free of stress.
-LoadSegment read_followed_strains(const ConfigTable& table, const std::filesystem::path& directory,
-                                  const CsvTable& file) {
+/// What [strain] or [stress] of an experiment says of a component; shear strains as tensor components.
+struct MeasuredColumn {
+  ControlledComponent component;
+  std::vector<double> values;
+  double noise = 0.0;
+};
+
+MeasuredColumn read_measured(const std::string& key, const ConfigValue& value, const CsvTable& file, bool is_stress,
+                             bool with_noise) {
+  const ControlledComponent component = value.in_context([&] { return controlled_component(key); });
+  if (component.is_stress != is_stress)
+    throw value.error(is_stress ? "expected a stress; strains belong in [fit.experiments.strain]"
+                                : "expected a strain; stresses belong in [fit.experiments.stress]");
+  const Dimension& due = is_stress ? dimension::stress : dimension::number;
+  const ConfigTable table =
+      with_noise ? value.table().with_keys({"column", "unit", "noise"}) : value.table().with_keys({"column", "unit"});
+  MeasuredColumn column{.component = component, .values = read_column(table, file, "column", "unit", due)};
+  if (with_noise && table.has("noise")) {
+    const ConfigValue noise = table.at("noise");
+    column.noise =
+        is_stress || noise.is_string() ? noise.quantity(due, range::positive) : noise.number(range::positive);
+  }
+  return column;
+}
+
+/// What was measured and is followed, strains or stresses; all other pairs are free of stress.
+LoadSegment read_followed(const ConfigTable& followed, const CsvTable& file, std::vector<double> times,
+                          bool is_stress) {
   LoadSegment segment;
-  segment.times = file_times(table, directory);
+  segment.times = std::move(times);
   for (int k = 0; k < n_components; ++k) {
     auto& condition = segment.conditions[static_cast<std::size_t>(k)];
     const std::string key = fmt::format("stress_{}", component_names[static_cast<std::size_t>(k)]);
     condition = {controlled_component(key).condition, Pace::follow, std::vector<double>(segment.times.size(), 0.0)};
   }
-  const ConfigTable strains = table.table("strain");
-  for (const auto& [key, value] : strains.entries()) {
-    const ControlledComponent component = value.in_context([&name = key] { return controlled_component(name); });
-    if (component.is_stress) throw value.error("expected a strain; stresses belong in [fit.experiments.stress]");
-    segment.conditions[static_cast<std::size_t>(component.pair)] = {
-        component.condition, Pace::follow,
-        read_column(value.table().with_keys({"column", "unit"}), file, "column", "unit", dimension::number)};
+  for (const auto& [key, value] : followed.entries()) {
+    MeasuredColumn column = read_measured(key, value, file, is_stress, false);
+    segment.conditions[static_cast<std::size_t>(column.component.pair)] = {column.component.condition, Pace::follow,
+                                                                           std::move(column.values)};
   }
-  if (strains.entries().empty()) throw strains.error("name at least one strain that the experiment followed");
+  if (followed.entries().empty())
+    throw followed.error(
+        fmt::format("name at least one {} that the experiment followed", is_stress ? "stress" : "strain"));
   return segment;
 }
 
-MaterialExperiment::Channel read_channel(const std::string& key, const ConfigValue& value, const CsvTable& file) {
-  const ControlledComponent component = value.in_context([&name = key] { return controlled_component(name); });
-  if (!component.is_stress) throw value.error("expected a stress; strains belong in [fit.experiments.strain]");
-  const ConfigTable table = value.table().with_keys({"column", "unit", "noise"});
-  return {.component = component.pair,
-          .stress = read_column(table, file, "column", "unit", dimension::stress),
-          .noise = table.quantity("noise", dimension::stress, range::positive, 0.0)};
+MaterialExperiment::Channel read_channel(const std::string& key, const ConfigValue& value, const CsvTable& file,
+                                         bool is_stress) {
+  MeasuredColumn column = read_measured(key, value, file, is_stress, true);
+  const double tensor = key.starts_with("gamma") ? 0.5 : 1.0;
+  for (double& entry : column.values) entry *= tensor;
+  return {.component = column.component.pair, .values = std::move(column.values), .noise = tensor * column.noise};
 }
 
-MaterialExperiment read_experiment(const ConfigTable& table, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "separator", "decimal", "time", "time_unit", "strain", "stress", "predicted"});
-  const CsvTable file = read_csv_of(table, directory);
-  MaterialExperiment experiment{.name = table.string("name"), .loading = {}, .channels = {}};
-  experiment.loading = read_followed_strains(table, directory, file);
-  const ConfigTable stresses = table.table("stress");
-  for (const auto& [key, value] : stresses.entries()) experiment.channels.push_back(read_channel(key, value, file));
-  if (experiment.channels.empty()) throw stresses.error("no measured stress is named");
+/// A stress that was measured where the strain is free would be that of another test.
+void require_strains_of(const MaterialExperiment& experiment, const ConfigTable& stresses) {
   for (const MaterialExperiment::Channel& channel : experiment.channels)
     if (experiment.loading.conditions[static_cast<std::size_t>(channel.component)].condition.on_strain.isZero())
       throw stresses.error(fmt::format("stress_{} was measured, but [fit.experiments.strain] does not name its strain",
                                        component_names[static_cast<std::size_t>(channel.component)]));
+}
+
+MaterialExperiment read_experiment(const ConfigTable& table, const std::filesystem::path& directory) {
+  table.with_keys(
+      {"name", "csv", "separator", "decimal", "time", "time_unit", "controlled", "strain", "stress", "predicted"});
+  const CsvTable file = read_csv_of(table, directory);
+  MaterialExperiment experiment{.name = table.string("name"), .loading = {}, .channels = {}};
+  const std::string kinds[] = {"strain", "stress"};
+  experiment.follows_stress =
+      table.has("controlled") && table.at("controlled").one_of(kinds, "quantity that a test controls") == "stress";
+  const bool stress = experiment.follows_stress;
+  experiment.loading =
+      read_followed(table.table(stress ? "stress" : "strain"), file, file_times(table, directory), stress);
+  const ConfigTable measured = table.table(stress ? "strain" : "stress");
+  for (const auto& [key, value] : measured.entries())
+    experiment.channels.push_back(read_channel(key, value, file, !stress));
+  if (experiment.channels.empty())
+    throw measured.error(fmt::format("no measured {} is named", stress ? "strain" : "stress"));
+  if (!stress) require_strains_of(experiment, measured);
   return experiment;
 }
 
@@ -129,8 +166,7 @@ void require_noise_of_all_or_none(const ConfigTable& fit, const std::vector<Mate
       with += channel.noise > 0.0 ? 1 : 0;
     }
   if (with != 0 && with != all)
-    throw fit.error(
-        fmt::format("noise is given for {} of {} measured stresses; give it for all or for none", with, all));
+    throw fit.error(fmt::format("noise is given for {} of {} measured curves; give it for all or for none", with, all));
 }
 
 }  // namespace
@@ -144,7 +180,8 @@ std::string fit_curve_file(const std::string& experiment) {
 
 EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw& law,
                                     const std::filesystem::path& case_directory) {
-  fit.with_keys({"method", "estimate", "terms", "starts", "largest_strain_increment", "bounds", "experiments"});
+  fit.with_keys(
+      {"method", "estimate", "terms", "starts", "largest_strain_increment", "substeps", "bounds", "experiments"});
   EndochronicFit result;
   result.method = fit.has("method") ? &choose(fit.at("method"), identification_methods(), "method of identification")
                                     : &identification_method("joint");
@@ -153,6 +190,7 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
   settings.fit.starts = static_cast<int>(fit.integer("starts", starts_range, 1));
   settings.control.largest_increment =
       fit.number("largest_strain_increment", range::positive, settings.control.largest_increment);
+  settings.control.substeps = static_cast<int>(fit.integer("substeps", substeps_range, 1));
   read_terms(fit, settings);
   read_bounds(fit, law, settings);
   for (const ConfigTable& table : fit.tables("experiments")) {
@@ -162,8 +200,9 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
     (table.boolean("predicted", false) ? result.predicted : result.experiments).push_back(std::move(experiment));
     result.data_files.push_back(case_directory / table.string("csv"));
   }
-  if (result.experiments.empty())
-    throw fit.at("experiments").error("at least one of [[fit.experiments]] is required that is not predicted");
+  if (std::ranges::all_of(result.experiments, &MaterialExperiment::follows_stress))
+    throw fit.at("experiments")
+        .error("at least one of [[fit.experiments]] is required that is not predicted and has measured stresses");
   std::vector<MaterialExperiment> all = result.experiments;
   all.insert(all.end(), result.predicted.begin(), result.predicted.end());
   require_noise_of_all_or_none(fit, all);

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double negligible_misfit = 1e-4;  // of the rms stress: what steps and rounding leave
+constexpr double negligible_misfit = 1e-4;  // of the rms measured: what steps and rounding leave
 
 /// The residuals of each channel of each experiment.
 std::vector<ResidualSeries> series_of(const EndochronicFit& fit, const std::vector<double>& residuals) {
@@ -23,11 +23,12 @@ std::vector<ResidualSeries> series_of(const EndochronicFit& fit, const std::vect
   auto at = residuals.begin();
   for (const MaterialExperiment& experiment : fit.experiments)
     for (const MaterialExperiment::Channel& channel : experiment.channels) {
-      const auto end = at + std::ssize(channel.stress);
-      result.push_back({.name = fmt::format("{}, stress_{}", experiment.name,
-                                            component_names[static_cast<std::size_t>(channel.component)]),
-                        .along = "time",
-                        .values = {at, end}});
+      const auto end = at + std::ssize(channel.values);
+      result.push_back(
+          {.name = fmt::format("{}, {}_{}", experiment.name, experiment.follows_stress ? "strain" : "stress",
+                               component_names[static_cast<std::size_t>(channel.component)]),
+           .along = "time",
+           .values = {at, end}});
       at = end;
     }
   return result;
@@ -54,8 +55,9 @@ std::vector<std::string> failed_predictions(const EndochronicFit& fit, const End
   constexpr double noises = 2.0, times = 3.0;
   std::vector<std::string> reasons;
   for (const MaterialExperiment& experiment : fit.predicted) {
-    const double relative = rms_misfit(law, experiment, fit.settings.control) / rms_stress({experiment});
-    const auto residuals = stress_residuals(law, {experiment}, fit.settings.control);
+    const double relative =
+        rms_misfit(law, experiment, fit.settings.control) / rms_measured({experiment}, experiment.follows_stress);
+    const auto residuals = fit_residuals(law, {experiment}, fit.settings.control);
     double squares = 0.0;
     if (residuals)
       for (const double r : *residuals) squares += r * r;
@@ -78,14 +80,14 @@ void warn_of_steps(const EndochronicFit& fit, const EndochronicIdentification& f
   if (effect && *effect > noticed)
     findings.warnings.push_back(fmt::format(
         "the increments of the curves are the steps of the model, which may move an estimate by up to {:.2g} of "
-        "its standard errors; a smaller \"largest_strain_increment\" divides them",
+        "its standard errors; \"substeps\" divides them",
         *effect));
 }
 
 FitFindings judged(const EndochronicFit& fit, const EndochronicIdentification& found) {
   FitFindings findings = findings_of(found.fit.parameters, found.fit.result);
   if (!found.remark.empty()) findings.warnings.push_back(found.remark);
-  const double misfit = rms_misfit(found.fit.law, fit.experiments, fit.settings.control) / rms_stress(fit.experiments);
+  const double misfit = relative_misfit(found.fit.law, fit.experiments, fit.settings.control);
   const bool model_error = judge(findings, {.series = series_of(fit, found.fit.result.residuals),
                                             .negligible = negligible_misfit,
                                             .misfit = misfit,
@@ -104,6 +106,7 @@ FitFindings write_fit_results(const fs::path& results, const CaseFile& file, con
       write_csv(results / fit_curve_file(experiment.name),
                 answered_curve(experiment, found.fit.law, fit.settings.control, "fitted"));
   for (std::size_t i = 0; i < found.transients.size(); ++i) {
+    if (fit.experiments[i].follows_stress) continue;
     CsvTable table;
     std::vector<double> zeta, rate, f, weight;
     for (const HardeningPoint& p : found.transients[i])

@@ -55,9 +55,9 @@ void say_law(const EndochronicLaw& law, Log& log) {
 void say_fit(const EndochronicFit& fit, const EndochronicLaw& law, Log& log) {
   std::vector<std::string> names;
   for (const FitParameter& p : fit_parameters(law, fit.settings.choice)) names.push_back(p.name);
-  log.say(fmt::format("fit by the method {} to {} experiments of {} stresses, rms {:.6g} Pa; first guess of {}",
-                      fit.method->name, fit.experiments.size(), n_stresses(fit.experiments),
-                      rms_stress(fit.experiments), fmt::join(names, ", ")));
+  log.say(fmt::format("fit by the method {} to {} experiments of {} values, rms stress {:.6g} Pa; first guess of {}",
+                      fit.method->name, fit.experiments.size(), n_measured(fit.experiments),
+                      rms_measured(fit.experiments), fmt::join(names, ", ")));
 }
 
 void check(const EndochronicProgram& program, Session& session) {
@@ -138,7 +138,7 @@ void fit_case(const EndochronicProgram& program, Session& session) {
                                                  {program.name, program.hash, session.version, seconds});
   say_estimates(findings, log);
   log.say(fmt::format("rms misfit {:.6g} Pa of {:.6g} Pa rms stress; {} evaluations, {:.1f} s; {}",
-                      rms_misfit(found.fit.law, fit.experiments, fit.settings.control), rms_stress(fit.experiments),
+                      rms_misfit(found.fit.law, fit.experiments, fit.settings.control), rms_measured(fit.experiments),
                       found.fit.result.evaluations, seconds, found.fit.result.message));
   log.say(fmt::format("written to {}; run it with: pfdm run {}", session.results.string(),
                       (session.results / "case.fitted.toml").string()));

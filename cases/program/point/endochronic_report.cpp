@@ -261,12 +261,43 @@ Chart fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve) {
   return chart;
 }
 
+/// A test at given stress: its strains over the time.
+Chart strain_fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve) {
+  Chart chart{.caption = fmt::format("{} \"{}\", rms misfit {:.2g} %", experiment.fitted ? "Fit to" : "Prediction of",
+                                     experiment.name, 100.0 * experiment.relative),
+              .x = {.title = "time [s]"},
+              .y = {.title = "strain [%]"},
+              .series = {}};
+  constexpr std::string_view start = "measured_strain_";
+  const auto in_percent = [&](const std::string& name) {
+    std::vector<double> values = curve.column(name);
+    for (double& value : values) value *= 100.0;
+    return values;
+  };
+  for (const std::string& name : curve.names) {
+    if (!name.starts_with(start)) continue;
+    const std::string component = name.substr(start.size());
+    const int colour = static_cast<int>(chart.series.size());
+    chart.series.push_back({.label = "measured " + component,
+                            .x = curve.column("time_s"),
+                            .y = in_percent(name),
+                            .style = SeriesStyle::points,
+                            .colour = colour});
+    chart.series.push_back({.label = (experiment.fitted ? "fitted " : "predicted ") + component,
+                            .x = curve.column("time_s"),
+                            .y = in_percent("fitted_strain_" + component),
+                            .colour = colour + 1});
+  }
+  return chart;
+}
+
 /// Four experiments at most.
 std::vector<PageRow> fit_rows(const FitReport& fit, const fs::path& results) {
   std::vector<PageBlock> charts;
   for (std::size_t i = 0; i < std::min<std::size_t>(fit.experiments.size(), 4); ++i) {
     const CsvTable curve = read_csv(results / fit.experiments[i].curve);
-    if (!channels(curve).empty()) charts.emplace_back(fit_chart(fit.experiments[i], curve));
+    charts.emplace_back(channels(curve).empty() ? strain_fit_chart(fit.experiments[i], curve)
+                                                : fit_chart(fit.experiments[i], curve));
   }
   return in_pairs(std::move(charts));
 }

@@ -61,7 +61,9 @@ std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStr
 
 void read_sample(const ConfigTable& root, MassMaterialCase& c) {
   if (!root.has("sample")) return;
-  const ConfigTable table = root.table("sample").with_keys({"length", "area"});
+  const ConfigTable table = root.table("sample").with_keys(
+      {"length", "area", "name", "composition", "cured", "planned_random", "planned_harmonic"});
+  if (!table.has("length") && !table.has("area")) return;
   c.sample = SampleSize{.length = table.quantity("length", dimension::length, range::positive),
                         .area = table.quantity("area", dimension::area, range::positive)};
 }
@@ -189,6 +191,17 @@ std::string read_date(const ConfigValue& value) {
   return text;
 }
 
+void read_sample_card(const ConfigTable& root, SampleCard& card) {
+  if (!root.has("sample")) return;
+  constexpr Range planned{0.0, 1e6, false, "0 or more"};
+  const ConfigTable table = root.table("sample");
+  card.name = table.string("name", "");
+  card.composition = table.string("composition", "");
+  if (const auto cured = table.find("cured")) card.cured = read_date(*cured);
+  card.planned_random = static_cast<int>(table.integer("planned_random", planned, 0));
+  card.planned_harmonic = static_cast<int>(table.integer("planned_harmonic", planned, 0));
+}
+
 VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {
   table.with_keys({"name", "excitation", "record", "predicted", "schedule", "date"});
   VibrationTest test;
@@ -219,7 +232,8 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
     throw table.error("the excited band is not known: give the record's \"from\" and \"to\"");
   test.predicted = table.boolean("predicted", false);
   if (const auto date = table.find("date")) test.date = read_date(*date);
-  if (table.has("schedule")) test.schedule = read_scheduled_run(table.table("schedule"));
+  if (table.has("schedule"))
+    test.schedule = read_scheduled_run(table.table("schedule"), test.band_high - test.band_low);
   return test;
 }
 
@@ -280,7 +294,7 @@ void read_fit(const ConfigTable& root, MassMaterialCase& c) {
   fit.seed = static_cast<std::uint64_t>(table.integer("seed", count, 1));
   if (const auto terms = table.find("ogden_terms")) {
     fit.ogden_terms = static_cast<int>(terms->integer(Range{1.0, 3.0, false, "between 1 and 3"}));
-    if (!root.has("sample")) throw terms->error("Ogden's model needs the sample's length and area: [sample]");
+    if (!c.sample) throw terms->error("Ogden's model needs the sample's length and area: [sample]");
   }
   fit.repeatability = table.boolean("repeatability", false);
   if (fit.repeatability) require_schedule(c, table.at("repeatability"));
@@ -313,6 +327,7 @@ MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path
   MassMaterialCase c;
   c.title = root.string("title");
   read_sample(root, c);
+  read_sample_card(root, c.card);
   read_model(root, c);
   read_sampling(root, c);
   read_tests(root, case_directory, c);

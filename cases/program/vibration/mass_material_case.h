@@ -71,6 +71,7 @@ struct MassMaterialCase {
   std::optional<double> signal_to_noise;  ///< [dB]
   std::uint64_t noise_seed = 1;
   std::optional<SampleSize> sample;
+  SampleCard card;
   std::vector<VibrationTest> tests;
   std::vector<SampleChange> changes;  ///< of the simulated sample over the schedule
   MassMaterialFit fit;

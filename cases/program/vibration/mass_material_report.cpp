@@ -285,6 +285,9 @@ ReportPage mass_material_page(const MassMaterialProgram& program, Session& sessi
                   .rows = {}};
   page.rows.push_back(
       {.blocks = {sample_table(story), tests_table(story), model_table(story)}, .widths = {0.75, 1.2, 1.1}});
+  if (const auto rows = schedule_rows(program.parsed); !rows.empty())
+    page.rows.push_back(
+        {.blocks = {Table{.caption = "Schedule: days of the tests", .rows = rows, .has_header = true}}});
   page.rows.push_back({.blocks = {base_chart(record), response_chart(record), excerpt_chart(story)}});
   page.rows.push_back({.blocks = {magnitude_chart(story, measured, model), phase_chart(story, measured, model)}});
   PageRow last{.blocks = {density_chart(record, measured), coherence_chart(record, measured)}};

@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
 
 namespace pfdm {
 namespace {
@@ -33,13 +36,55 @@ std::array<double, 3> mean_coordinates(const MassMaterialCase& c) {
   return mean;
 }
 
+/// Columns of the levels of random motion, or of sines, and of what is done.
+void add_motion(const MassMaterialCase& c, bool random, int planned, std::vector<std::vector<std::string>>& rows) {
+  std::map<double, std::string> days;  // by level
+  int done = 0;
+  bool fractured = false;
+  for (const VibrationTest& test : c.tests) {
+    if (!test.schedule || (test.schedule->density > 0.0) != random) continue;
+    const ScheduledRun& run = *test.schedule;
+    std::string& text = days[random ? run.density : run.level];
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", run.day(), run.fractured ? "F" : "");
+    fractured |= run.fractured;
+    ++done;
+  }
+  for (const auto& [level, text] : days) {
+    rows[0].push_back(random ? fmt::format("random, {:.4g} g0²/Hz, day", level / (standard_gravity * standard_gravity))
+                             : fmt::format("harmonic, {:.4g} g0, day", level / standard_gravity));
+    rows[1].push_back(text);
+  }
+  if (done == 0 && planned == 0) return;
+  rows[0].push_back(random ? "random, done of planned" : "harmonic, done of planned");
+  rows[1].push_back(
+      fmt::format("{}/{}{}", done, planned > 0 ? fmt::format("{}", planned) : "-", fractured ? " F" : ""));
+}
+
 }  // namespace
 
-ScheduledRun read_scheduled_run(const ConfigTable& table) {
-  table.with_keys({"level", "age", "run"});
-  return {.level = table.quantity("level", dimension::acceleration, range::positive),
-          .age = table.quantity("age", dimension::time, range::not_negative),
-          .run = static_cast<int>(table.integer("run", run_number))};
+ScheduledRun read_scheduled_run(const ConfigTable& table, double band) {
+  table.with_keys({"level", "age", "run", "fractured"});
+  ScheduledRun run{.age = table.quantity("age", dimension::time, range::not_negative),
+                   .run = static_cast<int>(table.integer("run", run_number, 1)),
+                   .fractured = table.boolean("fractured", false)};
+  const ConfigValue level = table.at("level");
+  const bool of_density = level.is_string() && level.in_context([&] {
+    return is_unit_of(unit_of(level.string()), dimension::acceleration_density);
+  });
+  if (of_density) run.density = level.quantity(dimension::acceleration_density, range::positive);
+  run.level = of_density ? std::sqrt(run.density * band) : level.quantity(dimension::acceleration, range::positive);
+  return run;
+}
+
+std::vector<std::vector<std::string>> schedule_rows(const MassMaterialCase& c) {
+  const bool any = std::ranges::any_of(c.tests, [](const VibrationTest& test) { return test.schedule.has_value(); });
+  if (!any) return {};
+  std::vector<std::vector<std::string>> rows{{"sample"}, {c.card.name.empty() ? c.title : c.card.name}};
+  for (const std::string& more : {c.card.composition, c.card.cured.empty() ? "" : "cured " + c.card.cured})
+    if (!more.empty()) rows[1][0] += ", " + more;
+  add_motion(c, true, c.card.planned_random, rows);
+  add_motion(c, false, c.card.planned_harmonic, rows);
+  return rows;
 }
 
 std::vector<SampleChange> read_sample_changes(const ConfigTable& root) {

@@ -13,8 +13,21 @@ namespace pfdm {
 
 struct MassMaterialCase;
 
-/// schedule = { level = "5 g0", age = "7 day", run = 1 }
-ScheduledRun read_scheduled_run(const ConfigTable& table);
+/// schedule = { level = "5 g0", age = "7 day", run = 1 }; the level of random motion may be its density in its band
+/// [Hz], level = "0.05 g0^2/Hz".
+ScheduledRun read_scheduled_run(const ConfigTable& table, double band);
+
+/// [sample] of a schedule of tests.
+struct SampleCard {
+  std::string name;         ///< "P85_S070_A30_C03"
+  std::string composition;  ///< in words
+  std::string cured;        ///< date of day 0, "2016-06-13"
+  int planned_random = 0, planned_harmonic = 0;
+};
+
+/// The status of the tests as a row of the report's Table A1: days of the tests at each level, F where the sample
+/// broke, and how many of those planned are done. First row: names of the columns. Nothing if no test has a schedule.
+std::vector<std::vector<std::string>> schedule_rows(const MassMaterialCase& c);
 
 /// How a simulated sample moves away from [model], in parts of the parameter, about the schedule's means.
 struct SampleChange {

@@ -34,7 +34,9 @@ struct TestStory {
 };
 
 std::string schedule_text(const ScheduledRun& run) {
-  return fmt::format("day {}, run {}, {} g0", run.day(), run.run, shown(run.level / standard_gravity));
+  const std::string level =
+      run.density > 0.0 ? shown(run.density / g0_squared) + " g0²/Hz" : shown(run.level / standard_gravity) + " g0";
+  return fmt::format("day {}, run {}, {}{}", run.day(), run.run, level, run.fractured ? ", sample fractured" : "");
 }
 
 Table test_table(const TestStory& s) {
