@@ -43,6 +43,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mesh")
     parser.add_argument("--case", default="bead", choices=CASES)
+    parser.add_argument("--no-split", action="store_true", help="cracks that would close carry nothing")
     parser.add_argument("--toughness", type=float, help="of the band, instead of the case's [J/m^2]")
     parser.add_argument("--degree", type=int, default=1, choices=(1, 2), help="of the displacement")
     parser.add_argument("--end", type=float, default=22.0, help="last displacement of the top [um]")
@@ -122,6 +123,7 @@ class Bead:
     def __init__(self, options):
         degree = options.degree
         self.ell, self.toughness, self.closes, self.bead_is_sound = CASES[options.case]
+        self.closes = self.closes and not options.no_split
         if options.toughness:
             self.toughness = (*self.toughness[:BAND], options.toughness)
         self.body, self.region, self.points, self.wedges = make_mesh(options.mesh)
