@@ -13,6 +13,10 @@ namespace {
 
 constexpr double reach = 1e5;  // of a parameter over its first guess, where nothing else bounds it
 
+/// Of differences where what is held comes to rest: the equations of those steps are nearly singular, and rounding
+/// leaves some 1e-9 of the stress.
+constexpr double step_with_rate = 1e-5;
+
 FitParameter positive(std::string name, std::string_view unit, double first) {
   return {.name = std::move(name),
           .unit = std::string(unit),
@@ -208,6 +212,7 @@ LawFit fit_law(const EndochronicLaw& law, const FitChoice& choice, const std::ve
                              .noise_is_known = noise_is_known(experiments)};
     FitSettings now = settings;
     if (again) now.starts = 1;
+    if (law.hardening.depends_on_rate()) now.step = std::max(now.step, step_with_rate);
     fitted.result = fit(problem, now);
     fitted.law = *with_values(base, choice, fitted.result.values());
     const bool sorted = std::ranges::is_sorted(
