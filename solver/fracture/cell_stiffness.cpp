@@ -50,6 +50,10 @@ Tensor CellStiffness::cauchy_stress(Index cell, const CellMechanics& mechanics, 
   return finite_.cauchy_stress(cell, mechanics, factor(cell, state.damage[cell]), plane_normal);
 }
 
+Tensor CellStiffness::thinned_gradient(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
+  return finite_.thinned(cell, mechanics.gradient[cell], factor(cell, state.damage[cell]));
+}
+
 void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
   const auto n = as_size(mesh_.n_cells());
   const CellField<double> g = factors(state);

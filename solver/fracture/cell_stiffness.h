@@ -51,6 +51,8 @@ class CellStiffness {
   Tensor undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   const MaterialCells& materials() const { return materials_; }
   const FiniteCells& finite() const { return finite_; }
+  /// At finite strain: of the displacement, with the stretch across a plate in plane stress.
+  Tensor thinned_gradient(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, const FractureState& state,
                        const Vector& plane_normal) const;
 

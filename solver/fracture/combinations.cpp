@@ -59,6 +59,23 @@ void require_finite_interfaces(const FractureModel& m) {
   }
 }
 
+// The faces of a sheet have the stiffness of one that damage degrades as a whole.
+void require_finite_plate(const FractureModel& m) {
+  for (const RegionModel& region : m.regions) {
+    if (region.damageable && m.split_of(region).name() != "none")
+      throw InputError(
+          fmt::format("materials of finite strain in plane stress can only be combined with the energy split \"none\", "
+                      "not \"{}\"",
+                      m.split_of(region).name()));
+    if (region.material->name() == "saint_venant_kirchhoff")
+      throw InputError(
+          "a material of the law \"saint_venant_kirchhoff\", which is not convex, cannot be combined with plane "
+          "stress");
+  }
+  if (!m.interfaces.empty())
+    throw InputError("materials of finite strain in plane stress cannot be combined with cohesive interfaces");
+}
+
 // What has not been worked out for finite strain is refused.
 void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns,
                     const LoadingSettings& loading) {
@@ -85,7 +102,7 @@ void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& un
           "convex");
   }
   require_finite_interfaces(m);
-  if (unknowns.plane_stress) refuse("plane stress");
+  if (unknowns.plane_stress) require_finite_plate(m);
   if (controls_dissipation(loading))
     refuse("dissipation control (loading.maximum_dissipation): their displacements are not proportional to the load");
 }

@@ -1,6 +1,7 @@
 #include "solver/fracture/finite_cells.h"
 
 #include "physics/materials/biot_stress.h"
+#include "physics/plane_stress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,23 +16,6 @@ PotentialAt difference(const PotentialAt& a, const PotentialAt& b) {
   return {a.energy - b.energy, a.stress - b.stress, a.tangent - b.tangent};
 }
 
-// What is left of the volumetric energy c U of a material with a pressure, and its derivative by g.
-struct Relaxed {
-  double value = 1.0, slope = 1.0;
-};
-Relaxed relaxed(const HyperelasticMaterial& material, double g) {
-  const double ratio = material.pressure_modulus() / (CellPressure::moderate_lambda * material.elasticity().mu);
-  const double lost = 1.0 - g, by = 1.0 + ratio * lost * lost;
-  return {g / by, (by + 2.0 * ratio * g * lost) / (by * by)};
-}
-
-// 1 in cells that have to keep their orientation, 0 in broken ones, over a decade of g.
-double soundness(double g) {
-  constexpr double broken = 3e-4, sound = 3e-3;
-  const double x = std::clamp(std::log(g / broken) / std::log(sound / broken), 0.0, 1.0);
-  return x * x * (3.0 - 2.0 * x);
-}
-
 // What W becomes in broken cells, mu/2 (F:F - 3).
 PotentialAt network(const HyperelasticMaterial& material, const Tensor& H) {
   const double mu = material.elasticity().mu;
@@ -39,31 +23,17 @@ PotentialAt network(const HyperelasticMaterial& material, const Tensor& H) {
           mu * GradientTangent::Identity()};
 }
 
-PotentialAt blend(double w, const PotentialAt& a, const PotentialAt& b) {
-  return {w * a.energy + (1.0 - w) * b.energy, w * a.stress + (1.0 - w) * b.stress,
-          w * a.tangent + (1.0 - w) * b.tangent};
-}
-
-// The degraded part with what broken cells have of it.
-auto in_damage(const HyperelasticMaterial& material, const Tensor& H, double g, auto parts) {
-  const double w = soundness(g);
-  if (w == 1.0) return parts;
-  const PotentialAt n = network(material, H);
-  parts.degraded.energy += (1.0 - w) * (n.energy - parts.degraded.energy - parts.kept.energy);
-  parts.degraded.stress += (1.0 - w) * (n.stress - parts.degraded.stress - parts.kept.stress);
-  return parts;
-}
-
-// The part of c U that is degraded, over J >= 1 only if compression is kept.
-PotentialAt of_pressure(const HyperelasticMaterial& material, const Tensor& H, bool keeps_compression) {
-  if (!(material.pressure_modulus() > 0.0) || (keeps_compression && volume_change(H) < 0.0)) return {};
-  return difference(material.potential(H), material.moderate_potential(H));
+PotentialAt sum(double w_a, const PotentialAt& a, double w_b, const PotentialAt& b) {
+  return {w_a * a.energy + w_b * b.energy, w_a * a.stress + w_b * b.stress, w_a * a.tangent + w_b * b.tangent};
 }
 
 }  // namespace
 
 FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {
   if (!model.is_finite_strain()) return;
+  for (const BoundaryCondition& on : model.boundary)
+    if (on.kind == BoundaryCondition::Kind::plane_stress)
+      across_ = mesh.face_area[mesh.patch(on.patch).first_face].normalized();
   const auto n = as_size(mesh.n_cells());
   material_ = CellField<const HyperelasticMaterial*>(n, nullptr);
   keeps_compression_ = CellField<char>(n, 0);
@@ -74,20 +44,67 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(m
   }
 }
 
+// What is left of the volumetric energy c U of a material with a pressure.
+auto FiniteCells::relaxed(const HyperelasticMaterial& material, double g) -> OfFactor {
+  const double ratio = material.pressure_modulus() / (CellPressure::moderate_lambda * material.elasticity().mu);
+  const double lost = 1.0 - g, by = 1.0 + ratio * lost * lost;
+  return {g / by, (by + 2.0 * ratio * g * lost) / (by * by)};
+}
+
+// w: 1 in cells that have to keep their orientation, 0 in broken ones. g w is convex in z = g^(1/2) = 1 - d, and so is
+// the energy: where a law is lost within a small range of d it drives the damage much there and little beyond, the
+// damage has two states of equilibrium and the iterations go to and fro between them. From z = 0.055 (g = 3e-3) down g
+// w goes on along its tangent, which is 0 at half of that, rounded off by a parabola.
+auto FiniteCells::soundness(const HyperelasticMaterial& material, double g) -> OfFactor {
+  const double sound = material.pressure_modulus() > 0.0 ? 0.15 : 0.055, middle = 0.5 * sound,
+               half_width = 0.6 * middle;
+  const double z = std::sqrt(g), above = z - (middle - half_width);
+  if (z >= sound || above <= 0.0) return {z >= sound ? 1.0 : 0.0, 0.0};
+  const bool is_straight = above >= 2.0 * half_width;
+  const double value = is_straight ? sound * (2.0 * z - sound) : 0.5 * sound / half_width * above * above;
+  const double by_z = is_straight ? 2.0 * sound : sound / half_width * above;
+  const double w = value / g;
+  return {w, (0.5 * by_z / z - w) / g};
+}
+
+// W = g (w W_m + (1 - w) N) + w r c U + (1 - g) K, w and r being the functions of g above, N the network's energy, and
+// K what the split keeps of W_m; of c U it keeps all where J < 1.
+FiniteCells::Shares FiniteCells::shares(Index cell, double g) const {
+  const OfFactor w = soundness(*material_[cell], g), r = relaxed(*material_[cell], g);
+  return {.moderate = {g * w.value, w.value + g * w.slope},
+          .network = {g * (1.0 - w.value), 1.0 - w.value - g * w.slope},
+          .pressure = {least_modulus + (1.0 - least_modulus) * w.value * r.value,
+                       (1.0 - least_modulus) * (w.slope * r.value + w.value * r.slope)}};
+}
+
 FiniteCells::Parts FiniteCells::parts(Index cell, const Tensor& H) const {
-  const PotentialAt whole = material_[cell]->potential(H);
-  if (keeps_compression_[cell] == 0) return {whole, {}};
-  const PotentialAt kept = material_[cell]->compression(H);
-  return {difference(whole, kept), kept};
+  const HyperelasticMaterial& material = *material_[cell];
+  Parts parts{.moderate = material.moderate_potential(H), .network = network(material, H)};
+  if (keeps_compression_[cell] != 0) parts.kept = material.moderate_compression(H);
+  if (material.pressure_modulus() > 0.0) parts.pressure = difference(material.potential(H), parts.moderate);
+  parts.keeps_pressure = keeps_compression_[cell] != 0 && volume_change(H) < 0.0;
+  return parts;
+}
+
+PotentialAt FiniteCells::damaged(const Parts& at, const Shares& by, double g) {
+  const PotentialAt degraded = sum(by.moderate.value, at.moderate, by.network.value, at.network);
+  const double pressure = at.keeps_pressure ? 1.0 : by.pressure.value;
+  return sum(1.0, sum(1.0, degraded, 1.0 - g, at.kept), pressure, at.pressure);
 }
 
 FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure) const {
+  return is_plane_stress() ? plane_stress_law(cell, H, g) : solid_law(cell, H, g, closure);
+}
+
+FiniteLaw FiniteCells::solid_law(Index cell, const Tensor& H, double g, double closure) const {
   const HyperelasticMaterial& material = *material_[cell];
   const bool keeps = keeps_compression_[cell] != 0;
-  const double w = soundness(g);
-  PotentialAt whole = material.moderate_potential(H);
-  if (w < 1.0) whole = blend(w, whole, network(material, H));
-  FiniteLaw law{.stress = g * whole.stress, .A = g * whole.tangent, .face = {}};
+  const Shares by = shares(cell, g);
+  const double w = by.moderate.value / g;
+  const PotentialAt moderate = material.moderate_potential(H);
+  PotentialAt degraded{0.0, by.moderate.value * moderate.stress, by.moderate.value * moderate.tangent};
+  if (w < 1.0) degraded = sum(1.0, degraded, by.network.value, network(material, H));
+  FiniteLaw law{.stress = degraded.stress, .A = degraded.tangent, .face = {}};
   if (keeps && g < 1.0) {
     const PotentialAt kept = material.moderate_compression(H);
     law.stress += (1.0 - g) * kept.stress;
@@ -96,14 +113,51 @@ FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure
   IsotropicElasticity sound = material.elasticity();
   if (material.pressure_modulus() > 0.0) {
     law.pressure = &material;
-    law.open = std::max(w * relaxed(material, g).value, least_modulus);
+    law.open = by.pressure.value;
     law.closed = keeps ? 1.0 : law.open;
     sound.lambda -= material.pressure_modulus();
   }
-  sound.mu = material.shear_modulus(Tensor::Identity() + H, whole.tangent, sound.lambda);
+  sound.mu = w * material.shear_modulus(Tensor::Identity() + H, moderate.tangent, sound.lambda) + (1.0 - w) * sound.mu;
   law.face = {.lambda = w * g * sound.lambda, .mu = g * sound.mu};
+  law.swelling = w;
   if (keeps) law.face.lambda += closure * (1.0 - g) * sound.bulk_modulus();
   return law;
+}
+
+// The stiffness of the faces is that of an incompressible sheet at F = 1, (3 mu c c^T + mu)/h, c being the cofactor
+// within the plane.
+FiniteLaw FiniteCells::plane_stress_law(Index cell, const Tensor& H, double g) const {
+  const Shares by = shares(cell, g);
+  const Tensor nn = across_ * across_.transpose();
+  const PotentialAt at = damaged(parts(cell, thinned(cell, H, g)), by, g);
+  const IsotropicElasticity sound = plane_stress(material_[cell]->elasticity());
+  const double w = by.moderate.value / g;
+  FiniteLaw law{.stress = at.stress, .A = at.tangent, .face = {.lambda = 0.0, .mu = g * sound.mu}};
+  law.swelling = w * (sound.lambda + sound.mu) / sound.mu;
+  const Components pull = at.tangent * to_components(nn), thin = at.tangent.transpose() * to_components(nn);
+  const double stiffness = contract(nn, from_components(pull));
+  if (std::abs(contract(nn, at.stress)) <= 1e-6 * g * sound.mu) law.A -= pull * thin.transpose() / stiffness;
+  return law;
+}
+
+// With the stretch across a plate at which there is no stress across it. It is 0 where none is (of cells turned inside
+// out).
+Tensor FiniteCells::thinned(Index cell, const Tensor& H, double g) const {
+  if (!is_plane_stress()) return H;
+  constexpr Index most_steps = 80;
+  constexpr double rounding = 1e-15;
+  const Shares by = shares(cell, g);
+  const Tensor nn = across_ * across_.transpose();
+  double strain = 0.0;
+  for (Index k = 0; k < most_steps; ++k) {
+    const PotentialAt at = damaged(parts(cell, H + strain * nn), by, g);
+    const double stiffness = contract(nn, from_components(at.tangent * to_components(nn)));
+    const double next = std::max(strain - contract(nn, at.stress) / stiffness, -1.0);
+    const bool there = std::abs(next - strain) <= rounding * (std::abs(strain) + H.norm());
+    strain = next;
+    if (there) break;
+  }
+  return H + strain * nn;
 }
 
 double FiniteCells::closure(Index cell, const Tensor& H) const {
@@ -111,41 +165,34 @@ double FiniteCells::closure(Index cell, const Tensor& H) const {
 }
 
 double FiniteCells::stored_energy(Index cell, const CellMechanics& mechanics, double g) const {
-  const Tensor& H = mechanics.gradient[cell];
-  const Parts at = in_damage(*material_[cell], H, g, parts(cell, H));
-  const double by_volume = of_pressure(*material_[cell], H, keeps_compression_[cell] != 0).energy;
-  const double relaxation = (relaxed(*material_[cell], g).value - g) * by_volume;
-  return mesh_.cell_volume[cell] * (g * at.degraded.energy + at.kept.energy + relaxation) + mechanics.energy[cell];
+  const Parts at = parts(cell, thinned(cell, mechanics.gradient[cell], g));
+  return mesh_.cell_volume[cell] * damaged(at, shares(cell, g), g).energy + mechanics.energy[cell];
 }
 
 double FiniteCells::driving_energy(Index cell, const CellMechanics& mechanics, double g) const {
-  const Tensor& H = mechanics.gradient[cell];
-  const Parts at = in_damage(*material_[cell], H, g, parts(cell, H));
-  const double by_volume = of_pressure(*material_[cell], H, keeps_compression_[cell] != 0).energy;
-  const double relaxation = (relaxed(*material_[cell], g).slope - 1.0) * by_volume;
+  const Parts at = parts(cell, thinned(cell, mechanics.gradient[cell], g));
+  const Shares by = shares(cell, g);
+  const double mean = by.moderate.slope * at.moderate.energy + by.network.slope * at.network.energy - at.kept.energy +
+                      (at.keeps_pressure ? 0.0 : by.pressure.slope * at.pressure.energy);
   const double varying = at.kept.energy > 0.0 ? 0.0 : mechanics.energy[cell] / (g * mesh_.cell_volume[cell]);
-  return std::max(at.degraded.energy + relaxation + varying, 0.0);
+  return std::max(mean + varying, 0.0);
 }
 
 Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {
-  const HyperelasticMaterial& material = *material_[cell];
-  const Tensor& H = mechanics.gradient[cell];
-  const Parts at = in_damage(material, H, g, parts(cell, H));
-  const Tensor by_volume = of_pressure(material, H, keeps_compression_[cell] != 0).stress;
-  return biot_stress(H, at.degraded.stress + at.kept.stress + (relaxed(material, g).value / g - 1.0) * by_volume);
+  const Tensor H = thinned(cell, mechanics.gradient[cell], g);
+  const Parts at = parts(cell, H);
+  const Shares by = shares(cell, g);
+  const PotentialAt whole = sum(by.moderate.value / g, at.moderate, by.network.value / g, at.network);
+  return biot_stress(H, whole.stress + (at.keeps_pressure ? 1.0 : by.pressure.value / g) * at.pressure.stress);
 }
 
 Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, double g,
                                   const Vector& plane_normal) const {
-  const Tensor& H = mechanics.gradient[cell];
+  const Tensor H = thinned(cell, mechanics.gradient[cell], g);
   Tensor P = mechanics.stress[cell];
   if (!plane_normal.isZero()) {
-    const Parts at = in_damage(*material_[cell], H, g, parts(cell, H));
-    const HyperelasticMaterial& material = *material_[cell];
-    const Tensor by_volume = of_pressure(material, H, keeps_compression_[cell] != 0).stress;
-    const Tensor whole = g * at.degraded.stress + at.kept.stress + (relaxed(material, g).value - g) * by_volume;
     const Tensor across = plane_normal * plane_normal.transpose();
-    P += across * (whole - P) * across;
+    P += across * (damaged(parts(cell, H), shares(cell, g), g).stress - P) * across;
   }
   const Tensor F = Tensor::Identity() + H;
   return symmetric_part(P * F.transpose() / F.determinant());

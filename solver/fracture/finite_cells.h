@@ -8,18 +8,21 @@
 // Broken cells may stretch without end or turn inside out:
 //
 // - The functions of J go on as parabolas below J = 0.1: W and its stress are finite for any F.
-// - Between g = 3e-3 and 3e-4, W becomes mu/2 (F:F - 3), a network that keeps nothing but its shear modulus, times g.
-//   Its stress g mu F is linear, objective and has a positive definite tangent; at rest it pulls with g mu. (Wang,
-//   Lazarov, Sigmund, Jensen, Comput. Methods Appl. Mech. Engrg. 276 (2014) 453, blend to a linear energy likewise, but
-//   one that is not objective.)
+// - W becomes mu/2 (F:F - 3), a network that keeps nothing but its shear modulus, times g. Its stress g mu F is linear,
+//   objective and has a positive definite tangent; at rest it pulls with g mu. (Wang, Lazarov, Sigmund, Jensen, Comput.
+//   Methods Appl. Mech. Engrg. 276 (2014) 453, blend to a linear energy likewise, but one that is not objective.) It
+//   does so between g = 3e-3 and 1e-4, in nearly incompressible materials between 2e-2 and 9e-4, along a function that
+//   keeps the energy convex in d.
 // - Nearly incompressible materials cannot open a crack without moving their surroundings. The part of U that a
 //   pressure carries (hyperelastic.h) is lost faster than g, kappa -> g kappa/(1 + kappa/kappa_s (1 - g)^2) with
 //   kappa_s = 2.5 mu: a sound cell loses it as W, a broken one is compressible. (Li, Bouklas, Int. J. Solids Struct.
 //   182-183 (2020) 193, relax it by another power of 1 - d.)
 // - What Newton's method cannot bridge of a change of the damage is halved (staggered.cpp).
 //
-// Known limit: half broken, nearly incompressible cells beside a debonded pole may have no equilibrium that is found,
-// on finer meshes (837 polyhedra around a bead, after its first pole) and with volumetric_deviatoric.
+// Stress, stored and driving energy are derivatives of this one energy.
+//
+// Plane stress: F has the stretch across the plate at which the damaged cell has no stress across it, and the tangent
+// is condensed accordingly. No pressure is needed.
 
 #include "mesh/mesh.h"
 #include "physics/materials/hyperelastic.h"
@@ -45,6 +48,9 @@ class FiniteCells {
   /// Its derivative by g, per volume [J/m^3].
   double driving_energy(Index cell, const CellMechanics& mechanics, double g) const;
 
+  /// The gradient H with the stretch across a plate at which it has no stress across it; else H.
+  Tensor thinned(Index cell, const Tensor& H, double g) const;
+
   /// Biot stress [Pa] of the undamaged material at the mean gradient; pressures that damage has relaxed count as they
   /// are.
   Tensor undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const;
@@ -53,16 +59,33 @@ class FiniteCells {
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
 
  private:
-  // Of the part that damage degrades and of that which it does not.
+  // A function of the stiffness factor g, and its derivative.
+  struct OfFactor {
+    double value = 1.0, slope = 0.0;
+  };
+  static OfFactor relaxed(const HyperelasticMaterial& material, double g);
+  static OfFactor soundness(const HyperelasticMaterial& material, double g);
+  // What a cell of the factor g has of the energies below.
+  struct Shares {
+    OfFactor moderate, network, pressure;
+  };
+  Shares shares(Index cell, double g) const;
+  // Undamaged, at some H: W_m, the network's, c U, and what the split keeps of W_m.
   struct Parts {
-    PotentialAt degraded, kept;
+    PotentialAt moderate, network, pressure{}, kept{};
+    bool keeps_pressure = false;
   };
   Parts parts(Index cell, const Tensor& H) const;
+  bool is_plane_stress() const { return !across_.isZero(); }
+  FiniteLaw solid_law(Index cell, const Tensor& H, double g, double closure) const;
+  FiniteLaw plane_stress_law(Index cell, const Tensor& H, double g) const;
+  static PotentialAt damaged(const Parts& at, const Shares& by, double g);
 
   const Mesh& mesh_;
   const FractureModel& model_;
   CellField<const HyperelasticMaterial*> material_;  // empty at small strain
   CellField<char> keeps_compression_;
+  Vector across_ = Vector::Zero();  // normal of a plate in plane stress
 };
 
 }  // namespace pfdm

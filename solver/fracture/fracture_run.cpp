@@ -194,7 +194,7 @@ struct FractureRun::Parts {
   void show_finite_strain(const CellMechanics& mechanics, const FractureState& state, OutputFields& fields) {
     fields.deformation_gradient = CellField<Tensor>(as_size(mesh.n_cells()));
     parallel_for(mesh.n_cells(), [&](Index c) {
-      const Tensor F = Tensor::Identity() + mechanics.gradient[c];
+      const Tensor F = Tensor::Identity() + staggered.stiffness().thinned_gradient(c, mechanics, state);
       fields.deformation_gradient[c] = F;
       fields.strain[c] = 0.5 * (F.transpose() * F - Tensor::Identity());
       fields.stress[c] = staggered.stiffness().cauchy_stress(c, mechanics, state, unknowns.plane_normal);

@@ -166,8 +166,10 @@ struct Staggered::Loop {
   }
 
   // Cohesive faces have released energy already when the first equilibrium is found: what they and the body had before
-  // grows with the load squared.
+  // grows with the load squared. At finite strain it does not: there it is what is stored and what they have
+  // dissipated.
   double stored_before() const {
+    if (s.faces_.any() && s.stiffness_.finite().any()) return energies.stored + energies.torn - torn_before;
     if (!s.faces_.any() || !(start.load > 0.0)) return energies.stored;
     const double growth = state.load / start.load;
     return growth * growth * (start.energy.elastic + start.energy.interface_energy);

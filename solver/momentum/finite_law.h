@@ -13,6 +13,7 @@ struct FiniteLaw {
   GradientTangent A = GradientTangent::Zero();  ///< dP/dH there [Pa]
   /// Of the faces (momentum.h).
   IsotropicElasticity face;
+  double swelling = 1.0;  ///< factor of mu/J^2 in their stiffness: 0 of a law that is linear in F
   /// Of cells with a pressure: J by the pressure q, with the fractions of its modulus that are left where q > 0 and
   /// where q < 0.
   const HyperelasticMaterial* pressure = nullptr;

@@ -46,9 +46,10 @@
 //   a = (mu I + (lambda + mu/J^2) c c^T) / h,  c = cof F N,
 //
 // the acoustic tensor N.(dP/dF).N of the neo-Hookean law, with a mean shear modulus of the tangent for the others. It
-// is objective, positive definite for any F, and smooth; its derivative is part of the linearised balance. Pressures
-// add q c to the traction and have V (J(q) - 1) = V (det F - 1) for their equation, F being the mean gradient of the
-// two-sided face displacements.
+// is objective, positive definite for any F, and smooth; its derivative is part of the linearised balance. The factor
+// FiniteLaw::swelling of mu/J^2 is 0 of broken cells, whose law is linear in F. In plane stress F is that within the
+// plane. Pressures add q c to the traction and have V (J(q) - 1) = V (det F - 1) for their equation, F being the mean
+// gradient of the two-sided face displacements.
 //
 // Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
 // are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements.

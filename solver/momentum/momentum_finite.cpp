@@ -56,7 +56,8 @@ void MomentumOperator::set_finite(const FiniteLawAt& law, const CellField<double
     cofactor_[c] = cofactor(F_[c]);
     const double J = F_[c].determinant();
     const IsotropicElasticity& face = finite_[c].face;
-    push_[c] = {face.lambda + face.mu * swelling(J), face.mu * swelling_slope(J)};
+    const double mu = finite_[c].swelling * face.mu;
+    push_[c] = {face.lambda + mu * swelling(J), mu * swelling_slope(J)};
     pressure_at_[c] = pressure_.mean(c);
   });
   set_face_tensors();
@@ -173,7 +174,7 @@ CellField<double> MomentumOperator::face_stiffness() const {
 
 // Of polyhedra the share of lambda + 2 mu that momentum_jump.cpp keeps, undeformed.
 MomentumOperator::Push MomentumOperator::capped_push(Index cell) const {
-  const double share = jump_share_[cell], mu = finite_[cell].face.mu;
+  const double share = jump_share_[cell], mu = finite_[cell].swelling * finite_[cell].face.mu;
   return {share * (push_[cell].stiffness + mu) - mu, share * push_[cell].slope};
 }
 

@@ -62,7 +62,7 @@ void MomentumOperator::condense(CellField<MandelMatrix>& stiffness) {
 }
 
 Tensor MomentumOperator::with_strain_across(Index cell, const Tensor& gradient) const {
-  if (!unknowns_.plane_stress) return gradient;
+  if (!unknowns_.plane_stress || is_finite()) return gradient;
   const Vector& n = unknowns_.plane_normal;
   return gradient + strain_across_[cell](to_mandel(symmetric_part(gradient))) * n * n.transpose();
 }

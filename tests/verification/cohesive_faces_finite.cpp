@@ -303,6 +303,52 @@ TEST(FiniteFaces, AreThoseOfSmallStrainWhereItIsSmall) {
   EXPECT_LT(wrong, 1e-6 * most);
 }
 
+// Steps of the sliding bar of above, drawn to a stretch of 1.9 and pressed to 0.55, with a limit on what is released.
+// Its energy does not grow with the load squared; only a bond that gives way cuts the steps.
+class FiniteReleases : public testing::TestWithParam<double> {};
+
+TEST_P(FiniteReleases, AreOfBondsThatGiveWay) {
+  const Mesh mesh = two_blocks(2);
+  InterfaceStrength at = bond;
+  for (const double held : {100.0, 1.0}) {
+    at.strength = held * bond.strength, at.toughness = held * bond.toughness;
+    FractureModel model = elastic_model(std::vector(mesh.region_names.size(), rubber), {});
+    glue(model, mesh, law_of(linear_law()), at, Vector::UnitX(),
+         [](const Vector& x) { return std::abs(x.x() - edge) < 1e-9; });
+    make_finite(model);
+    const double drawn = 2.0 * edge * GetParam();
+    model.boundary = {
+        moved("xmin", {true, false, false}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
+        moved("xmax", {true, false, false},
+              [&](const Vector&, double t) -> Vector { return drawn * t * Vector::UnitX(); })};
+    for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) model.boundary.push_back(symmetry_on(side));
+    FractureRun run(mesh, model, {},
+                    {.initial_increment = 1.0 / 3.0,
+                     .maximum_increment = 1.0 / 3.0,
+                     .energy_release = 0.02,
+                     .finest_increment = 1e-2,
+                     .stops = {}});
+    double dissipated = 0.0, largest = 0.0;
+    StepReport last;
+    run_to_end(run, [&](const FractureState&, const StepReport& report) {
+      if (report.energy.interface_dissipation > dissipated + 1e-12) largest = std::max(largest, report.increment);
+      dissipated = report.energy.interface_dissipation;
+      last = report;
+    });
+    report_row(fmt::format("stretch {}, bond times {}", 1.0 + GetParam(), held),
+               {{"steps", double(last.step)}, {"largest that dissipates", largest}, {"dissipated", dissipated}});
+    const bool gives_way = held == 1.0 && GetParam() > 0.0;
+    EXPECT_EQ(dissipated > 1e-12, gives_way);
+    if (!gives_way)
+      EXPECT_EQ(last.step, 3);
+    else
+      EXPECT_LT(largest, 0.1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Drawn, FiniteReleases, testing::Values(0.9, -0.45),
+                         [](const auto& test) { return std::string(test.param > 0.0 ? "out" : "together"); });
+
 // A run goes on from a state with open faces as the one that came there.
 TEST(FiniteFaces, GoOnFromAState) {
   const Mesh mesh = two_blocks(2);

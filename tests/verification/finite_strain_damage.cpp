@@ -3,6 +3,7 @@
 #include "tests/verification/support.h"
 
 #include "physics/materials/hyperelastic.h"
+#include "solver/fracture/finite_cells.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -73,6 +74,78 @@ TEST(FiniteStrainDamage, HomogeneousResponseToAStretchOfTwo) {
   });
   report_row("homogeneous", {{"damage at the end", end.damage[0]}, {"largest relative error", worst}});
   EXPECT_LE(worst, 1e-4);
+}
+
+// What drives the damage of a cell is the derivative of what it stores by the stiffness factor, through the range in
+// which it becomes a network; and its stress and pressure are those of that energy.
+TEST(FiniteStrainDamage, OneEnergyDrivesTheDamageAndHasTheStress) {
+  const Mesh mesh = block(1, 1.0);
+  const double volume = mesh.cell_volume[0];
+  Tensor shear = Tensor::Zero();
+  shear(0, 1) = 0.3, shear(2, 0) = -0.1;
+  double of_g = 0.0, of_stress = 0.0;
+  for (const double nu : {0.45, 0.497})
+    for (const char* split : {"none", "volumetric_deviatoric"})
+      for (const Vector& l :
+           {Vector(1.2, 0.9, 1.0), Vector(4.0, 0.4, 0.8), Vector(8.0, 0.5, 0.5), Vector(1.3, 0.8, 0.8)}) {
+        const IsotropicElasticity elasticity = from_young_poisson(1.5e6, nu);
+        FractureModel model = damaged_model("AT2", 100.0, 0.05, pulled(1.0), split);
+        model.regions[0].elasticity = elasticity;
+        model.regions[0].material = make_hyperelastic("neo_hookean", {.elasticity = elasticity});
+        const FiniteCells cells(mesh, model);
+        const auto at = [&](const Tensor& H) {
+          CellMechanics mechanics;
+          mechanics.gradient = CellField<Tensor>(1, H);
+          mechanics.energy = CellField<double>(1, 0.0);
+          return mechanics;
+        };
+        const Tensor H = Tensor(l.asDiagonal()) + shear - Tensor::Identity();
+        const double J = (Tensor::Identity() + H).determinant();
+        for (const double g : {0.5, 2e-2, 2.9e-3, 1e-3, 3.5e-4, 1e-4}) {
+          const double e = 1e-4 * g;
+          const double slope =
+              (cells.stored_energy(0, at(H), g + e) - cells.stored_energy(0, at(H), g - e)) / (2.0 * e * volume);
+          const double driving = cells.driving_energy(0, at(H), g);
+          of_g = std::max(of_g, std::abs(driving - std::max(slope, 0.0)) / std::abs(slope));
+          const FiniteLaw law = cells.law(0, H, g, 0.0);
+          Tensor P = law.stress;
+          if (law.pressure != nullptr) {
+            const double left = J > 1.0 ? law.open : law.closed;
+            P += left * law.pressure->pressure_modulus() * (J - 1.0) * cofactor(Tensor::Identity() + H);
+          }
+          const Tensor direction = Tensor::Identity() + 0.5 * shear;
+          const double step = 1e-6, change = cells.stored_energy(0, at(H + step * direction), g) -
+                                             cells.stored_energy(0, at(H - step * direction), g);
+          of_stress = std::max(of_stress, std::abs(change / (2.0 * step * volume) - contract(P, direction)) /
+                                              (P.norm() * direction.norm()));
+        }
+      }
+  report_row("one energy", {{"driving energy", of_g}, {"stress", of_stress}});
+  EXPECT_LE(of_g, 1e-6);
+  EXPECT_LE(of_stress, 1e-6);
+}
+
+// Of a stretched cell it is convex in the damage beyond d = 0.6: no damage below which much drives it on and above
+// which little does.
+TEST(FiniteStrainDamage, TheEnergyOfAStretchedCellIsConvexInTheDamage) {
+  const Mesh mesh = block(1, 1.0);
+  for (const double nu : {0.45, 0.49, 0.4999})
+    for (const Vector& l : {Vector(3.0, 0.9, 0.9), Vector(8.0, 0.4, 0.5), Vector(10.0, 1.0, 1.0)}) {
+      const IsotropicElasticity elasticity = from_young_poisson(1.5e6, nu);
+      FractureModel model = damaged_model("AT2", 100.0, 0.05, pulled(1.0), "none");
+      model.regions[0].elasticity = elasticity;
+      model.regions[0].material = make_hyperelastic("neo_hookean", {.elasticity = elasticity});
+      const FiniteCells cells(mesh, model);
+      CellMechanics mechanics;
+      mechanics.gradient = CellField<Tensor>(1, Tensor(l.asDiagonal()) - Tensor::Identity());
+      mechanics.energy = CellField<double>(1, 0.0);
+      const auto energy = [&](double z) { return cells.stored_energy(0, mechanics, z * z); };
+      double least = 0.0;
+      for (double z = 0.002; z < 0.4; z += 0.001)
+        least = std::min(least, (energy(z + 0.001) - 2.0 * energy(z) + energy(z - 0.001)) / energy(z));
+      report_row(fmt::format("nu {}, stretch {}", nu, l.x()), {{"least second difference over the energy", least}});
+      EXPECT_GE(least, -1e-12);
+    }
 }
 
 // The middle layer is broken from the beginning: it takes the whole elongation, the halves stay as they are.

@@ -1,0 +1,212 @@
+// Plane stress at finite strain: sheets of every law beside a block that is free across, the limit of small strain, the
+// derivative of the balance where cells are broken, the energy of a stretched strip with a crack.
+
+#include "tests/verification/finite.h"
+
+#include "physics/error.h"
+#include "solver/fracture/cell_stiffness.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace pfdm::verification {
+namespace {
+
+const IsotropicElasticity rubber = from_young_poisson(1.5e6, 0.49);
+
+std::shared_ptr<const Material> law_of(std::string_view name) {
+  HyperelasticParameters parameters{.elasticity = rubber};
+  if (name == "mooney_rivlin") parameters.second_invariant = 0.2;
+  if (name == "ogden") parameters.shares = {0.7, 0.3}, parameters.exponents = {1.3, 4.0};
+  if (name == "lopez_pamies") parameters.shares = {0.8, 0.2}, parameters.exponents = {0.6, 2.0};
+  return make_hyperelastic(name, parameters);
+}
+
+Mesh sheet(Index n) {
+  return make_box_hexes({.axes = {{{{.length = 1.0, .n = n}}, {{.length = 1.0, .n = n}}, {{.length = 0.1, .n = 1}}}},
+                         .regions = {},
+                         .slits = {}});
+}
+
+// Held by a gradient within the plane.
+std::vector<BoundaryCondition> stretched(const Tensor& H, bool is_sheet) {
+  std::vector<BoundaryCondition> boundary;
+  for (const char* patch : {"xmin", "xmax", "ymin", "ymax"})
+    boundary.push_back(
+        moved(patch, {true, true, false}, [H](const Vector& x, double t) -> Vector { return t * H * x; }));
+  if (is_sheet)
+    boundary.push_back(plane_stress_on("zmin")), boundary.push_back(plane_stress_on("zmax"));
+  else
+    boundary.push_back(symmetry_on("zmin"));
+  return boundary;
+}
+
+// A stretch of 2 along an oblique direction, and a shear.
+TEST(FinitePlaneStress, ASheetOfEachLawIsABlockThatIsFreeAcross) {
+  const Tensor H = (Tensor() << 0.8, 0.3, 0.0, -0.1, -0.2, 0.0, 0.0, 0.0, 0.0).finished();
+  const Mesh mesh = sheet(3);
+  for (const char* name : {"neo_hookean", "mooney_rivlin", "ogden", "lopez_pamies"}) {
+    const auto material = law_of(name);
+    const Drawn thin = draw(mesh, finite_body(mesh, material, stretched(H, true)), 2, 1e-11);
+    const Drawn block = draw(mesh, finite_body(mesh, material, stretched(H, false)), 2, 1e-11);
+    const double force =
+        (thin.force(mesh, "xmax") - block.force(mesh, "xmax")).norm() / block.force(mesh, "xmax").norm();
+    const double energy = thin.report.energy.elastic / block.report.energy.elastic - 1.0;
+    report_row(fmt::format("sheet of {}", name), {{"force", force}, {"energy", energy}});
+    EXPECT_LE(force, 1e-8);
+    EXPECT_NEAR(energy, 0.0, 1e-8);
+  }
+}
+
+// By hand: neo-Hookean in uniaxial tension to a stretch of 2; P_xx and the contraction across.
+TEST(FinitePlaneStress, UniaxialTensionIsTheClosedForm) {
+  const Mesh mesh = sheet(2);
+  std::vector<BoundaryCondition> boundary{
+      moved("xmax", {true, false, false}, [](const Vector&, double t) -> Vector { return t * Vector::UnitX(); }),
+      symmetry_on("xmin"), symmetry_on("ymin"), plane_stress_on("zmin"), plane_stress_on("zmax")};
+  FractureRun run(mesh, finite_body(mesh, law_of("neo_hookean"), boundary), {.equilibrium_tolerance = 1e-11},
+                  {.initial_increment = 0.5, .maximum_increment = 0.5, .stops = {}});
+  StepReport last;
+  const FractureState end = run_to_end(run, [&](const FractureState&, const StepReport& report) { last = report; });
+  double low = 0.5, high = 1.0;  // stretch across
+  const auto stress_across = [](double s) {
+    return rubber.mu * (s - 1.0 / s) + rubber.lambda * (2.0 * s * s - 1.0) * 2.0 * s;
+  };
+  for (int i = 0; i < 100; ++i) (stress_across(0.5 * (low + high)) < 0.0 ? low : high) = 0.5 * (low + high);
+  const double J = 2.0 * low * low, P = rubber.mu * (2.0 - 0.5) + rubber.lambda * (J - 1.0) * J / 2.0;
+  const double force = last.reaction[static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data())].x() / 0.1;
+  const OutputFields fields = run.output(end);
+  report_row("uniaxial", {{"force", force / P - 1.0},
+                          {"stretch across", fields.deformation_gradient[0](2, 2) / low - 1.0},
+                          {"stress across / P", fields.stress[0](2, 2) / P}});
+  EXPECT_NEAR(force / P, 1.0, 1e-9);
+  EXPECT_NEAR(fields.deformation_gradient[0](2, 2) / low, 1.0, 1e-9);
+  EXPECT_NEAR(fields.stress[0](2, 2) / P, 0.0, 1e-9);
+}
+
+std::vector<BoundaryCondition> bent(double size) {
+  std::vector<BoundaryCondition> boundary{
+      moved("xmin", {true, true, true}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
+      moved("xmax", {true, true, true},
+            [size](const Vector&, double t) -> Vector { return size * t * Vector(0.6, 0.8, 0.0); })};
+  boundary.push_back(plane_stress_on("zmin")), boundary.push_back(plane_stress_on("zmax"));
+  return boundary;
+}
+
+TEST(FinitePlaneStress, IsThatOfSmallStrainWhereItIsSmall) {
+  const Mesh mesh = sheet(8);
+  const FractureModel finite = finite_body(mesh, law_of("neo_hookean"), bent(1e-7));
+  const FractureModel small = elastic_model({rubber}, bent(1e-7));
+  const Drawn a = draw(mesh, finite, 1, 1e-10), b = draw(mesh, small, 1, 1e-10);
+  double u_error = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    u_error = std::max(u_error, (a.state.displacement[as_size(c)] - b.state.displacement[as_size(c)]).norm() / 1e-7);
+  const double force = (a.force(mesh, "xmax") - b.force(mesh, "xmax")).norm() / b.force(mesh, "xmax").norm();
+  report_row("small strain", {{"displacement", u_error}, {"force", force}});
+  EXPECT_LE(u_error, 1e-6);
+  EXPECT_LE(force, 1e-6);
+}
+
+TEST(FinitePlaneStress, WhatItIsNotCombinedWithIsRefused) {
+  const Mesh mesh = sheet(2);
+  const auto refusal = [&](const FractureModel& model) -> std::string {
+    try {
+      const FractureRun run(mesh, model, {}, {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  FractureModel model = finite_body(mesh, law_of("neo_hookean"), bent(0.1));
+  EXPECT_EQ(refusal(model), "");
+  model.regions[0].damageable = true, model.regions[0].Gc = 1.0, model.regions[0].ell = 1.0;
+  model.crack = &crack_geometry("AT2");
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("volumetric_deviatoric");
+  EXPECT_THAT(refusal(model), testing::HasSubstr("only be combined with the energy split \"none\""));
+  const auto stiff = make_hyperelastic("saint_venant_kirchhoff", {.elasticity = from_young_poisson(1e6, 0.3)});
+  EXPECT_THAT(refusal(finite_body(mesh, stiff, bent(0.1))), testing::HasSubstr("saint_venant_kirchhoff"));
+}
+
+/// Numbers between -1 and 1.
+class Noise {
+ public:
+  double next() {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return double(state_ >> 11) / double(1ULL << 52) - 1.0;
+  }
+
+ private:
+  std::uint64_t state_ = 1;
+};
+
+double norm(const std::vector<Vector>& v) {
+  double sum = 0.0;
+  for (const Vector& x : v) sum += x.squaredNorm();
+  return std::sqrt(sum);
+}
+
+// Forces at u + e v against those of the balance linearised about u: the difference is of second order in e. Damage
+// differs from cell to cell, from sound to broken.
+void expect_derivative(const Mesh& mesh, FractureModel model, std::string_view what) {
+  for (RegionModel& region : model.regions) region.damageable = true, region.Gc = 1.0, region.ell = 1.0;
+  model.crack = &crack_geometry("AT2");
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
+  const CellStiffness stiffness(mesh, model);
+  MomentumSolver momentum(mesh, unknowns);
+  FractureRun run(mesh, model, {}, {});
+  FractureState state = run.initial_state();
+  Noise noise;
+  std::vector<Vector> from(state.displacement.size(), Vector::Zero()), direction = from;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const bool is_pressure = i >= as_size(unknowns.n_nodes());
+    for (Index k = 0; k < (is_pressure ? 1 : 3); ++k) {
+      from[i][k] = noise.next() * (is_pressure ? 1e3 : 0.02);
+      direction[i][k] = noise.next() * (is_pressure ? 1e3 : 0.02);
+    }
+  }
+  momentum.balance().keep_in_plane(from), momentum.balance().keep_in_plane(direction);
+  for (Index c = 0; c < mesh.n_cells(); ++c) state.damage[c] = 1.0 - std::pow(10.0, -1.3 * (1.0 + noise.next()));
+  const auto linearise = [&] { stiffness.set(state, momentum); };
+  state.displacement = from;
+  linearise();
+  const std::vector<Vector> start = momentum.unbalanced_forces(0.0, state.displacement);
+  std::vector<double> error;
+  for (const double e : {1e-3, 1e-4}) {
+    state.displacement = from;
+    linearise();
+    for (std::size_t i = 0; i < from.size(); ++i) state.displacement[i] += e * direction[i];
+    const std::vector<Vector> linear = momentum.unbalanced_forces(0.0, state.displacement);
+    linearise();
+    std::vector<Vector> exact = momentum.unbalanced_forces(0.0, state.displacement), change = linear;
+    for (std::size_t i = 0; i < from.size(); ++i) exact[i] -= linear[i], change[i] -= start[i];
+    error.push_back(norm(exact) / norm(change));
+  }
+  report_row(fmt::format("damaged cells, {}", what), {{"error", error[0]}, {"of a tenth", error[1]}});
+  EXPECT_LE(error[1], 0.15 * error[0]);
+  EXPECT_LE(error[1], 1e-2);
+}
+
+TEST(FinitePlaneStress, TheLinearisedBalanceOfDamagedCellsIsTheDerivative) {
+  const Mesh plate = sheet(5);
+  expect_derivative(plate, finite_body(plate, law_of("neo_hookean"), bent(0.0)), "plane stress");
+  expect_derivative(plate, finite_body(plate, law_of("ogden"), bent(0.0)), "plane stress, Ogden");
+  const Mesh layered = sphere_in_cube(2, 2, 2.0, 0.8), polyhedra = barycentric_dual(layered);
+  const auto held = [](const Mesh& mesh, std::string_view law) {
+    return finite_body(
+        mesh, law_of(law),
+        {moved("zmin", {true, true, true}, [](const Vector&, double) -> Vector { return Vector::Zero(); })});
+  };
+  expect_derivative(layered, held(layered, "neo_hookean"), "tetrahedra and prisms");
+  expect_derivative(polyhedra, held(polyhedra, "neo_hookean"), "polyhedra");
+}
+
+}  // namespace
+}  // namespace pfdm::verification
