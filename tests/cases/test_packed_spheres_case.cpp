@@ -94,6 +94,9 @@ TEST(PackedSpheresCase, TakesShapesInPlaceOfSpheres) {
   const Outcome outcome = run({"run", directory.path().string(), "--threads", "1"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_GT(read_csv(directory.results() / "force_displacement.csv").column("force_z_N").back(), 0.0);
+  const std::string copy = (directory.path() / "copy").string();
+  EXPECT_EQ(run({"init", copy, "--like", directory.path().string()}).status, 0);
+  EXPECT_EQ(run({"check", copy}).status, 0);
   directory.write("brick.obj", replaced(brick_obj, "f 4 1 5 8\n", ""));
   const Outcome open = run({"check", directory.path().string()});
   EXPECT_EQ(open.status, 2);
