@@ -1,7 +1,10 @@
 #include "mesh/packed_spheres.h"
 
-#include "mesh/sphere_packing.h"
+#include "mesh/convex_distance.h"
+#include "mesh/particle_shape.h"
+#include "mesh/shape_packing.h"
 #include "mesh/sphere_refinement.h"
+#include "mesh/surface_remeshing.h"
 #include "physics/error.h"
 
 #include <fmt/format.h>
@@ -102,6 +105,50 @@ SpherePacking packing_of(const PackedSpheresSettings& settings, const ParticlesI
   return packing;
 }
 
+// The k-th shape with this volume, remeshed, about its centroid: what new triangles take of it is given back.
+TriangleSurface shape_of(const PackedSpheresSettings& settings, std::size_t k, double volume) {
+  const PackedShape& shape = settings.shapes[k];
+  const double scale = std::cbrt(volume / enclosed_volume(shape.given.surface));
+  const TriangleSurface body = about_centroid(shape.given.surface, scale, Tensor::Identity());
+  const TriangleSurface fine = remeshed({shape.given.name, body}, settings.like.surface_size, shape.sharp);
+  const double kept = enclosed_volume(fine) / volume;
+  constexpr double least = 0.7;
+  if (!(kept >= least))
+    throw InputError(fmt::format(
+        "the surface {}: triangles of {:g} m leave {:.2g} of the volume of a particle of diameter {:.3g} m; "
+        "at least {:g} is required: give a smaller surface_size",
+        shape.given.name, settings.like.surface_size, kept, std::cbrt(6.0 / std::numbers::pi * volume), least));
+  return about_centroid(fine, std::cbrt(1.0 / kept), Tensor::Identity());
+}
+
+std::vector<Vector> corners_with_layers(const Particle& particle) {
+  std::vector<Vector> points = particle.shape.points;
+  if (particle.n_layers > 0) {
+    const std::vector<Vector> outwards = offset_directions(particle.shape);
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] += particle.layer_thickness * outwards[i];
+  }
+  return hull_corners(points);
+}
+
+void add_shapes(const PackedSpheresSettings& settings, ParticlesInBoxSettings& box, RandomNumbers& random) {
+  ShapePacking packing{
+      .lower = box.lower, .upper = box.upper, .bodies = {}, .gap = settings.gap, .wall_gap = settings.wall_gap};
+  for (std::size_t i = 0; i < settings.diameters.size(); ++i) {
+    const std::size_t n = settings.shapes.size();
+    Particle particle = settings.like;
+    const bool known = i >= n && settings.diameters[i] == settings.diameters[i - n];
+    particle.shape = known ? box.particles[i - n].shape : shape_of(settings, i % n, ball_volume(settings.diameters[i]));
+    if (settings.numbered) particle.region = numbered_region(settings.like.region, i);
+    packing.bodies.push_back(known ? packing.bodies[i - n] : corners_with_layers(particle));
+    box.particles.push_back(std::move(particle));
+  }
+  const std::vector<ShapePlace> places = pack_shapes(packing, random);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    box.particles[i].shape = turned(std::move(box.particles[i].shape), places[i].rotation);
+    box.particles[i].centre = places[i].centre;
+  }
+}
+
 }  // namespace
 
 std::string numbered_region(const std::string& region, std::size_t i) { return fmt::format("{}_{}", region, i + 1); }
@@ -110,6 +157,10 @@ ParticlesInBoxSettings packed_particles(const PackedSpheresSettings& settings) {
   ParticlesInBoxSettings box = settings.box;
   check_gaps(settings, box);
   RandomNumbers random(settings.seed);
+  if (!settings.shapes.empty()) {
+    add_shapes(settings, box, random);
+    return box;
+  }
   for (std::size_t i = 0; i < settings.diameters.size(); ++i)
     box.particles.push_back(make_particle(settings, i, random));
   const std::vector<Vector> centres =

@@ -1,13 +1,21 @@
 #pragma once
-// A box of matrix with many spheres, packed at random or placed: the representative volume of a composite.
+// A box of matrix with many spheres, packed at random or placed, or bodies of any shape, packed and turned at random:
+// the representative volume of a composite.
 
 #include "mesh/particles_in_box.h"
+#include "mesh/surface_checks.h"
 
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
 namespace pfdm {
+
+struct PackedShape {
+  NamedSurface given;                      ///< of any size
+  double sharp = 0.25 * std::numbers::pi;  ///< angle from which on edges are kept [radian]
+};
 
 struct PackedSpheresSettings {
   ParticlesInBoxSettings box;  ///< without its particles
@@ -23,6 +31,9 @@ struct PackedSpheresSettings {
   double edges_over_gap = 1.0;
   double smallest_surface_size = 0.5;
   bool numbered = false;  ///< regions particle_1, particle_2 ... instead of one
+  /// Surfaces in place of the spheres, taken in turn; `diameters` are those of the spheres of their volumes, and
+  /// `like.surface_size` is the edge length of their new triangles. They are packed at random.
+  std::vector<PackedShape> shapes{};
 };
 
 /// Of sphere i, from 0: particle_1 ...

@@ -47,6 +47,11 @@ class TextLines {
   std::size_t number_ = 0;
 };
 
+std::string lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
 // Points of triangles that are given by their coordinates.
 class PointMerger {
  public:
@@ -107,6 +112,7 @@ TriangleSurface read_text_stl(const std::filesystem::path& path, const std::stri
   std::istringstream words;
   for (std::string word; lines.next(words);) {
     if (!(words >> word)) continue;
+    word = lower_case(word);
     if (word == "vertex") {
       if (n == 3) throw lines.error("a facet has more than three vertices");
       corners[n++] = lines.point(words);
@@ -124,7 +130,7 @@ TriangleSurface read_text_stl(const std::filesystem::path& path, const std::stri
 
 TriangleSurface read_stl(const std::filesystem::path& path, const std::string& content) {
   if (has_binary_length(content)) return read_binary_stl(path, content);
-  if (content.starts_with("solid")) return read_text_stl(path, content);
+  if (lower_case(content.substr(0, 5)) == "solid") return read_text_stl(path, content);
   throw InputError(
       fmt::format("the surface {} is no STL: it neither begins with \"solid\" nor has the length that its number of "
                   "triangles asks for ({} bytes for each, {} before them)",
@@ -191,8 +197,7 @@ void check_areas(const std::filesystem::path& path, const TriangleSurface& surfa
 }  // namespace
 
 TriangleSurface read_surface_file(const std::filesystem::path& path) {
-  std::string kind = path.extension().string();
-  std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string kind = lower_case(path.extension().string());
   if (kind != ".stl" && kind != ".obj")
     throw InputError(fmt::format("the surface {} must be a file .stl or .obj", path.string()));
   const std::string content = surface_content(path);

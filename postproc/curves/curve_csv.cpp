@@ -57,11 +57,16 @@ CurveRow row_of(const std::vector<double>& v) {
 std::string curve_header() { return fmt::format("{}", fmt::join(column_names(), ",")); }
 
 CurveRow curve_row(const StepReport& report, Index patch, int component) {
+  CurveRow row = curve_row(report);
+  row.displacement = report.patch_displacement[as_size(patch)][component];
+  row.force = report.reaction[as_size(patch)];
+  return row;
+}
+
+CurveRow curve_row(const StepReport& report) {
   CurveRow row;
   row.step = report.step;
   row.load = report.load;
-  row.displacement = report.patch_displacement[as_size(patch)][component];
-  row.force = report.reaction[as_size(patch)];
   row.energy = report.energy;
   row.max_damage = report.max_damage;
   row.damaged_volume = report.damaged_volume;

@@ -25,6 +25,8 @@ struct CurveRow {
 inline constexpr const char* curve_file = "force_displacement.csv";
 std::string curve_header();
 
+/// What a step is without a patch: no force, no displacement.
+CurveRow curve_row(const StepReport& report);
 /// Component 0, 1, 2 (x, y, z) of the displacement of the patch with this number in Mesh::patches.
 CurveRow curve_row(const StepReport& report, Index patch, int component);
 

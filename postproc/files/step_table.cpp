@@ -23,9 +23,9 @@ void StepTable::read(Index last_step) {
   }
 }
 
-void StepTable::append(std::vector<double> row) {
+void StepTable::append(std::vector<double> row, bool now) {
   rows_.push_back(std::move(row));
-  write();
+  if (now) write();
 }
 
 void StepTable::write() const {

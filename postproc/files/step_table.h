@@ -17,14 +17,15 @@ class StepTable {
   /// as append() does; InputError that names file and line for what is not such a table.
   StepTable(std::filesystem::path path, std::vector<std::string> names, std::optional<Index> last_step);
 
-  /// One number for each column; those that are not finite are written as nan.
-  void append(std::vector<double> row);
+  /// One number for each column; those that are not finite are written as nan. Without `now` the file has the row after
+  /// write(), or the next one.
+  void append(std::vector<double> row, bool now = true);
+  void write() const;
   const std::vector<std::vector<double>>& rows() const { return rows_; }
   const std::vector<std::string>& names() const { return names_; }
 
  private:
   void read(Index last_step);
-  void write() const;
 
   std::filesystem::path path_;
   std::vector<std::string> names_;

@@ -191,6 +191,14 @@ double CohesiveFaces::dissipated(const std::vector<InterfaceHistory>& from,
   return sum;
 }
 
+std::vector<double> CohesiveFaces::debonded_areas(const std::vector<InterfaceHistory>& histories) const {
+  constexpr double most_of_it = 0.9;
+  std::vector<double> areas(model_.interfaces.size(), 0.0);
+  for (std::size_t k = 0; k < faces_.size(); ++k)
+    if (law(faces_[k]).damage(faces_[k].at, histories[k]) >= most_of_it) areas[faces_[k].surface] += faces_[k].area;
+  return areas;
+}
+
 double CohesiveFaces::dissipated_at(const MomentumOperator& balance, const std::vector<Vector>& u,
                                     const std::vector<InterfaceHistory>& from) const {
   std::vector<InterfaceHistory> to;

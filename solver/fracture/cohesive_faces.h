@@ -47,7 +47,9 @@ class CohesiveFaces {
                  const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
   /// Energy dissipated from one state to the other [J].
   double dissipated(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
-  /// The same, to the displacements u [J].
+  /// Of each surface, where nine tenths of the toughness or more are dissipated [m^2].
+  std::vector<double> debonded_areas(const std::vector<InterfaceHistory>& histories) const;
+  /// Energy dissipated from one state to that of the displacements u [J].
   double dissipated_at(const MomentumOperator& balance, const std::vector<Vector>& u,
                        const std::vector<InterfaceHistory>& from) const;
   /// How it grows as the displacements u change by `change`, to first order and without friction [J].

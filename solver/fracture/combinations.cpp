@@ -29,6 +29,10 @@ void require_path(const Mesh& mesh, const FractureModel& m, const Unknowns& unkn
         "time cannot");
   if (m.irreversibility != Irreversibility::bounds)
     throw InputError("dissipation control (loading.maximum_dissipation) requires the irreversibility \"bounds\"");
+  if (!loading.is_proportional)
+    throw InputError(
+        "dissipation control (loading.maximum_dissipation) requires a path of one point: mean strains and stresses "
+        "proportional to t");
   for (const PatchCondition& on : unknowns.conditions) {
     if (!on.condition.value) continue;
     const Patch& patch = mesh.patches[as_size(on.patch)];
@@ -103,6 +107,7 @@ void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& un
   }
   require_finite_interfaces(m);
   if (unknowns.plane_stress) require_finite_plate(m);
+  if (m.motion.any()) refuse("a prescribed mean strain or stress: the means are those of small strain");
   if (controls_dissipation(loading))
     refuse("dissipation control (loading.maximum_dissipation): their displacements are not proportional to the load");
 }

@@ -39,6 +39,7 @@ ElasticBody elastic_body(const FractureModel& model) {
   }
   for (const CohesiveSurface& surface : model.interfaces)
     body.split_faces.insert(body.split_faces.end(), surface.faces.begin(), surface.faces.end());
+  body.motion = model.motion;
   body.has_pressure = model.is_isotropic() && std::ranges::none_of(model.regions, [](const RegionModel& r) {
                         return r.material != nullptr && !r.material->is_finite_strain();
                       });

@@ -65,6 +65,7 @@ struct FractureModel {
   double residual_stiffness = 1e-6;           ///< k of g_k = (1 - k) g + k
   double viscosity = 0.0;                     ///< eta of the damage equation [Pa s]; 0: rate-independent
   std::vector<BoundaryCondition> boundary;    ///< patches that are not named are free
+  BoxMotion motion{};                         ///< of a box by its mean strain; then nothing is prescribed on patches
   std::vector<CohesiveSurface> interfaces{};  ///< no face in two of them
   /// At load 0 the damage is nowhere below this, between 0 and 1 [-]: it has the profile of least surface energy.
   /// Empty: none.
@@ -118,6 +119,8 @@ struct LoadingSettings {
   /// Time in which the load parameter grows by 1 [s]; required by a viscosity and by rate-dependent materials.
   double duration = 0.0;
   std::vector<double> stops;  ///< values of t that a step must end on (frames)
+  /// Whether what is prescribed may be taken as proportional to t: the first guess of a step.
+  bool is_proportional = true;
 };
 
 }  // namespace pfdm

@@ -37,6 +37,7 @@ struct FractureRun::Parts {
   FractureModel model;
   LoadingSettings loading;
   Unknowns unknowns;
+  std::vector<Index> sides;  // of a box that moves by its mean strain
   Staggered staggered;
   Index maximum_iterations;
   ResidualStiffness residual_stiffness;
@@ -47,6 +48,7 @@ struct FractureRun::Parts {
         model(std::move(fm)),
         loading(std::move(l)),
         unknowns((require_complete(m, model), place_unknowns(m, elastic_body(model)))),
+        sides(faces_of_sides(model.motion)),
         staggered(m, model, unknowns, settings),
         maximum_iterations(settings.maximum_iterations),
         residual_stiffness(model.residual_stiffness) {
@@ -62,7 +64,9 @@ struct FractureRun::Parts {
   }
 
   // At given damage and with boundary values that are, displacements are proportional to the load.
-  bool is_proportional() const { return !staggered.stiffness().materials().any() && !model.is_finite_strain(); }
+  bool is_proportional() const {
+    return !staggered.stiffness().materials().any() && !model.is_finite_strain() && loading.is_proportional;
+  }
 
   bool follows_faces() const { return !model.interfaces.empty() && std::isfinite(loading.maximum_dissipation); }
 
@@ -182,6 +186,8 @@ struct FractureRun::Parts {
     r.reaction = sum_by_patch(state.boundary_force);
     r.patch_displacement = staggered.momentum().balance().patch_displacements(state.displacement);
     r.energy = state.energy;
+    if (model.motion.any()) r.means = box_means(mesh, unknowns, sides, state.boundary_force, state.displacement);
+    r.debonded_area = staggered.faces().debonded_areas(state.interfaces);
     r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return state.damage[c]; });
     r.damaged_volume =
         parallel_sum(mesh.n_cells(), [&](Index c) { return state.damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });

@@ -5,7 +5,9 @@
 #include "physics/interface_law.h"
 #include "solver/fracture/cell_histories.h"
 #include "solver/fracture/energy_account.h"
+#include "solver/momentum/box_means.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,8 +38,10 @@ struct StepReport {
   std::vector<Vector> reaction;            ///< force on each patch [N]
   std::vector<Vector> patch_displacement;  ///< area mean of each patch's displacement [m]
   EnergyAccount energy;
-  double max_damage = 0.0;      ///< [-]
-  double damaged_volume = 0.0;  ///< volume with d > 0.5 [m^3]
+  std::optional<BoxMeans> means;      ///< of a box that moves by its mean strain
+  std::vector<double> debonded_area;  ///< of each cohesive surface: where it has dissipated nine tenths or more [m^2]
+  double max_damage = 0.0;            ///< [-]
+  double damaged_volume = 0.0;        ///< volume with d > 0.5 [m^3]
   Index staggered_iterations = 0;
   Index krylov_iterations = 0;
   double increment = 0.0;            ///< of the load parameter

@@ -5,6 +5,7 @@
 #include "physics/registry.h"
 #include "solver/homogenization/box_sides.h"
 #include "solver/homogenization/rigid_modes.h"
+#include "solver/momentum/box_means.h"
 #include "solver/momentum/momentum_solver.h"
 
 #include <fmt/format.h>
@@ -26,16 +27,16 @@ Vector strained(const Vector& x, double load) { return unit(static_cast<std::siz
 ElasticBody body_of(const Mesh& mesh, const LinearComposite& composite, const BoxSides& sides, const Loading& loading) {
   ElasticBody body{.elasticity = composite.elasticity, .zone = composite.zone, .boundary = {}};
   if (loading.by_traction) {
-    body.held = three_two_one_supports(mesh, sides);
+    body.motion.held = three_two_one_supports(mesh, sides);
     return body;
   }
-  body.displacement = strained;
+  body.motion.displacement = strained;
   if (loading.repeats) {
-    body.periodic = match_opposite_sides(mesh, sides);
-    body.held = {{body.periodic.front().face, Tensor::Identity()}};
+    body.motion.periodic = match_opposite_sides(mesh, sides);
+    body.motion.held = {{body.motion.periodic.front().face, Tensor::Identity()}};
     return body;
   }
-  for (const Index face : sides.all()) body.held.push_back({face, Tensor::Identity()});
+  for (const Index face : sides.all()) body.motion.held.push_back({face, Tensor::Identity()});
   return body;
 }
 
@@ -118,15 +119,9 @@ LoadCase BoxInLoadCases::solve(std::size_t k) {
 }
 
 void BoxInLoadCases::average(const std::vector<Vector>& u, LoadCase& result) const {
-  const std::vector<Vector> forces = solver_.balance().boundary_forces(u);
-  Tensor stress = Tensor::Zero(), strain = Tensor::Zero();
-  for (const Index face : sides_.all()) {
-    const Vector& f = forces[as_size(face - mesh_.n_interior_faces())];
-    stress += f * (mesh_.face_centre[face] - sides_.centre()).transpose();
-    strain += u[as_size(unknowns_.node_of_face[face])] * mesh_.face_area[face].transpose();
-  }
-  result.stress = to_mandel(symmetric_part(stress) / volume());
-  result.strain = to_mandel(symmetric_part(strain) / volume());
+  const BoxMeans means = box_means(mesh_, unknowns_, sides_.all(), solver_.balance().boundary_forces(u), u);
+  result.stress = to_mandel(means.stress);
+  result.strain = to_mandel(means.strain);
   const CellMechanics cells = solver_.balance().mechanics(u, MomentumOperator::Wanted::without_gradient);
   Tensor constitutive = Tensor::Zero();
   for (Index c = 0; c < mesh_.n_cells(); ++c)

@@ -2,10 +2,10 @@
 // The effective linear stiffness of a composite that fills a box: six load cases, and the averages of stress and strain
 // over the box, which follow from the tractions and displacements of its surface,
 //
-//   <sigma> = (1/V) sum sym(f (x) x),  <eps> = (1/V) sum sym(u (x) S),
+//   C = <sigma> <eps>^-1
 //
-// f the forces on the faces and S their area vectors, exact where forces and displacements are consistent. Voids inside
-// the box count as material without stiffness. C = <sigma> <eps>^-1 as matrices whose columns are the load cases.
+// as matrices whose columns are the load cases (solver/momentum/box_means.h). Voids inside the box count as material
+// without stiffness.
 //
 // The order of the energies of one body: uniform traction <= periodic <= uniform displacement (Suquet, Lecture Notes in
 // Physics 272 (1987) 193; Hazanov, Huet, J. Mech. Phys. Solids 42 (1994) 1995).

@@ -23,7 +23,7 @@ class RigidModes {
   RigidModes(const Mesh& mesh, const Unknowns& unknowns) : mesh_(mesh), unknowns_(unknowns) {
     add_inclusions();
     constexpr std::size_t point_supports = 3;
-    if (unknowns.periodic.empty() && unknowns.held.size() == point_supports) add_whole_body();
+    if (unknowns.periodic.empty() && unknowns.motion.held.size() == point_supports) add_whole_body();
     if (!modes_.empty()) factor();
   }
 

@@ -292,18 +292,8 @@ void MomentumOperator::sum_forces(std::vector<Vector>& out) const {
     out[as_size(unknowns_.n_cells + k)] = unknowns_.free_directions[as_size(k)] * sum;
   });
   gather_from_images(out);
+  work_on_free_strains(out);
   keep_in_plane(out);
-}
-
-void MomentumOperator::gather_from_images(std::vector<Vector>& forces) const {
-  for (const PeriodicNodes& pair : unknowns_.periodic) {
-    forces[as_size(pair.node)] += forces[as_size(pair.image)];
-    forces[as_size(pair.image)].setZero();
-  }
-}
-
-void MomentumOperator::repeat_on_images(std::vector<Vector>& v) const {
-  for (const PeriodicNodes& pair : unknowns_.periodic) v[as_size(pair.image)] = v[as_size(pair.node)];
 }
 
 // Plane meshes neither move nor are loaded across their plane.
@@ -325,6 +315,11 @@ std::vector<Vector> MomentumOperator::traction_forces(double t) const {
                             condition.value(mesh_.face_centre[f], t) * mesh_.face_area[f].norm();
     }
   }
+  const BoxMotion& motion = unknowns_.motion;
+  for (std::size_t k = 0; k < motion.free_strains.size(); ++k)
+    if (motion.free_strains[k].stress)
+      load[as_size(unknowns_.first_strain()) + k] =
+          motion.size.prod() * motion.free_strains[k].stress(t) * Vector::UnitX();
   keep_in_plane(load);
   return load;
 }
@@ -347,16 +342,17 @@ void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
       u[as_size(node)] = is_free * u[as_size(node)] + (Tensor::Identity() - is_free) * value;
     }
   }
-  const auto of_body = [&](Index face) -> Vector {
-    return unknowns_.displacement ? unknowns_.displacement(mesh_.face_centre[face], t) : Vector::Zero();
+  const BoxMotion& motion = unknowns_.motion;
+  const Tensor E = unknowns_.free_strain(u);
+  const auto of_body = [&](const Vector& x) -> Vector {
+    return motion.displacement ? (E * x + motion.displacement(x, t)).eval() : (E * x).eval();
   };
-  for (const HeldFace& held : unknowns_.held) {
+  for (const HeldFace& held : motion.held) {
     Vector& here = u[as_size(unknowns_.node_of_face[held.face])];
-    here += held.directions * (of_body(held.face) - here);
+    here += held.directions * (of_body(mesh_.face_centre[held.face]) - here);
   }
-  const auto face_of = [&](Index node) { return unknowns_.face_of_node[as_size(node - unknowns_.n_cells)]; };
   for (const PeriodicNodes& pair : unknowns_.periodic)
-    u[as_size(pair.image)] = u[as_size(pair.node)] + of_body(face_of(pair.image)) - of_body(face_of(pair.node));
+    u[as_size(pair.image)] = u[as_size(pair.node)] + of_body(place(pair.image)) - of_body(place(pair.node));
   keep_in_plane(u);
 }
 

@@ -40,6 +40,9 @@
 // Periodic faces: the image has no unknown of its own, but the displacement of its node plus what is prescribed between
 // the two, and its forces act on that node: t_P + t_N = 0 as on an interface, whose sides lie at different places.
 //
+// Free strains E of a box move its held faces by E x and the images of its nodes by E (x_image - x_node); the work of
+// the forces on these moves, by E, is the mean stress times the volume: that is their equation.
+//
 // Finite strain (total Lagrangian; momentum_finite.cpp): normals N, areas and distances are those of the reference
 // mesh, sigma is the first Piola-Kirchhoff stress P(H) at the displacement gradients H of the same least squares, and
 //
@@ -158,8 +161,9 @@ class MomentumOperator {
   void prescribe(double t, std::vector<Vector>& u) const;
   /// Removes the component across the plane of a plane mesh.
   void keep_in_plane(std::vector<Vector>& v) const;
-  /// Copies to the images of periodic nodes what their nodes have.
-  void repeat_on_images(std::vector<Vector>& v) const;
+  /// Gives images of periodic nodes what their nodes have, and both they and the held nodes what the free strains in v
+  /// move them by. The held components of v have to be zero.
+  void move_with_box(std::vector<Vector>& v) const;
 
   /// The compact symmetric matrix for the preconditioner of A: c between cells, a from a cell to its face nodes. It is
   /// diagonal in what is prescribed and in the direction across a plane mesh.
@@ -262,6 +266,10 @@ class MomentumOperator {
   void compute_forces(const std::vector<Vector>& u) const;
   void sum_forces(std::vector<Vector>& out) const;
   void gather_from_images(std::vector<Vector>& forces) const;
+  void work_on_free_strains(std::vector<Vector>& out) const;
+  Vector place(Index face_node) const {
+    return mesh_.face_centre[unknowns_.face_of_node[as_size(face_node - unknowns_.n_cells)]];
+  }
   void take_away_initial_forces(std::vector<Vector>& load) const;
   double link_flux(std::size_t i, const Vector& u_P, const Vector& jump, const Vector& stress_jump) const;
   double side_flux(const Side& side, const Vector& u_f) const;

@@ -109,6 +109,8 @@ void MomentumSolver::build_preconditioner() {
   for (std::size_t i = 0; i < scale_.size(); ++i) scale_[i] = 1.0 / std::sqrt(compact.diagonal[i].trace() / 3.0);
   pressure_compliance_ = operator_.pressure_compliance();
   for (const double s : pressure_compliance_) scale_.push_back(1.0 / std::sqrt(s));
+  for (const FreeStrain& free : unknowns_.motion.free_strains)
+    scale_.push_back(1.0 / std::sqrt(unknowns_.motion.size.prod() * free.modulus));
   preconditioner_->build(compact);
   is_due_ = false;
   reference_load_.reset();
@@ -130,7 +132,11 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
     if (i >= unknowns_.n_cells)
       z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
   });
-  operator_.repeat_on_images(z);
+  for (std::size_t k = 0; k < unknowns_.motion.free_strains.size(); ++k) {
+    const std::size_t i = as_size(unknowns_.first_strain()) + k;
+    z[i] = scale_[i] * scale_[i] * r[i];
+  }
+  operator_.move_with_box(z);
   operator_.keep_in_plane(z);
 }
 

@@ -143,12 +143,11 @@ void split(const Mesh& mesh, const std::vector<Index>& faces, Unknowns& unknowns
 }
 
 void hold(const ElasticBody& body, Unknowns& unknowns) {
-  unknowns.held = body.held;
-  unknowns.displacement = body.displacement;
+  unknowns.motion = body.motion;
   const auto number = [&](Index face) { return as_size(unknowns.node_of_face[face] - unknowns.n_cells); };
-  for (const HeldFace& held : body.held)
+  for (const HeldFace& held : body.motion.held)
     unknowns.free_directions[number(held.face)] = Tensor::Identity() - held.directions;
-  for (const PeriodicFaces& pair : body.periodic) {
+  for (const PeriodicFaces& pair : body.motion.periodic) {
     unknowns.periodic.push_back({unknowns.node_of_face[pair.face], unknowns.node_of_face[pair.image]});
     unknowns.free_directions[number(pair.image)] = unknowns.free_directions[number(pair.face)];
   }

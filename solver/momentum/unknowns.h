@@ -3,6 +3,7 @@
 // boundary. Faces of plane and axisymmetric patches (one-cell-thick meshes) carry none. Nearly incompressible cells
 // also have a pressure (cell_pressure.h): unknowns after the nodes, each in the first component of a vector.
 // The sides of a split face (a cohesive interface) are independent: each has a node of its own.
+// Components of the mean strain of a box may be unknowns too: the last ones, each in the first component of a vector.
 
 #include "mesh/mesh.h"
 #include "physics/elasticity.h"
@@ -25,6 +26,26 @@ struct PeriodicFaces {
   Index face = 0, image = 0;
 };
 
+/// A part of the mean strain of a box that is not prescribed: an unknown, by the mean stress that it has to meet.
+struct FreeStrain {
+  Tensor direction;                        ///< symmetric, of norm 1
+  std::function<double(double t)> stress;  ///< mean stress along it at the load parameter t [Pa]; empty: zero
+  double modulus = 0.0;                    ///< estimate of the box's, for the preconditioner [Pa]
+};
+
+/// How the sides of a box follow a displacement of the whole body.
+struct BoxMotion {
+  std::vector<HeldFace> held{};           ///< none twice, and no image of a periodic face
+  std::vector<PeriodicFaces> periodic{};  ///< no face twice
+  /// Of the whole body at x [m] and the load parameter t, affine in x: for the held and the periodic faces [m]. Empty:
+  /// zero. The free strains add to it.
+  std::function<Vector(const Vector& x, double t)> displacement{};
+  std::vector<FreeStrain> free_strains{};
+  Vector size = Vector::Zero();  ///< of the box [m]
+
+  bool any() const { return !held.empty(); }
+};
+
 /// What the momentum balance is about.
 struct ElasticBody {
   std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh, undamaged
@@ -32,11 +53,7 @@ struct ElasticBody {
   std::vector<Index> zone;
   std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
   std::vector<Index> split_faces{};         ///< interior ones, none twice
-  std::vector<HeldFace> held{};             ///< none twice, and no image of a periodic face
-  std::vector<PeriodicFaces> periodic{};    ///< no face twice
-  /// Of the whole body at x [m] and the load parameter t, affine in x: for the held and the periodic faces [m]. Empty:
-  /// zero.
-  std::function<Vector(const Vector& x, double t)> displacement{};
+  BoxMotion motion{};
   /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
   bool has_pressure = true;
 };
@@ -60,10 +77,9 @@ struct Unknowns {
   std::vector<Index> split_faces{};        ///< node_of_face is that of their owner's side,
   FaceField<Index> neighbour_node{};       ///< and this that of the neighbour's; -1 elsewhere; empty without any
   std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free by default
-  std::vector<HeldFace> held{};            ///< and
-  std::vector<PeriodicNodes> periodic{};   ///< as the body has them, with
-  std::function<Vector(const Vector& x, double t)> displacement{};
-  std::vector<Tensor> free_directions;  ///< per face node: projector onto the displacements that are not prescribed
+  BoxMotion motion{};                      ///< as the body has it, and
+  std::vector<PeriodicNodes> periodic{};   ///< its pairs
+  std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
   /// Across the one cell of plane and axisymmetric meshes; zero in three-dimensional ones.
   Vector plane_normal = Vector::Zero();
   bool plane_stress = false;       ///< across the plane patches; else plane strain
@@ -78,7 +94,15 @@ struct Unknowns {
     const bool beyond = neighbour_node.size() > 0 && neighbour_node[face] >= 0 && mesh.owner[face] != cell;
     return beyond ? neighbour_node[face] : node_of_face[face];
   }
-  Index n_unknowns() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }  ///< vectors
+  Index first_strain() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }
+  Index n_unknowns() const { return first_strain() + static_cast<Index>(motion.free_strains.size()); }  ///< vectors
+  /// The sum of the free strains among the unknowns u.
+  Tensor free_strain(const std::vector<Vector>& u) const {
+    Tensor sum = Tensor::Zero();
+    for (std::size_t k = 0; k < motion.free_strains.size(); ++k)
+      sum += u[as_size(first_strain()) + k][0] * motion.free_strains[k].direction;
+    return sum;
+  }
 };
 
 /// Throws InputError for a condition on an unknown patch, two conditions on one patch, a symmetry patch that is not

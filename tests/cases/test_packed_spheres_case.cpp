@@ -77,6 +77,42 @@ TEST(PackedSpheresCase, MeshHasTheVolumeThatWasAskedFor) {
   EXPECT_THAT(outcome.out, HasSubstr("particle"));
 }
 
+// Bricks in place of the spheres.
+std::string bricks() {
+  std::string text = replaced(composite(), "subdivisions = 2\nedges_over_gap = 0\n", "surface_size = \"150 um\"\n");
+  return replaced(text, "[materials.glass]", "[[mesh.shapes]]\nsurface = \"brick.obj\"\n[materials.glass]");
+}
+
+constexpr const char* brick_obj =
+    "# synthetic: a brick\n"
+    "v 0 0 0\nv 3 0 0\nv 3 2 0\nv 0 2 0\nv 0 0 1\nv 3 0 1\nv 3 2 1\nv 0 2 1\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+TEST(PackedSpheresCase, TakesShapesInPlaceOfSpheres) {
+  const TemporaryCase directory(bricks());
+  directory.write("brick.obj", brick_obj);
+  const Outcome outcome = run({"run", directory.path().string(), "--threads", "1"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GT(read_csv(directory.results() / "force_displacement.csv").column("force_z_N").back(), 0.0);
+  const std::string copy = (directory.path() / "copy").string();
+  EXPECT_EQ(run({"init", copy, "--like", directory.path().string()}).status, 0);
+  EXPECT_EQ(run({"check", copy}).status, 0);
+  directory.write("brick.obj", replaced(brick_obj, "f 4 1 5 8\n", ""));
+  const Outcome open = run({"check", directory.path().string()});
+  EXPECT_EQ(open.status, 2);
+  EXPECT_THAT(open.err, HasSubstr("is not closed"));
+  for (const auto& [good, bad, said] :
+       {std::tuple("surface_size = \"150 um\"", "subdivisions = 2", "\"surface_size\" is missing"),
+        std::tuple("gap = \"20 um\"", "gap = \"20 um\"\nedges_over_gap = 1", "it belongs to spheres"),
+        std::tuple("\"brick.obj\"", "\"brick.obj\"\nlength_unit = \"mm\"", "\"length_unit\" is not known here")}) {
+    const TemporaryCase other(replaced(bricks(), good, bad));
+    other.write("brick.obj", brick_obj);
+    const Outcome refused = run({"check", other.path().string()});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_THAT(refused.err, HasSubstr(said));
+  }
+}
+
 class BadSpheres : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadSpheres, AreRefused) {

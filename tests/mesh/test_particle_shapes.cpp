@@ -1,6 +1,7 @@
 // Particles from surface files: reading, remeshing, placing, meshing.
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -92,9 +93,11 @@ TEST(SurfaceFile, ReadsPolygonsOfObjAndLeavesOutWhatIsNoTriangle) {
   EXPECT_NEAR((centroid(surface) - Vector(10, 0, 0)).norm(), 0.0, 1e-12);
 }
 
-TEST(SurfaceFile, StlAsTextAndBinaryIsTheSameSurface) {
+TEST(SurfaceFile, StlAsTextInCapitalsAndBinaryIsTheSameSurface) {
   const TriangleSurface body = ellipsoid(3);
-  for (const std::string& content : {text_stl(body), binary_stl(body)}) {
+  std::string capitals = text_stl(body);
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (const std::string& content : {text_stl(body), capitals, binary_stl(body)}) {
     const TriangleSurface read = read_surface_file(file_with("ellipsoid.STL", content));
     EXPECT_EQ(read.points.size(), body.points.size());
     EXPECT_EQ(read.triangles.size(), body.triangles.size());

@@ -94,6 +94,16 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   return defaults;
 }
 
+/// Of bodies in which only interfaces break.
+MaterialDefaults elastic(FractureModel& model) {
+  model.crack = &crack_geometry("AT2");
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
+  MaterialDefaults defaults;
+  defaults.elastic_with.emplace();
+  return defaults;
+}
+
 /// What materials with a history ask of the splits and of the loading.
 void check_histories(const FractureCase& fracture, const ConfigTable& root) {
   std::vector<EnergySplit> splits{fracture.model.split};
@@ -189,7 +199,7 @@ void check_names(const FractureCase& fracture, std::span<const std::string> regi
       material.where.one_of(regions, "region of the mesh");
   if (!regions.empty() && fracture.initial_damage)
     for (const ConfigValue& region : fracture.initial_damage->regions) region.one_of(regions, "region of the mesh");
-  if (patches.empty()) return;
+  if (patches.empty() || fracture.box) return;
   for (const BoundarySettings& boundary : fracture.boundary) boundary.patch.one_of(patches, "patch of the mesh");
   fracture.curve_patch->one_of(patches, "patch of the mesh");
 }
@@ -208,6 +218,8 @@ std::optional<double> full_displacement(const FractureCase& fracture) {
 
 /// The load parameter at which the curve's patch has been displaced by `entry`.
 double load_at_displacement(const ConfigValue& entry, const FractureCase& fracture) {
+  if (fracture.box)
+    throw entry.error("give load parameters, as in 0.78: the points of the path are reached at 1, 2, ...");
   if (const auto full = full_displacement(fracture)) return entry.quantity(dimension::length) / *full;
   throw entry.error(
       fmt::format("the displacement of patch \"{}\" along the curve's component is not prescribed by a "
@@ -235,16 +247,28 @@ std::vector<double> read_frames(const ConfigTable& output, const FractureCase& f
   return loads;
 }
 
+void read_frames_of(const ConfigTable& output, FractureCase& fracture) {
+  fracture.loading.stops = read_frames(output, fracture);
+  fracture.output.frames = read_frame_settings(output, fracture.loading, full_displacement(fracture));
+  fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", count, 0));
+  if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
+}
+
 void read_output(const ConfigTable& root, FractureCase& fracture) {
   const ConfigTable output = root.table("output").with_keys(
       {"curve", "frames_at", "frames_every", "time_value", "compression", "slices_through", "energy_release_rate"});
   read_curve(output, fracture);
   check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);  // the frames need the curve's patch
-  fracture.loading.stops = read_frames(output, fracture);
-  fracture.output.frames = read_frame_settings(output, fracture.loading, full_displacement(fracture));
-  fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", count, 0));
-  if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
+  read_frames_of(output, fracture);
   fracture.output.tips = read_energy_release(output);
+}
+
+/// Which traction-separation laws are recorded.
+void read_columns(const ConfigTable& root, FractureCase& fracture) {
+  std::vector<std::string> interfaces;
+  for (const InterfaceSettings& interface : fracture.interfaces) interfaces.push_back(interface.name);
+  fracture.cohesive =
+      read_cohesive(root, fracture.materials.bands, interfaces, Vector::Unit(fracture.output.curve.component));
 }
 
 /// Expressions are evaluated once where and when they will be, so that one without a value is refused before a run has
@@ -265,25 +289,38 @@ void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
   root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "boundary", "interface",
                   "loading", "solver", "output", "cohesive", "experiment", "fit", "sweep"});
+  FractureCase fracture = read_body(root, case_directory, false);
+  fracture.boundary = read_boundary(root, fracture.materials);
+  for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
+  read_output(root, fracture);
+  read_columns(root, fracture);
+  return fracture;
+}
+
+FractureCase read_body(const ConfigTable& root, const std::filesystem::path& case_directory, bool may_be_elastic) {
   FractureCase fracture;
   fracture.title = root.string("title");
-  MaterialDefaults defaults = read_fracture(root, fracture.model);
+  MaterialDefaults defaults =
+      may_be_elastic && !root.has("fracture") ? elastic(fracture.model) : read_fracture(root, fracture.model);
   fracture.mesh = read_mesh_recipe(root.table("mesh"), {case_directory, defaults.ell});
   defaults.bands = fracture.mesh.bands;
   fracture.materials = read_materials(root, defaults);
-  fracture.boundary = read_boundary(root, fracture.materials);
-  for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
   fracture.initial_damage = read_initial_damage(root, fracture.model);
   fracture.interfaces = read_interfaces(root, case_directory, fracture.data_files);
   fracture.loading = read_loading(root, fracture.model);
   check_histories(fracture, root);
   fracture.staggered = read_solver(root);
-  read_output(root, fracture);
-  std::vector<std::string> interfaces;
-  for (const InterfaceSettings& interface : fracture.interfaces) interfaces.push_back(interface.name);
-  fracture.cohesive =
-      read_cohesive(root, fracture.materials.bands, interfaces, Vector::Unit(fracture.output.curve.component));
   return fracture;
+}
+
+void read_box_output(const ConfigTable& root, FractureCase& fracture) {
+  check_names(fracture, fracture.mesh.regions, {});
+  fracture.output.curve.component = fracture.box->component[0];
+  if (root.has("output"))
+    read_frames_of(
+        root.table("output").with_keys({"frames_at", "frames_every", "time_value", "compression", "slices_through"}),
+        fracture);
+  read_columns(root, fracture);
 }
 
 FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
@@ -295,6 +332,7 @@ FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
   place_materials(fracture.materials, mesh, model);
   place_interfaces(fracture.interfaces, mesh, model);
   if (fracture.initial_damage) model.initial_damage = damage_at_the_start(*fracture.initial_damage, model, mesh);
+  if (fracture.box) model.motion = fracture.box->motion(mesh, model);
   return model;
 }
 

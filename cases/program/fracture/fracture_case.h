@@ -11,6 +11,8 @@
 #include "cases/program/fracture/mesh_recipe.h"
 #include "solver/fracture/fracture_model.h"
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,11 +34,19 @@ struct FractureOutput {
   std::vector<TipRegion> tips;           ///< around which the energy release rate is measured
 };
 
+/// A box that is loaded by mean strains or stresses in place of boundary conditions; of kind "homogenize".
+struct BoxCase {
+  std::function<BoxMotion(const Mesh& mesh, const FractureModel& model)> motion;
+  std::array<int, 2> component{2, 2};  ///< row and column of the mean strain and stress that make the curve
+  std::string words;                   ///< how it is loaded
+};
+
 struct FractureCase {
   std::string title;
   MeshRecipe mesh;
   Materials materials;
   std::vector<BoundarySettings> boundary;
+  std::optional<BoxCase> box;  ///< then there are none of these
   std::vector<InterfaceSettings> interfaces;
   FractureModel model;  ///< what depends on the mesh is filled in by model_on()
   std::optional<InitialDamage> initial_damage;
@@ -50,6 +60,13 @@ struct FractureCase {
 
 /// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+
+/// What no boundary condition decides: mesh, materials, interfaces, loading, solver. With `may_be_elastic` [fracture]
+/// may be left out: only interfaces break then, and materials have their elasticity alone.
+FractureCase read_body(const ConfigTable& root, const std::filesystem::path& case_directory, bool may_be_elastic);
+
+/// The parts of [output] that need no patch, and [cohesive]; with `box` and the loading as they are to be.
+void read_box_output(const ConfigTable& root, FractureCase& fracture);
 
 /// The model with its materials and initial damage on the mesh. Throws InputError, with file and line, for patches and
 /// regions that the mesh does not have, for regions without a material and for parameters that are out of range in a

@@ -105,6 +105,7 @@ void check(const FractureProgram& program, Session& session) {
   warn_of_interfaces(run, log);
   const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
   log.say(fmt::format("{}: {}", program.name, program.fracture.title));
+  if (program.fracture.box) log.say(program.fracture.box->words);
   log.say(fmt::format("cells {}", mesh.n_cells()));
   say_regions(mesh, log);
   log.say(fmt::format("unknowns {} of displacement, {} of damage", run.n_unknowns(), mesh.n_cells()));
@@ -341,37 +342,48 @@ void report(const FractureProgram& program, Session& session) {
                session);
 }
 
-RunnableCase read_program(const CaseFile& file) {
-  auto program = std::make_shared<FractureProgram>(FractureProgram{.file = file});
-  program->fracture = read_fracture_case(file.config.root(), file.directory);
-  program->experiment = read_experiment(file.config.root(), file.directory);
-  program->fit = read_curve_fit(file);
+/// The case that the program holds, once it is read; what needs [experiment] and [fit] is left out.
+RunnableCase runnable(const std::shared_ptr<FractureProgram>& program) {
+  const CaseFile& file = program->file;
   program->name = case_name(file);
   std::vector<std::filesystem::path> data_files = program->fracture.mesh.data_files;
   data_files.insert(data_files.end(), program->fracture.data_files.begin(), program->fracture.data_files.end());
   program->hash = case_hash(file, data_files, may_change_on_the_way);
   program->mesh_hash = table_hash(file, "mesh", program->fracture.mesh.data_files);
   if (const auto ell = program->fracture.mesh.ell) program->mesh_hash += fmt::format(" ell {}", *ell);
-  RunnableCase runnable{.title = program->fracture.title,
-                        .check = [program](Session& session) { check(*program, session); },
-                        .mesh = [program](Session& session) { mesh_only(*program, session); },
-                        .run = [program](Session& session) { run_case(*program, session); },
-                        .cohesive = [program](Session& session) { cohesive(*program, session); },
-                        .compare = [program](Session& session) { compare(*program, session); },
-                        .report = [program](Session& session) { report(*program, session); },
-                        .prepare = [program](Session& session) { prepare(*program, session); },
-                        .data_files = data_files};
-  runnable.goes_on = true;
-  runnable.fit = [program](Session& session) { fit(*program, session); };
+  return {.title = program->fracture.title,
+          .check = [program](Session& session) { check(*program, session); },
+          .mesh = [program](Session& session) { mesh_only(*program, session); },
+          .run = [program](Session& session) { run_case(*program, session); },
+          .cohesive = [program](Session& session) { cohesive(*program, session); },
+          .report = [program](Session& session) { report(*program, session); },
+          .prepare = [program](Session& session) { prepare(*program, session); },
+          .data_files = data_files,
+          .goes_on = true};
+}
+
+RunnableCase read_program(const CaseFile& file) {
+  auto program = std::make_shared<FractureProgram>(FractureProgram{.file = file});
+  program->fracture = read_fracture_case(file.config.root(), file.directory);
+  program->experiment = read_experiment(file.config.root(), file.directory);
+  program->fit = read_curve_fit(file);
+  RunnableCase found = runnable(program);
+  found.compare = [program](Session& session) { compare(*program, session); };
+  found.fit = [program](Session& session) { fit(*program, session); };
   if (!program->fit)
-    runnable.fit = job_without_table(file, "fit",
-                                     "[[fit.parameters]] that name the values to be estimated with their bounds, and "
-                                     "[experiment] with the measured curve",
-                                     "bar_fit");
-  return runnable;
+    found.fit = job_without_table(file, "fit",
+                                  "[[fit.parameters]] that name the values to be estimated with their bounds, and "
+                                  "[experiment] with the measured curve",
+                                  "bar_fit");
+  return found;
 }
 
 }  // namespace
+
+RunnableCase runnable_box(const CaseFile& file, FractureCase box) {
+  auto program = std::make_shared<FractureProgram>(FractureProgram{.file = file, .fracture = std::move(box)});
+  return runnable(program);
+}
 
 CaseKind fracture_kind() {
   return {.name = "fracture",

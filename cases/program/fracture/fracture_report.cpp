@@ -4,6 +4,7 @@
 #include "cases/program/fracture/fracture_pictures.h"
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/fracture/fracture_side_by_side.h"
+#include "cases/program/fracture/mean_curve.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/angle.h"
 #include "physics/traction_separation.h"
@@ -174,6 +175,19 @@ Chart force_chart(const FractureStory& story) {
   return chart;
 }
 
+/// Of a box that is loaded by its mean strain.
+Chart mean_chart(const FractureStory& story, const std::filesystem::path& results) {
+  const std::array<int, 2>& component = story.fracture.box->component;
+  const MeanCurve curve = read_mean_curve(results, story.fracture.interfaces, component);
+  const DisplayUnit y = common_unit({{curve.stress}}, "Pa");
+  const std::string_view name = name_of_component(component);
+  return {.caption = "Mean stress against mean strain",
+          .x = {.title = fmt::format("strain {} [-]", name)},
+          .y = {.title = fmt::format("stress {} [{}]", name, y.name)},
+          .series = {
+              {.label = {}, .x = curve.strain, .y = in_unit(curve.stress, y), .style = SeriesStyle::line_with_points}}};
+}
+
 Chart energy_chart(const FractureStory& story) {
   const std::vector<double> load = column(story.curve, [](const CurveRow& row) { return row.load; });
   std::vector<std::vector<double>> energies{
@@ -289,7 +303,7 @@ std::vector<PageRow> run_rows(const FractureStory& story, const std::filesystem:
                   .widths = {1.25, 0.9, 0.95}});
   std::vector<PageBlock> blocks = damage_pictures(story.fracture, story.curve, results);
   for (PageBlock& picture : interface_pictures(story.curve, results)) blocks.push_back(std::move(picture));
-  blocks.emplace_back(force_chart(story));
+  blocks.emplace_back(story.fracture.box ? mean_chart(story, results) : force_chart(story));
   blocks.emplace_back(energy_chart(story));
   if (has_law(story.records)) blocks.emplace_back(law_chart(story.records.front()));
   blocks.emplace_back(iterations_chart(story));

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/fracture_results.h"
 
+#include "cases/program/fracture/mean_curve.h"
 #include "cases/program/session/report_parts.h"
 #include "mesh/quality.h"
 #include "postproc/cohesive/cohesive_results.h"
@@ -57,7 +58,7 @@ void remove_what_was_made_of_them(const fs::path& directory) {
 void remove_earlier_run(const fs::path& directory) {
   remove_what_was_made_of_them(directory);
   std::error_code ignored;
-  for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file})
+  for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file, means_file})
     fs::remove(directory / file, ignored);
   remove_columns(directory / columns_folder);
   for (const char* folder : {frames_folder, interfaces_folder})
@@ -195,6 +196,7 @@ FractureResults::Files::Files(const fs::path& folder, const FractureCase& fractu
   if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
   if (const auto& tips = fracture.output.tips; !tips.empty())
     energy_release.emplace(folder / energy_release_file, energy_release_columns(tips), last_step);
+  if (fracture.box) means.emplace(folder / means_file, columns_of_means(fracture.interfaces), last_step);
 }
 
 FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureModel& model,
@@ -206,7 +208,7 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
       model_(model),
       sets_(columns),
       case_hash_(std::move(case_hash)),
-      curve_patch_(patch_number(mesh, fracture.output.curve.patch)),
+      curve_patch_(fracture.box ? std::nullopt : std::optional(patch_number(mesh, fracture.output.curve.patch))),
       place_(directory_, !last && has_results(directory_)),
       writer_(mesh, fracture.output.frames.file),
       damage_(as_size(mesh.n_cells()), 0.0) {
@@ -230,8 +232,10 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
   last_step_ = state.step;
   last_load_ = state.load;
   damage_ = state.damage;
-  files_->curve.add(curve_row(report, curve_patch_, fracture_.output.curve.component));
-  if (may_wait()) {
+  files_->curve.add(row_of(report));
+  const bool waits = may_wait();
+  if (files_->means) files_->means->append(row_of_means(report), !waits);
+  if (waits) {
     waits_ = true;
     return warnings;
   }
@@ -246,6 +250,11 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
   write_state(state);
   if (state.step > 0) take_place(state);
   return warnings;
+}
+
+CurveRow FractureResults::row_of(const StepReport& report) const {
+  return curve_patch_ ? curve_row(report, *curve_patch_, fracture_.output.curve.component)
+                      : curve_row_of_box(report, model_.motion.size, fracture_.box->component);
 }
 
 void FractureResults::write_state(const FractureState& state) {
@@ -289,6 +298,7 @@ bool FractureResults::may_wait() const {
 void FractureResults::write_what_waits(const FractureState& state) {
   if (waits_) {
     files_->curve.write();
+    if (files_->means) files_->means->write();
     write_state(state);
   }
   take_place(state);
@@ -351,6 +361,7 @@ void FractureResults::write_summary(RunSummary summary) const {
   summary.figures = headlines(files_->curve.rows(), fracture_.output.curve.component);
   summary.other_figures = damaged_areas();
   summary.other_figures.merge(last_energy_release());
+  if (files_->means) summary.other_figures.merge(figures_of_means(*files_->means, fracture_.box->component));
   pfdm::write_summary(folder() / summary_file, summary);
 }
 

@@ -90,6 +90,7 @@ class FractureResults {
     std::optional<ColumnFiles> columns;
     std::optional<StepTable> energy_release;
     std::optional<PvdSeries> interfaces;
+    std::optional<StepTable> means;
   };
 
   bool frame_is_due(const FractureState& state) const;
@@ -99,6 +100,7 @@ class FractureResults {
   void write_frame(Index step, double load, const OutputFields& output);
   void write_interfaces(Index step, double time, const OutputFields& output);
   void add_energy_release(const FractureState& state, const OutputFields& output, std::vector<std::string>& warnings);
+  CurveRow row_of(const StepReport& report) const;
   std::map<std::string, double> damaged_areas() const;
   std::map<std::string, double> last_energy_release() const;
 
@@ -108,7 +110,7 @@ class FractureResults {
   const FractureModel& model_;
   const std::vector<ColumnSet>& sets_;
   std::string case_hash_;
-  Index curve_patch_;
+  std::optional<Index> curve_patch_;  // none of a box
   NewResults place_;
   std::optional<Files> files_;
   VtuWriter writer_;

@@ -219,6 +219,17 @@ void read_drawn_spheres(const ConfigTable& table, PackedSpheresSettings& setting
       table.in_context([&] { return draw_diameters(distribution, count, volume, ratios, settings.seed); });
 }
 
+void read_packed_shapes(const ConfigTable& table, const std::filesystem::path& case_directory,
+                        PackedSpheresSettings& settings, std::vector<std::filesystem::path>& files) {
+  table.at("surface_size");  // the one size that there is
+  for (const std::string_view key : {"spheres", "subdivisions", "edges_over_gap", "smallest_surface_size"})
+    if (table.has(key)) throw table.at(key).error("it belongs to spheres and cannot be combined with [[mesh.shapes]]");
+  for (const ConfigTable& shape : table.tables("shapes")) {
+    settings.shapes.push_back(read_packed_shape(shape, case_directory));
+    files.push_back(settings.shapes.back().given.name);
+  }
+}
+
 Mesh with_shapes(ParticlesInBoxSettings settings, const std::vector<std::optional<ShapeRecipe>>& shapes) {
   for (std::size_t i = 0; i < shapes.size(); ++i)
     if (shapes[i]) settings.particles[i].shape = make_shape(*shapes[i], settings.particles[i].surface_size);
@@ -245,13 +256,15 @@ MeshRecipe read_particles_in_box(const ConfigTable& given, const MeshSurrounding
 MeshRecipe read_packed_spheres(const ConfigTable& given, const MeshSurroundings& around) {
   const ConfigTable table = with_keys_of_box(
       given, {"spheres", "diameter", "count", "volume_fraction", "gap", "wall_gap", "seed", "sphere_region", "numbered",
-              "subdivisions", "surface_size", "edges_over_gap", "smallest_surface_size"});
+              "subdivisions", "surface_size", "edges_over_gap", "smallest_surface_size", "shapes"});
   PackedSpheresSettings settings;
   settings.box = read_box_of_tetrahedra(table);
   settings.seed = static_cast<std::uint64_t>(table.integer("seed", range::seed, 1));
   settings.like.region = table.string("sphere_region", "particle");
   settings.numbered = table.boolean("numbered", false);
   std::optional<double> ell;
+  std::vector<std::filesystem::path> files;
+  if (table.has("shapes")) read_packed_shapes(table, around.case_directory, settings, files);
   read_surface_size(table, around, settings.like, ell);
   if (table.has("layers")) set_layers(read_layers(table.table("layers")), settings.like);
   settings.gap = table.quantity("gap", dimension::length, range::positive);
@@ -268,6 +281,7 @@ MeshRecipe read_packed_spheres(const ConfigTable& given, const MeshSurroundings&
     if (settings.numbered) example.particles.back().region = numbered_region(settings.like.region, i);
   }
   MeshRecipe recipe = recipe_of(example, [settings] { return make_packed_spheres(settings); });
+  recipe.data_files = std::move(files);
   recipe.ell = ell;
   return recipe;
 }

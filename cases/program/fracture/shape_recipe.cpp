@@ -66,6 +66,14 @@ ShapeRecipe read_shape(const ConfigTable& table, const std::filesystem::path& ca
   return recipe;
 }
 
+PackedShape read_packed_shape(const ConfigTable& table, const std::filesystem::path& case_directory) {
+  table.with_keys({"surface", "sharp_angle"});
+  const std::filesystem::path file = read_data_file(table.at("surface"), case_directory);
+  PackedShape shape{.given = {file.string(), read_surface(table.at("surface"), file)}};
+  shape.sharp = table.quantity("sharp_angle", dimension::angle, sharp_range, shape.sharp);
+  return shape;
+}
+
 TriangleSurface make_shape(const ShapeRecipe& recipe, double size) {
   const TriangleSurface placed = about_centroid(recipe.surface, recipe.scale, recipe.rotation);
   constexpr double least = 0.7;

@@ -2,7 +2,7 @@
 // Reads a particle of [[mesh.particles]] whose surface is in a file.
 
 #include "cases/program/input/config.h"
-#include "mesh/surface_checks.h"
+#include "mesh/packed_spheres.h"
 #include "physics/tensor.h"
 
 #include <filesystem>
@@ -19,6 +19,9 @@ struct ShapeRecipe {
 };
 
 ShapeRecipe read_shape(const ConfigTable& table, const std::filesystem::path& case_directory);
+
+/// A shape of [[mesh.shapes]]: `surface` and `sharp_angle`.
+PackedShape read_packed_shape(const ConfigTable& table, const std::filesystem::path& case_directory);
 
 /// The surface about its centroid, with triangles of the edge length `size` [m].
 TriangleSurface make_shape(const ShapeRecipe& recipe, double size);

@@ -1,6 +1,8 @@
 #include "cases/program/homogenization/homogenization_program.h"
 
+#include "cases/program/fracture/fracture_program.h"
 #include "cases/program/fracture/fracture_results.h"
+#include "cases/program/homogenization/debonding_case.h"
 #include "cases/program/homogenization/homogenization_report.h"
 #include "cases/program/homogenization/homogenized_results.h"
 #include "cases/program/session/report_parts.h"
@@ -139,6 +141,8 @@ void report(const HomogenizationProgram& program, Session& session) {
 }
 
 RunnableCase read_program(const CaseFile& file) {
+  if (has_mean_path(file.config.root()))
+    return runnable_box(file, read_debonding_case(file.config.root(), file.directory));
   auto program = std::make_shared<HomogenizationProgram>(
       HomogenizationProgram{.file = file, .homogenization = {}, .name = {}, .hash = {}, .mesh_hash = {}});
   program->homogenization = read_homogenization_case(file.config.root(), file.directory);
@@ -166,10 +170,11 @@ std::vector<LawTable> laws() {
 }  // namespace
 
 CaseKind homogenization_kind() {
-  return {.name = "homogenize",
-          .description = "effective linear stiffness of a meshed composite by six load cases",
-          .read = read_program,
-          .laws = laws};
+  return {
+      .name = "homogenize",
+      .description = "effective linear stiffness of a meshed composite, or its stress-strain curve while it debonds",
+      .read = read_program,
+      .laws = laws};
 }
 
 }  // namespace pfdm

@@ -57,7 +57,8 @@ void visit(const std::string& path, const TomlValue& value,
 
 bool names_data_file(const std::string& path, const TomlValue& value) {
   const std::string key = path.substr(path.find_last_of('.') + 1);
-  const bool is_of_particle = key == "surface" && path.starts_with("mesh.particles[");  // elsewhere a patch, or a name
+  const bool is_of_particle =  // elsewhere a patch, or a name
+      key == "surface" && (path.starts_with("mesh.particles[") || path.starts_with("mesh.shapes["));
   return (key == "csv" || key == "file" || key == "fit" || key == "table" || is_of_particle) &&
          std::holds_alternative<std::string>(value.value);
 }

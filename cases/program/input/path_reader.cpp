@@ -32,9 +32,20 @@ std::string read_plain_name(const ConfigValue& value, std::string_view use) {
   return name;
 }
 
+std::string way_to_make(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.lexically_normal().parent_path();
+  if (folder.filename() != "results") return "";
+  return fmt::format("; pfdm run {} makes it", folder.parent_path().empty() ? "." : folder.parent_path().string());
+}
+
 std::filesystem::path read_data_file(const ConfigValue& value, const std::filesystem::path& case_directory) {
   std::filesystem::path file = case_directory / value.string();
-  value.in_context([&] { return require_file(file), true; });
+  value.in_context([&] {
+    std::error_code ignored;
+    if (const std::string way = way_to_make(file); !way.empty() && !std::filesystem::exists(file, ignored))
+      throw InputError(fmt::format("there is no file {}{}", value.string(), way));
+    return require_file(file), true;
+  });
   return file;
 }
 

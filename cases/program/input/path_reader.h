@@ -15,6 +15,9 @@ std::string read_plain_name(const ConfigValue& value, std::string_view use);
 /// The same for a key of the file: throws InputError without a place.
 void require_plain_name(std::string_view name, std::string_view use);
 
+/// "; pfdm run CASE makes it" of a file in CASE/results; of others empty.
+std::string way_to_make(const std::filesystem::path& file);
+
 /// The file that `value` names, seen from the case directory. Throws InputError with the place in the file, unless it
 /// is a file that can be read.
 std::filesystem::path read_data_file(const ConfigValue& value, const std::filesystem::path& case_directory);

@@ -1,6 +1,7 @@
 #include "cases/program/input/result_number.h"
 
 #include "cases/program/input/config.h"
+#include "cases/program/input/path_reader.h"
 #include "postproc/files/json.h"
 
 #include <fmt/format.h>
@@ -80,13 +81,6 @@ double number_at(const Json& root, const Reference& reference) {
   if (here->is_number()) return here->get<double>();
   if (here->is_null() && reference.may_be_null) return std::numeric_limits<double>::quiet_NaN();
   throw InputError(fmt::format("\"{}\" of {} is not a number", reference.key, reference.from));
-}
-
-// By the place of the file: results are in CASE/results.
-std::string way_to_make(const fs::path& file) {
-  const fs::path folder = file.lexically_normal().parent_path();
-  if (folder.filename() != "results") return "";
-  return fmt::format("; pfdm run {} makes it", folder.parent_path().empty() ? "." : folder.parent_path().string());
 }
 
 Reference read_reference(const TomlValue& value) {

@@ -1,0 +1,140 @@
+#include "cases/program/homogenization/debonding_case.h"
+
+#include "cases/program/fracture/mean_curve.h"
+#include "solver/homogenization/mean_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace pfdm {
+namespace {
+
+/// What one point of a path says of a component.
+struct Prescribed {
+  std::size_t component;
+  bool is_stress;
+  double value;  // of the tensor: [Pa], or strain
+};
+
+std::vector<std::string> component_keys() {
+  std::vector<std::string> keys;
+  for (const char* what : {"strain", "stress"})
+    for (const std::string_view name : component_names) keys.push_back(fmt::format("{}_{}", what, name));
+  for (std::size_t k = 3; k < 6; ++k) keys.push_back(fmt::format("gamma_{}", component_names[k]));
+  return keys;
+}
+
+Prescribed read_component(const std::string& key, const ConfigValue& value) {
+  const auto component = static_cast<std::size_t>(
+      std::ranges::find(component_names, std::string_view(key).substr(key.size() - 2)) - component_names.begin());
+  if (key.starts_with("stress")) return {component, true, value.quantity(dimension::stress)};
+  const double strain = value.is_string() ? value.quantity(dimension::number) : value.number();
+  return {component, false, key.starts_with("gamma") ? 0.5 * strain : strain};
+}
+
+std::vector<Prescribed> read_point_of_path(const ConfigValue& value) {
+  const std::vector<std::string> keys = component_keys();
+  const ConfigTable table = value.table().with_keys(std::vector<std::string_view>(keys.begin(), keys.end()));
+  std::vector<Prescribed> point;
+  std::set<std::size_t> seen;
+  for (const auto& [key, entry] : table.entries()) {
+    point.push_back(read_component(key, table.at(key)));
+    if (!seen.insert(point.back().component).second)
+      throw entry.error("this component is prescribed already: stress or strain, not both");
+  }
+  return point;
+}
+
+void add_point(const ConfigValue& where, const std::vector<Prescribed>& point, MeanPath& path) {
+  std::array<double, 6> values{};
+  std::array<bool, 6> by_stress;
+  by_stress.fill(true);
+  for (const Prescribed& one : point) {
+    values[one.component] = one.value;
+    by_stress[one.component] = one.is_stress;
+  }
+  if (path.points.empty()) path.by_stress = by_stress;
+  if (by_stress != path.by_stress)
+    throw where.error(
+        "every point has to prescribe the strain of the same components as the first (a component that is not named is "
+        "free of stress)");
+  path.points.push_back(values);
+}
+
+MeanPath read_path(const ConfigValue& value, std::array<int, 2>& component) {
+  MeanPath path;
+  for (const ConfigValue& entry : value.list()) {
+    const std::vector<Prescribed> point = read_point_of_path(entry);
+    if (path.points.empty() && !point.empty()) component = component_places[point.front().component];
+    add_point(entry, point, path);
+  }
+  const auto is_zero = [](const std::array<double, 6>& point) {
+    return std::ranges::all_of(point, [](double v) { return v == 0.0; });
+  };
+  if (std::ranges::all_of(path.points, is_zero))
+    throw value.error("nothing is loaded: name strains or stresses, as in [{ strain_zz = \"5 %\" }]");
+  return path;
+}
+
+BoxMotion motion_of(const MeanPath& path, const Loading& loading, const Mesh& mesh, const FractureModel& model) {
+  CellField<IsotropicElasticity> cells(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c) cells[c] = model.in_cell(mesh, c).elasticity;
+  return motion_along(path, mesh, loading, reuss_estimate(mesh, cells));
+}
+
+/// The path's points are reached at the load parameters 1, 2, ...
+void fit_loading(const ConfigTable& root, std::size_t n_points, LoadingSettings& loading) {
+  const auto last = static_cast<double>(n_points);
+  const bool has_end = root.has("loading") && root.table("loading").has("end");
+  if (!has_end) loading.end = last;
+  if (loading.end > last)
+    throw root.table("loading").at("end").error(
+        fmt::format("the path ends at the load parameter {}, the number of its points", n_points));
+  loading.is_proportional = n_points == 1;
+  if (!loading.is_proportional && std::isfinite(loading.energy_release))
+    throw root.table("loading")
+        .at("energy_release")
+        .error("it requires a path of one point: mean strains and stresses proportional to the load parameter");
+}
+
+void add_corners(LoadingSettings& loading) {
+  for (double corner = 1.0; corner < loading.end; corner += 1.0) loading.stops.push_back(corner);
+  std::ranges::sort(loading.stops);
+  loading.stops.erase(std::ranges::unique(loading.stops).begin(), loading.stops.end());
+}
+
+}  // namespace
+
+bool has_mean_path(const ConfigTable& root) {
+  return root.has("homogenization") && root.table("homogenization").has("path");
+}
+
+FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+  root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "interface", "homogenization",
+                  "loading", "solver", "output", "cohesive", "sweep"});
+  const ConfigTable table = root.table("homogenization").with_keys({"boundary", "path"});
+  const auto boundary = table.find("boundary");
+  const Loading& loading = boundary
+                               ? choose(*boundary, homogenization_loadings(), "boundary condition of a homogenisation")
+                               : homogenization_loadings().front();
+  if (loading.by_traction)
+    throw boundary->error("a path of mean strains and stresses needs \"periodic\" or \"uniform displacement\"");
+  BoxCase box;
+  const MeanPath path = read_path(table.at("path"), box.component);
+  box.motion = [path, &loading](const Mesh& mesh, const FractureModel& model) {
+    return motion_of(path, loading, mesh, model);
+  };
+  box.words = fmt::format("{} point{} of mean strain and stress, {}", path.points.size(),
+                          path.points.size() == 1 ? "" : "s", loading.name);
+  FractureCase fracture = read_body(root, case_directory, true);
+  fit_loading(root, path.points.size(), fracture.loading);
+  fracture.box = std::move(box);
+  read_box_output(root, fracture);
+  add_corners(fracture.loading);
+  return fracture;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,15 @@
+#pragma once
+// Reads a case of kind "homogenize" with a path of mean strain or stress: a box whose interfaces debond, or whose
+// materials break, as a fracture case without patches that are loaded.
+
+#include "cases/program/fracture/fracture_case.h"
+
+namespace pfdm {
+
+/// Whether the case is one: [homogenization] has a path.
+bool has_mean_path(const ConfigTable& root);
+
+/// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
+FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+
+}  // namespace pfdm

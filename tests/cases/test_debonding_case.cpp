@@ -1,0 +1,190 @@
+// A case of kind "homogenize" with a path of mean strain or stress: its curve against springs in series, its files, a
+// restart, other cases that read the curve, and what is refused.
+
+#include "postproc/files/csv_table.h"
+#include "tests/cases/temporary_case.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double E = 50e6, ft = 1e5, Gc = 10.0, K = 1e11, length = 1e-3;
+
+// A box of one millimetre that a plane parts in two halves.
+std::string parted_box() {
+  return R"(kind = "homogenize"
+title = "two halves"
+[mesh]
+generator = "box_hexes"
+x = [{ length = "1 mm", cells = 2 }]
+y = [{ length = "1 mm", cells = 2 }]
+z = [{ length = "1 mm", cells = 4 }]
+[materials.rubber]
+regions = ["body"]
+young_modulus = "50 MPa"
+poisson_ratio = 0.4
+[[interface]]
+name = "bond"
+plane = { point = ["0 mm", "0 mm", "0.5 mm"], normal = [0, 0, 1] }
+law = "linear"
+strength = "0.1 MPa"
+toughness = "10 J/m^2"
+stiffness = "1e11 Pa/m"
+[homogenization]
+boundary = "periodic"
+path = [{ strain_zz = "15 %" }, { strain_zz = 0.05 }]
+[loading]
+initial_increment = 0.1
+maximum_increment = 0.1
+[solver]
+equilibrium_tolerance = 1e-10
+)";
+}
+
+// The stress at an opening of the plane that has never been wider.
+double traction(double opening) {
+  const double peak = ft / K, end = 2.0 * Gc / ft;
+  return opening <= peak ? K * opening : ft * (end - opening) / (end - peak);
+}
+
+// At a strain that grows: by bisection of strain = traction / E + opening / length.
+double stress_at(double strain) {
+  double low = 0.0, high = 2.0 * Gc / ft;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (traction(middle) / E + middle / length < strain ? low : high) = middle;
+  }
+  return traction(low);
+}
+
+CsvTable curve_of(const TemporaryCase& directory) { return read_csv(directory.results() / "stress_strain.csv"); }
+
+TEST(DebondingCase, CurveIsThatOfSpringsInSeries) {
+  const TemporaryCase directory(parted_box());
+  const Outcome outcome = run({"run", directory.path().string(), "--threads", "1"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable curve = curve_of(directory);
+  const std::vector<double>&load = curve.column("load"), &strain = curve.column("strain_zz"),
+        &stress = curve.column("stress_zz_Pa"), &sideways = curve.column("strain_xx");
+  ASSERT_EQ(load.size(), 21U);
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    const double due = load[i] <= 1.0 ? 0.15 * load[i] : 0.15 - 0.1 * (load[i] - 1.0);
+    const double back = due / 0.15;  // along the secant to the origin
+    const double expected = load[i] <= 1.0 ? stress_at(due) : back * stress_at(0.15);
+    EXPECT_NEAR(strain[i], due, 1e-12);
+    EXPECT_NEAR(stress[i], expected, 1e-6 * ft);
+    EXPECT_NEAR(sideways[i], -0.4 * expected / E, 1e-8);
+  }
+  EXPECT_EQ(curve.column("debonded_area_bond_m2").back(), 0.0);  // 150 of 200 um open
+  const CsvTable forces = read_csv(directory.results() / "force_displacement.csv");
+  EXPECT_NEAR(forces.column("displacement_m").back(), 0.05 * length, 1e-15);
+  EXPECT_NEAR(forces.column("force_z_N").back(), stress.back() * 1e-6, 1e-12);
+  const nlohmann::json summary = nlohmann::json::parse(content_of(directory.results() / "summary.json"));
+  EXPECT_NEAR(summary["peak_stress_zz_Pa"], *std::ranges::max_element(stress), 1e-9);
+  EXPECT_NEAR(summary["initial_modulus_zz_Pa"], stress[1] / strain[1], 1.0);
+  EXPECT_TRUE(std::filesystem::exists(directory.results() / "interfaces.pvd"));
+  const Outcome reported = run({"report", directory.path().string()});
+  EXPECT_EQ(reported.status, 0) << reported.err;
+  const Outcome checked = run({"check", directory.path().string()});
+  EXPECT_THAT(checked.out, HasSubstr("2 points of mean strain and stress, periodic"));
+}
+
+TEST(DebondingCase, UnderAStressThatIsPrescribedTheOthersAreFree) {
+  const TemporaryCase directory(
+      replaced(parted_box(), "{ strain_zz = \"15 %\" }, { strain_zz = 0.05 }", "{ stress_zz = \"0.05 MPa\" }"));
+  ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
+  const CsvTable curve = curve_of(directory);
+  EXPECT_NEAR(curve.column("stress_zz_Pa").back(), 0.05e6, 1e-3);
+  EXPECT_NEAR(curve.column("strain_zz").back(), 0.05e6 * (1.0 / E + 1.0 / (K * length)), 1e-10);
+  EXPECT_NEAR(curve.column("strain_yy").back(), -0.4 * 0.05e6 / E, 1e-10);
+}
+
+TEST(DebondingCase, GoesOnAfterAStopToTheSameCurve) {
+  const TemporaryCase whole(parted_box()), stopped(parted_box());
+  ASSERT_EQ(run({"run", whole.path().string(), "--quiet"}).status, 0);
+  ASSERT_EQ(run({"run", stopped.path().string(), "--quiet", "--max-steps", "7"}).status, 0);
+  EXPECT_EQ(curve_of(stopped).n_rows(), 8U);
+  ASSERT_EQ(run({"run", stopped.path().string(), "--quiet", "--restart"}).status, 0);
+  EXPECT_EQ(content_of(stopped.results() / "stress_strain.csv"), content_of(whole.results() / "stress_strain.csv"));
+}
+
+// As an experiment that an endochronic law is fitted to: the columns are found, the load parameter is the time.
+TEST(DebondingCase, AnEndochronicFitReadsTheCurve) {
+  const TemporaryCase directory(replaced(parted_box(), ", { strain_zz = 0.05 }", ""));
+  std::filesystem::create_directory(directory.path() / "law");
+  directory.write("law/case.toml", R"(kind = "endochronic"
+title = "law of a curve"
+[material]
+young_modulus = "45 MPa"
+poisson_ratio = 0.4
+kernel = [{ C = "10 MPa", alpha = 100 }]
+[[loading.segments]]
+duration = "1 s"
+increments = 5
+control = { strain_zz = 0.01 }
+[fit]
+estimate = ["kernel"]
+[[fit.experiments]]
+name = "box"
+csv = "../results/stress_strain.csv"
+time = "load"
+time_unit = "s"
+strain = { strain_zz = { column = "strain_zz" } }
+stress = { stress_zz = { column = "stress_zz_Pa", unit = "Pa", noise = "1 kPa" } }
+)");
+  const std::string law = (directory.path() / "law").string();
+  const Outcome early = run({"check", law});
+  EXPECT_EQ(early.status, 2);
+  EXPECT_THAT(early.err, HasSubstr("stress_strain.csv"));
+  EXPECT_THAT(early.err, HasSubstr("pfdm run "));
+  ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
+  const Outcome checked = run({"check", law});
+  EXPECT_EQ(checked.status, 0) << checked.err;
+}
+
+class BadPath : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadPath, IsRefused) {
+  const TemporaryCase directory(replaced(parted_box(), GetParam().good, GetParam().bad));
+  expect_refused(directory, GetParam());
+}
+
+const BadInput bad_inputs[] = {
+    {"by_forces",
+     "boundary = \"periodic\"",
+     "boundary = \"uniform traction\"",
+     {"[homogenization] boundary", "needs \"periodic\" or \"uniform displacement\""}},
+    {"unknown_component", "{ strain_zz = 0.05 }", "{ strain_zx = 0.05 }", {"\"strain_zx\" is not known here"}},
+    {"without_unit", "{ strain_zz = 0.05 }", "{ strain_zz = 0.05, stress_xx = 3 }", {"stress_xx", "has no unit"}},
+    {"both", "{ strain_zz = 0.05 }", "{ strain_zz = 0.05, stress_zz = \"1 Pa\" }", {"stress or strain, not both"}},
+    {"changes",
+     "{ strain_zz = 0.05 }",
+     "{ strain_xx = 0.05 }",
+     {"every point has to prescribe the strain of the same components as the first"}},
+    {"nothing", "{ strain_zz = \"15 %\" }, { strain_zz = 0.05 }", "{ strain_zz = 0 }", {"nothing is loaded"}},
+    {"too_long", "[loading]\n", "[loading]\nend = 3\n", {"the path ends at the load parameter 2"}},
+    {"release", "[loading]\n", "[loading]\nenergy_release = 0.1\n", {"energy_release", "a path of one point"}},
+    {"snap_back", "[loading]\n", "[loading]\nmaximum_dissipation = \"1 uJ\"\n", {"requires a path of one point"}},
+    {"frames", "[loading]\n", "[output]\nframes_at = [\"1 um\"]\n[loading]\n", {"give load parameters"}},
+    {"patches",
+     "[loading]\n",
+     "[[boundary]]\npatch = \"zmin\"\ntype = \"symmetry\"\n[loading]\n",
+     {"\"boundary\" is not known"}},
+    {"toughness_without_fracture",
+     "[[interface]]\n",
+     "toughness = \"10 J/m^2\"\n[[interface]]\n",
+     {"\"toughness\" is not known here"}},
+};
+INSTANTIATE_TEST_SUITE_P(All, BadPath, testing::ValuesIn(bad_inputs),
+                         [](const auto& input) { return input.param.name; });
+
+}  // namespace
+}  // namespace pfdm
