@@ -1,6 +1,6 @@
 #include "postproc/fields/field_slice.h"
 
-#include "mesh/vtk_messages.h"
+#include "mesh/files/vtk_messages.h"
 #include "physics/error.h"
 
 #include <fmt/format.h>

@@ -7,6 +7,10 @@ cmake_minimum_required(VERSION 3.25)
 set(rooms
     "physics"
     "mesh: physics"
+    "mesh/surfaces: physics mesh"
+    "mesh/packing: physics mesh"
+    "mesh/generators: physics mesh mesh/surfaces mesh/packing"
+    "mesh/files: physics mesh"
     "solver: physics"
     "solver/linear: physics mesh solver"
     "solver/scalar: physics mesh solver solver/linear"
@@ -18,7 +22,7 @@ set(rooms
     "solver/point: physics solver solver/calibration"
     "solver/vibration: physics solver solver/linear solver/calibration"
     "postproc/files: physics"
-    "postproc/fields: physics mesh solver solver/momentum solver/fracture postproc/files"
+    "postproc/fields: physics mesh mesh/files solver solver/momentum solver/fracture postproc/files"
     "postproc/curves: physics solver/fracture solver/calibration postproc/files"
     "postproc/point: physics solver/point postproc/files postproc/curves"
     "postproc/vibration: physics solver/vibration solver/calibration postproc/files postproc/curves"
@@ -34,8 +38,8 @@ set(rooms
      cases/program/session"
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/vibration postproc/page postproc/records
      cases/program/input cases/program/session"
-    "cases/program/fracture: physics mesh solver/momentum solver/fracture postproc/files postproc/fields postproc/curves
-     postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies"
+    "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
+     postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics solver/calibration
      postproc/files postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session
      cases/program/studies cases/program/fracture"

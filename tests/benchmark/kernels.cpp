@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <map>
 
-#include "mesh/particles_in_box.h"
+#include "mesh/generators/particles_in_box.h"
 #include "postproc/fields/frame.h"
 #include "solver/fracture/damage_equation.h"
 #include "solver/momentum/momentum_solver.h"

@@ -1,6 +1,6 @@
 #include <set>
 
-#include "mesh/box_hexes.h"
+#include "mesh/generators/box_hexes.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
 

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "mesh/box_hexes.h"
-#include "mesh/particles_in_box.h"
+#include "mesh/generators/box_hexes.h"
+#include "mesh/generators/particles_in_box.h"
 #include "mesh/patch_rules.h"
 #include "mesh/quality.h"
 #include "mesh_checks.h"

@@ -2,9 +2,9 @@
 
 #include "mesh/flat_surface.h"
 
-#include "mesh/box_hexes.h"
 #include "mesh/dual.h"
-#include "mesh/particles_in_box.h"
+#include "mesh/generators/box_hexes.h"
+#include "mesh/generators/particles_in_box.h"
 #include "physics/error.h"
 #include "tests/mesh/mesh_checks.h"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <set>
 
-#include "mesh/import_mesh.h"
+#include "mesh/files/import_mesh.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
 

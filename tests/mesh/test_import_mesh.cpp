@@ -1,8 +1,8 @@
 #include <fstream>
 
-#include "mesh/box_hexes.h"
-#include "mesh/import_mesh.h"
-#include "mesh/particles_in_box.h"
+#include "mesh/files/import_mesh.h"
+#include "mesh/generators/box_hexes.h"
+#include "mesh/generators/particles_in_box.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
 #include "vtu_text.h"

@@ -1,6 +1,6 @@
-#include "mesh/box_hexes.h"
+#include "mesh/generators/box_hexes.h"
+#include "mesh/generators/particles_in_box.h"
 #include "mesh/line_walk.h"
-#include "mesh/particles_in_box.h"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/convex_distance.h"
-#include "mesh/packed_spheres.h"
-#include "mesh/particle_shape.h"
-#include "mesh/shape_packing.h"
-#include "mesh/sphere_refinement.h"
+#include "mesh/generators/packed_spheres.h"
+#include "mesh/packing/convex_distance.h"
+#include "mesh/packing/shape_packing.h"
+#include "mesh/surfaces/particle_shape.h"
+#include "mesh/surfaces/sphere_refinement.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
 

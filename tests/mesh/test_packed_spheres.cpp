@@ -1,7 +1,7 @@
-#include "mesh/packed_spheres.h"
+#include "mesh/generators/packed_spheres.h"
 
-#include "mesh/sphere_packing.h"
-#include "mesh/sphere_refinement.h"
+#include "mesh/packing/sphere_packing.h"
+#include "mesh/surfaces/sphere_refinement.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
 

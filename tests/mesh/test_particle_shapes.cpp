@@ -9,11 +9,11 @@
 #include <fstream>
 #include <numbers>
 
-#include "mesh/particle_shape.h"
-#include "mesh/particles_in_box.h"
-#include "mesh/sphere_refinement.h"
-#include "mesh/surface_file.h"
-#include "mesh/surface_remeshing.h"
+#include "mesh/generators/particles_in_box.h"
+#include "mesh/surfaces/particle_shape.h"
+#include "mesh/surfaces/sphere_refinement.h"
+#include "mesh/surfaces/surface_file.h"
+#include "mesh/surfaces/surface_remeshing.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
 

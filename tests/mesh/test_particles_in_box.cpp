@@ -1,10 +1,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/particles_in_box.h"
+#include "mesh/generators/particles_in_box.h"
 #include "mesh/quality.h"
-#include "mesh/size_field.h"
-#include "mesh/triangle_surface.h"
+#include "mesh/surfaces/size_field.h"
+#include "mesh/surfaces/triangle_surface.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "mesh/box_hexes.h"
+#include "mesh/generators/box_hexes.h"
 #include "mesh/quality.h"
 #include "mesh_checks.h"
 

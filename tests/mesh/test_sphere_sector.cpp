@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/sphere_sector.h"
+#include "mesh/generators/sphere_sector.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
 

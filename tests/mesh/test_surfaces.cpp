@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/box_surface.h"
-#include "mesh/surface_checks.h"
-#include "mesh/triangle_surface.h"
+#include "mesh/surfaces/box_surface.h"
+#include "mesh/surfaces/surface_checks.h"
+#include "mesh/surfaces/triangle_surface.h"
 #include "mesh_checks.h"
 #include "physics/error.h"
 

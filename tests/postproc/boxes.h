@@ -1,7 +1,7 @@
 #pragma once
 // Small meshes for the tests.
 
-#include "mesh/box_hexes.h"
+#include "mesh/generators/box_hexes.h"
 
 namespace pfdm::test {
 

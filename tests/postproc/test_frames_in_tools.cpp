@@ -1,7 +1,7 @@
 // That other programs open frames as they are written by default; skipped where these are not installed.
 
 #include "mesh/dual.h"
-#include "mesh/particles_in_box.h"
+#include "mesh/generators/particles_in_box.h"
 #include "postproc/fields/frame.h"
 #include "postproc/fields/point_displacement.h"
 #include "postproc/fields/pvd.h"

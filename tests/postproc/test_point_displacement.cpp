@@ -1,5 +1,5 @@
 #include "mesh/dual.h"
-#include "mesh/particles_in_box.h"
+#include "mesh/generators/particles_in_box.h"
 #include "physics/error.h"
 #include "postproc/fields/frame.h"
 #include "postproc/fields/point_displacement.h"

@@ -1,5 +1,5 @@
 #include "mesh/dual.h"
-#include "mesh/import_mesh.h"
+#include "mesh/files/import_mesh.h"
 #include "physics/error.h"
 #include "postproc/fields/frame.h"
 #include "postproc/fields/vtu_writer.h"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/box_hexes.h"
-#include "mesh/particles_in_box.h"
+#include "mesh/generators/box_hexes.h"
+#include "mesh/generators/particles_in_box.h"
 #include "solver/fracture/fracture_model.h"
 #include "solver/parallel.h"
 

@@ -2,7 +2,7 @@
 
 #include "solver/momentum/unknowns.h"
 
-#include "mesh/sphere_sector.h"
+#include "mesh/generators/sphere_sector.h"
 #include "physics/error.h"
 #include "tests/physics/physics_checks.h"
 #include "tests/solver/solver_checks.h"

@@ -1,7 +1,7 @@
 // A coarse form of the cases glass_bead_radius_cap and glass_bead_radius: remote stress at which a glass bead in
 // Sylgard debonds, on a sector, from a cap of 30 degrees that is debonded already and from an interface that is whole.
 
-#include "mesh/sphere_sector.h"
+#include "mesh/generators/sphere_sector.h"
 #include "physics/closed_forms/goodier.h"
 #include "physics/interface_toughness.h"
 #include "solver/fracture/fracture_run.h"

@@ -1,8 +1,8 @@
 // A sphere with cohesive faces under hydrostatic tension, against Lame's shells.
 
 #include "mesh/dual.h"
+#include "mesh/generators/sphere_sector.h"
 #include "mesh/geometry.h"
-#include "mesh/sphere_sector.h"
 #include "tests/verification/cohesive_blocks.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "tests/verification/finite.h"
 
-#include "mesh/sphere_sector.h"
+#include "mesh/generators/sphere_sector.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include "tests/verification/support.h"
 
-#include "mesh/sphere_sector.h"
+#include "mesh/generators/sphere_sector.h"
 #include "physics/materials/hyperelastic.h"
 #include "solver/fracture/finite_newton.h"
 

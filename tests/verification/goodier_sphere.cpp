@@ -1,7 +1,7 @@
 // A glass sphere in Sylgard under remote tension (Goodier 1933), exact displacement on a cube of half-width 4 R, or on
 // a sphere of radius 4 R of which a sector is meshed.
 
-#include "mesh/sphere_sector.h"
+#include "mesh/generators/sphere_sector.h"
 #include "physics/closed_forms/goodier.h"
 #include "tests/verification/support.h"
 

@@ -3,7 +3,7 @@
 // Shtrikman (J. Mech. Phys. Solids 11 (1963) 127), and the order of the energies of the three boundary conditions.
 
 #include "solver/homogenization/homogenization.h"
-#include "mesh/packed_spheres.h"
+#include "mesh/generators/packed_spheres.h"
 #include "physics/effective_stiffness.h"
 #include "physics/error.h"
 #include "tests/verification/support.h"

@@ -2,7 +2,7 @@
 // pressure (Hill, The Mathematical Theory of Plasticity, 1950, ch. V.2), and the account of work, stored energy and
 // heat.
 
-#include "mesh/sphere_sector.h"
+#include "mesh/generators/sphere_sector.h"
 #include "physics/materials/j2_plasticity.h"
 #include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"

@@ -2,9 +2,9 @@
 // What the verification problems share: models of one law, elastic solutions to a tight residual, error norms, and the
 // printing of what was measured.
 
-#include "mesh/box_hexes.h"
 #include "mesh/dual.h"
-#include "mesh/particles_in_box.h"
+#include "mesh/generators/box_hexes.h"
+#include "mesh/generators/particles_in_box.h"
 #include "solver/fracture/fracture_run.h"
 #include "solver/momentum/momentum_solver.h"
 

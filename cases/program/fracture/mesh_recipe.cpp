@@ -3,11 +3,11 @@
 #include "cases/program/fracture/particles_recipe.h"
 #include "cases/program/input/amount.h"
 #include "cases/program/input/path_reader.h"
-#include "mesh/box_hexes.h"
 #include "mesh/dual.h"
-#include "mesh/import_mesh.h"
+#include "mesh/files/import_mesh.h"
+#include "mesh/generators/box_hexes.h"
+#include "mesh/generators/sphere_sector.h"
 #include "mesh/patch_rules.h"
-#include "mesh/sphere_sector.h"
 #include "postproc/files/text_file.h"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "cases/program/fracture/shape_recipe.h"
 #include "cases/program/input/amount.h"
 #include "cases/program/input/path_reader.h"
-#include "mesh/packed_spheres.h"
-#include "mesh/particles_in_box.h"
+#include "mesh/generators/packed_spheres.h"
+#include "mesh/generators/particles_in_box.h"
 
 #include <fmt/format.h>
 

@@ -3,10 +3,10 @@
 #include "cases/program/input/amount.h"
 #include "cases/program/input/path_reader.h"
 #include "cases/program/input/units.h"
-#include "mesh/particle_shape.h"
-#include "mesh/sphere_refinement.h"
-#include "mesh/surface_file.h"
-#include "mesh/surface_remeshing.h"
+#include "mesh/surfaces/particle_shape.h"
+#include "mesh/surfaces/sphere_refinement.h"
+#include "mesh/surfaces/surface_file.h"
+#include "mesh/surfaces/surface_remeshing.h"
 #include "physics/error.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // Reads a particle of [[mesh.particles]] whose surface is in a file.
 
 #include "cases/program/input/config.h"
-#include "mesh/packed_spheres.h"
+#include "mesh/generators/packed_spheres.h"
 #include "physics/tensor.h"
 
 #include <filesystem>

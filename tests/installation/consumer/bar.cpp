@@ -1,6 +1,6 @@
 // A bar in tension by the library alone: its force must be E A times the strain.
 
-#include "mesh/box_hexes.h"
+#include "mesh/generators/box_hexes.h"
 #include "solver/fracture/fracture_run.h"
 
 #include <cmath>

@@ -1,0 +1,277 @@
+#include "mesh/files/import_mesh.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <set>
+
+#include "mesh/cell_faces.h"
+#include "mesh/files/gmsh_file.h"
+#include "mesh/files/vtk_file.h"
+#include "mesh/matching.h"
+#include "physics/error.h"
+
+namespace pfdm {
+namespace {
+
+constexpr std::array<const char*, 6> usual_region_arrays{"region",    "material",  "gmsh:physical",
+                                                         "medit:ref", "cell_tags", "CellEntityIds"};
+// vtkCellType.h
+constexpr int vtk_voxel = 11;
+constexpr double flat_cell = 1e-14;    // volume over the cube of an edge or diagonal: nothing but rounding
+constexpr int vtk_last_flat_type = 9;  // vertices, lines, triangles, strips, polygons, pixels, quadrilaterals
+
+std::optional<CellShape> shape_of(int vtk_type) {
+  switch (vtk_type) {
+    case 10: return CellShape::tetrahedron;
+    case vtk_voxel:
+    case 12: return CellShape::hexahedron;
+    case 13: return CellShape::wedge;
+    case 14: return CellShape::pyramid;
+    case 42: return CellShape::polyhedron;
+    default: return std::nullopt;
+  }
+}
+
+bool is_face_type(int vtk_type) { return vtk_type == 5 || (vtk_type >= 7 && vtk_type <= vtk_last_flat_type); }
+
+// Turns a cell with its points in mirrored order into itself in right order.
+void mirror(CellShape shape, std::vector<Index>& p) {
+  if (shape == CellShape::pyramid || shape == CellShape::hexahedron)
+    std::swap(p[1], p[3]);
+  else
+    std::swap(p[1], p[2]);
+  if (shape == CellShape::wedge) std::swap(p[4], p[5]);
+  if (shape == CellShape::hexahedron) std::swap(p[5], p[7]);
+}
+
+class Importer {
+ public:
+  Importer(const ImportSettings& settings, MeshFile file) : settings_(settings), file_(std::move(file)) {}
+
+  Mesh import(void (*check)(const Mesh&) = nullptr) {
+    if (!(settings_.scale > 0.0))
+      throw error(fmt::format("its unit of length is {:g} m; it must be positive", settings_.scale));
+    region_numbers_ = region_numbers();
+    name_regions();
+    place_points();
+    for (Index c = 0, polyhedron = 0; c < n_cells(); ++c) {
+      if (is_volume(c)) add_cell(c);
+      if (file_.cell_type[c] == 42) soup_.polyhedron_faces.push_back(renumbered_faces(polyhedron++));
+    }
+    if (soup_.shape.empty()) throw error("it has no volume cells");
+    try {
+      const std::vector<PatchRule> rules = patch_rules();
+      Mesh mesh = assemble_mesh(std::move(soup_), rules);
+      if (check) check(mesh);
+      return mesh;
+    } catch (const InputError& e) {
+      throw error(e.what());
+    }
+  }
+
+ private:
+  InputError error(const std::string& reason) const {
+    return InputError(fmt::format("the mesh {}: {}", settings_.file.string(), reason));
+  }
+
+  // What the file calls a cell.
+  std::int64_t number_of(Index cell) const {
+    return file_.cell_number.empty() ? cell : file_.cell_number[as_size(cell)];
+  }
+
+  Index n_cells() const { return static_cast<Index>(file_.cell_type.size()); }
+
+  bool is_volume(Index cell) const {
+    const int type = file_.cell_type[cell];
+    if (shape_of(type)) return true;
+    if (type <= vtk_last_flat_type) return false;
+    throw error(
+        fmt::format("its cell {} is of VTK's type {}; supported are tetrahedra (10), voxels (11), hexahedra (12), "
+                    "wedges (13), pyramids (14) and polyhedra (42)",
+                    number_of(cell), type));
+  }
+
+  const std::vector<Index>& array(const std::string& name) const {
+    const auto found = file_.integer_arrays.find(name);
+    if (found != file_.integer_arrays.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& entry : file_.integer_arrays) names.push_back(entry.first);
+    throw error(fmt::format("it has no cell array \"{}\" of whole numbers; available: {}", name,
+                            names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+  }
+
+  // One number a cell, or empty where the file has no regions.
+  std::vector<Index> region_numbers() const {
+    if (!settings_.region_array.empty()) return array(settings_.region_array);
+    for (const char* name : usual_region_arrays)
+      if (file_.integer_arrays.contains(name)) return array(name);
+    return {};
+  }
+
+  void name_regions() {
+    std::set<Index> numbers;
+    for (Index c = 0; c < n_cells() && !region_numbers_.empty(); ++c)
+      if (is_volume(c)) numbers.insert(region_numbers_[c]);
+    for (const auto& [number, name] : settings_.region_names)
+      if (!numbers.contains(number))
+        throw error(fmt::format("no cell has the number {} of region \"{}\"; available: {}", number, name,
+                                fmt::join(numbers, ", ")));
+    std::map<Index, std::string> names = settings_.region_names;
+    names.insert(file_.region_names.begin(), file_.region_names.end());
+    for (const Index number : numbers) {
+      const auto named = names.find(number);
+      const std::string name = named != names.end() ? named->second : fmt::format("region_{}", number);
+      const auto same = std::ranges::find(soup_.region_names, name);
+      region_of_number_[number] = static_cast<Index>(same - soup_.region_names.begin());
+      if (same == soup_.region_names.end()) soup_.region_names.push_back(name);
+    }
+    if (numbers.empty()) soup_.region_names.push_back("body");
+  }
+
+  void place_points() {
+    soup_.points = std::move(file_.points);
+    for (Vector& x : soup_.points) x *= settings_.scale;
+    if (settings_.merge_tolerance > 0.0) {
+      new_point_ = merge_points(soup_.points, settings_.merge_tolerance);
+    } else {
+      new_point_.resize(soup_.points.size());
+      std::iota(new_point_.begin(), new_point_.end(), 0);
+    }
+    drop_unused_points();
+  }
+
+  // Meshers leave construction points in their files.
+  void drop_unused_points() {
+    std::vector<Index> number(soup_.points.size(), -1);
+    for (Index c = 0; c < n_cells(); ++c)
+      if (is_volume(c))
+        for (const Index p : points_of(c)) number[p] = 0;
+    std::vector<Vector> used;
+    for (std::size_t p = 0; p < number.size(); ++p) {
+      if (number[p] < 0) continue;
+      number[p] = static_cast<Index>(used.size());
+      used.push_back(soup_.points[p]);
+    }
+    for (Index& p : new_point_) p = number[p];
+    soup_.points = std::move(used);
+  }
+
+  Index point(Index in_file) const { return new_point_.at(static_cast<std::size_t>(in_file)); }
+
+  std::vector<Index> points_of(Index cell) const {
+    std::vector<Index> ids;
+    for (Index i = file_.cell_offsets[cell]; i < file_.cell_offsets[cell + 1]; ++i)
+      ids.push_back(point(file_.cell_points[i]));
+    return ids;
+  }
+
+  std::vector<Index> renumbered_faces(Index polyhedron) const {
+    std::vector<Index> stream = file_.polyhedron_faces[polyhedron];
+    for (std::size_t at = 1; at < stream.size();) {
+      const auto end = std::min(stream.size(), at + 1 + static_cast<std::size_t>(stream[at]));
+      for (++at; at < end; ++at) stream[at] = point(stream[at]);
+    }
+    return stream;
+  }
+
+  void add_cell(Index cell) {
+    const CellShape shape = *shape_of(file_.cell_type[cell]);
+    std::vector<Index> ids = points_of(cell);
+    if (std::set<Index>(ids.begin(), ids.end()).size() != ids.size())
+      throw error(fmt::format("its cell {} has a point twice", number_of(cell)));
+    if (shape != CellShape::polyhedron) put_in_order(cell, shape, ids);
+    const Index region = region_numbers_.empty() ? 0 : region_of_number_.at(region_numbers_[cell]);
+    soup_.add_cell(shape, ids, region);
+  }
+
+  void put_in_order(Index cell, CellShape shape, std::vector<Index>& ids) const {
+    if (static_cast<Index>(ids.size()) != points_per_cell(shape))
+      throw error(fmt::format("its cell {} has {} points", number_of(cell), ids.size()));
+    if (file_.cell_type[cell] == vtk_voxel) {
+      std::swap(ids[2], ids[3]);
+      std::swap(ids[6], ids[7]);
+    }
+    if (signed_cell_volume(soup_.points, shape, ids) < 0.0) mirror(shape, ids);
+    const double volume = signed_cell_volume(soup_.points, shape, ids);
+    if (!(volume > flat_cell * std::pow((soup_.points[ids[0]] - soup_.points[ids[2]]).norm(), 3)))
+      throw error(fmt::format("its cell {} has the volume {:g} m^3, which is not positive", number_of(cell), volume));
+  }
+
+  using FaceSets = std::map<std::vector<Index>, Index>;  // sorted points -> number
+
+  FaceSets face_sets() const {
+    const std::vector<Index> numbers = settings_.face_array.empty() ? region_numbers_ : array(settings_.face_array);
+    if (numbers.empty()) throw error("it has no cell array that numbers its face sets");
+    FaceSets sets;
+    std::set<Index> found;
+    for (Index c = 0; c < n_cells(); ++c) {
+      if (!is_face_type(file_.cell_type[c])) continue;
+      std::vector<Index> ids = points_of(c);
+      std::ranges::sort(ids);
+      sets[ids] = numbers[c];
+      found.insert(numbers[c]);
+    }
+    for (const auto& [number, name] : settings_.face_sets)
+      if (!found.contains(number))
+        throw error(
+            fmt::format("no triangle, quadrilateral or polygon has the number {} of patch \"{}\"; available: {}",
+                        number, name, found.empty() ? "none" : fmt::format("{}", fmt::join(found, ", "))));
+    return sets;
+  }
+
+  std::vector<PatchRule> patch_rules() const {
+    std::map<Index, std::string> names = settings_.face_sets;
+    names.insert(file_.patch_names.begin(), file_.patch_names.end());
+    if (names.empty()) return settings_.patches.empty() ? bounding_box_rules() : settings_.patches;
+    std::vector<PatchRule> rules;
+    const auto sets = std::make_shared<const FaceSets>(face_sets());
+    for (const auto& [number, name] : names) {
+      const auto holds = [sets, wanted = number](const Vector&, const Vector&, std::span<const Index> ids) {
+        std::vector<Index> key(ids.begin(), ids.end());
+        std::ranges::sort(key);
+        const auto found = sets->find(key);
+        return found != sets->end() && found->second == wanted;
+      };
+      // What the file names may lie within the body, as an interface does.
+      rules.push_back({name, holds, settings_.face_sets.contains(number)});
+    }
+    rules.insert(rules.end(), settings_.patches.begin(), settings_.patches.end());
+    return rules;
+  }
+
+  std::vector<PatchRule> bounding_box_rules() const {
+    Vector low = soup_.points.front();
+    Vector high = low;
+    for (const Vector& x : soup_.points) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    std::vector<PatchRule> rules = box_patches(low, high);
+    for (PatchRule& rule : rules) rule.required = false;
+    return rules;
+  }
+
+  const ImportSettings& settings_;
+  MeshFile file_;
+  std::vector<Index> region_numbers_;
+  std::map<Index, Index> region_of_number_;
+  std::vector<Index> new_point_;  // of each point of the file; -1 where no volume cell has it
+  CellSoup soup_;
+};
+
+}  // namespace
+
+Mesh import_vtk(const ImportSettings& settings) { return Importer(settings, read_vtk_file(settings.file)).import(); }
+
+Mesh import_gmsh(const ImportSettings& settings) {
+  return Importer(settings, read_gmsh_file(settings.file)).import(require_matching_cells);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,36 @@
+#include "mesh/generators/axis_blocks.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "physics/error.h"
+
+namespace pfdm {
+namespace {
+
+void append_block(std::vector<double>& nodes, const AxisBlock& block) {
+  const double start = nodes.back();
+  const double growth = block.n > 1 ? std::pow(block.ratio, 1.0 / (block.n - 1)) : 1.0;
+  std::vector<double> ends(static_cast<std::size_t>(block.n));
+  double sum = 0.0;
+  for (Index i = 0; i < block.n; ++i) ends[i] = (sum += std::pow(growth, i));
+  for (Index i = 0; i + 1 < block.n; ++i) nodes.push_back(start + block.length * ends[i] / sum);
+  nodes.push_back(start + block.length);
+}
+
+}  // namespace
+
+std::vector<double> axis_nodes(double origin, const std::vector<AxisBlock>& blocks, std::string_view where) {
+  if (blocks.empty()) throw InputError(fmt::format("{} has no cells", where));
+  std::vector<double> nodes{origin};
+  for (const AxisBlock& block : blocks) {
+    if (!(block.length > 0.0) || block.n < 1 || !(block.ratio > 0.0) || !std::isfinite(block.length * block.ratio))
+      throw InputError(fmt::format("{}: a block of length {:g}, {} cells and ratio {:g}; all three must be positive",
+                                   where, block.length, block.n, block.ratio));
+    append_block(nodes, block);
+  }
+  return nodes;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,78 @@
+#include "mesh/surfaces/surface_remeshing.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "physics/error.h"
+
+namespace pfdm {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+namespace PMP = CGAL::Polygon_mesh_processing;
+
+constexpr int n_passes = 10;
+constexpr int n_relaxations = 3;  // of each pass
+
+CgalMesh cgal_mesh(const TriangleSurface& surface) {
+  CgalMesh mesh;
+  std::vector<CgalMesh::Vertex_index> vertices;
+  for (const Vector& x : surface.points) vertices.push_back(mesh.add_vertex({x[0], x[1], x[2]}));
+  for (const auto& [a, b, c] : surface.triangles)
+    mesh.add_face(vertices[as_size(a)], vertices[as_size(b)], vertices[as_size(c)]);
+  return mesh;
+}
+
+TriangleSurface triangle_surface(CgalMesh& mesh) {
+  mesh.collect_garbage();
+  TriangleSurface surface;
+  for (const CgalMesh::Vertex_index v : mesh.vertices()) {
+    const Kernel::Point_3& x = mesh.point(v);
+    surface.points.emplace_back(x.x(), x.y(), x.z());
+  }
+  for (const CgalMesh::Face_index f : mesh.faces()) {
+    Triangle triangle{};
+    auto corner = triangle.begin();
+    for (const CgalMesh::Vertex_index v : vertices_around_face(mesh.halfedge(f), mesh))
+      *corner++ = static_cast<Index>(v.idx());
+    surface.triangles.push_back(triangle);
+  }
+  return surface;
+}
+
+void check_number(const std::string& name, const CgalMesh& mesh, double size) {
+  constexpr double most = 1e7;
+  const double n = 4.0 / std::numbers::sqrt3 * PMP::area(mesh) / (size * size);
+  if (!(n < most))
+    throw InputError(
+        fmt::format("the surface of {} would get {:.2g} triangles of {:g} m; at most {:.2g}", name, n, size, most));
+}
+
+}  // namespace
+
+TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
+  check_surfaces({given});
+  CgalMesh mesh = cgal_mesh(given.surface);
+  check_number(given.name, mesh, size);
+  const auto kept = mesh.add_property_map<CgalMesh::Edge_index, bool>("e:kept", false).first;
+  PMP::detect_sharp_edges(mesh, sharp * 180.0 / std::numbers::pi, kept);
+  std::vector<CgalMesh::Edge_index> sharp_edges;
+  for (const CgalMesh::Edge_index e : mesh.edges())
+    if (kept[e]) sharp_edges.push_back(e);
+  PMP::split_long_edges(sharp_edges, size, mesh, CGAL::parameters::edge_is_constrained_map(kept));
+  PMP::isotropic_remeshing(mesh.faces(), size, mesh,
+                           CGAL::parameters::number_of_iterations(n_passes)
+                               .number_of_relaxation_steps(n_relaxations)
+                               .edge_is_constrained_map(kept)
+                               .protect_constraints(true));
+  return triangle_surface(mesh);
+}
+
+}  // namespace pfdm
