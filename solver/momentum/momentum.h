@@ -60,8 +60,10 @@
 #include "physics/gradient_stress.h"
 #include "physics/plane_stress.h"
 #include "solver/linear/block_matrix.h"
+#include "solver/momentum/cell_mechanics.h"
 #include "solver/momentum/cell_pressure.h"
 #include "solver/momentum/finite_law.h"
+#include "solver/momentum/momentum_faces.h"
 #include "solver/momentum/unknowns.h"
 #include "solver/scalar/gradient.h"
 
@@ -70,38 +72,6 @@
 #include <vector>
 
 namespace pfdm {
-
-/// Strain, stress and energy of the cells for a given displacement.
-struct CellMechanics {
-  CellField<Tensor> strain;    ///< from the two-sided face displacements (Green-Gauss) [-]
-  CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if not wanted
-  CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]
-  CellField<double> energy;    ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
-  /// Of a part of the stiffness: its share in `energy`, per volume [J/m^3],
-  ///
-  ///   (1/2V) sum A (u_f - u_c).(part : eps_f) n,  eps_f = sym(G + (u_f - u_c - G d) n^T / h),
-  ///
-  /// eps_f being the strain from which a face's traction is computed; it varies between the faces of a cell. Never of
-  /// the other sign than the energy of `strain`. Empty if none is given, zero where the part has no shear modulus.
-  CellField<double> part_energy{};
-  /// By least squares, as used in the tractions of the faces [-]; empty unless some material is linearised.
-  CellField<Tensor> reconstructed_strain{};
-  /// At finite strain `stress` is the first Piola-Kirchhoff stress, `energy` half the work of what tractions and face
-  /// displacements differ by from those of the mean gradient, 1/2 sum A t.(u_f - u_c - gradient d), and this is H by
-  /// least squares [-]; else empty.
-  CellField<Tensor> reconstructed_gradient{};
-  FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
-};
-
-/// The law of a split face about a separation delta = u_N - u_P of its sides.
-struct FaceSpring {
-  Tensor stiffness;  ///< K of the traction on the owner's side, K delta + offset [Pa/m]
-  Vector offset;     ///< [Pa]
-  Tensor secant;     ///< for the preconditioner: symmetric, positive semi-definite [Pa/m]
-  /// At finite strain: what the traction changes by with cof F N of the owner and of the neighbour [Pa]. The offset is
-  /// then that of a traction K delta + offset + turn_P (dc_P/dF : H_P) N + turn_N (dc_N/dF : H_N) N.
-  Tensor turn_P = Tensor::Zero(), turn_N = Tensor::Zero();
-};
 
 class MomentumOperator {
  public:
@@ -186,60 +156,14 @@ class MomentumOperator {
 
  private:
   friend class StiffnessCoupling;
-  // An interior face within one elastic zone.
-  struct Link {
-    Index face, P, N;
-    double area;
-    Vector n;                               // from P to N
-    Vector d_P, d_N;                        // from the cell centres to the face centre
-    double weight_n = 0.0, weight_t = 0.0;  // of sigma_P in the traction; those of sigma_N complete them to 1
-    double c_n = 0.0, c_t = 0.0;            // [Pa/m]
-    double jump_n = 0.0, jump_t = 0.0;      // c_n and c_t as the jump has them beside polyhedra [Pa/m]
-  };
-  // One side of a face that carries a node.
-  struct Side {
-    Index face, cell, node;
-    double area;
-    Vector n;                     // outwards from the cell
-    Vector d;                     // from the cell centre to the face centre
-    double a_n = 0.0, a_t = 0.0;  // [Pa/m]
-  };
-  struct SplitFace {
-    Index node, beyond;  // on the owner's and on the neighbour's side
-    double area;
-    Index P, N;  // owner and neighbour
-    Vector n;    // from P to N
-  };
-  // Weight and c of a link whose cells are not isotropic.
-  struct LinkTensors {
-    Tensor weight;    // of sigma_P n in the traction
-    Tensor c;         // [Pa/m]
-    Tensor softness;  // (a + b)^-1 [m/Pa]
-  };
-  // What the traction on one side of a face changes by with its c = cof F N: turn dc, through a and the pressure; and
-  // the constant part of the linearised traction.
-  struct FaceTurn {
-    Tensor turn;     // [Pa]
-    Vector swell;    // by J [Pa]
-    Vector initial;  // [Pa]
-  };
-  // m of a h = mu 1 + m c c^T, and dm/dJ.
-  struct Push {
-    double stiffness = 0.0, slope = 0.0;  // [Pa]
-    Push operator/(double h) const { return {stiffness / h, slope / h}; }
-  };
-  // Of a link where the jump has a stiffness other than that of the tractions: what that adds, likewise.
-  struct JumpTurn {
-    Tensor P, N;              // [Pa]
-    Vector swell_P, swell_N;  // [Pa]
-    Vector initial;           // [Pa]
-  };
-  // Equation of a pressure, J(q) = det F of the mean gradient, linearised.
-  struct VolumeRow {
-    double slope;     // dJ/dq [1/Pa]
-    Tensor cofactor;  // of F
-    double initial;   // its constant part
-  };
+  using Link = momentum_faces::Link;
+  using Side = momentum_faces::Side;
+  using SplitFace = momentum_faces::SplitFace;
+  using LinkTensors = momentum_faces::LinkTensors;
+  using FaceTurn = momentum_faces::FaceTurn;
+  using Push = momentum_faces::Push;
+  using JumpTurn = momentum_faces::JumpTurn;
+  using VolumeRow = momentum_faces::VolumeRow;
   struct SignedForce {
     Index force;
     double sign;

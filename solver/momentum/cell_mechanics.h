@@ -1,0 +1,31 @@
+#pragma once
+// What the momentum balance says of cells for given displacements.
+
+#include "mesh/fields.h"
+#include "physics/tensor.h"
+
+namespace pfdm {
+
+/// Strain, stress and energy of the cells for a given displacement.
+struct CellMechanics {
+  CellField<Tensor> strain;    ///< from the two-sided face displacements (Green-Gauss) [-]
+  CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if not wanted
+  CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]
+  CellField<double> energy;    ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
+  /// Of a part of the stiffness: its share in `energy`, per volume [J/m^3],
+  ///
+  ///   (1/2V) sum A (u_f - u_c).(part : eps_f) n,  eps_f = sym(G + (u_f - u_c - G d) n^T / h),
+  ///
+  /// eps_f being the strain from which a face's traction is computed; it varies between the faces of a cell. Never of
+  /// the other sign than the energy of `strain`. Empty if none is given, zero where the part has no shear modulus.
+  CellField<double> part_energy{};
+  /// By least squares, as used in the tractions of the faces [-]; empty unless some material is linearised.
+  CellField<Tensor> reconstructed_strain{};
+  /// At finite strain `stress` is the first Piola-Kirchhoff stress, `energy` half the work of what tractions and face
+  /// displacements differ by from those of the mean gradient, 1/2 sum A t.(u_f - u_c - gradient d), and this is H by
+  /// least squares [-]; else empty.
+  CellField<Tensor> reconstructed_gradient{};
+  FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
+};
+
+}  // namespace pfdm
