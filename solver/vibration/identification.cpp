@@ -106,11 +106,12 @@ std::optional<Trial> pair_trial(std::span<const VibrationRecord> records, MassMa
 }
 
 /// Real terms by the output error of each order. Where one of them leaves more than noise a pair is tried before two:
-/// it has as many parameters.
+/// it has as many parameters. One that needs more terms beside it is compared with real terms alone, which a pair whose
+/// imaginary part vanishes can imitate.
 std::optional<Trial> output_trial(std::span<const VibrationRecord> records, const ModelStructure& structure,
                                   std::vector<OrderTrial>& orders, const IdentificationSettings& settings) {
   const StartOfOrder start_of = start_of_order(records, structure, settings);
-  std::optional<Trial> best;
+  std::optional<Trial> best, with_pair;
   bool pairs = may_have_pair(structure, settings);
   const auto better_pair = [&]() -> std::optional<Trial> {
     if (!std::exchange(pairs, false) || !best || !is_doubted(records, best->fit.model, settings.crop))
@@ -119,8 +120,10 @@ std::optional<Trial> output_trial(std::span<const VibrationRecord> records, cons
     return pair && pair->fit.bic < best->fit.bic ? std::move(pair) : std::nullopt;
   };
   for (const int order : orders_to_try(structure, settings)) {
-    if (order == 2)
-      if (auto pair = better_pair()) return pair;
+    if (order == 2) {
+      with_pair = better_pair();
+      if (with_pair && with_pair->fit.model.kernel.size() == 1) return with_pair;
+    }
     auto start = start_of(order);
     auto trial = start ? tried(records, std::move(*start), settings) : std::nullopt;
     if (!trial) continue;
@@ -128,8 +131,8 @@ std::optional<Trial> output_trial(std::span<const VibrationRecord> records, cons
     if (best && trial->fit.bic >= best->fit.bic) break;  // one more term is not worth its two parameters
     best = std::move(trial);
   }
-  if (auto pair = better_pair()) return pair;
-  return best;
+  if (!with_pair) with_pair = better_pair();
+  return with_pair && with_pair->fit.bic < best->fit.bic ? std::move(with_pair) : std::move(best);
 }
 
 /// Real terms by the complex stiffness; a pair where they leave more than noise.

@@ -108,6 +108,19 @@ TEST(IdentificationVerdict, ConjugatePairsAreFoundInRandomMotion) {
   expect_pair(truth_with_pair(1, false), random_motion, "linear_4b");
 }
 
+// A pair whose imaginary part vanishes and a real term fit as well, with more parameters.
+TEST(IdentificationVerdict, TwoRealTermsAreNotTakenForAPair) {
+  MassMaterial t = truth("4b");
+  t.stiffness.resize(1);
+  VibrationRecord record = independent::record_of(sample_of(t), random_motion);
+  independent::add_white_noise(record, 60.0, 1);
+  const IdentificationSettings settings{.mass = 1.12, .reference_velocity = 0.3, .kernel_order = {}, .replicates = 0};
+  const Identification found = identify(std::span(&record, 1), model_structure("linear_4b"), settings);
+  ASSERT_EQ(found.fit.model.kernel.size(), 2u);
+  for (const HereditaryTerm& term : found.fit.model.kernel) EXPECT_FALSE(term.is_pair());
+  EXPECT_THAT(found.fit.doubts, IsEmpty());
+}
+
 // Real terms alone are no fit to such a record, and it says so.
 TEST(IdentificationVerdict, RealTermsInPlaceOfAPairAreDoubted) {
   VibrationRecord record = independent::record_of(sample_of(truth_with_pair(1, false)), sweep);
