@@ -69,7 +69,7 @@ class StepSolver {
 
   void take(const Mandel& increment) {
     increment_ = increment;
-    now_ = update(law_, state_, increment, dt_);
+    now_ = update(law_, state_, increment, dt_, AtConstantStrain::relaxes);
     F_ = rows_.on_stress * (now_.stress - sigma_0_) + rows_.on_strain * increment - change_;
   }
 
