@@ -251,12 +251,13 @@ double saturation_radius(const EndochronicLaw& law, double zeta, double rate) {
 }
 
 EndochronicUpdate update(const EndochronicLaw& law, const EndochronicState& state, const Mandel& strain_increment,
-                         double dt) {
+                         double dt, AtConstantStrain at_constant_strain) {
   EndochronicUpdate result{.state = state, .stress = {}, .tangent = {}};
   const Step step{law, state, deviator(strain_increment), dt};
   if (!strain_increment.allFinite() || (law.hardening.depends_on_rate() && !(dt > 0.0))) return result;
   result.state.strain += strain_increment;
-  if (step.de.squaredNorm() == 0.0 && !relaxes(step)) return volumetric_step(step, std::move(result));
+  const bool may_relax = at_constant_strain == AtConstantStrain::relaxes;
+  if (step.de.squaredNorm() == 0.0 && !(may_relax && relaxes(step))) return volumetric_step(step, std::move(result));
   const Solution solution = solve(step);
   const Trial& t = solution.trial;
   result.iterations = solution.iterations;

@@ -69,11 +69,15 @@ struct EndochronicUpdate {
   bool converged = false;
 };
 
+/// What the stress does at constant strain where it is higher than a law that depends on the rate bears at rest: the
+/// equations of the step have the solution without plastic strain, and the one that strain rates lead to as they fall
+/// to zero. With the latter, a solver for the strain has to know where it may begin (solver/point/rest_flow.h).
+enum class AtConstantStrain { stays, relaxes };
+
 /// A step of `strain_increment` in the time dt [s], which only laws that depend on the rate look at. Not converged only
-/// if the input is not finite (or dt is not positive where the rate matters). At constant strain the stress relaxes
-/// where it is higher than the law bears at rest: the branch that strain rates lead to as they fall to zero.
+/// if the input is not finite (or dt is not positive where the rate matters).
 EndochronicUpdate update(const EndochronicLaw& law, const EndochronicState& state, const Mandel& strain_increment,
-                         double dt);
+                         double dt, AtConstantStrain at_constant_strain = AtConstantStrain::stays);
 
 /// What a step would be if its path grew by a given dzeta: linear in the strain, d eps_p = (mu de + shift) / stiffness.
 /// It is a step of the law where |mu de + shift| = stiffness dzeta.

@@ -2,6 +2,7 @@
 
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/json.h"
+#include "postproc/files/unit_key.h"
 
 #include <fmt/format.h>
 
@@ -70,8 +71,8 @@ Json to_json(const std::vector<ExperimentMisfit>& experiments) {
     if (const auto& a = e.absolute) {
       entry["quantity"] = a->quantity;
       entry["unit"] = a->unit;
-      entry[fmt::format("rms_misfit_{}", a->unit)] = a->rms;
-      entry[fmt::format("rms_{}_{}", a->quantity, a->unit)] = a->rms_measured;
+      entry[key_with_unit("rms_misfit", a->unit)] = a->rms;
+      entry[key_with_unit("rms_" + a->quantity, a->unit)] = a->rms_measured;
     }
     if (!e.curve.empty()) entry["curve"] = e.curve;
     if (!e.preparation.empty()) entry["preparation"] = e.preparation;
@@ -121,8 +122,8 @@ ExperimentMisfit experiment_in(const Json& e) {
                           .curve = e.value("curve", "")};
   if (!e.contains("unit")) return misfit;
   const std::string quantity = e.at("quantity"), unit = e.at("unit");
-  misfit.absolute = {.rms = number_of(e.at(fmt::format("rms_misfit_{}", unit))),
-                     .rms_measured = number_of(e.at(fmt::format("rms_{}_{}", quantity, unit))),
+  misfit.absolute = {.rms = number_of(e.at(key_with_unit("rms_misfit", unit))),
+                     .rms_measured = number_of(e.at(key_with_unit("rms_" + quantity, unit))),
                      .quantity = quantity,
                      .unit = unit};
   return misfit;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cctype>
 #include <utility>
 
 namespace pfdm {
@@ -46,13 +47,15 @@ void write_signals_csv(const std::filesystem::path& path, const SignalTable& tab
 }
 
 SignalTable read_signals(const std::filesystem::path& path, const CsvMarks& marks) {
-  if (path.extension() == ".csv") return read_signals_csv(path, marks);
+  std::string suffix = path.extension().string();
+  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (suffix == ".csv") return read_signals_csv(path, marks);
   using Reader = SignalTable (*)(const std::filesystem::path&);
   constexpr std::pair<std::string_view, Reader> readers[] = {{".mat", read_signals_mat},   {".uff", read_signals_uff},
                                                              {".unv", read_signals_uff},   {".h5", read_signals_hdf5},
                                                              {".hdf5", read_signals_hdf5}, {".wav", read_signals_wav}};
   for (const auto& [extension, read] : readers)
-    if (path.extension() == extension) return read(path);
+    if (suffix == extension) return read(path);
   throw InputError(
       fmt::format("{}: records are read from .csv, .mat, .uff, .unv, .h5, .hdf5 and .wav files", path.string()));
 }

@@ -136,7 +136,7 @@ EndochronicIdentification identify_hardening(const EndochronicLaw& law, const Ex
 /// Whether the last round ended where the one before the last did.
 bool goes_in_circles(const std::vector<StaggeredRound>& rounds, double tolerance) {
   if (rounds.size() < 3) return false;
-  const double now = rounds.back().rms_after_kernel, before = rounds[rounds.size() - 3].rms_after_kernel;
+  const double now = rounds.back().misfit, before = rounds[rounds.size() - 3].misfit;
   return std::abs(now - before) <= tolerance * now;
 }
 
@@ -170,10 +170,11 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
     law = *hardened;
     const double after_hardening = rms_misfit(law, experiments, settings.control);
     law = fit_chosen(law, {.kernel = true, .hardening = false}, experiments, settings).law;
-    const double now = rms_misfit(law, experiments, settings.control);
-    result.rounds.push_back({after_hardening, now});
+    const double after_kernel = rms_misfit(law, experiments, settings.control);
+    const double now = relative_misfit(law, experiments, settings.control);
+    result.rounds.push_back({after_hardening, after_kernel, now});
     settings.say(fmt::format("iteration {}: rms misfit {:.6g} Pa after the hardening, {:.6g} Pa after the kernel",
-                             round + 1, after_hardening, now));
+                             round + 1, after_hardening, after_kernel));
     if (now < least) best = law;
     least = std::min(least, now);
     settled = std::abs(last - now) <= settings.round_tolerance * now;

@@ -36,6 +36,7 @@ struct TriedKernel {
 struct StaggeredRound {
   double rms_after_hardening = 0.0;  ///< [Pa]
   double rms_after_kernel = 0.0;     ///< [Pa]
+  double misfit = 0.0;               ///< after the kernel, of stresses and strains, relative to their rms
 };
 
 struct EndochronicIdentification {

@@ -56,10 +56,9 @@ class StepSolver {
 
  private:
   void begin(const Mandel& guess) {
-    if (const auto flow = flowing_increment(law_, state_, {rows_.on_stress, rows_.on_strain, change_}, dt_)) {
-      take(*flow);
-      if (now_.converged) return;
-    }
+    const RestFlow flow = flowing_increment(law_, state_, {rows_.on_stress, rows_.on_strain, change_}, dt_);
+    if (flow.increment) take(*flow.increment);
+    if (flow.goes_on) return;  // from no motion Newton's method would find that there is none
     if (!guess.isZero()) {
       take(guess);
       if (now_.converged && error() < 0.3 * change_.lpNorm<Eigen::Infinity>()) return;
@@ -69,7 +68,7 @@ class StepSolver {
 
   void take(const Mandel& increment) {
     increment_ = increment;
-    now_ = update(law_, state_, increment, dt_);
+    now_ = update(law_, state_, increment, dt_, AtConstantStrain::relaxes);
     F_ = rows_.on_stress * (now_.stress - sigma_0_) + rows_.on_strain * increment - change_;
   }
 
@@ -133,6 +132,7 @@ class SegmentRunner {
       if (take(i, done, part)) {
         done = 1.0 - done - part < 1e-9 ? 1.0 : done + part;
         part = std::min(2.0 * part, longest);
+        if (is_lost()) return false;
       } else if ((part *= 0.5) < least) {
         return false;
       }
@@ -150,12 +150,19 @@ class SegmentRunner {
     const std::string where = fmt::format("t = {:.6g} s", start_time_ + segment_.times[i + 1]);
     const bool stress_prescribed =
         std::ranges::any_of(conditions_, [](const auto& c) { return !c.on_stress.isZero(); });
-    if (stress_prescribed && now > 0.97 * radius)
+    const bool flows = law_.hardening.depends_on_rate() && is_lost();  // where the surface grows with the rate
+    if (!flows && stress_prescribed && now > 0.97 * radius)
       return fmt::format(
           "{}: the prescribed stress lies beyond the saturation surface: the deviatoric stress has reached {:.6g} Pa "
           "of the {:.6g} Pa (2 f sum C/alpha) that the material can sustain; prescribe less stress, or a strain "
           "instead",
           where, now, radius);
+    if (is_lost())
+      return fmt::format(
+          "{}: the strain has reached {:.3g}: the law cannot bear the prescribed stress; the deviatoric stress is "
+          "{:.6g} "
+          "Pa, and saturates at {:.6g} Pa at this zeta and rate; prescribe less stress, or a strain instead",
+          where, point_.state.strain.norm(), now, radius);
     return fmt::format(
         "{}: Newton's method does not converge, not even in steps of 1/{:.0f} of the increment; the deviatoric stress "
         "is "
@@ -174,6 +181,15 @@ class SegmentRunner {
     }
     const double value = (1.0 - w) * c.values[i] + w * c.values[i + 1];
     return c.pace == Pace::follow ? value : begin_[k] + value - c.values.front();
+  }
+
+  /// Whether the strain has left those that are prescribed by more than 1.
+  bool is_lost() const {
+    double prescribed = 0.0;
+    for (const auto& c : segment_.conditions)
+      if (c.condition.on_stress.isZero())
+        for (const double value : c.values) prescribed = std::max(prescribed, std::abs(value));
+    return point_.state.strain.norm() > 1.0 + 3.0 * prescribed;
   }
 
   double first_part(std::size_t i) const {

@@ -75,7 +75,8 @@ struct HistoryResult {
   std::string failure;  ///< why not, with the time
 };
 
-/// The whole loading from virgin material. `seen` is called after each increment.
+/// The whole loading from virgin material. Ends, not converged, where the strain has left those that are prescribed by
+/// more than 1: a law of small strains cannot follow the stresses. `seen` is called after each increment.
 HistoryResult run_history(const EndochronicLaw& law, const std::vector<LoadSegment>& segments,
                           const ControlSettings& settings = {},
                           const std::function<void(const HistoryPoint&)>& seen = {});

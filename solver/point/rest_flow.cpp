@@ -1,12 +1,12 @@
 #include "solver/point/rest_flow.h"
 
 #include <cmath>
-#include <utility>
 
 namespace pfdm {
 namespace {
 
-constexpr double longest = 0.1, shortest = 1e-12;  // of the plastic paths that are looked at
+// Plastic paths that are looked at: first from `usual` to the shortest, then to the longest.
+constexpr double usual = 0.1, shortest = 1e-12, longest = 10.0;
 
 class FlowEquation {
  public:
@@ -38,22 +38,35 @@ class FlowEquation {
   double dt_;
 };
 
+/// A path between whose half and itself the excess changes its sign from above to below zero, or the shortest.
+std::optional<double> upper_end(const FlowEquation& equation) {
+  const auto is_below = [&](double dzeta) { return equation.excess(dzeta, 1.0) < 0.0; };
+  double high = usual;
+  while (high > shortest && !is_below(high)) high *= 0.5;
+  if (high <= shortest) {
+    high = usual;
+    while (high < longest && !is_below(high)) high *= 2.0;
+    return high < longest ? std::optional(high) : std::nullopt;
+  }
+  while (high > shortest && is_below(0.5 * high)) high *= 0.5;
+  return high;
+}
+
 }  // namespace
 
-std::optional<Mandel> flowing_increment(const EndochronicLaw& law, const EndochronicState& state,
-                                        const StepConditions& conditions, double dt) {
-  if (!law.hardening.depends_on_rate() || !(dt > 0.0)) return std::nullopt;
+RestFlow flowing_increment(const EndochronicLaw& law, const EndochronicState& state, const StepConditions& conditions,
+                           double dt) {
+  if (!law.hardening.depends_on_rate() || !(dt > 0.0)) return {};
   const FlowEquation equation(law, state, conditions, dt);
-  if (!(equation.excess(shortest, 0.0) > 0.0)) return std::nullopt;
-  double high = longest;
-  if (!(equation.excess(high, 1.0) < 0.0)) return std::nullopt;
-  double low = 0.5 * high;
-  while (low > shortest && !(equation.excess(low, 1.0) > 0.0)) high = std::exchange(low, 0.5 * low);
+  if (!(equation.excess(shortest, 0.0) > 0.0)) return {};
+  const auto end = upper_end(equation);
+  if (!end) return {.goes_on = true, .increment = std::nullopt};
+  double low = 0.5 * *end, high = *end;
   for (int i = 0; i < 30; ++i) {
     const double middle = std::sqrt(low * high);
     (equation.excess(middle, 1.0) > 0.0 ? low : high) = middle;
   }
-  return equation.increment(std::sqrt(low * high));
+  return {.goes_on = true, .increment = equation.increment(std::sqrt(low * high))};
 }
 
 }  // namespace pfdm

@@ -16,10 +16,15 @@ struct StepConditions {
   Mandel change;
 };
 
-/// The strain increment of the solution with the longest plastic path, nearly; nothing if the plastic strain would come
-/// to rest under held conditions, so that there is no such choice. For given dzeta the step is linear: what is solved
-/// is one scalar equation in dzeta, by the signs on a grid from above and bisection.
-std::optional<Mandel> flowing_increment(const EndochronicLaw& law, const EndochronicState& state,
-                                        const StepConditions& conditions, double dt);
+struct RestFlow {
+  bool goes_on = false;             ///< whether plastic strain would go on under held conditions: there is a choice
+  std::optional<Mandel> increment;  ///< of the strain; nothing although it goes on: the step is too long to be solved
+};
+
+/// The strain increment, nearly, of the solution with the longest plastic path on which |A| falls below what the path
+/// needs as the path grows. For given dzeta the step is linear: what is solved is one scalar equation in dzeta, by the
+/// signs on a grid from 0.1 down, or else up, and bisection.
+RestFlow flowing_increment(const EndochronicLaw& law, const EndochronicState& state, const StepConditions& conditions,
+                           double dt);
 
 }  // namespace pfdm

@@ -302,22 +302,29 @@ TEST(MassMaterialProgram, TellsSpreadAndDriftOverASchedule) {
 
 // The rows of two samples of Table A1.
 TEST(MassMaterialProgram, ShowsTheStatusOfItsSchedule) {
-  const auto rows_of = [](const std::string& sample, const std::vector<std::string>& tests) {
+  struct Scheduled {
+    bool random;
+    std::string schedule;
+  };
+  const auto rows_of = [](const std::string& sample, const std::vector<Scheduled>& tests) {
     std::string text = replaced(soft_case(), "[sampling]", sample + "[sampling]");
     text = text.substr(0, text.find("[[test]]"));
     for (std::size_t i = 0; i < tests.size(); ++i)
       text += fmt::format(
-          "[[test]]\nname = \"t{}\"\nschedule = {{ {} }}\nexcitation = {{ type = \"swept_sine\", level = "
-          "\"1 g0\", from = \"15 Hz\", to = \"70 Hz\", duration = \"4 s\" }}\n",
-          i, tests[i]);
+          "[[test]]\nname = \"t{}\"\nschedule = {{ {} }}\nexcitation = {{ type = \"{}\", {}, from = \"15 Hz\", to = "
+          "\"70 Hz\", duration = \"4 s\" }}\n",
+          i, tests[i].schedule, tests[i].random ? "random" : "swept_sine",
+          tests[i].random ? "density = \"0.01 g0^2/Hz\"" : "level = \"1 g0\"");
     const TemporaryCase directory(text);
     return schedule_rows(read_mass_material_case(open_case(directory.path()).config.root(), directory.path()));
   };
   using Rows = std::vector<std::vector<std::string>>;
-  const std::vector<std::string> second{
-      "level = \"0.025 g0^2/Hz\", age = \"86 day\"",  "level = \"0.05 g0^2/Hz\", age = \"86 day\"",
-      "level = \"0.025 g0^2/Hz\", age = \"102 day\"", "level = \"0.05 g0^2/Hz\", age = \"102 day\"",
-      "level = \"1 g0\", age = \"109 day\"",          "level = \"2 g0\", age = \"109 day\", fractured = true"};
+  const std::vector<Scheduled> second{{true, "level = \"0.025 g0^2/Hz\", age = \"86 day\""},
+                                      {true, "level = \"0.05 g0^2/Hz\", age = \"86 day\""},
+                                      {true, "level = \"0.025 g0^2/Hz\", age = \"102 day\""},
+                                      {true, "level = \"0.05 g0^2/Hz\", age = \"102 day\""},
+                                      {false, "level = \"1 g0\", age = \"109 day\""},
+                                      {false, "level = \"2 g0\", age = \"109 day\", fractured = true"}};
   EXPECT_EQ(rows_of("name = \"P00_Q000_Q00_C02\"\ncomposition = \"HTPB 100 %\"\ncured = \"2016-02-29\"\n"
                     "planned_random = 10\nplanned_harmonic = 10\n",
                     second),
@@ -325,8 +332,10 @@ TEST(MassMaterialProgram, ShowsTheStatusOfItsSchedule) {
                    "harmonic, 1 g0, day", "harmonic, 2 g0, day", "harmonic, done of planned"},
                   {"P00_Q000_Q00_C02, HTPB 100 %, cured 2016-02-29", "86, 102", "86, 102", "4/10", "109", "109F",
                    "2/10 F"}}));
-  EXPECT_EQ(rows_of("planned_harmonic = 3\n", {"level = \"0.015 g0^2/Hz\", age = \"4.5 day\""})[1],
+  EXPECT_EQ(rows_of("planned_harmonic = 3\n", {{true, "level = \"0.015 g0^2/Hz\", age = \"4.5 day\""}})[1],
             (std::vector<std::string>{"a soft sample", "4", "1/-", "0/3"}));
+  EXPECT_EQ(rows_of("", {{true, "level = \"2 g0\", age = \"4 day\""}})[0][1],  // rms in 55 Hz
+            "random, 0.07273 g0²/Hz, day");
 }
 
 struct BadSchedule {
@@ -342,6 +351,8 @@ TEST(BadMassMaterial, SchedulesThatTellNothing) {
       {"another method", "repeatability = true", "repeatability = true\nmethod = \"least_squares\"",
        "repeatability requires the method \"output_error\""},
       {"run zero", "\"7 day\", run = 2 }", "\"7 day\", run = 0 }", "1 or more"},
+      {"density of a sine", "level = \"1 g0\", age = \"7 day\", run = 2",
+       "level = \"0.05 g0^2/Hz\", age = \"7 day\", run = 2", "a density belongs to random motion"},
       {"unknown parameter", "of = \"stiffness\"", "of = \"mass\"", "\"mass\" is not a parameter that changes"},
   };
   for (const BadSchedule& row : rows) {

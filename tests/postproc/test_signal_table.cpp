@@ -61,7 +61,7 @@ TEST(SignalTable, NamesFileAndLineOfWhatIsNoTable) {
   EXPECT_THAT(message(head + "1,two\n"), HasSubstr("bad.csv, line 4: \"two\" in column \"x\" is not a number"));
   EXPECT_THAT(message("time,x\n0,1\n"), HasSubstr("row of units"));
   EXPECT_THAT(message("time,x\n"), HasSubstr("row of units"));
-  EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "a.xls"); }), HasSubstr(".csv, .mat, .uff"));
+  EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "a.flac"); }), HasSubstr(".csv, .mat, .uff"));
   EXPECT_THAT(message_of<InputError>([&] { read_signals(folder / "none.csv"); }), HasSubstr("none.csv"));
 }
 

@@ -106,6 +106,27 @@ TEST(Identification, FindsTheTermsInShortRandomMotion) {
         << expected[i].name;
 }
 
+// Sweeps start from their spectra too.
+TEST(Identification, FindsTheTermsInShortSweepsToo) {
+  const MassMaterial t{.mass = 1.12,
+                       .stiffness = {2.4e6},
+                       .damping = 70.0,
+                       .forcing = KernelForcing::velocity,
+                       .kernel = {{300.0, 3.0e5}, {3000.0, 6.0e5}}};
+  std::vector<VibrationRecord> records{sweep_record(t, 1.0, 12.0, 20.0, 850.0),
+                                       sweep_record(t, 2.0, 12.0, 20.0, 850.0)};
+  for (VibrationRecord& r : records) add_noise(r, 40.0, 7);
+  EXPECT_EQ(segment_length(records), 4096);
+  IdentificationSettings settings = settings_for(t);
+  settings.kernel_order.reset();
+  const Identification found = identify(records, model_structure("linear_4b"), settings);
+  ASSERT_EQ(found.fit.model.kernel.size(), 2u);
+  const std::vector<Estimate> expected = named_values(t);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(found.fit.estimates[i].value, expected[i].value, 4.0 * found.fit.estimates[i].standard_error)
+        << expected[i].name;
+}
+
 TEST(Identification, SegmentsOfSpectraFitTheRecords) {
   const auto of = [](Index samples, double rate = 6000.0) {
     return VibrationRecord{.name = {},

@@ -157,5 +157,69 @@ TEST(EndochronicControl, CutsHeldTimesIntoSubsteps) {
   EXPECT_NEAR(held(1, 40), held(40, 1), 1e-9 * held(40, 1));
 }
 
+/// Stress in tension, reached in 1 s in 100 increments and held so long in so many.
+HistoryResult held_stress(const EndochronicLaw& law, double stress, double time, int increments) {
+  LoadSegment loaded = tension_path([=](double t) { return stress * t; }, 100),
+              kept = tension_path([=](double) { return stress; }, increments, time);
+  loaded.conditions[0].condition = kept.conditions[0].condition = on_stress(0);
+  return run_history(law, {loaded, kept});
+}
+
+// 60 GPa / 3000: a single term. With so few increments plastic paths are longer than 0.1.
+TEST(EndochronicControl, CreepsInLongIncrementsToo) {
+  EndochronicLaw law = one_term_law();
+  law.kernel = {{60e9, 3000.0}};
+  law.hardening.with_rate = logarithmic_rate(0.1, 1e-4);
+  const auto crept = [&](int increments) {
+    const HistoryResult result = held_stress(law, 58e6, 1000.0, increments);
+    EXPECT_TRUE(result.converged) << result.failure;
+    return result.points.back().state.strain[0];
+  };
+  const double fine = crept(1000);
+  EXPECT_GT(fine, 0.4);
+  EXPECT_NEAR(crept(4), fine, 0.01 * fine);
+}
+
+TEST(EndochronicControl, CreepsUnderATableOfPathAndRate) {
+  EndochronicLaw law = one_term_law();
+  law.kernel = {{60e9, 3000.0}};
+  law.hardening.with_path =
+      make_factor(hardening_law("table_with_rate"),
+                  rate_table_parameters({0.0, 0.2}, {1e-5, 1e-3, 1.0}, {1.0, 1.1, 1.3, 1.4, 1.6, 1.7}));
+  const auto crept = [&](int increments) {
+    const HistoryResult result = held_stress(law, 60e6, 1000.0, increments);
+    EXPECT_TRUE(result.converged) << result.failure;
+    return result.points.back().state.strain[0];
+  };
+  const double fine = crept(1000);
+  EXPECT_GT(fine, 0.1);
+  EXPECT_NEAR(crept(1), fine, 0.05 * fine);
+  EXPECT_NEAR(crept(4), fine, 0.05 * fine);
+}
+
+// Beyond a path of 0.05 the law bears less than the stress at any rate: long increments must not end with no creep.
+TEST(EndochronicControl, CreepsWhereTheLawSoftensUntilItBearsNoMore) {
+  EndochronicLaw law = one_term_law();
+  law.kernel = {{60e9, 3000.0}};
+  law.hardening.with_path = make_factor(hardening_law("table_with_rate"),
+                                        rate_table_parameters({0.0, 0.05}, {1e-5, 1e-2}, {1.0, 0.5, 1.5, 0.75}));
+  const HistoryResult result = held_stress(law, 58e6, 1000.0, 10);
+  EXPECT_FALSE(result.converged);
+  const HistoryResult before = held_stress(law, 58e6, 1.0, 100);
+  ASSERT_TRUE(before.converged) << before.failure;
+  EXPECT_GT(before.points.back().state.strain[0], 1.01 * before.points[100].state.strain[0]);
+}
+
+// Without an end the strain would grow for ever, in ever smaller steps.
+TEST(EndochronicControl, EndsWhereTheLawCannotFollowAStress) {
+  EndochronicLaw law = one_term_law();
+  law.kernel = {{100e9, 15000.0}, {10e9, 1000.0}};
+  law.hardening = {.with_path = saturating(1.4, 60.0), .with_rate = logarithmic_rate(0.1, 1e-4)};
+  const HistoryResult result = held_stress(law, 140e6, 100.0, 100);
+  EXPECT_FALSE(result.converged);
+  EXPECT_THAT(result.failure, testing::HasSubstr("the law cannot bear the prescribed stress"));
+  EXPECT_LT(result.points.back().state.strain.norm(), 2.0);
+}
+
 }  // namespace
 }  // namespace pfdm

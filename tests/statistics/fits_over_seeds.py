@@ -76,11 +76,22 @@ class Tally:
         sys.stdout.flush()
 
 
-def kept_fits(file):
-    """By their seed."""
+def study_of(options):
+    """What tells the fits of one study from those of another."""
+    own = {"number", "first_seed", "keep", "pfdm"}
+    return {name: value if isinstance(value, (int, float)) else str(value)
+            for name, value in vars(options).items() if name not in own}
+
+
+def kept_fits(file, study):
+    """By their seed. Fits of another study, or of one that is not known, are refused."""
     if not file or not file.exists():
         return {}
     lines = [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()]
+    for line in lines:
+        if line.get("study") != study:
+            sys.exit(f"{file}: seed {line['seed']} was fitted with {line.get('study', 'options that were not kept')}, "
+                     f"not with {study}: keep these fits in another file")
     return {line["seed"]: line for line in lines}
 
 
@@ -95,7 +106,8 @@ def fitted(options, folder, write_case, seed):
 
 def repeat(options, tally, write_case, every=20):
     """write_case(folder, seed) makes the case; the tally is printed after every so many fits."""
-    kept = kept_fits(options.keep)
+    study = study_of(options)
+    kept = kept_fits(options.keep, study)
     with tempfile.TemporaryDirectory() as temporary:
         for number in range(1, options.number + 1):
             seed = options.first_seed + number - 1
@@ -104,7 +116,7 @@ def repeat(options, tally, write_case, every=20):
                 fit = fitted(options, pathlib.Path(temporary), write_case, seed)
                 if options.keep:
                     with options.keep.open("a", encoding="utf-8") as file:
-                        file.write(json.dumps(fit) + "\n")
+                        file.write(json.dumps({"study": study, **fit}) + "\n")
             if fit["verdict"] != "sound":
                 print(f"seed {seed}: {fit['verdict']}: {'; '.join(fit['reasons'])}")
             tally.add(fit["verdict"], fit["parameters"], fit["seconds"])

@@ -177,6 +177,26 @@ TEST(EndochronicCells, APlateInPlaneStressIsTheMaterialPoint) {
   }
 }
 
+// A law that creeps at a material point, under a traction that is held from half of the time on: the cells keep their
+// strain, at the material point's when the loading ends, and no step is cut.
+TEST(EndochronicCells, StayAtRestUnderAHeldTraction) {
+  EndochronicLaw law = soft_metal();
+  law.kernel = {{300e9, 15000.0}, {30e9, 1000.0}};
+  law.hardening = {.with_path = make_factor(hardening_law("saturating"), {1.4, 60.0, 1.0}),
+                   .with_rate = make_factor(rate_factor("logarithmic"), {0.1, 1e-4})};
+  const auto pulled = [](const Vector&, double t) { return Vector(140e6 * std::min(2.0 * t, 1.0), 0.0, 0.0); };
+  const FractureModel model =
+      endochronic_model(law, {symmetry_on("xmin"),
+                              symmetry_on("ymin"),
+                              symmetry_on("zmin"),
+                              {.patch = "xmax", .displacement_prescribed = {false, false, false}, .value = pulled}});
+  const auto steps = steps_of(cube(2), model, in_steps(80, 2.0));
+  ASSERT_EQ(steps.size(), 80u);
+  const auto strain = [&](std::size_t step) { return to_mandel(steps[step].fields.strain[0])[0]; };
+  EXPECT_NEAR(strain(39), 0.0025, 1e-5);  // LSODA: 0.002500466653
+  EXPECT_NEAR(strain(79), strain(39), 1e-10 * strain(39));
+}
+
 // Confined on all sides, so that the strain is given: what damage leaves of the stress follows from the point's.
 TEST(EndochronicCells, DamageDegradesTheEffectiveStress) {
   const EndochronicLaw law = soft_metal();

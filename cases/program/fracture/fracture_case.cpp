@@ -117,7 +117,8 @@ void check_histories(const FractureCase& fracture, const ConfigTable& root) {
       throw region.where.error(unsuited_split(*region.material, *unsuited));
     if (region.material->depends_on_rate() && !(fracture.loading.duration > 0.0))
       throw region.where.error(
-          "the material's rate factor requires the time in which the load parameter grows by 1: duration = \"1 s\" in "
+          "a law that depends on the rate requires the time in which the load parameter grows by 1: duration = \"1 s\" "
+          "in "
           "[loading]");
     if (std::isfinite(fracture.loading.maximum_dissipation))
       throw root.table("loading")

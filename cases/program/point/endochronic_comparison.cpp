@@ -3,6 +3,7 @@
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/json.h"
+#include "postproc/files/unit_key.h"
 
 #include <fmt/format.h>
 
@@ -90,8 +91,8 @@ void compare_with_experiments(const EndochronicFit& fit, const EndochronicLaw& l
     list.push_back({{"name", m.name},
                     {"data", m.n_data},
                     {"relative_misfit", m.relative},
-                    {fmt::format("rms_misfit_{}", unit), m.absolute->rms},
-                    {fmt::format("rms_{}_{}", quantity, unit), m.absolute->rms_measured},
+                    {key_with_unit("rms_misfit", unit), m.absolute->rms},
+                    {key_with_unit("rms_" + quantity, unit), m.absolute->rms_measured},
                     {"curve", file}});
     session.log.say(fmt::format("{:<24} rms misfit {:.4g}{}, {:.3g} % of the rms {}", m.name, m.absolute->rms,
                                 unit == "1" ? "" : " " + unit, 100.0 * m.relative, quantity));

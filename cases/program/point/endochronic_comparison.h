@@ -12,8 +12,8 @@
 
 namespace pfdm {
 
-/// Strains that were followed, stresses that were measured and those that the law answers, in columns
-/// `answer`_stress_xx_Pa ... Throws ComputationError where the law cannot follow the strains.
+/// Strains (or stresses) that were followed, stresses (strains) that were measured and those that the law answers, in
+/// columns `answer`_stress_xx_Pa (`answer`_strain_xx) ... Throws ComputationError where the law cannot follow.
 CsvTable answered_curve(const MaterialExperiment& experiment, const EndochronicLaw& law, const ControlSettings& control,
                         std::string_view answer);
 

@@ -37,10 +37,21 @@ MeasuredColumn read_measured(const std::string& key, const ConfigValue& value, c
   MeasuredColumn column{.component = component, .values = read_column(table, file, "column", "unit", due)};
   if (with_noise && table.has("noise")) {
     const ConfigValue noise = table.at("noise");
+    if (!is_stress && !noise.is_string() && table.has("unit"))
+      throw noise.error(fmt::format("the column has a unit, so the noise needs one too, as \"{} {}\"",
+                                    noise.number(range::positive), table.string("unit")));
     column.noise =
         is_stress || noise.is_string() ? noise.quantity(due, range::positive) : noise.number(range::positive);
   }
   return column;
+}
+
+/// One component has two names in shear, strain_xy and gamma_xy. `seen`: the pairs of indices before.
+void require_once(int pair, const ConfigValue& value, std::vector<int>& seen) {
+  if (std::ranges::count(seen, pair) > 0)
+    throw value.error(fmt::format("the component {} is given twice: strain and gamma are the same strain",
+                                  component_names[static_cast<std::size_t>(pair)]));
+  seen.push_back(pair);
 }
 
 /// What was measured and is followed, strains or stresses; all other pairs are free of stress.
@@ -53,8 +64,10 @@ LoadSegment read_followed(const ConfigTable& followed, const CsvTable& file, std
     const std::string key = fmt::format("stress_{}", component_names[static_cast<std::size_t>(k)]);
     condition = {controlled_component(key).condition, Pace::follow, std::vector<double>(segment.times.size(), 0.0)};
   }
+  std::vector<int> seen;
   for (const auto& [key, value] : followed.entries()) {
     MeasuredColumn column = read_measured(key, value, file, is_stress, false);
+    require_once(column.component.pair, value, seen);
     segment.conditions[static_cast<std::size_t>(column.component.pair)] = {column.component.condition, Pace::follow,
                                                                            std::move(column.values)};
   }
@@ -92,8 +105,11 @@ MaterialExperiment read_experiment(const ConfigTable& table, const std::filesyst
   experiment.loading =
       read_followed(table.table(stress ? "stress" : "strain"), file, file_times(table, directory), stress);
   const ConfigTable measured = table.table(stress ? "strain" : "stress");
-  for (const auto& [key, value] : measured.entries())
+  std::vector<int> seen;
+  for (const auto& [key, value] : measured.entries()) {
     experiment.channels.push_back(read_channel(key, value, file, !stress));
+    require_once(experiment.channels.back().component, value, seen);
+  }
   if (experiment.channels.empty())
     throw measured.error(fmt::format("no measured {} is named", stress ? "strain" : "stress"));
   if (!stress) require_strains_of(experiment, measured);

@@ -41,8 +41,8 @@ double largest(const std::vector<double>& values) {
 bool is_shear(std::string_view component) { return component[0] != component[1]; }
 
 /// As it is plotted: of shear the engineering one.
-std::vector<double> plotted_strain(const CsvTable& table, std::string_view component) {
-  return in_unit(table.column(fmt::format("strain_{}", component)),
+std::vector<double> plotted_strain(const CsvTable& table, std::string_view component, std::string_view before = {}) {
+  return in_unit(table.column(fmt::format("{}strain_{}", before, component)),
                  {.factor = (is_shear(component) ? 2.0 : 1.0) * percent.factor, .name = percent.name});
 }
 
@@ -269,23 +269,19 @@ Chart strain_fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve
               .y = {.title = "strain [%]"},
               .series = {}};
   constexpr std::string_view start = "measured_strain_";
-  const auto in_percent = [&](const std::string& name) {
-    std::vector<double> values = curve.column(name);
-    for (double& value : values) value *= 100.0;
-    return values;
-  };
   for (const std::string& name : curve.names) {
     if (!name.starts_with(start)) continue;
     const std::string component = name.substr(start.size());
     const int colour = static_cast<int>(chart.series.size());
-    chart.series.push_back({.label = "measured " + component,
+    const std::string shown_as = is_shear(component) ? "engineering shear " + component : component;
+    chart.series.push_back({.label = "measured " + shown_as,
                             .x = curve.column("time_s"),
-                            .y = in_percent(name),
+                            .y = plotted_strain(curve, component, "measured_"),
                             .style = SeriesStyle::points,
                             .colour = colour});
-    chart.series.push_back({.label = (experiment.fitted ? "fitted " : "predicted ") + component,
+    chart.series.push_back({.label = (experiment.fitted ? "fitted " : "predicted ") + shown_as,
                             .x = curve.column("time_s"),
-                            .y = in_percent("fitted_strain_" + component),
+                            .y = plotted_strain(curve, component, "fitted_"),
                             .colour = colour + 1});
   }
   return chart;

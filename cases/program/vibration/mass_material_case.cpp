@@ -202,14 +202,30 @@ void read_sample_card(const ConfigTable& root, SampleCard& card) {
   card.planned_harmonic = static_cast<int>(table.integer("planned_harmonic", planned, 0));
 }
 
+/// `motion`: the type of the excitation. Where it leaves open what motion it is ("measured", or empty for a record
+/// alone), the unit of the level decides.
+ScheduledRun read_schedule(const ConfigTable& table, std::string_view motion, double band) {
+  ScheduledRun run = read_scheduled_run(table, band);
+  if (run.density > 0.0 && (motion == "swept_sine" || motion == "harmonic"))
+    throw table.at("level").error(
+        fmt::format("a density belongs to random motion; of a {} give the amplitude, as \"2 g0\"", motion));
+  if (motion == "random" && run.density == 0.0) {
+    if (!(band > 0.0)) throw table.error("the excited band has no width: \"from\" must be below \"to\"");
+    run.density = run.level * run.level / band;
+  }
+  return run;
+}
+
 VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {
   table.with_keys({"name", "excitation", "record", "predicted", "schedule", "date"});
   VibrationTest test;
+  std::string_view motion;
   test.where = table.at("name");
   test.name = read_plain_name(*test.where, "files");
   if (table.has("excitation")) {
     const ConfigTable shaker = table.table("excitation");
     const ExcitationType& type = choose(shaker.at("type"), excitation_types(), "type of excitation");
+    motion = type.name;
     test.excitation = type.read(shaker, directory, c.rate, c.data_files);
     test.band_low = test.excitation->band_low;
     test.band_high = test.excitation->band_high;
@@ -233,7 +249,7 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
   test.predicted = table.boolean("predicted", false);
   if (const auto date = table.find("date")) test.date = read_date(*date);
   if (table.has("schedule"))
-    test.schedule = read_scheduled_run(table.table("schedule"), test.band_high - test.band_low);
+    test.schedule = read_schedule(table.table("schedule"), motion, test.band_high - test.band_low);
   return test;
 }
 

@@ -71,6 +71,9 @@ ScheduledRun read_scheduled_run(const ConfigTable& table, double band) {
   const bool of_density = level.is_string() && level.in_context([&] {
     return is_unit_of(unit_of(level.string()), dimension::acceleration_density);
   });
+  if (of_density && !(band > 0.0))
+    throw level.error(
+        "a density belongs to random motion, but the excited band has no width: \"from\" must be below \"to\"");
   if (of_density) run.density = level.quantity(dimension::acceleration_density, range::positive);
   run.level = of_density ? std::sqrt(run.density * band) : level.quantity(dimension::acceleration, range::positive);
   return run;
