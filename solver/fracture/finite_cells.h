@@ -79,6 +79,7 @@ class FiniteCells {
   bool is_plane_stress() const { return !across_.isZero(); }
   FiniteLaw solid_law(Index cell, const Tensor& H, double g, double closure) const;
   FiniteLaw plane_stress_law(Index cell, const Tensor& H, double g) const;
+  Tensor true_deformation(Index cell, const Tensor& H, double g) const;
   static PotentialAt damaged(const Parts& at, const Shares& by, double g);
 
   const Mesh& mesh_;
