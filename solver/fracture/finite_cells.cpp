@@ -52,10 +52,11 @@ auto FiniteCells::relaxed(const HyperelasticMaterial& material, double g) -> OfF
   return {g / by, (by + 2.0 * ratio * g * lost) / (by * by)};
 }
 
-// w: 1 in cells that have to keep their orientation, 0 in broken ones. g w is convex in z = g^(1/2) = 1 - d, and so is
-// the energy: where a law is lost within a small range of d it drives the damage much there and little beyond, the
-// damage has two states of equilibrium and the iterations go to and fro between them. From z = 0.055 (g = 3e-3) down g
-// w goes on along its tangent, which is 0 at half of that, rounded off by a parabola.
+// w: 1 in cells that have to keep their orientation, 0 in broken ones. Where a law is lost within a small range of d it
+// drives the damage much there and little beyond, the damage has two states of equilibrium and the iterations go to and
+// fro between them. g w is convex in z = g^(1/2) = 1 - d, therefore, and so is the energy of cells that are stretched
+// to twice their length or more, for d > 0.6; (1 - w) g is not, nor is the relaxed c U at small d. From z = 0.055 (g =
+// 3e-3) down g w goes on along its tangent, which is 0 at half of that, rounded off by a parabola.
 auto FiniteCells::soundness(const HyperelasticMaterial& material, double g) -> OfFactor {
   const double sound = material.pressure_modulus() > 0.0 ? 0.15 : 0.055, middle = 0.5 * sound,
                half_width = 0.6 * middle;
