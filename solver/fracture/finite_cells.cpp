@@ -9,8 +9,9 @@
 namespace pfdm {
 namespace {
 
-constexpr double least_modulus = 1e-9;  // of a pressure, over the undamaged one
-constexpr double closing_range = 0.02;  // of J below 1, over which the faces of a cell become those of a closed crack
+constexpr double least_modulus = 1e-9;    // of a pressure, over the undamaged one
+constexpr double least_thickness = 1e-4;  // of a sheet, over that at rest: laws of principal stretches end at 0
+constexpr double closing_range = 0.02;    // of J below 1, over which the faces of a cell become those of a closed crack
 
 PotentialAt difference(const PotentialAt& a, const PotentialAt& b) {
   return {a.energy - b.energy, a.stress - b.stress, a.tangent - b.tangent};
@@ -51,10 +52,11 @@ auto FiniteCells::relaxed(const HyperelasticMaterial& material, double g) -> OfF
   return {g / by, (by + 2.0 * ratio * g * lost) / (by * by)};
 }
 
-// w: 1 in cells that have to keep their orientation, 0 in broken ones. g w is convex in z = g^(1/2) = 1 - d, and so is
-// the energy: where a law is lost within a small range of d it drives the damage much there and little beyond, the
-// damage has two states of equilibrium and the iterations go to and fro between them. From z = 0.055 (g = 3e-3) down g
-// w goes on along its tangent, which is 0 at half of that, rounded off by a parabola.
+// w: 1 in cells that have to keep their orientation, 0 in broken ones. Where a law is lost within a small range of d it
+// drives the damage much there and little beyond, the damage has two states of equilibrium and the iterations go to and
+// fro between them. g w is convex in z = g^(1/2) = 1 - d, therefore, and so is the energy of cells that are stretched
+// to twice their length or more, for d > 0.6; (1 - w) g is not, nor is the relaxed c U at small d. From z = 0.055 (g =
+// 3e-3) down g w goes on along its tangent, which is 0 at half of that, rounded off by a parabola.
 auto FiniteCells::soundness(const HyperelasticMaterial& material, double g) -> OfFactor {
   const double sound = material.pressure_modulus() > 0.0 ? 0.15 : 0.055, middle = 0.5 * sound,
                half_width = 0.6 * middle;
@@ -140,8 +142,8 @@ FiniteLaw FiniteCells::plane_stress_law(Index cell, const Tensor& H, double g) c
   return law;
 }
 
-// With the stretch across a plate at which there is no stress across it. It is 0 where none is (of cells turned inside
-// out).
+// With the stretch across a plate at which there is no stress across it, or the least thickness: of a network, which
+// pulls at any, and of cells turned inside out.
 Tensor FiniteCells::thinned(Index cell, const Tensor& H, double g) const {
   if (!is_plane_stress()) return H;
   constexpr Index most_steps = 80;
@@ -152,7 +154,7 @@ Tensor FiniteCells::thinned(Index cell, const Tensor& H, double g) const {
   for (Index k = 0; k < most_steps; ++k) {
     const PotentialAt at = damaged(parts(cell, H + strain * nn), by, g);
     const double stiffness = contract(nn, from_components(at.tangent * to_components(nn)));
-    const double next = std::max(strain - contract(nn, at.stress) / stiffness, -1.0);
+    const double next = std::max(strain - contract(nn, at.stress) / stiffness, least_thickness - 1.0);
     const bool there = std::abs(next - strain) <= rounding * (std::abs(strain) + H.norm());
     strain = next;
     if (there) break;
@@ -186,15 +188,26 @@ Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mecha
   return biot_stress(H, whole.stress + (at.keeps_pressure ? 1.0 : by.pressure.value / g) * at.pressure.stress);
 }
 
+// The deformation gradient for the Cauchy stress. A broken sheet, a network, has next to no thickness: it counts as
+// thick as a sound one at the same stretch, and where it is turned inside out as thick as at rest.
+Tensor FiniteCells::true_deformation(Index cell, const Tensor& H, double g) const {
+  const Tensor thin = Tensor::Identity() + thinned(cell, H, g);
+  if (!is_plane_stress()) return thin;
+  const Tensor nn = across_ * across_.transpose();
+  const bool is_turned = volume_change(H - contract(nn, H) * nn) <= -1.0;
+  const double sound = is_turned ? 1.0 : 1.0 + contract(nn, thinned(cell, H, 1.0));
+  return thin + std::max(sound - contract(nn, thin), 0.0) * nn;
+}
+
 Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, double g,
                                   const Vector& plane_normal) const {
-  const Tensor H = thinned(cell, mechanics.gradient[cell], g);
   Tensor P = mechanics.stress[cell];
   if (!plane_normal.isZero()) {
     const Tensor across = plane_normal * plane_normal.transpose();
-    P += across * (damaged(parts(cell, H), shares(cell, g), g).stress - P) * across;
+    const Parts at = parts(cell, thinned(cell, mechanics.gradient[cell], g));
+    P += across * (damaged(at, shares(cell, g), g).stress - P) * across;
   }
-  const Tensor F = Tensor::Identity() + H;
+  const Tensor F = true_deformation(cell, mechanics.gradient[cell], g);
   return symmetric_part(P * F.transpose() / F.determinant());
 }
 

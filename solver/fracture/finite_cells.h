@@ -12,14 +12,16 @@
 //   objective and has a positive definite tangent; at rest it pulls with g mu. (Wang, Lazarov, Sigmund, Jensen, Comput.
 //   Methods Appl. Mech. Engrg. 276 (2014) 453, blend to a linear energy likewise, but one that is not objective.) It
 //   does so between g = 3e-3 and 1e-4, in nearly incompressible materials between 2e-2 and 9e-4, along a function that
-//   keeps the energy convex in d.
+//   keeps the energy convex in d in cells that are stretched to twice their length or more, d > 0.6, with the quadratic
+//   degradation; at smaller stretches it is not.
 // - Nearly incompressible materials cannot open a crack without moving their surroundings. The part of U that a
 //   pressure carries (hyperelastic.h) is lost faster than g, kappa -> g kappa/(1 + kappa/kappa_s (1 - g)^2) with
 //   kappa_s = 2.5 mu: a sound cell loses it as W, a broken one is compressible. (Li, Bouklas, Int. J. Solids Struct.
-//   182-183 (2020) 193, relax it by another power of 1 - d.)
+//   182-183 (2020) 193, relax it by another power of 1 - d.) What is left of it is not convex in d at small d.
 // - What Newton's method cannot bridge of a change of the damage is halved (staggered.cpp).
 //
-// Stress, stored and driving energy are derivatives of this one energy.
+// Stress, stored and driving energy of the mean gradient are derivatives of this one energy. The driving energy of what
+// the faces add is exact where that is proportional to g.
 //
 // Plane stress: F has the stretch across the plate at which the damaged cell has no stress across it, and the tangent
 // is condensed accordingly. No pressure is needed.
@@ -79,6 +81,7 @@ class FiniteCells {
   bool is_plane_stress() const { return !across_.isZero(); }
   FiniteLaw solid_law(Index cell, const Tensor& H, double g, double closure) const;
   FiniteLaw plane_stress_law(Index cell, const Tensor& H, double g) const;
+  Tensor true_deformation(Index cell, const Tensor& H, double g) const;
   static PotentialAt damaged(const Parts& at, const Shares& by, double g);
 
   const Mesh& mesh_;

@@ -108,18 +108,6 @@ struct FractureRun::Parts {
     return staggered.momentum().balance().boundary_forces(state.displacement);
   }
 
-  double work_increment(const FractureState& from, const FractureState& to) const {
-    double work = 0.0;
-    for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f) {
-      const Index node = unknowns.node_of_face[f];
-      if (node < 0) continue;
-      const auto k = as_size(f - mesh.n_interior_faces());
-      work += 0.5 * (from.boundary_force[k] + to.boundary_force[k])
-                        .dot(to.displacement[as_size(node)] - from.displacement[as_size(node)]);
-    }
-    return work;
-  }
-
   // held: the last load with equilibrium; load: one at which only the residual stiffness carries the tractions.
   [[noreturn]] void fail_torn(double held, double load) const {
     const bool falls_back = std::isfinite(loading.maximum_dissipation);
@@ -166,7 +154,8 @@ struct FractureRun::Parts {
     next.boundary_force = boundary_forces(next);
     next.energy = outcome.energy;
     next.energy.fracture = staggered.damage_equation().fracture_energy(next.damage);
-    next.energy.external_work = state.energy.external_work + work_increment(state, next);
+    next.energy.external_work =
+        state.energy.external_work + staggered.work(state, next.boundary_force, next.displacement);
     for (const EnergyEntry& entry : energy_entries)
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
     next.increment = next_increment(planned, outcome);

@@ -163,13 +163,17 @@ struct Staggered::Loop {
   }
 
   // Cohesive faces have released energy already when the first equilibrium is found: what they and the body had before
-  // grows with the load squared. At finite strain it does not: there it is what is stored and what they have
-  // dissipated.
+  // grows with the load squared. At finite strain it does not: there the work that is not stored, times the growth of
+  // the load, is what was released. Of a linear body, whose displacements or tractions grow with the load, it is the
+  // same; of others that release nothing the trapezoid of a curved force errs in the third order of the increment only.
   double stored_before() const {
-    if (s.faces_.any() && s.stiffness_.finite().any()) return energies.stored + energies.torn - torn_before;
+    const bool finite = s.stiffness_.finite().any();
+    if (s.faces_.any() && finite && !(start.load > 0.0)) return energies.stored + energies.torn - torn_before;
     if (!s.faces_.any() || !(start.load > 0.0)) return energies.stored;
-    const double growth = state.load / start.load;
-    return growth * growth * (start.energy.elastic + start.energy.interface_energy);
+    const double growth = state.load / start.load, stored = start.energy.elastic + start.energy.interface_energy;
+    if (!finite) return growth * growth * stored;
+    const double work = s.work(start, s.momentum_.balance().boundary_forces(state.displacement), state.displacement);
+    return energies.stored + growth * (stored + work - energies.stored);
   }
 
   CoupledNewton::Moved advance(CellField<double>& answer);
@@ -242,6 +246,19 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
     if (watch && loop.outcome.iterations > iterations) watch(loop.report);
   }
   return loop.outcome;
+}
+
+double Staggered::work(const FractureState& from, const std::vector<Vector>& force,
+                       const std::vector<Vector>& displacement) const {
+  double work = 0.0;
+  for (Index f = mesh_.n_interior_faces(); f < mesh_.n_faces(); ++f) {
+    const Index node = unknowns_.node_of_face[f];
+    if (node < 0) continue;
+    const auto k = as_size(f - mesh_.n_interior_faces());
+    work +=
+        0.5 * (from.boundary_force[k] + force[k]).dot(displacement[as_size(node)] - from.displacement[as_size(node)]);
+  }
+  return work;
 }
 
 void Staggered::degrade(const FractureState& state) {

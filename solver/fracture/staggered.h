@@ -62,6 +62,9 @@ class Staggered {
   const CellStiffness& stiffness() const { return stiffness_; }
   const CohesiveFaces& faces() const { return faces_; }
   StageClock& clock() { return clock_; }
+  /// Of the boundary forces, which change linearly from one state to the other [J].
+  double work(const FractureState& from, const std::vector<Vector>& force,
+              const std::vector<Vector>& displacement) const;
   /// Sets the degraded stiffness of the state in the momentum balance.
   void degrade(const FractureState& state);
 

@@ -55,7 +55,8 @@
 // gradient of the two-sided face displacements.
 //
 // Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
-// are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements.
+// are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements,
+// at finite strain by the laws of the cells.
 
 #include "physics/gradient_stress.h"
 #include "physics/plane_stress.h"
@@ -87,7 +88,8 @@ class MomentumOperator {
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
 
-  /// Finite strain: the balance linearised about the displacements u. There it is exact. No plane stress.
+  /// Finite strain: the balance linearised about the displacements u. There it is exact. In plane stress the
+  /// laws are condensed already.
   void set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double part = 0.0);
   bool is_finite() const { return finite_.size() > 0; }
   const CellField<Tensor>& deformation() const { return F_; }       ///< F by least squares, at which it is linearised

@@ -349,6 +349,45 @@ TEST_P(FiniteReleases, AreOfBondsThatGiveWay) {
 INSTANTIATE_TEST_SUITE_P(Drawn, FiniteReleases, testing::Values(0.9, -0.45),
                          [](const auto& test) { return std::string(test.param > 0.0 ? "out" : "together"); });
 
+// The bond is half of the section, gives way at a stretch between 1.1 and 1.2, and takes a hundredth of what is stored:
+// what it releases besides, most of it into nothing, has to cut the steps.
+TEST(FiniteFaces, ABondThatSnapsBesideABodyThatStaysStretchedCutsTheSteps) {
+  const Mesh mesh = two_blocks(2);
+  InterfaceStrength at = bond;
+  at.strength = 4e5, at.toughness = 1.0, at.stiffness = 2e12;
+  FractureModel model = elastic_model(std::vector(mesh.region_names.size(), rubber), {});
+  glue(model, mesh, law_of(linear_law()), at, Vector::UnitX(),
+       [](const Vector& x) { return std::abs(x.x() - edge) < 1e-9 && x.y() < 0.5 * edge; });
+  make_finite(model);
+  const double drawn = 0.3 * 2.0 * edge;
+  model.boundary = {moved("xmin", {true, false, false}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
+                    moved("xmax", {true, false, false},
+                          [&](const Vector&, double t) -> Vector { return drawn * t * Vector::UnitX(); })};
+  for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) model.boundary.push_back(symmetry_on(side));
+  FractureRun run(mesh, model, {},
+                  {.initial_increment = 1.0 / 3.0,
+                   .maximum_increment = 1.0 / 3.0,
+                   .energy_release = 0.03,
+                   .finest_increment = 1e-2,
+                   .stops = {}});
+  double largest = 0.0, released = 0.0, torn = 0.0;
+  StepReport before;
+  run_to_end(run, [&](const FractureState&, const StepReport& report) {
+    if (report.energy.interface_dissipation > before.energy.interface_dissipation + 1e-12) {
+      largest = std::max(largest, report.increment);
+      released = std::max(released, 1.0 - report.energy.elastic / before.energy.elastic);
+      torn = std::max(torn, report.energy.interface_dissipation / before.energy.elastic);
+    }
+    before = report;
+  });
+  report_row("half a bond", {{"steps", double(before.step)},
+                             {"largest that dissipates", largest},
+                             {"share released", released},
+                             {"share torn", torn}});
+  EXPECT_LT(torn, 0.03);
+  EXPECT_LE(largest, 1.01e-2);
+}
+
 // A run goes on from a state with open faces as the one that came there.
 TEST(FiniteFaces, GoOnFromAState) {
   const Mesh mesh = two_blocks(2);

@@ -1,6 +1,6 @@
 # Energy release rate of cracked bodies of the neo-Hookean polyurethane of cases/nine_*_pu by quadratic elements (dolfinx
-# 0.5), from their energies at two crack lengths and one displacement: the sharp answers of nine_dcb_pu (plane strain, a
-# linear pressure) and nine_pure_shear_pu (plane stress, the stretch across as an unknown).
+# 0.5), from their energies at two crack lengths and one displacement: the sharp answers of nine_dcb_pu (dcb: plane strain,
+# a linear pressure), nine_pure_shear_pu (strip) and nine_edge_notch_pu (notch: plane stress, the stretch across as an unknown).
 # Usage: griffith_elements.py dcb|notch|strip LENGTH_MM HALF_DIFFERENCE_MM SQUARES
 import sys
 import numpy as np, ufl
