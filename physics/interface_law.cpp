@@ -97,11 +97,6 @@ double InterfaceLaw::steepest_fall(const InterfaceStrength& at) const {
   return steepest;
 }
 
-double InterfaceLaw::damage(const InterfaceStrength& at, const InterfaceHistory& history) const {
-  return std::clamp(
-      history.dissipated / (depends_on_mode() ? std::max(at.toughness, at.shear_toughness) : at.toughness), 0.0, 1.0);
-}
-
 double InterfaceLaw::dissipated(const InterfaceStrength& at, const ModeMixture& mixture, double lambda) const {
   const LawPoint p = point(at, mixture, lambda);
   return p.work - 0.5 * p.traction * lambda;
@@ -124,6 +119,22 @@ double InterfaceLaw::secant_after(const InterfaceStrength& at, const InterfaceHi
   if (depends_on_mode()) return (1.0 - history.reached) * K;
   if (!(history.reached > 0.0)) return K;
   return point(at, {.strength = at.strength, .toughness = at.toughness}, history.reached).traction / history.reached;
+}
+
+double InterfaceLaw::left_to_dissipate(const InterfaceStrength& at, double B, const InterfaceHistory& history) const {
+  const double kept = secant_after(at, history);
+  if (!(kept > 0.0)) return 0.0;
+  const ModeMixture mixture = mixed_mode->at(at, B, exponent);
+  const double reached = separation_at_secant(at, mixture, kept, mixture.strength / kept);
+  return std::max(0.0, mixture.toughness - dissipated(at, mixture, reached));
+}
+
+double InterfaceLaw::damage(const InterfaceStrength& at, const Vector& n, const Vector& separation,
+                            const InterfaceHistory& history) const {
+  if (!(history.dissipated > 0.0)) return 0.0;
+  if (!depends_on_mode()) return std::min(history.dissipated / at.toughness, 1.0);
+  const double left = left_to_dissipate(at, Opening(n, separation, shear_ratio).B, history);
+  return history.dissipated / (history.dissipated + left);
 }
 
 // The law's own part: traction, tangent and history by decohesion; dS/d separation.

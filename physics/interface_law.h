@@ -82,8 +82,10 @@ struct InterfaceLaw {
   double initial_stiffness(const InterfaceStrength& at) const;
   /// Steepest fall of the traction in opening [Pa/m], positive.
   double steepest_fall(const InterfaceStrength& at) const;
-  /// Fraction of the toughness that has been dissipated by decohesion, 0 to 1.
-  double damage(const InterfaceStrength& at, const InterfaceHistory& history) const;
+  /// Fraction of the toughness that has been dissipated by decohesion, 0 to 1; where that depends on the mode: over
+  /// what has been and what is still to be in the mode of this separation [m].
+  double damage(const InterfaceStrength& at, const Vector& n, const Vector& separation,
+                const InterfaceHistory& history) const;
   bool depends_on_mode() const { return mixed_mode->at != nullptr; }
 
  private:
@@ -92,6 +94,7 @@ struct InterfaceLaw {
   double secant_by_mode(const InterfaceStrength& at, const ModeMixture& mixture, const LawPoint& p,
                         double lambda) const;
   double dissipated(const InterfaceStrength& at, const ModeMixture& mixture, double lambda) const;
+  double left_to_dissipate(const InterfaceStrength& at, double B, const InterfaceHistory& history) const;
   double separation_at_secant(const InterfaceStrength& at, const ModeMixture& mixture, double secant,
                               double above) const;
   void pull(const InterfaceStrength& at, const Opening& opening, const InterfaceHistory& before,

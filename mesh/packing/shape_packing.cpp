@@ -15,6 +15,7 @@ namespace pfdm {
 namespace {
 
 constexpr double dilute_spheres = 0.12;  // volume fraction of the spheres around the bodies at which they are placed
+constexpr double most_of_side = 0.9;     // of the shortest side's width, of those spheres
 constexpr double fast_growth = 4e-3, slow_growth = 1e-5;  // of the size, in a sweep
 constexpr double jammed_step = 2e-3;                      // step of the moves over the smallest body's size
 constexpr double loosening = 0.97;                        // factor on the size after that
@@ -44,7 +45,9 @@ class GrowingBodies {
   double dilute_scale() const {
     double volume = 0.0;
     for (const double r : reach_) volume += 4.19 * std::pow(r + 0.5 * packing_.gap, 3);
-    return std::min(1.0, std::cbrt(dilute_spheres * (packing_.upper - packing_.lower).prod() / volume));
+    const Vector sides = packing_.upper - packing_.lower;
+    const double largest = (0.5 * sides.minCoeff() - packing_.wall_gap) / *std::ranges::max_element(reach_);
+    return std::min({1.0, std::cbrt(dilute_spheres * sides.prod() / volume), most_of_side * largest});
   }
 
   // Where the spheres around the bodies have room, turned at random.
@@ -55,7 +58,7 @@ class GrowingBodies {
                           .gap = packing_.gap,
                           .wall_gap = packing_.wall_gap};
     for (const double r : reach_) spheres.radii.push_back(scale * r);
-    const std::vector<Vector> centres = pack_spheres(spheres, random_);
+    const std::vector<Vector> centres = centres_of(spheres);
     for (std::size_t i = 0; i < hulls_.size(); ++i) {
       hulls_[i].centre = centres[i];
       hulls_[i].rotation = random_.rotation();
@@ -107,6 +110,17 @@ class GrowingBodies {
   }
 
  private:
+  std::vector<Vector> centres_of(const SpherePacking& spheres) {
+    try {
+      return pack_spheres(spheres, random_);
+    } catch (const InputError&) {  // which speaks of spheres
+      throw InputError(fmt::format(
+          "{} particles with gaps of {:.4g} m, and {:.4g} m from the sides, have no room in a box whose shortest side "
+          "is {:.4g} m: take fewer of them, or smaller gaps",
+          hulls_.size(), packing_.gap, packing_.wall_gap, (packing_.upper - packing_.lower).minCoeff()));
+    }
+  }
+
   void set_scale(double scale) {
     for (PlacedHull& hull : hulls_) hull.scale = scale;
   }

@@ -191,11 +191,16 @@ double CohesiveFaces::dissipated(const std::vector<InterfaceHistory>& from,
   return sum;
 }
 
-std::vector<double> CohesiveFaces::debonded_areas(const std::vector<InterfaceHistory>& histories) const {
+std::vector<double> CohesiveFaces::debonded_areas(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                                  const std::vector<InterfaceHistory>& histories) const {
   constexpr double most_of_it = 0.9;
   std::vector<double> areas(model_.interfaces.size(), 0.0);
-  for (std::size_t k = 0; k < faces_.size(); ++k)
-    if (law(faces_[k]).damage(faces_[k].at, histories[k]) >= most_of_it) areas[faces_[k].surface] += faces_[k].area;
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const Face& face = faces_[k];
+    const Vector n = normal(face, balance);
+    if (law(face).damage(face.at, n, balance.separation(k, u), histories[k]) >= most_of_it)
+      areas[face.surface] += face.area;
+  }
   return areas;
 }
 
@@ -235,7 +240,7 @@ std::vector<OutputInterface> CohesiveFaces::output(const MomentumOperator& balan
       out.separation[i] = sign * separation;
       const Vector along = normal(face, balance);
       out.opening[i] = along.dot(separation);
-      out.damage[i] = law(face).damage(face.at, state.interfaces[k]);
+      out.damage[i] = law(face).damage(face.at, along, separation, state.interfaces[k]);
       out.traction[i] = sign * law(face).respond(face.at, along, separation, state.interfaces[k]).traction;
     }
     list.push_back(std::move(out));

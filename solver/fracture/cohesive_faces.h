@@ -47,8 +47,10 @@ class CohesiveFaces {
                  const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
   /// Energy dissipated from one state to the other [J].
   double dissipated(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
-  /// Of each surface, where nine tenths of the toughness or more are dissipated [m^2].
-  std::vector<double> debonded_areas(const std::vector<InterfaceHistory>& histories) const;
+  /// Of each surface, where nine tenths of the toughness, that of the mode in which the face is loaded, or more are
+  /// dissipated [m^2].
+  std::vector<double> debonded_areas(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                     const std::vector<InterfaceHistory>& histories) const;
   /// Energy dissipated from one state to that of the displacements u [J].
   double dissipated_at(const MomentumOperator& balance, const std::vector<Vector>& u,
                        const std::vector<InterfaceHistory>& from) const;

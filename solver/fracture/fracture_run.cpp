@@ -176,7 +176,8 @@ struct FractureRun::Parts {
     r.patch_displacement = staggered.momentum().balance().patch_displacements(state.displacement);
     r.energy = state.energy;
     if (model.motion.any()) r.means = box_means(mesh, unknowns, sides, state.boundary_force, state.displacement);
-    r.debonded_area = staggered.faces().debonded_areas(state.interfaces);
+    r.debonded_area =
+        staggered.faces().debonded_areas(staggered.momentum().balance(), state.displacement, state.interfaces);
     r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return state.damage[c]; });
     r.damaged_volume =
         parallel_sum(mesh.n_cells(), [&](Index c) { return state.damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });

@@ -33,9 +33,11 @@ std::array<double, 6> MeanPath::at(double t) const {
   const auto next = std::min(static_cast<std::size_t>(within), points.size() - 1);
   const double share = within - static_cast<double>(next);
   std::array<double, 6> value{};
+  constexpr double rounding = 1e-12;  // where a path goes through zero it has to be zero
   for (std::size_t k = 0; k < value.size(); ++k) {
     const double from = next == 0 ? 0.0 : points[next - 1][k];
     value[k] = from + share * (points[next][k] - from);
+    if (std::abs(value[k]) < rounding * std::abs(points[next][k] - from)) value[k] = 0.0;
   }
   return value;
 }

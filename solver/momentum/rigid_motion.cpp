@@ -19,7 +19,8 @@ constexpr double singular = 1e-10;
 
 using Form = Eigen::Matrix<double, 6, 6>;
 
-// Rigid motions are u = a + b x (x - origin) / size.
+// Rigid motions are u = a + b x (x - origin) / size. Pieces that periodic faces join lie beside each other: cells are
+// shifted from where the mesh has them.
 struct Part {
   std::vector<Index> cells;
   Vector origin = Vector::Zero();  // [m]
@@ -27,33 +28,80 @@ struct Part {
   Form form = Form::Zero();        // quadratic form of what is prescribed of (a, b)
 };
 
-std::vector<Part> connected_parts(const Mesh& mesh, const CellField<double>& damage, CellField<Index>& part_of_cell) {
-  const auto holds = [&](Index c) { return damage.size() == 0 || damage[c] < broken; };
-  part_of_cell = CellField<Index>(as_size(mesh.n_cells()), -1);
-  std::vector<Part> parts;
-  for (Index first = 0; first < mesh.n_cells(); ++first) {
-    if (part_of_cell[first] >= 0 || !holds(first)) continue;
-    const auto number = static_cast<Index>(parts.size());
-    Part& part = parts.emplace_back();
-    part.cells.push_back(first);
-    part_of_cell[first] = number;
-    for (std::size_t i = 0; i < part.cells.size(); ++i)
-      for (const Index f : mesh.faces_of_cell(part.cells[i])) {
-        if (!mesh.is_interior(f)) continue;
-        const Index other = mesh.across(f, part.cells[i]);
-        if (part_of_cell[other] >= 0 || !holds(other)) continue;
-        part_of_cell[other] = number;
-        part.cells.push_back(other);
-      }
+// Of each boundary face the one that moves as it does, or -1.
+std::vector<Index> periodic_partners(const Mesh& mesh, const Unknowns& unknowns) {
+  std::vector<Index> partner(as_size(mesh.n_faces()), -1);
+  const auto face_of = [&](Index node) { return unknowns.face_of_node[as_size(node - unknowns.n_cells)]; };
+  for (const PeriodicNodes& pair : unknowns.periodic) {
+    const Index face = face_of(pair.node), image = face_of(pair.image);
+    partner[as_size(face)] = image;
+    partner[as_size(image)] = face;
   }
-  return parts;
+  return partner;
 }
 
-void place_and_measure(const Mesh& mesh, Part& part) {
-  for (const Index c : part.cells) part.origin += mesh.cell_centre[c] / double(part.cells.size());
+struct Placement {
+  CellField<Index> part;    // -1: of none
+  CellField<Vector> shift;  // [m]
+};
+
+class Parts {
+ public:
+  Parts(const Mesh& mesh, const CellField<double>& damage, const std::vector<Index>& partner, Placement& placed)
+      : mesh_(mesh), damage_(damage), partner_(partner), placed_(placed) {
+    placed.part = CellField<Index>(as_size(mesh.n_cells()), -1);
+    placed.shift = CellField<Vector>(as_size(mesh.n_cells()), Vector::Zero());
+  }
+
+  std::vector<Part> find() {
+    std::vector<Part> parts;
+    for (Index first = 0; first < mesh_.n_cells(); ++first) {
+      if (!is_left(first)) continue;
+      const auto number = static_cast<Index>(parts.size());
+      Part& part = parts.emplace_back();
+      add(first, Vector::Zero(), number, part);
+      for (std::size_t i = 0; i < part.cells.size();) {
+        for (; i < part.cells.size(); ++i) grow(part.cells[i], number, part);
+        cross_sides(number, part);
+      }
+    }
+    return parts;
+  }
+
+ private:
+  bool is_left(Index c) const { return placed_.part[c] < 0 && (damage_.size() == 0 || damage_[c] < broken); }
+  void add(Index cell, const Vector& shift, Index number, Part& part) {
+    placed_.part[cell] = number;
+    placed_.shift[cell] = shift;
+    part.cells.push_back(cell);
+  }
+  void grow(Index cell, Index number, Part& part) {
+    for (const Index f : mesh_.faces_of_cell(cell))
+      if (mesh_.is_interior(f) && is_left(mesh_.across(f, cell)))
+        add(mesh_.across(f, cell), placed_.shift[cell], number, part);
+  }
+  // To one more piece, if there is one.
+  void cross_sides(Index number, Part& part) {
+    for (const Index cell : part.cells)
+      for (const Index f : mesh_.faces_of_cell(cell)) {
+        const Index image = partner_[as_size(f)];
+        if (image < 0 || !is_left(mesh_.owner[image])) continue;
+        add(mesh_.owner[image], placed_.shift[cell] + mesh_.face_centre[f] - mesh_.face_centre[image], number, part);
+        return;
+      }
+  }
+
+  const Mesh& mesh_;
+  const CellField<double>& damage_;
+  const std::vector<Index>& partner_;
+  Placement& placed_;
+};
+
+void place_and_measure(const Mesh& mesh, const CellField<Vector>& shift, Part& part) {
+  for (const Index c : part.cells) part.origin += (mesh.cell_centre[c] + shift[c]) / double(part.cells.size());
   for (const Index c : part.cells)
     for (const Index f : mesh.faces_of_cell(c))
-      part.size = std::max(part.size, (mesh.face_centre[f] - part.origin).norm());
+      part.size = std::max(part.size, (mesh.face_centre[f] + shift[c] - part.origin).norm());
 }
 
 using Motion = Eigen::Matrix<double, 3, 6>;
@@ -129,19 +177,19 @@ std::string describe(const Mesh& mesh, const Part& part, std::size_t n_parts, bo
 }  // namespace
 
 void require_held(const Mesh& mesh, const Unknowns& unknowns, const CellField<double>& damage) {
-  CellField<Index> part_of_cell;
-  std::vector<Part> parts = connected_parts(mesh, damage, part_of_cell);
-  for (Part& part : parts) place_and_measure(mesh, part);
+  Placement placed;
+  const std::vector<Index> partner = periodic_partners(mesh, unknowns);
+  std::vector<Part> parts = Parts(mesh, damage, partner, placed).find();
+  const auto place = [&](Index face) { return (mesh.face_centre[face] + placed.shift[mesh.owner[face]]).eval(); };
+  for (Part& part : parts) place_and_measure(mesh, placed.shift, part);
   for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k) {
-    const Index face = unknowns.face_of_node[k], part = part_of_cell[mesh.owner[face]];
-    if (part >= 0)
-      resist(parts[as_size(part)], mesh.face_centre[face], Tensor::Identity() - unknowns.free_directions[k]);
+    const Index face = unknowns.face_of_node[k], part = placed.part[mesh.owner[face]];
+    if (part >= 0) resist(parts[as_size(part)], place(face), Tensor::Identity() - unknowns.free_directions[k]);
   }
-  const auto face_of = [&](Index node) { return unknowns.face_of_node[as_size(node - unknowns.n_cells)]; };
-  for (const PeriodicNodes& pair : unknowns.periodic) {
-    const Index face = face_of(pair.node), image = face_of(pair.image), part = part_of_cell[mesh.owner[face]];
-    if (part >= 0 && part == part_of_cell[mesh.owner[image]])
-      resist_apart(parts[as_size(part)], mesh.face_centre[face], mesh.face_centre[image]);
+  for (Index face = mesh.n_interior_faces(); face < mesh.n_faces(); ++face) {
+    const Index image = partner[as_size(face)], part = placed.part[mesh.owner[face]];
+    if (image > face && part >= 0 && part == placed.part[mesh.owner[image]])
+      resist_apart(parts[as_size(part)], place(face), place(image));
   }
   if (damage.size() > 0)
     std::erase_if(parts, [&](const Part& part) {

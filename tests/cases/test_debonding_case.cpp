@@ -97,6 +97,27 @@ TEST(DebondingCase, CurveIsThatOfSpringsInSeries) {
   EXPECT_THAT(checked.out, HasSubstr("2 points of mean strain and stress, periodic"));
 }
 
+// Without friction there is no stress at no strain; the plane resists compression by its initial stiffness.
+TEST(DebondingCase, PathMayEndAtZeroAndPassIt) {
+  const TemporaryCase directory(replaced(parted_box(), "strain_zz = 0.05", "strain_zz = -0.15 }, { strain_zz = 0"));
+  const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable curve = curve_of(directory);
+  const std::vector<double>&load = curve.column("load"), &strain = curve.column("strain_zz"),
+        &stress = curve.column("stress_zz_Pa");
+  int at_zero = 0;
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    if (std::abs(strain[i]) < 1e-12 && load[i] > 1.0) {
+      EXPECT_NEAR(stress[i], 0.0, 1e-9 * ft);
+      ++at_zero;
+    }
+    if (strain[i] < -0.01) {
+      EXPECT_NEAR(stress[i], strain[i] / (1.0 / E + 1.0 / (K * length)), 1e-6 * E);
+    }
+  }
+  EXPECT_EQ(at_zero, 2);
+}
+
 TEST(DebondingCase, UnderAStressThatIsPrescribedTheOthersAreFree) {
   const TemporaryCase directory(
       replaced(parted_box(), "{ strain_zz = \"15 %\" }, { strain_zz = 0.05 }", "{ stress_zz = \"0.05 MPa\" }"));
@@ -114,6 +135,66 @@ TEST(DebondingCase, GoesOnAfterAStopToTheSameCurve) {
   EXPECT_EQ(curve_of(stopped).n_rows(), 8U);
   ASSERT_EQ(run({"run", stopped.path().string(), "--quiet", "--restart"}).status, 0);
   EXPECT_EQ(content_of(stopped.results() / "stress_strain.csv"), content_of(whole.results() / "stress_strain.csv"));
+}
+
+// The components of an inline table are those of the file's order, not of the alphabet; the first that is loaded
+// counts.
+TEST(DebondingCase, CurveIsOfTheFirstComponentThatIsLoaded) {
+  const std::string point = "{ strain_zz = \"15 %\" }, { strain_zz = 0.05 }";
+  for (const char* path :
+       {"{ strain_zz = \"0.1 %\", strain_xx = 0, strain_yy = 0 }",
+        "{ strain_xx = 0, strain_zz = 0.001, strain_yy = 0.0005 }", "{ }, { stress_zz = \"50 kPa\" }",
+        "{ stress_zz = \"0 Pa\", stress_xx = \"0 Pa\" }, { stress_zz = \"50 kPa\", stress_xx = \"1 kPa\" }"}) {
+    const TemporaryCase directory(replaced(parted_box(), point, path));
+    const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const nlohmann::json summary = nlohmann::json::parse(content_of(directory.results() / "summary.json"));
+    EXPECT_TRUE(summary.contains("peak_stress_zz_Pa")) << path;
+    EXPECT_GT(read_csv(directory.results() / "force_displacement.csv").column("force_z_N").back(), 0.0) << path;
+    EXPECT_GT(read_csv(directory.results() / "force_displacement.csv").column("displacement_m").back(), 0.0) << path;
+  }
+}
+
+TEST(DebondingCase, AndTheLinearOneReplaceEachOther) {
+  const std::string path =
+      "path = [{ strain_zz = \"15 %\" }, { strain_zz = 0.05 }]\n[loading]\ninitial_increment = 0.1\n"
+      "maximum_increment = 0.1\n[solver]\nequilibrium_tolerance = 1e-10\n";
+  std::string linear = replaced(parted_box(), path, "");
+  linear.erase(linear.find("[[interface]]"), linear.find("[homogenization]") - linear.find("[[interface]]"));
+  const TemporaryCase directory(linear);
+  const std::string name = directory.path().string();
+  const auto exists = [&](const char* file) { return std::filesystem::exists(directory.results() / file); };
+  ASSERT_EQ(run({"run", name, "--quiet"}).status, 0);
+  EXPECT_TRUE(exists("homogenized.json") && exists("homogenized.csv"));
+  directory.write("case.toml", parted_box());
+  ASSERT_EQ(run({"run", name, "--quiet", "--max-steps", "7"}).status, 0);
+  EXPECT_FALSE(exists("homogenized.json") || exists("homogenized.csv"));
+  EXPECT_TRUE(exists("checkpoint.bin") && exists("stress_strain.csv"));
+  std::filesystem::remove(directory.results() / "summary.json");  // as of a run that was killed
+  directory.write("case.toml", linear);
+  ASSERT_EQ(run({"run", name, "--quiet"}).status, 0);
+  for (const char* file : {"checkpoint.bin", "stress_strain.csv", "force_displacement.csv", "fields.pvd",
+                           "fields/step_000000.vtu", "interfaces.pvd", "interfaces/step_000000.vtu"})
+    EXPECT_FALSE(exists(file)) << file;
+  EXPECT_TRUE(exists("homogenized.json") && exists("mesh.vtu"));
+}
+
+// The two parts of the box are joined by its periodic sides.
+TEST(DebondingCase, ACrackMayGoRightAcrossAPeriodicBox) {
+  std::string cracked = parted_box();
+  cracked.erase(cracked.find("[[interface]]"), cracked.find("[homogenization]") - cracked.find("[[interface]]"));
+  cracked = replaced(cracked, "poisson_ratio = 0.4\n", R"(poisson_ratio = 0.4
+toughness = "10 J/m^2"
+[fracture]
+model = "AT1"
+split = "none"
+length = "1 mm"
+[[initial.cracks]]
+points = [["0 mm", "0 mm", "0.375 mm"], ["1 mm", "0 mm", "0.375 mm"], ["1 mm", "1 mm", "0.375 mm"], ["0 mm", "1 mm", "0.375 mm"]]
+)");
+  const TemporaryCase directory(cracked);
+  const Outcome checked = run({"check", directory.path().string()});
+  EXPECT_EQ(checked.status, 0) << checked.err;
 }
 
 // As an experiment that an endochronic law is fitted to: the columns are found, the load parameter is the time.
@@ -146,8 +227,9 @@ stress = { stress_zz = { column = "stress_zz_Pa", unit = "Pa", noise = "1 kPa" }
   EXPECT_THAT(early.err, HasSubstr("stress_strain.csv"));
   EXPECT_THAT(early.err, HasSubstr("pfdm run "));
   ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);
-  const Outcome checked = run({"check", law});
-  EXPECT_EQ(checked.status, 0) << checked.err;
+  const Outcome fitted = run({"fit", law, "--quiet"});
+  EXPECT_EQ(fitted.status, 0) << fitted.err;
+  EXPECT_TRUE(std::filesystem::exists(directory.path() / "law" / "results" / "fit.json"));
 }
 
 class BadPath : public testing::TestWithParam<BadInput> {};
@@ -164,6 +246,14 @@ const BadInput bad_inputs[] = {
      {"[homogenization] boundary", "needs \"periodic\" or \"uniform displacement\""}},
     {"unknown_component", "{ strain_zz = 0.05 }", "{ strain_zx = 0.05 }", {"\"strain_zx\" is not known here"}},
     {"without_unit", "{ strain_zz = 0.05 }", "{ strain_zz = 0.05, stress_xx = 3 }", {"stress_xx", "has no unit"}},
+    {"percent_forgotten", "{ strain_zz = 0.05 }", "{ strain_zz = 6 }", {"strain_zz", "write \"6 %\""}},
+    {"turned_inside_out", "{ strain_zz = 0.05 }", "{ strain_zz = \"-200 %\" }", {"strain_zz", "between -1 and 1"}},
+    {"gamma_forgotten", "{ strain_zz = 0.05 }", "{ strain_zz = 0.05, gamma_xz = -2 }", {"gamma_xz", "write \"-2 %\""}},
+    {"initial_without_fracture", "[loading]\n", "[initial]\ndamage = 0.5\n[loading]\n", {"initial", "[fracture]"}},
+    {"from_a_fit",
+     "\"50 MPa\"",
+     "{ from = \"results/fit.json\", key = \"E_Pa\" }",
+     {"there is no file results/fit.json", "has that been run, or fitted?"}},
     {"both", "{ strain_zz = 0.05 }", "{ strain_zz = 0.05, stress_zz = \"1 Pa\" }", {"stress or strain, not both"}},
     {"changes",
      "{ strain_zz = 0.05 }",

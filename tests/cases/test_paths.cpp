@@ -110,11 +110,13 @@ TEST(CaseFile, NamesTheSameFilesFromElsewhere) {
   const TemporaryCase directory(
       "both = [{ csv = \"a.csv\" }, { csv = 'data/b \"2\".csv' }]  # csv = \"no.csv\"\n"
       "[\"x.y\"]\n\"file\" = \"../c.csv\"\ntitle = \"csv = \\\"d.csv\\\"\"\ntable = \"law.csv\"\n"
-      "[[mesh.particles]]\nsurface = \"grain.stl\"\n[heating]\nsurface = \"zmax\"\n");
+      "[[mesh.particles]]\nsurface = \"grain.stl\"\n[[mesh.shapes]]\nsurface = \"chip.obj\"\n[heating]\nsurface = "
+      "\"zmax\"\n");
   EXPECT_EQ(moved(open_case(directory.path()), directory.results()),
             "both = [{ csv = \"../a.csv\" }, { csv = \"../data/b \\\"2\\\".csv\" }]  # csv = \"no.csv\"\n"
             "[\"x.y\"]\n\"file\" = \"../../c.csv\"\ntitle = \"csv = \\\"d.csv\\\"\"\ntable = \"../law.csv\"\n"
-            "[[mesh.particles]]\nsurface = \"../grain.stl\"\n[heating]\nsurface = \"zmax\"\n");
+            "[[mesh.particles]]\nsurface = \"../grain.stl\"\n[[mesh.shapes]]\nsurface = "
+            "\"../chip.obj\"\n[heating]\nsurface = \"zmax\"\n");
 }
 
 TEST(CaseFile, KeepsTablesWithDigitsBehindTheOneThatIsReplaced) {

@@ -98,9 +98,15 @@ PackedSpheresSettings bricks(Index count, double fraction) {
   return settings;
 }
 
+// Of the hulls with their layers.
 void expect_gaps(const PackedSpheresSettings& settings, const ParticlesInBoxSettings& box) {
   std::vector<std::vector<Vector>> hulls;
-  for (const Particle& p : box.particles) hulls.push_back(hull_corners(p.shape.points));
+  for (const Particle& p : box.particles) {
+    std::vector<Vector> points = p.shape.points;
+    const std::vector<Vector> outwards = offset_directions(p.shape);
+    for (std::size_t i = 0; p.n_layers > 0 && i < points.size(); ++i) points[i] += p.layer_thickness * outwards[i];
+    hulls.push_back(hull_corners(points));
+  }
   const double gap = settings.gap * (1.0 - 1e-9);
   for (std::size_t i = 0; i < hulls.size(); ++i) {
     const PlacedHull one{.corners = &hulls[i], .centre = box.particles[i].centre};
@@ -128,7 +134,7 @@ TEST(PackedShapes, FillTheirFractionTurnedAndApart) {
 }
 
 // Rounded bodies lose volume to their new triangles, and get it back; two shapes in turn, sizes by distribution,
-// layers.
+// layers outside of which the gap is kept.
 TEST(PackedShapes, OfTwoShapesAndManySizesHaveLayersToo) {
   PackedSpheresSettings settings = bricks(6, 0.12);
   TriangleSurface egg = unit_icosphere(10);
@@ -139,12 +145,43 @@ TEST(PackedShapes, OfTwoShapesAndManySizesHaveLayersToo) {
   settings.like.n_layers = 2;
   settings.like.layer_thickness = 0.02;
   settings.numbered = true;
+  PackedSpheresSettings dense = settings;
+  dense.diameters = draw_diameters({.mean = 1.0}, 6, 0.3, true, 1);
+  expect_gaps(dense, packed_particles(dense));
   const Mesh mesh = make_packed_spheres(settings);
   expect_sound(mesh);
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_NEAR(region_volume(mesh, numbered_region("particle", i)),
                 std::numbers::pi / 6.0 * std::pow(settings.diameters[i], 3), 1e-9);
   EXPECT_GT(region_volume(mesh, "interface"), 0.0);
+}
+
+// Platelets wider than the slab is high, which lie in it.
+TEST(PackedShapes, LieInASlabThatTheyCannotStandIn) {
+  const std::vector<Vector> platelet = cuboid(0.15, 0.15, 0.01).points;
+  ShapePacking slab{.lower = Vector::Zero(),
+                    .upper = Vector(1, 1, 0.2),
+                    .bodies = {platelet, platelet, platelet, platelet},
+                    .gap = 0.01,
+                    .wall_gap = 0.01};
+  RandomNumbers random(1);
+  const std::vector<ShapePlace> places = pack_shapes(slab, random);
+  ASSERT_EQ(places.size(), 4U);
+  std::vector<PlacedHull> hulls;
+  for (const ShapePlace& place : places) {
+    const PlacedHull hull{.corners = &platelet, .rotation = place.rotation, .centre = place.centre};
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_GE(hull.farthest(-Vector::Unit(a))[a] - slab.lower[a], 0.01);
+      EXPECT_GE(slab.upper[a] - hull.farthest(Vector::Unit(a))[a], 0.01);
+    }
+    for (const PlacedHull& other : hulls) EXPECT_TRUE(are_apart(hull, other, 0.01));
+    hulls.push_back(hull);
+  }
+  slab.upper[2] = 0.03;
+  EXPECT_THAT(message_of<InputError>([&] { pack_shapes(slab, random); }), HasSubstr("4 particles"));
+  slab.upper[2] = 0.02;
+  EXPECT_THAT(message_of<InputError>([&] { pack_shapes(slab, random); }),
+              HasSubstr("4 particles with gaps of 0.01 m, and 0.01 m from the sides"));
 }
 
 TEST(PackedShapes, SayWhereThereIsNoRoom) {

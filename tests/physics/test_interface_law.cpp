@@ -174,6 +174,28 @@ TEST_P(LinearInMixedMode, IsTheTriangleOfItsMode) {
   EXPECT_NEAR(law.respond(glued, n, 2.0 * end * direction, {}).history.dissipated, toughness(), 1e-10 * toughness());
 }
 
+// Its damage is the part of the toughness of its mode, whichever of the modes is the tougher.
+TEST_P(LinearInMixedMode, IsWhollyDamagedOnceBrokenInAnyMode) {
+  const InterfaceLaw law = interface_with(law_named("linear"), GetParam(), 1.0, exponent);
+  const auto damage = [&](const InterfaceStrength& at, const Vector& separation) {
+    return law.damage(at, n, separation, law.respond(at, n, separation, {}).history);
+  };
+  EXPECT_EQ(damage(glued, Vector::Zero()), 0.0);
+  EXPECT_EQ(damage(glued, 1e-7 * n), 0.0);
+  EXPECT_NEAR(damage(glued, 1e-3 * n), 1.0, 1e-12);
+  EXPECT_NEAR(damage(glued, 1e-3 * s), 1.0, 1e-12);
+  EXPECT_NEAR(damage(glued, 1e-3 * (0.8 * n + 0.6 * s)), 1.0, 1e-12);
+  // In opening the triangle rises to 1.5 um and ends at 80 um; half the traction times the end is left.
+  const double opening = 40e-6, traction = 3e6 * (80e-6 - opening) / (80e-6 - 1.5e-6);
+  const double dissipated = 120.0 - 0.5 * traction * 80e-6;
+  EXPECT_NEAR(damage(glued, opening * n), dissipated / 120.0, 1e-9);
+  // What is left belongs to the mode of now: broken in opening by D, then loaded in shear to below the secant.
+  const InterfaceHistory history = law.respond(glued, n, opening * n, {}).history;
+  const double secant = traction / opening, end = 2.0 * 300.0 / 5e6, rise = 5e6 / 2e12;
+  const double at = 5e6 * end / (secant * (end - rise) + 5e6);  // where the triangle in shear meets it
+  EXPECT_NEAR(law.damage(glued, n, 1e-7 * s, history), dissipated / (dissipated + 0.5 * secant * at * end), 1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(Rules, LinearInMixedMode, testing::Values("benzeggagh_kenane", "power_law"),
                          [](const auto& test) { return std::string(test.param); });
 

@@ -25,7 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* checkpoint_file = "checkpoint.bin";
 constexpr const char* frames_file = "fields.pvd";
 constexpr const char* frames_folder = "fields";
 constexpr const char* interfaces_file = "interfaces.pvd";
@@ -52,20 +51,6 @@ void remove_what_was_made_of_them(const fs::path& directory) {
   remove_exports(directory);
   for (const char* file : comparison_files) fs::remove(directory / file, ignored);
   remove_report(directory);
-}
-
-/// Killed in between it leaves what is complete, what can be continued, or what nobody takes for results.
-void remove_earlier_run(const fs::path& directory) {
-  remove_what_was_made_of_them(directory);
-  std::error_code ignored;
-  for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file, means_file})
-    fs::remove(directory / file, ignored);
-  remove_columns(directory / columns_folder);
-  for (const char* folder : {frames_folder, interfaces_folder})
-    for (const auto& entry : fs::directory_iterator(directory / folder, ignored)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);
-    }
 }
 
 Index patch_number(const Mesh& mesh, const std::string& name) {
@@ -156,6 +141,20 @@ std::optional<FractureState> find_checkpoint(const fs::path& results, const std:
 
 bool has_results(const fs::path& results) {
   return fs::exists(results / checkpoint_file) || fs::exists(results / summary_file);
+}
+
+void remove_earlier_run(const fs::path& directory) {
+  remove_what_was_made_of_them(directory);
+  std::error_code ignored;
+  for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file, means_file,
+                           homogenized_file, load_cases_file})
+    fs::remove(directory / file, ignored);
+  remove_columns(directory / columns_folder);
+  for (const char* folder : {frames_folder, interfaces_folder})
+    for (const auto& entry : fs::directory_iterator(directory / folder, ignored)) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);
+    }
 }
 
 std::vector<CurveRow> read_curve_record(const fs::path& results, const std::string& case_hash) {

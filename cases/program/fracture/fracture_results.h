@@ -22,6 +22,8 @@
 
 namespace pfdm {
 
+inline constexpr const char* checkpoint_file = "checkpoint.bin";
+
 /// Writes mesh.vtu: material (the number of the region), volume [m^3] and quality figures. Makes the directory.
 void write_mesh(const std::filesystem::path& results, const Mesh& mesh);
 
@@ -30,6 +32,10 @@ std::optional<FractureState> find_checkpoint(const std::filesystem::path& result
 
 /// Whether the directory holds results of a run, complete or not.
 bool has_results(const std::filesystem::path& results);
+
+/// Removes the files of a run, and of the six load cases of a box that is linear. Killed in between it leaves what is
+/// complete, what can be continued, or what nobody takes for results.
+void remove_earlier_run(const std::filesystem::path& directory);
 
 /// What the columns of a run told. Throws InputError if there is no such record, or if the results belong to another
 /// case.

@@ -17,6 +17,9 @@ namespace pfdm {
 inline constexpr std::array<std::array<int, 2>, 6> component_places{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
 inline constexpr const char* means_file = "stress_strain.csv";
+/// Of the same box where it is linear, without a path of mean strain.
+inline constexpr const char* homogenized_file = "homogenized.json";
+inline constexpr const char* load_cases_file = "homogenized.csv";
 
 std::vector<std::string> columns_of_means(const std::vector<InterfaceSettings>& interfaces);
 std::vector<double> row_of_means(const StepReport& report);

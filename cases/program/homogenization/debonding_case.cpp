@@ -32,6 +32,10 @@ Prescribed read_component(const std::string& key, const ConfigValue& value) {
       std::ranges::find(component_names, std::string_view(key).substr(key.size() - 2)) - component_names.begin());
   if (key.starts_with("stress")) return {component, true, value.quantity(dimension::stress)};
   const double strain = value.is_string() ? value.quantity(dimension::number) : value.number();
+  if (std::abs(strain) >= 1.0)
+    throw value.error(
+        fmt::format("a strain has to be between -1 and 1, found {:g}{}", strain,
+                    value.is_string() ? "" : fmt::format("; if it is in percent, write \"{:g} %\"", strain)));
   return {component, false, key.starts_with("gamma") ? 0.5 * strain : strain};
 }
 
@@ -64,18 +68,21 @@ void add_point(const ConfigValue& where, const std::vector<Prescribed>& point, M
   path.points.push_back(values);
 }
 
+// `component`: of both, the first one that is not zero.
 MeanPath read_path(const ConfigValue& value, std::array<int, 2>& component) {
   MeanPath path;
+  const auto is_loaded = [](const Prescribed& one) { return one.value != 0.0; };
+  bool has_load = false;
   for (const ConfigValue& entry : value.list()) {
     const std::vector<Prescribed> point = read_point_of_path(entry);
-    if (path.points.empty() && !point.empty()) component = component_places[point.front().component];
+    const auto first = std::ranges::find_if(point, is_loaded);
+    if (!has_load && first != point.end()) {
+      component = component_places[first->component];
+      has_load = true;
+    }
     add_point(entry, point, path);
   }
-  const auto is_zero = [](const std::array<double, 6>& point) {
-    return std::ranges::all_of(point, [](double v) { return v == 0.0; });
-  };
-  if (std::ranges::all_of(path.points, is_zero))
-    throw value.error("nothing is loaded: name strains or stresses, as in [{ strain_zz = \"5 %\" }]");
+  if (!has_load) throw value.error("nothing is loaded: name strains or stresses, as in [{ strain_zz = \"5 %\" }]");
   return path;
 }
 
@@ -122,6 +129,8 @@ FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem:
                                : homogenization_loadings().front();
   if (loading.by_traction)
     throw boundary->error("a path of mean strains and stresses needs \"periodic\" or \"uniform displacement\"");
+  if (root.has("initial") && !root.has("fracture"))
+    throw root.at("initial").error("damage needs [fracture]: without it only interfaces break");
   BoxCase box;
   const MeanPath path = read_path(table.at("path"), box.component);
   box.motion = [path, &loading](const Mesh& mesh, const FractureModel& model) {

@@ -132,7 +132,8 @@ void run_case(const HomogenizationProgram& program, Session& session) {
              .title = homogenization.title,
              .hash = program.hash,
              .compute = compute,
-             .results = {homogenized_file, load_cases_file, "mesh.vtu"}},
+             .results = {homogenized_file, load_cases_file, "mesh.vtu", checkpoint_file, means_file},
+             .remove_more = [&] { remove_earlier_run(session.results); }},
             session);
 }
 

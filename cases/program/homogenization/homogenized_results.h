@@ -1,6 +1,7 @@
 #pragma once
 // homogenized.json and homogenized.csv: the effective stiffness and what goes with it.
 
+#include "cases/program/fracture/mean_curve.h"
 #include "cases/program/homogenization/homogenization_case.h"
 
 #include <nlohmann/json.hpp>
@@ -12,9 +13,6 @@
 #include <vector>
 
 namespace pfdm {
-
-inline constexpr const char* homogenized_file = "homogenized.json";
-inline constexpr const char* load_cases_file = "homogenized.csv";
 
 /// Loss factors of moduli [-].
 struct LossFactors {

@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::size_t longest_name = 100;  // file systems allow 255 bytes, endings and all
 
+constexpr std::string_view made_by_runs[] = {"stress_strain.csv", "force_displacement.csv", "homogenized.json",
+                                             "summary.json"};
+
 bool may_stand_in_a_name(unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; }
 
 }  // namespace
@@ -35,7 +38,10 @@ std::string read_plain_name(const ConfigValue& value, std::string_view use) {
 std::string way_to_make(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.lexically_normal().parent_path();
   if (folder.filename() != "results") return "";
-  return fmt::format("; pfdm run {} makes it", folder.parent_path().empty() ? "." : folder.parent_path().string());
+  const std::string made_in = folder.parent_path().empty() ? "." : folder.parent_path().string();
+  for (const std::string_view name : made_by_runs)
+    if (file.filename() == name) return fmt::format("; pfdm run {} makes it", made_in);
+  return fmt::format("; it is among the results of {}: has that been run, or fitted?", made_in);
 }
 
 std::filesystem::path read_data_file(const ConfigValue& value, const std::filesystem::path& case_directory) {

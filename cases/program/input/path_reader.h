@@ -15,7 +15,7 @@ std::string read_plain_name(const ConfigValue& value, std::string_view use);
 /// The same for a key of the file: throws InputError without a place.
 void require_plain_name(std::string_view name, std::string_view use);
 
-/// "; pfdm run CASE makes it" of a file in CASE/results; of others empty.
+/// Of a file in CASE/results "; pfdm run CASE makes it", or that it belongs to that case; of others empty.
 std::string way_to_make(const std::filesystem::path& file);
 
 /// The file that `value` names, seen from the case directory. Throws InputError with the place in the file, unless it

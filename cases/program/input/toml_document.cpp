@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -24,14 +25,18 @@ TomlArray plain_array(const toml::array& array, const std::string& file) {
 }
 
 TomlTable plain_table(const toml::table& table, const std::string& file) {
-  TomlTable result;
-  for (const auto& [key, node] : table) {
-    result.push_back({std::string(key.str()), plain(node, file)});
-    result.back().value.key_line = line_of(key.source());
-  }
   // toml++ keeps them by name.
-  std::stable_sort(result.begin(), result.end(),
-                   [](const auto& a, const auto& b) { return a.value.key_line < b.value.key_line; });
+  std::vector<std::pair<const toml::key*, const toml::node*>> entries;
+  for (const auto& [key, node] : table) entries.emplace_back(&key, &node);
+  std::ranges::stable_sort(entries, {}, [](const auto& entry) {
+    const toml::source_position& begin = entry.first->source().begin;
+    return std::pair(begin.line, begin.column);
+  });
+  TomlTable result;
+  for (const auto& [key, node] : entries) {
+    result.push_back({std::string(key->str()), plain(*node, file)});
+    result.back().value.key_line = line_of(key->source());
+  }
   return result;
 }
 
@@ -175,7 +180,9 @@ std::string written(const TomlValue& value) {
       for (const TomlValue& element : array) text += written(element) + ",";
       return text + "]";
     }
-    std::string operator()(const TomlTable& table) const {
+    // What stands on one line by name: hashes of cases do not depend on its order.
+    std::string operator()(TomlTable table) const {
+      std::ranges::stable_sort(table, {}, [](const auto& e) { return std::pair(e.value.key_line, e.key); });
       std::string text = "{";
       for (const auto& [key, entry] : table) text += fmt::format("\"{}\"={},", key, written(entry));
       return text + "}";
