@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"RateWithoutTime",
                  "[regions.weak]",
                  "rate = { law = \"logarithmic\", c = 0.1, reference_rate = \"1e-3 1/s\" }\n[regions.weak]",
-                 {"rate factor", "duration"}},
+                 {"depends on the rate", "duration"}},
         BadInput{"Dissipation",
                  "initial_increment = 0.01\n",
                  "initial_increment = 0.01\nmaximum_dissipation = \"1 uJ\"\n",
