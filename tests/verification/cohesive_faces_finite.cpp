@@ -5,13 +5,13 @@
 #include "solver/fracture/cell_stiffness.h"
 #include "solver/fracture/cohesive_newton.h"
 #include "tests/verification/cohesive_blocks.h"
+#include "tests/verification/noise.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace pfdm::verification {
 namespace {
@@ -168,19 +168,6 @@ double norm(const std::vector<Vector>& v) {
   for (const Vector& x : v) sum += x.squaredNorm();
   return std::sqrt(sum);
 }
-
-/// Numbers between -1 and 1.
-class Noise {
- public:
-  double next() {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return double(state_ >> 11) / double(1ULL << 52) - 1.0;
-  }
-  Vector vector() { return {next(), next(), next()}; }
-
- private:
-  std::uint64_t state_ = 1;
-};
 
 // Forces of the faces at displacements u + e v, against those of the springs linearised about u: the difference is of
 // second order in e. Modes mixed, some faces closed.

@@ -1,6 +1,7 @@
 // A glass bead in a rubber at finite strain: the linearised balance against differences of the true one, a bonded bead
 // and one that debonds, both drawn to 80 % nominal strain.
 
+#include "tests/verification/noise.h"
 #include "tests/verification/support.h"
 
 #include "physics/materials/hyperelastic.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <ctime>
 
 namespace pfdm::verification {
@@ -54,18 +54,6 @@ std::vector<Vector> difference(std::vector<Vector> a, const std::vector<Vector>&
   for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
   return a;
 }
-
-/// Numbers between -1 and 1.
-class Noise {
- public:
-  double next() {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return double(state_ >> 11) / double(1ULL << 52) - 1.0;
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
 
 // What the forces of displacements u + e v differ by from those of the balance linearised about u, over what they
 // change by: of first order in e if and only if that is the derivative.

@@ -3,6 +3,7 @@
 
 #include "tests/verification/cohesive_blocks.h"
 #include "tests/verification/finite.h"
+#include "tests/verification/noise.h"
 
 #include "physics/error.h"
 #include "solver/fracture/cell_stiffness.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace pfdm::verification {
 namespace {
@@ -236,18 +236,6 @@ TEST(FinitePlaneStress, ACrackedSheetIsPulledApart) {
       EXPECT_LE(most, rubber.mu);
     }
 }
-
-/// Numbers between -1 and 1.
-class Noise {
- public:
-  double next() {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return double(state_ >> 11) / double(1ULL << 52) - 1.0;
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
 
 double norm(const std::vector<Vector>& v) {
   double sum = 0.0;
