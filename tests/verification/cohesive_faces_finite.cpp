@@ -290,6 +290,24 @@ TEST(FiniteFaces, AreThoseOfSmallStrainWhereItIsSmall) {
   EXPECT_LT(wrong, 1e-6 * most);
 }
 
+// A bar between sliding sides whose end moves by `drawn` [m].
+std::vector<BoundaryCondition> drawn_out(double drawn) {
+  std::vector<BoundaryCondition> boundary{
+      moved("xmin", {true, false, false}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
+      moved("xmax", {true, false, false},
+            [drawn](const Vector&, double t) -> Vector { return drawn * t * Vector::UnitX(); })};
+  for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) boundary.push_back(symmetry_on(side));
+  return boundary;
+}
+
+LoadingSettings in_thirds(double energy_release) {
+  return {.initial_increment = 1.0 / 3.0,
+          .maximum_increment = 1.0 / 3.0,
+          .energy_release = energy_release,
+          .finest_increment = 1e-2,
+          .stops = {}};
+}
+
 // Steps of the sliding bar of above, drawn to a stretch of 1.9 and pressed to 0.55, with a limit on what is released.
 // Its energy does not grow with the load squared; only a bond that gives way cuts the steps.
 class FiniteReleases : public testing::TestWithParam<double> {};
@@ -304,17 +322,8 @@ TEST_P(FiniteReleases, AreOfBondsThatGiveWay) {
          [](const Vector& x) { return std::abs(x.x() - edge) < 1e-9; });
     make_finite(model);
     const double drawn = 2.0 * edge * GetParam();
-    model.boundary = {
-        moved("xmin", {true, false, false}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
-        moved("xmax", {true, false, false},
-              [&](const Vector&, double t) -> Vector { return drawn * t * Vector::UnitX(); })};
-    for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) model.boundary.push_back(symmetry_on(side));
-    FractureRun run(mesh, model, {},
-                    {.initial_increment = 1.0 / 3.0,
-                     .maximum_increment = 1.0 / 3.0,
-                     .energy_release = 0.02,
-                     .finest_increment = 1e-2,
-                     .stops = {}});
+    model.boundary = drawn_out(drawn);
+    FractureRun run(mesh, model, {}, in_thirds(0.02));
     double dissipated = 0.0, largest = 0.0;
     StepReport last;
     run_to_end(run, [&](const FractureState&, const StepReport& report) {
@@ -347,16 +356,8 @@ TEST(FiniteFaces, ABondThatSnapsBesideABodyThatStaysStretchedCutsTheSteps) {
        [](const Vector& x) { return std::abs(x.x() - edge) < 1e-9 && x.y() < 0.5 * edge; });
   make_finite(model);
   const double drawn = 0.3 * 2.0 * edge;
-  model.boundary = {moved("xmin", {true, false, false}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
-                    moved("xmax", {true, false, false},
-                          [&](const Vector&, double t) -> Vector { return drawn * t * Vector::UnitX(); })};
-  for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) model.boundary.push_back(symmetry_on(side));
-  FractureRun run(mesh, model, {},
-                  {.initial_increment = 1.0 / 3.0,
-                   .maximum_increment = 1.0 / 3.0,
-                   .energy_release = 0.03,
-                   .finest_increment = 1e-2,
-                   .stops = {}});
+  model.boundary = drawn_out(drawn);
+  FractureRun run(mesh, model, {}, in_thirds(0.03));
   double largest = 0.0, released = 0.0, torn = 0.0;
   StepReport before;
   run_to_end(run, [&](const FractureState&, const StepReport& report) {
