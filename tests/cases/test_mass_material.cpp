@@ -502,6 +502,36 @@ TEST(MassMaterialProgram, FitsARecordFromAFile) {
   EXPECT_NE(refused.err.find("a.csv: gap: 0.1 s are missing"), std::string::npos) << refused.err;
 }
 
+// As integers of a recorder whose channels have full scales of 20 and 50 g0.
+TEST(MassMaterialProgram, ReadsChannelsInUnitsOfTheirOwn) {
+  const TemporaryCase directory(soft_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  std::istringstream lines(content_of(directory.results() / "up.csv"));
+  std::string scaled = "time,base_acceleration,relative_acceleration\ns,1,1\n";
+  for (std::string line; std::getline(lines, line);) {
+    double time = 0.0, base = 0.0, relative = 0.0;
+    if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &time, &base, &relative) == 3)
+      scaled += fmt::format("{},{},{}\n", time, base / (20.0 * 9.80665), relative / (50.0 * 9.80665));
+  }
+  directory.write("scaled.csv", scaled);
+  const auto fit = [&](const char* units) {
+    directory.write(
+        "case.toml",
+        replaced(soft_case(),
+                 "excitation = { type = \"swept_sine\", level = \"2 g0\", from = \"10 Hz\", to = \"70 Hz\", "
+                 "duration = \"6 s\" }",
+                 fmt::format("record = {{ file = \"scaled.csv\", from = \"10 Hz\", to = \"70 Hz\", {} }}", units)));
+    return run({"fit", directory.path().string()});
+  };
+  EXPECT_EQ(fit("base_unit = \"20 g0\", relative_unit = \"50 g0\"").status, 0);
+  EXPECT_NEAR(parsed(directory.results() / "fit.json")["parameters"][5]["estimate"].get<double>(), 40.0, 0.02);
+  EXPECT_EQ(fit("unit = \"20 g0\", relative_unit = \"50 g0\"").status, 0);
+  EXPECT_NEAR(parsed(directory.results() / "fit.json")["parameters"][5]["estimate"].get<double>(), 40.0, 0.02);
+  const Outcome refused = fit("unit = \"50 g0\", base_unit = \"20 mm\"");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("scaled.csv: column \"base_acceleration\""), std::string::npos) << refused.err;
+}
+
 // The same record, with the mass's own acceleration x'' = y'' + z'' in the place of z''.
 TEST(MassMaterialProgram, FitsARecordOfTheAbsoluteAcceleration) {
   const TemporaryCase directory(soft_case());

@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cstdio>
 
 namespace pfdm {
 namespace {
@@ -151,7 +149,7 @@ RecordFile read_record_file(const ConfigTable& table, const fs::path& directory,
   record.base = table.string("base", record.base);
   record.relative = table.string("relative", record.relative);
   record.time = table.string("time", record.time);
-  if (table.has("unit")) record.unit = table.string("unit");
+  if (table.has("unit")) record.base_unit = record.relative_unit = table.string("unit");
   if (table.has("rate")) record.rate = table.quantity("rate", dimension::frequency, range::positive);
   record.marks = read_csv_marks(table);
   data_files.push_back(record.file);
@@ -179,43 +177,6 @@ constexpr FitMethod methods[] = {
     {"ten_step", "iteration with a Prony series (AFRL-RW-EG-TR-2016-088, A4.3), of the first record; for comparison"},
 };
 
-/// As ISO 8601 has it, so that dates sort.
-std::string read_date(const ConfigValue& value) {
-  int year = 0, month = 0, day = 0, length = 0;
-  std::string text = value.string();
-  const bool fits = std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &length) == 3 && length == 10 &&
-                    std::ssize(text) == length;
-  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
-                                         std::chrono::day(static_cast<unsigned>(day))};
-  if (!fits || !date.ok()) throw value.error(fmt::format("\"{}\" is no date; expected one as \"2016-09-14\"", text));
-  return text;
-}
-
-void read_sample_card(const ConfigTable& root, SampleCard& card) {
-  if (!root.has("sample")) return;
-  constexpr Range planned{0.0, 1e6, false, "0 or more"};
-  const ConfigTable table = root.table("sample");
-  card.name = table.string("name", "");
-  card.composition = table.string("composition", "");
-  if (const auto cured = table.find("cured")) card.cured = read_date(*cured);
-  card.planned_random = static_cast<int>(table.integer("planned_random", planned, 0));
-  card.planned_harmonic = static_cast<int>(table.integer("planned_harmonic", planned, 0));
-}
-
-/// `motion`: the type of the excitation. Where it leaves open what motion it is ("measured", or empty for a record
-/// alone), the unit of the level decides.
-ScheduledRun read_schedule(const ConfigTable& table, std::string_view motion, double band) {
-  ScheduledRun run = read_scheduled_run(table, band);
-  if (run.density > 0.0 && (motion == "swept_sine" || motion == "harmonic"))
-    throw table.at("level").error(
-        fmt::format("a density belongs to random motion; of a {} give the amplitude, as \"2 g0\"", motion));
-  if (motion == "random" && run.density == 0.0) {
-    if (!(band > 0.0)) throw table.error("the excited band has no width: \"from\" must be below \"to\"");
-    run.density = run.level * run.level / band;
-  }
-  return run;
-}
-
 VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {
   table.with_keys({"name", "excitation", "record", "predicted", "schedule", "date"});
   VibrationTest test;
@@ -234,9 +195,12 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
                                      test.band_high, c.rate, 0.38 * c.rate));
   }
   if (table.has("record")) {
-    const ConfigTable record = table.table("record").with_keys(
-        {"file", "base", "relative", "acceleration", "time", "unit", "rate", "separator", "decimal", "from", "to"});
+    const ConfigTable record =
+        table.table("record").with_keys({"file", "base", "relative", "acceleration", "time", "unit", "base_unit",
+                                         "relative_unit", "rate", "separator", "decimal", "from", "to"});
     test.record = read_record_file(record, directory, c.data_files);
+    if (record.has("base_unit")) test.record->base_unit = record.string("base_unit");
+    if (record.has("relative_unit")) test.record->relative_unit = record.string("relative_unit");
     const std::string accelerations[] = {"relative", "absolute"};
     if (const auto kind = record.find("acceleration"))
       test.record->absolute = kind->one_of(accelerations, "acceleration of the mass") == "absolute";
@@ -249,7 +213,7 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
   test.predicted = table.boolean("predicted", false);
   if (const auto date = table.find("date")) test.date = read_date(*date);
   if (table.has("schedule"))
-    test.schedule = read_schedule(table.table("schedule"), motion, test.band_high - test.band_low);
+    test.schedule = read_scheduled_run(table.table("schedule"), motion, test.band_high - test.band_low);
   return test;
 }
 
@@ -343,7 +307,7 @@ MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path
   MassMaterialCase c;
   c.title = root.string("title");
   read_sample(root, c);
-  read_sample_card(root, c.card);
+  c.card = read_sample_card(root);
   read_model(root, c);
   read_sampling(root, c);
   read_tests(root, case_directory, c);

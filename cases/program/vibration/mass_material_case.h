@@ -25,10 +25,10 @@ struct RecordFile {
   std::string base = "base_acceleration";
   std::string relative = "relative_acceleration";
   std::string time = "time";
-  bool absolute = false;            ///< `relative` holds the mass's own acceleration
-  std::optional<std::string> unit;  ///< of both channels, where the file does not say
-  std::optional<double> rate;       ///< [Hz]
-  CsvMarks marks{};                 ///< of a CSV file
+  bool absolute = false;                                ///< `relative` holds the mass's own acceleration
+  std::optional<std::string> base_unit, relative_unit;  ///< stand above those that the file states
+  std::optional<double> rate;                           ///< [Hz]
+  CsvMarks marks{};                                     ///< of a CSV file
 };
 
 struct VibrationTest {

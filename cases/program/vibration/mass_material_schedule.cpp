@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <map>
 
 namespace pfdm {
@@ -60,9 +62,7 @@ void add_motion(const MassMaterialCase& c, bool random, int planned, std::vector
       fmt::format("{}/{}{}", done, planned > 0 ? fmt::format("{}", planned) : "-", fractured ? " F" : ""));
 }
 
-}  // namespace
-
-ScheduledRun read_scheduled_run(const ConfigTable& table, double band) {
+ScheduledRun read_run(const ConfigTable& table, double band) {
   table.with_keys({"level", "age", "run", "fractured"});
   ScheduledRun run{.age = table.quantity("age", dimension::time, range::not_negative),
                    .run = static_cast<int>(table.integer("run", run_number, 1)),
@@ -76,6 +76,45 @@ ScheduledRun read_scheduled_run(const ConfigTable& table, double band) {
         "a density belongs to random motion, but the excited band has no width: \"from\" must be below \"to\"");
   if (of_density) run.density = level.quantity(dimension::acceleration_density, range::positive);
   run.level = of_density ? std::sqrt(run.density * band) : level.quantity(dimension::acceleration, range::positive);
+  return run;
+}
+
+}  // namespace
+
+/// As ISO 8601 has it, so that dates sort.
+std::string read_date(const ConfigValue& value) {
+  int year = 0, month = 0, day = 0, length = 0;
+  std::string text = value.string();
+  const bool fits = std::sscanf(text.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &length) == 3 && length == 10 &&
+                    std::ssize(text) == length;
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
+  if (!fits || !date.ok()) throw value.error(fmt::format("\"{}\" is no date; expected one as \"2016-09-14\"", text));
+  return text;
+}
+
+SampleCard read_sample_card(const ConfigTable& root) {
+  SampleCard card;
+  if (!root.has("sample")) return card;
+  constexpr Range planned{0.0, 1e6, false, "0 or more"};
+  const ConfigTable table = root.table("sample");
+  card.name = table.string("name", "");
+  card.composition = table.string("composition", "");
+  if (const auto cured = table.find("cured")) card.cured = read_date(*cured);
+  card.planned_random = static_cast<int>(table.integer("planned_random", planned, 0));
+  card.planned_harmonic = static_cast<int>(table.integer("planned_harmonic", planned, 0));
+  return card;
+}
+
+ScheduledRun read_scheduled_run(const ConfigTable& table, std::string_view motion, double band) {
+  ScheduledRun run = read_run(table, band);
+  if (run.density > 0.0 && (motion == "swept_sine" || motion == "harmonic"))
+    throw table.at("level").error(
+        fmt::format("a density belongs to random motion; of a {} give the amplitude, as \"2 g0\"", motion));
+  if (motion == "random" && run.density == 0.0) {
+    if (!(band > 0.0)) throw table.error("the excited band has no width: \"from\" must be below \"to\"");
+    run.density = run.level * run.level / band;
+  }
   return run;
 }
 

@@ -7,15 +7,20 @@
 #include "solver/vibration/repeatability.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pfdm {
 
 struct MassMaterialCase;
 
+/// A date as ISO 8601 has it, "2016-09-14", so that dates sort.
+std::string read_date(const ConfigValue& value);
+
 /// schedule = { level = "5 g0", age = "7 day", run = 1 }; the level of random motion may be its density in its band
-/// [Hz], level = "0.05 g0^2/Hz".
-ScheduledRun read_scheduled_run(const ConfigTable& table, double band);
+/// [Hz], level = "0.05 g0^2/Hz". `motion`: the type of the excitation; where it leaves open what motion it is
+/// ("measured", or empty for a record alone), the unit of the level decides.
+ScheduledRun read_scheduled_run(const ConfigTable& table, std::string_view motion, double band);
 
 /// [sample] of a schedule of tests.
 struct SampleCard {
@@ -24,6 +29,7 @@ struct SampleCard {
   std::string cured;        ///< date of day 0, "2016-06-13"
   int planned_random = 0, planned_harmonic = 0;
 };
+SampleCard read_sample_card(const ConfigTable& root);
 
 /// The status of the tests as a row of the report's Table A1: days of the tests at each level, F where the sample
 /// broke, and how many of those planned are done. First row: names of the columns. Nothing if no test has a schedule.

@@ -32,9 +32,10 @@ Eigen::VectorXd in_si(const SignalColumn& column, const std::optional<std::strin
   }
 }
 
-Eigen::VectorXd acceleration(const SignalTable& table, const std::string& name, const RecordFile& source) {
+Eigen::VectorXd acceleration(const SignalTable& table, const std::string& name, const std::optional<std::string>& unit,
+                             const RecordFile& source) {
   const SignalColumn* column = find_column(table, name);
-  if (column != nullptr) return in_si(*column, source.unit, dimension::acceleration, source.file);
+  if (column != nullptr) return in_si(*column, unit, dimension::acceleration, source.file);
   std::vector<std::string> names;
   for (const SignalColumn& c : table.columns) names.push_back(c.name);
   throw InputError(
@@ -53,8 +54,8 @@ std::optional<Eigen::VectorXd> times(const SignalTable& table, const RecordFile&
 VibrationRecord read_record(const VibrationTest& test, const RecordFile& source, Log& log) {
   const SignalTable table = read_signals(source.file, source.marks);
   RawRecord raw{.time = times(table, source),
-                .base = acceleration(table, source.base, source),
-                .relative = acceleration(table, source.relative, source),
+                .base = acceleration(table, source.base, source.base_unit, source),
+                .relative = acceleration(table, source.relative, source.relative_unit, source),
                 .rate = source.rate,
                 .band_low = test.band_low,
                 .band_high = test.band_high};
@@ -80,7 +81,7 @@ VibrationRecord read_record(const VibrationTest& test, const RecordFile& source,
 SampledChannel read_channel(const RecordFile& source) {
   const SignalTable table = read_signals(source.file, source.marks);
   RawRecord raw{.time = times(table, source),
-                .base = acceleration(table, source.base, source),
+                .base = acceleration(table, source.base, source.base_unit, source),
                 .relative = {},
                 .rate = source.rate,
                 .band_low = 1.0,
