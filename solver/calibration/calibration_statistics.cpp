@@ -112,10 +112,12 @@ void set_correlation(FitResult& result) {
 
 }  // namespace
 
-double student_95(double degrees_of_freedom) {
+double student_quantile(double confidence, double degrees_of_freedom) {
   if (!(degrees_of_freedom > 0.0)) return infinite;
-  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.5 + 0.5 * confidence);
 }
+
+double student_95(double degrees_of_freedom) { return student_quantile(0.95, degrees_of_freedom); }
 
 void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result) {
   const auto r = model.residuals(u);

@@ -8,7 +8,8 @@ namespace pfdm {
 /// Fills in estimates, covariance, correlation, warnings, residuals and sums at the scaled parameters u.
 void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result);
 
-/// The value that Student's t with so many degrees of freedom exceeds in size with a probability of 5 %.
+/// The value that Student's t with so many degrees of freedom exceeds in size with the probability 1 - confidence.
+double student_quantile(double confidence, double degrees_of_freedom);
 double student_95(double degrees_of_freedom);
 
 }  // namespace pfdm

@@ -5,6 +5,7 @@
 #include "solver/vibration/identification.h"
 #include "solver/vibration/identification_base_noise.h"
 #include "solver/vibration/identification_coordinates.h"
+#include "solver/vibration/identification_intervals.h"
 #include "solver/vibration/identification_responses.h"
 #include "solver/vibration/mass_material_simulation.h"
 
@@ -15,7 +16,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -200,60 +200,37 @@ Minimum least_output_error(std::span<const VibrationRecord> records, const Respo
   return found;
 }
 
-/// Replicates of the parameters: blocks of residuals drawn with replacement, one Gauss-Newton step from the estimate
-/// for each draw. Blocks keep what neighbouring residuals have in common; white-noise intervals would be several times
-/// too narrow because the residuals are band-limited.
-MatrixXd bootstrap(const Responses& responses, const VectorXd& x, const VectorXd& r, const MatrixXd& J,
-                   const IdentificationSettings& settings) {
-  const auto blocks = responses.blocks();
-  const Index p = x.size();
-  std::vector<MatrixXd> normal;
-  std::vector<VectorXd> gradient;
-  for (const auto& [begin, end] : blocks) {
-    const auto part = J.middleRows(begin, end - begin);
-    normal.emplace_back(part.transpose() * part);
-    gradient.emplace_back(part.transpose() * r.segment(begin, end - begin));
+/// Named values of each replicate, a column each.
+MatrixXd values_of(const ParameterCoordinates& coordinates, const MatrixXd& replicates) {
+  MatrixXd values;
+  for (Index i = 0; i < replicates.cols(); ++i) {
+    const auto named = named_values(coordinates.model(replicates.col(i)));
+    if (i == 0) values.resize(std::ssize(named), replicates.cols());
+    for (Index k = 0; k < values.rows(); ++k) values(k, i) = named[static_cast<std::size_t>(k)].value;
   }
-  std::mt19937_64 engine(settings.seed);
-  MatrixXd replicates(p, settings.replicates);
-  for (int i = 0; i < settings.replicates; ++i) {
-    MatrixXd A = MatrixXd::Zero(p, p);
-    VectorXd g = VectorXd::Zero(p);
-    for (std::size_t draw = 0; draw < blocks.size(); ++draw) {
-      const std::size_t k = engine() % blocks.size();
-      A += normal[k];
-      g += gradient[k];
-    }
-    A.diagonal().array() += 1e-14 * A.diagonal().maxCoeff();
-    replicates.col(i) = x - solve_symmetric(A, g);
-  }
-  return replicates;
+  return values;
 }
 
 /// Percentiles of the replicates of each value, and their correlations.
-void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates, const MatrixXd& replicates,
-                   const IdentificationSettings& settings) {
-  const auto n = static_cast<Index>(fit.estimates.size());
-  MatrixXd values(n, replicates.cols());
-  for (Index i = 0; i < replicates.cols(); ++i) {
-    const auto named = named_values(coordinates.model(replicates.col(i)));
-    for (Index k = 0; k < n; ++k) values(k, i) = named[static_cast<std::size_t>(k)].value;
-  }
-  for (Index k = 0; k < n; ++k) {
-    VectorXd sorted = values.row(k);
+void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates, const ParameterReplicates& replicates,
+                   double confidence) {
+  const MatrixXd widened = values_of(coordinates, replicates.widened);
+  for (Index k = 0; k < widened.rows(); ++k) {
+    VectorXd sorted = widened.row(k);
     std::ranges::sort(sorted);
     Estimate& estimate = fit.estimates[static_cast<std::size_t>(k)];
     const auto at = [&](double part) {
       return sorted[static_cast<Index>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
     };
-    estimate.lower = at(0.5 - 0.5 * settings.confidence);
-    estimate.upper = at(0.5 + 0.5 * settings.confidence);
+    estimate.lower = at(0.5 - 0.5 * confidence);
+    estimate.upper = at(0.5 + 0.5 * confidence);
   }
+  const MatrixXd values = values_of(coordinates, replicates.around);
   const MatrixXd centred = values.colwise() - values.rowwise().mean();
   const VectorXd norms = centred.rowwise().norm().cwiseMax(1e-300);
-  for (Index k = 0; k < n; ++k)
+  for (Index k = 0; k < values.rows(); ++k)
     fit.estimates[static_cast<std::size_t>(k)].standard_error =
-        norms[k] / std::sqrt(static_cast<double>(replicates.cols() - 1));
+        norms[k] / std::sqrt(static_cast<double>(values.cols() - 1));
   fit.correlation =
       norms.cwiseInverse().asDiagonal() * (centred * centred.transpose()) * norms.cwiseInverse().asDiagonal();
 }
@@ -355,7 +332,10 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   if (bounded && !bias)
     fit.doubts.emplace_back("noise on the base's acceleration biases the estimates by more than can be taken back");
   if (!fit.record_misfit.empty() && settings.replicates > 1)
-    set_intervals(fit, coordinates, bootstrap(responses, found.x, found.residuals, found.jacobian, settings), settings);
+    set_intervals(fit, coordinates,
+                  parameter_replicates(found.x, found.residuals, found.jacobian, responses.blocks(),
+                                       settings.replicates, settings.confidence, settings.seed),
+                  settings.confidence);
   return fit;
 }
 

@@ -142,10 +142,15 @@ TEST(MassMaterialProgram, FindsItsOwnParametersAgain) {
   EXPECT_EQ(damping["unit"], "N s/m");
   EXPECT_LT(damping["lower"].get<double>(), damping["estimate"].get<double>());
   EXPECT_NEAR(damping["first_guess"].get<double>(), 40.0, 10.0);
-  // The interval of 95 % is 3.92 standard deviations of the replicates wide.
-  EXPECT_NEAR(
-      (damping["upper"].get<double>() - damping["lower"].get<double>()) / damping["standard_error"].get<double>(), 3.92,
-      1.2);
+  // The interval of 95 % is 3.92 standard errors wide, and by Student's t more where few blocks know of a parameter, up
+  // to 25.4 where one does: here the few that pass the resonance of c.
+  const auto width = [](const json& p) {
+    return (p["upper"].get<double>() - p["lower"].get<double>()) / p["standard_error"].get<double>();
+  };
+  for (const json& p : fit["parameters"]) {
+    EXPECT_GT(width(p), 3.2) << p["name"];
+    EXPECT_LT(width(p), 26.0) << p["name"];
+  }
   EXPECT_GT(fit["evaluations"].get<int>(), 10);
   EXPECT_EQ(fit["path"].back()["parameters"][5], damping["estimate"]);
   EXPECT_EQ(fit["experiments"][0]["fitted"], true);

@@ -225,7 +225,7 @@ void read_packed_shapes(const ConfigTable& table, const std::filesystem::path& c
   for (const std::string_view key : {"spheres", "subdivisions", "edges_over_gap", "smallest_surface_size"})
     if (table.has(key)) throw table.at(key).error("it belongs to spheres and cannot be combined with [[mesh.shapes]]");
   for (const ConfigTable& shape : table.tables("shapes")) {
-    settings.shapes.push_back(read_packed_shape(shape, case_directory));
+    settings.shapes.emplace_back(read_packed_shape(shape, case_directory));
     files.push_back(settings.shapes.back().given.name);
   }
 }
