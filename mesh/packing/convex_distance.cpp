@@ -64,6 +64,7 @@ Vector reduce(Simplex& simplex) {
 std::vector<Vector> hull_corners(const std::vector<Vector>& points) {
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
   std::vector<Point> given;
+  given.reserve(points.size());
   for (const Vector& x : points) given.emplace_back(x[0], x[1], x[2]);
   CGAL::Surface_mesh<Point> hull;
   CGAL::convex_hull_3(given.begin(), given.end(), hull);

@@ -115,7 +115,7 @@ std::vector<FieldSlice::Cell> StoredFrame::faces(const std::string& field) const
     if (cell->GetCellDimension() != 2) continue;
     faces.push_back({.corners = {}, .value = values->GetTuple1(i)});
     for (vtkIdType k = 0; k < cell->GetNumberOfPoints(); ++k)
-      faces.back().corners.push_back(Eigen::Map<const Eigen::Vector3d>(cell->GetPoints()->GetPoint(k)));
+      faces.back().corners.emplace_back(Eigen::Map<const Eigen::Vector3d>(cell->GetPoints()->GetPoint(k)));
   }
   return faces;
 }

@@ -191,7 +191,7 @@ Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mecha
 // The deformation gradient for the Cauchy stress. A broken sheet, a network, has next to no thickness: it counts as
 // thick as a sound one at the same stretch, and where it is turned inside out as thick as at rest.
 Tensor FiniteCells::true_deformation(Index cell, const Tensor& H, double g) const {
-  const Tensor thin = Tensor::Identity() + thinned(cell, H, g);
+  Tensor thin = Tensor::Identity() + thinned(cell, H, g);
   if (!is_plane_stress()) return thin;
   const Tensor nn = across_ * across_.transpose();
   const bool is_turned = volume_change(H - contract(nn, H) * nn) <= -1.0;
