@@ -39,7 +39,7 @@ std::vector<PatchCondition> conditions_by_patch(const Mesh& mesh, const ElasticB
 
 // Mean unit normal of a patch that has to be plane.
 Vector plane_patch_normal(const Mesh& mesh, const Patch& patch, std::string_view kind) {
-  const Vector normal = mesh.face_area[patch.first_face].normalized();
+  Vector normal = mesh.face_area[patch.first_face].normalized();
   for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
     if (mesh.face_area[f].normalized().dot(normal) < 1.0 - 1e-8)
       throw InputError(fmt::format("patch \"{}\" is not plane; a {} patch must be", patch.name, kind));
@@ -99,7 +99,7 @@ void require_front_and_back(const Mesh& mesh, const Unknowns& unknowns) {
 
 // Normal of a patch of a sector: its plane has to hold the axis z.
 Vector sector_normal(const Mesh& mesh, const Patch& patch) {
-  const Vector normal = plane_patch_normal(mesh, patch, "axisymmetric");
+  Vector normal = plane_patch_normal(mesh, patch, "axisymmetric");
   const Vector x = mesh.face_centre[patch.first_face];
   if (std::abs(normal.z()) > 1e-8 || std::abs(normal.dot(x)) > 1e-8 * x.norm())
     throw InputError(
@@ -138,7 +138,7 @@ void split(const Mesh& mesh, const std::vector<Index>& faces, Unknowns& unknowns
     if (unknowns.node_of_face[f] < 0) add_node(f, Tensor::Identity());
     unknowns.neighbour_node[f] = unknowns.n_nodes();
     unknowns.face_of_node.push_back(f);
-    unknowns.free_directions.push_back(Tensor::Identity());
+    unknowns.free_directions.emplace_back(Tensor::Identity());
   }
 }
 

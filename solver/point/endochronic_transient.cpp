@@ -123,6 +123,7 @@ std::vector<double> alpha_grid(const EndochronicLaw& law, const std::vector<Mate
   const double low = 0.1 / largest, high = 3.0 * n / path;
   std::vector<double> grid;
   constexpr int n_grid = 30;
+  grid.reserve(n_grid);
   for (int i = 0; i < n_grid; ++i) grid.push_back(low * std::pow(high / low, i / (n_grid - 1.0)));
   return grid;
 }
