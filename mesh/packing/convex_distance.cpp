@@ -28,9 +28,9 @@ struct Nearest {
 Nearest nearest_of(const std::array<Vector, 4>& points, const std::array<int, 4>& chosen, int n) {
   const Vector& first = points[as_size(chosen[0])];
   if (n == 1) return {first, true};
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, n - 1);
+  Tensor edges = Tensor::Zero();  // of the columns that stay zero the share is zero too
   for (int k = 1; k < n; ++k) edges.col(k - 1) = points[as_size(chosen[as_size(k)])] - first;
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> share = edges.colPivHouseholderQr().solve(-first);
+  const Vector share = edges.colPivHouseholderQr().solve(-first);
   if (share.minCoeff() < 0.0 || share.sum() > 1.0) return {};
   return {first + edges * share, true};
 }

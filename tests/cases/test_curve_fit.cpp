@@ -130,7 +130,8 @@ TEST(CurveFit, FindsTheValuesThatMadeACurve) {
 TEST(CurveFit, OfACurveWithOffsetAndComplianceIsQuestionable) {
   const BarFit fit(fit_of(modulus, "[\"10 GPa\", \"90 GPa\"]"));
   const CsvTable curve = read_csv(fit.directory.path() / "data.csv");
-  const std::vector<double> u = curve.column("displacement_m"), force = curve.column("force_N");
+  const std::vector<double>& u = curve.column("displacement_m");
+  const std::vector<double>& force = curve.column("force_N");
   const double peak = std::ranges::max(force);
   CsvTable spoilt;
   spoilt.comments = {"made by the test"};

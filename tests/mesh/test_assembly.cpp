@@ -165,6 +165,7 @@ TEST(Assembly, BadCellsAreRefused) {
 TEST(ReverseCuthillMckee, ChainInRandomOrderGetsBandwidthOne) {
   // Cells 0..8 in a chain, visited in steps of 4 (mod 9); 9 and 10 are a component of their own.
   std::vector<std::pair<Index, Index>> neighbours;
+  neighbours.reserve(9);
   for (Index i = 0; i < 8; ++i) neighbours.emplace_back(4 * i % 9, 4 * (i + 1) % 9);
   neighbours.emplace_back(10, 9);
   const std::vector<Index> order = reverse_cuthill_mckee(11, neighbours);

@@ -239,7 +239,7 @@ TEST_F(ImportVtk, UnreadableFilesAreNamedInOneMessageAndVtkStaysSilent) {
     if (!content.empty()) std::ofstream(settings.file) << content;
     ::testing::internal::CaptureStderr();
     ::testing::internal::CaptureStdout();
-    const std::string text = message_of<InputError>([&] { import_vtk(settings); });
+    std::string text = message_of<InputError>([&] { import_vtk(settings); });
     EXPECT_EQ(::testing::internal::GetCapturedStderr() + ::testing::internal::GetCapturedStdout(), "");
     EXPECT_THAT(text, HasSubstr(settings.file.string()));
     EXPECT_THAT(text, ::testing::Not(HasSubstr("\n")));
