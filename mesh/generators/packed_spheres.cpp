@@ -110,15 +110,8 @@ TriangleSurface shape_of(const PackedSpheresSettings& settings, std::size_t k, d
   const PackedShape& shape = settings.shapes[k];
   const double scale = std::cbrt(volume / enclosed_volume(shape.given.surface));
   const TriangleSurface body = about_centroid(shape.given.surface, scale, Tensor::Identity());
-  const TriangleSurface fine = remeshed({shape.given.name, body}, settings.like.surface_size, shape.sharp);
-  const double kept = enclosed_volume(fine) / volume;
-  constexpr double least = 0.7;
-  if (!(kept >= least))
-    throw InputError(fmt::format(
-        "the surface {}: triangles of {:g} m leave {:.2g} of the volume of a particle of diameter {:.3g} m; "
-        "at least {:g} is required: give a smaller surface_size",
-        shape.given.name, settings.like.surface_size, kept, std::cbrt(6.0 / std::numbers::pi * volume), least));
-  return about_centroid(fine, std::cbrt(1.0 / kept), Tensor::Identity());
+  const TriangleSurface fine = remeshed_body({shape.given.name, body}, settings.like.surface_size, shape.sharp);
+  return about_centroid(fine, std::cbrt(volume / enclosed_volume(fine)), Tensor::Identity());
 }
 
 std::vector<Vector> corners_with_layers(const Particle& particle) {

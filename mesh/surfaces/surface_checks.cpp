@@ -1,36 +1,21 @@
 #include "mesh/surfaces/surface_checks.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <fmt/format.h>
 
 #include <iterator>
 #include <utility>
 
+#include "mesh/surfaces/cgal_surface.h"
 #include "physics/error.h"
 
 namespace pfdm {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace PMP = CGAL::Polygon_mesh_processing;
-
-void append(CgalMesh& mesh, const NamedSurface& named) {
-  std::vector<CgalMesh::Vertex_index> vertices;
-  for (const Vector& x : named.surface.points) vertices.push_back(mesh.add_vertex({x[0], x[1], x[2]}));
-  const auto vertex = [&](Index i) { return vertices.at(static_cast<std::size_t>(i)); };
-  for (const Triangle& t : named.surface.triangles)
-    if (mesh.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2])) == CgalMesh::null_face())
-      throw InputError(
-          fmt::format("the surface of {} is not an orientable manifold: the triangle on its points {}, {} and {} "
-                      "cannot be joined to the others in one sense of rotation",
-                      named.name, t[0], t[1], t[2]));
-}
 
 void check_alone(const NamedSurface& named) {
   CgalMesh mesh;
@@ -52,6 +37,18 @@ const std::string& surface_of_face(const std::vector<NamedSurface>& surfaces, st
 }
 
 }  // namespace
+
+void append(CgalMesh& mesh, const NamedSurface& named) {
+  std::vector<CgalMesh::Vertex_index> vertices;
+  for (const Vector& x : named.surface.points) vertices.push_back(mesh.add_vertex({x[0], x[1], x[2]}));
+  const auto vertex = [&](Index i) { return vertices.at(static_cast<std::size_t>(i)); };
+  for (const Triangle& t : named.surface.triangles)
+    if (mesh.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2])) == CgalMesh::null_face())
+      throw InputError(
+          fmt::format("the surface of {} is not an orientable manifold: the triangle on its points {}, {} and {} "
+                      "cannot be joined to the others in one sense of rotation",
+                      named.name, t[0], t[1], t[2]));
+}
 
 void check_surfaces(const std::vector<NamedSurface>& surfaces) {
   CgalMesh all;

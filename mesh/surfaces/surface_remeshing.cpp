@@ -1,40 +1,30 @@
 #include "mesh/surfaces/surface_remeshing.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
+#include "mesh/surfaces/cgal_surface.h"
+#include "mesh/surfaces/sphere_refinement.h"
 #include "physics/error.h"
 
 namespace pfdm {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace PMP = CGAL::Polygon_mesh_processing;
 
 constexpr int n_passes = 10;
 constexpr int n_relaxations = 3;  // of each pass
 
-CgalMesh cgal_mesh(const TriangleSurface& surface) {
-  CgalMesh mesh;
-  std::vector<CgalMesh::Vertex_index> vertices;
-  for (const Vector& x : surface.points) vertices.push_back(mesh.add_vertex({x[0], x[1], x[2]}));
-  for (const auto& [a, b, c] : surface.triangles)
-    mesh.add_face(vertices[as_size(a)], vertices[as_size(b)], vertices[as_size(c)]);
-  return mesh;
-}
-
 TriangleSurface triangle_surface(CgalMesh& mesh) {
   mesh.collect_garbage();
   TriangleSurface surface;
   for (const CgalMesh::Vertex_index v : mesh.vertices()) {
-    const Kernel::Point_3& x = mesh.point(v);
+    const CgalMesh::Point& x = mesh.point(v);
     surface.points.emplace_back(x.x(), x.y(), x.z());
   }
   for (const CgalMesh::Face_index f : mesh.faces()) {
@@ -59,7 +49,8 @@ void check_number(const std::string& name, const CgalMesh& mesh, double size) {
 
 TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
   check_surfaces({given});
-  CgalMesh mesh = cgal_mesh(given.surface);
+  CgalMesh mesh;
+  append(mesh, given);
   check_number(given.name, mesh, size);
   const auto kept = mesh.add_property_map<CgalMesh::Edge_index, bool>("e:kept", false).first;
   PMP::detect_sharp_edges(mesh, sharp * 180.0 / std::numbers::pi, kept);
@@ -73,6 +64,18 @@ TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
                                .edge_is_constrained_map(kept)
                                .protect_constraints(true));
   return triangle_surface(mesh);
+}
+
+TriangleSurface remeshed_body(const NamedSurface& given, double size, double sharp) {
+  constexpr double least = 0.7;
+  TriangleSurface surface = remeshed(given, size, sharp);
+  const double volume = enclosed_volume(given.surface), kept = enclosed_volume(surface) / volume;
+  if (!(kept >= least))
+    throw InputError(
+        fmt::format("the surface {}: triangles of {:g} m leave {:.2g} of its volume, that of a sphere of diameter "
+                    "{:.3g} m; at least {:g} is required: give a smaller surface_size",
+                    given.name, size, kept, std::cbrt(6.0 / std::numbers::pi * volume), least));
+  return surface;
 }
 
 }  // namespace pfdm

@@ -13,4 +13,7 @@ namespace pfdm {
 /// Throws InputError that names the surface, as check_surfaces() does, and where it has more than one piece.
 TriangleSurface remeshed(const NamedSurface& given, double size, double sharp = 0.25 * std::numbers::pi);
 
+/// The same of a particle; throws InputError too where the triangles leave less than 0.7 of its volume.
+TriangleSurface remeshed_body(const NamedSurface& given, double size, double sharp);
+
 }  // namespace pfdm

@@ -219,7 +219,7 @@ class WithSplines : public Preconditioner {
   WithSplines(const Mesh& mesh, const Unknowns& unknowns)
       : plain_(linear_solver("multigrid").make(mesh, unknowns)), splines_(mesh, unknowns) {}
 
-  void build(const BlockTriplets& matrix) override { plain_->build(matrix); }
+  void build(const BlockTriplets& matrix, const MomentumOperator& balance) override { plain_->build(matrix, balance); }
   void apply(const std::vector<Vector>& r, std::vector<Vector>& z) override {
     plain_->apply(r, z);
     splines_.correct(r, z);

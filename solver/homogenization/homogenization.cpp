@@ -4,7 +4,6 @@
 #include "physics/error.h"
 #include "physics/registry.h"
 #include "solver/homogenization/box_sides.h"
-#include "solver/homogenization/rigid_modes.h"
 #include "solver/momentum/box_means.h"
 #include "solver/momentum/momentum_solver.h"
 
@@ -21,16 +20,16 @@ namespace {
 // The k-th of the six unit strains or stresses.
 Tensor unit(std::size_t k) { return to_tensor(Mandel::Unit(static_cast<Index>(k))); }
 
-// Load case k is reached at the load parameter k.
-Vector strained(const Vector& x, double load) { return unit(static_cast<std::size_t>(std::lround(load))) * x; }
-
 ElasticBody body_of(const Mesh& mesh, const LinearComposite& composite, const BoxSides& sides, const Loading& loading) {
   ElasticBody body{.elasticity = composite.elasticity, .zone = composite.zone, .boundary = {}};
   if (loading.by_traction) {
     body.motion.held = three_two_one_supports(mesh, sides);
     return body;
   }
-  body.motion.displacement = strained;
+  // Load case k is reached at the load parameter k.
+  body.motion.displacement = [centre = sides.centre()](const Vector& x, double load) -> Vector {
+    return unit(static_cast<std::size_t>(std::lround(load))) * (x - centre);
+  };
   if (loading.repeats) {
     body.motion.periodic = match_opposite_sides(mesh, sides);
     body.motion.held = {{body.motion.periodic.front().face, Tensor::Identity()}};
@@ -56,8 +55,7 @@ class BoxInLoadCases {
         sides_(find_box_sides(mesh)),
         unknowns_(place_unknowns(mesh, body_of(mesh, composite, sides_, loading_))),
         moduli_(moduli_of(mesh, composite)),
-        solver_(mesh, unknowns_,
-                &with_rigid_modes(settings.linear != nullptr ? *settings.linear : linear_solvers().front())) {
+        solver_(mesh, unknowns_, settings.linear) {
     solver_.set_moduli(moduli_, CellField<double>(as_size(mesh.n_cells()), 1.0));
   }
 
@@ -97,9 +95,8 @@ std::vector<Vector> BoxInLoadCases::forces_on_sides(std::size_t k) const {
 std::vector<Vector> BoxInLoadCases::first_guess(std::size_t k) const {
   std::vector<Vector> u(as_size(unknowns_.n_unknowns()), Vector::Zero());
   if (loading_.by_traction) return u;
-  for (Index c = 0; c < mesh_.n_cells(); ++c) u[as_size(c)] = unit(k) * mesh_.cell_centre[c];
-  for (std::size_t j = 0; j < unknowns_.face_of_node.size(); ++j)
-    u[as_size(unknowns_.n_cells) + j] = unit(k) * mesh_.face_centre[unknowns_.face_of_node[j]];
+  for (Index i = 0; i < unknowns_.n_nodes(); ++i)
+    u[as_size(i)] = unknowns_.motion.displacement(unknowns_.place(mesh_, i), static_cast<double>(k));
   return u;
 }
 

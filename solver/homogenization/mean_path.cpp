@@ -59,7 +59,7 @@ BoxMotion motion_along(const MeanPath& path, const Mesh& mesh, const Loading& lo
     throw InputError(fmt::format(
         "a path of mean strain or stress cannot be combined with the boundary condition \"{}\"", loading.name));
   const BoxSides sides = find_box_sides(mesh);
-  BoxMotion motion{.size = sides.upper - sides.lower};
+  BoxMotion motion{.size = sides.upper - sides.lower, .centre = sides.centre()};
   if (loading.repeats) {
     motion.periodic = match_opposite_sides(mesh, sides);
     motion.held = {{motion.periodic.front().face, Tensor::Identity()}};

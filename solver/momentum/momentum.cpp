@@ -345,7 +345,8 @@ void MomentumOperator::prescribe(double t, std::vector<Vector>& u) const {
   const BoxMotion& motion = unknowns_.motion;
   const Tensor E = unknowns_.free_strain(u);
   const auto of_body = [&](const Vector& x) -> Vector {
-    return motion.displacement ? (E * x + motion.displacement(x, t)).eval() : (E * x).eval();
+    const Vector free = E * (x - motion.centre);
+    return motion.displacement ? (free + motion.displacement(x, t)).eval() : free;
   };
   for (const HeldFace& held : motion.held) {
     Vector& here = u[as_size(unknowns_.node_of_face[held.face])];

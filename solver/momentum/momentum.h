@@ -40,7 +40,8 @@
 // Periodic faces: the image has no unknown of its own, but the displacement of its node plus what is prescribed between
 // the two, and its forces act on that node: t_P + t_N = 0 as on an interface, whose sides lie at different places.
 //
-// Free strains E of a box move its held faces by E x and the images of its nodes by E (x_image - x_node); the work of
+// Free strains E of a box move its held faces by E (x - x_0), x_0 its centre, and the images of its nodes by
+// E (x_image - x_node); the work of
 // the forces on these moves, by E, is the mean stress times the volume: that is their equation.
 //
 // Finite strain (total Lagrangian; momentum_finite.cpp): normals N, areas and distances are those of the reference
@@ -100,6 +101,7 @@ class MomentumOperator {
     return finite_[cell].face.mu < 0.05 * unknowns_.sound[as_size(unknowns_.zone[cell])].mu;
   }
 
+  const std::vector<FaceSpring>& springs() const { return springs_; }
   /// In the order of the split faces.
   void set_springs(std::vector<FaceSpring> springs) { springs_ = std::move(springs); }
   /// load += the forces of the springs' offsets, [N].
@@ -133,9 +135,8 @@ class MomentumOperator {
   void prescribe(double t, std::vector<Vector>& u) const;
   /// Removes the component across the plane of a plane mesh.
   void keep_in_plane(std::vector<Vector>& v) const;
-  /// Gives images of periodic nodes what their nodes have, and both they and the held nodes what the free strains in v
-  /// move them by. The held components of v have to be zero.
-  void move_with_box(std::vector<Vector>& v) const;
+  /// Gives images of periodic nodes what their nodes have, in a v without free strains.
+  void move_images(std::vector<Vector>& v) const;
 
   /// The compact symmetric matrix for the preconditioner of A: c between cells, a from a cell to its face nodes. It is
   /// diagonal in what is prescribed and in the direction across a plane mesh.

@@ -14,7 +14,7 @@ void MomentumOperator::gather_from_images(std::vector<Vector>& forces) const {
 // From the forces on the faces, which `out` has not where they are held.
 void MomentumOperator::work_on_free_strains(std::vector<Vector>& out) const {
   const BoxMotion& motion = unknowns_.motion;
-  if (motion.free_strains.empty()) return;
+  if (!unknowns_.has_free_strains()) return;
   const auto force_on = [&](Index node) {
     return forces_[links_.size() + as_size(first_side_of_node_[as_size(node - unknowns_.n_cells)])];
   };
@@ -24,7 +24,7 @@ void MomentumOperator::work_on_free_strains(std::vector<Vector>& out) const {
     Vector force = force_on(node);
     for (const PeriodicNodes& pair : unknowns_.periodic)
       if (pair.node == node) force += force_on(pair.image);  // which moves with it
-    moment += held.directions * force * mesh_.face_centre[held.face].transpose();
+    moment += held.directions * force * (mesh_.face_centre[held.face] - motion.centre).transpose();
   }
   for (const PeriodicNodes& pair : unknowns_.periodic)
     moment += force_on(pair.image) * (place(pair.image) - place(pair.node)).transpose();
@@ -32,13 +32,8 @@ void MomentumOperator::work_on_free_strains(std::vector<Vector>& out) const {
     out[as_size(unknowns_.first_strain()) + k] = contract(motion.free_strains[k].direction, moment) * Vector::UnitX();
 }
 
-void MomentumOperator::move_with_box(std::vector<Vector>& v) const {
-  const Tensor E = unknowns_.free_strain(v);
-  if (!unknowns_.motion.free_strains.empty())
-    for (const HeldFace& held : unknowns_.motion.held)
-      v[as_size(unknowns_.node_of_face[held.face])] += held.directions * (E * mesh_.face_centre[held.face]);
-  for (const PeriodicNodes& pair : unknowns_.periodic)
-    v[as_size(pair.image)] = v[as_size(pair.node)] + E * (place(pair.image) - place(pair.node));
+void MomentumOperator::move_images(std::vector<Vector>& v) const {
+  for (const PeriodicNodes& pair : unknowns_.periodic) v[as_size(pair.image)] = v[as_size(pair.node)];
 }
 
 }  // namespace pfdm

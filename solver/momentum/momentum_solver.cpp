@@ -1,5 +1,7 @@
 #include "solver/momentum/momentum_solver.h"
 
+#include "solver/momentum/free_strain_modes.h"
+#include "solver/momentum/rigid_modes.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -15,12 +17,32 @@ constexpr double bearable_lag = 0.01;
 // Factor by which a cell's stiffness may change before the preconditioner is rebuilt.
 constexpr double bearable_ratio = 2.0;
 
+// Composites that fill a box have stiff inclusions, and may be held at points only.
+const LinearSolver& solver_for(const Unknowns& unknowns, const LinearSolver* linear) {
+  const LinearSolver& plain = linear != nullptr ? *linear : linear_solvers().front();
+  return unknowns.motion.any() ? with_rigid_modes(plain) : plain;
+}
+
+// Secants, as the compact matrix has them: these are never negative.
+std::vector<FaceSpring> by_secants(std::vector<FaceSpring> springs) {
+  for (FaceSpring& spring : springs) {
+    spring.stiffness = spring.secant;
+    spring.turn_P = spring.turn_N = Tensor::Zero();
+  }
+  return springs;
+}
+
 }  // namespace
 
 MomentumSolver::MomentumSolver(const Mesh& mesh, const Unknowns& unknowns, const LinearSolver* linear)
     : unknowns_(unknowns),
       operator_(mesh, unknowns),
-      preconditioner_((linear != nullptr ? *linear : linear_solvers().front()).make(mesh, unknowns)) {}
+      preconditioner_(solver_for(unknowns, linear).make(mesh, unknowns)),
+      strain_modes_(unknowns.has_free_strains() ? std::make_unique<FreeStrainModes>(mesh, unknowns, linear) : nullptr) {
+}
+
+MomentumSolver::~MomentumSolver() = default;
+MomentumSolver::MomentumSolver(MomentumSolver&&) noexcept = default;
 
 void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                                 CellField<LinearStress> stress) {
@@ -111,7 +133,11 @@ void MomentumSolver::build_preconditioner() {
   for (const double s : pressure_compliance_) scale_.push_back(1.0 / std::sqrt(s));
   for (const FreeStrain& free : unknowns_.motion.free_strains)
     scale_.push_back(1.0 / std::sqrt(unknowns_.motion.size.prod() * free.modulus));
-  preconditioner_->build(compact);
+  std::vector<FaceSpring> springs = operator_.springs();
+  operator_.set_springs(by_secants(springs));
+  preconditioner_->build(compact, operator_);
+  if (strain_modes_) strain_modes_->build(operator_);
+  operator_.set_springs(std::move(springs));
   is_due_ = false;
   reference_load_.reset();
   ++n_preconditioners_;
@@ -132,11 +158,9 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
     if (i >= unknowns_.n_cells)
       z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
   });
-  for (std::size_t k = 0; k < unknowns_.motion.free_strains.size(); ++k) {
-    const std::size_t i = as_size(unknowns_.first_strain()) + k;
-    z[i] = scale_[i] * scale_[i] * r[i];
-  }
-  operator_.move_with_box(z);
+  std::fill(z.begin() + unknowns_.first_strain(), z.end(), Vector::Zero());
+  operator_.move_images(z);
+  if (strain_modes_) strain_modes_->correct(r, z);
   operator_.keep_in_plane(z);
 }
 
@@ -200,6 +224,7 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
   operator_.add_spring_offsets(load);
   operator_.prescribe(t, u);
   if (reference == 0.0) {
+    // Interfaces that have slid bear no friction without pressure: without load theirs is zero too.
     std::fill(u.begin(), u.end(), Vector::Zero());
     return {.converged = true};
   }

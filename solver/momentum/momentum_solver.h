@@ -13,6 +13,8 @@
 
 namespace pfdm {
 
+class FreeStrainModes;
+
 struct Equilibrium {
   bool converged = false;
   Index iterations = 0;
@@ -24,6 +26,8 @@ class MomentumSolver {
  public:
   /// `linear` null: the automatic choice.
   MomentumSolver(const Mesh& mesh, const Unknowns& unknowns, const LinearSolver* linear = nullptr);
+  ~MomentumSolver();
+  MomentumSolver(MomentumSolver&&) noexcept;
 
   /// New secant moduli. The preconditioner is rebuilt when the stiffness factor g of some cell has changed by more than
   /// a factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights
@@ -88,7 +92,8 @@ class MomentumSolver {
   MomentumOperator operator_;
   std::vector<Vector> body_force_;  // on the cells [N]; may be empty
   std::unique_ptr<Preconditioner> preconditioner_;
-  bool is_built_ = false;  // the preconditioner, or it will be by the next solve:
+  std::unique_ptr<FreeStrainModes> strain_modes_;  // null without free strains
+  bool is_built_ = false;                          // the preconditioner, or it will be by the next solve:
   bool is_due_ = false;
   CellField<double> built_measure_;              // of the cells' stiffness: any measure, but always the same
   CellField<IsotropicElasticity> built_moduli_;  // empty for a general stiffness

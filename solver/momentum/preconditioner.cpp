@@ -36,7 +36,9 @@ class MultigridCycle : public Preconditioner {
   MultigridCycle(const Mesh& mesh, const Unknowns& unknowns)
       : row_of_node_(interleave_face_nodes(mesh, unknowns)), b_(row_of_node_.size()), x_(row_of_node_.size()) {}
 
-  void build(const BlockTriplets& matrix) override { multigrid_.emplace(compress(matrix, row_of_node_)); }
+  void build(const BlockTriplets& matrix, const MomentumOperator&) override {
+    multigrid_.emplace(compress(matrix, row_of_node_));
+  }
 
   void apply(const std::vector<Vector>& r, std::vector<Vector>& z) override {
     const auto n = static_cast<Index>(row_of_node_.size());
@@ -59,7 +61,7 @@ class CholeskyFactors : public Preconditioner {
  public:
   CholeskyFactors(const Mesh& mesh, const Unknowns& unknowns) : mesh_(mesh), unknowns_(unknowns) {}
 
-  void build(const BlockTriplets& matrix) override {
+  void build(const BlockTriplets& matrix, const MomentumOperator&) override {
     const std::optional<Index> faulty = cholesky_.factor(matrix);
     if (!faulty) return;
     const Index face = *faulty - unknowns_.n_cells;

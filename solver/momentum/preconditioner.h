@@ -11,12 +11,14 @@
 
 namespace pfdm {
 
+class MomentumOperator;
+
 class Preconditioner {
  public:
   virtual ~Preconditioner() = default;
-  /// Takes this matrix, which has a row for every node, in place of the last one. Throws ComputationError, with the
-  /// place, if it is singular.
-  virtual void build(const BlockTriplets& matrix) = 0;
+  /// Takes this compact matrix of the balance, which has a row for every node, in place of the last one. Throws
+  /// ComputationError, with the place, if it is singular.
+  virtual void build(const BlockTriplets& matrix, const MomentumOperator& balance) = 0;
   /// z approximates A^-1 r. Vectors beyond the nodes are left alone.
   virtual void apply(const std::vector<Vector>& r, std::vector<Vector>& z) = 0;
 };

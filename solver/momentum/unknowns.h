@@ -41,7 +41,8 @@ struct BoxMotion {
   /// zero. The free strains add to it.
   std::function<Vector(const Vector& x, double t)> displacement{};
   std::vector<FreeStrain> free_strains{};
-  Vector size = Vector::Zero();  ///< of the box [m]
+  Vector size = Vector::Zero();    ///< of the box [m]
+  Vector centre = Vector::Zero();  ///< of the box [m]: the free strains leave it where it is
 
   bool any() const { return !held.empty(); }
 };
@@ -89,6 +90,9 @@ struct Unknowns {
 
   bool is_axisymmetric() const { return radial != Vector::Zero(); }
   Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }
+  Vector place(const Mesh& mesh, Index node) const {
+    return node < n_cells ? mesh.cell_centre[node] : mesh.face_centre[face_of_node[as_size(node - n_cells)]];
+  }
   /// Node of a face on the side of one of its cells; -1 where it carries none.
   Index node_beside(const Mesh& mesh, Index cell, Index face) const {
     const bool beyond = neighbour_node.size() > 0 && neighbour_node[face] >= 0 && mesh.owner[face] != cell;
@@ -96,6 +100,7 @@ struct Unknowns {
   }
   Index first_strain() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }
   Index n_unknowns() const { return first_strain() + static_cast<Index>(motion.free_strains.size()); }  ///< vectors
+  bool has_free_strains() const { return !motion.free_strains.empty(); }
   /// The sum of the free strains among the unknowns u.
   Tensor free_strain(const std::vector<Vector>& u) const {
     Tensor sum = Tensor::Zero();

@@ -155,6 +155,20 @@ TEST(DebondingCase, CurveIsOfTheFirstComponentThatIsLoaded) {
   }
 }
 
+// Its order says which component the curve is of: with another one a stopped run is not the same case.
+TEST(DebondingCase, OrderWithinALineTellsPathsApart) {
+  const std::string path = "{ strain_zz = \"15 %\" }, { strain_zz = 0.05 }";
+  const TemporaryCase directory(replaced(parted_box(), path, "{ strain_zz = 0.01, strain_xx = 0.001 }"));
+  const std::string name = directory.path().string();
+  ASSERT_EQ(run({"run", name, "--quiet", "--max-steps", "2"}).status, 0);
+  directory.write("case.toml", replaced(parted_box(), path, "{ strain_xx = 0.001, strain_zz = 0.01 }"));
+  const Outcome other = run({"run", name, "--quiet", "--restart"});
+  EXPECT_EQ(other.status, 2) << other.out;
+  directory.write("case.toml", replaced(parted_box(), path, "{strain_zz=1e-2,strain_xx = 1e-3}"));
+  const Outcome same = run({"run", name, "--quiet", "--restart"});
+  EXPECT_EQ(same.status, 0) << same.err;
+}
+
 TEST(DebondingCase, AndTheLinearOneReplaceEachOther) {
   const std::string path =
       "path = [{ strain_zz = \"15 %\" }, { strain_zz = 0.05 }]\n[loading]\ninitial_increment = 0.1\n"

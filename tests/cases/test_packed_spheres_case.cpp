@@ -1,6 +1,7 @@
 // Many spheres in a case file: meshed as they were asked for, pulled with cohesive interfaces, and what is refused.
 
 #include "postproc/files/csv_table.h"
+#include "tests/cases/pulled_composite.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>
@@ -23,35 +24,7 @@ volume_fraction = 0.1
 gap = "20 um"
 subdivisions = 2
 edges_over_gap = 0
-[materials.glass]
-regions = ["particle"]
-young_modulus = "70 GPa"
-poisson_ratio = 0.2
-damageable = false
-[materials.rubber]
-regions = ["matrix"]
-young_modulus = "1 MPa"
-poisson_ratio = 0.3
-damageable = false
-[[interface]]
-between = ["particle", "matrix"]
-law = "linear"
-strength = "0.1 MPa"
-toughness = "10 J/m^2"
-[[boundary]]
-patch = "zmin"
-displacement = ["0 mm", "0 mm", "0 mm"]
-[[boundary]]
-patch = "zmax"
-displacement = ["0 mm", "0 mm", "10 um"]
-[loading]
-initial_increment = 1.0
-maximum_increment = 1.0
-[fracture]
-split = "none"
-[output]
-curve = { patch = "zmax", component = "z" }
-)";
+)" + pulled_composite("particle");
 }
 
 // The lower bound of Hashin and Shtrikman for a tenth of rigid spheres is 1.22 times Young's modulus of this matrix.

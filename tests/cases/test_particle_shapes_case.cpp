@@ -1,6 +1,7 @@
 // Particles from surface files in a case: meshed, with a cohesive interface, and what is refused.
 
 #include "postproc/files/csv_table.h"
+#include "tests/cases/pulled_composite.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>
@@ -31,36 +32,7 @@ size = ["1 mm", "1 mm", "1 mm"]
 [[mesh.particles]]
 surface = "cube.obj"
 )" + particle +
-         R"(
-[materials.glass]
-regions = ["bead"]
-young_modulus = "70 GPa"
-poisson_ratio = 0.2
-damageable = false
-[materials.rubber]
-regions = ["matrix"]
-young_modulus = "1 MPa"
-poisson_ratio = 0.3
-damageable = false
-[[interface]]
-between = ["bead", "matrix"]
-law = "linear"
-strength = "0.1 MPa"
-toughness = "10 J/m^2"
-[[boundary]]
-patch = "zmin"
-displacement = ["0 mm", "0 mm", "0 mm"]
-[[boundary]]
-patch = "zmax"
-displacement = ["0 mm", "0 mm", "10 um"]
-[loading]
-initial_increment = 1.0
-maximum_increment = 1.0
-[fracture]
-split = "none"
-[output]
-curve = { patch = "zmax", component = "z" }
-)";
+         "\n" + pulled_composite("bead");
 }
 
 std::string placed() { return "length_unit = \"mm\"\nscale = 0.4\nsurface_size = \"0.15 mm\"\n"; }

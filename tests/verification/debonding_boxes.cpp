@@ -2,8 +2,9 @@
 // effective stiffness of the same box by six load cases, and Mori and Tanaka's estimate for spheres (Hashin's and
 // Shtrikman's bound, Walpole, J. Mech. Phys. Solids 14 (1966) 151).
 
+#include "mesh/generators/packed_spheres.h"
 #include "physics/effective_stiffness.h"
-#include "solver/homogenization/mean_path.h"
+#include "tests/verification/box_paths.h"
 #include "tests/verification/cohesive_blocks.h"
 
 #include <fmt/format.h>
@@ -20,45 +21,6 @@ constexpr std::size_t zz = 2;
 constexpr const char* both_loadings[] = {"periodic", "uniform displacement"};
 
 const TractionSeparationLaw& linear_law() { return find_by_name(traction_separation_laws(), "linear", "law"); }
-
-// Free of stress but for the strains that are named.
-MeanPath strains(const std::vector<std::pair<std::size_t, std::vector<double>>>& by_component) {
-  MeanPath path;
-  path.by_stress.fill(true);
-  path.points.resize(by_component.front().second.size());
-  for (const auto& [k, values] : by_component) {
-    path.by_stress[k] = false;
-    for (std::size_t i = 0; i < values.size(); ++i) path.points[i][k] = values[i];
-  }
-  return path;
-}
-
-void load(FractureModel& model, const Mesh& mesh, const MeanPath& path, const char* loading) {
-  CellField<IsotropicElasticity> cells(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) cells[c] = model.in_cell(mesh, c).elasticity;
-  model.motion = motion_along(path, mesh, homogenization_loading(loading), reuss_estimate(mesh, cells));
-}
-
-// The reports of the steps of this size; `mean_of_cells`: of the stress at the end.
-std::vector<StepReport> follow(const Mesh& mesh, const FractureModel& model, const MeanPath& path,
-                               double tolerance = 1e-10, double increment = 1.0, Tensor* mean_of_cells = nullptr) {
-  LoadingSettings loading{.end = static_cast<double>(path.points.size()),
-                          .initial_increment = increment,
-                          .minimum_increment = 1e-3 * increment,
-                          .maximum_increment = increment,
-                          .stops = {}};
-  loading.is_proportional = path.points.size() == 1;
-  FractureRun run(mesh, model, {.equilibrium_tolerance = tolerance}, loading);
-  std::vector<StepReport> reports;
-  const FractureState last =
-      run_to_end(run, [&](const FractureState&, const StepReport& report) { reports.push_back(report); });
-  if (mean_of_cells == nullptr) return reports;
-  mean_of_cells->setZero();
-  const OutputFields fields = run.output(last);
-  for (Index c = 0; c < mesh.n_cells(); ++c)
-    *mean_of_cells += mesh.cell_volume[c] / model.motion.size.prod() * fields.stress[c];
-  return reports;
-}
 
 // Layers of these materials normal to z, of one millimetre in all.
 Mesh layers(const std::vector<double>& thicknesses, Index n_sideways = 3) {
@@ -252,6 +214,119 @@ TEST(DebondingSphere, ClosesTheAccountOnItsWay) {
   EXPECT_LT(last.means->stress(2, 2) / last.means->strain(2, 2), 75e6);
   EXPECT_GT(last.debonded_area.front(), 0.0);
   EXPECT_LE(worst, 0.01);
+}
+
+void move(const Vector& by, Mesh& mesh) {
+  for (Vector& x : mesh.points) x += by;
+  for (Vector& x : mesh.face_centre) x += by;
+  for (Vector& x : mesh.cell_centre) x += by;
+}
+
+// Where the box lies changes neither what is found nor how fast: moments and moves are about its centre.
+TEST_P(Boxes, MayLieFarFromTheOrigin) {
+  const std::vector<IsotropicElasticity> materials{from_young_poisson(1e6, 0.4), from_young_poisson(1e8, 0.2)};
+  Mesh mesh = layers({0.4e-3, 0.6e-3});
+  MeanPath path;
+  path.by_stress = {false, true, true, false, true, true};
+  path.points = {{0.01, 2e4, -3e4, 0.02, 0.0, 1e4}};
+  const auto end_of = [&] {
+    FractureModel model = elastic_model(materials, {});
+    load(model, mesh, path, GetParam());
+    return follow(mesh, model, path, 1e-8).back();
+  };
+  const auto six_of = [&] {
+    return homogenize(mesh, {.elasticity = materials, .zone = {0, 1}},
+                      {.loading = &homogenization_loading(GetParam()), .tolerance = 1e-8});
+  };
+  const StepReport near = end_of();
+  const Homogenized near_six = six_of();
+  move({1.0, -2.0, 3.0}, mesh);
+  const StepReport far = end_of();
+  const Homogenized far_six = six_of();
+  const double stress = (far.means->stress - near.means->stress).norm() / near.means->stress.norm();
+  const double strain = (far.means->strain - near.means->strain).norm() / near.means->strain.norm();
+  const double stiffness = (far_six.stiffness - near_six.stiffness).norm() / near_six.stiffness.norm();
+  report_row(GetParam(), {{"stress", stress},
+                          {"strain", strain},
+                          {"stiffness", stiffness},
+                          {"iterations near", static_cast<double>(near.krylov_iterations)},
+                          {"far", static_cast<double>(far.krylov_iterations)}});
+  EXPECT_LE(stress, 1e-6);
+  EXPECT_LE(strain, 1e-6);
+  EXPECT_LE(stiffness, 1e-6);
+  EXPECT_LE(static_cast<double>(far.krylov_iterations), 1.2 * static_cast<double>(near.krylov_iterations));
+}
+
+// Strains that are free take hardly more iterations than ones that are prescribed, those that the first ones found.
+TEST(FreeStrains, TakeHardlyMoreIterations) {
+  PackedSpheresSettings packing;
+  packing.box.lower = Vector::Zero();
+  packing.box.upper = Vector::Ones();
+  packing.like.subdivision = 2;
+  packing.like.region = "particle";
+  packing.diameters = draw_diameters({.mean = 1.0}, 10, 0.3, true, 1);
+  packing.gap = packing.wall_gap = 0.01;
+  packing.edges_over_gap = 0.0;
+  const Mesh mesh = make_packed_spheres(packing);
+  FractureModel model = elastic_model({from_young_poisson(70e9, 0.3), from_young_poisson(75e6, 0.44)}, {});
+  if (mesh.region_names.front() != "particle") std::swap(model.regions.front(), model.regions.back());
+  const auto end_of = [&](const MeanPath& path) {
+    load(model, mesh, path, "periodic");
+    return follow(mesh, model, path, 1e-8).back();
+  };
+  const StepReport free = end_of(strains({{zz, {0.01}}}));
+  MeanPath path{.points = {{}}};
+  for (std::size_t k = 0; k < 6; ++k)
+    path.points[0][k] = to_mandel(free.means->strain)[static_cast<Index>(k)] / mandel_factor(static_cast<int>(k));
+  const StepReport prescribed = end_of(path);
+  report_row(fmt::format("{} cells", mesh.n_cells()),
+             {{"free", static_cast<double>(free.krylov_iterations)},
+              {"prescribed", static_cast<double>(prescribed.krylov_iterations)}});
+  EXPECT_LE((free.means->stress - prescribed.means->stress).norm(), 1e-5 * free.means->stress.norm());
+  EXPECT_LE(static_cast<double>(free.krylov_iterations), 1.3 * static_cast<double>(prescribed.krylov_iterations));
+  EXPECT_LE(prescribed.krylov_iterations, 80);
+}
+
+// A stiff cube slides in a pressed binder that is sheared, and the box goes back to no strain. Friction holds it on its
+// way; the pressure that it needs goes with the strain, and with it the stress.
+TEST(SlidingCube, LosesItsStressWithItsStrain) {
+  BoxHexesSettings settings;
+  for (auto& axis : settings.axes) axis = {{.length = 1e-3, .n = 4}};
+  Mesh mesh = make_box_hexes(settings);
+  mesh.region_names = {"binder", "cube"};
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    mesh.region[c] = (mesh.cell_centre[c] - Vector::Constant(0.5e-3)).cwiseAbs().maxCoeff() < 0.25e-3 ? 1 : 0;
+  // Of pressure and of shear, from 1 on down to `last`: together, or one before the other.
+  using Way = std::array<std::vector<double>, 2>;
+  const auto ways = [](double last) {
+    return std::vector<Way>{
+        {{{1.0, last}, {1.0, last}}}, {{{1.0, 1.0, last}, {1.0, last, last}}}, {{{1.0, last, last}, {1.0, 1.0, last}}}};
+  };
+  for (const double friction : {0.6, 2.0})
+    for (std::size_t way = 0; way < 3; ++way) {
+      const auto follow_to = [&](double last) {
+        FractureModel model = elastic_model({from_young_poisson(50e6, 0.4), from_young_poisson(1e9, 0.3)}, {});
+        CohesiveSurface bond{.name = "bond", .law = law_of(linear_law()), .faces = {}};
+        bond.law.friction = friction;
+        for (Index f = 0; f < mesh.n_interior_faces(); ++f)
+          if (mesh.region[mesh.owner[f]] != mesh.region[mesh.neighbour[f]]) {
+            bond.faces.push_back(f);
+            bond.at.push_back({.strength = 1e4, .toughness = 0.05, .stiffness = 1e12});
+          }
+        model.interfaces.push_back(std::move(bond));
+        MeanPath path = strains({{zz, ways(last)[way][0]}, {0, ways(last)[way][0]}, {4, ways(last)[way][1]}});
+        for (auto& point : path.points) point[zz] *= -0.05, point[0] *= -0.05, point[4] *= 0.1;
+        load(model, mesh, path, "periodic");
+        return follow(mesh, model, path, 1e-8, 0.25);
+      };
+      const std::vector<StepReport> near = follow_to(1e-6), end = follow_to(0.0);
+      double most = 0.0;
+      for (const StepReport& report : near) most = std::max(most, report.means->stress.norm());
+      const double left = near.back().means->stress.norm() / most;
+      report_row(fmt::format("friction {}, way {}", friction, way), {{"stress left at 1e-6 of the strain", left}});
+      EXPECT_LE(left, 2e-6);
+      EXPECT_EQ(end.back().means->stress.norm(), 0.0);
+    }
 }
 
 TEST(MeanPaths, AreRefusedWithForcesOnTheSides) {

@@ -7,9 +7,7 @@
 #include "mesh/surfaces/sphere_refinement.h"
 #include "mesh/surfaces/surface_file.h"
 #include "mesh/surfaces/surface_remeshing.h"
-#include "physics/error.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -76,15 +74,7 @@ PackedShape read_packed_shape(const ConfigTable& table, const std::filesystem::p
 
 TriangleSurface make_shape(const ShapeRecipe& recipe, double size) {
   const TriangleSurface placed = about_centroid(recipe.surface, recipe.scale, recipe.rotation);
-  constexpr double least = 0.7;
-  TriangleSurface surface = remeshed({recipe.file.string(), placed}, size, recipe.sharp_angle);
-  const double kept = enclosed_volume(surface) / enclosed_volume(placed);
-  if (!(kept >= least))
-    throw InputError(
-        fmt::format("the surface {}: triangles of {:g} m leave {:.2g} of its volume; at least {:g} is "
-                    "required: give a smaller surface_size",
-                    recipe.file.string(), size, kept, least));
-  return surface;
+  return remeshed_body({recipe.file.string(), placed}, size, recipe.sharp_angle);
 }
 
 }  // namespace pfdm

@@ -180,9 +180,7 @@ std::string written(const TomlValue& value) {
       for (const TomlValue& element : array) text += written(element) + ",";
       return text + "]";
     }
-    // What stands on one line by name: hashes of cases do not depend on its order.
-    std::string operator()(TomlTable table) const {
-      std::ranges::stable_sort(table, {}, [](const auto& e) { return std::pair(e.value.key_line, e.key); });
+    std::string operator()(const TomlTable& table) const {
       std::string text = "{";
       for (const auto& [key, entry] : table) text += fmt::format("\"{}\"={},", key, written(entry));
       return text + "}";

@@ -12,7 +12,7 @@ namespace pfdm {
 struct TomlValue;
 struct TomlEntry;
 using TomlArray = std::vector<TomlValue>;
-/// In the order of the lines.
+/// In the order of the text.
 using TomlTable = std::vector<TomlEntry>;
 
 struct TomlValue {

@@ -3,7 +3,7 @@
 // two-point differences, which a rigid rotation strains. Stiff inclusions rotate against no more than the soft matrix
 // around them, and a body on point supports against none. These motions are solved for exactly, beside the
 // preconditioner (an additive coarse space, as in Nabben, Vuik, SIAM J. Numer. Anal. 42 (2004) 1631):
-// z = M^-1 r + R (R^T A R)^-1 R^T r.
+// z = M^-1 r + R (R^T A R)^-1 R^T r, without what inclusions do to one another.
 
 #include "solver/momentum/preconditioner.h"
 
