@@ -57,6 +57,27 @@ FaceField<double> weights(const Mesh& mesh, const TipRegion& region, const Vecto
   return q;
 }
 
+// Stress that belongs to the displacement gradient, and elastic energy [J/m^3]: at finite strain per reference area and
+// volume, the first Piola-Kirchhoff stress that the tractions of a cell in equilibrium have on average.
+struct Elastic {
+  Tensor stress = Tensor::Zero();
+  double energy = 0.0;
+};
+
+Elastic elastic_in(const Mesh& mesh, const OutputFields& output, Index c) {
+  if (output.deformation_gradient.size() == 0) {
+    const Tensor& sigma = output.stress[c];
+    return {sigma, 0.5 * sigma.cwiseProduct(output.strain[c]).sum()};
+  }
+  Elastic elastic{.energy = output.energy_density[c]};
+  for (const Index f : mesh.faces_of_cell(c)) {
+    const double area = mesh.owner[f] == c ? mesh.face_area[f].norm() : -mesh.face_area[f].norm();
+    elastic.stress += area * output.traction[f] * (mesh.face_centre[f] - mesh.cell_centre[c]).transpose();
+  }
+  elastic.stress /= mesh.cell_volume[c];
+  return elastic;
+}
+
 // The elasticities of the ring's cells above and below the crack, if each side has one.
 std::optional<InterfaceCrack> crack_between(const Mesh& mesh, const FractureModel& model, const TipRegion& region,
                                             const CellField<Vector>& gradient, const Vector& tip) {
@@ -118,12 +139,13 @@ Vector crack_tip(const Mesh& mesh, const CellField<double>& damage, const TipReg
 EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, const TipRegion& region) {
   EnergyRelease result{.tip = crack_tip(mesh, output.damage, region)};
   const FaceField<double> q = weights(mesh, region, result.tip);
-  CellField<double> release(as_size(mesh.n_cells()));
+  CellField<double> release(as_size(mesh.n_cells()), 0.0);
   parallel_for(mesh.n_cells(), [&](Index c) {
     const Vector gradient = gradient_of(mesh, q, c);
-    const Tensor& sigma = output.stress[c];
-    const double psi = 0.5 * sigma.cwiseProduct(output.strain[c]).sum();
-    release[c] = (output.gradient[c] * region.direction).dot(sigma * gradient) - psi * region.direction.dot(gradient);
+    if (gradient.squaredNorm() == 0.0) return;
+    const Elastic elastic = elastic_in(mesh, output, c);
+    release[c] = (output.gradient[c] * region.direction).dot(elastic.stress * gradient) -
+                 elastic.energy * region.direction.dot(gradient);
   });
   const double sum = parallel_sum(mesh.n_cells(), [&](Index c) { return release[c]; });
   const double size = parallel_sum(mesh.n_cells(), [&](Index c) { return std::abs(release[c]); });

@@ -8,7 +8,9 @@
 // e the direction in which the crack grows, q = 1 within an inner distance of the tip, falling linearly to 0 at an
 // outer one, B the extent of the body along the crack front. Only the elastic part of the Eshelby tensor takes part:
 // what is measured is the energy that flows into the tip region from the far field, if the ring between the distances
-// lies in sound material but for the crack's wake, which carries nothing.
+// lies in sound material but for the crack's wake, which carries nothing. At finite strain the first Piola-Kirchhoff
+// stress and the energy per reference volume take their places, distances are those of the reference mesh, and G is per
+// reference area.
 //
 // The stress intensities of both modes by the interaction integral (Yau, Wang, Corten, J. Appl. Mech. 47 (1980) 335; of
 // a crack between two materials Matos et al., Int. J. Fract. 40 (1989) 235): the mixed part of G of the body's field
