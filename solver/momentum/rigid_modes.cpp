@@ -89,9 +89,8 @@ class RigidModes {
     for (const IsotropicElasticity& c : unknowns_.sound) softest_ = std::min(softest_, c.mu);
     CellField<char> seen(as_size(mesh_.n_cells()), 0);
     for (Index first = 0; first < mesh_.n_cells(); ++first) {
-      const Index zone = unknowns_.zone[first];
-      if (seen[first] != 0 || unknowns_.sound[as_size(zone)].mu < stiff * softest_) continue;
-      if (const std::vector<Index> nodes = inclusion_around(first, zone, seen); !nodes.empty()) {
+      if (seen[first] != 0 || !is_stiff(first)) continue;
+      if (const std::vector<Index> nodes = inclusion_around(first, seen); !nodes.empty()) {
         add_rotations(nodes);
         double volume = 0.0;
         for (const Index node : nodes) volume += node < unknowns_.n_cells ? mesh_.cell_volume[node] : 0.0;
@@ -100,8 +99,11 @@ class RigidModes {
     }
   }
 
-  // The connected cells of the zone, and the nodes of their faces; none if the inclusion touches the boundary.
-  std::vector<Index> inclusion_around(Index first, Index zone, CellField<char>& seen) const {
+  bool is_stiff(Index cell) const { return unknowns_.sound[as_size(unknowns_.zone[cell])].mu >= stiff * softest_; }
+
+  // The connected stiff cells, of one zone or of several as a core in its shell, and the nodes of their faces; none if
+  // the inclusion touches the boundary.
+  std::vector<Index> inclusion_around(Index first, CellField<char>& seen) const {
     std::vector<Index> cells{first}, nodes;
     bool is_inside = true;
     seen[first] = 1;
@@ -111,7 +113,7 @@ class RigidModes {
         is_inside = is_inside && mesh_.is_interior(f);
         if (!mesh_.is_interior(f)) continue;
         const Index other = mesh_.across(f, cells[i]);
-        if (seen[other] != 0 || unknowns_.zone[other] != zone) continue;
+        if (seen[other] != 0 || !is_stiff(other)) continue;
         seen[other] = 1;
         cells.push_back(other);
       }
