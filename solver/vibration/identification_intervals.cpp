@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace pfdm {
@@ -35,7 +34,7 @@ MatrixXd inverse_root_of_rest(const MatrixXd& normal) {
 
 WhiteBlocks white_blocks(const VectorXd& r, const MatrixXd& J, std::span<const ResidualBlock> blocks) {
   const Index p = J.cols();
-  const VectorXd norms = J.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
+  const VectorXd norms = J.colwise().norm().transpose().unaryExpr([](double norm) { return norm > 0.0 ? norm : 1.0; });
   MatrixXd stacked(J.rows() + p, p);
   stacked << J * norms.cwiseInverse().asDiagonal(), no_information * MatrixXd::Identity(p, p);
   const MatrixXd R = upper_triangle(stacked);
@@ -53,6 +52,7 @@ WhiteBlocks white_blocks(const VectorXd& r, const MatrixXd& J, std::span<const R
 
 /// Of the estimated variance of the parameter of row `a` of `back` under white noise, by Satterthwaite. The scores of
 /// two blocks, freed of leverage, have the covariance delta_kl F_k N_k F_k - F_k N_k N_l F_l.
+/// None where the fit has taken most of that variance: one block alone knows of the parameter.
 double degrees_of_freedom(const WhiteBlocks& white, const VectorXd& a) {
   MatrixXd W(a.size(), white.scores.cols());
   VectorXd own(white.scores.cols());
@@ -63,17 +63,9 @@ double degrees_of_freedom(const WhiteBlocks& white, const VectorXd& a) {
   }
   const VectorXd taken = W.colwise().squaredNorm();
   const double trace = (own - taken).sum();
+  if (!(trace > 0.5 * a.squaredNorm())) return 0.0;
   const double squares = own.squaredNorm() - 2.0 * own.dot(taken) + (W * W.transpose()).squaredNorm();
-  return squares > 0.0 ? std::max(trace * trace / squares, 1.0) : 1.0;
-}
-
-/// Student's quantiles over those of the normal distribution, by parameter.
-VectorXd widening(const WhiteBlocks& white, double confidence) {
-  VectorXd result(white.back.rows());
-  for (Index j = 0; j < result.size(); ++j)
-    result[j] =
-        student_quantile(confidence, degrees_of_freedom(white, white.back.row(j))) / student_quantile(confidence, 1e9);
-  return result;
+  return std::max(trace * trace / squares, 1.0);
 }
 
 }  // namespace
@@ -83,9 +75,24 @@ ParameterReplicates parameter_replicates(const VectorXd& x, const VectorXd& resi
                                          std::uint64_t seed) {
   const WhiteBlocks white = white_blocks(residuals, J, blocks);
   const VectorXd weights = normal_numbers(white.scores.cols() * number, seed);
-  const MatrixXd deviations = white.back * (white.scores * weights.reshaped(white.scores.cols(), number));
-  const VectorXd wider = widening(white, confidence);
-  return {.around = deviations.colwise() + x, .widened = (wider.asDiagonal() * deviations).colwise() + x};
+  MatrixXd deviations = white.back * (white.scores * weights.reshaped(white.scores.cols(), number));
+  const double freedom = std::max(static_cast<double>(residuals.size() - x.size()), 1.0);
+  ParameterReplicates result;
+  VectorXd wider(x.size());
+  for (Index j = 0; j < x.size(); ++j) {
+    const VectorXd a = white.back.row(j);
+    double known = degrees_of_freedom(white, a);
+    if (known == 0.0) {
+      known = 1.0;
+      result.rest_on_one_block = true;
+      deviations.row(j) = a.norm() * residuals.norm() / std::sqrt(freedom) *
+                          normal_numbers(number, seed + 1 + static_cast<std::uint64_t>(j)).transpose();
+    }
+    wider[j] = student_quantile(confidence, known) / student_quantile(confidence, 1e9);
+  }
+  result.around = deviations.colwise() + x;
+  result.widened = (wider.asDiagonal() * deviations).colwise() + x;
+  return result;
 }
 
 }  // namespace pfdm

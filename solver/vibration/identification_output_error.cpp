@@ -331,11 +331,15 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   OutputErrorFit fit = fit_at(found, responses, coordinates, evaluations);
   if (bounded && !bias)
     fit.doubts.emplace_back("noise on the base's acceleration biases the estimates by more than can be taken back");
-  if (!fit.record_misfit.empty() && settings.replicates > 1)
-    set_intervals(fit, coordinates,
-                  parameter_replicates(found.x, found.residuals, found.jacobian, responses.blocks(),
-                                       settings.replicates, settings.confidence, settings.seed),
-                  settings.confidence);
+  if (!fit.record_misfit.empty() && settings.replicates > 1) {
+    const ParameterReplicates replicates =
+        parameter_replicates(found.x, found.residuals, found.jacobian, responses.blocks(), settings.replicates,
+                             settings.confidence, settings.seed);
+    if (replicates.rest_on_one_block)
+      fit.doubts.emplace_back(
+          "one short stretch of the records alone tells of some parameter: how far its estimate scatters is not known");
+    set_intervals(fit, coordinates, replicates, settings.confidence);
+  }
   return fit;
 }
 

@@ -3,7 +3,6 @@
 #include "physics/error.h"
 
 #include <fmt/format.h>
-#include <boost/math/distributions/normal.hpp>
 
 #include <cassert>
 #include <cmath>
@@ -24,13 +23,13 @@ RecordEstimates estimates_of(const VibrationRecord& record, const ScheduledRun& 
           .converged = fit.converged};
 }
 
-double expected_deviation(const std::vector<RecordEstimates>& records, std::size_t parameter, double confidence) {
+double expected_deviation(const std::vector<RecordEstimates>& records, std::size_t parameter) {
   double sum = 0.0;
   for (const RecordEstimates& r : records) {
-    const double half = 0.5 * (r.estimates[parameter].upper - r.estimates[parameter].lower);
-    sum += half * half / static_cast<double>(records.size());
+    const double error = r.estimates[parameter].standard_error;
+    sum += error * error / static_cast<double>(records.size());
   }
-  return std::sqrt(sum) / boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
+  return std::sqrt(sum);
 }
 
 }  // namespace
@@ -46,7 +45,7 @@ RepeatedIdentification identify_each(std::span<const VibrationRecord> records, s
     for (const RecordEstimates& r : result.records) values.push_back(r.estimates[k].value);
     result.parameters.push_back({.name = result.records.front().estimates[k].name,
                                  .statistics = repeatability(schedule, values),
-                                 .expected_deviation = expected_deviation(result.records, k, settings.confidence)});
+                                 .expected_deviation = expected_deviation(result.records, k)});
   }
   return result;
 }

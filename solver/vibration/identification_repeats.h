@@ -23,8 +23,8 @@ struct RecordEstimates {
 struct ParameterRepeatability {
   std::string name;
   Repeatability statistics;
-  /// What the intervals of the single records say that the noise in them makes: root of the mean square of half their
-  /// width, over the normal distribution's quantile. Scatter beyond it is of the sample and the set-up.
+  /// What the noise in the single records makes: root of the mean square of their standard errors. Scatter beyond it is
+  /// of the sample and the set-up.
   double expected_deviation = 0.0;
 };
 

@@ -142,8 +142,7 @@ TEST(MassMaterialProgram, FindsItsOwnParametersAgain) {
   EXPECT_EQ(damping["unit"], "N s/m");
   EXPECT_LT(damping["lower"].get<double>(), damping["estimate"].get<double>());
   EXPECT_NEAR(damping["first_guess"].get<double>(), 40.0, 10.0);
-  // The interval of 95 % is 3.92 standard errors wide, and by Student's t more where few blocks know of a parameter, up
-  // to 25.4 where one does: here the few that pass the resonance of c.
+  // The interval of 95 % is 3.92 standard errors wide, and by Student's t more where few blocks know of a parameter.
   const auto width = [](const json& p) {
     return (p["upper"].get<double>() - p["lower"].get<double>()) / p["standard_error"].get<double>();
   };

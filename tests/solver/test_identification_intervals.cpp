@@ -115,12 +115,36 @@ TEST(IdentificationIntervals, KnowOfNoiseThatIsCorrelated) {
   }
 }
 
+// By the variance of all residuals: the block's own score is zero after the fit.
+TEST(IdentificationIntervals, SayWhereOneBlockAloneKnowsOfAParameter) {
+  const MatrixXd J = sensitivities(1);
+  const Coverage c = coverage(J, 0.0, 100);
+  EXPECT_NEAR(c.stated[2] / exact_errors(J, 0.0)[2], 1.0, 0.05);
+  EXPECT_EQ(c.held[2], 1.0);  // one degree of freedom: 6.5 times as wide
+  const VectorXd e = noise(1, 0.0), x = VectorXd::Zero(3);
+  EXPECT_TRUE(parameter_replicates(x, e, J, equal_blocks(), 10, 0.95, 1).rest_on_one_block);
+  EXPECT_FALSE(parameter_replicates(x, e, sensitivities(2), equal_blocks(), 10, 0.95, 1).rest_on_one_block);
+}
+
+TEST(IdentificationIntervals, OfASingleBlockAreNotOfZeroWidth) {
+  const MatrixXd J = sensitivities(block_count);
+  const VectorXd e = noise(1, 0.0), x = (J.transpose() * J).inverse() * (J.transpose() * e);
+  const std::vector<ResidualBlock> whole{{0, samples}};
+  const auto replicates = parameter_replicates(x, e - J * x, J, whole, 400, 0.95, 1);
+  EXPECT_TRUE(replicates.rest_on_one_block);
+  const VectorXd exact = exact_errors(J, 0.0);
+  for (Index j = 0; j < 3; ++j)
+    EXPECT_NEAR(std::sqrt((replicates.around.row(j).array() - x[j]).square().mean()) / exact[j], 1.0, 0.15);
+}
+
 TEST(IdentificationIntervals, OfAParameterThatNothingKnowsAreWide) {
   MatrixXd J = sensitivities(block_count);
   J.col(2).setZero();
   const VectorXd e = noise(1, 0.0), x = VectorXd::Zero(3);
   const auto replicates = parameter_replicates(x, e, J, equal_blocks(), 100, 0.95, 1);
-  EXPECT_TRUE(replicates.widened.topRows(2).allFinite());
+  EXPECT_TRUE(replicates.rest_on_one_block);
+  EXPECT_TRUE(replicates.widened.allFinite());
+  EXPECT_GT(replicates.widened.row(2).cwiseAbs().mean(), 1e6);
 }
 
 }  // namespace
