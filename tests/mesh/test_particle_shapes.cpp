@@ -158,7 +158,7 @@ TEST(Remeshing, RejectsWhatIsNoBody) {
   EXPECT_THAT(message(surface), HasSubstr("intersect"));
   surface = cube();
   const TriangleSurface other = cube();
-  for (const Vector& x : other.points) surface.points.push_back(x + Vector(5, 0, 0));
+  for (const Vector& x : other.points) surface.points.emplace_back(x + Vector(5, 0, 0));
   for (const Triangle& t : other.triangles) surface.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
   EXPECT_THAT(message(surface), HasSubstr("2 separate pieces"));
 }

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 constexpr double micro = 1e-6;
 
-Particle bead(Vector centre, Index subdivision, Index n_layers) {
+Particle bead(const Vector& centre, Index subdivision, Index n_layers) {
   Particle particle;
   particle.centre = centre * micro;
   particle.radius = 100.0 * micro;
@@ -110,7 +110,7 @@ double unlikeness_of_x_and_y(double angle) {
   const double radius = settings.particles[0].radius;
   std::vector<Vector> on_bead;
   for (const Vector& x : mesh.points)
-    if (std::abs(x.norm() - radius) < 1e-9 * radius) on_bead.push_back(x / radius);
+    if (std::abs(x.norm() - radius) < 1e-9 * radius) on_bead.emplace_back(x / radius);
   EXPECT_EQ(on_bead.size(), 10u * 4u * 4u + 2u);
   double worst = 0.0;
   for (const Vector& x : on_bead) {

@@ -21,7 +21,7 @@ FractureState awkward_state() {
   s.step = 17;
   s.load = 1.0 / 3.0;
   s.increment = 0.1;
-  for (int i = 0; i < 5; ++i) s.displacement.push_back(Vector(std::sin(i), -0.0, 1e-310));
+  for (int i = 0; i < 5; ++i) s.displacement.emplace_back(std::sin(i), -0.0, 1e-310);
   s.damage = CellField<double>(std::vector<double>{0.1, 0.2, std::nextafter(1.0, 0.0)});
   s.driving_energy = CellField<double>(std::vector<double>{1e300, 0.0, -0.0});
   s.closure = CellField<double>({1.0, 1.0 / 7.0, 0.0});

@@ -43,7 +43,7 @@ FitProblem decay_problem(double noise, unsigned seed, int n = 50) {
 }
 
 /// y = p0 + p1 x, a linear model with known answers.
-FitProblem line_problem(std::vector<double> x, std::vector<double> y) {
+FitProblem line_problem(const std::vector<double>& x, const std::vector<double>& y) {
   return {.parameters = {{.name = "p0", .unit = "1", .first = 1.0}, {.name = "p1", .unit = "1", .first = 1.0}},
           .residuals = [=](std::span<const double> p) -> std::optional<std::vector<double>> {
             std::vector<double> r;

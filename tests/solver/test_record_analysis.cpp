@@ -61,8 +61,8 @@ TEST(RecordAnalysis, BoundsHoldTheTruth) {
   int held_H = 0, held_coherence = 0, n = 0;
   for (int trial = 0; trial < trials; ++trial) {
     VibrationRecord r{.name = "r", .rate = 100.0, .base = {}, .relative = {}, .band_low = 5.0, .band_high = 40.0};
-    r.base = normal_numbers(8000, static_cast<std::uint64_t>(2 * trial + 1));
-    r.relative = 2.0 * r.base + normal_numbers(8000, static_cast<std::uint64_t>(2 * trial + 2));
+    r.base = normal_numbers(8000, 2 * static_cast<std::uint64_t>(trial) + 1);
+    r.relative = 2.0 * r.base + normal_numbers(8000, 2 * static_cast<std::uint64_t>(trial) + 2);
     const RecordAnalysis a = analysed(r, {.segments = {128, 0.5}});
     for (Index k = 8; k < 56; k += 4, ++n) {  // far enough apart to be independent
       held_H += a.H1_bounds.lower[k] <= 2.0 && 2.0 <= a.H1_bounds.upper[k];

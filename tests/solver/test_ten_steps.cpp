@@ -105,8 +105,7 @@ TEST(OutputError, TermsAreInTheOrderOfTheirRatesAtTheEnd) {
   ASSERT_TRUE(found.converged);
   EXPECT_LT(largest_error(found.model, t), 1e-6);
   EXPECT_GT(found.path.front().parameters[2], found.path.front().parameters[4]);  // they did pass
-  for (std::size_t i = 0; i < found.estimates.size(); ++i) {
-    const Estimate& e = found.estimates[i];
+  for (const Estimate& e : found.estimates) {
     EXPECT_LE(e.lower, e.value * (1.0 + 1e-6)) << e.name;
     EXPECT_GE(e.upper, e.value * (1.0 - 1e-6)) << e.name;
   }

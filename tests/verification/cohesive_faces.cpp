@@ -83,15 +83,15 @@ TEST_P(TwoBlocks, AreTheLawInSeriesWithThem) {
   std::vector<double> opening{0.0}, expected{0.0};
   for (const double x : {0.001, 0.05, 0.3, 0.8, 1.5}) {
     opening.push_back(x * length), expected.push_back(traction(x * length));
-    path.push_back((x * length + compliance * expected.back()) * Vector::UnitX());
+    path.emplace_back((x * length + compliance * expected.back()) * Vector::UnitX());
   }
   for (const double part : {0.5, 1e-9}) {  // unload to the origin
     opening.push_back(part * opening[5]), expected.push_back(part * expected[5]);
-    path.push_back(part * path[5]);
+    path.emplace_back(part * path[5]);
   }
   const double pressure = 1e5;  // close
   opening.push_back(-pressure / law.initial_stiffness(glued)), expected.push_back(-pressure);
-  path.push_back((opening.back() - compliance * pressure) * Vector::UnitX());
+  path.emplace_back((opening.back() - compliance * pressure) * Vector::UnitX());
   const std::vector<Point> points = pull(law, path);
   ASSERT_EQ(points.size(), path.size());
   double of_traction = 0.0, of_separation = 0.0;  // largest errors
@@ -210,7 +210,7 @@ TEST_P(BlocksBeside, AreInSeriesWithTheFace) {
   const std::vector<double> opening = openings(law), traction = tractions(law, opening);
   std::vector<Vector> path;
   for (std::size_t i = 0; i < opening.size(); ++i)
-    path.push_back((opening[i] + 2.0 * edge * traction[i] / beside.modulus) * Vector::UnitX());
+    path.emplace_back((opening[i] + 2.0 * edge * traction[i] / beside.modulus) * Vector::UnitX());
   FractureModel model = model_of(beside, mesh, law);
   model.boundary = drawn(mesh, beside, path);
   ASSERT_FALSE(model.interfaces[0].faces.empty());
@@ -285,7 +285,7 @@ TEST_P(BlocksWithAHistory, AreInSeriesWithTheFace) {
     EXPECT_GT(strain[2], 1.05 * traction[2] / elasticity.constrained_modulus());
     std::vector<Vector> path;
     for (std::size_t i = 0; i < opening.size(); ++i)
-      path.push_back((opening[i] + 2.0 * edge * strain[i]) * Vector::UnitX());
+      path.emplace_back((opening[i] + 2.0 * edge * strain[i]) * Vector::UnitX());
     FractureModel model = model_of(GetParam(), mesh, law);
     for (RegionModel& region : model.regions) region.material = material;
     model.boundary = drawn(mesh, GetParam(), path);

@@ -94,7 +94,7 @@ const TractionSeparationLaw& linear() { return find_by_name(traction_separation_
 
 TEST(BeamsWithCohesiveFaces, PeelAsTheCorrectedBeam) {
   const CorrectedBeam beam;
-  constexpr double width = 1e-3, h = beam.height, slit = 30e-3, Gc = 281.0;
+  constexpr double width = 1e-3, h = CorrectedBeam::height, slit = 30e-3, Gc = 281.0;
   BoxHexesSettings box;
   box.axes[0] = {{29e-3, 55, 1.0}, {9e-3, 36, 1.0}, {22e-3, 15, 10.0}};
   box.axes[1] = {{2.0 * h, 12, 1.0}};
@@ -109,7 +109,8 @@ TEST(BeamsWithCohesiveFaces, PeelAsTheCorrectedBeam) {
                            .compliance = [&](double a) { return beam.peel_compliance(a); },
                            .release = [&](double a) { return beam.peel_release(a); }};
   const double end = 1.4 * crack.displacement(slit);
-  FractureModel model = elastic_model({from_young_poisson(beam.E, beam.nu)}, {plane_on("zmin"), plane_on("zmax")});
+  FractureModel model =
+      elastic_model({from_young_poisson(CorrectedBeam::E, CorrectedBeam::nu)}, {plane_on("zmin"), plane_on("zmax")});
   for (const double side : {1.0, -1.0})
     model.boundary.push_back(moved(side > 0.0 ? "upper" : "lower", {false, true, false},
                                    [=](const Vector&, double t) { return Vector(0.0, 0.5 * side * end * t, 0.0); }));
@@ -159,7 +160,7 @@ struct ThreePoints {
 // The arms touch along the crack: an interface that has nearly no strength, and resists compression.
 TEST(BeamsWithCohesiveFaces, ShearAsTheCorrectedBeam) {
   const CorrectedBeam beam;
-  constexpr double h = beam.height, L = ThreePoints::half_span, from = 34.95e-3, Gc = 700.0;
+  constexpr double h = CorrectedBeam::height, L = ThreePoints::half_span, from = 34.95e-3, Gc = 700.0;
   const Mesh mesh = make_box_hexes(ThreePoints::box());
   const GrowingCrack crack{.from = from,
                            .to = 46e-3,
@@ -193,7 +194,7 @@ TEST(BeamsWithCohesiveFaces, ShearAsTheCorrectedBeam) {
 // the mode.
 TEST(BeamsWithCohesiveFaces, BendOnOneLegAsTheCorrectedBeam) {
   const CorrectedBeam beam;
-  constexpr double h = beam.height, L = ThreePoints::half_span, from = 29.75e-3, strength_of_glue = 150e6;
+  constexpr double h = CorrectedBeam::height, L = ThreePoints::half_span, from = 29.75e-3, strength_of_glue = 150e6;
   constexpr double peel_Gc = 281.0, shear_Gc = 700.0, eta = 2.0;
   const auto peel_release = [&](double a) { return beam.peel_release(a) / 16.0; };
   const auto release = [&](double a) { return peel_release(a) + beam.shear_release(a); };

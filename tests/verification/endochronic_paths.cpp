@@ -125,8 +125,7 @@ TEST(EndochronicPaths, TableOfPathAndRateAtAConstantRate) {
   law.hardening.with_path =
       make_factor(hardening_law("table_with_rate"),
                   rate_table_parameters({0.0, 1.0}, {zeta_rate / 7.0, 7.0 * zeta_rate}, {1.0, 21.0, 1.4, 41.4}));
-  const auto [C, alpha] = law.kernel[0];
-  const double f_0 = 1.2, b = 30.0;
+  const double C = law.kernel[0].C, alpha = law.kernel[0].alpha, f_0 = 1.2, b = 30.0;
   const Path sigma = [&](double t) {
     const double F = f_0 + b * zeta_rate * t;
     return std::sqrt(6.0) * C / (alpha + b) * (F - f_0 * std::pow(F / f_0, -alpha / b));

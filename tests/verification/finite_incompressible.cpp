@@ -58,7 +58,7 @@ struct Errors {
 
 Errors solve_pressed(const Mesh& mesh, double nu) {
   const Pressed exact(nu);
-  const auto material = make_hyperelastic("neo_hookean", {.elasticity = {.lambda = exact.lambda, .mu = exact.mu}});
+  const auto material = make_hyperelastic("neo_hookean", {.elasticity = {.lambda = exact.lambda, .mu = Pressed::mu}});
   std::vector<BoundaryCondition> boundary;
   for (const Patch& patch : mesh.patches)  // the top is free along its normal, which fixes the pressure
     boundary.push_back(moved(patch.name, {true, true, patch.name != "zmax"},

@@ -34,13 +34,14 @@ std::vector<BoundaryCondition> exact_boundary(const Mesh& mesh, const LinearCase
   std::vector<BoundaryCondition> all;
   for (const auto& [name, mask] : masks) {
     const Vector traction = exact.stress() * mesh.face_area[mesh.patch(name).first_face].normalized();
-    all.push_back(
-        {.patch = name, .displacement_prescribed = mask, .value = [exact, traction, mask](const Vector& x, double) {
-           Vector value = exact.displacement(x);
-           for (int i = 0; i < 3; ++i)
-             if (!mask[as_size(i)]) value[i] = traction[i];
-           return value;
-         }});
+    all.push_back({.patch = name,
+                   .displacement_prescribed = mask,
+                   .value = [exact, traction, mask = mask](const Vector& x, double) {
+                     Vector value = exact.displacement(x);
+                     for (int i = 0; i < 3; ++i)
+                       if (!mask[as_size(i)]) value[i] = traction[i];
+                     return value;
+                   }});
   }
   return all;
 }
