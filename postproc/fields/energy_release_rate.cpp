@@ -69,13 +69,15 @@ Elastic elastic_in(const Mesh& mesh, const OutputFields& output, Index c) {
     const Tensor& sigma = output.stress[c];
     return {sigma, 0.5 * sigma.cwiseProduct(output.strain[c]).sum()};
   }
-  Elastic elastic{.energy = output.energy_density[c]};
+  Tensor moment = Tensor::Zero(),
+         closure = Tensor::Zero();  // the latter the volume's unit matrix where faces are plane
   for (const Index f : mesh.faces_of_cell(c)) {
-    const double area = mesh.owner[f] == c ? mesh.face_area[f].norm() : -mesh.face_area[f].norm();
-    elastic.stress += area * output.traction[f] * (mesh.face_centre[f] - mesh.cell_centre[c]).transpose();
+    const double sign = mesh.owner[f] == c ? 1.0 : -1.0;
+    const Vector lever = sign * (mesh.face_centre[f] - mesh.cell_centre[c]);
+    moment += mesh.face_area[f].norm() * output.traction[f] * lever.transpose();
+    closure += mesh.face_area[f] * lever.transpose();
   }
-  elastic.stress /= mesh.cell_volume[c];
-  return elastic;
+  return {moment * closure.inverse(), output.energy_density[c]};
 }
 
 // The elasticities of the ring's cells above and below the crack, if each side has one.
