@@ -66,7 +66,7 @@ void set_layers(const Layers& layers, Particle& particle) {
 }
 
 Particle read_sphere(const ConfigTable& table, const MeshSurroundings& around, std::optional<double>& ell) {
-  table.with_keys({"centre", "diameter", "region", "subdivisions", "surface_size", "angle", "layers"});
+  table.with_keys({"centre", "diameter", "region", "surface", "subdivisions", "surface_size", "angle", "layers"});
   Particle particle;
   particle.radius = 0.5 * table.quantity("diameter", dimension::length, range::positive);
   read_surface_size(table, around, particle, ell);
