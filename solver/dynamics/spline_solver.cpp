@@ -110,8 +110,7 @@ class SplineSpace {
 
   // Nearly incompressible cells have a pressure for the rest of lambda.
   CellField<IsotropicElasticity> moduli() const {
-    CellField<IsotropicElasticity> moduli(as_size(mesh_.n_cells()));
-    for (Index c = 0; c < mesh_.n_cells(); ++c) moduli[c] = unknowns_.sound[as_size(unknowns_.zone[c])];
+    CellField<IsotropicElasticity> moduli = unknowns_.sound_moduli();
     for (const Index c : unknowns_.pressure_cells)
       moduli[c].lambda = std::min(moduli[c].lambda, CellPressure::moderate_lambda * moduli[c].mu);
     return moduli;

@@ -26,9 +26,7 @@ Eigen::VectorXd masses(const Mesh& mesh, const Unknowns& unknowns, const std::ve
 // Of a momentum balance or its solver.
 template <class Balance>
 void set_stiffness(const Mesh& mesh, const Unknowns& unknowns, Balance& balance) {
-  CellField<IsotropicElasticity> moduli(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) moduli[c] = unknowns.sound[as_size(unknowns.zone[c])];
-  balance.set_moduli(moduli, CellField<double>(as_size(mesh.n_cells()), 1.0));
+  balance.set_moduli(unknowns.sound_moduli(), CellField<double>(as_size(mesh.n_cells()), 1.0));
 }
 
 bool is_factored(const Mesh& mesh, const VibrationSettings& settings) {

@@ -93,11 +93,8 @@ std::vector<Vector> BoxInLoadCases::forces_on_sides(std::size_t k) const {
 }
 
 std::vector<Vector> BoxInLoadCases::first_guess(std::size_t k) const {
-  std::vector<Vector> u(as_size(unknowns_.n_unknowns()), Vector::Zero());
-  if (loading_.by_traction) return u;
-  for (Index i = 0; i < unknowns_.n_nodes(); ++i)
-    u[as_size(i)] = unknowns_.motion.displacement(unknowns_.place(mesh_, i), static_cast<double>(k));
-  return u;
+  if (loading_.by_traction) return std::vector<Vector>(as_size(unknowns_.n_unknowns()), Vector::Zero());
+  return unknowns_.moved_with_box(mesh_, static_cast<double>(k));
 }
 
 LoadCase BoxInLoadCases::solve(std::size_t k) {

@@ -27,9 +27,7 @@ Unknowns with_prescribed_strains(const Unknowns& unknowns) {
 }
 
 void make_sound(const Mesh& mesh, const Unknowns& unknowns, MomentumSolver& solver) {
-  CellField<IsotropicElasticity> moduli(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) moduli[c] = unknowns.sound[as_size(unknowns.zone[c])];
-  solver.set_moduli(moduli, CellField<double>(as_size(mesh.n_cells()), 1.0));
+  solver.set_moduli(unknowns.sound_moduli(), CellField<double>(as_size(mesh.n_cells()), 1.0));
   if (unknowns.split_faces.empty()) return;
   std::vector<FaceSpring> springs;
   std::vector<double> bond;
@@ -51,9 +49,7 @@ void FreeStrainModes::find_modes() {
   const std::size_t n_modes = unknowns_.motion.free_strains.size();
   for (std::size_t k = 0; k < n_modes; ++k) {
     const auto load = static_cast<double>(k);
-    std::vector<Vector> u(as_size(prescribed.n_unknowns()), Vector::Zero());
-    for (Index i = 0; i < prescribed.n_nodes(); ++i)
-      u[as_size(i)] = prescribed.motion.displacement(prescribed.place(mesh_, i), load);
+    std::vector<Vector> u = prescribed.moved_with_box(mesh_, load);
     solver.solve(load, {.ceiling = precision, .floor = precision, .most_iterations = 200}, u);
     std::vector<Single>& mode = modes_.emplace_back(as_size(unknowns_.n_unknowns()), Single::Zero());
     std::ranges::transform(u, mode.begin(), [](const Vector& v) { return v.cast<float>(); });

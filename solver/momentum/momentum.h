@@ -41,8 +41,8 @@
 // the two, and its forces act on that node: t_P + t_N = 0 as on an interface, whose sides lie at different places.
 //
 // Free strains E of a box move its held faces by E (x - x_0), x_0 its centre, and the images of its nodes by
-// E (x_image - x_node); the work of
-// the forces on these moves, by E, is the mean stress times the volume: that is their equation.
+// E (x_image - x_node); the work of the forces on these moves, by E, is the mean stress times the volume: that is their
+// equation.
 //
 // Finite strain (total Lagrangian; momentum_finite.cpp): normals N, areas and distances are those of the reference
 // mesh, sigma is the first Piola-Kirchhoff stress P(H) at the displacement gradients H of the same least squares, and

@@ -192,6 +192,18 @@ Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   return unknowns;
 }
 
+CellField<IsotropicElasticity> Unknowns::sound_moduli() const {
+  CellField<IsotropicElasticity> moduli(as_size(n_cells));
+  for (Index c = 0; c < n_cells; ++c) moduli[c] = sound[as_size(zone[c])];
+  return moduli;
+}
+
+std::vector<Vector> Unknowns::moved_with_box(const Mesh& mesh, double t) const {
+  std::vector<Vector> u(as_size(n_unknowns()), Vector::Zero());
+  for (Index i = 0; i < n_nodes(); ++i) u[as_size(i)] = motion.displacement(place(mesh, i), t);
+  return u;
+}
+
 Unknowns place_unknowns(const Mesh& mesh, const ElasticBody& body) {
   Unknowns unknowns = place_floating_unknowns(mesh, body);
   require_held(mesh, unknowns);

@@ -108,6 +108,10 @@ struct Unknowns {
       sum += u[as_size(first_strain()) + k][0] * motion.free_strains[k].direction;
     return sum;
   }
+  /// Elasticity of each cell's zone, without damage.
+  CellField<IsotropicElasticity> sound_moduli() const;
+  /// All nodes where the prescribed motion of the box has them at the load parameter t, its free strains zero.
+  std::vector<Vector> moved_with_box(const Mesh& mesh, double t) const;
 };
 
 /// Throws InputError for a condition on an unknown patch, two conditions on one patch, a symmetry patch that is not
