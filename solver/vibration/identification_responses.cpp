@@ -131,8 +131,8 @@ std::vector<double> Responses::misfits(const VectorXd& r) const {
   return result;
 }
 
-std::vector<std::pair<Eigen::Index, Eigen::Index>> Responses::blocks() const {
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> result;
+std::vector<ResidualBlock> Responses::blocks() const {
+  std::vector<ResidualBlock> result;
   for (const Output& out : outputs_) {
     const Eigen::Index n = out.measured.size();
     // Some periods, and what is left of the noise within the tracking width.

@@ -4,6 +4,7 @@
 
 #include "physics/mass_material.h"
 #include "solver/vibration/identification_conditioning.h"
+#include "solver/vibration/identification_intervals.h"
 #include "solver/vibration/vibration_excitation.h"
 #include "solver/vibration/vibration_record.h"
 
@@ -37,7 +38,7 @@ class Responses {
   /// Norm of the residuals of each record over that of its measured output.
   std::vector<double> misfits(const Eigen::VectorXd& residuals) const;
   /// First and last residual of blocks, within a record each, longer than what residuals have in common.
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> blocks() const;
+  std::vector<ResidualBlock> blocks() const;
 
  private:
   struct Output {

@@ -81,7 +81,6 @@ ScheduledRun read_run(const ConfigTable& table, double band) {
 
 }  // namespace
 
-/// As ISO 8601 has it, so that dates sort.
 std::string read_date(const ConfigValue& value) {
   int year = 0, month = 0, day = 0, length = 0;
   std::string text = value.string();
