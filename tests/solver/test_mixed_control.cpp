@@ -165,16 +165,18 @@ HistoryResult held_stress(const EndochronicLaw& law, double stress, double time,
   return run_history(law, {loaded, kept});
 }
 
+double strain_crept(const EndochronicLaw& law, double stress, int increments) {
+  const HistoryResult result = held_stress(law, stress, 1000.0, increments);
+  EXPECT_TRUE(result.converged) << result.failure;
+  return result.points.back().state.strain[0];
+}
+
 // 60 GPa / 3000: a single term. With so few increments plastic paths are longer than 0.1.
 TEST(EndochronicControl, CreepsInLongIncrementsToo) {
   EndochronicLaw law = one_term_law();
   law.kernel = {{60e9, 3000.0}};
   law.hardening.with_rate = logarithmic_rate(0.1, 1e-4);
-  const auto crept = [&](int increments) {
-    const HistoryResult result = held_stress(law, 58e6, 1000.0, increments);
-    EXPECT_TRUE(result.converged) << result.failure;
-    return result.points.back().state.strain[0];
-  };
+  const auto crept = [&](int increments) { return strain_crept(law, 58e6, increments); };
   const double fine = crept(1000);
   EXPECT_GT(fine, 0.4);
   EXPECT_NEAR(crept(4), fine, 0.01 * fine);
@@ -186,11 +188,7 @@ TEST(EndochronicControl, CreepsUnderATableOfPathAndRate) {
   law.hardening.with_path =
       make_factor(hardening_law("table_with_rate"),
                   rate_table_parameters({0.0, 0.2}, {1e-5, 1e-3, 1.0}, {1.0, 1.1, 1.3, 1.4, 1.6, 1.7}));
-  const auto crept = [&](int increments) {
-    const HistoryResult result = held_stress(law, 60e6, 1000.0, increments);
-    EXPECT_TRUE(result.converged) << result.failure;
-    return result.points.back().state.strain[0];
-  };
+  const auto crept = [&](int increments) { return strain_crept(law, 60e6, increments); };
   const double fine = crept(1000);
   EXPECT_GT(fine, 0.1);
   EXPECT_NEAR(crept(1), fine, 0.05 * fine);
