@@ -74,6 +74,7 @@ TEST(Bars, At1ReleasesItsToughness) {
 
 TEST(Bars, At2ReleasesItsToughness) {
   std::vector<BarPoint> law;
+  law.reserve(4000);
   for (int i = 0; i < 4000; ++i) law.push_back(at2_softening(E, Gc, ell, 0.25 * std::pow(1.0 - i / 4000.0, 2)));
   EXPECT_NEAR(area(law, at2_strength(E, Gc, ell)) / Gc, 1.0, 1e-4);
 }

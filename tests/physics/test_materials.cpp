@@ -31,7 +31,7 @@ class Point {
 
   MaterialResponse go_to(const Tensor& H) {
     std::vector<double> next(history_.size());
-    const MaterialResponse response = material_.update({H_, H, 1.0, history_}, next);
+    MaterialResponse response = material_.update({H_, H, 1.0, history_}, next);
     EXPECT_TRUE(response.solved);
     H_ = H;
     history_ = next;

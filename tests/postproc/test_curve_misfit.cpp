@@ -55,6 +55,7 @@ TEST(CurveMisfit, SetUpErrorsExplainASetUp) {
   const std::vector<double> residuals = residuals_of(model, points).value();
   EXPECT_LT(rms_left_by(residuals, set_up_errors(model, points)), 0.01 * rms_left_by(residuals, {}));
   std::vector<double> other;
+  other.reserve(x.size());
   for (const double u : x) other.push_back(std::sin(40.0 * u));
   EXPECT_GT(rms_left_by(other, set_up_errors(model, points)), 0.9 * rms_left_by(other, {}));
 }

@@ -32,6 +32,7 @@ TEST(MeasuredCurve, NearestDisplacementsAreThoseOfTheMinimaxFormula) {
     std::mt19937 engine(seed);
     std::normal_distribution<double> noise(0.0, 1.5);
     std::vector<double> x;
+    x.reserve(40);
     for (int i = 0; i < 40; ++i) x.push_back(0.5 * i + noise(engine));
     const std::vector<double> found = nearest_not_falling(x);
     for (std::size_t i = 0; i < x.size(); ++i) {

@@ -21,6 +21,7 @@ using testing::HasSubstr;
 
 std::vector<double> abscissas(int n) {
   std::vector<double> x;
+  x.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) x.push_back(i / (n - 1.0));
   return x;
 }
@@ -33,6 +34,7 @@ FitProblem decay_problem(double noise, unsigned seed, int n = 50) {
   std::normal_distribution<double> normal(0.0, 1.0);
   std::vector<double> data;
   const std::vector<double> x = abscissas(n), truth{3.0, 2.0};
+  data.reserve(x.size());
   for (const double xi : x) data.push_back(decay(xi, truth) + noise * normal(engine));
   return {.parameters = {{.name = "a", .unit = "1", .first = 1.0}, {.name = "b", .unit = "1", .first = 5.0}},
           .residuals = [=](std::span<const double> p) -> std::optional<std::vector<double>> {
@@ -219,6 +221,7 @@ FitProblem wave_problem(unsigned seed, Asked* asked = nullptr, int* evaluations 
   std::normal_distribution<double> normal(0.0, 1.0);
   const std::vector<double> x = abscissas(60);
   std::vector<double> data;
+  data.reserve(x.size());
   for (const double xi : x) data.push_back(2.0 * std::sin(22.0 * xi) + 0.05 * normal(engine));
   return {.parameters = {{.name = "a", .unit = "1", .first = 1.9, .lower = 0.1, .upper = 10.0, .log_scale = true},
                          {.name = "b", .unit = "1", .first = 14.0, .lower = 5.0, .upper = 50.0, .log_scale = true}},

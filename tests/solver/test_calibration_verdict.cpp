@@ -72,6 +72,7 @@ TEST(Verdict, FindsCorrelatedResidualsInMostFits) {
 // Against its formula, written out, and the closed form of the distribution of 5 degrees of freedom.
 TEST(Verdict, PortmanteauIsThatOfLjungAndBox) {
   std::vector<double> x;
+  x.reserve(40);
   for (int i = 0; i < 40; ++i) x.push_back(std::sin(0.7 * i) + 0.5 * std::cos(2.1 * i));
   double all = 0.0, Q = 0.0;
   for (const double value : x) all += value * value;

@@ -44,6 +44,7 @@ void expect_exact(const Mesh& mesh, const CellField<Index>& zone, const std::vec
   for (const CellField<double>& g : g_history) gradient.update(g);
   const std::vector<Vector> u = sample(mesh, nodes, field);
   std::vector<double> component;
+  component.reserve(u.size());
   for (const Vector& v : u) component.push_back(v[1]);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     ASSERT_LE((gradient.of(u.data(), c) - field.slope).norm(), 1e-8) << "cell " << c;

@@ -31,6 +31,7 @@ double slope(const Repeatability& r, const std::string& name) {
 TEST(Repeatability, FindsSlopesWithoutScatter) {
   const auto runs = schedule({7.0, 14.0, 35.0});
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const ScheduledRun& r : runs) values.push_back(100.0 - 3.0 * r.level / g0 + 0.2 * r.age / day + 0.1 * r.run);
   const Repeatability found = repeatability(runs, values);
   EXPECT_NEAR(slope(found, "per_g0"), -3.0, 1e-10);

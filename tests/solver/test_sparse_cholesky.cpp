@@ -129,6 +129,7 @@ TEST(SparseCholesky, IsTheSameFromManyThreadsAtOnce) {
   const std::vector<Vector> b = random_vectors(400);
   std::vector<std::vector<Vector>> answers(4);
   std::vector<std::thread> threads;
+  threads.reserve(answers.size());
   for (auto& answer : answers)
     threads.emplace_back([&a, &b, &answer] {
       SparseCholesky cholesky;
