@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Both, UniformDamage, testing::Values("periodic", "unifo
 TEST(BandAcrossABox, IsThatOfABarBetweenItsEnds) {
   const double ell = 1e-4, length = 1e-3, end = 1.3 * std::sqrt(3.0 * Gc / (8.0 * ell * E));
   Mesh mesh = block(2, length, 41);
-  mesh.region_names.push_back("weak");
+  mesh.region_names.emplace_back("weak");
   for (Index c = 0; c < mesh.n_cells(); ++c) mesh.region[c] = std::abs(mesh.cell_centre[c].z() - 5e-4) < 1e-5 ? 1 : 0;
   FractureModel bar = breakable("AT1", ell, 2);
   bar.regions[1].Gc = 0.9 * Gc;

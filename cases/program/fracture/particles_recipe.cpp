@@ -226,7 +226,7 @@ void read_packed_shapes(const ConfigTable& table, const std::filesystem::path& c
     if (table.has(key)) throw table.at(key).error("it belongs to spheres and cannot be combined with [[mesh.shapes]]");
   for (const ConfigTable& shape : table.tables("shapes")) {
     settings.shapes.emplace_back(read_packed_shape(shape, case_directory));
-    files.push_back(settings.shapes.back().given.name);
+    files.emplace_back(settings.shapes.back().given.name);
   }
 }
 
