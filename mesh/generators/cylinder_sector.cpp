@@ -12,27 +12,39 @@
 namespace pfdm {
 namespace {
 
-double outer_radius(const CylinderSectorSettings& settings) {
-  return axis_nodes(settings.inner_radius, settings.radius, "the sector along its radius").back();
-}
+// Where a point of the flat grid comes to lie.
+class Rolling {
+ public:
+  explicit Rolling(const CylinderSectorSettings& settings)
+      : outer_(axis_nodes(settings.inner_radius, settings.radius, "the sector along its radius").back()),
+        bottom_(settings.bottom),
+        height_(axis_nodes(0.0, settings.height, "the sector along its height").back()),
+        sphere_(settings.upper_sphere) {
+    if (sphere_ != 0.0 && !(sphere_ > outer_))
+      throw InputError(
+          fmt::format("the sphere of the sector's upper end has a radius of {:g} m; it must be larger than that of the "
+                      "sector, {:g} m",
+                      sphere_, outer_));
+  }
 
-void check(const CylinderSectorSettings& settings) {
-  check_sector_azimuth(settings.azimuth);
-  if (!(settings.inner_radius >= 0.0))
-    throw InputError(
-        fmt::format("the sector's inner radius is {:g} m; it must be zero or positive", settings.inner_radius));
-  const double outer = outer_radius(settings);
-  axis_nodes(settings.bottom, settings.height, "the sector along its height");
-  if (settings.upper_sphere != 0.0 && !(settings.upper_sphere > outer))
-    throw InputError(
-        fmt::format("the sphere of the sector's upper end has a radius of {:g} m; it must be larger than that of the "
-                    "sector, {:g} m",
-                    settings.upper_sphere, outer));
-}
+  Vector operator()(const Vector& flat) const {
+    const double r = flat.x(), phi = flat.y() / outer_;
+    return {r * std::cos(phi), r * std::sin(phi), bottom_ + (flat.z() - bottom_) * stretch(r)};
+  }
+
+  double outer_radius() const { return outer_; }
+
+ private:
+  double stretch(double r) const {
+    return sphere_ > 0.0 ? 1.0 + r * r / (sphere_ + std::sqrt(sphere_ * sphere_ - r * r)) / height_ : 1.0;
+  }
+
+  double outer_, bottom_, height_, sphere_;
+};
 
 // The grid before it is rolled up: x is the radius, y the arc at the outer radius, z the height.
-BoxHexesSettings flat_grid(const CylinderSectorSettings& settings) {
-  const double arc = settings.azimuth * outer_radius(settings);
+BoxHexesSettings flat_grid(const CylinderSectorSettings& settings, double outer_radius) {
+  const double arc = settings.azimuth * outer_radius;
   const auto flat = [](const std::vector<SectorPart>& parts, double y, auto kind) {
     std::vector<decltype(kind)> boxes;
     for (const SectorPart& p : parts)
@@ -48,28 +60,6 @@ BoxHexesSettings flat_grid(const CylinderSectorSettings& settings) {
           .patches = flat(settings.patches, 0.25 * arc, SurfacePart{}),  // none of front and back
           .sides = {"inner", "outer", "front", "back", "bottom", "top"}};
 }
-
-// Where a point of the flat grid comes to lie.
-class Rolling {
- public:
-  explicit Rolling(const CylinderSectorSettings& settings)
-      : outer_(outer_radius(settings)),
-        bottom_(settings.bottom),
-        height_(axis_nodes(0.0, settings.height, "the sector along its height").back()),
-        sphere_(settings.upper_sphere) {}
-
-  Vector operator()(const Vector& flat) const {
-    const double r = flat.x(), phi = flat.y() / outer_;
-    return {r * std::cos(phi), r * std::sin(phi), bottom_ + (flat.z() - bottom_) * stretch(r)};
-  }
-
- private:
-  double stretch(double r) const {
-    return sphere_ > 0.0 ? 1.0 + r * r / (sphere_ + std::sqrt(sphere_ * sphere_ - r * r)) / height_ : 1.0;
-  }
-
-  double outer_, bottom_, height_, sphere_;
-};
 
 // Rolls the flat grid up. Of a cell on the axis the corners 3 and 7 fall on 0 and 4.
 class RolledGrid {
@@ -145,9 +135,10 @@ std::vector<PatchRule> RolledGrid::patches() const {
 }  // namespace
 
 Mesh make_cylinder_sector(const CylinderSectorSettings& settings) {
-  check(settings);
-  const Mesh flat = make_box_hexes(flat_grid(settings));
-  return RolledGrid(flat, Rolling(settings)).mesh();
+  check_sector(settings.azimuth, settings.inner_radius);
+  const Rolling rolled(settings);
+  const Mesh flat = make_box_hexes(flat_grid(settings, rolled.outer_radius()));
+  return RolledGrid(flat, rolled).mesh();
 }
 
 }  // namespace pfdm

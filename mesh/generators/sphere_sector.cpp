@@ -17,10 +17,7 @@ constexpr double pi = std::numbers::pi;
 class SectorGrid {
  public:
   explicit SectorGrid(const SphereSectorSettings& settings) : half_azimuth_(0.5 * settings.azimuth) {
-    check_sector_azimuth(settings.azimuth);
-    if (!(settings.inner_radius >= 0.0))
-      throw InputError(
-          fmt::format("the sector's inner radius is {:g} m; it must be zero or positive", settings.inner_radius));
+    check_sector(settings.azimuth, settings.inner_radius);
     std::vector<AxisBlock> radial;
     for (const Shell& shell : settings.shells) radial.push_back(shell.radial);
     radii_ = axis_nodes(settings.inner_radius, radial, "the sector along its radius");

@@ -125,8 +125,7 @@ MeshRecipe read_sphere_sector(const ConfigTable& table, const MeshSurroundings&)
 
 // Two lengths in ascending order; equal ones are those of a line.
 std::array<double, 2> read_extent(const ConfigValue& value) {
-  const std::vector<ConfigValue> ends = value.list();
-  if (ends.size() != 2) throw value.error("expected two lengths, [from, to]");
+  const std::vector<ConfigValue> ends = value.list(2);
   const std::array<double, 2> extent{ends[0].quantity(dimension::length), ends[1].quantity(dimension::length)};
   if (extent[0] > extent[1]) throw value.error("the first length must not be larger than the second one");
   return extent;
