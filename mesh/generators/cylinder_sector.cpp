@@ -47,6 +47,7 @@ BoxHexesSettings flat_grid(const CylinderSectorSettings& settings, double outer_
   const double arc = settings.azimuth * outer_radius;
   const auto flat = [](const std::vector<SectorPart>& parts, double y, auto kind) {
     std::vector<decltype(kind)> boxes;
+    boxes.reserve(parts.size());
     for (const SectorPart& p : parts)
       boxes.push_back({p.name, {p.inner_radius, -y, p.bottom}, {p.outer_radius, y, p.top}});
     return boxes;
