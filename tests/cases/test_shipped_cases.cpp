@@ -1,7 +1,9 @@
 // Every case that ships can be read; meshes are made by the cases' own runs.
 
+#include "cases/program/fracture/fracture_case.h"
 #include "cases/program/input/case_file.h"
 #include "cases/program/kinds.h"
+#include "postproc/fields/checkpoint.h"
 #include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 
@@ -93,6 +95,41 @@ TEST(ShippedCases, BeadInRubberDebondsAsItsReadmeSays) {
                         curve.column("interface_dissipation_J")[i];
     EXPECT_NEAR(kept / curve.column("external_work_J")[i], i < 15 ? 1.0 : 0.989, 3.5e-3) << "step " << i;
   }
+}
+
+// As it is shipped, through the jump in which a crack begins, in its 32nd step.
+TEST(ShippedCases, DiscOfGlassBreaksInsideAsItsReadmeSays) {
+  const TemporaryCase place("");
+  const std::string disc = PFDM_CASES_DIR "/nine_poker_chip";
+  const Outcome outcome = run({"run", disc, "--output", place.results().string(), "--max-steps", "32", "--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const CsvTable curve = read_csv(place.results() / "force_displacement.csv");
+  ASSERT_EQ(curve.n_rows(), 33u);
+  const auto u = [&](std::size_t i) { return curve.column("displacement_m")[i]; };
+  const auto force = [&](std::size_t i) { return curve.column("force_z_N")[i]; };
+  EXPECT_NEAR(force(1) / u(1), 64.36e6, 0.2e6) << "quadratic elements";
+  EXPECT_NEAR(u(31), 0.556e-6, 1e-9);
+  EXPECT_NEAR(force(30), 34.11, 0.02);  // the peak
+  EXPECT_GT(u(31), 0.533e-6) << "the least that Griffith asks for";
+  EXPECT_LT(curve.column("max_damage")[31], 0.6);
+  EXPECT_GT(curve.column("max_damage")[32], 0.96);
+  EXPECT_NEAR(force(32) / u(32), 42.2e6, 0.5e6);  // of a sharp crack of 2.75 mm
+
+  const nlohmann::json summary = nlohmann::json::parse(content_of(place.results() / "summary.json"));
+  const FractureState state = read_checkpoint(place.results() / "checkpoint.bin", summary["case_hash"]);
+  const CaseFile opened = open_case(disc);
+  const Mesh mesh = read_fracture_case(opened.config.root(), opened.directory).mesh.make();
+  ASSERT_EQ(state.damage.size(), mesh.n_cells());
+  double radius = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    if (state.damage[c] < 0.9) continue;
+    const Vector x = mesh.cell_centre[c];
+    const double thickness = 1e-3 + 18.2e-3 - std::sqrt(18.2e-3 * 18.2e-3 - x.x() * x.x());
+    radius = std::max(radius, x.x());
+    EXPECT_NEAR(x.z() / thickness, 0.66, 0.04);
+  }
+  EXPECT_GT(radius, 2e-3);
+  EXPECT_LT(radius, 3.5e-3);
 }
 
 }  // namespace
