@@ -20,7 +20,7 @@ constexpr double bearable_ratio = 2.0;
 // Composites that fill a box have stiff inclusions, and may be held at points only.
 const LinearSolver& solver_for(const Unknowns& unknowns, const LinearSolver* linear) {
   const LinearSolver& plain = linear != nullptr ? *linear : linear_solvers().front();
-  return unknowns.motion.any() ? with_rigid_modes(plain) : plain;
+  return unknowns.motion.any() || !unknowns.split_faces.empty() ? with_rigid_modes(plain) : plain;
 }
 
 // Secants, as the compact matrix has them: these are never negative.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -15,46 +16,66 @@ namespace pfdm {
 namespace {
 
 constexpr double stiff = 10.0;            // times the least shear modulus
-constexpr double least_stiffness = 1e-3;  // of a rotation, over that modulus and the volume
+constexpr double least_stiffness = 1e-3;  // of a motion, over that modulus and the size
 
 // A motion of some of the nodes, with those of the held components left out.
 using Mode = std::vector<std::pair<Index, Vector>>;
 
+/// Some of the cells, and all nodes that move with them.
+struct ConnectedCells {
+  std::vector<Index> cells, nodes;
+  bool touches_boundary = false;
+};
+
 class RigidModes {
  public:
   RigidModes(const Mesh& mesh, const Unknowns& unknowns) : mesh_(mesh), unknowns_(unknowns) {
+    for (const IsotropicElasticity& c : unknowns_.sound) softest_ = std::min(softest_, c.mu);
     add_inclusions();
+    add_parts();
+    n_local_ = static_cast<Index>(modes_.size());
     constexpr std::size_t point_supports = 3;
-    n_inclusions_ = static_cast<Index>(modes_.size()) / 3;
     if (unknowns.periodic.empty() && unknowns.motion.held.size() == point_supports) add_whole_body();
   }
 
   void build(const MomentumOperator& balance) {
     if (modes_.empty()) return;
-    turn_inclusions(balance);
+    for (Group& group : groups_) move_group(group, balance);
     move_whole_body(balance);
   }
 
-  // With D of the inclusions' rotations, W of the body's motions and C of both, [D C; C^T W] share = R^T r.
+  // With D of the local motions, W of the body's and C of both, [D C; C^T W] share = R^T r.
   void correct(const std::vector<Vector>& r, std::vector<Vector>& z) const {
     if (modes_.empty()) return;
     const Eigen::VectorXd on = projected(r);
     Eigen::VectorXd share(on.size());
-    share.head(3 * n_inclusions_) = by_inclusion(on.head(3 * n_inclusions_));
+    share.head(n_local_) = locally(on.head(n_local_));
     if (n_whole() > 0) {
-      share.tail(n_whole()) = whole_.solve(on.tail(n_whole()) - coupling_.transpose() * share.head(3 * n_inclusions_));
-      share.head(3 * n_inclusions_) -= by_inclusion(coupling_ * share.tail(n_whole()));
+      share.tail(n_whole()) = whole_.solve(on.tail(n_whole()) - coupling_.transpose() * share.head(n_local_));
+      share.head(n_local_) -= locally(coupling_ * share.tail(n_whole()));
     }
     for (std::size_t k = 0; k < modes_.size(); ++k)
       for (const auto& [node, motion] : modes_[k]) z[as_size(node)] += share[static_cast<Eigen::Index>(k)] * motion;
   }
 
  private:
-  Index n_whole() const { return static_cast<Index>(modes_.size()) - 3 * n_inclusions_; }
+  // Members that move in the same n_motions ways, one after the other in the list of modes. What one of them does to
+  // another is small beside what it does to itself (as many iterations as with the whole matrix).
+  struct Group {
+    Index first_mode = 0, n_motions = 0;
+    std::vector<double> length{};         // of each member
+    std::vector<Eigen::MatrixXd> give{};  // D^-1 of each
+  };
 
-  Eigen::VectorXd by_inclusion(const Eigen::VectorXd& on) const {
+  Index n_whole() const { return static_cast<Index>(modes_.size()) - n_local_; }
+
+  Eigen::VectorXd locally(const Eigen::VectorXd& on) const {
     Eigen::VectorXd share(on.size());
-    for (Index i = 0; i < n_inclusions_; ++i) share.segment<3>(3 * i) = give_[as_size(i)] * on.segment<3>(3 * i);
+    for (const Group& group : groups_)
+      for (std::size_t i = 0; i < group.give.size(); ++i) {
+        const Index first = group.first_mode + static_cast<Index>(i) * group.n_motions;
+        share.segment(first, group.n_motions) = group.give[i] * on.segment(first, group.n_motions);
+      }
     return share;
   }
 
@@ -63,13 +84,22 @@ class RigidModes {
                                     : Vector(unknowns_.free_directions[as_size(node - unknowns_.n_cells)] * motion);
   }
 
-  void add_rotations(const std::vector<Index>& nodes) {
+  void add_translations(const std::vector<Index>& nodes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Mode mode;
+      for (const Index node : nodes) mode.emplace_back(node, free_part(node, Vector::Unit(axis)));
+      modes_.push_back(std::move(mode));
+    }
+  }
+
+  void add_rotations(const std::vector<Index>& nodes, double length) {
     Vector middle = Vector::Zero();
     for (const Index node : nodes) middle += unknowns_.place(mesh_, node) / static_cast<double>(nodes.size());
     for (int axis = 0; axis < 3; ++axis) {
       Mode mode;
       for (const Index node : nodes)
-        mode.emplace_back(node, free_part(node, Vector::Unit(axis).cross(unknowns_.place(mesh_, node) - middle)));
+        mode.emplace_back(node,
+                          free_part(node, Vector::Unit(axis).cross(unknowns_.place(mesh_, node) - middle) / length));
       modes_.push_back(std::move(mode));
     }
   }
@@ -77,49 +107,83 @@ class RigidModes {
   void add_whole_body() {
     std::vector<Index> nodes(as_size(unknowns_.n_nodes()));
     std::iota(nodes.begin(), nodes.end(), Index{0});
-    for (int axis = 0; axis < 3; ++axis) {
-      Mode mode;
-      for (const Index node : nodes) mode.emplace_back(node, free_part(node, Vector::Unit(axis)));
-      modes_.push_back(std::move(mode));
-    }
-    add_rotations(nodes);
+    add_translations(nodes);
+    add_rotations(nodes, 1.0);
   }
 
+  double length_of(const ConnectedCells& part) const {
+    double volume = 0.0;
+    for (const Index cell : part.cells) volume += mesh_.cell_volume[cell];
+    return std::cbrt(volume);
+  }
+
+  // Connected stiff cells, of one zone or of several as a core in its shell; they rotate, and those that are cut off by
+  // interfaces do more than that.
   void add_inclusions() {
-    for (const IsotropicElasticity& c : unknowns_.sound) softest_ = std::min(softest_, c.mu);
-    CellField<char> seen(as_size(mesh_.n_cells()), 0);
-    for (Index first = 0; first < mesh_.n_cells(); ++first) {
-      if (seen[first] != 0 || !is_stiff(first)) continue;
-      if (const std::vector<Index> nodes = inclusion_around(first, seen); !nodes.empty()) {
-        add_rotations(nodes);
-        double volume = 0.0;
-        for (const Index node : nodes) volume += node < unknowns_.n_cells ? mesh_.cell_volume[node] : 0.0;
-        volume_.push_back(volume);
-      }
+    Group group{.first_mode = static_cast<Index>(modes_.size()), .n_motions = 3};
+    for (const ConnectedCells& part : connected([&](Index cell) { return is_stiff(cell); })) {
+      if (part.touches_boundary || part.cells.size() < 2 || is_cut_off(part)) continue;
+      group.length.push_back(length_of(part));
+      add_rotations(part.nodes, group.length.back());
     }
+    groups_.push_back(std::move(group));
+  }
+
+  // What interfaces cut off from the rest of the body.
+  void add_parts() {
+    if (unknowns_.split_faces.empty()) return;
+    Group group{.first_mode = static_cast<Index>(modes_.size()), .n_motions = 6};
+    for (const ConnectedCells& part : connected([](Index) { return true; })) {
+      if (part.touches_boundary) continue;
+      group.length.push_back(length_of(part));
+      add_translations(part.nodes);
+      add_rotations(part.nodes, group.length.back());
+    }
+    groups_.push_back(std::move(group));
   }
 
   bool is_stiff(Index cell) const { return unknowns_.sound[as_size(unknowns_.zone[cell])].mu >= stiff * softest_; }
 
-  // The connected stiff cells, of one zone or of several as a core in its shell, and the nodes of their faces; none if
-  // the inclusion touches the boundary.
-  std::vector<Index> inclusion_around(Index first, CellField<char>& seen) const {
-    std::vector<Index> cells{first}, nodes;
-    bool is_inside = true;
+  bool is_split(Index face) const { return unknowns_.neighbour_node.size() > 0 && unknowns_.neighbour_node[face] >= 0; }
+
+  bool is_cut_off(const ConnectedCells& part) const {
+    return std::ranges::all_of(part.cells, [&](Index cell) {
+      return std::ranges::all_of(mesh_.faces_of_cell(cell), [&](Index f) {
+        return is_split(f) || !mesh_.is_interior(f) || is_stiff(mesh_.across(f, cell));
+      });
+    });
+  }
+
+  /// Cells of one kind that are connected without crossing an interface.
+  template <class IsOne>
+  std::vector<ConnectedCells> connected(const IsOne& is_one) const {
+    std::vector<ConnectedCells> all;
+    CellField<char> seen(as_size(mesh_.n_cells()), 0);
+    for (Index first = 0; first < mesh_.n_cells(); ++first)
+      if (seen[first] == 0 && is_one(first)) all.push_back(part_around(first, is_one, seen));
+    return all;
+  }
+
+  template <class IsOne>
+  ConnectedCells part_around(Index first, const IsOne& is_one, CellField<char>& seen) const {
+    ConnectedCells part{.cells = {first}, .nodes = {}};
     seen[first] = 1;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      for (const Index f : mesh_.faces_of_cell(cells[i])) {
-        if (const Index node = unknowns_.node_beside(mesh_, cells[i], f); node >= 0) nodes.push_back(node);
-        is_inside = is_inside && mesh_.is_interior(f);
-        if (!mesh_.is_interior(f)) continue;
-        const Index other = mesh_.across(f, cells[i]);
-        if (seen[other] != 0 || !is_stiff(other)) continue;
+    for (std::size_t i = 0; i < part.cells.size(); ++i) {
+      const Index cell = part.cells[i];
+      for (const Index f : mesh_.faces_of_cell(cell)) {
+        if (const Index node = unknowns_.node_beside(mesh_, cell, f); node >= 0) part.nodes.push_back(node);
+        part.touches_boundary = part.touches_boundary || !mesh_.is_interior(f);
+        if (!mesh_.is_interior(f) || is_split(f)) continue;
+        const Index other = mesh_.across(f, cell);
+        if (seen[other] != 0 || !is_one(other)) continue;
         seen[other] = 1;
-        cells.push_back(other);
+        part.cells.push_back(other);
       }
-    if (!is_inside || cells.size() < 2) return {};
-    cells.insert(cells.end(), nodes.begin(), nodes.end());
-    return cells;
+    }
+    part.nodes.insert(part.nodes.end(), part.cells.begin(), part.cells.end());
+    std::ranges::sort(part.nodes);  // a face between two of the cells has its node once
+    part.nodes.erase(std::unique(part.nodes.begin(), part.nodes.end()), part.nodes.end());
+    return part;
   }
 
   Eigen::VectorXd projected(const std::vector<Vector>& r) const {
@@ -133,52 +197,51 @@ class RigidModes {
   }
 
   // What the balance does about these modes together, on all modes.
-  Eigen::VectorXd answer(const MomentumOperator& balance, std::size_t first, std::size_t stride,
-                         std::size_t end) const {
+  Eigen::VectorXd answer(const MomentumOperator& balance, Index first, Index stride, Index end) const {
     std::vector<Vector> u(as_size(unknowns_.n_unknowns()), Vector::Zero()), image(u.size());
-    for (std::size_t k = first; k < end; k += stride)
-      for (const auto& [node, motion] : modes_[k]) u[as_size(node)] = motion;
+    for (Index k = first; k < end; k += stride)
+      for (const auto& [node, motion] : modes_[as_size(k)]) u[as_size(node)] = motion;
     balance.apply(u, image);
     return projected(image);
   }
 
-  // All at once about each axis: what one inclusion does to another is small beside what it does to itself (as many
-  // iterations as with the whole matrix).
-  void turn_inclusions(const MomentumOperator& balance) {
-    std::vector<Tensor> stiffness(as_size(n_inclusions_));
-    for (int axis = 0; axis < 3 && n_inclusions_ > 0; ++axis) {
-      const Eigen::VectorXd on = answer(balance, static_cast<std::size_t>(axis), 3, 3 * as_size(n_inclusions_));
-      for (Index i = 0; i < n_inclusions_; ++i) stiffness[as_size(i)].col(axis) = on.segment<3>(3 * i);
+  // All members at once in each way.
+  void move_group(Group& group, const MomentumOperator& balance) const {
+    const Index n = group.n_motions, n_members = static_cast<Index>(group.length.size());
+    std::vector<Eigen::MatrixXd> stiffness(group.length.size(), Eigen::MatrixXd(n, n));
+    for (Index way = 0; way < n && n_members > 0; ++way) {
+      const Index first = group.first_mode;
+      const Eigen::VectorXd on = answer(balance, first + way, n, first + n * n_members);
+      for (Index i = 0; i < n_members; ++i) stiffness[as_size(i)].col(way) = on.segment(first + n * i, n);
     }
-    give_.resize(stiffness.size());
-    for (std::size_t i = 0; i < give_.size(); ++i) {  // what has debonded turns freely
-      const Eigen::SelfAdjointEigenSolver<Tensor> solver(0.5 * (stiffness[i] + stiffness[i].transpose()));
-      const Vector bounded = solver.eigenvalues().cwiseMax(least_stiffness * softest_ * volume_[i]);
-      give_[i] = solver.eigenvectors() * bounded.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
+    group.give.clear();
+    for (std::size_t i = 0; i < stiffness.size(); ++i) {  // what has debonded moves freely
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (stiffness[i] + stiffness[i].transpose()));
+      const Eigen::VectorXd bounded = solver.eigenvalues().cwiseMax(least_stiffness * softest_ * group.length[i]);
+      group.give.emplace_back(solver.eigenvectors() * bounded.cwiseInverse().asDiagonal() *
+                              solver.eigenvectors().transpose());
     }
   }
 
   void move_whole_body(const MomentumOperator& balance) {
     if (n_whole() == 0) return;
-    coupling_.resize(3 * n_inclusions_, n_whole());
-    Eigen::MatrixXd whole(n_whole(), n_whole()), relieved(3 * n_inclusions_, n_whole());
+    coupling_.resize(n_local_, n_whole());
+    Eigen::MatrixXd whole(n_whole(), n_whole()), relieved(n_local_, n_whole());
     for (Index k = 0; k < n_whole(); ++k) {
-      const auto number = as_size(3 * n_inclusions_ + k);
-      const Eigen::VectorXd on = answer(balance, number, 1, number + 1);
-      coupling_.col(k) = on.head(3 * n_inclusions_);
+      const Eigen::VectorXd on = answer(balance, n_local_ + k, 1, n_local_ + k + 1);
+      coupling_.col(k) = on.head(n_local_);
       whole.col(k) = on.tail(n_whole());
-      relieved.col(k) = by_inclusion(coupling_.col(k));
+      relieved.col(k) = locally(coupling_.col(k));
     }
     whole_.compute(whole - coupling_.transpose() * relieved);
   }
 
   const Mesh& mesh_;
   const Unknowns& unknowns_;
-  std::vector<Mode> modes_;  // three of each inclusion, then those of the whole body
-  Index n_inclusions_ = 0;
-  std::vector<double> volume_;  // of the inclusions
+  std::vector<Mode> modes_;  // local ones, group by group, then those of the whole body
+  std::vector<Group> groups_;
+  Index n_local_ = 0;
   double softest_ = std::numeric_limits<double>::infinity();
-  std::vector<Tensor> give_;  // D^-1 of each
   Eigen::MatrixXd coupling_;
   Eigen::PartialPivLU<Eigen::MatrixXd> whole_;
 };
