@@ -17,7 +17,7 @@ constexpr double bearable_lag = 0.01;
 // Factor by which a cell's stiffness may change before the preconditioner is rebuilt.
 constexpr double bearable_ratio = 2.0;
 
-// Composites that fill a box have stiff inclusions, and may be held at points only.
+// Composites that fill a box have stiff inclusions, and may be held at points only; interfaces cut particles off.
 const LinearSolver& solver_for(const Unknowns& unknowns, const LinearSolver* linear) {
   const LinearSolver& plain = linear != nullptr ? *linear : linear_solvers().front();
   return unknowns.motion.any() || !unknowns.split_faces.empty() ? with_rigid_modes(plain) : plain;

@@ -63,6 +63,7 @@ class RigidModes {
   // another is small beside what it does to itself (as many iterations as with the whole matrix).
   struct Group {
     Index first_mode = 0, n_motions = 0;
+    double share = 1.0;                   // of their motions that is missing in the preconditioner
     std::vector<double> length{};         // of each member
     std::vector<Eigen::MatrixXd> give{};  // D^-1 of each
   };
@@ -129,10 +130,10 @@ class RigidModes {
     groups_.push_back(std::move(group));
   }
 
-  // What interfaces cut off from the rest of the body.
+  // What interfaces cut off from the rest of the body. The preconditioner finds these motions too, but not well.
   void add_parts() {
     if (unknowns_.split_faces.empty()) return;
-    Group group{.first_mode = static_cast<Index>(modes_.size()), .n_motions = 6};
+    Group group{.first_mode = static_cast<Index>(modes_.size()), .n_motions = 6, .share = 0.5};
     for (const ConnectedCells& part : connected([](Index) { return true; })) {
       if (part.touches_boundary) continue;
       group.length.push_back(length_of(part));
@@ -218,7 +219,7 @@ class RigidModes {
     for (std::size_t i = 0; i < stiffness.size(); ++i) {  // what has debonded moves freely
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (stiffness[i] + stiffness[i].transpose()));
       const Eigen::VectorXd bounded = solver.eigenvalues().cwiseMax(least_stiffness * softest_ * group.length[i]);
-      group.give.emplace_back(solver.eigenvectors() * bounded.cwiseInverse().asDiagonal() *
+      group.give.emplace_back(group.share * solver.eigenvectors() * bounded.cwiseInverse().asDiagonal() *
                               solver.eigenvectors().transpose());
     }
   }
