@@ -110,9 +110,8 @@ std::vector<Band> bands_of(const ParticlesInBoxSettings& settings) {
   return bands;
 }
 
-/// Keys of every box of tetrahedra.
-constexpr std::string_view box_of_tetrahedra[] = {"generator",
-                                                  "cells",
+/// Keys of every box of tetrahedra, besides the generator that was asked for.
+constexpr std::string_view box_of_tetrahedra[] = {"cells",
                                                   "size",
                                                   "centre",
                                                   "region",

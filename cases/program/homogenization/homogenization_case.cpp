@@ -25,7 +25,7 @@ std::vector<CompositeMaterial> read_other_keys(const ConfigTable& root) {
 HomogenizationSettings read_settings(const ConfigTable& root) {
   HomogenizationSettings settings{.loading = &homogenization_loadings().front()};
   if (root.has("homogenization")) {
-    const ConfigTable table = root.table("homogenization").with_keys({"boundary", "path"});
+    const ConfigTable table = root.table("homogenization").with_keys({"boundary"});
     if (const auto boundary = table.find("boundary"))
       settings.loading = &choose(*boundary, homogenization_loadings(), "boundary condition of a homogenisation");
   }

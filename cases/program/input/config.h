@@ -89,8 +89,10 @@ class ConfigTable {
  public:
   ConfigTable(std::shared_ptr<ConfigSource> source, const TomlValue* value, std::string path);
 
-  /// The same table, after it is known which keys it may have: throws for any other one in the file. To ask for a key
-  /// that was not named is a mistake of the program's (std::logic_error).
+  /// The same table, after it is known which keys it may have: throws for any other one in the file. Those that were
+  /// asked for before, such as the one that decides which others there are, need not be named. To ask for a key that
+  /// was not named is a mistake of the program's (std::logic_error), and so is to name another one when a table is read
+  /// again.
   ConfigTable with_keys(std::span<const std::string_view> keys) const;
   ConfigTable with_keys(std::initializer_list<std::string_view> keys) const {
     return with_keys(std::span(keys.begin(), keys.size()));
