@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "physics/error.h"
 
@@ -31,6 +32,15 @@ std::vector<double> axis_nodes(double origin, const std::vector<AxisBlock>& bloc
     append_block(nodes, block);
   }
   return nodes;
+}
+
+void check_sector(double azimuth, double inner_radius) {
+  constexpr double pi = std::numbers::pi;
+  if (!(azimuth > 0.0) || azimuth > 0.25 * pi * (1.0 + 1e-12))
+    throw InputError(fmt::format("the sector is {:g} degrees wide in azimuth; more than 0 and at most 45 are allowed",
+                                 azimuth * 180.0 / pi));
+  if (!(inner_radius >= 0.0))
+    throw InputError(fmt::format("the sector's inner radius is {:g} m; it must be zero or positive", inner_radius));
 }
 
 }  // namespace pfdm

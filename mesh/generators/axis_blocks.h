@@ -19,4 +19,8 @@ struct AxisBlock {
 /// no block, or one that is not positive; `where` begins the message, as in "the box along x".
 std::vector<double> axis_nodes(double origin, const std::vector<AxisBlock>& blocks, std::string_view where);
 
+/// Of sectors that are one cell wide: throws InputError unless the width [rad] is positive and at most pi/4, and the
+/// inner radius [m] zero or positive.
+void check_sector(double azimuth, double inner_radius);
+
 }  // namespace pfdm

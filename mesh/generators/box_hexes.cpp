@@ -225,7 +225,10 @@ std::vector<PatchRule> patches_of(const BoxHexesSettings& settings, const BoxGri
   for (const SurfacePart& part : settings.patches)
     patches.push_back(patch_within(part.name, part.lower, part.upper, rounding));
   for (const SubRegion& hole : settings.holes) patches.push_back(hole_patch(hole, grid, rounding));
-  for (PatchRule& side : box_patches(grid.lower(), grid.upper())) {
+  std::vector<PatchRule> sides = box_patches(grid.lower(), grid.upper());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    PatchRule& side = sides[i];
+    side.name = settings.sides[i];
     side.required = settings.holes.empty() && settings.patches.empty();
     patches.push_back(std::move(side));
   }

@@ -42,9 +42,10 @@ struct BoxHexesSettings {
   /// Cells that are left out, as a notch or the corner of an L; the surface that appears is the patch of its name.
   std::vector<SubRegion> holes{};
   std::vector<SurfacePart> patches{};  ///< before all others; where they overlap, the earlier one wins
+  std::array<std::string, 6> sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};  ///< their patches' names
 };
 
-/// Patches xmin, xmax, ymin, ymax, zmin, zmax (as far as anything is left of them), the slits', the holes' and those
+/// Patches are the sides' (as far as anything is left of them), the slits', the holes' and those
 /// asked for; region_names holds base_region (if any cell is left in it) and the sub-regions, each name once. Throws
 /// InputError for a block that is not positive, a region or hole with no cell, a patch with no face, and a slit that is
 /// not plane, not on the grid, on the box's surface, too narrow to open or that meets another.

@@ -17,12 +17,7 @@ constexpr double pi = std::numbers::pi;
 class SectorGrid {
  public:
   explicit SectorGrid(const SphereSectorSettings& settings) : half_azimuth_(0.5 * settings.azimuth) {
-    if (!(settings.azimuth > 0.0) || settings.azimuth > 0.25 * pi * (1.0 + 1e-12))
-      throw InputError(fmt::format("the sector is {:g} degrees wide in azimuth; more than 0 and at most 45 are allowed",
-                                   settings.azimuth * 180.0 / pi));
-    if (!(settings.inner_radius >= 0.0))
-      throw InputError(
-          fmt::format("the sector's inner radius is {:g} m; it must be zero or positive", settings.inner_radius));
+    check_sector(settings.azimuth, settings.inner_radius);
     std::vector<AxisBlock> radial;
     for (const Shell& shell : settings.shells) radial.push_back(shell.radial);
     radii_ = axis_nodes(settings.inner_radius, radial, "the sector along its radius");

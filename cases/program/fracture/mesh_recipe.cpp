@@ -6,6 +6,7 @@
 #include "mesh/dual.h"
 #include "mesh/files/import_mesh.h"
 #include "mesh/generators/box_hexes.h"
+#include "mesh/generators/cylinder_sector.h"
 #include "mesh/generators/sphere_sector.h"
 #include "mesh/patch_rules.h"
 #include "postproc/files/text_file.h"
@@ -43,9 +44,10 @@ std::vector<AxisBlock> read_axis(const ConfigValue& blocks, std::string_view key
   return axis;
 }
 
-std::vector<std::string> names_of_regions(const BoxHexesSettings& settings) {
+template <class Settings>
+std::vector<std::string> names_of_regions(const Settings& settings) {
   std::vector<std::string> names{settings.base_region};
-  for (const SubRegion& region : settings.regions) names.push_back(region.name);
+  for (const auto& region : settings.regions) names.push_back(region.name);
   return names;
 }
 
@@ -55,13 +57,18 @@ NamedBox read_box(const ConfigTable& table) {
   return {.name = table.string("name"), .lower = read_point(table.at("lower")), .upper = read_point(table.at("upper"))};
 }
 
-// The same where the name is that of a patch, which joins the others.
+// A name that joins those of the other patches.
+void add_patch(const ConfigTable& table, std::vector<std::string>& patches) {
+  const std::string name = table.string("name");
+  if (std::ranges::find(patches, name) != patches.end())
+    throw table.at("name").error("another patch has this name already");
+  patches.push_back(name);
+}
+
 template <class NamedBox>
 NamedBox read_patch_box(const ConfigTable& table, std::vector<std::string>& patches) {
   NamedBox box = read_box<NamedBox>(table.with_keys(box_keys));
-  if (std::ranges::find(patches, box.name) != patches.end())
-    throw table.at("name").error("another patch has this name already");
-  patches.push_back(box.name);
+  add_patch(table, patches);
   return box;
 }
 
@@ -112,6 +119,49 @@ MeshRecipe read_sphere_sector(const ConfigTable& table, const MeshSurroundings&)
   if (std::accumulate(settings.polar.begin(), settings.polar.end(), 0.0, add) < 3.0) patches.emplace_back("equator");
   return {.make = [settings] { return make_sphere_sector(settings); },
           .regions = regions,
+          .patches = patches,
+          .data_files = {}};
+}
+
+// Two lengths in ascending order; equal ones are those of a line.
+std::array<double, 2> read_extent(const ConfigValue& value) {
+  const std::vector<ConfigValue> ends = value.list(2);
+  const std::array<double, 2> extent{ends[0].quantity(dimension::length), ends[1].quantity(dimension::length)};
+  if (extent[0] > extent[1]) throw value.error("the first length must not be larger than the second one");
+  return extent;
+}
+
+std::vector<SectorPart> read_parts(const ConfigTable& table, std::string_view key,
+                                   std::vector<std::string>* patches = nullptr) {
+  std::vector<SectorPart> parts;
+  for (const ConfigTable& entry : table.tables(key)) {
+    const ConfigTable part = entry.with_keys({"name", "radius", "height"});
+    const auto radius = read_extent(part.at("radius")), height = read_extent(part.at("height"));
+    parts.push_back({part.string("name"), radius[0], radius[1], height[0], height[1]});
+    if (patches) add_patch(part, *patches);
+  }
+  return parts;
+}
+
+MeshRecipe read_cylinder_sector(const ConfigTable& table, const MeshSurroundings&) {
+  table.with_keys({"generator", "cells", "azimuth", "inner_radius", "radius", "bottom", "height", "upper_sphere",
+                   "region", "regions", "slits", "holes", "patches"});
+  CylinderSectorSettings settings;
+  settings.azimuth = table.quantity("azimuth", dimension::angle, azimuth_range);
+  settings.inner_radius = table.quantity("inner_radius", dimension::length, range::not_negative, 0.0);
+  settings.bottom = table.quantity("bottom", dimension::length, range::any, 0.0);
+  settings.radius = read_axis(table.at("radius"), "length", dimension::length);
+  settings.height = read_axis(table.at("height"), "length", dimension::length);
+  settings.upper_sphere = table.quantity("upper_sphere", dimension::length, range::positive, 0.0);
+  settings.base_region = table.string("region", settings.base_region);
+  std::vector<std::string> patches{"front", "back", "outer", "bottom", "top"};
+  if (settings.inner_radius > 0.0) patches.emplace_back("inner");
+  settings.regions = read_parts(table, "regions");
+  settings.slits = read_parts(table, "slits", &patches);
+  settings.holes = read_parts(table, "holes", &patches);
+  settings.patches = read_parts(table, "patches", &patches);
+  return {.make = [settings] { return make_cylinder_sector(settings); },
+          .regions = names_of_regions(settings),
           .patches = patches,
           .data_files = {}};
 }
@@ -191,6 +241,9 @@ constexpr MeshGenerator all_generators[] = {
      read_particles_in_box},
     {"packed_spheres", "a box of tetrahedra with many spheres, packed at random or placed", read_packed_spheres},
     {"box_hexes", "a box of hexahedra, graded along each axis, with regions, slits and holes", read_box_hexes},
+    {"cylinder_sector",
+     "a sector of a cylinder about the axis z, one cell wide in azimuth, its upper end plane or spherical",
+     read_cylinder_sector},
     {"sphere_sector", "concentric shells about the axis z, one cell wide in azimuth: axisymmetric problems",
      read_sphere_sector},
     {"vtk", "a mesh from a .vtu or legacy .vtk file", read_vtk},
