@@ -42,7 +42,7 @@ HomogenizationSettings read_settings(const ConfigTable& root) {
 HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
   root.with_keys({"kind", "title", "mesh", "materials", "homogenization", "solver", "sweep"});
   HomogenizationCase homogenization;
-  homogenization.title = root.string("title");
+  homogenization.title = root.line("title");
   homogenization.mesh = read_mesh_recipe(root.table("mesh"), {.case_directory = case_directory, .ell = {}});
   MaterialDefaults defaults;
   defaults.elastic_with = std::vector<std::string_view>{"density", "loss_factor"};

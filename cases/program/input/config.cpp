@@ -130,6 +130,12 @@ std::string ConfigValue::string() const {
   throw error(fmt::format("expected a text in quotes, found {}", shown(*value_)));
 }
 
+std::string ConfigValue::line() const {
+  std::string text = string();
+  if (text.find_first_of("\n\r") != std::string::npos) throw error("expected a text of one line");
+  return text;
+}
+
 bool ConfigValue::boolean() const {
   if (const bool* flag = std::get_if<bool>(&value_->value)) return *flag;
   throw error(fmt::format("expected true or false, found {}", shown(*value_)));

@@ -32,8 +32,8 @@ inline constexpr Range any{};
 inline constexpr Range positive{0.0, std::numeric_limits<double>::infinity(), true, "positive"};
 inline constexpr Range not_negative{0.0, std::numeric_limits<double>::infinity(), false, "zero or positive"};
 inline constexpr Range fraction{0.0, 1.0, false, "between 0 and 1"};
-inline constexpr Range count{1.0, 1e6, false, "at least 1"};
-inline constexpr Range seed{0.0, 1e15, false, "zero or positive"};
+inline constexpr Range count{1.0, 1e6, false, "between 1 and 1000000"};
+inline constexpr Range seed{0.0, 1e15, false, "between 0 and 1e15"};
 /// What the solver is tested for.
 inline constexpr Range poisson_ratio{-1.0 + std::numeric_limits<double>::epsilon(), 0.4999, false,
                                      "above -1 and at most 0.4999"};
@@ -53,6 +53,7 @@ class ConfigValue {
   bool is_table() const { return std::holds_alternative<TomlTable>(value_->value); }
 
   std::string string() const;
+  std::string line() const;  ///< a text without line breaks, for heads of files and tables
   bool boolean() const;
   std::int64_t integer(const Range& allowed = range::any) const;
   double number(const Range& allowed = range::any) const;
@@ -106,6 +107,7 @@ class ConfigTable {
 
   std::string string(std::string_view key) const { return at(key).string(); }
   std::string string(std::string_view key, std::string_view otherwise) const;
+  std::string line(std::string_view key) const { return at(key).line(); }
   bool boolean(std::string_view key, bool otherwise) const;
   std::int64_t integer(std::string_view key, const Range& allowed) const { return at(key).integer(allowed); }
   std::int64_t integer(std::string_view key, const Range& allowed, std::int64_t otherwise) const;
