@@ -117,7 +117,9 @@ void Parser::add_case_options() {
         ->type_name("N");
     of.add_flag("--quiet", line.quiet, "say nothing but warnings and errors");
     if (of.get_name() != "check")
-      of.add_option("--output", line.output, "results directory (default: CASE/results)")->type_name("DIR");
+      of.add_option("--output", line.output, "results directory (default: CASE/results)")
+          ->check(CLI::Validator([](const std::string& name) { return name.empty() ? "a name is required" : ""; }, ""))
+          ->type_name("DIR");
   }
   command("run").add_flag("--restart", line.restart, "continue from the last complete step");
   command("run")

@@ -61,10 +61,16 @@ bool lies_in(const SubRegion& region, const Vector& x) {
   return (x.array() >= region.lower.array()).all() && (x.array() <= region.upper.array()).all();
 }
 
+// The last of the regions in which x lies, counted from 1; 0 where only the base region is left.
+std::size_t number_at(const BoxHexesSettings& settings, const Vector& x) {
+  std::size_t i = settings.regions.size();
+  while (i > 0 && !lies_in(settings.regions[i - 1], x)) --i;
+  return i;
+}
+
 const std::string& region_at(const BoxHexesSettings& settings, const Vector& x) {
-  for (std::size_t i = settings.regions.size(); i-- > 0;)
-    if (lies_in(settings.regions[i], x)) return settings.regions[i].name;
-  return settings.base_region;
+  const std::size_t i = number_at(settings, x);
+  return i > 0 ? settings.regions[i - 1].name : settings.base_region;
 }
 
 template <class Function>
@@ -86,18 +92,18 @@ void for_each_cell_left(const BoxHexesSettings& settings, const BoxGrid& grid, F
 
 // Region names in the settings' order, so that their numbers do not depend on where the cells lie.
 std::vector<std::string> names_in_use(const BoxHexesSettings& settings, const BoxGrid& grid) {
-  std::vector<std::string> candidates{settings.base_region};
-  for (const SubRegion& region : settings.regions) region_slot(candidates, region.name);
-  std::vector<bool> used(candidates.size(), false);
-  for_each_cell_left(settings, grid, [&](Index i, Index j, Index k) {
-    used[static_cast<std::size_t>(region_slot(candidates, region_at(settings, grid.centre(i, j, k))))] = true;
-  });
+  std::vector<bool> used(settings.regions.size() + 1, false);
+  for_each_cell_left(settings, grid,
+                     [&](Index i, Index j, Index k) { used[number_at(settings, grid.centre(i, j, k))] = true; });
   std::vector<std::string> names;
-  for (std::size_t r = 0; r < candidates.size(); ++r) {
-    if (used[r])
-      names.push_back(candidates[r]);
-    else if (r > 0)
-      throw InputError(fmt::format("region \"{}\" of the box contains no cell's centre", candidates[r]));
+  if (used[0]) names.push_back(settings.base_region);
+  for (std::size_t i = 0; i < settings.regions.size(); ++i) {
+    const std::string& name = settings.regions[i].name;
+    if (!used[i + 1])
+      throw InputError(fmt::format(
+          "region \"{}\", number {} of the list, contains no cell's centre that later regions and holes leave to it",
+          name, i + 1));
+    region_slot(names, name);
   }
   return names;
 }

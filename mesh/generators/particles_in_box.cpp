@@ -69,6 +69,21 @@ void check_apart(const ParticlesInBoxSettings& settings, std::size_t i, std::siz
                                  describe_particle(settings, i), describe_particle(settings, j), distance, needed));
 }
 
+double area_of_sides(const Vector& extent) {
+  return 2.0 * (extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0]);
+}
+
+/// Of the box; the cells that particles add are limited by the triangles of their surfaces.
+void check_number_of_cells(const ParticlesInBoxSettings& settings) {
+  constexpr double regular = 0.1178, most = std::numeric_limits<Index>::max() / 24.0;
+  const Vector extent = settings.upper - settings.lower;
+  const double edge = settings.size_far, cells = extent.prod() / (regular * edge * edge * edge);
+  if (!(cells < most))
+    throw InputError(fmt::format(
+        "the box would have about {:.3g} tetrahedra of {:.3g} m (size_far), too many to number", cells, edge));
+  require_few_triangles("the box", area_of_sides(extent), settings.boundary_size > 0.0 ? settings.boundary_size : edge);
+}
+
 void check_settings(const ParticlesInBoxSettings& settings) {
   const Vector extent = settings.upper - settings.lower;
   if (!(extent.minCoeff() > 0.0) || !extent.allFinite())
@@ -84,6 +99,7 @@ void check_settings(const ParticlesInBoxSettings& settings) {
   if (settings.boundary_size != 0.0) check_positive("the cell size on the box's surface [m]", settings.boundary_size);
   if (settings.particles.empty() && !std::isfinite(settings.size_far))
     throw InputError("a box without particles needs a cell size (size_far)");
+  check_number_of_cells(settings);
   for (std::size_t i = 0; i < settings.particles.size(); ++i) check_particle(settings, i);
   for (std::size_t i = 0; i < settings.particles.size(); ++i)
     for (std::size_t j = i + 1; j < settings.particles.size(); ++j) check_apart(settings, i, j);
@@ -281,7 +297,7 @@ void check_watertight(const Mesh& mesh, const ParticlesInBoxSettings& settings) 
   const double filled = std::accumulate(mesh.cell_volume.begin(), mesh.cell_volume.end(), 0.0);
   double surface = 0.0;
   for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f) surface += mesh.face_area[f].norm();
-  const double box_surface_area = 2.0 * (extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0]);
+  const double box_surface_area = area_of_sides(extent);
   const auto differs = [](double a, double b) { return !(std::abs(a - b) <= 1e-9 * b); };
   if (differs(filled, extent.prod()) || differs(surface, box_surface_area))
     throw ComputationError(

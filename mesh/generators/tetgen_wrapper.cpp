@@ -7,6 +7,7 @@
 #include <cmath>
 #include <new>
 
+#include "mesh/generators/lifted_points.h"
 #include "physics/error.h"
 
 namespace pfdm {
@@ -145,7 +146,9 @@ TetgenOutput tetrahedralize_regions(const TetgenInput& input) {
   fill_facets(in, input.surfaces.triangles);
   fill_holes_and_seeds(in, input, scaling);
   run_tetgen(input, scaling, in, out);
-  return read_output(input, scaling, out);
+  TetgenOutput mesh = read_output(input, scaling, out);
+  settle_lifted_points(input.surfaces.points.size(), mesh);
+  return mesh;
 }
 
 }  // namespace pfdm

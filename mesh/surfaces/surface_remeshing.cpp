@@ -37,21 +37,13 @@ TriangleSurface triangle_surface(CgalMesh& mesh) {
   return surface;
 }
 
-void check_number(const std::string& name, const CgalMesh& mesh, double size) {
-  constexpr double most = 1e7;
-  const double n = 4.0 / std::numbers::sqrt3 * PMP::area(mesh) / (size * size);
-  if (!(n < most))
-    throw InputError(
-        fmt::format("the surface of {} would get {:.2g} triangles of {:g} m; at most {:.2g}", name, n, size, most));
-}
-
 }  // namespace
 
 TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
   check_surfaces({given});
   CgalMesh mesh;
   append(mesh, given);
-  check_number(given.name, mesh, size);
+  require_few_triangles(given.name, PMP::area(mesh), size);
   const auto kept = mesh.add_property_map<CgalMesh::Edge_index, bool>("e:kept", false).first;
   PMP::detect_sharp_edges(mesh, sharp * 180.0 / std::numbers::pi, kept);
   std::vector<CgalMesh::Edge_index> sharp_edges;

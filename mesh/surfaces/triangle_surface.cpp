@@ -81,8 +81,17 @@ const double unit_size = std::sqrt(4.0 / std::numbers::sqrt3 * std::numbers::pi 
 
 }  // namespace
 
+void require_few_triangles(std::string_view surface, double area, double edge) {
+  constexpr double most = 1e7;
+  const double n = 4.0 / std::numbers::sqrt3 * area / (edge * edge);
+  if (!(n < most))
+    throw InputError(fmt::format("the surface of {} would get {:.2g} triangles of {:.3g} m; at most {:.2g}", surface, n,
+                                 edge, most));
+}
+
 TriangleSurface unit_icosphere(Index n) {
   if (n < 1) throw InputError(fmt::format("the subdivision of a sphere's surface is {}; it must be at least 1", n));
+  require_few_triangles("a sphere of radius 1", 4.0 * std::numbers::pi, icosphere_size(n, 1.0));
   Subdivision subdivision(n);
   for (const Triangle& side : icosahedron_sides) subdivision.add_side(side);
   return subdivision.take();
@@ -91,7 +100,7 @@ TriangleSurface unit_icosphere(Index n) {
 double icosphere_size(Index n, double radius) { return unit_size * radius / n; }
 
 Index icosphere_subdivision(double size, double radius) {
-  return std::max(Index{1}, static_cast<Index>(std::lround(unit_size * radius / size)));
+  return std::max(Index{1}, static_cast<Index>(std::lround(std::min(unit_size * radius / size, 1e6))));
 }
 
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 // Triangulated surfaces: what bounds the regions that TetGen fills.
 
 #include <array>
+#include <string_view>
 #include <vector>
 
 #include "mesh/fields.h"
@@ -15,8 +16,12 @@ struct TriangleSurface {
   std::vector<Triangle> triangles;  ///< counter-clockwise when seen from outside
 };
 
+/// Throws InputError, which names the surface, if more equilateral triangles with this edge [m] cover the area [m^2]
+/// than a mesh can be made from.
+void require_few_triangles(std::string_view surface, double area, double edge);
+
 /// The unit sphere: each side of an icosahedron cut n-fold, all points moved onto the sphere. 20 n^2 triangles,
-/// 10 n^2 + 2 points. Throws InputError for n < 1.
+/// 10 n^2 + 2 points. Throws InputError for n < 1, and as require_few_triangles does.
 TriangleSurface unit_icosphere(Index n);
 
 /// Side of the equilateral triangle that has the mean area of an icosphere's triangles [m], and the other way round

@@ -162,7 +162,8 @@ const BadInput bad_inputs[] = {
      {"case.toml:15: [materials.concrete] region \"bar\" can be damaged but has no toughness (Gc)"}},
     {"material_without_length", "length = \"4 mm\"\n", "", {"region \"bar\" can be damaged but has no length (ell)"}},
     {"negative_size", "\"20 mm\"", "\"-20 mm\"", {"case.toml:6: [mesh.x] length: \"-20 mm\" must be positive"}},
-    {"no_cells", "cells = 21", "cells = 0", {"cells: 0 must be at least 1"}},
+    {"no_cells", "cells = 21", "cells = 0", {"cells: 0 must be between 1 and 1000000"}},
+    {"cells_without_end", "cells = 21", "cells = 100000000", {"cells: 100000000 must be between 1 and 1000000"}},
     {"poisson_ratio_of_a_half",
      "poisson_ratio = 0.2",
      "poisson_ratio = 0.5",
@@ -205,6 +206,21 @@ const BadInput bad_inputs[] = {
      "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"1 mm\", \"0 mm\", \"0 mm\"]\ndirection = [1, 0, 0]\n"
      "inner = \"1 mm\"\nouter = \"2 mm\"\ntip_damage = 0.5",
      {"this requires tip = \"foremost\""}},
+    {"ring_between_the_faces",
+     "frames_at = [\"0.006 mm\"]",
+     "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"10 mm\", \"0.5 mm\", \"0.5 mm\"]\n"
+     "direction = [1, 0, 0]\ninner = \"1 nm\"\nouter = \"2 nm\"",
+     {"region \"tip\": no face of the mesh has its centre in the ring"}},
+    {"ring_that_leaves_the_body",
+     "frames_at = [\"0.006 mm\"]",
+     "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"10 mm\", \"0.5 mm\", \"0.5 mm\"]\n"
+     "direction = [1, 0, 0]\ninner = \"0.1 mm\"\nouter = \"1 km\"",
+     {"region \"tip\": the ring leaves the body across direction"}},
+    {"title_of_two_lines", "\"a bar\"", "\"a\\nbar\"", {"case.toml:2: title: expected a text of one line"}},
+    {"all_of_the_stiffness_left",
+     "split = \"none\"",
+     "split = \"none\"\nresidual_stiffness = 1",
+     {"residual_stiffness: 1 must be above 0 and below 1"}},
     {"unknown_generator", "\"box_hexes\"", "\"box_hexe\"", {"is not a mesh generator; did you mean \"box_hexes\"?"}},
     {"polyhedra_of_hexahedra",
      "\"box_hexes\"",
@@ -364,6 +380,14 @@ TEST(BadInput, WrongUsage) {
     EXPECT_EQ(outcome.status, 2);
     EXPECT_FALSE(outcome.err.empty());
   }
+}
+
+TEST(BadInput, ResultsFolderWithoutAName) {
+  const TemporaryCase directory(bar_case());
+  const Outcome outcome = run({"run", directory.path().string(), "--output", ""});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("--output: a name is required"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(directory.results()));
 }
 
 TEST(BadInput, UnknownCommand) {

@@ -368,16 +368,23 @@ class BadExperiment : public testing::TestWithParam<BadInput> {};
 TEST_P(BadExperiment, IsRefusedWithOneMessage) {
   const TemporaryCase directory(replaced(bar_case() + measured_specimen(), GetParam().good, GetParam().bad));
   fs::create_directory(directory.path() / "data");
-  directory.write("data/one.csv", "u,f,back\n0,0,0\n5,1,2\n10,1.5,1\n");
+  directory.write("data/one.csv", "u,f,back,none\n0,0,0,0\n5,1,2,0\n10,1.5,1,0\n");
   expect_refused(directory, GetParam());
 }
 
 const BadInput bad_experiments[] = {
     {"file_that_is_not_there", "data/one.csv", "data/won.csv", {"case.toml:54: [experiment.specimens] csv", "won.csv"}},
-    {"column_that_is_not_there", "\"f\"", "\"g\"", {"there is no column \"g\" (available: u, f, back)"}},
+    {"column_that_is_not_there", "\"f\"", "\"g\"", {"there is no column \"g\" (available: u, f, back, none)"}},
     {"unit_of_another_dimension", "\"kN\"", "\"kPa\"", {"is a stress; expected a force"}},
     {"displacements_that_fall", "column = \"u\"", "column = \"back\"", {"the displacements decrease"}},
-    {"column_beyond_the_last", "\"f\"", "4", {"force] column: the file has 3 columns (u, f, back)"}},
+    {"name_that_is_empty", "name = \"one\"", "name = \"\"", {"[experiment.specimens] name: the name is empty"}},
+    {"name_of_two_specimens",
+     "[[experiment.specimens]]",
+     "[[experiment.specimens]]\nname = \"one\"\ncsv = \"data/one.csv\"\ndisplacement = { column = 1, unit = "
+     "\"um\" }\nforce = { column = 2, unit = \"kN\" }\n[[experiment.specimens]]",
+     {"another specimen is called \"one\" already"}},
+    {"forces_that_are_all_zero", "\"f\"", "\"none\"", {"force: all forces are zero; there is nothing to compare with"}},
+    {"column_beyond_the_last", "\"f\"", "5", {"force] column: the file has 4 columns (u, f, back, none)"}},
     {"separator_that_is_none", "name = \"one\"", "name = \"one\"\nseparator = \"|\"", {"(allowed: ,, ;, tab, blank)"}},
     {"comma_for_both",
      "name = \"one\"",
@@ -435,7 +442,7 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
   directory.write("data/one.csv", "u,f\n500,0\n600,1\n");
   expect("no range is common");
-  directory.write("data/one.csv", "u,f\n5,0\n");
+  directory.write("data/one.csv", "u,f\n5,1\n");
   expect("fewer than two points");
   directory.write("data/one.csv", "u,f\n0,0\n3,1\n");
   expect("the stiffness is requested between 1e-06 and 5e-06 m");

@@ -72,6 +72,23 @@ TEST(Config, TellsAKeyWithoutEffectFromAnUnknownOne) {
   EXPECT_THROW(mesh.has("shape"), std::logic_error);
 }
 
+TEST(Config, KeepsKeysAllowedThatWereAskedForBeforeTheOthersWereNamed) {
+  const Config config("[mesh]\ngenerator = \"box\"\nsize = 1\n", "case.toml");
+  const ConfigTable mesh = config.root().table("mesh");
+  EXPECT_EQ(mesh.string("generator"), "box");
+  EXPECT_EQ(mesh.with_keys({"size"}).number("size", range::any), 1.0);
+  EXPECT_EQ(mesh.string("generator"), "box");
+  EXPECT_NO_THROW(config.reject_unknown_keys());
+}
+
+TEST(Config, HoldsATableThatIsReadAgainToTheKeysFirstNamed) {
+  const Config config("[mesh]\nsize = 1\n", "case.toml");
+  const ConfigTable mesh = config.root().table("mesh").with_keys({"size", "colour"});
+  const ConfigTable again = config.root().table("mesh").with_keys({"size"});
+  EXPECT_FALSE(again.has("colour"));  // still one of its keys
+  EXPECT_THROW(config.root().table("mesh").with_keys({"size", "shape"}), std::logic_error);
+}
+
 TEST(Config, ListsWhatIsAllowedWhereNothingIsNear) {
   const Config config("[mesh]\ncolour = 1\n", "case.toml");
   config.root().table("mesh").has("size");

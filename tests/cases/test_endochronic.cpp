@@ -211,7 +211,7 @@ const BadInput bad_inputs[] = {
     {"no_increments",
      "duration = \"1 s\"\nincrements = 10",
      "duration = \"1 s\"\nincrements = 0",
-     {"increments: 0 must be at least 1"}},
+     {"increments: 0 must be at least 1 and at most 10000000"}},
     {"no_file",
      "strain_xx = \"1 %\"",
      "strain_xx = { csv = \"no.csv\", column = \"strain\" }",

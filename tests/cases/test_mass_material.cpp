@@ -354,7 +354,7 @@ TEST(BadMassMaterial, SchedulesThatTellNothing) {
       {"no schedule", "schedule = { level = \"1 g0\", age = \"7 day\", run = 2 }\n", "", "test day7_2 has no schedule"},
       {"another method", "repeatability = true", "repeatability = true\nmethod = \"least_squares\"",
        "repeatability requires the method \"output_error\""},
-      {"run zero", "\"7 day\", run = 2 }", "\"7 day\", run = 0 }", "1 or more"},
+      {"run zero", "\"7 day\", run = 2 }", "\"7 day\", run = 0 }", "between 1 and 1000000"},
       {"density of a sine", "level = \"1 g0\", age = \"7 day\", run = 2",
        "level = \"0.05 g0^2/Hz\", age = \"7 day\", run = 2", "a density belongs to random motion"},
       {"unknown parameter", "of = \"stiffness\"", "of = \"mass\"", "\"mass\" is not a parameter that changes"},

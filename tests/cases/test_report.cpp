@@ -101,6 +101,16 @@ TEST(Report, TellsOfAFracture) {
 }
 
 /// The bar has two cells across and one through: its page shows the plane in which it has several.
+TEST(Report, RefusesACurveWithoutRows) {
+  const TemporaryCase directory(bar_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const std::string curve = content_of(directory.results() / "force_displacement.csv");
+  directory.write("results/force_displacement.csv", curve.substr(0, curve.find('\n') + 1));
+  const Outcome outcome = run({"report", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("force_displacement.csv: it has no rows"));
+}
+
 TEST(Report, ShowsDamageInThePlaneOfAPlate) {
   const TemporaryCase directory(bar_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);

@@ -92,6 +92,16 @@ values = [21, 31, 41]
   EXPECT_EQ(table.column("cells"), (std::vector<double>{42.0, 62.0, 82.0}));
 }
 
+TEST(Sweep, OfNoRunThatEndsFails) {
+  const TemporaryCase directory(bar_case() + sweep("method = \"list\"", "values = [\"-30 GPa\", \"-10 GPa\"]",
+                                                   "values = [\"100 J/m^2\", \"200 J/m^2\"]"));
+  const Outcome outcome = run({"sweep", directory.path().string()});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("none of the 2 runs of the sweep came to its end; run 1: "), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("young_modulus: \"-30 GPa\" must be positive"), std::string::npos) << outcome.err;
+}
+
 TEST(Sweep, RunsCasesOfAnotherKind) {
   const TemporaryCase directory(R"(kind = "endochronic"
 title = "cycles"
@@ -175,6 +185,10 @@ const BadInput bad_sweeps[] = {
      "method = \"grid\"",
      "method = \"grid\"\nslurm = { partitions = \"long\" }",
      {"did you mean \"partition\"?"}},
+    {"key_that_is_named_twice",
+     "[\"materials.concrete.toughness\", \"regions.weak.toughness\"]",
+     "\"materials.concrete.young_modulus\"",
+     {"[sweep.parameters] key: \"materials.concrete.young_modulus\" is named twice"}},
     {"element_that_is_not_there",
      "\"materials.concrete.young_modulus\"",
      "\"mesh.x[1].cells\"",

@@ -189,6 +189,8 @@ TEST(BoxHexes, BadInputIsRefused) {
   settings = bar();
   settings.regions = {{"notch", {100, 0, 0}, {101, 1, 1}}};
   EXPECT_THAT(message_of<InputError>([&] { make_box_hexes(settings); }), HasSubstr("\"notch\""));
+  settings.regions.insert(settings.regions.begin(), {"notch", {-1e3, -1e3, -1e3}, {1e3, 1e3, 1e3}});
+  EXPECT_THAT(message_of<InputError>([&] { make_box_hexes(settings); }), HasSubstr("\"notch\", number 2 of the list"));
 }
 
 }  // namespace

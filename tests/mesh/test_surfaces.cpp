@@ -23,6 +23,11 @@ double enclosed_volume(const TriangleSurface& surface) {
   return six_volumes / 6.0;
 }
 
+TEST(TriangleSurface, OfTooManyTrianglesIsRefused) {
+  EXPECT_THROW(unit_icosphere(1000000), InputError);
+  EXPECT_THROW(unit_icosphere(icosphere_subdivision(1e-9, 1.0)), InputError);
+}
+
 TEST(Icosphere, HasItsCountsAndIsClosed) {
   for (const Index n : {1, 2, 5, 8}) {
     const TriangleSurface sphere = unit_icosphere(n);

@@ -287,6 +287,32 @@ TEST(FreeStrains, TakeHardlyMoreIterations) {
   EXPECT_LE(prescribed.krylov_iterations, 80);
 }
 
+// A stiff core in a stiff shell turns with it as one body: the box takes hardly more iterations than with the whole
+// inclusions of one material, whichever of the two is the stiffer.
+TEST(StiffInclusions, TurnWithTheirShells) {
+  PackedSpheresSettings packing;
+  packing.box.lower = Vector::Zero();
+  packing.box.upper = Vector::Ones();
+  packing.like = {.subdivision = 2, .region = "core", .n_layers = 2, .layer_thickness = 0.03, .layer_region = "shell"};
+  packing.diameters = draw_diameters({.mean = 1.0}, 10, 0.05, true, 1);
+  packing.gap = packing.wall_gap = 0.01;
+  packing.edges_over_gap = 0.0;
+  const Mesh mesh = make_packed_spheres(packing);
+  const auto iterations = [&](double core, double shell) {
+    FractureModel model = elastic_model(std::vector(3, from_young_poisson(75e6, 0.44)), {});
+    model.regions[as_size(mesh.region_index("core"))].elasticity = from_young_poisson(core, 0.3);
+    model.regions[as_size(mesh.region_index("shell"))].elasticity = from_young_poisson(shell, 0.3);
+    load(model, mesh, strains({{zz, {0.01}}}), "periodic");
+    return static_cast<double>(follow(mesh, model, strains({{zz, {0.01}}}), 1e-8).back().krylov_iterations);
+  };
+  const double alike = iterations(70e9, 70e9), soft_shell = iterations(70e9, 5e9), soft_core = iterations(5e9, 70e9);
+  report_row(fmt::format("{} cells", mesh.n_cells()),
+             {{"of one material", alike}, {"softer shells", soft_shell}, {"softer cores", soft_core}});
+  EXPECT_LE(alike, 100.0);
+  EXPECT_LE(soft_shell, 1.2 * alike);
+  EXPECT_LE(soft_core, 1.2 * alike);
+}
+
 // A stiff cube slides in a pressed binder that is sheared, and the box goes back to no strain. Friction holds it on its
 // way; the pressure that it needs goes with the strain, and with it the stress.
 TEST(SlidingCube, LosesItsStressWithItsStrain) {
@@ -296,36 +322,31 @@ TEST(SlidingCube, LosesItsStressWithItsStrain) {
   mesh.region_names = {"binder", "cube"};
   for (Index c = 0; c < mesh.n_cells(); ++c)
     mesh.region[c] = (mesh.cell_centre[c] - Vector::Constant(0.5e-3)).cwiseAbs().maxCoeff() < 0.25e-3 ? 1 : 0;
-  // Of pressure and of shear, from 1 on down to `last`: together, or one before the other.
-  using Way = std::array<std::vector<double>, 2>;
-  const auto ways = [](double last) {
-    return std::vector<Way>{
-        {{{1.0, last}, {1.0, last}}}, {{{1.0, 1.0, last}, {1.0, last, last}}}, {{{1.0, last, last}, {1.0, 1.0, last}}}};
-  };
+  // Of pressure and of shear, from 1 on to almost nothing: together, or one before the other.
+  constexpr double last = 1e-6;
+  const std::array<std::vector<double>, 2> ways[] = {
+      {{{1.0, last}, {1.0, last}}}, {{{1.0, 1.0, last}, {1.0, last, last}}}, {{{1.0, last, last}, {1.0, 1.0, last}}}};
   for (const double friction : {0.6, 2.0})
-    for (std::size_t way = 0; way < 3; ++way) {
-      const auto follow_to = [&](double last) {
-        FractureModel model = elastic_model({from_young_poisson(50e6, 0.4), from_young_poisson(1e9, 0.3)}, {});
-        CohesiveSurface bond{.name = "bond", .law = law_of(linear_law()), .faces = {}};
-        bond.law.friction = friction;
-        for (Index f = 0; f < mesh.n_interior_faces(); ++f)
-          if (mesh.region[mesh.owner[f]] != mesh.region[mesh.neighbour[f]]) {
-            bond.faces.push_back(f);
-            bond.at.push_back({.strength = 1e4, .toughness = 0.05, .stiffness = 1e12});
-          }
-        model.interfaces.push_back(std::move(bond));
-        MeanPath path = strains({{zz, ways(last)[way][0]}, {0, ways(last)[way][0]}, {4, ways(last)[way][1]}});
-        for (auto& point : path.points) point[zz] *= -0.05, point[0] *= -0.05, point[4] *= 0.1;
-        load(model, mesh, path, "periodic");
-        return follow(mesh, model, path, 1e-8, 0.25);
-      };
-      const std::vector<StepReport> near = follow_to(1e-6), end = follow_to(0.0);
+    for (const auto& [pressure, shear] : ways) {
+      FractureModel model = elastic_model({from_young_poisson(50e6, 0.4), from_young_poisson(1e9, 0.3)}, {});
+      CohesiveSurface bond{.name = "bond", .law = law_of(linear_law()), .faces = {}};
+      bond.law.friction = friction;
+      for (Index f = 0; f < mesh.n_interior_faces(); ++f)
+        if (mesh.region[mesh.owner[f]] != mesh.region[mesh.neighbour[f]]) {
+          bond.faces.push_back(f);
+          bond.at.push_back({.strength = 1e4, .toughness = 0.05, .stiffness = 1e12});
+        }
+      model.interfaces.push_back(std::move(bond));
+      MeanPath path = strains({{zz, pressure}, {0, pressure}, {4, shear}});
+      for (auto& point : path.points) point[zz] *= -0.05, point[0] *= -0.05, point[4] *= 0.1;
+      load(model, mesh, path, "periodic");
+      const std::vector<StepReport> steps = follow(mesh, model, path, 1e-8, 0.25);
       double most = 0.0;
-      for (const StepReport& report : near) most = std::max(most, report.means->stress.norm());
-      const double left = near.back().means->stress.norm() / most;
-      report_row(fmt::format("friction {}, way {}", friction, way), {{"stress left at 1e-6 of the strain", left}});
+      for (const StepReport& report : steps) most = std::max(most, report.means->stress.norm());
+      const double left = steps.back().means->stress.norm() / most;
+      report_row(fmt::format("friction {}, {} points", friction, pressure.size()),
+                 {{"stress left at 1e-6 of the strain", left}});
       EXPECT_LE(left, 2e-6);
-      EXPECT_EQ(end.back().means->stress.norm(), 0.0);
     }
 }
 

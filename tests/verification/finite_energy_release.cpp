@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace pfdm::verification {
@@ -78,6 +79,30 @@ TEST(FiniteEnergyRelease, OfAStripIsWhatItStoresAhead) {
     EXPECT_NEAR(fine.wide, 1.0, 0.003);
     EXPECT_NEAR(fine.narrow, 1.0, 0.003);
   }
+}
+
+// Hexahedra whose faces are warped, in a uniform deformation: no energy flows, whatever the ring.
+TEST(FiniteEnergyRelease, IsNoneInAUniformDeformationOfWarpedCells) {
+  const Mesh mesh = mapped_box({6, 6, 4}, [](const Vector& x) -> Vector {
+    const auto wave = [](double s) { return std::sin(std::numbers::pi * s); };
+    const double inner = 0.15 * wave(x[0]) * wave(x[1]) * wave(x[2]);
+    return x + inner * Vector(wave(3.0 * x[1]), wave(2.0 * x[2] + 0.3), wave(3.0 * x[0] - 0.2));
+  });
+  Tensor H;
+  H << 0.2, 0.1, -0.05, 0.03, -0.1, 0.2, 0.1, -0.02, 0.15;
+  std::vector<BoundaryCondition> boundary;
+  for (const Patch& side : mesh.patches)
+    boundary.push_back(
+        moved(side.name, {true, true, true}, [=](const Vector& x, double t) -> Vector { return t * H * x; }));
+  const auto rubber = make_hyperelastic("neo_hookean", {.elasticity = from_young_poisson(1.5e6, 0.4)});
+  FractureRun run(mesh, finite_body(mesh, rubber, boundary), {.equilibrium_tolerance = 1e-12},
+                  {.initial_increment = 0.5, .maximum_increment = 0.5, .stops = {}});
+  const OutputFields fields = run.output(run_to_end(run, [](const FractureState&, const StepReport&) {}));
+  const TipRegion ring{
+      .name = "tip", .point = {0.5, 0.5, 0.5}, .shape = &region_shapes().front(), .inner = 0.1, .outer = 0.45};
+  const double G = energy_release_rate(mesh, fields, ring).G, unit = fields.energy_density[0] * ring.outer;
+  report_row("uniform deformation, warped hexahedra", {{"G over energy density times outer", G / unit}});
+  EXPECT_LT(std::abs(G), 1e-8 * unit);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ ChainCase read_chain_case(const ConfigTable& root, const fs::path& case_director
   root.with_keys({"kind", "title", "step", "sweep"});
   if (const auto sweep = root.find("sweep"))
     throw sweep->error("a chain has no sweep: the cases of its steps may have one");
-  ChainCase chain{.title = root.string("title"), .steps = {}};
+  ChainCase chain{.title = root.line("title"), .steps = {}};
   for (const ConfigTable& table : root.tables("step")) {
     ChainStep step = read_step(table, case_directory);
     const auto same = [&](const ChainStep& other) { return other.name == step.name; };

@@ -74,6 +74,12 @@ SetUp read_set_up(const Defaults& keys) {
           .compliance = keys.quantity("compliance", dimension::compliance, range::not_negative)};
 }
 
+std::string read_name_of_curve(const ConfigTable& table) {
+  const ConfigValue name = table.at("name");
+  if (name.line().empty()) throw name.error("the name is empty");
+  return name.line();
+}
+
 SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path& directory, const char* quantity,
                            const Dimension& due) {
   const CsvTable file = read_csv_of(table, directory);
@@ -81,7 +87,7 @@ SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path
     return read_column(table.table(key).with_keys({"column", "unit"}), file, "column", "unit", dimension);
   };
   SampledCurve curve{
-      .name = table.string("name"), .x = column("displacement", dimension::length), .y = column(quantity, due)};
+      .name = read_name_of_curve(table), .x = column("displacement", dimension::length), .y = column(quantity, due)};
   if (table.has("deviation")) {
     curve.deviation = column("deviation", due);
     if (std::ranges::any_of(curve.deviation, [](double d) { return d < 0.0; }))
@@ -94,6 +100,8 @@ MeasuredCurve read_specimen(const ConfigTable& own, const ConfigTable& of_all, c
   const ConfigTable table = specimen_table(own);
   const Defaults keys(table, of_all);
   const SampledCurve recorded = read_curve_of(table, directory, "force", dimension::force);
+  if (std::ranges::all_of(recorded.y, [](double force) { return force == 0.0; }))
+    throw table.at("force").error("all forces are zero; there is nothing to compare with");
   const Preparation preparation = read_preparation(keys);
   const SetUp set_up = read_set_up(keys);
   return table.at("displacement").in_context([&] { return prepared(recorded, preparation, set_up); });
@@ -161,8 +169,13 @@ std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
   settings.stiffness_to = ends[1].quantity(dimension::length);
   if (!(settings.stiffness_from < settings.stiffness_to))
     throw range.error("the second displacement must be the larger");
-  for (const ConfigTable& specimen : table.tables("specimens"))
-    settings.specimens.push_back(read_specimen(specimen, table, case_directory));
+  for (const ConfigTable& specimen : table.tables("specimens")) {
+    MeasuredCurve curve = read_specimen(specimen, table, case_directory);
+    for (const MeasuredCurve& other : settings.specimens)
+      if (other.curve.name == curve.curve.name)
+        throw specimen.at("name").error(fmt::format("another specimen is called \"{}\" already", curve.curve.name));
+    settings.specimens.push_back(std::move(curve));
+  }
   if (settings.specimens.empty())
     throw table.error("no measured curve is named; at least one [[experiment.specimens]] is required");
   for (const ConfigTable& energy : table.tables("energies"))

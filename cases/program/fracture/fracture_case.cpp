@@ -10,11 +10,12 @@
 namespace pfdm {
 namespace {
 
+constexpr Range above_zero_below_one{0.0, 1.0, true, "above 0 and below 1"};
 constexpr Range above_zero_to_one{std::numeric_limits<double>::min(), 1.0, false, "above 0 and at most 1"};
 // Broken cells beside sound ones leave double precision no more than this.
 constexpr Range solvable{1e-12, 1.0, false, "between 1e-12 and 1"};
-constexpr Range at_least_one{1.0, 1e9, false, "at least 1"};
-constexpr Range count{0.0, 1e9, false, "zero or positive"};
+constexpr Range iterations_range{1.0, 1e9, false, "between 1 and 1e9"};
+constexpr Range count{0.0, 1e9, false, "between 0 and 1e9"};
 
 std::string unsuited_split(const Material& material, const EnergySplit& split) {
   return fmt::format("a material of the law \"{}\" cannot be combined with the energy split \"{}\"; allowed: {}",
@@ -81,7 +82,7 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   if (const auto irreversibility = table.find("irreversibility"))
     model.irreversibility = read_irreversibility(*irreversibility);
   read_delta(table, model, defaults.strength);
-  model.residual_stiffness = table.number("residual_stiffness", above_zero_to_one, model.residual_stiffness);
+  model.residual_stiffness = table.number("residual_stiffness", above_zero_below_one, model.residual_stiffness);
   if (table.has("viscosity")) model.viscosity = table.quantity("viscosity", dimension::viscosity, range::not_negative);
   defaults.crack = model.crack;
   const std::string toughnesses[] = {"corrected", "as_given"};
@@ -178,7 +179,7 @@ StaggeredSettings read_solver(const ConfigTable& root) {
   settings.energy_tolerance = table.number("energy_tolerance", above_zero_to_one, settings.energy_tolerance);
   settings.equilibrium_tolerance = table.number("equilibrium_tolerance", solvable, settings.equilibrium_tolerance);
   settings.maximum_iterations =
-      static_cast<Index>(table.integer("maximum_iterations", at_least_one, settings.maximum_iterations));
+      static_cast<Index>(table.integer("maximum_iterations", iterations_range, settings.maximum_iterations));
   if (table.has("linear")) settings.linear = &choose(table.at("linear"), linear_solvers(), "linear solver");
   return settings;
 }
@@ -300,7 +301,7 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
 
 FractureCase read_body(const ConfigTable& root, const std::filesystem::path& case_directory, bool may_be_elastic) {
   FractureCase fracture;
-  fracture.title = root.string("title");
+  fracture.title = root.line("title");
   MaterialDefaults defaults =
       may_be_elastic && !root.has("fracture") ? elastic(fracture.model) : read_fracture(root, fracture.model);
   fracture.mesh = read_mesh_recipe(root.table("mesh"), {case_directory, defaults.ell});
@@ -329,6 +330,7 @@ FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
   for (const Patch& patch : mesh.patches) patches.push_back(patch.name);
   check_names(fracture, mesh.region_names, patches);
   require_boundary_values(fracture, mesh);
+  for (const TipRegion& region : fracture.output.tips) require_ring(mesh, region);
   FractureModel model = fracture.model;
   place_materials(fracture.materials, mesh, model);
   place_interfaces(fracture.interfaces, mesh, model);

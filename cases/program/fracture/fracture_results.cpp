@@ -159,7 +159,10 @@ void remove_earlier_run(const fs::path& directory) {
 
 std::vector<CurveRow> read_curve_record(const fs::path& results, const std::string& case_hash) {
   require_results(results, case_hash);
-  return read_curve(results / curve_file);
+  std::vector<CurveRow> rows = read_curve(results / curve_file);
+  if (rows.empty())
+    throw InputError(fmt::format("{}: it has no rows; pfdm run makes it anew", (results / curve_file).string()));
+  return rows;
 }
 
 std::vector<ColumnRecord> read_column_record(const fs::path& results, const std::string& case_hash) {

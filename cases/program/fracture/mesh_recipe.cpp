@@ -73,7 +73,7 @@ NamedBox read_patch_box(const ConfigTable& table, std::vector<std::string>& patc
 }
 
 MeshRecipe read_box_hexes(const ConfigTable& table, const MeshSurroundings&) {
-  table.with_keys({"generator", "cells", "x", "y", "z", "origin", "region", "regions", "slits", "holes", "patches"});
+  table.with_keys({"cells", "x", "y", "z", "origin", "region", "regions", "slits", "holes", "patches"});
   BoxHexesSettings settings;
   if (const auto origin = table.find("origin")) settings.origin = read_point(*origin);
   for (std::size_t a = 0; a < 3; ++a)
@@ -105,7 +105,7 @@ std::vector<Shell> read_shells(const ConfigValue& list) {
 }
 
 MeshRecipe read_sphere_sector(const ConfigTable& table, const MeshSurroundings&) {
-  table.with_keys({"generator", "cells", "azimuth", "inner_radius", "shells", "polar"});
+  table.with_keys({"cells", "azimuth", "inner_radius", "shells", "polar"});
   const SphereSectorSettings settings{
       .azimuth = table.quantity("azimuth", dimension::angle, azimuth_range),
       .inner_radius = table.quantity("inner_radius", dimension::length, range::not_negative, 0.0),
@@ -214,8 +214,8 @@ MeshRecipe imported(const ImportSettings& settings, Mesh (*import)(const ImportS
 }
 
 MeshRecipe read_vtk(const ConfigTable& table, const MeshSurroundings& around) {
-  table.with_keys({"generator", "cells", "file", "length_unit", "region_array", "region_names", "face_array",
-                   "face_sets", "merge_tolerance", "patches"});
+  table.with_keys({"cells", "file", "length_unit", "region_array", "region_names", "face_array", "face_sets",
+                   "merge_tolerance", "patches"});
   ImportSettings settings = read_import(table, around.case_directory);
   settings.region_array = table.string("region_array", "");
   settings.face_array = table.string("face_array", "");
@@ -223,8 +223,7 @@ MeshRecipe read_vtk(const ConfigTable& table, const MeshSurroundings& around) {
 }
 
 MeshRecipe read_gmsh(const ConfigTable& table, const MeshSurroundings& around) {
-  table.with_keys(
-      {"generator", "cells", "file", "length_unit", "region_names", "face_sets", "merge_tolerance", "patches"});
+  table.with_keys({"cells", "file", "length_unit", "region_names", "face_sets", "merge_tolerance", "patches"});
   return imported(read_import(table, around.case_directory), import_gmsh);
 }
 

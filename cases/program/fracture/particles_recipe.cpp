@@ -10,12 +10,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <utility>
 
 namespace pfdm {
 namespace {
 
+constexpr Range radius_edge_range{1.0, 1e3, false, "between 1 and 1000"};
+constexpr Range one_or_more{1.0, std::numeric_limits<double>::infinity(), false, "at least 1"};
 constexpr Range dihedral_range{0.0, 30.0, false, "between 0 and 30 degrees"};
 constexpr Range sphere_count{1.0, 5000.0, false, "between 1 and 5000"};
 constexpr Range packable{0.0, 0.6, true, "between 0 and 0.6"};
@@ -110,9 +113,8 @@ std::vector<Band> bands_of(const ParticlesInBoxSettings& settings) {
   return bands;
 }
 
-/// Keys of every box of tetrahedra.
-constexpr std::string_view box_of_tetrahedra[] = {"generator",
-                                                  "cells",
+/// Keys of every box of tetrahedra, besides the generator that was asked for.
+constexpr std::string_view box_of_tetrahedra[] = {"cells",
                                                   "size",
                                                   "centre",
                                                   "region",
@@ -141,9 +143,9 @@ ParticlesInBoxSettings read_box_of_tetrahedra(const ConfigTable& table) {
   settings.size_far = table.quantity("size_far", dimension::length, range::positive, settings.size_far);
   settings.boundary_size = table.quantity("boundary_size", dimension::length, range::positive, settings.boundary_size);
   settings.grading = table.number("grading", range::not_negative, settings.grading);
-  settings.particle_size_factor = table.number("particle_size_factor", range::positive, settings.particle_size_factor);
+  settings.particle_size_factor = table.number("particle_size_factor", one_or_more, settings.particle_size_factor);
   settings.max_radius_edge_ratio =
-      table.number("max_radius_edge_ratio", range::positive, settings.max_radius_edge_ratio);
+      table.number("max_radius_edge_ratio", radius_edge_range, settings.max_radius_edge_ratio);
   settings.min_dihedral_angle = table.number("min_dihedral_angle", dihedral_range, settings.min_dihedral_angle);
   return settings;
 }

@@ -122,7 +122,7 @@ bool has_mean_path(const ConfigTable& root) {
 FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
   root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "interface", "homogenization",
                   "loading", "solver", "output", "cohesive", "sweep"});
-  const ConfigTable table = root.table("homogenization").with_keys({"boundary", "path"});
+  const ConfigTable table = root.table("homogenization").with_keys({"boundary"});
   const auto boundary = table.find("boundary");
   const Loading& loading = boundary
                                ? choose(*boundary, homogenization_loadings(), "boundary condition of a homogenisation")

@@ -25,7 +25,7 @@ std::vector<CompositeMaterial> read_other_keys(const ConfigTable& root) {
 HomogenizationSettings read_settings(const ConfigTable& root) {
   HomogenizationSettings settings{.loading = &homogenization_loadings().front()};
   if (root.has("homogenization")) {
-    const ConfigTable table = root.table("homogenization").with_keys({"boundary", "path"});
+    const ConfigTable table = root.table("homogenization").with_keys({"boundary"});
     if (const auto boundary = table.find("boundary"))
       settings.loading = &choose(*boundary, homogenization_loadings(), "boundary condition of a homogenisation");
   }
@@ -42,7 +42,7 @@ HomogenizationSettings read_settings(const ConfigTable& root) {
 HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
   root.with_keys({"kind", "title", "mesh", "materials", "homogenization", "solver", "sweep"});
   HomogenizationCase homogenization;
-  homogenization.title = root.string("title");
+  homogenization.title = root.line("title");
   homogenization.mesh = read_mesh_recipe(root.table("mesh"), {.case_directory = case_directory, .ell = {}});
   MaterialDefaults defaults;
   defaults.elastic_with = std::vector<std::string_view>{"density", "loss_factor"};

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace pfdm {
 namespace {
 
@@ -55,6 +57,12 @@ CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file) 
     result.ratios.push_back(other.value / result.value);
   }
   return result;
+}
+
+void require_named_once(const ConfigValue& key, std::span<const CaseParameter> parameters) {
+  for (const CaseParameter& other : parameters.first(parameters.size() - 1))
+    for (const std::string& name : parameters.back().keys)
+      if (std::ranges::count(other.keys, name) > 0) throw key.error(fmt::format("\"{}\" is named twice", name));
 }
 
 double read_parameter_value(const ConfigValue& value, const CaseParameter& parameter) {

@@ -31,6 +31,9 @@ struct CaseParameter {
 /// or is neither a quantity nor a number.
 CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file);
 
+/// Throws InputError if the last of the parameters, which `key` is, has a key that another one has as well.
+void require_named_once(const ConfigValue& key, std::span<const CaseParameter> parameters);
+
 /// A value of the parameter as it stands in the case, a quantity or a bare number [SI].
 double read_parameter_value(const ConfigValue& value, const CaseParameter& parameter);
 

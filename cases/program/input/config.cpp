@@ -76,6 +76,12 @@ InputError idle_key(const ConfigSource& source, const ConfigSource::Opened& tabl
       fmt::format("{}\"{}\" has no effect with the other settings of this case", table_place(table.path), key));
 }
 
+void require_named(const ConfigSource::Opened& table, std::string_view key) {
+  if (!table.known().contains(std::string(key)))
+    throw std::logic_error(
+        fmt::format("{}\"{}\" is asked for and not among the table's keys", table_place(table.path), key));
+}
+
 /// Where the paths of a case start.
 std::filesystem::path directory_of(const std::string& file) { return std::filesystem::path(file).parent_path(); }
 
@@ -122,6 +128,12 @@ InputError ConfigValue::error(std::string_view message) const {
 std::string ConfigValue::string() const {
   if (const auto* text = std::get_if<std::string>(&value_->value)) return *text;
   throw error(fmt::format("expected a text in quotes, found {}", shown(*value_)));
+}
+
+std::string ConfigValue::line() const {
+  std::string text = string();
+  if (text.find_first_of("\n\r") != std::string::npos) throw error("expected a text of one line");
+  return text;
 }
 
 bool ConfigValue::boolean() const {
@@ -204,7 +216,12 @@ InputError ConfigTable::error(std::string_view message) const {
 
 ConfigTable ConfigTable::with_keys(std::span<const std::string_view> keys) const {
   ConfigSource::Opened& opened = source_->opened[&content()];
-  opened.allowed = {keys.begin(), keys.end()};
+  if (!opened.allowed.empty()) {
+    for (const std::string_view key : keys) require_named(opened, key);
+    return *this;
+  }
+  opened.allowed = opened.asked_for;
+  opened.allowed.insert(keys.begin(), keys.end());
   for (const auto& [name, value] : content())
     if (!opened.allowed.contains(name)) throw unknown_key(*source_, opened, name, value.key_line, true);
   return *this;
@@ -213,9 +230,7 @@ ConfigTable ConfigTable::with_keys(std::span<const std::string_view> keys) const
 std::optional<ConfigValue> ConfigTable::find(std::string_view key) const {
   ConfigSource::Opened& opened = source_->opened[&content()];
   opened.asked_for.emplace(key);
-  if (!opened.known().contains(std::string(key)))
-    throw std::logic_error(
-        fmt::format("{}\"{}\" is asked for and not among the table's keys", table_place(path_), key));
+  require_named(opened, key);
   for (const auto& [name, value] : content())
     if (name == key) return ConfigValue(source_, &value, place_of_key(path_, key), subtable(path_, key));
   return std::nullopt;

@@ -32,8 +32,8 @@ inline constexpr Range any{};
 inline constexpr Range positive{0.0, std::numeric_limits<double>::infinity(), true, "positive"};
 inline constexpr Range not_negative{0.0, std::numeric_limits<double>::infinity(), false, "zero or positive"};
 inline constexpr Range fraction{0.0, 1.0, false, "between 0 and 1"};
-inline constexpr Range count{1.0, 1e6, false, "at least 1"};
-inline constexpr Range seed{0.0, 1e15, false, "zero or positive"};
+inline constexpr Range count{1.0, 1e6, false, "between 1 and 1000000"};
+inline constexpr Range seed{0.0, 1e15, false, "between 0 and 1e15"};
 /// What the solver is tested for.
 inline constexpr Range poisson_ratio{-1.0 + std::numeric_limits<double>::epsilon(), 0.4999, false,
                                      "above -1 and at most 0.4999"};
@@ -53,6 +53,7 @@ class ConfigValue {
   bool is_table() const { return std::holds_alternative<TomlTable>(value_->value); }
 
   std::string string() const;
+  std::string line() const;  ///< a text without line breaks, for heads of files and tables
   bool boolean() const;
   std::int64_t integer(const Range& allowed = range::any) const;
   double number(const Range& allowed = range::any) const;
@@ -89,8 +90,10 @@ class ConfigTable {
  public:
   ConfigTable(std::shared_ptr<ConfigSource> source, const TomlValue* value, std::string path);
 
-  /// The same table, after it is known which keys it may have: throws for any other one in the file. To ask for a key
-  /// that was not named is a mistake of the program's (std::logic_error).
+  /// The same table, after it is known which keys it may have: throws for any other one in the file. Those that were
+  /// asked for before, such as the one that decides which others there are, need not be named. To ask for a key that
+  /// was not named is a mistake of the program's (std::logic_error), and so is to name another one when a table is read
+  /// again.
   ConfigTable with_keys(std::span<const std::string_view> keys) const;
   ConfigTable with_keys(std::initializer_list<std::string_view> keys) const {
     return with_keys(std::span(keys.begin(), keys.size()));
@@ -104,6 +107,7 @@ class ConfigTable {
 
   std::string string(std::string_view key) const { return at(key).string(); }
   std::string string(std::string_view key, std::string_view otherwise) const;
+  std::string line(std::string_view key) const { return at(key).line(); }
   bool boolean(std::string_view key, bool otherwise) const;
   std::int64_t integer(std::string_view key, const Range& allowed) const { return at(key).integer(allowed); }
   std::int64_t integer(std::string_view key, const Range& allowed, std::int64_t otherwise) const;

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Range loss_range{0.0, 2.0, true, "above 0 and below 2"};
-constexpr Range counts{2.0, 100000.0, false, "at least 2"};
+constexpr Range counts{2.0, 100000.0, false, "between 2 and 100000"};
 constexpr Range mode_count{1.0, 100.0, false, "between 1 and 100"};
-constexpr Range frame_count{1.0, 1000.0, false, "at least 1"};
+constexpr Range frame_count{1.0, 1000.0, false, "between 1 and 1000"};
 
 constexpr PlateWord support_table[] = {
     {"clamped", "moves with the base in all directions"},
@@ -252,7 +252,7 @@ PlateCase read_plate_case(const ConfigTable& root, const fs::path& case_director
   const ConfigTable table = root.with_keys({"kind", "title", "mesh", "material", "support", "base", "response",
                                             "heating", "cooling", "output", "fit", "sweep"});
   PlateCase c;
-  c.title = table.string("title");
+  c.title = table.line("title");
   c.mesh = read_mesh_recipe(table.table("mesh"), {.case_directory = case_directory, .ell = {}});
   c.data_files = c.mesh.data_files;
   c.material = read_material(table, case_directory, c.data_files);

@@ -5,7 +5,7 @@ namespace pfdm {
 EndochronicCase read_endochronic_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
   root.with_keys({"kind", "title", "material", "loading", "fit", "sweep"});
   EndochronicCase result;
-  result.title = root.string("title");
+  result.title = root.line("title");
   result.law = read_endochronic_law(
       root.table("material").with_keys({"young_modulus", "poisson_ratio", "kernel", "hardening", "rate", "beta"}));
   result.loading = read_endochronic_loading(root.table("loading"), result.law, case_directory);

@@ -133,12 +133,11 @@ void require_start_within_bounds(const ConfigTable& fit, const std::vector<Curve
 
 std::vector<CurveFitParameter> read_fit_parameters(const ConfigTable& fit, const CaseFile& file) {
   std::vector<CurveFitParameter> parameters;
+  std::vector<CaseParameter> in_case;
   for (const ConfigTable& table : fit.tables("parameters")) {
     parameters.push_back(read_parameter(table, file));
-    for (std::size_t j = 0; j + 1 < parameters.size(); ++j)
-      for (const std::string& key : parameters.back().in_case.keys)
-        if (std::ranges::count(parameters[j].in_case.keys, key) > 0)
-          throw table.at("key").error(fmt::format("\"{}\" is named twice", key));
+    in_case.push_back(parameters.back().in_case);
+    require_named_once(table.at("key"), in_case);
   }
   if (parameters.empty()) throw fit.error("at least one [[fit.parameters]] is required");
   return parameters;

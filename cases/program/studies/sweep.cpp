@@ -120,6 +120,9 @@ void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& ses
     session.log.say(fmt::format("  {}", line));
   }
   write_csv(session.results / "sweep.csv", table);
+  if (std::ranges::none_of(done, &DoneRun::went_well))
+    throw ComputationError(fmt::format("none of the {} runs of the sweep came to its end; run 1: {}; all are in {}",
+                                       done.size(), done.front().failure, (session.results / "sweep.csv").string()));
   session.log.say(fmt::format("{} runs made, {} reused, {} of them did not converge; {:.1f} s; written to {}",
                               runs.n_made(), runs.n_reused(), runs.n_failed(), watch.seconds(),
                               (session.results / "sweep.csv").string()));

@@ -115,9 +115,11 @@ std::optional<SweepSettings> read_sweep(const CaseFile& file) {
   const ConfigTable sweep = root.table("sweep").with_keys({"method", "samples", "seed", "parameters", "slurm"});
   SweepSettings settings;
   const std::vector<ConfigTable> tables = sweep.tables("parameters");
-  for (const ConfigTable& table : tables)
-    settings.parameters.push_back(
-        read_case_parameter(table.with_keys({"key", "values", "between", "count", "spacing"}).at("key"), file));
+  for (const ConfigTable& table : tables) {
+    const ConfigValue key = table.with_keys({"key", "values", "between", "count", "spacing"}).at("key");
+    settings.parameters.push_back(read_case_parameter(key, file));
+    require_named_once(key, settings.parameters);
+  }
   if (sweep.has("slurm")) settings.slurm = read_slurm(sweep.table("slurm"));
   if (tables.empty()) throw sweep.error("at least one [[sweep.parameters]] is required");
   const std::string methods[] = {"grid", "list", "latin_hypercube"};

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Range count{0.0, 1e6, false, "zero or positive"};
+constexpr Range count{0.0, 1e6, false, "between 0 and 1000000"};
 constexpr Range exponent{0.0, 4.0, false, "between 0 and 4"};
 constexpr Range decibel{-20.0, 200.0, false, "between -20 and 200"};
 constexpr Range part{0.0, 0.4, false, "between 0 and 0.4"};
@@ -305,7 +305,7 @@ void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
 MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path& case_directory) {
   root.with_keys({"kind", "title", "model", "sample", "sampling", "test", "change", "fit", "analysis", "sweep"});
   MassMaterialCase c;
-  c.title = root.string("title");
+  c.title = root.line("title");
   read_sample(root, c);
   c.card = read_sample_card(root);
   read_model(root, c);

@@ -16,7 +16,7 @@
 namespace pfdm {
 namespace {
 
-constexpr Range run_number{1.0, 1e6, false, "1 or more"};
+constexpr Range run_number{1.0, 1e6, false, "between 1 and 1000000"};
 constexpr Range relative_slope{-1.0, 1.0, false, "between -1 and 1"};
 constexpr Range relative_scatter{0.0, 0.5, false, "between 0 and 0.5"};
 
@@ -95,7 +95,7 @@ std::string read_date(const ConfigValue& value) {
 SampleCard read_sample_card(const ConfigTable& root) {
   SampleCard card;
   if (!root.has("sample")) return card;
-  constexpr Range planned{0.0, 1e6, false, "0 or more"};
+  constexpr Range planned{0.0, 1e6, false, "between 0 and 1000000"};
   const ConfigTable table = root.table("sample");
   card.name = table.string("name", "");
   card.composition = table.string("composition", "");
