@@ -42,7 +42,8 @@ class Star {
     for (double step = 0.5 * size; step > least_step * size;) {
       Vector next = at;
       for (int k = 0; k < 27; ++k) {
-        const Vector candidate = at + step * Vector(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+        const int along_x = k % 3 - 1, along_y = k / 3 % 3 - 1, along_z = k / 9 - 1;
+        const Vector candidate = at + step * Vector(along_x, along_y, along_z);
         if (const double quality = worst_shape(candidate); quality > best) {
           best = quality;
           next = candidate;

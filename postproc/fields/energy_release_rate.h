@@ -52,7 +52,7 @@ struct TipRegion {
   double reference_length = 0.0;                ///< of the stress intensities [m]; 0: they are not asked for
 };
 
-/// Throws InputError if the ring, where the crack begins, has no part in the mesh, or a fixed one leaves the body.
+/// Throws InputError if the ring, where the crack begins, has no part in the mesh.
 void require_ring(const Mesh& mesh, const TipRegion& region);
 
 /// The foremost place along the region's direction where the damage passes the threshold, between cell centres; the

@@ -211,11 +211,6 @@ const BadInput bad_inputs[] = {
      "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"10 mm\", \"0.5 mm\", \"0.5 mm\"]\n"
      "direction = [1, 0, 0]\ninner = \"1 nm\"\nouter = \"2 nm\"",
      {"region \"tip\": no face of the mesh has its centre in the ring"}},
-    {"ring_that_leaves_the_body",
-     "frames_at = [\"0.006 mm\"]",
-     "[[output.energy_release_rate]]\nname = \"tip\"\npoint = [\"10 mm\", \"0.5 mm\", \"0.5 mm\"]\n"
-     "direction = [1, 0, 0]\ninner = \"0.1 mm\"\nouter = \"1 km\"",
-     {"region \"tip\": the ring leaves the body across direction"}},
     {"title_of_two_lines", "\"a bar\"", "\"a\\nbar\"", {"case.toml:2: title: expected a text of one line"}},
     {"all_of_the_stiffness_left",
      "split = \"none\"",

@@ -57,7 +57,7 @@ TEST(CohesiveInterfaces, ComparesEnergiesWithThoseOfAnotherRun) {
                            other_energy("work", "external_work_J");
   const TemporaryCase directory(text);
   std::ofstream(directory.path() / "other.csv")
-      << "displacement_m,force_x_N,external_work_J,interface_dissipation_J\n0,0,0,0\n0.00012,0,2e-4,1e-4\n";
+      << "displacement_m,force_x_N,external_work_J,interface_dissipation_J\n0,0,0,0\n0.00012,1,2e-4,1e-4\n";
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
   const Outcome compared = run({"compare", directory.path().string()});
   ASSERT_EQ(compared.status, 0) << compared.err;
