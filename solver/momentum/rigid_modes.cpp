@@ -25,6 +25,7 @@ using Mode = std::vector<std::pair<Index, Vector>>;
 struct ConnectedCells {
   std::vector<Index> cells, nodes;
   bool touches_boundary = false;
+  bool touches_others = false;  // without an interface between them
 };
 
 class RigidModes {
@@ -123,7 +124,7 @@ class RigidModes {
   void add_inclusions() {
     Group group{.first_mode = static_cast<Index>(modes_.size()), .n_motions = 3};
     for (const ConnectedCells& part : connected([&](Index cell) { return is_stiff(cell); })) {
-      if (part.touches_boundary || part.cells.size() < 2 || is_cut_off(part)) continue;
+      if (part.touches_boundary || part.cells.size() < 2 || !part.touches_others) continue;
       group.length.push_back(length_of(part));
       add_rotations(part.nodes, group.length.back());
     }
@@ -145,14 +146,9 @@ class RigidModes {
 
   bool is_stiff(Index cell) const { return unknowns_.sound[as_size(unknowns_.zone[cell])].mu >= stiff * softest_; }
 
-  bool is_split(Index face) const { return unknowns_.neighbour_node.size() > 0 && unknowns_.neighbour_node[face] >= 0; }
-
-  bool is_cut_off(const ConnectedCells& part) const {
-    return std::ranges::all_of(part.cells, [&](Index cell) {
-      return std::ranges::all_of(mesh_.faces_of_cell(cell), [&](Index f) {
-        return is_split(f) || !mesh_.is_interior(f) || is_stiff(mesh_.across(f, cell));
-      });
-    });
+  bool is_split(Index face) const {
+    return unknowns_.node_beside(mesh_, mesh_.owner[face], face) !=
+           unknowns_.node_beside(mesh_, mesh_.neighbour[face], face);
   }
 
   /// Cells of one kind that are connected without crossing an interface.
@@ -176,6 +172,7 @@ class RigidModes {
         part.touches_boundary = part.touches_boundary || !mesh_.is_interior(f);
         if (!mesh_.is_interior(f) || is_split(f)) continue;
         const Index other = mesh_.across(f, cell);
+        part.touches_others = part.touches_others || !is_one(other);
         if (seen[other] != 0 || !is_one(other)) continue;
         seen[other] = 1;
         part.cells.push_back(other);

@@ -144,8 +144,8 @@ std::vector<SectorPart> read_parts(const ConfigTable& table, std::string_view ke
 }
 
 MeshRecipe read_cylinder_sector(const ConfigTable& table, const MeshSurroundings&) {
-  table.with_keys({"generator", "cells", "azimuth", "inner_radius", "radius", "bottom", "height", "upper_sphere",
-                   "region", "regions", "slits", "holes", "patches"});
+  table.with_keys({"cells", "azimuth", "inner_radius", "radius", "bottom", "height", "upper_sphere", "region",
+                   "regions", "slits", "holes", "patches"});
   CylinderSectorSettings settings;
   settings.azimuth = table.quantity("azimuth", dimension::angle, azimuth_range);
   settings.inner_radius = table.quantity("inner_radius", dimension::length, range::not_negative, 0.0);
