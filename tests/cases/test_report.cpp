@@ -100,7 +100,6 @@ TEST(Report, TellsOfAFracture) {
   EXPECT_THAT(row_of(block<Table>(page, "Model and run"), "fracture"), HasSubstr("AT1"));
 }
 
-/// The bar has two cells across and one through: its page shows the plane in which it has several.
 TEST(Report, RefusesACurveWithoutRows) {
   const TemporaryCase directory(bar_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
@@ -111,6 +110,7 @@ TEST(Report, RefusesACurveWithoutRows) {
   EXPECT_THAT(outcome.err, HasSubstr("force_displacement.csv: it has no rows"));
 }
 
+/// The bar has two cells across and one through: its page shows the plane in which it has several.
 TEST(Report, ShowsDamageInThePlaneOfAPlate) {
   const TemporaryCase directory(bar_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);

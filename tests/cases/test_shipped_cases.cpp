@@ -28,31 +28,42 @@ TEST(ShippedCases, CanBeRead) {
   EXPECT_GT(n_cases, 0);
 }
 
+/// The first steps of a case as it is shipped.
+struct ShippedRun {
+  ShippedRun(const std::string& name, int n_steps)
+      : directory(std::filesystem::path(PFDM_CASES_DIR) / name),
+        outcome(run({"run", directory.string(), "--output", place.results().string(), "--max-steps",
+                     std::to_string(n_steps), "--quiet"})) {}
+  std::filesystem::path results() const { return place.results(); }
+  CsvTable curve() const { return read_csv(results() / "force_displacement.csv"); }
+
+  TemporaryCase place{""};
+  std::filesystem::path directory;
+  Outcome outcome;
+};
+
 // As it is shipped, up to the lower pole's debonding, in its 8th step.
 TEST(ShippedCases, QuickBeadDebondsAsItsReadmeSays) {
-  const TemporaryCase place("");
-  const std::string bead = PFDM_CASES_DIR "/glass_bead_quick";
-  const Outcome outcome = run({"run", bead, "--output", place.results().string(), "--max-steps", "10", "--quiet"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const CsvTable curve = read_csv(place.results() / "force_displacement.csv");
+  const ShippedRun shipped("glass_bead_quick", 10);
+  ASSERT_EQ(shipped.outcome.status, 0) << shipped.outcome.err;
+  const CsvTable curve = shipped.curve();
   ASSERT_EQ(curve.n_rows(), 11u);
-  const auto u = [&](std::size_t i) { return curve.column("displacement_m")[i]; };
-  const auto force = [&](std::size_t i) { return curve.column("force_z_N")[i]; };
+  const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
 
   // The README's table, to its last digit; twice the columns of cells change these forces by 0.2 %.
-  EXPECT_NEAR(u(1), 31.2e-6, 1e-12);
-  EXPECT_NEAR(force(1), 2.20, 0.01);
-  EXPECT_NEAR(u(7), 154.6e-6, 0.1e-6);
-  EXPECT_NEAR(force(7), 10.58, 0.02);
-  EXPECT_NEAR(u(8), 157.1e-6, 0.1e-6);
-  EXPECT_NEAR(force(8), 9.23, 0.03);
+  EXPECT_NEAR(u[1], 31.2e-6, 1e-12);
+  EXPECT_NEAR(force[1], 2.20, 0.01);
+  EXPECT_NEAR(u[7], 154.6e-6, 0.1e-6);
+  EXPECT_NEAR(force[7], 10.58, 0.02);
+  EXPECT_NEAR(u[8], 157.1e-6, 0.1e-6);
+  EXPECT_NEAR(force[8], 9.23, 0.03);
 
   // More than a block of Sylgard under uniform stress (a bound); by little: rigid spheres of this volume, 4.2 %, add
   // 2.5 times as much, and the glued bottom a few per cent.
   const double block = 75e6 * 0.8e-6 / 1e-3;
-  EXPECT_GT(force(1) / u(1), block);
-  EXPECT_LT(force(1) / u(1), 1.25 * block);
-  EXPECT_NEAR(force(2) / force(1), 2.0, 0.01) << "linear as long as the damage is small";
+  EXPECT_GT(force[1] / u[1], block);
+  EXPECT_LT(force[1] / u[1], 1.25 * block);
+  EXPECT_NEAR(force[2] / force[1], 2.0, 0.01) << "linear as long as the damage is small";
 
   for (std::size_t i = 1; i < 11; ++i) {
     const double work = curve.column("external_work_J")[i], damage = curve.column("max_damage")[i];
@@ -67,7 +78,7 @@ TEST(ShippedCases, QuickBeadDebondsAsItsReadmeSays) {
   EXPECT_GT(curve.column("max_damage")[8], 0.99);
 
   // The lower pole alone: no more than the bead's lower half, 4 pi R^2 being 0.503 mm2.
-  const nlohmann::json cohesive = nlohmann::json::parse(content_of(place.results() / "cohesive.json"));
+  const nlohmann::json cohesive = nlohmann::json::parse(content_of(shipped.results() / "cohesive.json"));
   const double debonded = cohesive["surfaces"][0]["debonded_area_m2"];
   EXPECT_GT(debonded, 0.05e-6);
   EXPECT_LT(debonded, 0.25e-6);
@@ -76,20 +87,17 @@ TEST(ShippedCases, QuickBeadDebondsAsItsReadmeSays) {
 
 // As it is shipped, through the jump of the lower pole, in its 15th step.
 TEST(ShippedCases, BeadInRubberDebondsAsItsReadmeSays) {
-  const TemporaryCase place("");
-  const std::string bead = PFDM_CASES_DIR "/glass_bead_rubber";
-  const Outcome outcome = run({"run", bead, "--output", place.results().string(), "--max-steps", "15", "--quiet"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const CsvTable curve = read_csv(place.results() / "force_displacement.csv");
+  const ShippedRun shipped("glass_bead_rubber", 15);
+  ASSERT_EQ(shipped.outcome.status, 0) << shipped.outcome.err;
+  const CsvTable curve = shipped.curve();
   ASSERT_EQ(curve.n_rows(), 16u);
-  const auto u = [&](std::size_t i) { return curve.column("displacement_m")[i]; };
-  const auto force = [&](std::size_t i) { return curve.column("force_z_N")[i]; };
-  EXPECT_NEAR(u(10), 200e-6, 1e-9);
-  EXPECT_NEAR(force(10), 0.3242, 1e-4);
-  EXPECT_NEAR(u(14), 257.5e-6, 0.1e-6);
-  EXPECT_NEAR(force(14), 0.399, 1e-3);
-  EXPECT_NEAR(u(15), 259.5e-6, 0.1e-6);
-  EXPECT_NEAR(force(15), 0.369, 2e-3);
+  const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
+  EXPECT_NEAR(u[10], 200e-6, 1e-9);
+  EXPECT_NEAR(force[10], 0.3242, 1e-4);
+  EXPECT_NEAR(u[14], 257.5e-6, 0.1e-6);
+  EXPECT_NEAR(force[14], 0.399, 1e-3);
+  EXPECT_NEAR(u[15], 259.5e-6, 0.1e-6);
+  EXPECT_NEAR(force[15], 0.369, 2e-3);
   for (std::size_t i = 1; i < 16; ++i) {
     const double kept = curve.column("elastic_energy_J")[i] + curve.column("interface_energy_J")[i] +
                         curve.column("interface_dissipation_J")[i];
@@ -99,25 +107,22 @@ TEST(ShippedCases, BeadInRubberDebondsAsItsReadmeSays) {
 
 // As it is shipped, through the jump in which a crack begins, in its 32nd step.
 TEST(ShippedCases, DiscOfGlassBreaksInsideAsItsReadmeSays) {
-  const TemporaryCase place("");
-  const std::string disc = PFDM_CASES_DIR "/nine_poker_chip";
-  const Outcome outcome = run({"run", disc, "--output", place.results().string(), "--max-steps", "32", "--quiet"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const CsvTable curve = read_csv(place.results() / "force_displacement.csv");
+  const ShippedRun shipped("nine_poker_chip", 32);
+  ASSERT_EQ(shipped.outcome.status, 0) << shipped.outcome.err;
+  const CsvTable curve = shipped.curve();
   ASSERT_EQ(curve.n_rows(), 33u);
-  const auto u = [&](std::size_t i) { return curve.column("displacement_m")[i]; };
-  const auto force = [&](std::size_t i) { return curve.column("force_z_N")[i]; };
-  EXPECT_NEAR(force(1) / u(1), 64.36e6, 0.2e6) << "quadratic elements";
-  EXPECT_NEAR(u(31), 0.556e-6, 1e-9);
-  EXPECT_NEAR(force(30), 34.11, 0.02);  // the peak
-  EXPECT_GT(u(31), 0.533e-6) << "the least that Griffith asks for";
+  const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
+  EXPECT_NEAR(force[1] / u[1], 64.36e6, 0.2e6) << "quadratic elements";
+  EXPECT_NEAR(u[31], 0.556e-6, 1e-9);
+  EXPECT_NEAR(force[30], 34.11, 0.02);  // the peak
+  EXPECT_GT(u[31], 0.533e-6) << "the least that Griffith asks for";
   EXPECT_LT(curve.column("max_damage")[31], 0.6);
   EXPECT_GT(curve.column("max_damage")[32], 0.96);
-  EXPECT_NEAR(force(32) / u(32), 42.2e6, 0.5e6);  // of a sharp crack of 2.75 mm
+  EXPECT_NEAR(force[32] / u[32], 42.2e6, 0.5e6);  // of a sharp crack of 2.75 mm
 
-  const nlohmann::json summary = nlohmann::json::parse(content_of(place.results() / "summary.json"));
-  const FractureState state = read_checkpoint(place.results() / "checkpoint.bin", summary["case_hash"]);
-  const CaseFile opened = open_case(disc);
+  const nlohmann::json summary = nlohmann::json::parse(content_of(shipped.results() / "summary.json"));
+  const FractureState state = read_checkpoint(shipped.results() / "checkpoint.bin", summary["case_hash"]);
+  const CaseFile opened = open_case(shipped.directory);
   const Mesh mesh = read_fracture_case(opened.config.root(), opened.directory).mesh.make();
   ASSERT_EQ(state.damage.size(), mesh.n_cells());
   double radius = 0.0;

@@ -287,8 +287,8 @@ TEST(FreeStrains, TakeHardlyMoreIterations) {
   EXPECT_LE(prescribed.krylov_iterations, 80);
 }
 
-// A stiff core in a stiff shell turns with it as one body, whichever of the two is the stiffer. Where nodes between them
-// moved twice as far it took 800 and 948 iterations.
+// A stiff core in a stiff shell turns with it as one body, whichever of the two is the stiffer. Where nodes between
+// them moved twice as far it took 800 and 948 iterations.
 TEST(StiffInclusions, TurnWithTheirShells) {
   PackedSpheresSettings packing;
   packing.box.lower = Vector::Zero();
