@@ -10,7 +10,7 @@ namespace pfdm {
 namespace {
 
 Unknowns unknowns_of(const Mesh& mesh, ElasticBody body, bool may_float) {
-  for (BoundaryCondition& condition : body.boundary) condition.value = {};
+  for (BoundaryCondition& condition : body.boundary) condition.value = {}, condition.pressure = {};
   return may_float ? place_floating_unknowns(mesh, body) : place_unknowns(mesh, body);
 }
 

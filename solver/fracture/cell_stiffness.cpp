@@ -59,7 +59,7 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
   const CellField<double> g = factors(state);
   if (finite_.any()) {
     const auto law = [&](Index c, const Tensor& H) { return finite_.law(c, H, g[c], state.closure[c]); };
-    momentum.set_finite(law, g, state.displacement);
+    momentum.set_finite(law, g, state.displacement, state.load);
   } else if (is_isotropic_) {
     CellField<IsotropicElasticity> moduli(n);
     parallel_for(mesh_.n_cells(), [&](Index c) { moduli[c] = split(c).secant(elasticity(c), g[c], state.closure[c]); });

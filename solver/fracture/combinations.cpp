@@ -20,6 +20,14 @@ void require_plain_interfaces(const FractureModel& model, const LoadingSettings&
         "region is damageable");
 }
 
+bool is_proportional(const BoundaryCondition& condition, const Vector& x, double end) {
+  const auto value = [&](double t) { return condition.value ? condition.value(x, t) : Vector::Zero(); };
+  const auto pressure = [&](double t) { return condition.pressure ? condition.pressure(x, t) : 0.0; };
+  constexpr double close = 1e-9;
+  return (value(end) - 2.0 * value(0.5 * end)).norm() <= close * value(end).norm() &&
+         std::abs(pressure(end) - 2.0 * pressure(0.5 * end)) <= close * std::abs(pressure(end));
+}
+
 // Dissipation control requires displacements proportional to the load, a dissipation that only grows, and no
 // dependence on time: the load may decrease.
 void require_path(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns, const LoadingSettings& loading) {
@@ -34,17 +42,13 @@ void require_path(const Mesh& mesh, const FractureModel& m, const Unknowns& unkn
         "dissipation control (loading.maximum_dissipation) requires a path of one point: mean strains and stresses "
         "proportional to t");
   for (const PatchCondition& on : unknowns.conditions) {
-    if (!on.condition.value) continue;
     const Patch& patch = mesh.patches[as_size(on.patch)];
-    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
-      const Vector full = on.condition.value(mesh.face_centre[f], loading.end);
-      const Vector half = on.condition.value(mesh.face_centre[f], 0.5 * loading.end);
-      if ((full - 2.0 * half).norm() > 1e-9 * full.norm())
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+      if (!is_proportional(on.condition, mesh.face_centre[f], loading.end))
         throw InputError(
             fmt::format("dissipation control (loading.maximum_dissipation) requires boundary values proportional to "
                         "t; those of patch \"{}\" are not",
                         patch.name));
-    }
   }
 }
 
@@ -63,8 +67,15 @@ void require_finite_interfaces(const FractureModel& m) {
   }
 }
 
-// The faces of a sheet have the stiffness of one that damage degrades as a whole.
+// The faces of a sheet have the stiffness of one that damage degrades as a whole. The thickness on which a pressure
+// would push is known to the laws of the cells only.
 void require_finite_plate(const FractureModel& m) {
+  for (const BoundaryCondition& condition : m.boundary)
+    if (condition.pressure)
+      throw InputError(fmt::format(
+          "materials of finite strain in plane stress cannot be combined with the pressure on patch \"{}\", "
+          "which would follow the thickness; give a traction, which is per reference area",
+          condition.patch));
   for (const RegionModel& region : m.regions) {
     if (region.damageable && m.split_of(region).name() != "none")
       throw InputError(

@@ -24,6 +24,9 @@ struct BoundaryCondition {
   /// Components: displacement [m] where prescribed, traction [Pa] elsewhere; x [m], load parameter t [-].
   /// Empty means zero everywhere.
   std::function<Vector(const Vector& x, double t)> value;
+  /// Components: pressure [Pa] that pushes against the face, in the directions in which it is free, beside the
+  /// traction; at finite strain on the current area (a follower load). Empty means none.
+  std::function<double(const Vector& x, double t)> pressure{};
 };
 
 /// Faces of such patches carry no unknown.

@@ -47,6 +47,7 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
       moduli_(as_size(mesh.n_cells())),
       jump_share_(jump_shares(mesh, unknowns)),
       liquidity_(as_size(mesh.n_cells()), 0.0),
+      pressed_faces_(mesh, unknowns),
       force_of_face_(as_size(mesh.n_faces()), -1),
       second_side_of_node_(unknowns.face_of_node.size(), -1),
       first_side_of_node_(unknowns.face_of_node.size(), -1),
@@ -253,10 +254,12 @@ void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& 
   compute_linear_forces(u);
   sum_forces(out);
   pull_by_springs(u, out);
-  if (is_finite())
+  if (is_finite()) {
+    pressed_faces_.add_turn(u, gradients_, out);
     balance_finite_pressures(u, out);
-  else
+  } else {
     balance_pressures(out);
+  }
 }
 
 void MomentumOperator::pull_by_springs(const std::vector<Vector>& u, std::vector<Vector>& out) const {
@@ -315,6 +318,7 @@ std::vector<Vector> MomentumOperator::traction_forces(double t) const {
                             condition.value(mesh_.face_centre[f], t) * mesh_.face_area[f].norm();
     }
   }
+  pressed_faces_.add_forces(t, load);
   const BoxMotion& motion = unknowns_.motion;
   for (std::size_t k = 0; k < motion.free_strains.size(); ++k)
     if (motion.free_strains[k].stress)
@@ -327,6 +331,7 @@ std::vector<Vector> MomentumOperator::traction_forces(double t) const {
 std::vector<Vector> MomentumOperator::load_vector(double t) const {
   std::vector<Vector> load = traction_forces(t);
   if (has_initial_stress()) take_away_initial_forces(load);
+  if (is_finite()) pressed_faces_.add_initial_turn(load);
   return load;
 }
 

@@ -66,6 +66,7 @@
 #include "solver/momentum/cell_pressure.h"
 #include "solver/momentum/finite_law.h"
 #include "solver/momentum/momentum_faces.h"
+#include "solver/momentum/pressed_faces.h"
 #include "solver/momentum/unknowns.h"
 #include "solver/scalar/gradient.h"
 
@@ -89,9 +90,10 @@ class MomentumOperator {
   /// The same with any symmetric positive definite stiffness [Pa] in each cell.
   void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
 
-  /// Finite strain: the balance linearised about the displacements u. There it is exact. In plane stress the
-  /// laws are condensed already.
-  void set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double part = 0.0);
+  /// Finite strain: the balance linearised about the displacements u, and pressures on patches about the load parameter
+  /// t. There it is exact. In plane stress the laws are condensed already.
+  void set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double t,
+                  double part = 0.0);
   bool is_finite() const { return finite_.size() > 0; }
   const CellField<Tensor>& deformation() const { return F_; }       ///< F by least squares, at which it is linearised
   const CellField<Tensor>& cofactors() const { return cofactor_; }  ///< likewise
@@ -127,7 +129,8 @@ class MomentumOperator {
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
   /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Without initial stresses.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
-  /// Forces from prescribed tractions at the load parameter t [N].
+  /// Forces from prescribed tractions and pressures at the load parameter t [N]; the latter on the areas of the last
+  /// linearisation.
   std::vector<Vector> traction_forces(double t) const;
   /// The same with those from initial stresses, [N].
   std::vector<Vector> load_vector(double t) const;
@@ -312,6 +315,7 @@ class MomentumOperator {
   bool has_relaxed_flat_cells_ = false;
   std::vector<Side> sides_;
   std::vector<SplitFace> split_faces_;
+  PressedFaces pressed_faces_;
   std::vector<FaceSpring> springs_;  // of them; empty: none
   std::vector<LinkTensors> link_tensors_;
   std::vector<Tensor> side_tensors_;        // a [Pa/m]

@@ -33,7 +33,7 @@ Tensor turn_of(double m, const Vector& c, const Vector& y) {
 }  // namespace
 
 void MomentumOperator::set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u,
-                                  double part) {
+                                  double t, double part) {
   const auto n = as_size(mesh_.n_cells());
   if (!is_finite()) {
     finite_ = CellField<FiniteLaw>(n);
@@ -60,6 +60,7 @@ void MomentumOperator::set_finite(const FiniteLawAt& law, const CellField<double
     push_[c] = {face.lambda + mu * swelling(J), mu * swelling_slope(J)};
     pressure_at_[c] = pressure_.mean(c);
   });
+  pressed_faces_.linearise(t, u, gradients_, g);
   set_face_tensors();
   find_linear_stresses();
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) { turn_link(as_size(i), u); });

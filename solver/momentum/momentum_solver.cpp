@@ -60,9 +60,10 @@ void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const Cell
   if (renew_preconditioner(trace, false)) built_moduli_ = {};
 }
 
-void MomentumSolver::set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u) {
+void MomentumSolver::set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u,
+                                double t) {
   if (starts_afresh_) is_built_ = false;
-  operator_.set_finite(law, g, u, gradient_lag());
+  operator_.set_finite(law, g, u, t, gradient_lag());
   const CellField<double> measure = operator_.face_stiffness();
   if (is_built_ && !struggled_ && !has_changed(measure) && !has_deformed()) return;
   built_measure_ = measure;

@@ -82,6 +82,33 @@ const BadInput bad_inputs[] = {
      "mm\"]]\n"
      "[fracture]",
      {"[initial.cracks] radius: this belongs to a disc"}},
+    {"pressure_where_nothing_is_free",
+     "displacement = [\"0 mm\", \"free\", \"free\"]",
+     "displacement = [\"0 mm\", \"0 mm\", \"0 mm\"]\npressure = \"1 MPa\"",
+     {"[boundary] pressure: all components of the displacement are prescribed, which leaves none for a pressure"}},
+    {"pressure_on_a_plane_of_symmetry",
+     "type = \"symmetry\"",
+     "type = \"symmetry\"\npressure = \"1 MPa\"",
+     {"[boundary] pressure: a patch of type \"symmetry\" takes no prescribed value"}},
+    {"pressure_that_is_no_stress",
+     "[\"0.015 mm\", \"free\", \"free\"]",
+     "[\"free\", \"free\", \"free\"]\npressure = \"1 N\"",
+     {"[boundary] pressure: \"1 N\" is a force; expected a stress"}},
+    {"pressure_without_a_value",
+     "[\"0.015 mm\", \"free\", \"free\"]",
+     "[\"0.015 mm\", \"free\", \"free\"]\npressure = { expr = \"1/0\", unit = \"MPa\" }",
+     {"[boundary] pressure"}},
+    {"dissipation_with_a_pressure_that_is_not_proportional",
+     "patches = [\"ymin\", \"ymax\"]\ntype = \"symmetry\"\n[[boundary]]\npatches = [\"zmin\", \"zmax\"]\ntype = "
+     "\"plane\"\n\n[loading]\ninitial_increment = 0.1\nmaximum_increment = 0.1\n\n[output]\ncurve = { patch = "
+     "\"xmax\", "
+     "component = \"x\" }\nframes_at = [\"0.006 mm\"]",
+     "patch = \"ymin\"\ntype = \"symmetry\"\n[[boundary]]\npatch = \"ymax\"\npressure = { expr = \"t^2\", unit = "
+     "\"MPa\" }\n[[boundary]]\npatches = [\"zmin\", "
+     "\"zmax\"]\ntype = \"plane\"\n[loading]\ninitial_increment = 0.1\nmaximum_dissipation = \"2 uJ\"\n[output]\ncurve "
+     "= { "
+     "patch = \"xmax\", component = \"x\" }\n",
+     {"requires boundary values proportional to t; those of patch \"ymax\" are not"}},
     {"front_without_a_back",
      "patches = [\"zmin\", \"zmax\"]\ntype = \"plane\"",
      "patch = \"zmin\"\ntype = \"plane\"",

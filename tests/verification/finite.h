@@ -39,8 +39,12 @@ inline Drawn draw(const Mesh& mesh, const FractureModel& model, Index steps, dou
   return drawn;
 }
 
-/// Hexahedra of the unit cube, n in each direction, whose points are moved. Patches as those of a box.
-inline Mesh mapped_box(const std::array<Index, 3>& n, const std::function<Vector(const Vector&)>& map) {
+enum class BoxCells { hexahedra, tetrahedra };
+
+/// The unit cube, n hexahedra in each direction or each cut into six tetrahedra, whose points are moved. Patches as
+/// those of a box.
+inline Mesh mapped_box(const std::array<Index, 3>& n, const std::function<Vector(const Vector&)>& map,
+                       BoxCells cells = BoxCells::hexahedra) {
   CellSoup soup;
   soup.region_names = {"body"};
   std::vector<Vector> place;
@@ -57,7 +61,13 @@ inline Mesh mapped_box(const std::array<Index, 3>& n, const std::function<Vector
         const std::array<Index, 8> points{
             at(i, j, k),     at(i + 1, j, k),     at(i + 1, j + 1, k),     at(i, j + 1, k),
             at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)};
-        soup.add_cell(CellShape::hexahedron, points, 0);
+        if (cells == BoxCells::hexahedra) {
+          soup.add_cell(CellShape::hexahedron, points, 0);
+          continue;
+        }
+        for (const auto& [a, b] : {std::pair{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}})  // about the diagonal 0 6
+          soup.add_cell(CellShape::tetrahedron,
+                        std::array{points[0], points[as_size(a)], points[as_size(b)], points[6]}, 0);
       }
   std::vector<PatchRule> rules;
   for (Index axis = 0; axis < 3; ++axis)

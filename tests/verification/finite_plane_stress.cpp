@@ -133,6 +133,10 @@ TEST(FinitePlaneStress, WhatItIsNotCombinedWithIsRefused) {
   EXPECT_THAT(refusal(model), testing::HasSubstr("only be combined with the energy split \"none\""));
   const auto stiff = make_hyperelastic("saint_venant_kirchhoff", {.elasticity = from_young_poisson(1e6, 0.3)});
   EXPECT_THAT(refusal(finite_body(mesh, stiff, bent(0.1))), testing::HasSubstr("saint_venant_kirchhoff"));
+  std::vector<BoundaryCondition> inflated = bent(0.1);
+  inflated.back().pressure = [](const Vector&, double t) { return t; };
+  EXPECT_THAT(refusal(finite_body(mesh, law_of("neo_hookean"), inflated)),
+              testing::HasSubstr("cannot be combined with the pressure on patch"));
   FractureModel glued_sheet = finite_body(mesh, law_of("neo_hookean"), bent(0.1));
   const auto& linear = find_by_name(traction_separation_laws(), "linear", "law");
   glue(glued_sheet, mesh, verification::law_of(linear), glued, Vector::UnitX(),

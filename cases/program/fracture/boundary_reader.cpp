@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
+
 namespace pfdm {
 namespace {
 
@@ -26,7 +29,7 @@ constexpr DisplacementField field_table[] = {
 using Kind = BoundaryCondition::Kind;
 
 constexpr BoundaryType type_table[] = {
-    {"components", "each component is a displacement, a traction or free (the default)", Kind::components},
+    {"components", "each component is a displacement, a traction or free (the default); pressure", Kind::components},
     {"symmetry", "no normal displacement, no tangential traction", Kind::symmetry},
     {"plane", "front or back of a mesh one cell thick: plane strain", Kind::plane},
     {"plane_stress", "front or back of a mesh one cell thick: no stress across it", Kind::plane_stress},
@@ -78,10 +81,12 @@ void read_tractions(const ConfigValue& value, const BoundarySettings& settings, 
 
 void read_components(const ConfigTable& table, const Materials& materials, BoundarySettings& settings) {
   const auto displacement = table.find("displacement");
-  const auto traction = table.find("traction");
-  if (!displacement && !traction) throw table.error("displacement, traction or a type is missing");
+  const auto traction = table.find("traction"), pressure = table.find("pressure");
+  if (!displacement && !traction && !pressure)
+    throw table.error("displacement, traction, pressure or a type is missing");
   if (displacement && displacement->is_table()) {
     if (traction) throw traction->error("a displacement field leaves no component for a traction");
+    if (pressure) throw pressure->error("a displacement field leaves no component for a pressure");
     read_displacement_field(*displacement, materials, settings.condition);
     return;
   }
@@ -89,6 +94,10 @@ void read_components(const ConfigTable& table, const Materials& materials, Bound
   if (displacement) read_displacements(*displacement, settings, components);
   if (traction) read_tractions(*traction, settings, components);
   settings.condition.value = combined(components);
+  if (!pressure) return;
+  if (std::ranges::all_of(settings.condition.displacement_prescribed, std::identity{}))
+    throw pressure->error("all components of the displacement are prescribed, which leaves none for a pressure");
+  settings.condition.pressure = read_amount(*pressure, dimension::stress).value;
 }
 
 void read_condition(const ConfigTable& table, const Materials& materials, BoundarySettings& settings) {
@@ -97,7 +106,7 @@ void read_condition(const ConfigTable& table, const Materials& materials, Bounda
       type_value ? choose(*type_value, boundary_types(), "type of boundary condition") : type_table[0];
   settings.condition.kind = type.kind;
   if (type.name == "components") return read_components(table, materials, settings);
-  for (const char* key : {"displacement", "traction"})
+  for (const char* key : {"displacement", "traction", "pressure"})
     if (const auto value = table.find(key))
       throw value->error(fmt::format("a patch of type \"{}\" takes no prescribed value", type.name));
 }
@@ -122,7 +131,7 @@ void add_patch(std::vector<BoundarySettings>& boundary, const BoundarySettings& 
 std::vector<BoundarySettings> read_boundary(const ConfigTable& root, const Materials& materials) {
   std::vector<BoundarySettings> boundary;
   for (const ConfigTable& table : root.tables("boundary")) {
-    table.with_keys({"patch", "patches", "type", "displacement", "traction"});
+    table.with_keys({"patch", "patches", "type", "displacement", "traction", "pressure"});
     const std::vector<ConfigValue> patches = patches_of(table);
     if (patches.empty()) throw table.error("patches is an empty list");
     BoundarySettings settings{.condition = {}, .displacement_at_full_load = {}, .patch = patches.front()};

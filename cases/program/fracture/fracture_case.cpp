@@ -279,10 +279,13 @@ void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
   std::vector<double> loads{0.0, fracture.loading.initial_increment, fracture.loading.end};
   loads.insert(loads.end(), fracture.loading.stops.begin(), fracture.loading.stops.end());
   for (const BoundarySettings& boundary : fracture.boundary) {
-    if (!boundary.condition.value) continue;
-    const Patch& patch = mesh.patch(boundary.condition.patch);
+    const BoundaryCondition& condition = boundary.condition;
+    const Patch& patch = mesh.patch(condition.patch);
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
-      for (const double load : loads) boundary.condition.value(mesh.face_centre[f], load);
+      for (const double load : loads) {
+        if (condition.value) condition.value(mesh.face_centre[f], load);
+        if (condition.pressure) condition.pressure(mesh.face_centre[f], load);
+      }
   }
 }
 
