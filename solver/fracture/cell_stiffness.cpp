@@ -77,9 +77,10 @@ bool CellStiffness::has_degradable_part(Index cell) const {
          law.is_variational();
 }
 
-bool CellStiffness::drives_by_degradable_part() const {
+bool CellStiffness::descends() const {
   for (Index c = 0; c < mesh_.n_cells(); ++c)
-    if (model_.in_cell(mesh_, c).damageable && !has_degradable_part(c)) return false;
+    if (model_.in_cell(mesh_, c).damageable && !(finite_.any() ? !finite_.has_pressure(c) : has_degradable_part(c)))
+      return false;
   return model_.irreversibility != Irreversibility::history && !model_.has_strength();
 }
 
@@ -136,10 +137,28 @@ double CellStiffness::integrate(const CellMechanics& mechanics, const FractureSt
 }
 
 double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  if (finite_.any()) return finite_.driving_energy(cell, mechanics, factor(cell, state.damage[cell]));
+  if (finite_.any()) return driving_energy(cell, finite_energies(cell, mechanics, state), state.damage[cell]).value;
   if (materials_.has(cell)) return materials_.energy(cell, state.histories).driving;
   return has_degradable_part(cell) ? mechanics.part_energy[cell]
                                    : split(cell).energy(elasticity(cell), mechanics.strain[cell]).psi_plus;
+}
+
+FiniteEnergies CellStiffness::finite_energies(Index cell, const CellMechanics& mechanics,
+                                              const FractureState& state) const {
+  return finite_.energies(cell, mechanics, factor(cell, state.damage[cell]));
+}
+
+CellField<FiniteEnergies> CellStiffness::finite_energies(const CellMechanics& mechanics,
+                                                         const FractureState& state) const {
+  CellField<FiniteEnergies> energies(as_size(mesh_.n_cells()));
+  parallel_for(mesh_.n_cells(), [&](Index c) { energies[c] = finite_energies(c, mechanics, state); });
+  return energies;
+}
+
+DrivingAt CellStiffness::driving_energy(Index cell, const FiniteEnergies& at, double d) const {
+  const double g_prime = model_.degradation_of(model_.in_cell(mesh_, cell)).g_prime(d);
+  const DrivingAt by_g = finite_.driving_energy(cell, at, factor(cell, d));
+  return {.value = by_g.value, .slope = (1.0 - model_.residual_stiffness) * g_prime * by_g.slope};
 }
 
 Tensor CellStiffness::undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
@@ -149,12 +168,16 @@ Tensor CellStiffness::undamaged_stress(Index cell, const CellMechanics& mechanic
 
 // Half the work on the elastic strain, and what is locked up.
 double CellStiffness::stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  if (finite_.any()) return finite_.stored_energy(cell, mechanics, factor(cell, state.damage[cell]));
+  if (finite_.any()) return stored_energy(cell, finite_energies(cell, mechanics, state), state.damage[cell]);
   if (!materials_.has(cell)) return mechanics.energy[cell];
   const MaterialEnergy material = materials_.energy(cell, state.histories);
   const double on_inelastic = 0.5 * contract(mechanics.stress[cell], material.inelastic);
   const double locked = factor(cell, state.damage[cell]) * material.locked;
   return mechanics.energy[cell] + mesh_.cell_volume[cell] * (locked - on_inelastic);
+}
+
+double CellStiffness::stored_energy(Index cell, const FiniteEnergies& at, double d) const {
+  return finite_.stored_energy(cell, at, factor(cell, d));
 }
 
 double CellStiffness::residual_energy(Index cell, double psi_plus, double d) const {

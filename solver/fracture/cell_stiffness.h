@@ -35,13 +35,19 @@ class CellStiffness {
   /// stiffness that is degraded, which `mechanics` has to have; where there is none, that of the strain; with a
   /// history, that of the state.
   double driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
-  /// Whether the driving energy of every damageable cell is that of the part of the stiffness that damage degrades,
-  /// which makes it the derivative of the discrete energy.
-  bool drives_by_degradable_part() const;
+  /// At finite strain: what the cells' energies are made of, and psi_plus at any damage d of a cell, with its
+  /// derivative by d.
+  CellField<FiniteEnergies> finite_energies(const CellMechanics& mechanics, const FractureState& state) const;
+  DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double d) const;
+  /// Whether alternate minimisation descends: the driving energy of every damageable cell is the derivative of the
+  /// discrete energy (that of the part of the stiffness that damage degrades; at finite strain nearly so, where no
+  /// pressure is lost faster than the stiffness).
+  bool descends() const;
   /// Whether the stiffness of some damageable cell depends on its strain, as where cracks close.
   bool depends_on_strain() const;
   /// What a cell stores [J].
   double stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
+  double stored_energy(Index cell, const FiniteEnergies& at, double d) const;
   /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]
   /// (residual_stiffness.h).
   double residual_energy(Index cell, double psi_plus, double d) const;
@@ -58,6 +64,7 @@ class CellStiffness {
 
  private:
   double factor(Index cell, double d) const;  // g, the residual stiffness included
+  FiniteEnergies finite_energies(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   CellField<double> factors(const FractureState& state) const;
   CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
                                      const CellField<IsotropicElasticity>& moduli) const;

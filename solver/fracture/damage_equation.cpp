@@ -49,15 +49,23 @@ TwoPointFlux::Medium medium_of(const Mesh& mesh, const FractureModel& model, con
 }  // namespace
 
 // The damage equation of one solve, as BoundedNewton asks for it.
+template <class Driving>
 struct DamageTerm {
   const DamageEquation& equation;
-  const CellField<double>& psi_plus;
+  const Driving& psi_plus;  // by cell and d
   const CellField<double>& lower_bound;
+  // Of that at a fixed psi: where the energy is not convex in d, Newton's steps are shortened and descend still.
+  static constexpr double least_curvature = 0.2;
 
   bool is_free(Index c) const { return equation.is_damageable(c); }
-  double slope(Index c, double d) const { return equation.local_slope(c, d, psi_plus[c]); }
+  double slope(Index c, double d) const {
+    return equation.local_slope(c, d, psi_plus(c, std::clamp(d, 0.0, 1.0)).value);
+  }
   double curvature(Index c, double d) const {
-    return equation.local_curvature(c, std::clamp(d, 0.0, 1.0), psi_plus[c]);
+    const double within = std::clamp(d, 0.0, 1.0);
+    const DrivingAt psi = psi_plus(c, within);
+    const double fixed = equation.local_curvature(c, within, psi.value);
+    return std::max(fixed + equation.driving_curvature(c, within, psi.slope), least_curvature * fixed);
   }
   double lower(Index c) const { return lower_bound[c]; }
   double upper(Index) const { return 1.0; }
@@ -87,6 +95,11 @@ double DamageEquation::local_curvature(Index cell, double d, double psi) const {
                                     (1.0 - model_.residual_stiffness) * degradation.g_second(d) * psi);
 }
 
+double DamageEquation::driving_curvature(Index cell, double d, double psi_slope) const {
+  const Degradation& degradation = model_.degradation_of(model_.in_cell(mesh_, cell));
+  return mesh_.cell_volume[cell] * (1.0 - model_.residual_stiffness) * degradation.g_prime(d) * psi_slope;
+}
+
 double DamageEquation::imbalance(Index cell, const CellField<double>& d, double psi_plus) const {
   return flux_.balance(cell, d, local_slope(cell, d[cell], psi_plus));
 }
@@ -110,7 +123,14 @@ double DamageEquation::viscous_dissipation(const CellField<double>& d) const {
 
 ScalarSolution DamageEquation::solve(const CellField<double>& psi_plus, const CellField<double>& lower,
                                      const ScalarTolerance& tolerance, CellField<double>& d) {
-  const DamageTerm term{*this, psi_plus, lower};
+  const auto fixed = [&](Index c, double) { return DrivingAt{.value = psi_plus[c]}; };
+  const DamageTerm<decltype(fixed)> term{*this, fixed, lower};
+  return BoundedNewton(flux_, term, d).solve(tolerance);
+}
+
+ScalarSolution DamageEquation::solve(const DrivingLaw& psi_plus, const CellField<double>& lower,
+                                     const ScalarTolerance& tolerance, CellField<double>& d) {
+  const DamageTerm<DrivingLaw> term{*this, psi_plus, lower};
   return BoundedNewton(flux_, term, d).solve(tolerance);
 }
 

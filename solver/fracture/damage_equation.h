@@ -8,6 +8,7 @@
 // Welschinger, Hofacker, Int. J. Numer. Meth. Engng 83 (2010) 1273) the left side has eta (d - d_n)/dt as well.
 // Two-point fluxes, bounds by active set: two_point_flux.h, bounded_newton.h.
 
+#include "solver/fracture/driving_law.h"
 #include "solver/fracture/fracture_model.h"
 #include "solver/scalar/bounded_newton.h"
 #include "solver/scalar/two_point_flux.h"
@@ -22,6 +23,9 @@ class DamageEquation {
   /// Solves for d [-] from its present value, given psi_plus [J/m^3] and the lower bound.
   ScalarSolution solve(const CellField<double>& psi_plus, const CellField<double>& lower,
                        const ScalarTolerance& tolerance, CellField<double>& d);
+  /// The same where psi_plus depends on d.
+  ScalarSolution solve(const DrivingLaw& psi_plus, const CellField<double>& lower, const ScalarTolerance& tolerance,
+                       CellField<double>& d);
 
   /// The damage of least surface energy that is nowhere below `given`: the optimal profile about cracks whose cells are
   /// given as broken. Their surface energy is then about Gc times their area, whatever was given beside them.
@@ -48,10 +52,12 @@ class DamageEquation {
   void set_source(CellField<double> source) { source_ = std::move(source); }
 
  private:
+  template <class Driving>
   friend struct DamageTerm;
-  double local_slope(Index cell, double d, double psi) const;      // of the local terms over the cell [J]
-  double local_curvature(Index cell, double d, double psi) const;  // its derivative [J]
-  double local_energy(Index cell, double d) const;                 // [J]
+  double local_slope(Index cell, double d, double psi) const;              // of the local terms over the cell [J]
+  double local_curvature(Index cell, double d, double psi) const;          // its derivative [J]
+  double driving_curvature(Index cell, double d, double psi_slope) const;  // the part of it that psi's slope adds [J]
+  double local_energy(Index cell, double d) const;                         // [J]
 
   const Mesh& mesh_;
   const FractureModel& model_;

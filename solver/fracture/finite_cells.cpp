@@ -45,38 +45,42 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(m
   }
 }
 
-// What is left of the volumetric energy c U of a material with a pressure.
-auto FiniteCells::relaxed(const HyperelasticMaterial& material, double g) -> OfFactor {
-  const double ratio = material.pressure_modulus() / (CellPressure::moderate_lambda * material.elasticity().mu);
-  const double lost = 1.0 - g, by = 1.0 + ratio * lost * lost;
-  return {g / by, (by + 2.0 * ratio * g * lost) / (by * by)};
-}
-
-// w: 1 in cells that have to keep their orientation, 0 in broken ones. Where a law is lost within a small range of d it
-// drives the damage much there and little beyond, the damage has two states of equilibrium and the iterations go to and
-// fro between them. g w is convex in z = g^(1/2) = 1 - d, therefore, and so is the energy of cells that are stretched
-// to twice their length or more, for d > 0.6; (1 - w) g is not, nor is the relaxed c U at small d. From z = 0.055 (g =
-// 3e-3) down g w goes on along its tangent, which is 0 at half of that, rounded off by a parabola.
-auto FiniteCells::soundness(const HyperelasticMaterial& material, double g) -> OfFactor {
+// g w, w being 1 in cells that have to keep their orientation and 0 in broken ones. Where a law is lost within a small
+// range of d it drives the damage much there and little beyond, the damage has two states of equilibrium and the
+// iterations go to and fro between them. g w is convex in z = g^(1/2) = 1 - d, therefore, and so is the energy of cells
+// that are stretched to twice their length or more, for d > 0.6; (1 - w) g is not, nor is the relaxed c U at small d.
+// From z = 0.055 (g = 3e-3) down g w goes on along its tangent, which is 0 at half of that, rounded off by a parabola.
+auto FiniteCells::sound_share(const HyperelasticMaterial& material, double g) -> OfFactor {
   const double sound = material.pressure_modulus() > 0.0 ? 0.15 : 0.055, middle = 0.5 * sound,
                half_width = 0.6 * middle;
   const double z = std::sqrt(g), above = z - (middle - half_width);
-  if (z >= sound || above <= 0.0) return {z >= sound ? 1.0 : 0.0, 0.0};
+  if (z >= sound) return {.value = g, .slope = 1.0};
+  if (above <= 0.0) return {.value = 0.0};
   const bool is_straight = above >= 2.0 * half_width;
   const double value = is_straight ? sound * (2.0 * z - sound) : 0.5 * sound / half_width * above * above;
   const double by_z = is_straight ? 2.0 * sound : sound / half_width * above;
-  const double w = value / g;
-  return {w, (0.5 * by_z / z - w) / g};
+  const double twice_by_z = is_straight ? 0.0 : sound / half_width;
+  return {.value = value, .slope = 0.5 * by_z / z, .curvature = 0.25 * (twice_by_z - by_z / z) / g};
+}
+
+// What is left of the volumetric energy c U of a material with a pressure: g w/(1 + kappa/kappa_s (1 - g)^2).
+auto FiniteCells::pressure_share(const HyperelasticMaterial& material, double g, const OfFactor& sound) -> OfFactor {
+  const double ratio = material.pressure_modulus() / (CellPressure::moderate_lambda * material.elasticity().mu);
+  const double lost = 1.0 - g, by = 1.0 + ratio * lost * lost, by_slope = -2.0 * ratio * lost;
+  const double value = sound.value / by, slope = (sound.slope - value * by_slope) / by;
+  const double curvature = (sound.curvature - 2.0 * slope * by_slope - 2.0 * ratio * value) / by;
+  return {.value = least_modulus + (1.0 - least_modulus) * value,
+          .slope = (1.0 - least_modulus) * slope,
+          .curvature = (1.0 - least_modulus) * curvature};
 }
 
 // W = g (w W_m + (1 - w) N) + w r c U + (1 - g) K, w and r being the functions of g above, N the network's energy, and
 // K what the split keeps of W_m; of c U it keeps all where J < 1.
 FiniteCells::Shares FiniteCells::shares(Index cell, double g) const {
-  const OfFactor w = soundness(*material_[cell], g), r = relaxed(*material_[cell], g);
-  return {.moderate = {g * w.value, w.value + g * w.slope},
-          .network = {g * (1.0 - w.value), 1.0 - w.value - g * w.slope},
-          .pressure = {least_modulus + (1.0 - least_modulus) * w.value * r.value,
-                       (1.0 - least_modulus) * (w.slope * r.value + w.value * r.slope)}};
+  const OfFactor sound = sound_share(*material_[cell], g);
+  return {.moderate = sound,
+          .network = {.value = g - sound.value, .slope = 1.0 - sound.slope, .curvature = -sound.curvature},
+          .pressure = pressure_share(*material_[cell], g, sound)};
 }
 
 FiniteCells::Parts FiniteCells::parts(Index cell, const Tensor& H) const {
@@ -166,18 +170,34 @@ double FiniteCells::closure(Index cell, const Tensor& H) const {
   return keeps_compression_[cell] == 0 ? 0.0 : std::clamp(-volume_change(H) / closing_range, 0.0, 1.0);
 }
 
-double FiniteCells::stored_energy(Index cell, const CellMechanics& mechanics, double g) const {
+FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics, double g) const {
   const Parts at = parts(cell, thinned(cell, mechanics.gradient[cell], g));
-  return mesh_.cell_volume[cell] * damaged(at, shares(cell, g), g).energy + mechanics.energy[cell];
+  return {.moderate = at.moderate.energy,
+          .network = at.network.energy,
+          .pressure = at.pressure.energy,
+          .kept = at.kept.energy,
+          .keeps_pressure = at.keeps_pressure,
+          .faces = mechanics.energy[cell] / mesh_.cell_volume[cell],
+          .of = g};
 }
 
-double FiniteCells::driving_energy(Index cell, const CellMechanics& mechanics, double g) const {
-  const Parts at = parts(cell, thinned(cell, mechanics.gradient[cell], g));
+double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g) const {
   const Shares by = shares(cell, g);
-  const double mean = by.moderate.slope * at.moderate.energy + by.network.slope * at.network.energy - at.kept.energy +
-                      (at.keeps_pressure ? 0.0 : by.pressure.slope * at.pressure.energy);
-  const double varying = at.kept.energy > 0.0 ? 0.0 : mechanics.energy[cell] / (g * mesh_.cell_volume[cell]);
-  return std::max(mean + varying, 0.0);
+  const double density = by.moderate.value * at.moderate + by.network.value * at.network + (1.0 - g) * at.kept +
+                         (at.keeps_pressure ? 1.0 : by.pressure.value) * at.pressure + at.faces;
+  return mesh_.cell_volume[cell] * density;
+}
+
+// What the faces add is taken as proportional to g, where the split keeps nothing.
+DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, double g) const {
+  const Shares by = shares(cell, g);
+  const double pressure = at.keeps_pressure ? 0.0 : at.pressure, faces = at.kept > 0.0 ? 0.0 : at.faces / at.of;
+  const double value =
+      by.moderate.slope * at.moderate + by.network.slope * at.network - at.kept + by.pressure.slope * pressure + faces;
+  if (value <= 0.0) return {};
+  return {.value = value,
+          .slope = by.moderate.curvature * at.moderate + by.network.curvature * at.network +
+                   by.pressure.curvature * pressure};
 }
 
 Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {

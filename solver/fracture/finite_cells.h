@@ -28,27 +28,39 @@
 
 #include "mesh/mesh.h"
 #include "physics/materials/hyperelastic.h"
+#include "solver/fracture/driving_law.h"
 #include "solver/fracture/fracture_model.h"
 #include "solver/fracture/state.h"
 #include "solver/momentum/momentum_solver.h"
 
 namespace pfdm {
 
+/// The energies of a cell at some displacements, each of which has its share by the damage [J/m^3].
+struct FiniteEnergies {
+  double moderate = 0.0, network = 0.0, pressure = 0.0;
+  double kept = 0.0;             ///< by the split, of the moderate one
+  bool keeps_pressure = false;   ///< the split, all of it
+  double faces = 0.0, of = 1.0;  ///< what the faces add, at the g with which the displacements were found
+};
+
 class FiniteCells {
  public:
   FiniteCells(const Mesh& mesh, const FractureModel& model);
 
   bool any() const { return material_.size() > 0; }
+  bool has_pressure(Index cell) const { return material_[cell]->pressure_modulus() > 0.0; }
   /// At the displacement gradient H and the stiffness factor g. The faces are as stiff as `closure` says: 1 where J < 1
   /// and the split keeps the bulk modulus, 0 where J > 1.
   FiniteLaw law(Index cell, const Tensor& H, double g, double closure) const;
   /// The closure at the volume J, which changes over a range of J: the stiffness of the faces may not jump.
   double closure(Index cell, const Tensor& H) const;
 
-  /// The energy that a cell stores [J], by its mean gradient and what the tractions of its faces add (momentum.h).
-  double stored_energy(Index cell, const CellMechanics& mechanics, double g) const;
-  /// Its derivative by g, per volume [J/m^3].
-  double driving_energy(Index cell, const CellMechanics& mechanics, double g) const;
+  /// By its mean gradient and what the tractions of its faces add (momentum.h); g: with which these were found.
+  FiniteEnergies energies(Index cell, const CellMechanics& mechanics, double g) const;
+  /// What a cell stores [J].
+  double stored_energy(Index cell, const FiniteEnergies& at, double g) const;
+  /// Its derivative by g, per volume, and that one's [J/m^3].
+  DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double g) const;
 
   /// The gradient H with the stretch across a plate at which it has no stress across it; else H.
   Tensor thinned(Index cell, const Tensor& H, double g) const;
@@ -61,12 +73,12 @@ class FiniteCells {
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
 
  private:
-  // A function of the stiffness factor g, and its derivative.
+  // A function of the stiffness factor g, and its derivatives.
   struct OfFactor {
-    double value = 1.0, slope = 0.0;
+    double value = 1.0, slope = 0.0, curvature = 0.0;
   };
-  static OfFactor relaxed(const HyperelasticMaterial& material, double g);
-  static OfFactor soundness(const HyperelasticMaterial& material, double g);
+  static OfFactor sound_share(const HyperelasticMaterial& material, double g);
+  static OfFactor pressure_share(const HyperelasticMaterial& material, double g, const OfFactor& sound);
   // What a cell of the factor g has of the energies below.
   struct Shares {
     OfFactor moderate, network, pressure;

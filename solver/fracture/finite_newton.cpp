@@ -9,7 +9,7 @@
 namespace pfdm {
 namespace {
 
-constexpr Index most_steps = 30, most_cuts = 8;
+constexpr Index most_cuts = 8;
 constexpr double linear_reduction = 0.02;  // of the residual by one linear solve
 constexpr double little_descent = 1.0 - 1e-4;
 
@@ -75,7 +75,7 @@ bool inverts(const MomentumOperator& balance) {
 }
 
 Equilibrium solve_finite(const CellStiffness& stiffness, const MomentumSolver::Tolerance& tolerance,
-                         MomentumSolver& momentum, FractureState& state) {
+                         MomentumSolver& momentum, FractureState& state, Index most_steps) {
   Equilibrium total;
   double target = 0.0;
   for (Index step = 0; step < most_steps; ++step) {

@@ -9,7 +9,7 @@ namespace pfdm {
 /// From state.displacement, about which the momentum balance has to be linearised, at the load of the state. It is left
 /// linearised about the result. The residual is the true one; infinite if no part of a step lowers it.
 Equilibrium solve_finite(const CellStiffness& stiffness, const MomentumSolver::Tolerance& tolerance,
-                         MomentumSolver& momentum, FractureState& state);
+                         MomentumSolver& momentum, FractureState& state, Index most_steps = 30);
 
 /// Whether some cell that still carries load has nearly turned inside out, where the balance is linearised.
 bool inverts(const MomentumOperator& balance);

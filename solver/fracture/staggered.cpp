@@ -11,6 +11,8 @@ namespace {
 
 // Largest numbers of FGMRES iterations, within the loop and of the last solve.
 constexpr Index inner_iterations = 80, last_iterations = 400;
+// Likewise of Newton's steps at finite strain.
+constexpr Index inner_steps = 6, last_steps = 30;
 // Successive iterations in which only the residual stiffness may carry the loads: the first ones are inexact.
 constexpr Index torn_at_most = 5;
 // Relative residual of the last solve, if no smaller one is required.
@@ -28,7 +30,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       stiffness_(mesh, model),
       faces_(mesh, model, unknowns),
       damage_(mesh, model, unknowns.plane_normal),
-      way_(stiffness_.drives_by_degradable_part() ? Relaxation::Way::momentum : Relaxation::Way::secant),
+      way_(stiffness_.descends() ? Relaxation::Way::momentum : Relaxation::Way::secant),
       has_newton_(way_ == Relaxation::Way::momentum && !stiffness_.depends_on_strain() && !faces_.any() &&
                   CoupledNewton::suits(mesh, unknowns)),
       psi_plus_(as_size(mesh.n_cells())) {}
@@ -48,7 +50,8 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
                                                   .ceiling = tolerance,
                                                   .floor = tolerance,
                                                   .most_iterations = last_iterations,
-                                                  .good_enough = settings_.equilibrium_tolerance});
+                                                  .good_enough = settings_.equilibrium_tolerance},
+                                                 last_steps);
   outcome.krylov_iterations += equilibrium.iterations;
   outcome.residual = equilibrium.residual;
   outcome.converged = outcome.converged && equilibrium.residual <= settings_.equilibrium_tolerance;
@@ -127,7 +130,7 @@ struct Staggered::Loop {
                                               .floor = 0.1 * required,
                                               .most_iterations = inner_iterations};
     Equilibrium equilibrium = follows_faces() ? s.follow_faces(start, faces_path, tolerance, state)
-                                              : s.solve_momentum(start, state, tolerance);
+                                              : s.solve_momentum(start, state, tolerance, inner_steps);
     if (s.stiffness_.finite().any()) equilibrium = approach(tolerance, equilibrium);
     outcome.failed = !std::isfinite(equilibrium.residual);
     outcome.residual = equilibrium.residual;
@@ -143,7 +146,7 @@ struct Staggered::Loop {
       for (Index c = 0; c < last_damage.size(); ++c) state.damage[c] = 0.5 * (last_damage[c] + state.damage[c]);
       relaxation.lose_momentum();
       s.degrade(state);
-      equilibrium = s.solve_momentum(start, state, tolerance);
+      equilibrium = s.solve_momentum(start, state, tolerance, inner_steps);
     }
     last_damage = state.damage;
     last_displacement = state.displacement;
@@ -267,13 +270,13 @@ void Staggered::degrade(const FractureState& state) {
 }
 
 Equilibrium Staggered::solve_momentum(const FractureState& start, FractureState& state,
-                                      const MomentumSolver::Tolerance& tolerance) {
+                                      const MomentumSolver::Tolerance& tolerance, Index most_newton_steps) {
   const auto lap = clock_.lap("momentum");
   if (faces_.any()) {
     const CellLaws cells = stiffness_.finite().any() ? [&] { stiffness_.set(state, momentum_); } : CellLaws();
     return solve_with_faces(faces_, start.interfaces, state.load, tolerance, cells, momentum_, state.displacement);
   }
-  if (stiffness_.finite().any()) return solve_finite(stiffness_, tolerance, momentum_, state);
+  if (stiffness_.finite().any()) return solve_finite(stiffness_, tolerance, momentum_, state, most_newton_steps);
   return momentum_.solve(state.load, tolerance, state.displacement);
 }
 
@@ -288,16 +291,27 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   CellMechanics mechanics = momentum_.balance().mechanics(
       state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
   Energies energies{.unsettled = stiffness_.integrate(mechanics, start, state)};
-  energies.stored =
-      parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
+  energies.stored = find_energies(mechanics, state);
   energies.interfaces = faces_.advance(momentum_.balance(), state.displacement, start.interfaces, state.interfaces);
   energies.stored += energies.interfaces;
   energies.torn = faces_.dissipated(faces_.virgin_histories(), state.interfaces);
-  parallel_for(mesh_.n_cells(), [&](Index c) { psi_plus_[c] = stiffness_.driving_energy(c, mechanics, state); });
   strength_ = strength_drive(mesh_, model_, stiffness_, mechanics, state, psi_plus_);
   energies.residual = drive(start, state, 1.0);
   if (settles) energies.unsettled += stiffness_.follow(mechanics, state);
   return energies;
+}
+
+double Staggered::find_energies(const CellMechanics& mechanics, const FractureState& state) {
+  const CellField<double>& d = state.damage;
+  if (stiffness_.finite().any()) finite_ = stiffness_.finite_energies(mechanics, state);
+  const bool is_finite = finite_.size() > 0;
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    psi_plus_[c] = is_finite ? stiffness_.driving_energy(c, finite_[c], d[c]).value
+                             : stiffness_.driving_energy(c, mechanics, state);
+  });
+  return parallel_sum(mesh_.n_cells(), [&](Index c) {
+    return is_finite ? stiffness_.stored_energy(c, finite_[c], d[c]) : stiffness_.stored_energy(c, mechanics, state);
+  });
 }
 
 StrengthDrive Staggered::strength_drive_of(const FractureState& state) {
@@ -337,7 +351,15 @@ ResidualShare Staggered::residual_share(const FractureState& state, const Energi
 
 bool Staggered::solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d) {
   const auto lap = clock_.lap("damage");
-  return damage_.solve(state.driving_energy, model_.lower_bound(start.damage), {.reduction = 1e-3}, d).converged;
+  const CellField<double> lower = model_.lower_bound(start.damage);
+  const ScalarTolerance tolerance{.reduction = 1e-3};
+  if (finite_.size() == 0 || model_.irreversibility == Irreversibility::history)
+    return damage_.solve(state.driving_energy, lower, tolerance, d).converged;
+  const DrivingLaw law = [&](Index c, double at) {
+    const bool is_closed = strength_.closed.size() > 0 && strength_.closed[c] > 0.0;
+    return is_closed ? DrivingAt{} : stiffness_.driving_energy(c, finite_[c], at);
+  };
+  return damage_.solve(law, lower, tolerance, d).converged;
 }
 
 }  // namespace pfdm

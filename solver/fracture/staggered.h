@@ -74,7 +74,7 @@ class Staggered {
   StepOutcome alternate(const FractureState& start, FractureState& state, const StepLimits& limits,
                         const IterationWatch& watch);
   Equilibrium solve_momentum(const FractureState& start, FractureState& state,
-                             const MomentumSolver::Tolerance& tolerance);
+                             const MomentumSolver::Tolerance& tolerance, Index most_newton_steps);
   /// At a load that is no more than that of the path, and lower where the cohesive faces would dissipate more.
   Equilibrium follow_faces(const FractureState& start, const FacesPath& path,
                            const MomentumSolver::Tolerance& tolerance, FractureState& state);
@@ -91,6 +91,8 @@ class Staggered {
   ResidualShare residual_share(const FractureState& state, const Energies& energies);
   /// Of a strength model, at the equilibrium of this state; empty without.
   StrengthDrive strength_drive_of(const FractureState& state);
+  /// What the cells store [J]; finds psi_plus_.
+  double find_energies(const CellMechanics& mechanics, const FractureState& state);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   struct PathLimit {
     double load = 0.0;    // largest load of the step
@@ -110,8 +112,9 @@ class Staggered {
   Relaxation::Way way_;
   bool has_newton_;  // the response to which is smooth enough for it
   StageClock clock_;
-  CellField<double> psi_plus_;  // [J/m^3] of the last equilibrium
-  StrengthDrive strength_;      // likewise
+  CellField<double> psi_plus_;        // [J/m^3] of the last equilibrium
+  CellField<FiniteEnergies> finite_;  // likewise; empty at small strain
+  StrengthDrive strength_;            // likewise
 };
 
 }  // namespace pfdm

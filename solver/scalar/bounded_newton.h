@@ -50,8 +50,10 @@ class BoundedNewton {
         linear_(flux.coupling()),
         held_(as_size(n_), 0),
         diagonal_(as_size(n_)),
+        damped_(as_size(n_)),
         residual_(as_size(n_)),
-        step_(as_size(n_)) {}
+        step_(as_size(n_)),
+        before_(as_size(n_)) {}
 
   /// Changes u.
   ScalarSolution solve(const ScalarTolerance& tolerance) {
@@ -68,11 +70,16 @@ class BoundedNewton {
  private:
   void iterate(const ScalarTolerance& tolerance) {
     constexpr Index most_changes = 50;  // of the active set
+    constexpr Index patience = 8;       // with steps that may go to and fro
     account_.converged = false;
     double target = 0.0;  // of the step that each cell would still take
     parallel_for(n_, [&](Index c) { held_[as_size(c)] = local_.is_free(c) ? 0 : 1; });
     for (Index change = 0; change < most_changes; ++change) {
-      parallel_for(n_, [&](Index c) { diagonal_[as_size(c)] = diagonal(c); });
+      parallel_for(n_, [&](Index c) {
+        diagonal_[as_size(c)] = damped_[as_size(c)] = diagonal(c);
+        residual_[as_size(c)] = local_.is_free(c) ? -balance(c) : 0.0;
+      });
+      if (change >= patience) damp();
       choose_active();
       parallel_for(n_, [&](Index c) {
         residual_[as_size(c)] = held_[as_size(c)] != 0 ? 0.0 : -balance(c);
@@ -84,7 +91,7 @@ class BoundedNewton {
       account_.converged = wanted <= target;
       if (account_.converged) return;
       account_.krylov_iterations +=
-          linear_.solve(diagonal_, held_, {.least = 0.1 * tolerance.least_step}, residual_, step_);
+          linear_.solve(damped_, held_, {.least = 0.1 * tolerance.least_step}, residual_, step_);
       parallel_for(n_, [&](Index c) { u_[c] += step_[as_size(c)]; });
       ++account_.active_set_iterations;
     }
@@ -100,11 +107,26 @@ class BoundedNewton {
     return fluxes > 0.0 ? std::max(sum, least * fluxes) : sum;
   }
 
+  // Where the slope of f varies much, Newton's steps can go to and fro between two sides of the solution for ever. A
+  // cell whose residual changes sign takes the larger diagonal of both sides, half of it in the next iteration, and so
+  // on.
+  void damp() {
+    parallel_for(n_, [&](Index c) {
+      const auto i = as_size(c);
+      Before& before = before_[i];
+      const bool overshot = residual_[i] * before.residual < 0.0;
+      before.damped = overshot ? std::max({before.damped, before.diagonal, diagonal_[i]}) : 0.5 * before.damped;
+      before.residual = residual_[i];
+      before.diagonal = diagonal_[i];
+      damped_[i] = std::max(diagonal_[i], before.damped);
+    });
+  }
+
   // Cells that a Newton step of their own would carry beyond a bound are put on it.
   void choose_active() {
     parallel_for(n_, [&](Index c) {
       if (!local_.is_free(c)) return;
-      const double wanted = u_[c] - balance(c) / diagonal_[as_size(c)];
+      const double wanted = u_[c] + residual_[as_size(c)] / damped_[as_size(c)];
       held_[as_size(c)] = wanted < local_.lower(c) ? -1 : (wanted > local_.upper(c) ? 1 : 0);
     });
     parallel_for(n_, [&](Index c) {
@@ -119,7 +141,11 @@ class BoundedNewton {
   Index n_;
   ConjugateGradients linear_;
   ConjugateGradients::Held held_;  // -1 at the lower bound, 1 at the upper or held, 0 free
-  std::vector<double> diagonal_, residual_, step_;
+  std::vector<double> diagonal_, damped_, residual_, step_;
+  struct Before {
+    double residual = 0.0, diagonal = 0.0, damped = 0.0;
+  };
+  std::vector<Before> before_;  // of the last iteration
   ScalarSolution account_;
 };
 

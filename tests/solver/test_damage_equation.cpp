@@ -68,6 +68,31 @@ TEST(DamageEquation, HomogeneousResponseOfAt1HasAThreshold) {
   }
 }
 
+// psi falls by a factor of 100 at d = 0.9: there Newton's steps go to and fro between the steep part of the slope and
+// the flat ones on both sides. The field is uniform, the oracle a bisection.
+TEST(DamageEquation, ADrivingEnergyThatFallsWithTheDamage) {
+  const Mesh mesh = box(4, 3, 3, Vector::Constant(1e-4));
+  const FractureModel model = model_of(mesh, "AT2");
+  DamageEquation equation(mesh, model, Vector::Zero());
+  for (const double width : {0.05, 0.01})
+    for (const double start : {0.0, 0.5, 1.0}) {
+      const auto psi = [&](double d) {
+        const double t = std::tanh((d - 0.9) / width);
+        return DrivingAt{.value = unit * (10.0 - 9.9 * 0.5 * (1.0 + t)),
+                         .slope = -unit * 9.9 * 0.5 * (1.0 - t * t) / width};
+      };
+      const auto slope = [&](double d) {
+        return unit * d - 2.0 * (1.0 - model.residual_stiffness) * (1.0 - d) * psi(d).value;
+      };
+      double below = 0.0, above = 1.0;
+      for (int k = 0; k < 60; ++k) (slope(0.5 * (below + above)) < 0.0 ? below : above) = 0.5 * (below + above);
+      CellField<double> d = uniform(mesh, start);
+      const DrivingLaw law = [&](Index, double at) { return psi(at); };
+      EXPECT_TRUE(equation.solve(law, uniform(mesh, 0.0), {}, d).converged) << width << " from " << start;
+      for (const double value : d) EXPECT_NEAR(value, below, 1e-8) << width << " from " << start;
+    }
+}
+
 TEST(DamageEquation, SoundCellsWiderThanTheirLengthStaySound) {
   const Mesh mesh = row(9, 20.0 * ell);
   FractureModel model = model_of(mesh, "Wu");
