@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <numbers>
 
 namespace pfdm {
 namespace {
@@ -156,6 +157,101 @@ TEST(ShippedCases, DiscOfGlassBreaksInsideAsItsReadmeSays) {
   }
   EXPECT_GT(radius, 2e-3);
   EXPECT_LT(radius, 3.5e-3);
+}
+
+/// The rubber disc of poker_chip_gent_lindley in closed form, a thin layer whose pressure is nowhere above the
+/// strength: tests/verification/disc_with_cavities.py.
+class DiscWithCavities {
+ public:
+  explicit DiscWithCavities(double strength) : strength_(strength) {}
+  /// Displacement of half the disc at which the pressure is the strength up to the radius a.
+  double rise(double a) const {
+    const double at_rim = growth(a, R);
+    return strength_ / (K / H * (1.0 - 1.0 / at_rim) + mu / H / at_rim);
+  }
+  /// Force of 5 degrees.
+  double force(double u) const {
+    double a = 0.0;
+    if (u > rise(0.0)) {
+      double above = R * (1.0 - 1e-9);
+      for (int i = 0; i < 60; ++i) (rise(0.5 * (a + above)) < u ? a : above) = 0.5 * (a + above);
+    }
+    constexpr int n = 2000;  // midpoints
+    double sum = 0.5 * a * a * strength_;
+    for (int i = 0; i < n; ++i) {
+      const double dr = (R - a) / n, r = a + (i + 0.5) * dr;
+      const double q = (mu - K) * u / H * growth(a, r) / growth(a, R);
+      sum += (K * u / H + q + 2.0 * mu * u / H) * r * dr;
+    }
+    return sum * std::numbers::pi / 36.0;
+  }
+
+ private:
+  static constexpr double mu = 0.59e6, K = 1e9, R = 10e-3, H = 0.95e-3;
+  /// Of p - K u/H from a to r.
+  static double growth(double a, double r) {
+    const double k = std::sqrt(3.0 * mu / K) / H;
+    if (a == 0.0) return std::cyl_bessel_i(0.0, k * r);
+    return k * a *
+           (std::cyl_bessel_k(1.0, k * a) * std::cyl_bessel_i(0.0, k * r) +
+            std::cyl_bessel_i(1.0, k * a) * std::cyl_bessel_k(0.0, k * r));
+  }
+  double strength_;
+};
+
+// As it is shipped. The closed form does not know the rim, which makes the disc 2.6 % softer (finite elements), nor
+// that the traction falls while the cavities open: by no more than the whole rise of the plate would have it fall.
+TEST(ShippedCases, DiscOfRubberWithCavitiesBearsWhatItsReadmeSays) {
+  const ShippedRun shipped("poker_chip_gent_lindley/cavities.toml", 40);
+  ASSERT_EQ(shipped.outcome.status, 0) << shipped.outcome.err;
+  const CsvTable curve = shipped.curve();
+  ASSERT_EQ(curve.n_rows(), 41u);
+  const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
+  constexpr double strength = 1.475e6, toughness = 10e3;
+  const DiscWithCavities disc(strength);
+  EXPECT_NEAR(2.0 * disc.rise(0.0), 58.57e-6, 0.01e-6) << "disc_with_cavities.py";
+  EXPECT_NEAR(disc.force(50e-6), 4.3823, 2e-3) << "disc_with_cavities.py";
+  for (std::size_t i = 1; i < 41; ++i) {
+    const double fallen = 1.0 - strength * u[i] / (2.0 * toughness);
+    EXPECT_LT(force[i], 0.98 * disc.force(0.5 * u[i])) << "step " << i;
+    EXPECT_GT(force[i], 0.95 * DiscWithCavities(fallen * strength).force(0.5 * u[i])) << "step " << i;
+    const double lost = curve.column("interface_dissipation_J")[i];
+    if (u[i] < 58e-6) {
+      EXPECT_NEAR(force[i] / u[i], force[1] / u[1], 1e-6 * force[1] / u[1]) << "linear until the strength is reached";
+      EXPECT_LT(lost, 1e-12);
+    } else {
+      EXPECT_GT(lost, curve.column("interface_dissipation_J")[i - 1]);
+    }
+    const double kept = curve.column("elastic_energy_J")[i] + curve.column("interface_energy_J")[i] + lost;
+    EXPECT_NEAR(kept / curve.column("external_work_J")[i], 1.0, 5e-3) << "step " << i;
+  }
+}
+
+// As it is shipped, through the jump after its 44th step.
+TEST(ShippedCases, DiscOfRubberReachesItsStrengthOnTheAxis) {
+  const ShippedRun shipped("poker_chip_gent_lindley/strength.toml", 45);
+  ASSERT_EQ(shipped.outcome.status, 0) << shipped.outcome.err;
+  const CsvTable curve = shipped.curve();
+  ASSERT_EQ(curve.n_rows(), 46u);
+  const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N"),
+        &damage = curve.column("max_damage");
+  const DiscWithCavities disc(1.475e6);
+  for (std::size_t i = 1; i < 45; ++i) {
+    EXPECT_EQ(damage[i] > 0.0, u[i] > disc.rise(0.0)) << "step " << i;
+    EXPECT_NEAR(force[i] / disc.force(u[i]), 1.0, 0.05) << "step " << i;
+  }
+  EXPECT_GT(force[44], 4.1);
+  EXPECT_LT(force[45], 0.65 * force[44]);
+  const nlohmann::json summary = nlohmann::json::parse(content_of(shipped.results() / "summary.json"));
+  const FractureState state = read_checkpoint(shipped.results() / "checkpoint.bin", summary["case_hash"]);
+  const CaseFile opened = open_case(shipped.directory);
+  const Mesh mesh = read_fracture_case(opened.config.root(), opened.directory).mesh.make();
+  ASSERT_EQ(state.damage.size(), mesh.n_cells());
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const double r = mesh.cell_centre[c].x(), z = mesh.cell_centre[c].z();
+    EXPECT_GE(state.damage[c], r < 0.1e-3 && z < 0.5e-3 ? 0.99 : 0.0);
+    EXPECT_LE(state.damage[c], r < 6e-3 ? 1.0 : 0.0);
+  }
 }
 
 }  // namespace

@@ -21,6 +21,19 @@ double place_of_trial(const FitParameter& p, const FitEstimate& estimate) {
   return above - estimate.value >= estimate.value - below ? above : below;
 }
 
+/// From where the linear model has them, or from the estimates. Nothing if the model converges at neither.
+std::optional<FitResult> others_anew(const DoneFit& done, std::size_t k, double there, const FitSettings& settings) {
+  std::vector<double> at_estimates = done.result.values();
+  at_estimates.erase(at_estimates.begin() + static_cast<std::ptrdiff_t>(k));
+  for (const auto& others : {others_by_linear_model(done.problem, done.result, k, there), at_estimates}) {
+    const FitProblem held = with_held(done.problem, k, there, others);
+    std::vector<double> start;
+    for (const FitParameter& p : held.parameters) start.push_back(*p.start);
+    if (held.residuals(start)) return fit(held, settings);
+  }
+  return std::nullopt;
+}
+
 std::string not_told_apart(const DoneFit& done, std::size_t k, double there, const FitResult& other) {
   const std::vector<FitEstimate>& estimates = done.result.estimates;
   const auto elsewhere = [&](std::size_t j) { return other.estimates[j < k ? j : j - 1].value; };
@@ -50,16 +63,23 @@ std::optional<std::string> doubt_of_interval(const DoneFit& done, std::size_t k,
   FitSettings once = done.settings;
   once.starts = 1;
   once.screened = 0;
-  const FitResult other =
-      fit(with_held(done.problem, k, there, others_by_linear_model(done.problem, done.result, k, there)), once);
+  if (done.settings.iterated)
+    once.iterated = [&](FitIteration iteration) {  // of the others: told with the held one in its place
+      iteration.parameters.insert(iteration.parameters.begin() + static_cast<std::ptrdiff_t>(k), there);
+      done.settings.iterated(iteration);
+    };
+  const std::optional<FitResult> other = others_anew(done, k, there, once);
+  if (!other)
+    return fmt::format("the interval of {} could not be tried: the model does not converge with {}",
+                       done.parameters[k].name, done.parameters[k].shown(there));
   const double n = static_cast<double>(done.result.residuals.size()),
                freedom = n - static_cast<double>(done.parameters.size());
   const double variance = done.problem.noise_is_known ? 1.0 : done.result.sum_of_squares / freedom;
   const double away = std::abs(there - estimate.value) / error;
   if (away >= least_reach &&
-      growth_of_squares(done.problem, done.result, k, there, other) > share_that_holds * away * away * variance)
+      growth_of_squares(done.problem, done.result, k, there, *other) > share_that_holds * away * away * variance)
     return std::nullopt;
-  return not_told_apart(done, k, there, other);
+  return not_told_apart(done, k, there, *other);
 }
 
 }  // namespace pfdm

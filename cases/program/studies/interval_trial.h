@@ -21,9 +21,9 @@ struct DoneFit {
   const std::vector<CaseParameter>& parameters;  ///< as those of the problem
 };
 
-/// Why the data do not determine parameter k as well as its interval says: which other one makes up for it. Nothing if
-/// they do, or if there is no interval. Takes about as many evaluations as the fit. Throws ComputationError if the
-/// model does not converge there.
+/// Why the data do not determine parameter k as well as its interval says: which other one makes up for it, or that the
+/// model does not converge there. Nothing if they do, or if there is no interval. Takes about as many evaluations as
+/// the fit.
 std::optional<std::string> doubt_of_interval(const DoneFit& done, std::size_t k, Log& log);
 
 }  // namespace pfdm
