@@ -20,8 +20,9 @@
 //   182-183 (2020) 193, relax it by another power of 1 - d.) What is left of it is not convex in d at small d.
 // - What Newton's method cannot bridge of a change of the damage is halved (staggered.cpp).
 //
-// Stress, stored and driving energy of the mean gradient are derivatives of this one energy. The driving energy of what
-// the faces add is exact where that is proportional to g.
+// Stress, stored and driving energy of the mean gradient are derivatives of this one energy. It is not linear in g: the
+// damage equation takes its derivative at every d (driving_law.h). The driving energy of what the faces add is exact
+// where that is proportional to g.
 //
 // Plane stress: F has the stretch across the plate at which the damaged cell has no stress across it, and the tangent
 // is condensed accordingly. No pressure is needed.
