@@ -131,7 +131,9 @@ ScalarSolution DamageEquation::solve(const CellField<double>& psi_plus, const Ce
 ScalarSolution DamageEquation::solve(const DrivingLaw& psi_plus, const CellField<double>& lower,
                                      const ScalarTolerance& tolerance, CellField<double>& d) {
   const DamageTerm<DrivingLaw> term{*this, psi_plus, lower};
-  return BoundedNewton(flux_, term, d).solve(tolerance);
+  ScalarTolerance damped = tolerance;
+  damped.damps = true;
+  return BoundedNewton(flux_, term, d).solve(damped);
 }
 
 CellField<double> DamageEquation::relaxed(const CellField<double>& given) {

@@ -27,6 +27,7 @@ struct ScalarTolerance {
   Index corrections = 1;    ///< number of updates of the deferred flux; an outer loop updates it at each iteration
   double reduction = 1e-9;  ///< of the initial value of the largest step of a cell by itself
   double least_step = 1e-10;
+  bool damps = false;  ///< steps that go to and fro, where the slope of f varies much
 };
 
 /// What stands in a cell besides the fluxes.
@@ -70,7 +71,7 @@ class BoundedNewton {
  private:
   void iterate(const ScalarTolerance& tolerance) {
     constexpr Index most_changes = 50;  // of the active set
-    constexpr Index patience = 8;       // with steps that may go to and fro
+    constexpr Index patience = 8;       // before steps are damped
     account_.converged = false;
     double target = 0.0;  // of the step that each cell would still take
     parallel_for(n_, [&](Index c) { held_[as_size(c)] = local_.is_free(c) ? 0 : 1; });
@@ -79,7 +80,7 @@ class BoundedNewton {
         diagonal_[as_size(c)] = damped_[as_size(c)] = diagonal(c);
         residual_[as_size(c)] = local_.is_free(c) ? -balance(c) : 0.0;
       });
-      if (change >= patience) damp();
+      if (tolerance.damps && change >= patience) damp();
       choose_active();
       parallel_for(n_, [&](Index c) {
         residual_[as_size(c)] = held_[as_size(c)] != 0 ? 0.0 : -balance(c);
@@ -107,9 +108,8 @@ class BoundedNewton {
     return fluxes > 0.0 ? std::max(sum, least * fluxes) : sum;
   }
 
-  // Where the slope of f varies much, Newton's steps can go to and fro between two sides of the solution for ever. A
-  // cell whose residual changes sign takes the larger diagonal of both sides, half of it in the next iteration, and so
-  // on.
+  // Newton's steps can go to and fro between two sides of the solution for ever. A cell whose residual changes sign
+  // takes the larger diagonal of both sides, half of it in the next iteration, and so on.
   void damp() {
     parallel_for(n_, [&](Index c) {
       const auto i = as_size(c);
