@@ -65,7 +65,8 @@ struct DamageTerm {
     const double within = std::clamp(d, 0.0, 1.0);
     const DrivingAt psi = psi_plus(c, within);
     const double fixed = equation.local_curvature(c, within, psi.value);
-    return std::max(fixed + equation.driving_curvature(c, within, psi.slope), least_curvature * fixed);
+    const double whole = fixed + equation.driving_curvature(c, within, psi.slope);
+    return fixed > 0.0 ? std::max(whole, least_curvature * fixed) : whole;
   }
   double lower(Index c) const { return lower_bound[c]; }
   double upper(Index) const { return 1.0; }
