@@ -77,8 +77,8 @@ if sys.argv[5] == "sound":
     s = delta*Gc/(8*ell)
     by_trace = s/hs - 2*W_hs/(3*hs); by_shear = np.sqrt(3)*(3*hs-ts)/(hs*ts)*s + 2*W_hs/(np.sqrt(3)*hs) - 2*np.sqrt(3)*W_ts/ts
     print(f"W at the strengths {W_ts:.6f}, {W_hs:.6f} MPa; coefficients by shear {by_shear:.4f}, by trace {by_trace:.4f}")
-    print("displacement um, force N of 5 degrees | share of the strength surface on the axis in the middle half of the height; the "
-          "largest in the inner 90 %, at r mm and share of the height | the same of the model's surface | I1/3 on the axis MPa")
+    print("displacement um, force N of 5 degrees | share of the strength surface on the axis in the middle half of the height; "
+          "the largest in the inner 90 %, at r mm, share of the height | the same of the model's surface | I1/3 on the axis MPa")
     def watch(now, force, at):
         F = np.zeros((len(at), 3, 3)); F[:, 0, 0], F[:, 0, 1], F[:, 1, 0], F[:, 1, 1], F[:, 2, 2] = at[:, :5].T
         U2, V = np.linalg.eigh(np.swapaxes(F, 1, 2) @ F); l = np.sqrt(U2); J = l.prod(1)
