@@ -141,7 +141,9 @@ struct Staggered::Loop {
   // half of it then, and so on. The iteration goes on from there.
   Equilibrium approach(const MomentumSolver::Tolerance& tolerance, Equilibrium equilibrium) {
     constexpr Index most_halvings = 6;
-    for (Index k = 0; k < most_halvings && !std::isfinite(equilibrium.residual) && last_damage.size() > 0; ++k) {
+    constexpr double astray = 1.0;  // residual to which a line search by the work along the step may lead
+    const auto is_lost = [](const Equilibrium& at) { return !(at.residual <= astray); };
+    for (Index k = 0; k < most_halvings && is_lost(equilibrium) && last_damage.size() > 0; ++k) {
       state.displacement = last_displacement;
       for (Index c = 0; c < last_damage.size(); ++c) state.damage[c] = 0.5 * (last_damage[c] + state.damage[c]);
       relaxation.lose_momentum();

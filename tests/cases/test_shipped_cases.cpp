@@ -159,6 +159,37 @@ TEST(ShippedCases, DiscOfGlassBreaksInsideAsItsReadmeSays) {
   EXPECT_LT(radius, 3.5e-3);
 }
 
+// As it is shipped, through the jump in which a crack begins, in its 14th step.
+TEST(ShippedCases, DiscOfPolyurethaneBreaksInItsMiddlePlaneAsItsReadmeSays) {
+  const ShippedRun shipped("nine_poker_chip_pu", 14);
+  ASSERT_EQ(shipped.outcome.status, 0) << shipped.outcome.err;
+  const CsvTable curve = shipped.curve();
+  ASSERT_EQ(curve.n_rows(), 15u);
+  const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
+  EXPECT_NEAR(force[1] / (0.03713 / 5e-6 * u[1]), 0.988, 2e-3) << "Taylor-Hood elements";
+  EXPECT_NEAR(u[13], 61.25e-6, 1e-9);  // on the model's surface by those elements at 61.2 um
+  EXPECT_NEAR(force[13], 0.4218, 1e-4);
+  EXPECT_LT(curve.column("max_damage")[13], 0.01);
+  EXPECT_NEAR(u[14], 61.75e-6, 1e-9);
+  EXPECT_NEAR(force[14], 0.278, 5e-3);
+  EXPECT_GT(curve.column("max_damage")[14], 0.96);
+
+  const nlohmann::json summary = nlohmann::json::parse(content_of(shipped.results() / "summary.json"));
+  const FractureState state = read_checkpoint(shipped.results() / "checkpoint.bin", summary["case_hash"]);
+  const CaseFile opened = open_case(shipped.directory);
+  const Mesh mesh = read_fracture_case(opened.config.root(), opened.directory).mesh.make();
+  ASSERT_EQ(state.damage.size(), mesh.n_cells());
+  double radius = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    if (state.damage[c] < 0.7) continue;
+    const Vector x = mesh.cell_centre[c];
+    const double thickness = 1e-3 + 18.2e-3 - std::sqrt(18.2e-3 * 18.2e-3 - x.x() * x.x());
+    radius = std::max(radius, x.x());
+    EXPECT_NEAR(x.z() / thickness, 0.5, 0.01);
+  }
+  EXPECT_NEAR(radius, 1.25e-3, 0.15e-3);
+}
+
 /// The rubber disc of poker_chip_gent_lindley in closed form, a thin layer whose pressure is nowhere above the
 /// strength: tests/verification/disc_with_cavities.py.
 class DiscWithCavities {
