@@ -293,7 +293,11 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   CellMechanics mechanics = momentum_.balance().mechanics(
       state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
   Energies energies{.unsettled = stiffness_.integrate(mechanics, start, state)};
-  energies.stored = find_energies(mechanics, state);
+  find_driving_energy(mechanics, state);
+  energies.stored = parallel_sum(mesh_.n_cells(), [&](Index c) {
+    return finite_.size() > 0 ? stiffness_.stored_energy(c, finite_[c], state.damage[c])
+                              : stiffness_.stored_energy(c, mechanics, state);
+  });
   energies.interfaces = faces_.advance(momentum_.balance(), state.displacement, start.interfaces, state.interfaces);
   energies.stored += energies.interfaces;
   energies.torn = faces_.dissipated(faces_.virgin_histories(), state.interfaces);
@@ -303,16 +307,11 @@ Staggered::Energies Staggered::update_driving_energy(const FractureState& start,
   return energies;
 }
 
-double Staggered::find_energies(const CellMechanics& mechanics, const FractureState& state) {
-  const CellField<double>& d = state.damage;
+void Staggered::find_driving_energy(const CellMechanics& mechanics, const FractureState& state) {
   if (stiffness_.finite().any()) finite_ = stiffness_.finite_energies(mechanics, state);
-  const bool is_finite = finite_.size() > 0;
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    psi_plus_[c] = is_finite ? stiffness_.driving_energy(c, finite_[c], d[c]).value
-                             : stiffness_.driving_energy(c, mechanics, state);
-  });
-  return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    return is_finite ? stiffness_.stored_energy(c, finite_[c], d[c]) : stiffness_.stored_energy(c, mechanics, state);
+    psi_plus_[c] = finite_.size() > 0 ? stiffness_.driving_energy(c, finite_[c], state.damage[c]).value
+                                      : stiffness_.driving_energy(c, mechanics, state);
   });
 }
 
@@ -321,9 +320,8 @@ StrengthDrive Staggered::strength_drive_of(const FractureState& state) {
   degrade(state);
   const CellMechanics mechanics = momentum_.balance().mechanics(
       state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
-  CellField<double> psi(as_size(mesh_.n_cells()));
-  parallel_for(mesh_.n_cells(), [&](Index c) { psi[c] = stiffness_.driving_energy(c, mechanics, state); });
-  return strength_drive(mesh_, model_, stiffness_, mechanics, state, psi);
+  find_driving_energy(mechanics, state);
+  return strength_drive(mesh_, model_, stiffness_, mechanics, state, psi_plus_);
 }
 
 // The driving energy of the last equilibrium with its displacements times `scale`. Returns what the residual stiffness

@@ -91,8 +91,8 @@ class Staggered {
   ResidualShare residual_share(const FractureState& state, const Energies& energies);
   /// Of a strength model, at the equilibrium of this state; empty without.
   StrengthDrive strength_drive_of(const FractureState& state);
-  /// What the cells store [J]; finds psi_plus_.
-  double find_energies(const CellMechanics& mechanics, const FractureState& state);
+  /// psi_plus_ and finite_.
+  void find_driving_energy(const CellMechanics& mechanics, const FractureState& state);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);
   struct PathLimit {
     double load = 0.0;    // largest load of the step

@@ -53,8 +53,7 @@ class BoundedNewton {
         diagonal_(as_size(n_)),
         damped_(as_size(n_)),
         residual_(as_size(n_)),
-        step_(as_size(n_)),
-        before_(as_size(n_)) {}
+        step_(as_size(n_)) {}
 
   /// Changes u.
   ScalarSolution solve(const ScalarTolerance& tolerance) {
@@ -111,6 +110,7 @@ class BoundedNewton {
   // Newton's steps can go to and fro between two sides of the solution for ever. A cell whose residual changes sign
   // takes the larger diagonal of both sides, half of it in the next iteration, and so on.
   void damp() {
+    before_.resize(as_size(n_));
     parallel_for(n_, [&](Index c) {
       const auto i = as_size(c);
       Before& before = before_[i];
@@ -145,7 +145,7 @@ class BoundedNewton {
   struct Before {
     double residual = 0.0, diagonal = 0.0, damped = 0.0;
   };
-  std::vector<Before> before_;  // of the last iteration
+  std::vector<Before> before_;  // of the last iteration; empty as long as no step is damped
   ScalarSolution account_;
 };
 
