@@ -68,9 +68,9 @@ struct LineSearch {
 }  // namespace
 
 bool inverts(const MomentumOperator& balance) {
-  constexpr double least_volume = 0.1;
+  constexpr double least_volume = 0.1, damaged = 0.5;
   return parallel_sum(balance.deformation().size(), [&](Index c) {
-           return !balance.is_soft(c) && balance.deformation()[c].determinant() < least_volume ? 1.0 : 0.0;
+           return !balance.is_softer(c, damaged) && balance.deformation()[c].determinant() < least_volume ? 1.0 : 0.0;
          }) > 0.0;
 }
 

@@ -11,7 +11,8 @@ namespace pfdm {
 Equilibrium solve_finite(const CellStiffness& stiffness, const MomentumSolver::Tolerance& tolerance,
                          MomentumSolver& momentum, FractureState& state, Index most_steps = 30);
 
-/// Whether some cell that still carries load has nearly turned inside out, where the balance is linearised.
+/// Whether some cell that has kept half of its stiffness or more has nearly turned inside out, where the balance is
+/// linearised. Others may (finite_cells.h).
 bool inverts(const MomentumOperator& balance);
 
 }  // namespace pfdm

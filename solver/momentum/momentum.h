@@ -98,9 +98,9 @@ class MomentumOperator {
   const CellField<Tensor>& deformation() const { return F_; }       ///< F by least squares, at which it is linearised
   const CellField<Tensor>& cofactors() const { return cofactor_; }  ///< likewise
   CellField<double> face_stiffness() const;                         ///< a measure of a h at finite strain [Pa]
-  /// Whether it has lost most of its stiffness.
-  bool is_soft(Index cell) const {
-    return finite_[cell].face.mu < 0.05 * unknowns_.sound[as_size(unknowns_.zone[cell])].mu;
+  /// Whether it has lost all but this share of its stiffness.
+  bool is_softer(Index cell, double share) const {
+    return finite_[cell].face.mu < share * unknowns_.sound[as_size(unknowns_.zone[cell])].mu;
   }
 
   const std::vector<FaceSpring>& springs() const { return springs_; }

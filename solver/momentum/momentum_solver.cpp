@@ -73,10 +73,10 @@ void MomentumSolver::set_finite(const FiniteLawAt& law, const CellField<double>&
 
 // Turned or stretched by a good part. Broken cells may do as they like: their stiffness counts.
 bool MomentumSolver::has_deformed() const {
-  constexpr double much = 0.5;
+  constexpr double much = 0.5, soft = 0.05;
   const CellField<Tensor>& F = operator_.deformation();
   return parallel_max(F.size(), [&](Index c) {
-           return operator_.is_soft(c) ? 0.0 : (F[c] - built_deformation_[c]).norm();
+           return operator_.is_softer(c, soft) ? 0.0 : (F[c] - built_deformation_[c]).norm();
          }) > much;
 }
 
