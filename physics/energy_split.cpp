@@ -51,6 +51,22 @@ constexpr SplitLaw volumetric_deviatoric{
         },
 };
 
+// Ambati, Gerasimov, De Lorenzis, Comput. Mech. 55 (2015) 383, eq. 29, with the energy of Amor et al. in place of the
+// spectral one and without their condition that closes cracks.
+constexpr SplitLaw hybrid{
+    .name = "hybrid",
+    .description =
+        "driven as by volumetric_deviatoric, the whole stiffness is degraded: cracks do not close (Ambati 2015; not "
+        "variational)",
+    .variational = false,
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters& p) {
+          return SplitEnergy{volumetric_deviatoric.energy(c, eps, p).psi_plus, 0.0};
+        },
+    .closure = [](const Tensor&) { return 0.0; },
+    .secant = degrade_all,
+};
+
 // Vicentini, Zolesi, Carrara, Maurini, De Lorenzis, Int. J. Fract. 247 (2024) 291: compression of the volume is kept
 // and lowers the energy that drives damage, so that the ratio of compressive to tensile strength is a parameter.
 constexpr LawParameter star_convex_parameters[] = {{"gamma", "1", true}};
@@ -183,7 +199,7 @@ constexpr SplitLaw drucker_prager{
 };
 
 constexpr SplitLaw all_splits[] = {none,       volumetric_deviatoric, star_convex, spectral,
-                                   no_tension, drucker_prager,        rankine};
+                                   no_tension, drucker_prager,        rankine,     hybrid};
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "solver/fracture/combinations.h"
 
 #include "physics/error.h"
+#include "solver/fracture/finite_cells.h"
 
 #include <fmt/format.h>
 
@@ -106,15 +107,10 @@ void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& un
                       mesh.region_names[r]));
     const std::string_view split = m.split_of(region).name();
     if (!region.damageable) continue;
-    if (split != "none" && split != "volumetric_deviatoric")
-      throw InputError(
-          fmt::format("materials of finite strain can only be combined with the energy splits \"none\" and "
-                      "\"volumetric_deviatoric\", not \"{}\"",
-                      split));
+    finite_split(split);
     if (split != "none" && region.material->name() == "saint_venant_kirchhoff")
       refuse(
-          "the energy split \"volumetric_deviatoric\" where their law is saint_venant_kirchhoff, which is not "
-          "convex");
+          fmt::format("the energy split \"{}\" where their law is saint_venant_kirchhoff, which is not convex", split));
   }
   require_finite_interfaces(m);
   if (unknowns.plane_stress) require_finite_plate(m);

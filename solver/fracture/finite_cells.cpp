@@ -1,10 +1,15 @@
 #include "solver/fracture/finite_cells.h"
 
+#include "physics/error.h"
 #include "physics/materials/biot_stress.h"
 #include "physics/plane_stress.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace pfdm {
 namespace {
@@ -12,6 +17,12 @@ namespace {
 constexpr double least_modulus = 1e-9;    // of a pressure, over the undamaged one
 constexpr double least_thickness = 1e-4;  // of a sheet, over that at rest: laws of principal stretches end at 0
 constexpr double closing_range = 0.02;    // of J below 1, over which the faces of a cell become those of a closed crack
+
+constexpr FiniteSplit all_splits[] = {
+    {.name = "none"},
+    {.name = "volumetric_deviatoric", .keeps_compression = true, .driven_by_compression = false},
+    {.name = "hybrid", .driven_by_compression = false},
+};
 
 PotentialAt difference(const PotentialAt& a, const PotentialAt& b) {
   return {a.energy - b.energy, a.stress - b.stress, a.tangent - b.tangent};
@@ -30,6 +41,13 @@ PotentialAt sum(double w_a, const PotentialAt& a, double w_b, const PotentialAt&
 
 }  // namespace
 
+const FiniteSplit& finite_split(std::string_view name) {
+  const auto* const split = std::ranges::find(all_splits, name, &FiniteSplit::name);
+  if (split != std::ranges::end(all_splits)) return *split;
+  throw InputError(fmt::format("materials of finite strain can only be combined with the energy splits {}, not {}",
+                               fmt::join(all_splits | std::views::transform(&FiniteSplit::name), ", "), name));
+}
+
 FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {
   if (!model.is_finite_strain()) return;
   for (const BoundaryCondition& on : model.boundary)
@@ -37,11 +55,12 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(m
       across_ = mesh.face_area[mesh.patch(on.patch).first_face].normalized();
   const auto n = as_size(mesh.n_cells());
   material_ = CellField<const HyperelasticMaterial*>(n, nullptr);
-  keeps_compression_ = CellField<char>(n, 0);
+  split_ = CellField<const FiniteSplit*>(n, all_splits);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const RegionModel& region = model.in_cell(mesh, c);
     material_[c] = dynamic_cast<const HyperelasticMaterial*>(region.material.get());
-    keeps_compression_[c] = region.damageable && model.split_of(region).name() != "none" ? 1 : 0;
+    if (!region.damageable) continue;
+    split_[c] = &finite_split(model.split_of(region).name());
   }
 }
 
@@ -74,8 +93,8 @@ auto FiniteCells::pressure_share(const HyperelasticMaterial& material, double g,
           .curvature = (1.0 - least_modulus) * curvature};
 }
 
-// W = g (w W_m + (1 - w) N) + w r c U + (1 - g) K, w and r being the functions of g above, N the network's energy, and
-// K what the split keeps of W_m; of c U it keeps all where J < 1.
+// W = g (w W_m + (1 - w) N) + w r c U, w and r being the functions of g above and N the network's energy. A split that
+// keeps compression adds (1 - g) W_c, and keeps c U where J < 1.
 FiniteCells::Shares FiniteCells::shares(Index cell, double g) const {
   const OfFactor sound = sound_share(*material_[cell], g);
   return {.moderate = sound,
@@ -86,16 +105,18 @@ FiniteCells::Shares FiniteCells::shares(Index cell, double g) const {
 FiniteCells::Parts FiniteCells::parts(Index cell, const Tensor& H) const {
   const HyperelasticMaterial& material = *material_[cell];
   Parts parts{.moderate = material.moderate_potential(H), .network = network(material, H)};
-  if (keeps_compression_[cell] != 0) parts.kept = material.moderate_compression(H);
+  const bool may_differ = !split_[cell]->driven_by_compression;
+  if (may_differ) parts.compression = material.moderate_compression(H);
   if (material.pressure_modulus() > 0.0) parts.pressure = difference(material.potential(H), parts.moderate);
-  parts.keeps_pressure = keeps_compression_[cell] != 0 && volume_change(H) < 0.0;
+  parts.is_compressed = may_differ && volume_change(H) < 0.0;
   return parts;
 }
 
-PotentialAt FiniteCells::damaged(const Parts& at, const Shares& by, double g) {
+PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const Shares& by, double g) const {
   const PotentialAt degraded = sum(by.moderate.value, at.moderate, by.network.value, at.network);
-  const double pressure = at.keeps_pressure ? 1.0 : by.pressure.value;
-  return sum(1.0, sum(1.0, degraded, 1.0 - g, at.kept), pressure, at.pressure);
+  const PotentialAt relaxed = sum(1.0, degraded, by.pressure.value, at.pressure);
+  if (!at.is_compressed || !keeps_compression(cell)) return relaxed;
+  return sum(1.0, relaxed, 1.0, sum(1.0 - g, at.compression, 1.0 - by.pressure.value, at.pressure));
 }
 
 FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure) const {
@@ -104,7 +125,7 @@ FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure
 
 FiniteLaw FiniteCells::solid_law(Index cell, const Tensor& H, double g, double closure) const {
   const HyperelasticMaterial& material = *material_[cell];
-  const bool keeps = keeps_compression_[cell] != 0;
+  const bool keeps = keeps_compression(cell);
   const Shares by = shares(cell, g);
   const double w = by.moderate.value / g;
   const PotentialAt moderate = material.moderate_potential(H);
@@ -135,7 +156,7 @@ FiniteLaw FiniteCells::solid_law(Index cell, const Tensor& H, double g, double c
 FiniteLaw FiniteCells::plane_stress_law(Index cell, const Tensor& H, double g) const {
   const Shares by = shares(cell, g);
   const Tensor nn = across_ * across_.transpose();
-  const PotentialAt at = damaged(parts(cell, thinned(cell, H, g)), by, g);
+  const PotentialAt at = damaged(cell, parts(cell, thinned(cell, H, g)), by, g);
   const IsotropicElasticity sound = plane_stress(material_[cell]->elasticity());
   const double w = by.moderate.value / g;
   FiniteLaw law{.stress = at.stress, .A = at.tangent, .face = {.lambda = 0.0, .mu = g * sound.mu}};
@@ -156,7 +177,7 @@ Tensor FiniteCells::thinned(Index cell, const Tensor& H, double g) const {
   const Tensor nn = across_ * across_.transpose();
   double strain = 0.0;
   for (Index k = 0; k < most_steps; ++k) {
-    const PotentialAt at = damaged(parts(cell, H + strain * nn), by, g);
+    const PotentialAt at = damaged(cell, parts(cell, H + strain * nn), by, g);
     const double stiffness = contract(nn, from_components(at.tangent * to_components(nn)));
     const double next = std::max(strain - contract(nn, at.stress) / stiffness, least_thickness - 1.0);
     const bool there = std::abs(next - strain) <= rounding * (std::abs(strain) + H.norm());
@@ -167,7 +188,7 @@ Tensor FiniteCells::thinned(Index cell, const Tensor& H, double g) const {
 }
 
 double FiniteCells::closure(Index cell, const Tensor& H) const {
-  return keeps_compression_[cell] == 0 ? 0.0 : std::clamp(-volume_change(H) / closing_range, 0.0, 1.0);
+  return !keeps_compression(cell) ? 0.0 : std::clamp(-volume_change(H) / closing_range, 0.0, 1.0);
 }
 
 FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics, double g) const {
@@ -175,29 +196,35 @@ FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics,
   return {.moderate = at.moderate.energy,
           .network = at.network.energy,
           .pressure = at.pressure.energy,
-          .kept = at.kept.energy,
-          .keeps_pressure = at.keeps_pressure,
+          .compression = at.compression.energy,
+          .is_compressed = at.is_compressed,
           .faces = mechanics.energy[cell] / mesh_.cell_volume[cell],
           .of = g};
 }
 
 double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g) const {
   const Shares by = shares(cell, g);
-  const double density = by.moderate.value * at.moderate + by.network.value * at.network + (1.0 - g) * at.kept +
-                         (at.keeps_pressure ? 1.0 : by.pressure.value) * at.pressure + at.faces;
+  const bool keeps = at.is_compressed && keeps_compression(cell);
+  const double kept = keeps ? (1.0 - g) * at.compression : 0.0;
+  const double density = by.moderate.value * at.moderate + by.network.value * at.network + kept +
+                         (keeps ? 1.0 : by.pressure.value) * at.pressure + at.faces;
   return mesh_.cell_volume[cell] * density;
 }
 
-// What the faces add is taken as proportional to g, where the split keeps nothing.
+// Where compression does not drive, W_c is taken off as it is degraded: with a split that keeps it by 1, else by the
+// share of W_m. What the faces add is taken as proportional to g, where nothing is kept; that of a cell which is driven
+// less by compression must not end at J = 1: its damage would go to and fro.
 DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, double g) const {
   const Shares by = shares(cell, g);
-  const double pressure = at.keeps_pressure ? 0.0 : at.pressure, faces = at.kept > 0.0 ? 0.0 : at.faces / at.of;
-  const double value =
-      by.moderate.slope * at.moderate + by.network.slope * at.network - at.kept + by.pressure.slope * pressure + faces;
+  const OfFactor off = keeps_compression(cell) ? OfFactor{.value = g, .slope = 1.0} : by.moderate;
+  const double pressure = at.is_compressed ? 0.0 : at.pressure;
+  const double faces = at.is_compressed && keeps_compression(cell) ? 0.0 : at.faces / at.of;
+  const double value = by.moderate.slope * at.moderate + by.network.slope * at.network - off.slope * at.compression +
+                       by.pressure.slope * pressure + faces;
   if (value <= 0.0) return {};
   return {.value = value,
-          .slope = by.moderate.curvature * at.moderate + by.network.curvature * at.network +
-                   by.pressure.curvature * pressure};
+          .slope = by.moderate.curvature * at.moderate + by.network.curvature * at.network -
+                   off.curvature * at.compression + by.pressure.curvature * pressure};
 }
 
 Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {
@@ -205,7 +232,8 @@ Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mecha
   const Parts at = parts(cell, H);
   const Shares by = shares(cell, g);
   const PotentialAt whole = sum(by.moderate.value / g, at.moderate, by.network.value / g, at.network);
-  return biot_stress(H, whole.stress + (at.keeps_pressure ? 1.0 : by.pressure.value / g) * at.pressure.stress);
+  const bool keeps = at.is_compressed && keeps_compression(cell);
+  return biot_stress(H, whole.stress + (keeps ? 1.0 : by.pressure.value / g) * at.pressure.stress);
 }
 
 // The deformation gradient for the Cauchy stress. A broken sheet, a network, has next to no thickness: it counts as
@@ -225,7 +253,7 @@ Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, do
   if (!plane_normal.isZero()) {
     const Tensor across = plane_normal * plane_normal.transpose();
     const Parts at = parts(cell, thinned(cell, mechanics.gradient[cell], g));
-    P += across * (damaged(at, shares(cell, g), g).stress - P) * across;
+    P += across * (damaged(cell, at, shares(cell, g), g).stress - P) * across;
   }
   const Tensor F = true_deformation(cell, mechanics.gradient[cell], g);
   return symmetric_part(P * F.transpose() / F.determinant());

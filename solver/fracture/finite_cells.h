@@ -2,8 +2,11 @@
 // The cells of a body at finite strain: hyperelastic laws (physics/materials/hyperelastic.h). Damage degrades the part
 // of the energy W that the split does not keep:
 //
-//   none                   W = g W(F)
+//   none, hybrid           W = g W(F)
 //   volumetric_deviatoric  W = g (W(F) - W_c) + W_c,  W_c = W(J^(1/3) 1) where J < 1, else 0
+//
+// `hybrid` is driven as volumetric_deviatoric, by W - W_c, and is not variational (Ambati, Gerasimov, De Lorenzis,
+// Comput. Mech. 55 (2015) 383).
 //
 // Broken cells may stretch without end or turn inside out:
 //
@@ -34,15 +37,27 @@
 #include "solver/fracture/state.h"
 #include "solver/momentum/momentum_solver.h"
 
+#include <string_view>
+
 namespace pfdm {
 
 /// The energies of a cell at some displacements, each of which has its share by the damage [J/m^3].
 struct FiniteEnergies {
   double moderate = 0.0, network = 0.0, pressure = 0.0;
-  double kept = 0.0;             ///< by the split, of the moderate one
-  bool keeps_pressure = false;   ///< the split, all of it
+  double compression = 0.0;      ///< W_c, of the moderate one, where compression does not drive the damage
+  bool is_compressed = false;    ///< there, and J < 1
   double faces = 0.0, of = 1.0;  ///< what the faces add, at the g with which the displacements were found
 };
+
+/// What a split does at finite strain: a row of the table of those there are.
+struct FiniteSplit {
+  std::string_view name;
+  bool keeps_compression = false;  ///< from the degradation
+  bool driven_by_compression = true;
+};
+
+/// Throws InputError naming those there are.
+const FiniteSplit& finite_split(std::string_view name);
 
 class FiniteCells {
  public:
@@ -85,23 +100,24 @@ class FiniteCells {
     OfFactor moderate, network, pressure;
   };
   Shares shares(Index cell, double g) const;
-  // Undamaged, at some H: W_m, the network's, c U, and what the split keeps of W_m.
+  // Undamaged, at some H: W_m, the network's, c U, and where the split asks for it W_c of W_m and whether J < 1.
   struct Parts {
-    PotentialAt moderate, network, pressure{}, kept{};
-    bool keeps_pressure = false;
+    PotentialAt moderate, network, pressure{}, compression{};
+    bool is_compressed = false;
   };
   Parts parts(Index cell, const Tensor& H) const;
   bool is_plane_stress() const { return !across_.isZero(); }
   FiniteLaw solid_law(Index cell, const Tensor& H, double g, double closure) const;
   FiniteLaw plane_stress_law(Index cell, const Tensor& H, double g) const;
   Tensor true_deformation(Index cell, const Tensor& H, double g) const;
-  static PotentialAt damaged(const Parts& at, const Shares& by, double g);
+  bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
+  PotentialAt damaged(Index cell, const Parts& at, const Shares& by, double g) const;
 
   const Mesh& mesh_;
   const FractureModel& model_;
   CellField<const HyperelasticMaterial*> material_;  // empty at small strain
-  CellField<char> keeps_compression_;
-  Vector across_ = Vector::Zero();  // normal of a plate in plane stress
+  CellField<const FiniteSplit*> split_;              // likewise
+  Vector across_ = Vector::Zero();                   // normal of a plate in plane stress
 };
 
 }  // namespace pfdm

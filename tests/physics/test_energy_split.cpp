@@ -377,6 +377,17 @@ TEST(EnergySplit, RankineIsDrivenByTheLargestPrincipalStress) {
   EXPECT_NEAR(split.energy(glass, hydrostatic).psi_plus, 0.5 * sigma * sigma / E, 1e-10 * sigma * sigma / E);
 }
 
+TEST(EnergySplit, HybridIsDrivenAsAmorsAndKeepsNothing) {
+  const EnergySplit hybrid = energy_split("hybrid"), amor = energy_split("volumetric_deviatoric");
+  RandomTensors random;
+  for (int i = 0; i < 20; ++i) {
+    const Tensor eps = random.symmetric(1e-2);
+    EXPECT_EQ(hybrid.energy(glass, eps).psi_plus, amor.energy(glass, eps).psi_plus);
+    EXPECT_LE((degraded_stress(hybrid, glass, 0.1, eps) - 0.1 * stress(glass, eps)).norm(),
+              1e-14 * stress(glass, eps).norm());
+  }
+}
+
 TEST(EnergySplit, UnknownNamesAreAnsweredWithThoseThereAre) {
   expect_unknown_name_is_answered(energy_splits(), split_law);
 }

@@ -47,6 +47,14 @@ FractureModel damaged_model(std::string_view crack, double Gc, double ell, std::
   return model;
 }
 
+// Of a mesh of one cell.
+CellMechanics uniform(const Tensor& H) {
+  CellMechanics mechanics;
+  mechanics.gradient = CellField<Tensor>(1, H);
+  mechanics.energy = CellField<double>(1, 0.0);
+  return mechanics;
+}
+
 // W and P_11 of diag(l, 1, 1), by hand.
 double energy_at(double l) {
   return 0.5 * rubber.mu * (l * l - 1.0) - rubber.mu * std::log(l) + 0.5 * rubber.lambda * (l - 1.0) * (l - 1.0);
@@ -93,21 +101,15 @@ TEST(FiniteStrainDamage, OneEnergyDrivesTheDamageAndHasTheStress) {
         model.regions[0].elasticity = elasticity;
         model.regions[0].material = make_hyperelastic("neo_hookean", {.elasticity = elasticity});
         const FiniteCells cells(mesh, model);
-        const auto at = [&](const Tensor& H) {
-          CellMechanics mechanics;
-          mechanics.gradient = CellField<Tensor>(1, H);
-          mechanics.energy = CellField<double>(1, 0.0);
-          return mechanics;
-        };
         const auto stored = [&](const Tensor& H, double g) {
-          return cells.stored_energy(0, cells.energies(0, at(H), g), g);
+          return cells.stored_energy(0, cells.energies(0, uniform(H), g), g);
         };
         const Tensor H = Tensor(l.asDiagonal()) + shear - Tensor::Identity();
         const double J = (Tensor::Identity() + H).determinant();
         for (const double g : {0.5, 2e-2, 2.9e-3, 1e-3, 3.5e-4, 1e-4}) {
           const double e = 1e-4 * g;
           const double slope = (stored(H, g + e) - stored(H, g - e)) / (2.0 * e * volume);
-          const FiniteEnergies found_sound = cells.energies(0, at(H), 0.9);
+          const FiniteEnergies found_sound = cells.energies(0, uniform(H), 0.9);
           const auto driving = [&](double by) { return cells.driving_energy(0, found_sound, by); };
           of_g = std::max(of_g, std::abs(driving(g).value - std::max(slope, 0.0)) / std::abs(slope));
           const double curvature = (driving(g + e).value - driving(g - e).value) / (2.0 * e);
@@ -130,6 +132,47 @@ TEST(FiniteStrainDamage, OneEnergyDrivesTheDamageAndHasTheStress) {
   EXPECT_LE(of_stress, 1e-6);
 }
 
+// The split "hybrid" stores what "none" does; compressed cells are driven by W - W(J^(1/3) 1), by hand.
+TEST(FiniteStrainDamage, HybridIsDrivenByAllButTheEnergyOfCompression) {
+  const Mesh mesh = block(1, 1.0);
+  const FractureModel whole = damaged_model("AT2", 100.0, 0.05, pulled(1.0), "none");
+  const FractureModel hybrid = damaged_model("AT2", 100.0, 0.05, pulled(1.0), "hybrid");
+  const FiniteCells by_all(mesh, whole), by_tension(mesh, hybrid);
+  constexpr double g = 0.5;
+  for (const Vector& l : {Vector(1.4, 0.9, 0.9), Vector(1.3, 0.8, 0.8), Vector(0.7, 1.1, 0.9), Vector(0.8, 0.8, 0.8)}) {
+    Tensor F = l.asDiagonal();
+    F(0, 1) = 0.2;
+    const double J = F.determinant(), mu = rubber.mu, Lambda = rubber.lambda;
+    const double of_volume = -mu * std::log(J) + 0.5 * Lambda * (J - 1.0) * (J - 1.0);
+    const double W = 0.5 * mu * (F.squaredNorm() - 3.0) + of_volume;
+    const double W_c = J < 1.0 ? 1.5 * mu * (std::pow(J, 2.0 / 3.0) - 1.0) + of_volume : 0.0;
+    const CellMechanics mechanics = uniform(F - Tensor::Identity());
+    const FiniteEnergies at = by_tension.energies(0, mechanics, g);
+    EXPECT_NEAR(by_tension.driving_energy(0, at, g).value, W - W_c, 1e-12 * W);
+    EXPECT_NEAR(by_tension.stored_energy(0, at, g) / mesh.cell_volume[0], g * W, 1e-12 * W);
+    EXPECT_EQ(by_tension.law(0, mechanics.gradient[0], g, 0.0).stress,
+              by_all.law(0, mechanics.gradient[0], g, 0.0).stress);
+  }
+}
+
+// The same where the pressure is an unknown: c U drives in expansion alone.
+TEST(FiniteStrainDamage, HybridIsNotDrivenByPressureOfNearlyIncompressibleCells) {
+  const Mesh mesh = block(1, 1.0);
+  const IsotropicElasticity soft = from_young_poisson(1.5e6, 0.4999);
+  const auto driving = [&](const char* split, double stretch) {
+    FractureModel model = damaged_model("AT2", 100.0, 0.05, pulled(1.0), split);
+    model.regions[0].elasticity = soft;
+    model.regions[0].material = make_hyperelastic("neo_hookean", {.elasticity = soft});
+    const FiniteCells cells(mesh, model);
+    const CellMechanics mechanics = uniform((stretch - 1.0) * Tensor::Identity());
+    return cells.driving_energy(0, cells.energies(0, mechanics, 1.0), 1.0).value;
+  };
+  EXPECT_GT(driving("none", 1.05), 0.0);
+  EXPECT_EQ(driving("hybrid", 1.05), driving("none", 1.05));
+  EXPECT_GT(driving("none", 0.95), 0.0);
+  EXPECT_LE(driving("hybrid", 0.95), 1e-9 * driving("none", 0.95));
+}
+
 // Of a cell stretched to twice its length or more it is convex in the damage beyond d = 0.6: no damage below which much
 // drives it on and above which little does. At smaller stretches, and of the relaxed c U at small d, it is not.
 TEST(FiniteStrainDamage, TheEnergyOfAStretchedCellIsConvexInTheDamage) {
@@ -142,9 +185,7 @@ TEST(FiniteStrainDamage, TheEnergyOfAStretchedCellIsConvexInTheDamage) {
       model.regions[0].elasticity = elasticity;
       model.regions[0].material = make_hyperelastic("neo_hookean", {.elasticity = elasticity});
       const FiniteCells cells(mesh, model);
-      CellMechanics mechanics;
-      mechanics.gradient = CellField<Tensor>(1, Tensor(l.asDiagonal()) - Tensor::Identity());
-      mechanics.energy = CellField<double>(1, 0.0);
+      const CellMechanics mechanics = uniform(Tensor(l.asDiagonal()) - Tensor::Identity());
       const auto energy = [&](double z) { return cells.stored_energy(0, cells.energies(0, mechanics, z * z), z * z); };
       double least = 0.0;
       for (double z = 0.002; z < 0.4; z += 0.001)
@@ -174,6 +215,32 @@ TEST(FiniteStrainDamage, ABrokenLayerStretchesWithoutEnd) {
   EXPECT_LE(left, 2e-3);
   EXPECT_LE(right, 2e-3);
   EXPECT_LE(std::abs(force), 1e-3);
+}
+
+// A block of a sixteenth of the stiffness is pressed to a negative volume; beyond J = 0.1 the functions of J are
+// parabolas.
+TEST(FiniteStrainDamage, ADamagedBlockMayBePressedInsideOut) {
+  const Mesh mesh = block(4, 1.0);
+  constexpr double pressed = 1.1, damage = 0.75;
+  FractureModel model = damaged_model("AT2", 1e12, 100.0, pulled(-pressed), "none");
+  model.initial_damage = CellField<double>(as_size(mesh.n_cells()), damage);
+  FractureRun run(mesh, model, {}, {.initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
+  const auto stress = [](double l) {
+    constexpr double least = 0.1;
+    const double slope = rubber.mu / (least * least) + rubber.lambda, J = std::max(l, least);
+    return rubber.mu * l - rubber.mu / J + rubber.lambda * (J - 1.0) + slope * (l - J);
+  };
+  double worst = 0.0;
+  const FractureState end = run_to_end(run, [&](const FractureState& state, const StepReport& report) {
+    if (report.step == 0) return;
+    const double g = (1.0 - 1e-6) * std::pow(1.0 - state.damage[0], 2) + 1e-6;
+    const double force = report.reaction[patch_number(mesh, "xmax")].x() / 0.0625;
+    worst = std::max(worst, std::abs(force / (g * stress(1.0 - pressed * state.load)) - 1.0));
+  });
+  report_row("pressed block", {{"damage", end.damage[0]}, {"largest relative error of the force", worst}});
+  ASSERT_EQ(end.load, 1.0);
+  EXPECT_NEAR(end.damage[0], damage, 1e-3);
+  EXPECT_LE(worst, 1e-6);
 }
 
 // A bar of AT1 damages from W = 3 Gc/(16 ell) on and breaks at once: until then work is stored, and the crack takes Gc.

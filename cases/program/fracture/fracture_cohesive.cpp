@@ -48,7 +48,7 @@ std::string extent_of(const ColumnRecord& record) {
 
 /// The strength in shear of a record's band over that in opening: (mu/M)^(1/2) where its energy drives the damage.
 std::optional<double> shear_ratio_of(const FractureCase& fracture, const ColumnRecord& record) {
-  constexpr std::string_view driven_by_energy[] = {"none", "volumetric_deviatoric", "star_convex"};
+  constexpr std::string_view driven_by_energy[] = {"none", "volumetric_deviatoric", "star_convex", "hybrid"};
   const auto band = std::ranges::find_if(fracture.cohesive.bands, [&](const Band& b) {
     return record.name == b.region || record.name.starts_with(b.region + "_");
   });
