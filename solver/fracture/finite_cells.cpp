@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -42,10 +42,13 @@ PotentialAt sum(double w_a, const PotentialAt& a, double w_b, const PotentialAt&
 }  // namespace
 
 const FiniteSplit& finite_split(std::string_view name) {
-  const auto* const split = std::ranges::find(all_splits, name, &FiniteSplit::name);
-  if (split != std::ranges::end(all_splits)) return *split;
+  std::vector<std::string_view> names;
+  for (const FiniteSplit& split : all_splits) {
+    if (split.name == name) return split;
+    names.push_back(split.name);
+  }
   throw InputError(fmt::format("materials of finite strain can only be combined with the energy splits {}, not {}",
-                               fmt::join(all_splits | std::views::transform(&FiniteSplit::name), ", "), name));
+                               fmt::join(names, ", "), name));
 }
 
 FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {
