@@ -117,7 +117,7 @@ FiniteCells::Parts FiniteCells::parts(Index cell, const Tensor& H) const {
 
 PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const Shares& by, double g) const {
   const PotentialAt degraded = sum(by.moderate.value, at.moderate, by.network.value, at.network);
-  const PotentialAt relaxed = sum(1.0, degraded, by.pressure.value, at.pressure);
+  PotentialAt relaxed = sum(1.0, degraded, by.pressure.value, at.pressure);
   if (!at.is_compressed || !keeps_compression(cell)) return relaxed;
   return sum(1.0, relaxed, 1.0, sum(1.0 - g, at.compression, 1.0 - by.pressure.value, at.pressure));
 }
