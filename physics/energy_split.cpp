@@ -51,7 +51,7 @@ constexpr SplitLaw volumetric_deviatoric{
         },
 };
 
-// Ambati, Gerasimov, De Lorenzis, Comput. Mech. 55 (2015) 383, eq. 29, with the energy of Amor et al. in place of the
+// Ambati, Gerasimov, De Lorenzis, Comput. Mech. 55 (2015) 383, with the energy of Amor et al. in place of the
 // spectral one and without their condition that closes cracks.
 constexpr SplitLaw hybrid{
     .name = "hybrid",
