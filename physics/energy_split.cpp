@@ -16,6 +16,9 @@ IsotropicElasticity degrade_all(const IsotropicElasticity& c, double g, double, 
   return {g * c.lambda, g * c.mu};
 }
 
+double never_closed(const Tensor&) { return 0.0; }
+double closed_in_compression(const Tensor& eps) { return eps.trace() < 0.0 ? 1.0 : 0.0; }
+
 constexpr SplitLaw none{
     .name = "none",
     .description = "the whole elastic energy is degraded, also in compression: cracks do not close",
@@ -24,7 +27,7 @@ constexpr SplitLaw none{
         [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters&) {
           return SplitEnergy{energy_density(c, eps), 0.0};
         },
-    .closure = [](const Tensor&) { return 0.0; },
+    .closure = never_closed,
     .secant = degrade_all,
 };
 
@@ -43,7 +46,7 @@ constexpr SplitLaw volumetric_deviatoric{
           return SplitEnergy{0.5 * K * expansion * expansion + c.mu * contract(shear, shear),
                              0.5 * K * compression * compression};
         },
-    .closure = [](const Tensor& eps) { return eps.trace() < 0.0 ? 1.0 : 0.0; },
+    .closure = closed_in_compression,
     .secant =
         [](const IsotropicElasticity& c, double g, double closure, const LawParameters&) {
           const double K = (g + closure * (1.0 - g)) * c.bulk_modulus();
@@ -63,7 +66,7 @@ constexpr SplitLaw hybrid{
         [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters& p) {
           return SplitEnergy{volumetric_deviatoric.energy(c, eps, p).psi_plus, 0.0};
         },
-    .closure = [](const Tensor&) { return 0.0; },
+    .closure = never_closed,
     .secant = degrade_all,
 };
 
@@ -84,7 +87,7 @@ constexpr SplitLaw star_convex{
           return SplitEnergy{half_K * expansion * expansion + c.mu * contract(shear, shear) - p[0] * pressed,
                              (1.0 + p[0]) * pressed};
         },
-    .closure = [](const Tensor& eps) { return eps.trace() < 0.0 ? 1.0 : 0.0; },
+    .closure = closed_in_compression,
     .secant =
         [](const IsotropicElasticity& c, double g, double closure, const LawParameters& p) {
           const double K = (g + closure * (1.0 - g) * (1.0 + p[0])) * c.bulk_modulus();
@@ -106,7 +109,7 @@ constexpr SplitLaw rankine{
           const double tension = std::max(largest_principal_value(stress(c, eps)), 0.0);
           return SplitEnergy{0.5 * tension * tension / c.young_modulus(), 0.0};
         },
-    .closure = [](const Tensor&) { return 0.0; },
+    .closure = never_closed,
     .secant = degrade_all,
 };
 

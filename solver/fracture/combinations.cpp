@@ -1,7 +1,6 @@
 #include "solver/fracture/combinations.h"
 
 #include "physics/error.h"
-#include "solver/fracture/finite_cells.h"
 
 #include <fmt/format.h>
 
@@ -107,7 +106,6 @@ void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& un
                       mesh.region_names[r]));
     const std::string_view split = m.split_of(region).name();
     if (!region.damageable) continue;
-    finite_split(split);
     if (split != "none" && region.material->name() == "saint_venant_kirchhoff")
       refuse(
           fmt::format("the energy split \"{}\" where their law is saint_venant_kirchhoff, which is not convex", split));

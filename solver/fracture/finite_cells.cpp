@@ -118,7 +118,7 @@ FiniteCells::Parts FiniteCells::parts(Index cell, const Tensor& H) const {
 PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const Shares& by, double g) const {
   const PotentialAt degraded = sum(by.moderate.value, at.moderate, by.network.value, at.network);
   PotentialAt relaxed = sum(1.0, degraded, by.pressure.value, at.pressure);
-  if (!at.is_compressed || !keeps_compression(cell)) return relaxed;
+  if (!keeps(cell, at)) return relaxed;
   return sum(1.0, relaxed, 1.0, sum(1.0 - g, at.compression, 1.0 - by.pressure.value, at.pressure));
 }
 
@@ -207,10 +207,10 @@ FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics,
 
 double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g) const {
   const Shares by = shares(cell, g);
-  const bool keeps = at.is_compressed && keeps_compression(cell);
-  const double kept = keeps ? (1.0 - g) * at.compression : 0.0;
+  const bool whole = keeps(cell, at);
+  const double kept = whole ? (1.0 - g) * at.compression : 0.0;
   const double density = by.moderate.value * at.moderate + by.network.value * at.network + kept +
-                         (keeps ? 1.0 : by.pressure.value) * at.pressure + at.faces;
+                         (whole ? 1.0 : by.pressure.value) * at.pressure + at.faces;
   return mesh_.cell_volume[cell] * density;
 }
 
@@ -219,9 +219,9 @@ double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g
 // less by compression must not end at J = 1: its damage would go to and fro.
 DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, double g) const {
   const Shares by = shares(cell, g);
-  const OfFactor off = keeps_compression(cell) ? OfFactor{.value = g, .slope = 1.0} : by.moderate;
-  const double pressure = at.is_compressed ? 0.0 : at.pressure;
-  const double faces = at.is_compressed && keeps_compression(cell) ? 0.0 : at.faces / at.of;
+  const bool whole = keeps(cell, at);
+  const OfFactor off = whole ? OfFactor{.value = g, .slope = 1.0} : by.moderate;
+  const double pressure = at.is_compressed ? 0.0 : at.pressure, faces = whole ? 0.0 : at.faces / at.of;
   const double value = by.moderate.slope * at.moderate + by.network.slope * at.network - off.slope * at.compression +
                        by.pressure.slope * pressure + faces;
   if (value <= 0.0) return {};
@@ -235,8 +235,7 @@ Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mecha
   const Parts at = parts(cell, H);
   const Shares by = shares(cell, g);
   const PotentialAt whole = sum(by.moderate.value / g, at.moderate, by.network.value / g, at.network);
-  const bool keeps = at.is_compressed && keeps_compression(cell);
-  return biot_stress(H, whole.stress + (keeps ? 1.0 : by.pressure.value / g) * at.pressure.stress);
+  return biot_stress(H, whole.stress + (keeps(cell, at) ? 1.0 : by.pressure.value / g) * at.pressure.stress);
 }
 
 // The deformation gradient for the Cauchy stress. A broken sheet, a network, has next to no thickness: it counts as

@@ -111,6 +111,8 @@ class FiniteCells {
   FiniteLaw plane_stress_law(Index cell, const Tensor& H, double g) const;
   Tensor true_deformation(Index cell, const Tensor& H, double g) const;
   bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
+  // What the split keeps of a cell's parts or energies is not degraded.
+  bool keeps(Index cell, const auto& at) const { return at.is_compressed && keeps_compression(cell); }
   PotentialAt damaged(Index cell, const Parts& at, const Shares& by, double g) const;
 
   const Mesh& mesh_;
