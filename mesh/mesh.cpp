@@ -11,6 +11,7 @@
 #include "mesh/cell_ordering.h"
 #include "mesh/geometry.h"
 #include "physics/error.h"
+#include "physics/portable_math.h"
 
 namespace pfdm {
 namespace {
@@ -144,7 +145,7 @@ void check_cells(const Mesh& mesh, const std::vector<Index>& order) {
     if (!(sum.norm() <= closure_tolerance * total))
       throw InputError(
           fmt::format("cell {} does not close: it overlaps a neighbour, or its points are out of order", order[c]));
-    if (!(mesh.cell_volume[c] > 1e-15 * std::pow(total, 1.5)))
+    if (!(mesh.cell_volume[c] > 1e-15 * portable::pow(total, 1.5)))
       throw InputError(
           fmt::format("cell {} has the volume {:.6g} m^3, which is not positive", order[c], mesh.cell_volume[c]));
   }

@@ -16,6 +16,7 @@
 #include "mesh/files/vtk_file.h"
 #include "mesh/matching.h"
 #include "physics/error.h"
+#include "physics/portable_math.h"
 
 namespace pfdm {
 namespace {
@@ -200,7 +201,7 @@ class Importer {
     }
     if (signed_cell_volume(soup_.points, shape, ids) < 0.0) mirror(shape, ids);
     const double volume = signed_cell_volume(soup_.points, shape, ids);
-    if (!(volume > flat_cell * std::pow((soup_.points[ids[0]] - soup_.points[ids[2]]).norm(), 3)))
+    if (!(volume > flat_cell * portable::pow((soup_.points[ids[0]] - soup_.points[ids[2]]).norm(), 3)))
       throw error(fmt::format("its cell {} has the volume {:g} m^3, which is not positive", number_of(cell), volume));
   }
 

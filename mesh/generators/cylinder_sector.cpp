@@ -8,6 +8,7 @@
 #include <set>
 
 #include "physics/error.h"
+#include "physics/portable_math.h"
 
 namespace pfdm {
 namespace {
@@ -29,7 +30,7 @@ class Rolling {
 
   Vector operator()(const Vector& flat) const {
     const double r = flat.x(), phi = flat.y() / outer_;
-    return {r * std::cos(phi), r * std::sin(phi), bottom_ + (flat.z() - bottom_) * stretch(r)};
+    return {r * portable::cos(phi), r * portable::sin(phi), bottom_ + (flat.z() - bottom_) * stretch(r)};
   }
 
   double outer_radius() const { return outer_; }

@@ -1,4 +1,5 @@
 #include "mesh/generators/lifted_points.h"
+#include "physics/portable_math.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ double shape(const std::array<Vector, 4>& x) {
   double squares = 0.0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < i; ++j) squares += (x[i] - x[j]).squaredNorm();
-  return (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / std::pow(squares / 6.0, 1.5);
+  return (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / portable::pow(squares / 6.0, 1.5);
 }
 
 class Star {

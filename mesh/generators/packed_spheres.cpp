@@ -6,6 +6,7 @@
 #include "mesh/surfaces/sphere_refinement.h"
 #include "mesh/surfaces/surface_remeshing.h"
 #include "physics/error.h"
+#include "physics/portable_math.h"
 
 #include <fmt/format.h>
 
@@ -27,9 +28,10 @@ double draw(const DiameterDistribution& d, std::size_t number, RandomNumbers& ra
   if (d.kind == Kind::constant) return d.mean;
   if (d.kind == Kind::uniform) return d.least + (d.most - d.least) * random.uniform();
   if (d.kind == Kind::list) return d.values[number % d.values.size()];
-  const double variance = std::log1p(d.coefficient * d.coefficient), median = std::log(d.mean) - 0.5 * variance;
+  const double variance = portable::log1p(d.coefficient * d.coefficient),
+               median = portable::log(d.mean) - 0.5 * variance;
   for (int trial = 0; trial < 10000; ++trial) {
-    const double diameter = std::exp(median + std::sqrt(variance) * random.normal());
+    const double diameter = portable::exp(median + std::sqrt(variance) * random.normal());
     if (diameter >= d.least && (d.most == 0.0 || diameter <= d.most)) return diameter;
   }
   throw InputError(
@@ -40,7 +42,7 @@ double draw(const DiameterDistribution& d, std::size_t number, RandomNumbers& ra
 
 // Radius of the polyhedron's corners over that of the sphere of its volume.
 double corner_factor(const TriangleSurface& unit) {
-  return std::cbrt(4.0 / 3.0 * std::numbers::pi / enclosed_volume(unit));
+  return portable::cbrt(4.0 / 3.0 * std::numbers::pi / enclosed_volume(unit));
 }
 
 Index subdivision_of(const Particle& like, double radius) {
@@ -108,10 +110,10 @@ SpherePacking packing_of(const PackedSpheresSettings& settings, const ParticlesI
 // The k-th shape with this volume, remeshed, about its centroid: what new triangles take of it is given back.
 TriangleSurface shape_of(const PackedSpheresSettings& settings, std::size_t k, double volume) {
   const PackedShape& shape = settings.shapes[k];
-  const double scale = std::cbrt(volume / enclosed_volume(shape.given.surface));
+  const double scale = portable::cbrt(volume / enclosed_volume(shape.given.surface));
   const TriangleSurface body = about_centroid(shape.given.surface, scale, Tensor::Identity());
   const TriangleSurface fine = remeshed_body({shape.given.name, body}, settings.like.surface_size, shape.sharp);
-  return about_centroid(fine, std::cbrt(volume / enclosed_volume(fine)), Tensor::Identity());
+  return about_centroid(fine, portable::cbrt(volume / enclosed_volume(fine)), Tensor::Identity());
 }
 
 std::vector<Vector> corners_with_layers(const Particle& particle) {
@@ -188,7 +190,7 @@ std::vector<double> draw_diameters(const DiameterDistribution& distribution, Ind
     diameters.pop_back();
   }
   if (volume == 0.0 || diameters.empty()) return diameters;
-  const double factor = std::cbrt(volume / sum);
+  const double factor = portable::cbrt(volume / sum);
   if (!ratios && std::abs(factor - 1.0) > 0.1)
     throw InputError(
         fmt::format("no whole number of such spheres has the volume fraction wanted: {} of them would have "

@@ -13,6 +13,7 @@
 #include "mesh/surfaces/particle_shape.h"
 #include "mesh/surfaces/surface_checks.h"
 #include "physics/error.h"
+#include "physics/portable_math.h"
 
 namespace pfdm {
 namespace {
@@ -112,7 +113,7 @@ Index subdivision_of(const Particle& p) {
 TriangleSurface unit_surface(const Particle& p) {
   if (!p.directions.triangles.empty()) return p.directions;
   TriangleSurface sphere = unit_icosphere(subdivision_of(p));
-  const double c = std::cos(p.angle), s = std::sin(p.angle);
+  const double c = portable::cos(p.angle), s = portable::sin(p.angle);
   for (Vector& x : sphere.points) x = Vector(c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]);
   return sphere;
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "physics/error.h"
+#include "physics/portable_math.h"
 
 namespace pfdm {
 namespace {
@@ -82,8 +83,8 @@ class SectorGrid {
     const double r = radii_[as_size(node.radial)], theta = polar_[as_size(node.polar)];
     const double phi = node.side == 0 ? -half_azimuth_ : half_azimuth_;
     const bool quarter = node.polar == n_polar() && is_half();
-    const double s = on_axis(node.polar) ? 0.0 : std::sin(theta), c = quarter ? 0.0 : std::cos(theta);
-    return {r * s * std::cos(phi), r * s * std::sin(phi), r * c};
+    const double s = on_axis(node.polar) ? 0.0 : portable::sin(theta), c = quarter ? 0.0 : portable::cos(theta);
+    return {r * s * portable::cos(phi), r * s * portable::sin(phi), r * c};
   }
 
   std::size_t slot(const Node& n) const {
@@ -125,7 +126,7 @@ std::vector<PatchRule> SectorGrid::patches() const {
       return sign * normal.dot(centre) > 0.5 * centre.norm();
     };
   };
-  const double s = std::sin(half_azimuth_), c = std::cos(half_azimuth_);
+  const double s = portable::sin(half_azimuth_), c = portable::cos(half_azimuth_);
   std::vector<PatchRule> rules{{"front", looks_along({-s, -c, 0.0})}, {"back", looks_along({-s, c, 0.0})}};
   if (is_half()) rules.push_back({"equator", looks_along({0.0, 0.0, -1.0})});
   rules.push_back({"outer", looks_out(1.0)});

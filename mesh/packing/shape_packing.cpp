@@ -2,6 +2,7 @@
 
 #include "mesh/packing/convex_distance.h"
 #include "physics/error.h"
+#include "physics/portable_math.h"
 
 #include <fmt/format.h>
 
@@ -44,10 +45,10 @@ class GrowingBodies {
 
   double dilute_scale() const {
     double volume = 0.0;
-    for (const double r : reach_) volume += 4.19 * std::pow(r + 0.5 * packing_.gap, 3);
+    for (const double r : reach_) volume += 4.19 * portable::pow(r + 0.5 * packing_.gap, 3);
     const Vector sides = packing_.upper - packing_.lower;
     const double largest = (0.5 * sides.minCoeff() - packing_.wall_gap) / *std::ranges::max_element(reach_);
-    return std::min({1.0, std::cbrt(dilute_spheres * sides.prod() / volume), most_of_side * largest});
+    return std::min({1.0, portable::cbrt(dilute_spheres * sides.prod() / volume), most_of_side * largest});
   }
 
   // Where the spheres around the bodies have room, turned at random.

@@ -1,6 +1,7 @@
 #include "mesh/packing/sphere_packing.h"
 
 #include "physics/error.h"
+#include "physics/portable_math.h"
 
 #include <fmt/format.h>
 
@@ -131,7 +132,7 @@ class GrowingSpheres {
 
 double volume_of(const std::vector<double>& radii, double more) {
   double volume = 0.0;
-  for (const double r : radii) volume += 4.0 / 3.0 * std::numbers::pi * std::pow(r + more, 3);
+  for (const double r : radii) volume += 4.0 / 3.0 * std::numbers::pi * portable::pow(r + more, 3);
   return volume;
 }
 
@@ -154,7 +155,7 @@ void check_room(const SpherePacking& packing) {
 // Returns the largest scale that was reached.
 double grow_fully(GrowingSpheres& spheres, const SpherePacking& packing) {
   const double with_gaps = volume_of(packing.radii, 0.5 * packing.gap) / (packing.upper - packing.lower).prod();
-  double scale = std::min(1.0, std::cbrt(dilute / with_gaps));
+  double scale = std::min(1.0, portable::cbrt(dilute / with_gaps));
   while (!spheres.place_at(scale)) scale *= 0.9;
   const auto n = static_cast<double>(packing.radii.size());
   const auto sweeps = static_cast<int>(std::min(most_sweeps, most_tests / (n * n)));
@@ -173,8 +174,8 @@ double grow_fully(GrowingSpheres& spheres, const SpherePacking& packing) {
 }  // namespace
 
 double RandomNumbers::normal() {
-  const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-  return radius * std::cos(2.0 * std::numbers::pi * uniform());
+  const double radius = std::sqrt(-2.0 * portable::log(1.0 - uniform()));
+  return radius * portable::cos(2.0 * std::numbers::pi * uniform());
 }
 
 // A unit quaternion of four normal numbers.

@@ -1,4 +1,5 @@
 #include "mesh/surfaces/particle_shape.h"
+#include "physics/portable_math.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -51,7 +52,7 @@ Vector offset_from(const Tensor& moment, const Vector& sum) {
 }
 
 double angle_at(const Vector& x, const Vector& y, const Vector& z) {
-  return std::atan2((y - x).cross(z - x).norm(), (y - x).dot(z - x));
+  return portable::atan2((y - x).cross(z - x).norm(), (y - x).dot(z - x));
 }
 
 }  // namespace
@@ -118,8 +119,8 @@ bool encloses(const TriangleSurface& surface, const Vector& x) {
     Corners t = corners_of(surface, triangle);
     t = {t.a - x, t.b - x, t.c - x};
     const double a = t.a.norm(), b = t.b.norm(), c = t.c.norm();
-    angle +=
-        2.0 * std::atan2(t.a.dot(t.b.cross(t.c)), a * b * c + t.a.dot(t.b) * c + t.b.dot(t.c) * a + t.c.dot(t.a) * b);
+    angle += 2.0 * portable::atan2(t.a.dot(t.b.cross(t.c)),
+                                   a * b * c + t.a.dot(t.b) * c + t.b.dot(t.c) * a + t.c.dot(t.a) * b);
   }
   return angle > 2.0 * std::numbers::pi;
 }

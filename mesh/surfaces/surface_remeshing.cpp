@@ -6,11 +6,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "mesh/surfaces/cgal_surface.h"
+#include "mesh/surfaces/separate_process.h"
 #include "mesh/surfaces/sphere_refinement.h"
 #include "physics/error.h"
+#include "physics/portable_math.h"
 
 namespace pfdm {
 namespace {
@@ -37,10 +40,7 @@ TriangleSurface triangle_surface(CgalMesh& mesh) {
   return surface;
 }
 
-}  // namespace
-
-TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
-  check_surfaces({given});
+TriangleSurface remeshed_by_cgal(const NamedSurface& given, double size, double sharp) {
   CgalMesh mesh;
   append(mesh, given);
   require_few_triangles(given.name, PMP::area(mesh), size);
@@ -58,6 +58,51 @@ TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
   return triangle_surface(mesh);
 }
 
+template <class T>
+void append_bytes(const std::vector<T>& values, std::string& bytes) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+template <class T>
+const char* take_bytes(const char* bytes, std::vector<T>& values) {
+  const std::size_t n = values.size() * sizeof(T);
+  if (n > 0) std::memcpy(static_cast<void*>(values.data()), bytes, n);
+  return bytes + n;
+}
+
+// Number of points, points, triangles.
+std::string bytes_of(const TriangleSurface& surface) {
+  std::string bytes;
+  append_bytes(std::vector<std::size_t>{surface.points.size()}, bytes);
+  append_bytes(surface.points, bytes);
+  append_bytes(surface.triangles, bytes);
+  return bytes;
+}
+
+TriangleSurface surface_in(const std::string& bytes) {
+  std::vector<std::size_t> n_points(1);
+  const char* rest = take_bytes(bytes.data(), n_points);
+  TriangleSurface surface;
+  surface.points.resize(n_points[0]);
+  rest = take_bytes(rest, surface.points);
+  surface.triangles.resize(static_cast<std::size_t>(bytes.data() + bytes.size() - rest) / sizeof(Triangle));
+  take_bytes(rest, surface.triangles);
+  return surface;
+}
+
+}  // namespace
+
+TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
+  check_surfaces({given});
+  const auto bytes = computed_separately([&] { return bytes_of(remeshed_by_cgal(given, size, sharp)); });
+  if (!bytes)
+    throw InputError(
+        fmt::format("the surface {}: CGAL crashes where it divides it into triangles of {:g} m: give a smaller "
+                    "surface_size, or repair flat and needle-shaped triangles of the file",
+                    given.name, size));
+  return surface_in(*bytes);
+}
+
 TriangleSurface remeshed_body(const NamedSurface& given, double size, double sharp) {
   constexpr double least = 0.7;
   TriangleSurface surface = remeshed(given, size, sharp);
@@ -66,7 +111,7 @@ TriangleSurface remeshed_body(const NamedSurface& given, double size, double sha
     throw InputError(
         fmt::format("the surface {}: triangles of {:g} m leave {:.2g} of its volume, that of a sphere of diameter "
                     "{:.3g} m; at least {:g} is required: give a smaller surface_size",
-                    given.name, size, kept, std::cbrt(6.0 / std::numbers::pi * volume), least));
+                    given.name, size, kept, portable::cbrt(6.0 / std::numbers::pi * volume), least));
   return surface;
 }
 

@@ -1,6 +1,7 @@
 #include "solver/linear/fgmres.h"
 
 #include "mesh/fields.h"
+#include "solver/linear/ordered_sums.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ struct Basis {
           const Eigen::Map<const Eigen::VectorXd> w(image[as_size(from)].data(), 3 * length);
           const Eigen::VectorXf single = w.cast<float>();
           for (Index j = 0; j < k; ++j)
-            sum[j] = Eigen::Map<const Eigen::VectorXf>(v[as_size(j)][as_size(from)].data(), 3 * length).dot(single);
+            sum[j] = ordered_dot(v[as_size(j)][as_size(from)].data(), single.data(), 3 * length);
           return sum;
         },
         Eigen::VectorXd::Zero(k), blocks_per_task);
@@ -46,7 +47,7 @@ struct Basis {
       Eigen::Map<Eigen::VectorXd> w(image[as_size(from)].data(), 3 * length);
       for (Index j = 0; j < h.size(); ++j)
         w -= h[j] * Eigen::Map<const Eigen::VectorXf>(v[as_size(j)][as_size(from)].data(), 3 * length).cast<double>();
-      return w.squaredNorm();
+      return ordered_dot(w.data(), w.data(), 3 * length);
     };
     return parallel_sum((size + block - 1) / block, subtract_block, 0.0, blocks_per_task);
   }

@@ -130,31 +130,35 @@ void Multigrid::set_up_work_space() {
     for (auto* work : {&level.direction[0], &level.direction[1], &level.image[0], &level.image[1], &level.k_residual})
       work->resize(n);
   }
+  factor_coarsest();
+}
+
+void Multigrid::factor_coarsest() {
   const BlockMatrix& last = levels_.back().matrix;
-  Eigen::MatrixXf dense = Eigen::MatrixXf::Zero(3 * last.n_rows(), 3 * last.n_rows());
+  const Index n = 3 * last.n_rows();
+  std::vector<float> dense(as_size(n) * as_size(n), 0.0F);
+  const auto add_block = [&](Index row, Index column, const Block& block) {
+    for (Index j = 0; j < 3; ++j)
+      for (Index i = 0; i < 3; ++i)
+        dense[as_size(3 * column + j) * as_size(n) + as_size(3 * row + i)] += block.column[j][i];
+  };
   for (Index i = 0; i < last.n_rows(); ++i) {
-    dense.block<3, 3>(3 * i, 3 * i) = to_tensor(last.diagonal[as_size(i)]).cast<float>();
+    add_block(i, i, last.diagonal[as_size(i)]);
     for (Index k = last.offsets[as_size(i)]; k < last.offsets[as_size(i) + 1]; ++k)
-      dense.block<3, 3>(3 * i, 3 * last.columns[as_size(k)]) += to_tensor(last.blocks[as_size(k)]).cast<float>();
+      add_block(i, last.columns[as_size(k)], last.blocks[as_size(k)]);
   }
-  coarsest_.compute(dense);
   // A part that is hardly held, as the halves of a broken body, is singular to single precision.
-  for (float shift = 1e-6F; coarsest_.info() != Eigen::Success && shift < 1.0F; shift *= 10.0F) {
-    dense.diagonal() *= 1.0F + shift;
-    coarsest_.compute(dense);
-  }
+  for (float shift = 1e-6F; !coarsest_.compute(n, dense) && shift < 1.0F; shift *= 10.0F)
+    for (Index i = 0; i < n; ++i) dense[as_size(i) * as_size(n + 1)] *= 1.0F + shift;
 }
 
 void Multigrid::apply(const std::vector<Lane>& b, std::vector<Lane>& x) { cycle(0, b, x); }
 
 void Multigrid::solve_coarsest(const std::vector<Lane>& b, std::vector<Lane>& x) const {
-  Eigen::VectorXf flat(3 * static_cast<Index>(b.size()));
-  for (std::size_t i = 0; i < b.size(); ++i) flat.segment<3>(3 * static_cast<Index>(i)) = b[i].head<3>();
-  coarsest_.solveInPlace(flat);
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    x[i].head<3>() = flat.segment<3>(3 * static_cast<Index>(i));
-    x[i][3] = 0.0F;
-  }
+  std::vector<float> flat(3 * b.size());
+  for (std::size_t i = 0; i < b.size(); ++i) std::copy_n(b[i].data(), 3, flat.data() + 3 * i);
+  coarsest_.solve(flat);
+  for (std::size_t i = 0; i < b.size(); ++i) x[i] = {flat[3 * i], flat[3 * i + 1], flat[3 * i + 2], 0.0F};
 }
 
 void Multigrid::cycle(std::size_t l, const std::vector<Lane>& b, std::vector<Lane>& x) {

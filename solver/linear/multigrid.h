@@ -4,8 +4,7 @@
 // on the number of threads. The K-cycle is a nonlinear preconditioner: the outer Krylov method has to be flexible.
 
 #include "solver/linear/aggregation.h"
-
-#include <Eigen/Cholesky>
+#include "solver/linear/dense_cholesky.h"
 
 #include <vector>
 
@@ -29,12 +28,13 @@ class Multigrid {
   };
 
   void set_up_work_space();
+  void factor_coarsest();
   void cycle(std::size_t level, const std::vector<Lane>& b, std::vector<Lane>& x);
   void k_cycle(std::size_t level, const std::vector<Lane>& b, std::vector<Lane>& x);
   void solve_coarsest(const std::vector<Lane>& b, std::vector<Lane>& x) const;
 
   std::vector<Level> levels_;
-  Eigen::LLT<Eigen::MatrixXf> coarsest_;
+  DenseCholesky coarsest_;
 };
 
 }  // namespace pfdm

@@ -1,6 +1,8 @@
-// A bead that debonds, at one, two and three threads: the same to the last bit, and in equilibrium at every step.
+// A bead that debonds, at one, two and three threads and on every processor: the same to the last bit, and in
+// equilibrium at every step.
 
 #include "solver/parallel.h"
+#include "tests/mesh/checksum.h"
 #include "tests/verification/bead.h"
 
 #include <gtest/gtest.h>
@@ -42,11 +44,21 @@ Outcome debond(const Mesh& mesh, int threads) {
   return outcome;
 }
 
+std::uint64_t checksum(const FractureState& state) {
+  Checksum sum;
+  for (const Vector& u : state.displacement) sum.add(u);
+  for (const double d : state.damage) sum.add(d);
+  return sum.sum();
+}
+
 TEST(Threads, ChangeNothing) {
   const Mesh mesh = sphere_in_cube(4, 8, 2.5, 0.4);
   const Outcome alone = debond(mesh, 1);
   EXPECT_GT(*std::max_element(alone.state.damage.begin(), alone.state.damage.end()), 0.99);
   EXPECT_LE(alone.largest_imbalance, 1e-6);
+#if defined(__x86_64__)
+  EXPECT_EQ(checksum(alone.state), 5953756511876663436U);  // with AVX2, AVX-512 or neither
+#endif
   for (const int threads : {2, 3}) {
     const Outcome together = debond(mesh, threads);
     EXPECT_TRUE(together.state.displacement == alone.state.displacement) << threads;
