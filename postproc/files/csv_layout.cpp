@@ -191,7 +191,10 @@ class LayoutFinder {
   std::size_t n_columns(std::size_t line, std::size_t n_above, char separator) {
     split(line, separator);
     if (n_above > 0 && words_.size() == n_above && is_line_of_units(line, separator)) return n_above;
-    return n_names(lines_[line].text, separator);
+    const std::size_t n = n_names(lines_[line].text, separator);
+    // Numbers may be names, but below a line of as many names it is a row with text in it. 1 may be a unit.
+    const auto is_entry = [](const std::string& word) { return is_any_number(word) && word != "1"; };
+    return n == n_above && std::ranges::any_of(words_, is_entry) ? 0 : n;
   }
 
   /// Of the words of a line; 0 if they are no names.
@@ -251,8 +254,9 @@ class LayoutFinder {
       split(i, layout.separator);
       for (const std::string& word : words_) {
         if (word.find(',') == std::string::npos) continue;
-        if (!may_have_thousands(word)) return;
-        if (!doubtful) doubtful = {lines_[i].number, word};
+        const bool may_have = may_have_thousands(word);
+        if (!may_have && csv_number(word, ',')) return;
+        if (may_have && !doubtful) doubtful = {lines_[i].number, word};
       }
     }
     if (doubtful)
@@ -268,6 +272,10 @@ class LayoutFinder {
                      .decimal = hints_.decimal.value_or('.'),
                      .thousands = hints_.thousands,
                      .names = 0};
+    if (hints_.has_units && lines_.size() > 1) {
+      layout.units = 1;
+      layout.rows = 2;
+    }
     if (hints_.separator || lines_.empty()) return layout;
     for (const char separator : separators.substr(0, 3))
       if (separator != hints_.decimal && lines_[0].text.find(separator) != std::string_view::npos) {

@@ -169,13 +169,14 @@ class CsvReader {
     const auto value = value_of(word);
     if (value && (std::isfinite(*value) || options_.has_gaps || is_own()) && (!is_whole || parse_int(word)))
       return *value;
+    if (options_.is_foreign && !table_.faults[i].empty()) return gap;
     const InputError fault = error(fmt::format("\"{}\" in column {} is not a number, as {}{}", word, called(i),
                                                is_whole                 ? "12"
                                                : layout_.decimal == ',' ? "0,5 or -2e6"
                                                                         : "0.5 or -2e6",
                                                hint_of_thousands(word)));
     if (!options_.is_foreign) throw fault;
-    if (table_.faults[i].empty()) table_.faults[i] = fault.what();
+    table_.faults[i] = fault.what();
     return gap;
   }
 
@@ -233,7 +234,9 @@ std::string_view without_unit(std::string_view name) {
 
 std::size_t find_name(const std::vector<std::string>& names, std::string_view name) {
   const auto name_before_unit = [&](const std::string& of) { return without_unit(of) == name; };
-  const auto same_letters = [&](const std::string& of) { return lower_case(of) == lower_case(name); };
+  const auto same_letters = [&](const std::string& of) {
+    return lower_case(of) == lower_case(name) || lower_case(without_unit(of)) == lower_case(name);
+  };
   for (const std::vector<std::size_t>& found :
        {columns_that(names, [&](const std::string& of) { return of == name; }), columns_that(names, name_before_unit),
         columns_that(names, same_letters)}) {

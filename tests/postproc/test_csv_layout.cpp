@@ -80,6 +80,7 @@ std::string complaint(const std::string& text, const CsvOptions& options = {}) {
 TEST(ForeignCsv, IsNeverReadInOneOfTwoWays) {
   EXPECT_THAT(complaint("u;f\n1,234;5\n2,500;6\n"),
               HasSubstr("x.csv, line 2: 1,234 may be a fraction or have its thousands apart"));
+  EXPECT_THAT(complaint("u;remark\n1,234;a, b\n2,500;c, d\n"), HasSubstr("line 2: 1,234 may be a fraction"));
   EXPECT_THAT(read_foreign("u;f\n1,234;5\n0,500;6\n").columns[0], ElementsAre(1.234, 0.5));
   EXPECT_THAT(read_foreign("u;f\n1,234;5\n2,5;6\n").columns[0], ElementsAre(1.234, 2.5));
   EXPECT_THAT(read_foreign("u;f\n1,234;5\n", {.marks = {.decimal = ','}}).columns[0], ElementsAre(1.234));
@@ -120,6 +121,7 @@ TEST_P(CsvWithOtherEntries, AreReadWhereTheyAreNumbers) {
 
 const OtherEntries other_entries[] = {
     {"text", "u,f,remark\n0.5,10,start\n-1.25,2000,end of test\n"},
+    {"text_in_front_of_one_row", "remark,u,f\nstart,0.5,10\n,-1.25,2000\n", {"remark", "u", "f"}},
     {"text_in_one_row", "u,f,remark\n0.5,10,\n-1.25,2000,end\n"},
     {"text_and_numbers", "u,f,remark\n0.5,10,3\n-1.25,2000,end\n"},
     {"gaps", "u;f;remark\n0,5;10;\n-1,25;2000;7\n"},
