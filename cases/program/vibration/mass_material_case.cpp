@@ -152,6 +152,7 @@ RecordFile read_record_file(const ConfigTable& table, const fs::path& directory,
   record.base = table.string("base", record.base);
   record.relative = table.string("relative", record.relative);
   record.time = table.string("time", record.time);
+  record.names_time = table.has("time");
   if (table.has("unit")) record.base_unit = record.relative_unit = table.string("unit");
   if (table.has("time_unit")) record.time_unit = table.string("time_unit");
   if (table.has("rate")) record.rate = table.quantity("rate", dimension::frequency, range::positive);

@@ -26,6 +26,7 @@ struct RecordFile {
   std::string base = "base_acceleration";
   std::string relative = "relative_acceleration";
   std::string time = "time";
+  bool names_time = false;                              ///< the case does, so that it must be there
   bool absolute = false;                                ///< `relative` holds the mass's own acceleration
   std::optional<std::string> base_unit, relative_unit;  ///< stand above those that the file states
   std::optional<std::string> time_unit;                 ///< likewise

@@ -61,15 +61,21 @@ std::string likely_unit(const SignalColumn& column, const RecordFile& source) {
   return "s";
 }
 
-bool has_times(const SignalTable& table, const RecordFile& source) {
-  return std::ranges::any_of(table.columns, [&](const SignalColumn& column) {
-    return lower_case(column.name) == lower_case(source.time) || without_unit(column.name) == source.time;
-  });
+/// Null if the table has none that the case does not name; nor where they are clocks, as 10:00:01, and the rate is
+/// stated.
+const SignalColumn* find_times(const SignalTable& table, const RecordFile& source) {
+  const auto is_meant = [&](const SignalColumn& column) {
+    const std::string time = lower_case(source.time);
+    return lower_case(column.name) == time || lower_case(without_unit(column.name)) == time;
+  };
+  const auto found = std::ranges::find_if(table.columns, is_meant);
+  return found == table.columns.end() || (source.rate && !source.names_time && !found->fault.empty()) ? nullptr
+                                                                                                      : &*found;
 }
 
 std::optional<Eigen::VectorXd> times(const SignalTable& table, const RecordFile& source,
                                      const std::filesystem::path& file, std::vector<std::string>& notes) {
-  if (!has_times(table, source)) return std::nullopt;
+  if (find_times(table, source) == nullptr && !source.names_time) return std::nullopt;
   const SignalColumn& column = column_of(table, source.time, file);
   if (source.time_unit || !column.unit.empty()) return in_si(column, source.time_unit, dimension::time, file);
   const std::string unit = likely_unit(column, source);
@@ -92,9 +98,15 @@ struct Channel {
 
 /// Samples of one file by which the other begins earlier, by their clocks; 0 without clocks.
 Eigen::Index samples_apart(const Channel& early, const Channel& late, const std::filesystem::path& file) {
-  if (!early.time || !late.time || early.time->size() < 2) return 0;
-  const Eigen::VectorXd& t = *early.time;
-  const double samples = ((*late.time)[0] - t[0]) * static_cast<double>(t.size() - 1) / (t[t.size() - 1] - t[0]);
+  if (!early.time || !late.time || early.time->size() < 2 || late.time->size() < 2) return 0;
+  const auto step = [](const Eigen::VectorXd& t) {
+    return (t[t.size() - 1] - t[0]) / static_cast<double>(t.size() - 1);
+  };
+  const double h = step(*early.time);
+  if (!(std::abs(step(*late.time) / h - 1.0) < 1e-3))
+    throw InputError(fmt::format("{}: it has {:.6g} samples per second, the other file {:.6g}", file.string(), 1.0 / h,
+                                 1.0 / step(*late.time)));
+  const double samples = ((*late.time)[0] - (*early.time)[0]) / h;
   if (!(std::abs(samples - std::round(samples)) < 0.1))
     throw InputError(
         fmt::format("{}: its samples lie {:.3g} of a sampling interval beside those of the other file; bring "
@@ -120,9 +132,8 @@ void cut_to_common(Channel& base, Channel& mass, const RecordFile& source, std::
 /// Tells how to change a fault that follows from times without a unit.
 std::string time_unit_hint(const SignalTable& table, const RecordFile& source, const RecordFault& fault) {
   const bool of_rate = fault.name == "sampled_too_slowly" || fault.name == "too_short" || fault.name == "wrong_rate";
-  if (!of_rate || source.time_unit || !has_times(table, source)) return "";
-  const SignalColumn& column = column_of(table, source.time, source.file);
-  return column.unit.empty() && likely_unit(column, source) == "s"
+  const SignalColumn* column = of_rate && !source.time_unit ? find_times(table, source) : nullptr;
+  return column != nullptr && column->unit.empty() && likely_unit(*column, source) == "s"
              ? "; its times have no unit and count as seconds (time_unit = \"us\" or another changes that)"
              : "";
 }
@@ -139,43 +150,56 @@ Channel base_of(const SignalTable& table, const RecordFile& source, const std::f
           .values = acceleration(table, source.base, source.base_unit, file)};
 }
 
-}  // namespace
-
-VibrationRecord read_record(const VibrationTest& test, const RecordFile& source, Log& log) {
-  std::vector<std::string> notes;
-  const SignalTable table = read_table(source, source.file, notes);
+RawRecord raw_record(const VibrationTest& test, const RecordFile& source, const SignalTable& table,
+                     std::vector<std::string>& notes) {
   Channel base = base_of(source.base_file ? read_table(source, *source.base_file, notes) : table, source,
                          source.base_file.value_or(source.file), notes);
   Channel mass{.time = times(table, source, source.file, notes),
                .values = acceleration(table, source.relative, source.relative_unit, source.file)};
   if (source.base_file) cut_to_common(base, mass, source, notes);
-  std::ranges::sort(notes);
-  notes.erase(std::unique(notes.begin(), notes.end()), notes.end());
-  for (const std::string& note : notes) log.say(fmt::format("test {}: {}", test.name, note));
-  RawRecord raw{.time = std::move(mass.time),
-                .base = std::move(base.values),
-                .relative = std::move(mass.values),
-                .rate = source.rate,
-                .band_low = test.band_low,
-                .band_high = test.band_high};
+  return {.time = std::move(mass.time),
+          .base = std::move(base.values),
+          .relative = std::move(mass.values),
+          .rate = source.rate,
+          .band_low = test.band_low,
+          .band_high = test.band_high};
+}
+
+/// Those with which the record can be used, a sentence each; a base at rest is made so. Throws InputError for others.
+std::vector<std::string> faults_of(RawRecord& raw, const RecordFile& source, const SignalTable& table, Log& log) {
   std::vector<std::string> faults;
   for (const RecordFault& fault : check_record(raw)) {
     const std::string message = fmt::format("{}: {}: {}{}", source.file.string(), fault.name, fault.message,
                                             time_unit_hint(table, source, fault));
     if (fault.refused) throw InputError(message);
     log.warn(message);
-    faults.push_back(fmt::format("{}: {}", fault.name, fault.message));
+    if (fault.name == "base_at_rest")  // which speaks against nothing
+      raw.base.setZero();
+    else
+      faults.push_back(fmt::format("{}: {}", fault.name, fault.message));
   }
+  return faults;
+}
+
+}  // namespace
+
+VibrationRecord read_record(const VibrationTest& test, const RecordFile& source, Log& log) {
+  std::vector<std::string> notes;
+  const SignalTable table = read_table(source, source.file, notes);
+  RawRecord raw = raw_record(test, source, table, notes);
+  std::ranges::sort(notes);
+  notes.erase(std::unique(notes.begin(), notes.end()), notes.end());
+  for (const std::string& note : notes) log.say(fmt::format("test {}: {}", test.name, note));
+  std::vector<std::string> faults = faults_of(raw, source, table, log);
   if (source.absolute) raw.relative -= raw.base;
-  VibrationRecord record{.name = test.name,
-                         .rate = sampling_rate(raw),
-                         .base = raw.base.array() - raw.base.mean(),
-                         .relative = raw.relative.array() - raw.relative.mean(),
-                         .band_low = test.band_low,
-                         .band_high = test.band_high,
-                         .remark = table.remark,
-                         .faults = std::move(faults)};
-  return record;
+  return {.name = test.name,
+          .rate = sampling_rate(raw),
+          .base = raw.base.array() - raw.base.mean(),
+          .relative = raw.relative.array() - raw.relative.mean(),
+          .band_low = test.band_low,
+          .band_high = test.band_high,
+          .remark = table.remark,
+          .faults = std::move(faults)};
 }
 
 SampledChannel read_channel(const RecordFile& source) {
