@@ -81,6 +81,7 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");
   const CaseFile file = open_case_or_name_nearest(line.case_directory);
   const RunnableCase runnable = read_case(file);
+  for (const std::string& remark : file.config.remarks()) log.say(remark);
   if (session.results.empty()) session.results = file.directory / "results";
   do_job(job_of(line, runnable), session, way_on(line, runnable));
 }

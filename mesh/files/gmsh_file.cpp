@@ -47,7 +47,10 @@ class GmshReader {
         skips = true;  // fields, comments, what is periodic
       in_.end_section(skips);
     }
-    name_groups();
+    file_.region_names.emplace(0, "body");
+    file_.has_groups = true;
+    file_.has_volumes_without_cells =
+        n_volumes_ > 0 && std::ranges::none_of(file_.cell_type, [](int type) { return type >= 10; });
     file_.integer_arrays["gmsh:physical"] = std::move(physical_);
     file_.integer_arrays["gmsh:geometrical"] = std::move(entity_);
     return std::move(file_);
@@ -84,6 +87,7 @@ class GmshReader {
       const std::string name = in_.quoted();
       if (dimension == 3) file_.region_names[number] = name;
       if (dimension == 2) file_.patch_names[number] = name;
+      if (dimension == 1) file_.line_names[number] = name;
     }
   }
 
@@ -91,6 +95,7 @@ class GmshReader {
   void read_entities() {
     std::uint64_t n[4];
     for (std::uint64_t& of_dimension : n) of_dimension = in_.count();
+    n_volumes_ = n[3];
     for (int dimension = 0; dimension < 4; ++dimension)
       for (std::uint64_t i = 0; i < n[dimension]; ++i) {
         const Entity entity{dimension, in_.integer()};
@@ -230,15 +235,9 @@ class GmshReader {
     }
   }
 
-  void name_groups() {
-    file_.region_names.emplace(0, "body");
-    for (std::size_t c = 0; c < physical_.size(); ++c)
-      if (const int type = file_.cell_type[c]; (type == 5 || type == 9) && physical_[c] != 0)
-        file_.patch_names.emplace(physical_[c], fmt::format("patch_{}", physical_[c]));
-  }
-
   GmshStream in_;
   double version_ = 0.0;
+  std::uint64_t n_volumes_ = 0;  // of the geometry
   MeshFile file_;
   std::map<Entity, int> group_of_entity_;
   std::unordered_map<std::uint64_t, Index> node_;       // by Gmsh's number

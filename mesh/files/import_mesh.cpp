@@ -12,6 +12,7 @@
 #include <set>
 
 #include "mesh/cell_faces.h"
+#include "mesh/files/flat_mesh.h"
 #include "mesh/files/gmsh_file.h"
 #include "mesh/files/vtk_file.h"
 #include "mesh/matching.h"
@@ -59,6 +60,7 @@ class Importer {
   Mesh import(void (*check)(const Mesh&) = nullptr) {
     if (!(settings_.scale > 0.0))
       throw error(fmt::format("its unit of length is {:g} m; it must be positive", settings_.scale));
+    extrude_flat();
     region_numbers_ = region_numbers();
     name_regions();
     place_points();
@@ -66,7 +68,7 @@ class Importer {
       if (is_volume(c)) add_cell(c);
       if (file_.cell_type[c] == 42) soup_.polyhedron_faces.push_back(renumbered_faces(polyhedron++));
     }
-    if (soup_.shape.empty()) throw error("it has no volume cells");
+    if (soup_.shape.empty()) throw error("it has no volume cells" + why_no_volumes());
     try {
       const std::vector<PatchRule> rules = patch_rules();
       Mesh mesh = assemble_mesh(std::move(soup_), rules);
@@ -82,6 +84,26 @@ class Importer {
     return InputError(fmt::format("the mesh {}: {}", settings_.file.string(), reason));
   }
 
+  void extrude_flat() {
+    flat_along_ = flat_along(file_);
+    if (settings_.thickness == 0.0) return;
+    if (!flat_along_)
+      throw error(
+          "a thickness is given, and it is not flat: triangles and quadrilaterals in a plane normal to an axis, "
+          "and no other cells");
+    extrude(file_, *flat_along_, settings_.thickness / settings_.scale);
+  }
+
+  std::string why_no_volumes() const {
+    if (file_.has_volumes_without_cells)
+      return ": none of its volumes is in a physical group, and Gmsh saves what is in one alone. Define a Physical "
+             "Volume for all that is meshed, or save all elements (Mesh.SaveAll = 1) in the format 4.1";
+    if (flat_along_)
+      return fmt::format(": it is flat. thickness = \"1 mm\" in [mesh] makes it one layer of cells along {}",
+                         "xyz"[*flat_along_]);
+    return file_.has_groups ? ", as where Gmsh finds no Physical Volume to save" : "";
+  }
+
   // What the file calls a cell.
   std::int64_t number_of(Index cell) const {
     return file_.cell_number.empty() ? cell : file_.cell_number[as_size(cell)];
@@ -95,7 +117,7 @@ class Importer {
     if (type <= vtk_last_flat_type) return false;
     throw error(
         fmt::format("its cell {} is of VTK's type {}; supported are tetrahedra (10), voxels (11), hexahedra (12), "
-                    "wedges (13), pyramids (14) and polyhedra (42)",
+                    "wedges (13), pyramids (14), prisms of 5 and 6 sides (15, 16) and polyhedra (42)",
                     number_of(cell), type));
   }
 
@@ -230,7 +252,15 @@ class Importer {
   std::vector<PatchRule> patch_rules() const {
     std::map<Index, std::string> names = settings_.face_sets;
     names.insert(file_.patch_names.begin(), file_.patch_names.end());
-    if (names.empty()) return settings_.patches.empty() ? bounding_box_rules() : settings_.patches;
+    name_physical_groups(names);
+    if (names.empty() && settings_.patches.empty()) return bounding_box_rules();
+    std::vector<PatchRule> rules = names.empty() ? std::vector<PatchRule>{} : face_set_rules(names);
+    rules.insert(rules.end(), settings_.patches.begin(), settings_.patches.end());
+    if (settings_.thickness > 0.0) add_sides_of_layer(rules);
+    return rules;
+  }
+
+  std::vector<PatchRule> face_set_rules(const std::map<Index, std::string>& names) const {
     std::vector<PatchRule> rules;
     const auto sets = std::make_shared<const FaceSets>(face_sets());
     for (const auto& [number, name] : names) {
@@ -243,8 +273,22 @@ class Importer {
       // What the file names may lie within the body, as an interface does.
       rules.push_back({name, holds, settings_.face_sets.contains(number)});
     }
-    rules.insert(rules.end(), settings_.patches.begin(), settings_.patches.end());
     return rules;
+  }
+
+  // Of Gmsh's that have no name.
+  void name_physical_groups(std::map<Index, std::string>& names) const {
+    if (!file_.has_groups) return;
+    for (Index c = 0; c < n_cells(); ++c)
+      if (is_face_type(file_.cell_type[c]) && region_numbers_[c] != 0)
+        names.emplace(region_numbers_[c], fmt::format("patch_{}", region_numbers_[c]));
+  }
+
+  // The plane of the flat mesh and the one beyond, which no line of the file can name.
+  void add_sides_of_layer(std::vector<PatchRule>& rules) const {
+    for (const PatchRule& side : bounding_box_rules())
+      if (side.name[0] == "xyz"[*flat_along_] && std::ranges::find(rules, side.name, &PatchRule::name) == rules.end())
+        rules.push_back(side);
   }
 
   std::vector<PatchRule> bounding_box_rules() const {
@@ -263,7 +307,8 @@ class Importer {
   MeshFile file_;
   std::vector<Index> region_numbers_;
   std::map<Index, Index> region_of_number_;
-  std::vector<Index> new_point_;  // of each point of the file; -1 where no volume cell has it
+  std::vector<Index> new_point_;   // of each point of the file; -1 where no volume cell has it
+  std::optional<int> flat_along_;  // the axis, of a file that is flat
   CellSoup soup_;
 };
 

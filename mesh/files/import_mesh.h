@@ -1,6 +1,7 @@
 #pragma once
 // Meshes made elsewhere, from unstructured VTK files (.vtu, or .vtk of the legacy format) and from Gmsh's: tetrahedra,
-// wedges, pyramids, hexahedra, voxels and polyhedra. Triangles, quadrilaterals and polygons may name patches.
+// wedges, pyramids, hexahedra, voxels, prisms of five and six sides, and polyhedra. Triangles, quadrilaterals and
+// polygons may name patches; alone and in one plane they become a layer of cells.
 
 #include <filesystem>
 #include <map>
@@ -29,14 +30,15 @@ struct ImportSettings {
   std::vector<PatchRule> patches;
 
   double merge_tolerance = 0.0;  ///< points closer than this become one [m]; 0: all stay
+  double thickness = 0.0;        ///< of the one layer of cells that a flat mesh is made into [m]; 0: it is refused
 };
 
 /// Cells in mirrored order (writers disagree about wedges) are put right. Throws InputError, naming the file and what
 /// is wrong with it: unreadable, no volume cells, a cell of another type, a cell without positive volume, a number or
 /// an array that is not there.
 Mesh import_vtk(const ImportSettings& settings);
-/// The same from a .msh file, whose physical groups are the regions and patches (gmsh_file.h); cells whose faces do not
-/// match are refused as well (matching.h).
+/// The same from a .msh file, whose physical groups are the regions and patches (gmsh_file.h), a surface group without
+/// a name patch_<number>; cells whose faces do not match are refused as well (matching.h).
 Mesh import_gmsh(const ImportSettings& settings);
 
 }  // namespace pfdm

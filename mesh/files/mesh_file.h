@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,14 @@ struct MeshFile {
   std::vector<std::int64_t> cell_number;  ///< by which the file calls its cells; empty: from 0 on
   /// The cell arrays of one component whose values are whole numbers.
   std::map<std::string, std::vector<Index>> integer_arrays;
-  /// Names that the file has for the numbers of regions and of face sets.
-  std::map<Index, std::string> region_names, patch_names;
+  /// Names that the file has for the numbers of regions, of face sets and of lines.
+  std::map<Index, std::string> region_names, patch_names, line_names;
+  bool has_groups = false;                 ///< its numbers are Gmsh's physical groups, and 0 none
+  bool has_volumes_without_cells = false;  ///< it names volumes, as a geometry, and has no cells of any
 };
+
+/// The faces of a prism as of a polyhedron, [n_faces, n_points, p ...]. `points`: those around its base, then those of
+/// its top in the same order.
+std::vector<Index> faces_of_prism(std::span<const Index> points);
 
 }  // namespace pfdm

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -149,36 +150,27 @@ Index obj_point(const std::string& word, std::size_t n_points, const TextLines& 
   return static_cast<Index>(index);
 }
 
-TriangleSurface read_obj(const std::filesystem::path& path, const std::string& content) {
+TriangleSurface read_obj(const std::filesystem::path& path, const std::string& content, std::size_t& n_merged) {
   TextLines lines(path, content);
-  TriangleSurface surface;
+  std::vector<Vector> points;
+  PointMerger merger;
+  std::set<Index> used;
   std::istringstream words;
   for (std::string word; lines.next(words);) {
     if (!(words >> word)) continue;
-    if (word == "v") surface.points.push_back(lines.point(words));
+    if (word == "v") points.push_back(lines.point(words));
     if (word != "f") continue;
-    std::vector<Index> polygon;
-    while (words >> word) polygon.push_back(obj_point(word, surface.points.size(), lines));
-    if (polygon.size() < 3) throw lines.error(fmt::format("a face has {} points; it needs three", polygon.size()));
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-      surface.triangles.push_back({polygon[0], polygon[i], polygon[i + 1]});
-  }
-  return surface;
-}
-
-TriangleSurface without_unused_points(const TriangleSurface& given) {
-  TriangleSurface surface;
-  std::vector<Index> number(given.points.size(), -1);
-  for (Triangle triangle : given.triangles) {
-    for (Index& p : triangle) {
-      if (number[as_size(p)] < 0) {
-        number[as_size(p)] = static_cast<Index>(surface.points.size());
-        surface.points.push_back(given.points[as_size(p)]);
-      }
-      p = number[as_size(p)];
+    std::vector<Vector> polygon;
+    while (words >> word) {
+      const Index p = obj_point(word, points.size(), lines);
+      used.insert(p);
+      polygon.push_back(points[as_size(p)]);
     }
-    surface.triangles.push_back(triangle);
+    if (polygon.size() < 3) throw lines.error(fmt::format("a face has {} points; it needs three", polygon.size()));
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) merger.add_triangle({polygon[0], polygon[i], polygon[i + 1]});
   }
+  TriangleSurface surface = merger.take();
+  n_merged = used.size() - surface.points.size();
   return surface;
 }
 
@@ -196,12 +188,14 @@ void check_areas(const std::filesystem::path& path, const TriangleSurface& surfa
 
 }  // namespace
 
-TriangleSurface read_surface_file(const std::filesystem::path& path) {
+TriangleSurface read_surface_file(const std::filesystem::path& path, std::size_t* n_merged) {
   const std::string kind = lower_case(path.extension().string());
   if (kind != ".stl" && kind != ".obj")
     throw InputError(fmt::format("the surface {} must be a file .stl or .obj", path.string()));
   const std::string content = surface_content(path);
-  TriangleSurface surface = without_unused_points(kind == ".stl" ? read_stl(path, content) : read_obj(path, content));
+  std::size_t merged = 0;
+  TriangleSurface surface = kind == ".stl" ? read_stl(path, content) : read_obj(path, content, merged);
+  if (n_merged != nullptr) *n_merged = merged;
   check_areas(path, surface);
   return surface;
 }

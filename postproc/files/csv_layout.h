@@ -12,21 +12,22 @@ namespace pfdm {
 
 struct CsvLine {
   int number = 0;         ///< in the file, from 1
-  std::string_view text;  ///< trimmed, neither empty nor a comment
+  std::string_view text;  ///< neither empty nor a comment; without blanks at either end, but with tabs
 };
 
 struct CsvLayout {
   char separator = ',';  ///< a blank: any number of blanks and tabs
   char decimal = '.';
-  std::size_t names = 0;                                             ///< the line of names; those before are remarks
-  std::optional<std::size_t> units{};                                ///< the line of units, if there is one
-  std::size_t rows() const { return (units ? *units : names) + 1; }  ///< the first line of numbers
+  std::optional<char> thousands{};     ///< between the thousands of a number
+  std::optional<std::size_t> names{};  ///< the line of names
+  std::optional<std::size_t> units{};  ///< the line of units
+  std::size_t rows = 1;                ///< the first line of numbers; those before that say nothing else are remarks
 };
 
 /// What is known of it beforehand.
 struct CsvHints {
-  std::optional<char> separator{}, decimal{};
-  bool has_units = false;                       ///< the line before the numbers has the units
+  std::optional<char> separator{}, decimal{}, thousands{};
+  bool has_units = false;                       ///< a line of names as long before the last one is not a remark
   bool has_gaps = false;                        ///< entries may be empty
   bool (*is_unit)(std::string_view) = nullptr;  ///< without it only what is in brackets is a unit
 };
@@ -34,16 +35,21 @@ struct CsvHints {
 /// The entries of a line, trimmed. Double quotes hold one together and are left out.
 void split_csv(std::string_view line, char separator, std::vector<std::string>& words);
 
-/// Nothing if the word is no number with this decimal mark.
-std::optional<double> csv_number(std::string_view word, char decimal);
+/// Nothing if the word is no number with these marks. Thousands may be apart or not, but then all of them.
+std::optional<double> csv_number(std::string_view word, char decimal, std::optional<char> thousands = std::nullopt);
+
+/// An entry without a value: empty, or nan, NA, N/A, null, none in letters of any case.
+bool is_gap(std::string_view word);
 
 /// "[mm]" -> "mm", "(N)" -> "N"; nothing without brackets around all of it.
 std::optional<std::string> in_brackets(std::string_view text);
 /// "Force [N]" -> "N": the last brackets of a name, which has more than them.
 std::optional<std::string> bracketed_end(std::string_view name);
 
-/// The layout with which most lines are rows of numbers below a line of as many names; where there is none, that of the
-/// first line. Throws InputError where 1,234 may be a thousand or a fraction.
+/// The layout with which most lines are rows of numbers below a line of as many names. Where other entries stand
+/// between the numbers, that of the successive lines with the most numbers; where there are no names, that of the most
+/// numbers; where there is no row, that of the first line. Throws InputError where 1,234 may be a thousand or a
+/// fraction.
 CsvLayout find_layout(const std::vector<CsvLine>& lines, const CsvHints& hints);
 
 }  // namespace pfdm

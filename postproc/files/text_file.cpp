@@ -67,6 +67,13 @@ std::string_view take_line(std::string_view& rest) {
   return line;
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
 std::optional<double> parse_double(std::string_view text) { return parse<double>(text); }
 std::optional<int> parse_int(std::string_view text) { return parse<int>(text); }
 

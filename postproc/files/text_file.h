@@ -17,6 +17,8 @@ std::string read_file(const std::filesystem::path& path);
 
 /// Without the blanks at either end.
 std::string_view trimmed(std::string_view text);
+/// With the letters A to Z as a to z.
+std::string lower_case(std::string_view text);
 /// Takes the first line off the front of `rest`; trimmed.
 std::string_view take_line(std::string_view& rest);
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cctype>
 #include <utility>
 
 namespace pfdm {
@@ -21,17 +20,15 @@ std::vector<std::string> lines_of(std::string_view text) {
 
 }  // namespace
 
-SignalTable read_signals_csv(const std::filesystem::path& path, const CsvMarks& marks) {
-  const CsvTable csv = read_csv(path, {.has_units = true,
-                                       .has_gaps = true,
-                                       .is_foreign = true,
-                                       .separator = marks.separator,
-                                       .decimal = marks.decimal});
+SignalTable read_signals_csv(const std::filesystem::path& path, const SignalText& text) {
+  const CsvTable csv = read_csv(
+      path, {.has_units = true, .has_gaps = true, .is_foreign = true, .marks = text.marks, .is_unit = text.is_unit});
   SignalTable table{.remark = fmt::format("{}", fmt::join(csv.comments, "\n")), .columns = {}};
   for (std::size_t i = 0; i < csv.names.size(); ++i) {
     const std::vector<double>& values = csv.columns[i];
-    table.columns.push_back(
-        {csv.names[i], csv.units[i], Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values))});
+    table.columns.push_back({csv.has_names() ? csv.names[i] : fmt::format("{}", i + 1),
+                             csv.units.empty() ? "" : csv.units[i],
+                             Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)), csv.faults[i]});
   }
   return table;
 }
@@ -46,10 +43,9 @@ void write_signals_csv(const std::filesystem::path& path, const SignalTable& tab
   write_csv(path, csv);
 }
 
-SignalTable read_signals(const std::filesystem::path& path, const CsvMarks& marks) {
-  std::string suffix = path.extension().string();
-  for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (suffix == ".csv") return read_signals_csv(path, marks);
+SignalTable read_signals(const std::filesystem::path& path, const SignalText& text) {
+  const std::string suffix = lower_case(path.extension().string());
+  if (suffix == ".csv") return read_signals_csv(path, text);
   using Reader = SignalTable (*)(const std::filesystem::path&);
   constexpr std::pair<std::string_view, Reader> readers[] = {{".mat", read_signals_mat},   {".uff", read_signals_uff},
                                                              {".unv", read_signals_uff},   {".h5", read_signals_hdf5},

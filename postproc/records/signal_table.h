@@ -1,5 +1,5 @@
 #pragma once
-// Measured or simulated signals as columns with names and units, and the files that hold them: CSV with a row of units,
+// Measured or simulated signals as columns with names and units, and the files that hold them: CSV,
 // MATLAB's .mat, universal files (dataset 58), HDF5, WAV.
 
 #include "postproc/files/csv_table.h"
@@ -18,16 +18,25 @@ struct SignalColumn {
   std::string name;
   std::string unit;  ///< empty where the file has none
   Eigen::VectorXd values;
+  std::string fault{};  ///< what is wrong with its first entry that is text, with file and line; such entries are NaN
 };
 
 struct SignalTable {
   std::string remark;  ///< what the file says about itself, as "synthetic: ..."
   std::vector<SignalColumn> columns;
+  std::vector<std::string> notes{};  ///< for the log: what was left out or assumed when it was read
 };
 
-/// CSV: lines that start with # are remarks; then a row of names, a row of units, rows of numbers. Empty cells and nan
-/// come back as NaN. Throws InputError that names file and line.
-SignalTable read_signals_csv(const std::filesystem::path& path, const CsvMarks& marks = {});
+/// How the text of a CSV file is to be read.
+struct SignalText {
+  CsvMarks marks{};
+  /// Tells a row of units from one of names; without it the second of two such rows has the units.
+  bool (*is_unit)(std::string_view) = nullptr;
+};
+
+/// CSV: lines that start with # are remarks; then a row of names, mostly one of units, rows of numbers. Empty cells and
+/// nan come back as NaN. Throws InputError that names file and line.
+SignalTable read_signals_csv(const std::filesystem::path& path, const SignalText& text = {});
 /// Written whole or not at all, numbers with the fewest digits that give the same value back.
 void write_signals_csv(const std::filesystem::path& path, const SignalTable& table);
 
@@ -39,7 +48,8 @@ SignalTable read_signals_mat(const std::filesystem::path& path);
 
 /// The functions of type 1 (time response) in the datasets 58 and 58b of a universal file, all over the same times: a
 /// column "time", then one for each, called by its first ID line; where these do not differ by node and direction, as
-/// "12+Z", or by the ordinate's label; or function_1, function_2 ...
+/// "12+Z", or by the ordinate's label; or function_1, function_2 ... An ordinate that is an acceleration in "g" is in
+/// multiples of gravity, g0. Zeros that fill the last line of a text dataset are left out.
 SignalTable read_signals_uff(const std::filesystem::path& path);
 
 /// Every real numeric vector of an HDF5 file, called by its path, as "run_1/base"; the text attribute "unit" or "units"
@@ -51,8 +61,8 @@ SignalTable read_signals_hdf5(const std::filesystem::path& path);
 /// libsndfile.
 SignalTable read_signals_wav(const std::filesystem::path& path);
 
-/// By the file's extension: .csv, .mat, .uff and .unv, .h5 and .hdf5, .wav. Throws InputError for another. `marks` are
-/// those of a .csv.
-SignalTable read_signals(const std::filesystem::path& path, const CsvMarks& marks = {});
+/// By the file's extension: .csv, .mat, .uff and .unv, .h5 and .hdf5, .wav. Throws InputError for another. `text` is
+/// of a .csv.
+SignalTable read_signals(const std::filesystem::path& path, const SignalText& text = {});
 
 }  // namespace pfdm

@@ -20,6 +20,7 @@ namespace pfdm {
 namespace {
 
 constexpr int time_response = 1;       // function type
+constexpr int acceleration = 12;       // specific data type
 constexpr int lines_before_data = 11;  // of dataset 58
 
 /// Records 7 and 12: what the data values are.
@@ -39,6 +40,8 @@ struct UffFunction {
   double first = 0.0, step = 0.0;  // of an even abscissa
   std::string abscissa_unit, unit;
   std::vector<double> abscissa, ordinate;
+  std::size_t n_filling = 0;  // zeros after the last value
+  bool was_in_g = false;      // its unit was called g
 };
 
 /// The columns [from, from + width) of a line with fixed columns, without blanks.
@@ -145,6 +148,8 @@ class UffReader {
     const std::string_view ordinate = next_line("record 9");
     f.label = unless_none(field(ordinate, 26, 20));
     f.unit = unit_of(field(ordinate, 47, 20));
+    f.was_in_g = parse_int(field(ordinate, 0, 10)) == acceleration && (f.unit == "g" || f.unit == "G");
+    if (f.was_in_g) f.unit = "g0";
     next_line("record 10");
     next_line("record 11");
     if (f.type != time_response) return f;
@@ -172,7 +177,7 @@ class UffReader {
       throw error(fmt::format("its abscissa increment is {}; it must be positive", f.step));
   }
 
-  std::vector<double> text_numbers(const UffFunction& f) {
+  std::vector<double> text_numbers(UffFunction& f) {
     const std::size_t due = f.even ? f.n : 2 * f.n;
     std::vector<double> numbers;
     while (numbers.size() < due) {
@@ -180,7 +185,11 @@ class UffReader {
       if (trimmed(line) == "-1") throw error(fmt::format("it has {} of {} data values", numbers.size(), due));
       append_numbers(line, numbers);
     }
-    if (numbers.size() > due) throw error(fmt::format("it has more than its {} data values", due));
+    const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(due);
+    if (std::any_of(end, numbers.end(), [](double filling) { return filling != 0.0; }))
+      throw error(fmt::format("it has more than its {} data values", due));
+    f.n_filling = numbers.size() - due;
+    numbers.erase(end, numbers.end());
     return numbers;
   }
 
@@ -265,6 +274,20 @@ std::vector<std::string> names_of(const std::vector<UffFunction>& functions) {
   return names;
 }
 
+/// What was made of the functions.
+std::vector<std::string> notes_on(const std::vector<UffFunction>& functions, const std::vector<std::string>& names) {
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    if (functions[i].was_in_g)
+      notes.push_back(fmt::format("\"{}\" is an acceleration in g: multiples of gravity (g0)", names[i]));
+    if (functions[i].n_filling > 0)
+      notes.push_back(
+          fmt::format("the last line of \"{}\" is filled up: what follows its {} values ({} zero{}) is left out",
+                      names[i], functions[i].n, functions[i].n_filling, functions[i].n_filling > 1 ? "s" : ""));
+  }
+  return notes;
+}
+
 }  // namespace
 
 SignalTable read_signals_uff(const std::filesystem::path& path) {
@@ -289,6 +312,7 @@ SignalTable read_signals_uff(const std::filesystem::path& path) {
   const std::vector<std::string> names = names_of(functions);
   for (std::size_t i = 0; i < functions.size(); ++i)
     table.columns.push_back({names[i], functions[i].unit, column(functions[i].ordinate)});
+  table.notes = notes_on(functions, names);
   return table;
 }
 

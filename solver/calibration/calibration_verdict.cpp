@@ -15,6 +15,7 @@ namespace {
 // Of a whole fit: the chance that noise alone raises one of the two kinds of test.
 constexpr double false_alarm = 0.002;
 // What is significant in long records need not matter.
+constexpr double no_fit = 0.9;                 // misfit over what was measured
 constexpr double noticeable_excess = 1.1;      // of the residuals over the stated noise
 constexpr double noticeable_inflation = 1.25;  // of the intervals, by correlated residuals
 
@@ -150,7 +151,7 @@ Judgement judge(const FitEvidence& evidence) {
   if (!evidence.converged) reasons.push_back(fmt::format("the fit did not come to an end: {}", evidence.message));
   if (!std::isfinite(evidence.misfit))
     reasons.emplace_back("the model with these estimates has no bounded response");
-  else if (evidence.misfit >= 1.0)
+  else if (evidence.misfit >= no_fit)
     reasons.push_back(fmt::format("the misfit is {:.3g} times what was measured", evidence.misfit));
   const bool failed = !reasons.empty();
   reasons.insert(reasons.end(), evidence.found.begin(), evidence.found.end());

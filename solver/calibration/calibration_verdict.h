@@ -47,7 +47,7 @@ struct JudgedEstimate {
 struct FitEvidence {
   bool converged = true;
   std::string message{};  ///< what ended the fit
-  double misfit = 0.0;    ///< largest of the data fitted, rms over measured rms: with 1 or more there is no fit
+  double misfit = 0.0;    ///< largest of the data fitted, rms over measured rms: with 0.9 or more there is no fit
   std::vector<ResidualSeries> series{};  ///< empty: residuals of this kind of fit are judged elsewhere
   bool noise_is_known = false;           ///< and the residuals are divided by its standard deviation
   /// Residuals below are errors of the computation, without noise to hide them.

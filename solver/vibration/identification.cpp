@@ -3,6 +3,7 @@
 #include "physics/error.h"
 #include "solver/vibration/identification_added_term.h"
 #include "solver/vibration/identification_evidence.h"
+#include "solver/vibration/identification_initial_motion.h"
 #include "solver/vibration/identification_stiffness.h"
 
 #include <fmt/format.h>
@@ -161,6 +162,46 @@ Identification refined(std::span<const VibrationRecord> records, Trial trial, st
   return result;
 }
 
+/// With the motions that the records are said to begin with.
+Identification identify_from_starts(std::span<const VibrationRecord> records, const ModelStructure& structure,
+                                    const IdentificationSettings& settings) {
+  std::vector<OrderTrial> orders;
+  const bool linear = is_linear_viscoelastic(structure) && segment_length(records) == SegmentSettings{}.length;
+  auto best =
+      linear ? linear_trial(records, structure, orders, settings) : output_trial(records, structure, orders, settings);
+  if (!best)
+    throw ComputationError(fmt::format(
+        "model \"{}\" has no passive (energy-dissipating) parameters that fit the records", structure.name));
+  return refined(records, std::move(*best), std::move(orders), settings);
+}
+
+/// From the frequency and the decay of ring-downs alone, which have no base motion that the equation of motion could be
+/// fitted to. Nothing of other records, and of models with a kernel or a damping that is not linear.
+std::optional<Identification> identify_ring_downs(std::span<VibrationRecord> records, const ModelStructure& structure,
+                                                  const IdentificationSettings& settings) {
+  if (structure.forcing != KernelForcing::none || structure.nonlinear_damping) return std::nullopt;
+  std::optional<MassMaterial> ringing;
+  for (const VibrationRecord& record : records) {
+    const auto model = ringing_model(record, settings.mass, settings.crop);
+    if (!model) return std::nullopt;
+    if (!ringing) ringing = model;
+  }
+  ringing->stiffness.resize(static_cast<std::size_t>(structure.stiffness_order), 0.0);
+  ringing->reference_velocity = settings.reference_velocity;
+  update_starts(records, *ringing, settings.crop);
+  auto trial = tried(records, {.model = *ringing}, settings);
+  if (!trial) return std::nullopt;
+  const OrderTrial order = trial->result;
+  return refined(records, std::move(*trial), {order}, settings);
+}
+
+void say_starts(std::span<const VibrationRecord> records, const IdentificationSettings& settings) {
+  for (const VibrationRecord& r : records)
+    if (!r.start.is_rest())
+      settings.say(
+          fmt::format("test {} begins in motion: its first displacement and velocity are estimated too", r.name));
+}
+
 }  // namespace
 
 ExcitedRange excited_range(std::span<const VibrationRecord> records) {
@@ -182,14 +223,30 @@ Passivity passivity_in_band(const MassMaterial& model, std::span<const Vibration
 
 Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
                         const IdentificationSettings& settings) {
-  std::vector<OrderTrial> orders;
-  const bool linear = is_linear_viscoelastic(structure) && segment_length(records) == SegmentSettings{}.length;
-  auto best =
-      linear ? linear_trial(records, structure, orders, settings) : output_trial(records, structure, orders, settings);
-  if (!best)
-    throw ComputationError(fmt::format(
-        "model \"{}\" has no passive (energy-dissipating) parameters that fit the records", structure.name));
-  return refined(records, std::move(*best), std::move(orders), settings);
+  constexpr int most_rounds = 8;
+  constexpr double settled = 1e-5;
+  std::vector<VibrationRecord> begun(records.begin(), records.end());
+  auto ring_downs = identify_ring_downs(begun, structure, settings);
+  Identification found = ring_downs ? std::move(*ring_downs) : identify_from_starts(begun, structure, settings);
+  double change = update_starts(begun, found.fit.model, settings.crop);
+  if (change == 0.0) return found;
+  say_starts(begun, settings);
+  if (!ring_downs) {
+    found = identify_from_starts(begun, structure, settings);
+    change = update_starts(begun, found.fit.model, settings.crop);
+  }
+  for (int round = 0; round < most_rounds && change > settled; ++round) {
+    OutputErrorFit again = refine_output(begun, found.fit.model, settings, true);
+    if (again.record_misfit.empty()) break;
+    again.evaluations += found.fit.evaluations;
+    again.path.insert(again.path.begin(), found.fit.path.begin(), found.fit.path.end());
+    found.fit = std::move(again);
+    change = update_starts(begun, found.fit.model, settings.crop);
+  }
+  found.passivity = passivity_in_band(found.fit.model, records);
+  if (std::ranges::any_of(begun, [](const VibrationRecord& r) { return !r.start.is_rest(); }))
+    for (const VibrationRecord& record : begun) found.starts.push_back(record.start);
+  return found;
 }
 
 }  // namespace pfdm

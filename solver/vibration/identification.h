@@ -99,16 +99,19 @@ struct OrderTrial {
 struct Identification {
   OutputErrorFit fit;
   Regression start;
-  std::vector<OrderTrial> orders;  ///< that were tried
-  Passivity passivity;             ///< over the excited band
+  std::vector<OrderTrial> orders;       ///< that were tried
+  Passivity passivity;                  ///< over the excited band
+  std::vector<InitialMotion> starts{};  ///< of each record; none where all begin at rest
 };
 
-/// Throws ComputationError if no parameters can be found.
+/// Records that begin in motion are told from the others by what the model leaves, and the motion is estimated with the
+/// parameters. Throws ComputationError if no parameters can be found.
 Identification identify(std::span<const VibrationRecord> records, const ModelStructure& structure,
                         const IdentificationSettings& settings);
 
-/// The model's answer z'' to the record's base acceleration, from rest [m/s^2]; NaN where it is unbounded.
-Eigen::VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record);
+/// The model's answer z'' to the record's base acceleration [m/s^2]; NaN where it is unbounded. It begins at rest, or
+/// with the motion that a record has which begins in motion (identification_initial_motion.h).
+Eigen::VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record, double crop = 0.05);
 
 /// Relative misfit of the model's response to the record's base acceleration: norm of the difference of z'' over that
 /// of the measured one, within the excited band and its harmonics.

@@ -19,8 +19,9 @@ struct RecordEvidence {
   /// the driving frequency and two harmonics. Otherwise: coherent with the base's acceleration, also as it grows over
   /// the test, and with the square and the cube of the displacement.
   double excess = 0.0;
-  std::optional<Tone> tone{};    ///< in the residual, if it is no negligible one
-  std::optional<Burst> burst{};  ///< likewise; its time is that of the record
+  std::optional<Tone> tone{};      ///< in the residual, if it is no negligible one
+  bool tone_is_resonance = false;  ///< it is of the mass's free motion
+  std::optional<Burst> burst{};    ///< likewise; its time is that of the record
 };
 RecordEvidence record_evidence(const MassMaterial& model, const VibrationRecord& record, double crop);
 

@@ -124,20 +124,33 @@ double output_misfit(const VibrationRecord& record, const ModelStructure& struct
   return fit.record_misfit.empty() ? std::numeric_limits<double>::infinity() : fit.record_misfit.front();
 }
 
-/// By window, the part of the base's acceleration that the mass's motion accounts for; nothing of a base at rest that
-/// the mass does not rest on, all where nothing happens at all.
+/// The part of the mass's acceleration that is a ring-down: free motion by the equation of the rest of the record, and
+/// decaying. None of a motion that something else drives.
+double explained_by_ring_down(const MatrixXd& terms, const VectorXd& equation) {
+  constexpr double least = 0.9, decays = 0.95;
+  const Index half = terms.rows() / 2;
+  const double first = terms.col(0).head(half).norm(), second = terms.col(0).tail(half).norm();
+  const double inertia = std::abs(equation[0]) * terms.col(0).norm();
+  if (!(inertia > 0.0 && second < decays * first)) return 0.0;
+  const double explained = 1.0 - std::pow((terms * equation).norm() / inertia, 2);
+  return explained > least ? explained : 0.0;
+}
+
+/// By window, the part of the base's acceleration that the mass's motion accounts for; of a base at rest, the part of
+/// the mass's acceleration that is a ring-down, and all where nothing happens at all.
 std::vector<double> explained_by_motion(const VibrationRecord& record) {
   constexpr double least_level = 0.01;
   const auto [motion, base] =
       motion_of(record, {.low = 0.5 * record.band_low, .high = std::min(3.0 * record.band_high, 0.38 * record.rate)});
   const Index length = record.n() / windows;
   const double base_level = base.norm() / std::sqrt(windows), level = motion.col(0).norm() / std::sqrt(windows);
+  const VectorXd equation = scaled_least_squares(motion, base);
   std::vector<double> explained;
   for (int w = 0; w < windows; ++w) {
     const VectorXd y = base.segment(w * length, length);
     const MatrixXd A = motion.middleRows(w * length, length);
     if (!(y.norm() > least_level * base_level)) {
-      explained.push_back(A.col(0).norm() > least_level * level ? 0.0 : 1.0);
+      explained.push_back(A.col(0).norm() > least_level * level ? explained_by_ring_down(A, equation) : 1.0);
       continue;
     }
     const double left = A.isZero(0.0) ? y.norm() : (A * scaled_least_squares(A, y) - y).norm();
@@ -190,6 +203,7 @@ std::optional<std::string> fault_of(const VibrationRecord& record, double misfit
 
 std::optional<std::pair<double, double>> dead_part(const VibrationRecord& record) {
   constexpr double explained_if_dead = 0.1, explained_if_alive = 0.4;
+  if (record.base.isConstant(record.base[0])) return std::nullopt;  // held, as for a ring-down
   const std::vector<double> explained = explained_by_motion(record);
   int first = windows, last = -1;
   for (int w = 1; w + 1 < windows; ++w)  // the ends may be ramps

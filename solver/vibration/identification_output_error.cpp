@@ -5,6 +5,7 @@
 #include "solver/vibration/identification.h"
 #include "solver/vibration/identification_base_noise.h"
 #include "solver/vibration/identification_coordinates.h"
+#include "solver/vibration/identification_initial_motion.h"
 #include "solver/vibration/identification_intervals.h"
 #include "solver/vibration/identification_responses.h"
 #include "solver/vibration/mass_material_simulation.h"
@@ -153,7 +154,7 @@ VectorXd approached_by_one(const VibrationRecord& strongest, double crop, Output
                            const ParameterCoordinates& coordinates, const MassMaterial& start, const VectorXd& x0,
                            int& evaluations) {
   constexpr double roughly = 1e-4;
-  const Responses one(std::span(&strongest, 1), crop);
+  const Responses one(std::span(&strongest, 1), crop, start);
   const Drives drives = one.reduced_drives(start);
   OutputError error(one, coordinates, drives, evaluations);
   const VectorXd x = minimise(error.problem(x0), x0, until(roughly)).x;
@@ -303,7 +304,7 @@ OutputErrorFit approach_output(std::span<const VibrationRecord> records, const M
   constexpr int most_iterations = 25;
   MassMaterial sorted = start;
   sort_terms(sorted);
-  const Responses responses(records, settings.crop);
+  const Responses responses(records, settings.crop, sorted);
   const ParameterCoordinates coordinates(sorted, excited_range(records));
   const Drives reduced = responses.reduced_drives(sorted);
   int evaluations = 0;
@@ -317,7 +318,7 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
                              const IdentificationSettings& settings, bool is_near) {
   MassMaterial sorted = start;
   sort_terms(sorted);
-  const Responses responses(records, settings.crop);
+  const Responses responses(records, settings.crop, sorted);
   const ExcitedRange range = excited_range(records);
   ParameterCoordinates coordinates(sorted, range);
   int evaluations = 0;
@@ -343,14 +344,14 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
   return fit;
 }
 
-VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record) {
+VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record, double crop) {
   const BaseNodes base = nodes_of(record.base, record.rate, substeps_for(model, record.rate));
-  return simulate_batch(std::span(&model, 1), base).col(0);
+  return simulate_batch(std::span(&model, 1), base, begun_motion(model, record, crop).value_or(InitialMotion{})).col(0);
 }
 
 double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop) {
   const Conditioner condition = output_condition(record, crop);
-  const VectorXd z = predicted_response(model, record);
+  const VectorXd z = predicted_response(model, record, crop);
   if (!z.allFinite()) return std::numeric_limits<double>::infinity();
   const VectorXd measured = condition(record.relative);
   return (condition(z) - measured).norm() / measured.norm();

@@ -1,6 +1,7 @@
 #include "solver/vibration/identification_responses.h"
 
 #include "solver/parallel.h"
+#include "solver/vibration/identification_initial_motion.h"
 #include "solver/vibration/mass_material_simulation.h"
 
 #include <algorithm>
@@ -53,15 +54,25 @@ Conditioner output_condition(const VibrationRecord& r, double crop) {
   return {r.n(), r.rate, band, crop};
 }
 
-Responses::Responses(std::span<const VibrationRecord> records, double crop) {
+VectorXd Responses::Output::compared(const Eigen::Ref<const VectorXd>& response) const {
+  VectorXd all = condition(response);
+  if (free.size() > 0) all -= free * (free.transpose() * all);
+  return all;
+}
+
+Responses::Responses(std::span<const VibrationRecord> records, double crop, const MassMaterial& about) {
   for (const VibrationRecord& r : records)
-    outputs_.push_back({.condition = output_condition(r, crop), .base = {}, .rate = r.rate, .measured = {}});
+    outputs_.push_back(
+        {.condition = output_condition(r, crop), .base = {}, .rate = r.rate, .measured = {}, .start = r.start});
   const auto prepare = [&](pfdm::Index begin, pfdm::Index) {
     const VibrationRecord& r = records[static_cast<std::size_t>(begin)];
     Output& out = outputs_[static_cast<std::size_t>(begin)];
     out.base = driving_base(r).acceleration;
     out.measured = out.condition(r.relative);
     out.weight = std::sqrt(static_cast<double>(out.measured.size())) / out.measured.norm();
+    if (out.start.is_rest()) return;
+    out.free = orthonormal(free_motions(about, r, crop));
+    out.measured = out.compared(r.relative);
   };
   parallel_chunks(static_cast<pfdm::Index>(records.size()), prepare, 1);
   for (Output& out : outputs_) {
@@ -96,14 +107,15 @@ Drives Responses::reduced_drives(const MassMaterial& model) const {
 MatrixXd Responses::simulated(std::span<const MassMaterial> models, const Drives& drives) const {
   std::vector<SimulationRun> runs;  // all models of the first record, of the second ...
   for (const BaseNodes& base : drives)
-    for (const MassMaterial& m : models) runs.push_back({&m, &base});
+    for (const MassMaterial& m : models)
+      runs.push_back({&m, &base, outputs_[static_cast<std::size_t>(&base - drives.data())].start});
   const auto groups = simulation_groups(runs);
   MatrixXd result(size_, static_cast<Eigen::Index>(models.size()));
   const auto fill = [&](const SimulationRun& run, const VectorXd& z) {
     const Output& out = outputs_[static_cast<std::size_t>(run.base - drives.data())];
     auto to = result.col(run.model - models.data()).segment(out.first, out.measured.size());
     if (z.allFinite())
-      to = out.weight * out.condition(z);
+      to = out.weight * out.compared(z);
     else
       to.setConstant(std::numeric_limits<double>::quiet_NaN());
   };

@@ -21,7 +21,8 @@ using Drives = std::vector<BaseNodes>;
 
 class Responses {
  public:
-  Responses(std::span<const VibrationRecord> records, double crop);
+  /// Of records that begin in motion what a free motion of the model `about` changes, in whatever way, is not compared.
+  Responses(std::span<const VibrationRecord> records, double crop, const MassMaterial& about);
   Eigen::Index size() const { return size_; }
 
   /// To simulate at the records' own rates. Steps as short as the model needs them; likewise in reduced_drives.
@@ -48,6 +49,9 @@ class Responses {
     Eigen::VectorXd measured;
     double weight = 1.0;
     Eigen::Index first = 0;
+    InitialMotion start{};
+    Eigen::MatrixXd free{};  // orthonormal columns: conditioned free motions, of a record that begins in motion
+    Eigen::VectorXd compared(const Eigen::Ref<const Eigen::VectorXd>& response) const;
   };
   std::vector<Output> outputs_;
   Eigen::Index size_ = 0;

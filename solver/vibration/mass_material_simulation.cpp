@@ -164,8 +164,10 @@ constexpr Tableau cooper_verner() {
 template <std::size_t N>
 class Stepper {
  public:
-  explicit Stepper(const LaneModel& model) : m_(model) {
+  Stepper(const LaneModel& model, const Lanes& displacement, const Lanes& velocity) : m_(model) {
     state_.fill(Lanes::all(0.0));
+    state_[0] = displacement;
+    state_[1] = velocity;
     for (auto& slope : slope_) slope.fill(Lanes::all(0.0));
   }
 
@@ -244,7 +246,13 @@ class Drives {
 
 template <std::size_t N>
 std::vector<Eigen::VectorXd> march(const LaneModel& model, std::span<const SimulationRun> runs) {
-  Stepper<N> stepper(model);
+  Lanes displacement, velocity;
+  for (int l = 0; l < n_lanes; ++l) {
+    const InitialMotion& start = runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].start;
+    displacement[l] = start.displacement;
+    velocity[l] = start.velocity;
+  }
+  Stepper<N> stepper(model, displacement, velocity);
   Drives drives(runs);
   const int substeps = runs.front().base->substeps;
   Lanes h;
@@ -289,6 +297,16 @@ std::vector<Eigen::VectorXd> simulate_lanes(std::span<const SimulationRun> runs)
   return march<44>(model, runs);
 }
 
+/// The responses of runs under one base acceleration, a column each.
+Eigen::MatrixXd columns_of(std::span<const SimulationRun> runs) {
+  assert(!runs.empty());
+  Eigen::MatrixXd result(runs.front().base->n_samples(), static_cast<Index>(runs.size()));
+  Index column = 0;
+  for (const auto& group : simulation_groups(runs))
+    for (const Eigen::VectorXd& response : simulate_group(group)) result.col(column++) = response;
+  return result;
+}
+
 }  // namespace
 
 int substeps_for(const MassMaterial& model, double rate) {
@@ -315,15 +333,18 @@ std::vector<Eigen::VectorXd> simulate_group(std::span<const SimulationRun> runs)
   return simulate_lanes(runs);
 }
 
-Eigen::MatrixXd simulate_batch(std::span<const MassMaterial> models, const BaseNodes& base) {
-  assert(!models.empty());
+Eigen::MatrixXd simulate_batch(std::span<const MassMaterial> models, const BaseNodes& base,
+                               const InitialMotion& start) {
   std::vector<SimulationRun> runs;
-  for (const MassMaterial& m : models) runs.push_back({&m, &base});
-  Eigen::MatrixXd result(base.n_samples(), static_cast<Index>(models.size()));
-  Index column = 0;
-  for (const auto& group : simulation_groups(runs))
-    for (const Eigen::VectorXd& response : simulate_group(group)) result.col(column++) = response;
-  return result;
+  for (const MassMaterial& m : models) runs.push_back({&m, &base, start});
+  return columns_of(runs);
+}
+
+Eigen::MatrixXd simulate_starts(const MassMaterial& model, const BaseNodes& base,
+                                std::span<const InitialMotion> starts) {
+  std::vector<SimulationRun> runs;
+  for (const InitialMotion& start : starts) runs.push_back({&model, &base, start});
+  return columns_of(runs);
 }
 
 void add_noise(VibrationRecord& record, double decibel, std::uint64_t seed) {

@@ -38,6 +38,7 @@ int substeps_for(const MassMaterial& model, double rate);
 struct SimulationRun {
   const MassMaterial* model = nullptr;
   const BaseNodes* base = nullptr;
+  InitialMotion start{};  ///< kernel states begin at zero
 };
 
 /// Runs as they are best simulated together: side by side in vector registers. Their models must have the same terms,
@@ -48,7 +49,11 @@ std::vector<std::vector<SimulationRun>> simulation_groups(std::span<const Simula
 std::vector<Eigen::VectorXd> simulate_group(std::span<const SimulationRun> runs);
 
 /// The same of several models under one base acceleration, a column each.
-Eigen::MatrixXd simulate_batch(std::span<const MassMaterial> models, const BaseNodes& base);
+Eigen::MatrixXd simulate_batch(std::span<const MassMaterial> models, const BaseNodes& base,
+                               const InitialMotion& start = {});
+/// The same of one model from several initial motions.
+Eigen::MatrixXd simulate_starts(const MassMaterial& model, const BaseNodes& base,
+                                std::span<const InitialMotion> starts);
 
 /// Adds Gaussian noise, white up to half the rate, of `decibel` below each channel's own rms.
 void add_noise(VibrationRecord& record, double decibel, std::uint64_t seed);

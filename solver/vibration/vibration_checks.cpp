@@ -87,9 +87,44 @@ void check_extent(const RawRecord& r, double rate, Faults& faults) {
                                   r.band_high, rate, 0.38 * rate)});
 }
 
-void check_dead(const char* channel, const VectorXd& x, Faults& faults) {
-  if (x.maxCoeff() - x.minCoeff() <= 1e-9 * std::abs(x.mean()) || x.isZero(0.0))
-    faults.push_back({"dead_channel", fmt::format("{} is constant, {}", channel, x[0])});
+bool is_constant(const VectorXd& x) {
+  return x.maxCoeff() - x.minCoeff() <= 1e-9 * std::abs(x.mean()) || x.isZero(0.0);
+}
+
+/// The last quarter of the motion is half as strong as the first, or less.
+bool dies_away(const VectorXd& x) {
+  const VectorXd motion = x.array() - x.mean();
+  const Index quarter = x.size() / 4;
+  return 2.0 * motion.tail(quarter).norm() < motion.head(quarter).norm();
+}
+
+double rms_of_motion(const VectorXd& x) { return rms((x.array() - x.mean()).matrix()); }
+
+/// Steady, and as strong beside the stated band as noise is.
+bool is_noise(const RawRecord& r) {
+  constexpr double most_within = 0.92;  // of the rms
+  const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
+  return !dies_away(r.base) && rms(filtered(r.base, sampling_rate(r), band)) < most_within * rms_of_motion(r.base);
+}
+
+/// The mass rings down, and the base's channel is constant, or noise below a hundredth of the mass's motion.
+bool is_ring_down(const RawRecord& r) {
+  constexpr double quiet = 0.01;
+  if (is_constant(r.relative) || !dies_away(r.relative)) return false;
+  return is_constant(r.base) || (rms_of_motion(r.base) < quiet * rms_of_motion(r.relative) && is_noise(r));
+}
+
+void check_dead(const RawRecord& r, Faults& faults) {
+  if (is_constant(r.relative))
+    faults.push_back({"dead_channel", fmt::format("the relative acceleration is constant, {}", r.relative[0])});
+  if (is_ring_down(r))
+    faults.push_back({"base_at_rest",
+                      fmt::format("the mass's motion dies away, and the base has {:.2g} of it throughout: taken as a "
+                                  "ring-down on a base at rest",
+                                  rms_of_motion(r.base) / rms_of_motion(r.relative)),
+                      false});
+  else if (is_constant(r.base))
+    faults.push_back({"dead_channel", fmt::format("the base's acceleration is constant, {}", r.base[0])});
 }
 
 /// Several successive samples at the same extreme value: an analogue-digital converter at the end of its range.
@@ -258,12 +293,14 @@ std::vector<RecordFault> check_record(const RawRecord& r) {
   for (const auto& [name, x] : channels) check_finite(name, *x, faults);
   if (any_refused(faults)) return faults;
   check_time(r, faults);
-  for (const auto& [name, x] : channels) check_dead(name, *x, faults);
+  check_dead(r, faults);
   if (any_refused(faults)) return faults;
   const double rate = sampling_rate(r);
   check_extent(r, rate, faults);
   if (any_refused(faults)) return faults;
+  const bool base_rests = is_ring_down(r);
   for (const auto& [name, x] : channels) {
+    if (x == &r.base && base_rests) continue;
     if (!check_quantised(name, *x, faults)) {
       check_clipped(name, *x, faults);
       check_dropouts(name, *x, rate, r.band_high, faults);
@@ -271,6 +308,7 @@ std::vector<RecordFault> check_record(const RawRecord& r) {
     check_drift(name, *x, rate, r.band_low, faults);
     check_spikes(name, *x, faults);
   }
+  if (base_rests) return faults;
   check_band(r, rate, faults);
   check_time_scale(r, rate, faults);
   return faults;

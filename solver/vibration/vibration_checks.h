@@ -27,7 +27,8 @@ struct RawRecord {
 
 /// Refused: "unequal_lengths", "not_finite", "time_runs_backwards", "gap", "uneven_sampling", "wrong_rate",
 /// "no_rate", "too_short", "sampled_too_slowly", "dead_channel". Warned of: "clipped", "quantised", "dropouts",
-/// "drift", "spikes", "outside_the_band", "rate_or_band". The first that stops all further ones ends the list.
+/// "drift", "spikes", "outside_the_band", "rate_or_band", and told of: "base_at_rest". The first that stops all further
+/// ones ends the list.
 std::vector<RecordFault> check_record(const RawRecord& record);
 
 /// Samples per second: by the times, or as stated [Hz]. For records without refused faults.

@@ -8,6 +8,13 @@
 
 namespace pfdm {
 
+/// Motion of the mass relative to the base at one time.
+struct InitialMotion {
+  double displacement = 0.0;  ///< z [m]
+  double velocity = 0.0;      ///< z' [m/s]
+  bool is_rest() const { return displacement == 0.0 && velocity == 0.0; }
+};
+
 struct VibrationRecord {
   std::string name;
   double rate = 0.0;                  ///< samples per second [Hz]
@@ -17,6 +24,7 @@ struct VibrationRecord {
   double band_high = 0.0;             ///< [Hz]
   std::string remark{};               ///< what its file says about itself
   std::vector<std::string> faults{};  ///< that it has, and with which it can still be used
+  InitialMotion start{};              ///< with which a simulation of the test begins
   Eigen::Index n() const { return base.size(); }
   double duration() const { return static_cast<double>(base.size()) / rate; }  ///< [s]
 };

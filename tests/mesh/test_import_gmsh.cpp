@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -168,6 +169,40 @@ TEST_F(ImportGmsh, BrokenFilesAreRefusedWithThePlace) {
     EXPECT_THAT(refusal(content_of(shapes(format)).substr(0, 3000)), HasSubstr("ends within $")) << format;
   EXPECT_THAT(message_of<InputError>([&] { import_gmsh(settings_of(folder_ / "none.msh")); }),
               HasSubstr("No such file"));
+}
+
+// A square in the plane z = 0.5 of a quadrilateral, and a triangle beside it whose points run the other way.
+std::string flat_msh(const std::string& names = "") {
+  return msh22({{0, 0, 0.5}, {1, 0, 0.5}, {1, 1, 0.5}, {0, 1, 0.5}, {2, 0, 0.5}},
+               {"3 2 5 1 1 2 3 4", "2 2 6 1 2 3 5", "1 2 7 1 4 1", "1 2 8 1 2 5", "15 2 9 1 1"}, names);
+}
+
+TEST_F(ImportGmsh, AFlatMeshBecomesALayerOfCells) {
+  const std::string names = "$PhysicalNames\n2\n1 7 \"left\"\n2 5 \"plate\"\n$EndPhysicalNames\n";
+  ImportSettings settings = write(flat_msh(names));
+  settings.scale = 1e-3;
+  settings.thickness = 2e-4;
+  const Mesh mesh = import_gmsh(settings);
+  expect_sound(mesh);
+  EXPECT_EQ(count_cells(mesh, CellShape::hexahedron), 1);
+  EXPECT_EQ(count_cells(mesh, CellShape::wedge), 1);
+  EXPECT_NEAR(region_volume(mesh, "plate"), 2e-10, 1e-20);
+  EXPECT_NEAR(region_volume(mesh, "region_6"), 1e-10, 1e-20);
+  EXPECT_NEAR((patch_area(mesh, "left") - Vector(-2e-7, 0, 0)).norm(), 0.0, 1e-18);
+  EXPECT_NEAR((patch_area(mesh, "patch_8") - Vector(0, -2e-7, 0)).norm(), 0.0, 1e-18);
+  EXPECT_NEAR((patch_area(mesh, "zmin") - Vector(0, 0, -1.5e-6)).norm(), 0.0, 1e-18);
+  EXPECT_NEAR((patch_area(mesh, "zmax") - Vector(0, 0, 1.5e-6)).norm(), 0.0, 1e-18);
+  for (const Vector& x : mesh.points) EXPECT_TRUE(std::abs(x.z() - 5e-4) < 1e-12 || std::abs(x.z() - 7e-4) < 1e-12);
+}
+
+TEST_F(ImportGmsh, WithoutVolumesItSaysWhy) {
+  EXPECT_THAT(refusal(flat_msh()), AllOf(HasSubstr("it has no volume cells: it is flat"), HasSubstr("thickness = ")));
+  EXPECT_THAT(refusal(msh22(corners, {"2 2 1 1 1 2 3", "2 2 1 1 1 2 4"})),
+              AllOf(HasSubstr("it has no volume cells"), HasSubstr("no Physical Volume")));
+  ImportSettings settings = write(msh22(corners, {"4 2 0 1 1 2 3 4"}));
+  settings.thickness = 1.0;
+  EXPECT_THAT(message_of<InputError>([&] { import_gmsh(settings); }),
+              HasSubstr("a thickness is given, and it is not flat"));
 }
 
 TEST_F(ImportGmsh, HangingPointsAreRefused) {

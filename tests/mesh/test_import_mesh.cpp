@@ -1,4 +1,6 @@
+#include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "mesh/files/import_mesh.h"
 #include "mesh/generators/box_hexes.h"
@@ -140,6 +142,38 @@ TEST_F(ImportVtk, VoxelsAreHexahedra) {
   const Mesh mesh = import_vtk(write(text));
   expect_sound(mesh);
   EXPECT_NEAR(mesh.cell_volume[0], 2.0, 1e-15);
+}
+
+TEST_F(ImportVtk, PrismsOfFiveAndSixSidesArePolyhedra) {
+  for (const int n : {5, 6})
+    for (const bool mirrored : {false, true}) {
+      VtuText text;
+      std::vector<Index> ids;
+      for (const double z : {0.0, 0.5})
+        for (int i = 0; i < n; ++i) {
+          const double angle = (mirrored ? -2.0 : 2.0) * std::numbers::pi * i / n;
+          ids.push_back(static_cast<Index>(text.points.size()));
+          text.points.emplace_back(std::cos(angle), std::sin(angle), z);
+        }
+      text.cells = {{n + 10, ids, {}}};
+      const Mesh mesh = import_vtk(write(text));
+      expect_sound(mesh);
+      EXPECT_EQ(count_cells(mesh, CellShape::polyhedron), 1);
+      EXPECT_NEAR(total_volume(mesh), 0.25 * n * std::sin(2.0 * std::numbers::pi / n), 1e-6);
+    }
+}
+
+TEST_F(ImportVtk, AFlatMeshBecomesALayerOfCells) {
+  VtuText text;
+  text.points = {{2, 0, 0}, {2, 1, 0}, {2, 1, 1}, {2, 0, 1}, {2, 1, 2}, {2, 0, 3}};
+  text.cells = {{9, {0, 1, 2, 3}, {}}, {7, {3, 2, 4, 5}, {}}};
+  ImportSettings settings = write(text);
+  settings.thickness = 0.5;
+  const Mesh mesh = import_vtk(settings);
+  expect_sound(mesh);
+  EXPECT_EQ(count_cells(mesh, CellShape::polyhedron), 1);
+  EXPECT_NEAR(total_volume(mesh), 0.5 * 2.5, 1e-6);
+  EXPECT_NEAR((patch_area(mesh, "xmax") - Vector(2.5, 0, 0)).norm(), 0.0, 1e-6);
 }
 
 TEST_F(ImportVtk, ScaleIsTheFilesUnit) {

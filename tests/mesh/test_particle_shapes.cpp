@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "mesh/generators/particles_in_box.h"
 #include "mesh/surfaces/particle_shape.h"
@@ -91,6 +92,24 @@ TEST(SurfaceFile, ReadsPolygonsOfObjAndLeavesOutWhatIsNoTriangle) {
   EXPECT_EQ(surface.triangles.size(), 12U);
   EXPECT_NEAR(enclosed_volume(surface), 8.0, 1e-12);
   EXPECT_NEAR((centroid(surface) - Vector(10, 0, 0)).norm(), 0.0, 1e-12);
+}
+
+TEST(SurfaceFile, MergesPointsOfObjThatCoincide) {
+  std::string obj;
+  for (const char* side : {"0 0 0/0 1 0/1 1 0/1 0 0", "0 0 1/1 0 1/1 1 1/0 1 1", "0 0 0/1 0 0/1 0 1/0 0 1",
+                           "0 1 0/0 1 1/1 1 1/1 1 0", "-0 0 0/0 0 1/0 1 1/0 1 0", "1 0 0/1 1 0/1 1 1/1 0 1"}) {
+    std::istringstream points(side);
+    for (std::string point; std::getline(points, point, '/');) obj += "v " + point + '\n';
+    obj += "f -4 -3 -2 -1\n";
+  }
+  std::size_t n_merged = 0;
+  const TriangleSurface surface = read_surface_file(file_with("sides.obj", obj), &n_merged);
+  EXPECT_EQ(n_merged, 16U);
+  EXPECT_EQ(surface.points.size(), 8U);
+  EXPECT_NEAR(enclosed_volume(surface), 1.0, 1e-12);
+  EXPECT_NO_THROW(check_surfaces({{"it", surface}}));
+  read_surface_file(file_with("cube.obj", cube_obj), &n_merged);
+  EXPECT_EQ(n_merged, 0U);
 }
 
 TEST(SurfaceFile, StlAsTextInCapitalsAndBinaryIsTheSameSurface) {

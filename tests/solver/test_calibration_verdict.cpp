@@ -133,6 +133,9 @@ TEST(Verdict, FailsWhereThereIsNoFit) {
   FitEvidence evidence = evidence_of(1, 100, true);
   evidence.misfit = std::numeric_limits<double>::infinity();
   EXPECT_EQ(judge(evidence).verdict, Verdict::failed);
+  evidence.misfit = 0.98;
+  EXPECT_THAT(judge(evidence).reasons, ElementsAre("the misfit is 0.98 times what was measured"));
+  EXPECT_EQ(judge(evidence).verdict, Verdict::failed);
   evidence.misfit = 4.96;
   EXPECT_THAT(judge(evidence).reasons, ElementsAre("the misfit is 4.96 times what was measured"));
   evidence.misfit = 0.1;

@@ -208,6 +208,81 @@ TEST(IdentificationVerdict, ASampleThatWarmsUpIsNamed) {
   EXPECT_THAT(changes[0], HasSubstr("the sample changes during the test"));
 }
 
+/// The record from this time on [s].
+VibrationRecord without_beginning(VibrationRecord record, double seconds) {
+  const auto left = record.n() - static_cast<Eigen::Index>(seconds * record.rate);
+  record.base = record.base.tail(left).eval();
+  record.relative = record.relative.tail(left).eval();
+  return record;
+}
+
+// Free motion decays within 1/(zeta omega) = 16 ms, about as long as what is cropped of 1.2 s here.
+TEST(IdentificationVerdict, RecordsMayBeginInMotion) {
+  const independent::Shaker shaker{.duration = 1.4, .low = 100.0, .high = 420.0, .level = 60.0, .random = true};
+  const IdentificationSettings settings{.mass = 1.12, .reference_velocity = 0.3, .kernel_order = {}, .crop = 0.002};
+  for (const char* name : {"1", "2"}) {
+    const VibrationRecord record = without_beginning(noisy_record(name, shaker), 0.2);
+    const Identification found = identify(std::span(&record, 1), model_structure(name), settings);
+    ASSERT_EQ(found.starts.size(), 1u) << name;
+    EXPECT_FALSE(found.starts[0].is_rest());
+    EXPECT_LT(found.fit.record_misfit[0], 0.02);  // noise of 1 % on either channel
+    const RecordEvidence evidence = record_evidence(found.fit.model, record, settings.crop);
+    EXPECT_THAT(doubts_of(std::span(&evidence, 1)), IsEmpty()) << name;
+    EXPECT_NEAR(found.fit.model.stiffness[0] / truth(name).stiffness[0], 1.0, 5e-3) << name;
+    const auto k1 = std::ranges::find(found.fit.estimates, "k1_N_per_m", &Estimate::name);
+    EXPECT_LT(std::abs(k1->value - truth(name).stiffness[0]), 4.0 * k1->standard_error) << name;
+  }
+  const VibrationRecord at_rest = noisy_record("1", shaker);
+  EXPECT_THAT(identify(std::span(&at_rest, 1), model_structure("1"), settings).starts, IsEmpty());
+}
+
+/// The mass let go, on a base at rest.
+VibrationRecord ring_down(double duration) {
+  VibrationRecord record{
+      .name = "ring-down", .rate = 6000.0, .base = {}, .relative = {}, .band_low = 100.0, .band_high = 420.0};
+  const MassMaterial model = truth("1");
+  record.base = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(duration * record.rate));
+  const InitialMotion start{.displacement = 1e-4, .velocity = 0.0};
+  record.relative =
+      simulate_starts(model, nodes_of(record.base, record.rate, substeps_for(model, record.rate)), std::span(&start, 1))
+          .col(0);
+  record.relative += 0.01 * normal_numbers(record.n(), 4);
+  return record;
+}
+
+TEST(IdentificationVerdict, ARingDownTellsTheSample) {
+  const VibrationRecord record = ring_down(0.3);
+  const IdentificationSettings settings{.mass = 1.12, .reference_velocity = 0.3, .kernel_order = {}, .crop = 0.01};
+  const Identification found = identify(std::span(&record, 1), model_structure("1"), settings);
+  EXPECT_NEAR(found.fit.model.stiffness[0] / truth("1").stiffness[0], 1.0, 1e-3);
+  EXPECT_NEAR(found.fit.model.damping / truth("1").damping, 1.0, 1e-2);
+  EXPECT_LT(found.fit.record_misfit[0], 0.01);
+  const RecordEvidence evidence = record_evidence(found.fit.model, record, settings.crop);
+  EXPECT_THAT(doubts_of(std::span(&evidence, 1)), IsEmpty());
+  EXPECT_THAT(traces_in(std::span(&evidence, 1)), IsEmpty());
+}
+
+// The shaker stops after 0.15 s, the mass goes on.
+TEST(IdentificationVerdict, ARingDownAtTheEndIsNoDeadChannel) {
+  VibrationRecord driven = independent::record_of(sample_of(truth("1")), {.duration = 0.15, .random = true});
+  VibrationRecord whole = driven;
+  const auto n = driven.n(), all = 2 * n;
+  whole.base = Eigen::VectorXd::Zero(all);
+  whole.base.head(n) = driven.base;
+  const MassMaterial model = truth("1");
+  whole.relative =
+      simulate_batch(std::span(&model, 1), nodes_of(whole.base, whole.rate, substeps_for(model, whole.rate))).col(0);
+  independent::add_white_noise(whole, 60.0, 2);
+  EXPECT_FALSE(dead_part(whole));
+}
+
+// The mass still moves as before.
+TEST(IdentificationVerdict, ADeadBaseIsNoRingDown) {
+  VibrationRecord record = independent::record_of(sample_of(truth("1")), random_motion);
+  record.base.tail(record.n() / 2).setZero();
+  EXPECT_TRUE(dead_part(record));
+}
+
 class FaultyRecord : public testing::TestWithParam<bool> {
  protected:
   VibrationRecord record() const { return noisy_record(GetParam() ? "1" : "2", GetParam() ? random_motion : sweep); }

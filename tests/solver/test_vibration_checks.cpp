@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -99,6 +100,11 @@ const Spoilt spoilt[] = {
      }},
     {"sampled_too_slowly", true, [](RawRecord& r) { r.band_high = 450.0; }},
     {"dead_channel", true, [](RawRecord& r) { r.base.setConstant(0.3); }},
+    {"base_at_rest", false,
+     [](RawRecord& r) {
+       r.base.setConstant(0.3);
+       for (Index i = 0; i < r.relative.size(); ++i) r.relative[i] *= std::exp(-3.0 * static_cast<double>(i) / 8000.0);
+     }},
     {"clipped", false, [](RawRecord& r) { r.relative = r.relative.cwiseMin(40.0).eval(); }},
     {"quantised", false, [](RawRecord& r) { r.relative = (r.relative.array() / 2.0).round().matrix() * 2.0; }},
     {"dropouts", false,
@@ -122,6 +128,21 @@ const Spoilt spoilt[] = {
        r.band_high = 200.0;
      }},
 };
+// Noise on a base at rest is no excitation; a small motion within the band is, whatever its unit.
+TEST(VibrationChecks, RingDownsAreToldByTheirBase) {
+  RawRecord r = good_record();
+  for (Index i = 0; i < r.relative.size(); ++i) r.relative[i] *= std::exp(-3.0 * static_cast<double>(i) / 8000.0);
+  const auto is_at_rest = [&] {
+    return std::ranges::any_of(check_record(r), [](const RecordFault& f) { return f.name == "base_at_rest"; });
+  };
+  EXPECT_FALSE(is_at_rest());
+  r.base *= 1e-3;
+  EXPECT_FALSE(is_at_rest());
+  r.base = 1e-3 * normal_numbers(r.base.size(), 5);
+  EXPECT_TRUE(is_at_rest());
+  EXPECT_EQ(check_record(r).size(), 1u);
+}
+
 INSTANTIATE_TEST_SUITE_P(VibrationChecks, BadRecord, testing::ValuesIn(spoilt),
                          [](const auto& row) { return std::string(row.param.fault); });
 

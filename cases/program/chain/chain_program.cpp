@@ -43,6 +43,7 @@ ReadyStep get_ready(const ChainStep& step, const Session& session) {
     CaseFile file = open_case(step.where);
     if (file.config.root().string("kind") == "chain") throw InputError("a step of a chain cannot be a chain itself");
     ReadyStep ready{step, file, session.read_case(file), file.directory / "results", ""};
+    for (const std::string& remark : ready.file.config.remarks()) session.log.say(remark);
     if (!ready.job()) throw InputError(fmt::format("this kind of case has no \"{}\"", step.job->name));
     ready.key = case_hash(file, data_files_named(file));
     return ready;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string_view>
 
@@ -26,8 +27,8 @@ ConfigTable experiment_table(const ConfigTable& root) {
 }
 
 ConfigTable specimen_table(const ConfigTable& table) {
-  return with_keys_and_preparation(table,
-                                   {"name", "csv", "separator", "decimal", "displacement", "force", "deviation"});
+  return with_keys_and_preparation(
+      table, {"name", "csv", "separator", "decimal", "thousands", "displacement", "force", "deviation"});
 }
 
 /// Tables that may have a key: the specimen's, and where it does not have it that of all.
@@ -80,19 +81,32 @@ std::string read_name_of_curve(const ConfigTable& table) {
   return name.line();
 }
 
+/// { column, unit, factor }: times the factor, and without one times `otherwise`.
+std::vector<double> read_values(const ConfigTable& table, const CsvTable& file, const Dimension& due,
+                                double otherwise = 1.0) {
+  table.with_keys({"column", "unit", "factor"});
+  const double factor = table.number("factor", range::any, otherwise);
+  if (factor == 0.0) throw table.at("factor").error("it must not be zero");
+  std::vector<double> values = read_column(table, file, "column", "unit", due);
+  for (double& value : values) value *= factor;
+  return values;
+}
+
 SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path& directory, const char* quantity,
                            const Dimension& due) {
   const CsvTable file = read_csv_of(table, directory);
-  const auto column = [&](const char* key, const Dimension& dimension) {
-    return read_column(table.table(key).with_keys({"column", "unit"}), file, "column", "unit", dimension);
-  };
-  SampledCurve curve{
-      .name = read_name_of_curve(table), .x = column("displacement", dimension::length), .y = column(quantity, due)};
+  SampledCurve curve{.name = read_name_of_curve(table),
+                     .x = read_values(table.table("displacement"), file, dimension::length),
+                     .y = read_values(table.table(quantity), file, due)};
+  std::vector<std::vector<double>*> used{&curve.x, &curve.y};
   if (table.has("deviation")) {
-    curve.deviation = column("deviation", due);
-    if (std::ranges::any_of(curve.deviation, [](double d) { return d < 0.0; }))
-      throw table.at("deviation").error("a standard deviation must not be negative");
+    const double of_quantity = table.table(quantity).number("factor", range::any, 1.0);
+    curve.deviation = read_values(table.table("deviation"), file, due, std::abs(of_quantity));
+    used.push_back(&curve.deviation);
   }
+  leave_out_gaps(table, used);
+  if (std::ranges::any_of(curve.deviation, [](double d) { return d < 0.0; }))
+    throw table.at("deviation").error("a standard deviation must not be negative");
   return curve;
 }
 
@@ -108,7 +122,8 @@ MeasuredCurve read_specimen(const ConfigTable& own, const ConfigTable& of_all, c
 }
 
 MeasuredAngle read_angle(const ConfigTable& table, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "separator", "decimal", "displacement", "angle", "deviation", "surface", "pole"});
+  table.with_keys(
+      {"name", "csv", "separator", "decimal", "thousands", "displacement", "angle", "deviation", "surface", "pole"});
   const std::string poles[] = {positive_pole, "negative"};
   const SampledCurve curve = read_curve_of(table, directory, "angle", dimension::angle);
   if (!std::ranges::is_sorted(curve.x))
@@ -119,7 +134,7 @@ MeasuredAngle read_angle(const ConfigTable& table, const std::filesystem::path& 
 }
 
 MeasuredEnergy read_energy(const ConfigTable& table, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "separator", "decimal", "displacement", "energy", "deviation", "of"});
+  table.with_keys({"name", "csv", "separator", "decimal", "thousands", "displacement", "energy", "deviation", "of"});
   return {.curve = read_curve_of(table, directory, "energy", dimension::energy),
           .kind = &choose(table.at("of"), energy_kinds(), "energy of a run")};
 }

@@ -200,6 +200,7 @@ ImportSettings read_import(const ConfigTable& table, const std::filesystem::path
   settings.region_names = read_numbered_names(table, "region_names");
   settings.face_sets = read_numbered_names(table, "face_sets");
   settings.merge_tolerance = table.quantity("merge_tolerance", dimension::length, range::not_negative, 0.0);
+  settings.thickness = table.quantity("thickness", dimension::length, range::positive, 0.0);
   for (const ConfigTable& patch : table.tables("patches"))
     settings.patches.push_back(read_patch(patch, settings.scale));
   return settings;
@@ -215,7 +216,7 @@ MeshRecipe imported(const ImportSettings& settings, Mesh (*import)(const ImportS
 
 MeshRecipe read_vtk(const ConfigTable& table, const MeshSurroundings& around) {
   table.with_keys({"cells", "file", "length_unit", "region_array", "region_names", "face_array", "face_sets",
-                   "merge_tolerance", "patches"});
+                   "merge_tolerance", "thickness", "patches"});
   ImportSettings settings = read_import(table, around.case_directory);
   settings.region_array = table.string("region_array", "");
   settings.face_array = table.string("face_array", "");
@@ -223,7 +224,8 @@ MeshRecipe read_vtk(const ConfigTable& table, const MeshSurroundings& around) {
 }
 
 MeshRecipe read_gmsh(const ConfigTable& table, const MeshSurroundings& around) {
-  table.with_keys({"cells", "file", "length_unit", "region_names", "face_sets", "merge_tolerance", "patches"});
+  table.with_keys(
+      {"cells", "file", "length_unit", "region_names", "face_sets", "merge_tolerance", "thickness", "patches"});
   return imported(read_import(table, around.case_directory), import_gmsh);
 }
 

@@ -8,9 +8,11 @@
 #include "mesh/surfaces/surface_file.h"
 #include "mesh/surfaces/surface_remeshing.h"
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace pfdm {
@@ -44,7 +46,9 @@ double read_scale(const ConfigTable& table, const TriangleSurface& surface) {
 
 TriangleSurface read_surface(const ConfigValue& value, const std::filesystem::path& file) {
   return value.in_context([&] {
-    TriangleSurface surface = read_surface_file(file);
+    std::size_t n_merged = 0;
+    TriangleSurface surface = read_surface_file(file, &n_merged);
+    if (n_merged > 0) value.remark(fmt::format("{} of its points coincide with others and are merged", n_merged));
     check_surfaces({{file.string(), surface}});
     return surface;
   });

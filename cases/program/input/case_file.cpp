@@ -59,7 +59,7 @@ bool names_data_file(const std::string& path, const TomlValue& value) {
   const std::string key = path.substr(path.find_last_of('.') + 1);
   const bool is_of_particle =  // elsewhere a patch, or a name
       key == "surface" && (path.starts_with("mesh.particles[") || path.starts_with("mesh.shapes["));
-  return (key == "csv" || key == "file" || key == "fit" || key == "table" || is_of_particle) &&
+  return (key == "csv" || key == "file" || key == "base_file" || key == "fit" || key == "table" || is_of_particle) &&
          std::holds_alternative<std::string>(value.value);
 }
 

@@ -25,6 +25,7 @@ struct ConfigSource {
     const std::set<std::string>& known() const { return allowed.empty() ? asked_for : allowed; }
   };
   std::map<const TomlTable*, Opened> opened;  // tables that were looked into
+  std::vector<std::string> remarks;
 };
 
 namespace {
@@ -39,8 +40,17 @@ std::string subtable(const std::string& path, std::string_view key) {
   return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
+std::string said_at(const ConfigSource& source, int line, const std::string& message) {
+  return fmt::format("{}:{}: {}", source.file, line, message);
+}
+
 InputError error_at(const ConfigSource& source, int line, const std::string& message) {
-  return InputError(fmt::format("{}:{}: {}", source.file, line, message));
+  return InputError(said_at(source, line, message));
+}
+
+void remark_at(ConfigSource& source, int line, const std::string& message) {
+  std::string remark = said_at(source, line, message);
+  if (std::ranges::count(source.remarks, remark) == 0) source.remarks.push_back(std::move(remark));
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -123,6 +133,10 @@ const std::string& ConfigValue::file() const { return source_->file; }
 
 InputError ConfigValue::error(std::string_view message) const {
   return error_at(*source_, value_->line, fmt::format("{}: {}", place_, message));
+}
+
+void ConfigValue::remark(std::string_view message) const {
+  remark_at(*source_, value_->line, fmt::format("{}: {}", place_, message));
 }
 
 std::string ConfigValue::string() const {
@@ -212,6 +226,10 @@ ConfigTable::ConfigTable(std::shared_ptr<ConfigSource> source, const TomlValue* 
 
 InputError ConfigTable::error(std::string_view message) const {
   return error_at(*source_, value_->line, fmt::format("{}{}", table_place(path_), message));
+}
+
+void ConfigTable::remark(std::string_view message) const {
+  remark_at(*source_, value_->line, fmt::format("{}{}", table_place(path_), message));
 }
 
 ConfigTable ConfigTable::with_keys(std::span<const std::string_view> keys) const {
@@ -316,6 +334,8 @@ Config::Config(const std::string& text, std::string shown_as) : source_(std::mak
 }
 
 ConfigTable Config::root() const { return ConfigTable(source_, &source_->root, ""); }
+
+const std::vector<std::string>& Config::remarks() const { return source_->remarks; }
 
 void Config::reject_unknown_keys() const { reject_unknown_in(*source_, source_->root); }
 

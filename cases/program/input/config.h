@@ -66,6 +66,9 @@ class ConfigValue {
 
   const std::string& file() const;  ///< as shown in messages
   InputError error(std::string_view message) const;
+  /// Notes for the log what was made of this value: what was left out, merged or assumed. Once, however often it is
+  /// read.
+  void remark(std::string_view message) const;
   /// Calls `make`; an InputError that it throws gets this value's place.
   template <class Make>
   auto in_context(const Make& make) const {
@@ -121,6 +124,7 @@ class ConfigTable {
   std::vector<ConfigTable> tables(std::string_view key) const;
 
   InputError error(std::string_view message) const;
+  void remark(std::string_view message) const;  ///< as of a value
   template <class Make>
   auto in_context(const Make& make) const {
     try {
@@ -147,6 +151,8 @@ class Config {
   Config(const std::string& text, std::string shown_as);
   ConfigTable root() const;
   void reject_unknown_keys() const;
+  /// What those who read it have noted so far, with its places.
+  const std::vector<std::string>& remarks() const;
 
  private:
   std::shared_ptr<ConfigSource> source_;

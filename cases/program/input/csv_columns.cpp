@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm {
@@ -41,7 +42,8 @@ std::size_t number_of_column(const ConfigValue& name, const CsvTable& file) {
   if (name.is_string()) return name.in_context([&] { return file.find(name.string()); });
   const auto number = static_cast<std::size_t>(name.integer(column_range));
   if (number > file.names.size())
-    throw name.error(fmt::format("the file has {} columns ({})", file.names.size(), fmt::join(file.names, ", ")));
+    throw name.error(fmt::format("the file has {} columns{}", file.names.size(),
+                                 file.has_names() ? fmt::format(" ({})", fmt::join(file.names, ", ")) : ""));
   return number - 1;
 }
 
@@ -55,6 +57,7 @@ double read_unit(const ConfigTable& table, std::string_view key, const Dimension
 std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, std::string_view column_key,
                                 std::string_view unit_key, const Dimension& due) {
   const std::size_t column = number_of_column(table.at(column_key), file);
+  table.at(column_key).in_context([&] { file.require_numbers(column); });
   const double factor = unit_of_column(table, unit_key, file, column, due);
   std::vector<double> values = file.columns[column];
   for (double& value : values) value *= factor;
@@ -64,25 +67,46 @@ std::vector<double> read_column(const ConfigTable& table, const CsvTable& file, 
 CsvTable read_csv_of(const ConfigTable& table, const std::filesystem::path& case_directory) {
   const ConfigValue name = table.at("csv");
   const std::filesystem::path file = read_data_file(name, case_directory);
-  const CsvMarks marks = read_csv_marks(table);
-  const CsvOptions options{
-      .is_foreign = true, .separator = marks.separator, .decimal = marks.decimal, .is_unit = is_unit};
+  const CsvOptions options{.is_foreign = true, .marks = read_csv_marks(table), .is_unit = is_unit};
   return name.in_context([&] { return read_csv(file, options); });
 }
 
-std::vector<double> file_times(const ConfigTable& table, const std::filesystem::path& case_directory) {
-  const CsvTable file = read_csv_of(table, case_directory);
+void leave_out_gaps(const ConfigTable& table, std::span<std::vector<double>* const> columns) {
+  const std::size_t n = columns.front()->size();
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < n; ++i)
+    if (std::ranges::none_of(columns, [i](const auto* column) { return std::isnan((*column)[i]); })) kept.push_back(i);
+  if (kept.size() == n) return;
+  const ConfigValue csv = table.at("csv");
+  if (kept.empty()) throw csv.error(fmt::format("each of its {} rows has an empty entry in a column that is used", n));
+  for (std::vector<double>* column : columns) {
+    for (std::size_t i = 0; i < kept.size(); ++i) (*column)[i] = (*column)[kept[i]];
+    column->resize(kept.size());
+  }
+  csv.remark(fmt::format("{} of {} rows left out: an entry of a column that is used is empty", n - kept.size(), n));
+}
+
+std::vector<double> read_times(const ConfigTable& table, const CsvTable& file) {
   const std::string name = table.string("time", "time_s");
-  const std::size_t column = table.in_context([&] { return file.find(name); });
+  const std::size_t column = table.in_context([&] {
+    const std::size_t found = file.find(name);
+    file.require_numbers(found);
+    return found;
+  });
   const double factor = unit_of_column(table, "time_unit", file, column, dimension::time);
   std::vector<double> times = file.columns[column];
+  for (double& t : times) t *= factor;
+  return times;
+}
+
+void begin_at_zero(const ConfigTable& table, std::vector<double>& times) {
   const double begin = times.front();
-  for (double& t : times) t = factor * (t - begin);
+  for (double& t : times) t -= begin;
   for (std::size_t i = 1; i < times.size(); ++i)
     if (!(times[i] > times[i - 1]))
-      throw table.error(fmt::format("the times in column \"{}\" must increase; they do not at row {}", name, i + 1));
+      throw table.error(fmt::format("the times in column \"{}\" must increase; they do not at row {}",
+                                    table.string("time", "time_s"), i + 1));
   if (times.size() < 2) throw table.error("a history needs two rows or more");
-  return times;
 }
 
 }  // namespace pfdm

@@ -23,9 +23,12 @@ std::optional<char> read_mark(const ConfigTable& table, const char* key, std::in
 
 CsvMarks read_csv_marks(const ConfigTable& table) {
   const CsvMarks marks{.separator = read_mark(table, "separator", {",", ";", "tab", "blank"}, ",;\t "),
-                       .decimal = read_mark(table, "decimal", {".", ","}, ".,")};
+                       .decimal = read_mark(table, "decimal", {".", ","}, ".,"),
+                       .thousands = read_mark(table, "thousands", {".", ",", "'", "blank"}, ".,' ")};
   if (marks.separator && marks.separator == marks.decimal)
     throw table.at("separator").error("a comma cannot separate entries and be the decimal mark");
+  if (marks.thousands && marks.thousands == marks.decimal)
+    throw table.at("thousands").error("the mark between thousands cannot be the decimal mark too");
   return marks;
 }
 

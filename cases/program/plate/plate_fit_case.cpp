@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 
 namespace pfdm {
 namespace {
@@ -43,7 +44,8 @@ void require_positive(const ConfigValue& where, const std::vector<double>& value
 }
 
 MeasuredResponse read_response(const ConfigTable& table, const PlateCase& c, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "separator", "decimal", "point", "frequency", "magnitude", "phase", "deviation"});
+  table.with_keys(
+      {"name", "csv", "separator", "decimal", "thousands", "point", "frequency", "magnitude", "phase", "deviation"});
   MeasuredResponse response{.name = read_plain_name(table.at("name"), "a curve"),
                             .frequency = {},
                             .magnitude = {},
@@ -56,14 +58,19 @@ MeasuredResponse read_response(const ConfigTable& table, const PlateCase& c, con
   const CsvTable file = read_csv_of(table, directory);
   response.frequency = read_values(table, file, "frequency", dimension::frequency);
   response.magnitude = read_values(table, file, "magnitude", dimension::number);
+  std::vector<std::vector<double>*> used{&response.frequency, &response.magnitude};
+  if (table.has("phase")) {
+    response.phase = read_values(table, file, "phase", dimension::angle);
+    used.push_back(&response.phase);
+  }
+  leave_out_gaps(table, used);
   require_positive(table.at("frequency"), response.frequency);
   require_positive(table.at("magnitude"), response.magnitude);
-  if (table.has("phase")) response.phase = read_values(table, file, "phase", dimension::angle);
   return response;
 }
 
 MeasuredRise read_rise(const ConfigTable& table, const PlateCase& c, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "separator", "decimal", "of", "time", "rise", "deviation"});
+  table.with_keys({"name", "csv", "separator", "decimal", "thousands", "of", "time", "rise", "deviation"});
   if (!c.heating) throw table.error("temperatures are measured, and the case has no [heating]");
   const std::string kinds[] = {"mean", "largest"};
   MeasuredRise rise{.name = read_plain_name(table.at("name"), "a curve"),
@@ -74,6 +81,7 @@ MeasuredRise read_rise(const ConfigTable& table, const PlateCase& c, const std::
   const CsvTable file = read_csv_of(table, directory);
   rise.time = read_values(table, file, "time", dimension::time);
   rise.rise = read_values(table, file, "rise", dimension::temperature);
+  leave_out_gaps(table, std::array{&rise.time, &rise.rise});
   if (!std::ranges::is_sorted(rise.time)) throw table.at("time").error("the times do not rise");
   if (rise.time.front() < 0.0 || rise.time.back() > c.heating->duration * (1.0 + 1e-9))
     throw table.at("time").error(fmt::format("the times are from {:g} to {:g} s; [heating] lasts {:g} s",

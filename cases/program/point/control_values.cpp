@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -45,6 +46,14 @@ Polyline read_table(const ConfigTable& table, bool is_stress) {
   return line;
 }
 
+Polyline read_polyline(const ConfigTable& table, bool is_stress, const std::filesystem::path& case_directory) {
+  const CsvTable file = read_csv_of(table, case_directory);
+  Polyline line{.x = read_times(table, file), .y = read_column(table, file, "column", "unit", dimension_of(is_stress))};
+  leave_out_gaps(table, std::array{&line.x, &line.y});
+  begin_at_zero(table, line.x);
+  return line;
+}
+
 void read_expression(const ConfigTable& table, bool is_stress, const std::vector<double>& times,
                      LoadSegment::Condition& condition) {
   const ConfigValue text = table.at("expr");
@@ -69,14 +78,13 @@ void read_control_value(const ConfigValue& value, bool is_stress, const std::vec
     condition.values = {read_component_value(value, is_stress)};
     return;
   }
-  const ConfigTable table =
-      value.table().with_keys({"expr", "unit", "table", "csv", "column", "time", "time_unit", "separator", "decimal"});
+  const ConfigTable table = value.table().with_keys(
+      {"expr", "unit", "table", "csv", "column", "time", "time_unit", "separator", "decimal", "thousands"});
   condition.pace = Pace::follow;
   if (table.has("expr")) return read_expression(table, is_stress, times, condition);
   Polyline line;
   if (table.has("csv")) {
-    line = {file_times(table, case_directory),
-            read_column(table, read_csv_of(table, case_directory), "column", "unit", dimension_of(is_stress))};
+    line = read_polyline(table, is_stress, case_directory);
     files.push_back(case_directory / table.string("csv"));
   } else {
     line = read_table(table, is_stress);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 namespace pfdm {
@@ -93,9 +94,30 @@ void require_strains_of(const MaterialExperiment& experiment, const ConfigTable&
                                        component_names[static_cast<std::size_t>(channel.component)]));
 }
 
-MaterialExperiment read_experiment(const ConfigTable& table, const std::filesystem::path& directory) {
-  table.with_keys(
-      {"name", "csv", "separator", "decimal", "time", "time_unit", "controlled", "strain", "stress", "predicted"});
+/// Of a law without rates the order of the rows is enough.
+std::vector<double> times_or_order(const ConfigTable& table, const CsvTable& file, const EndochronicLaw& law) {
+  if (table.has("time") || std::ranges::count(file.names, "time_s") > 0) return read_times(table, file);
+  if (law.hardening.depends_on_rate())
+    throw table.error("the law depends on the rate, so the times are needed: \"time\" names their column");
+  table.at("csv").remark("it has no times: its rows are taken in their order, which is enough of a law without rates");
+  std::vector<double> order(file.n_rows());
+  std::iota(order.begin(), order.end(), 0.0);
+  return order;
+}
+
+/// Rows with an empty entry in a column that the experiment uses belong to none of them.
+void leave_out_gaps_of(MaterialExperiment& experiment, const ConfigTable& table) {
+  std::vector<std::vector<double>*> used{&experiment.loading.times};
+  for (LoadSegment::Condition& condition : experiment.loading.conditions) used.push_back(&condition.values);
+  for (MaterialExperiment::Channel& channel : experiment.channels) used.push_back(&channel.values);
+  leave_out_gaps(table, used);
+  begin_at_zero(table, experiment.loading.times);
+}
+
+MaterialExperiment read_experiment(const ConfigTable& table, const EndochronicLaw& law,
+                                   const std::filesystem::path& directory) {
+  table.with_keys({"name", "csv", "separator", "decimal", "thousands", "time", "time_unit", "controlled", "strain",
+                   "stress", "predicted"});
   const CsvTable file = read_csv_of(table, directory);
   MaterialExperiment experiment{.name = table.string("name"), .loading = {}, .channels = {}};
   const std::string kinds[] = {"strain", "stress"};
@@ -103,7 +125,7 @@ MaterialExperiment read_experiment(const ConfigTable& table, const std::filesyst
       table.has("controlled") && table.at("controlled").one_of(kinds, "quantity that a test controls") == "stress";
   const bool stress = experiment.follows_stress;
   experiment.loading =
-      read_followed(table.table(stress ? "stress" : "strain"), file, file_times(table, directory), stress);
+      read_followed(table.table(stress ? "stress" : "strain"), file, times_or_order(table, file, law), stress);
   const ConfigTable measured = table.table(stress ? "strain" : "stress");
   std::vector<int> seen;
   for (const auto& [key, value] : measured.entries()) {
@@ -113,6 +135,7 @@ MaterialExperiment read_experiment(const ConfigTable& table, const std::filesyst
   if (experiment.channels.empty())
     throw measured.error(fmt::format("no measured {} is named", stress ? "strain" : "stress"));
   if (!stress) require_strains_of(experiment, measured);
+  leave_out_gaps_of(experiment, table);
   return experiment;
 }
 
@@ -210,7 +233,7 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
   read_terms(fit, settings);
   read_bounds(fit, law, settings);
   for (const ConfigTable& table : fit.tables("experiments")) {
-    MaterialExperiment experiment = read_experiment(table, case_directory);
+    MaterialExperiment experiment = read_experiment(table, law, case_directory);
     require_own_file(table, result.experiments);
     require_own_file(table, result.predicted);
     (table.boolean("predicted", false) ? result.predicted : result.experiments).push_back(std::move(experiment));

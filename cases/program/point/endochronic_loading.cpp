@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pfdm {
@@ -35,6 +36,15 @@ struct Draft {
 std::optional<ConfigTable> control_table(const Draft& draft) {
   if (!draft.table.has("control")) return std::nullopt;
   return draft.table.table("control");
+}
+
+/// Of the rows of a file that have one.
+std::vector<double> file_times(const ConfigTable& table, const std::filesystem::path& directory) {
+  const CsvTable file = read_csv_of(table, directory);
+  std::vector<double> times = read_times(table, file);
+  leave_out_gaps(table, std::array{&times});
+  begin_at_zero(table, times);
+  return times;
 }
 
 /// From duration and increments, or the times of the file that a component follows.

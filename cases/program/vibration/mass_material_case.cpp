@@ -143,23 +143,30 @@ Excitation read_random(const ConfigTable& table, const fs::path&, double, std::v
   return band_limited_random(random);
 }
 
-RecordFile read_record_file(const ConfigTable& table, const fs::path& directory, std::vector<fs::path>& data_files) {
+RecordFile read_record_file(const ConfigTable& table, const fs::path& directory, double rate,
+                            std::vector<fs::path>& data_files) {
   RecordFile record;
   record.file = read_data_file(table.at("file"), directory);
+  data_files.push_back(record.file);
+  record.usual_rate = rate;
   record.base = table.string("base", record.base);
   record.relative = table.string("relative", record.relative);
   record.time = table.string("time", record.time);
+  record.names_time = table.has("time");
   if (table.has("unit")) record.base_unit = record.relative_unit = table.string("unit");
+  if (table.has("time_unit")) record.time_unit = table.string("time_unit");
   if (table.has("rate")) record.rate = table.quantity("rate", dimension::frequency, range::positive);
   record.marks = read_csv_marks(table);
-  data_files.push_back(record.file);
   return record;
 }
 
-Excitation read_measured(const ConfigTable& table, const fs::path& directory, double, std::vector<fs::path>& files) {
-  table.with_keys({"type", "file", "base", "relative", "time", "unit", "rate", "separator", "decimal", "from", "to"});
-  const RecordFile source = read_record_file(table, directory, files);
+Excitation read_measured(const ConfigTable& table, const fs::path& directory, double rate,
+                         std::vector<fs::path>& files) {
+  table.with_keys({"type", "file", "base", "relative", "time", "time_unit", "unit", "rate", "separator", "decimal",
+                   "thousands", "from", "to"});
+  const RecordFile source = read_record_file(table, directory, rate, files);
   const SampledChannel channel = table.in_context([&] { return read_channel(source); });
+  for (const std::string& note : channel.notes) table.remark(note);
   return sampled_excitation(channel.values, channel.rate, table.quantity("from", dimension::frequency, range::positive),
                             table.quantity("to", dimension::frequency, range::positive));
 }
@@ -185,6 +192,8 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
   test.name = read_plain_name(*test.where, "files");
   if (table.has("excitation")) {
     const ConfigTable shaker = table.table("excitation");
+    if (c.rate == 0.0)
+      throw shaker.error("a simulated test needs the samples per second: [sampling] rate, as in rate = \"6 kHz\"");
     const ExcitationType& type = choose(shaker.at("type"), excitation_types(), "type of excitation");
     motion = type.name;
     test.excitation = type.read(shaker, directory, c.rate, c.data_files);
@@ -195,10 +204,14 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
                                      test.band_high, c.rate, 0.38 * c.rate));
   }
   if (table.has("record")) {
-    const ConfigTable record =
-        table.table("record").with_keys({"file", "base", "relative", "acceleration", "time", "unit", "base_unit",
-                                         "relative_unit", "rate", "separator", "decimal", "from", "to"});
-    test.record = read_record_file(record, directory, c.data_files);
+    const ConfigTable record = table.table("record").with_keys(
+        {"file", "base_file", "base", "relative", "acceleration", "time", "time_unit", "unit", "base_unit",
+         "relative_unit", "rate", "separator", "decimal", "thousands", "from", "to"});
+    test.record = read_record_file(record, directory, c.rate, c.data_files);
+    if (record.has("base_file")) {
+      test.record->base_file = read_data_file(record.at("base_file"), directory);
+      c.data_files.push_back(*test.record->base_file);
+    }
     if (record.has("base_unit")) test.record->base_unit = record.string("base_unit");
     if (record.has("relative_unit")) test.record->relative_unit = record.string("relative_unit");
     const std::string accelerations[] = {"relative", "absolute"};
@@ -293,7 +306,9 @@ void read_analysis(const ConfigTable& root, MassMaterialCase& c) {
   if (table.has("bandwidth")) a.bandwidth = table.quantity("bandwidth", dimension::frequency, range::positive);
 }
 
+/// Only what is simulated needs it.
 void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
+  if (!root.has("sampling")) return;
   const ConfigTable table = root.table("sampling").with_keys({"rate", "signal_to_noise_dB", "noise_seed"});
   c.rate = table.quantity("rate", dimension::frequency, range::positive);
   if (table.has("signal_to_noise_dB")) c.signal_to_noise = table.number("signal_to_noise_dB", decibel);

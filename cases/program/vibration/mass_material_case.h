@@ -22,12 +22,16 @@ inline constexpr std::string_view result_endings[] = {"_harmonics", "_spectra"};
 /// Where the record of a test is, and what its columns are called.
 struct RecordFile {
   std::filesystem::path file;
+  std::optional<std::filesystem::path> base_file;  ///< where the base has a file of its own
   std::string base = "base_acceleration";
   std::string relative = "relative_acceleration";
   std::string time = "time";
+  bool names_time = false;                              ///< the case does, so that it must be there
   bool absolute = false;                                ///< `relative` holds the mass's own acceleration
   std::optional<std::string> base_unit, relative_unit;  ///< stand above those that the file states
+  std::optional<std::string> time_unit;                 ///< likewise
   std::optional<double> rate;                           ///< [Hz]
+  double usual_rate = 0.0;                              ///< of the case's other tests [Hz]; 0: not known
   CsvMarks marks{};                                     ///< of a CSV file
 };
 
@@ -67,7 +71,7 @@ struct MassMaterialCase {
   std::string structure;
   MassMaterial model;
   bool has_parameters = false;            ///< stiffness and damping are given
-  double rate = 0.0;                      ///< samples per second [Hz]
+  double rate = 0.0;                      ///< samples per second of what is simulated [Hz]; 0: nothing is
   std::optional<double> signal_to_noise;  ///< [dB]
   std::uint64_t noise_seed = 1;
   std::optional<SampleSize> sample;

@@ -6,11 +6,14 @@
 #include "solver/vibration/vibration_record.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace pfdm {
 
-/// The test's record, offsets of the channels taken out. Throws InputError that names the file and the fault; what can
-/// be lived with is said to the log.
+/// The test's record, offsets of the channels taken out. Where base and mass have files of their own: what both have,
+/// by their times. Throws InputError that names the file and the fault; what can be lived with, left out or assumed is
+/// said to the log.
 VibrationRecord read_record(const VibrationTest& test, const RecordFile& source, Log& log);
 
 /// One acceleration of a file [m/s^2] and the rate [Hz] by its times or as stated; for base accelerations that were
@@ -18,6 +21,7 @@ VibrationRecord read_record(const VibrationTest& test, const RecordFile& source,
 struct SampledChannel {
   Eigen::VectorXd values;
   double rate = 0.0;
+  std::vector<std::string> notes{};  ///< for the log: what was assumed
 };
 SampledChannel read_channel(const RecordFile& source);
 
