@@ -1,6 +1,7 @@
 #include "postproc/curves/curve_misfit.h"
 
 #include "physics/error.h"
+#include "solver/calibration/calibration_verdict.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,11 @@ const SampledCurve& model_of(const ModelCurves& models, const MeasuredPoints::Po
   return models.size() == 1 ? models.front() : models.at(point.specimen);
 }
 
+InputError zero_deviation(const SampledCurve& curve, std::size_t row) {
+  return InputError(fmt::format("the standard deviation of \"{}\" at {:.4g} (SI) is zero: its weight would be infinite",
+                                curve.name, curve.x[row]));
+}
+
 /// The points of all curves whose specimen and row are `wanted`; `from` and `to` for the message.
 template <class Wanted>
 MeasuredPoints points_of(const std::vector<const SampledCurve*>& curves, const Wanted& wanted, double from, double to) {
@@ -27,21 +33,31 @@ MeasuredPoints points_of(const std::vector<const SampledCurve*>& curves, const W
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
       if (!wanted(s, i)) continue;
       const double deviation = curve.deviation.empty() ? 0.0 : curve.deviation[i];
-      if (!curve.deviation.empty() && !(deviation > 0.0))
-        throw InputError(
-            fmt::format("the standard deviation of \"{}\" at {:.4g} (SI) is zero: its weight would be infinite",
-                        curve.name, curve.x[i]));
+      if (!curve.deviation.empty() && !(deviation > 0.0)) throw zero_deviation(curve, i);
       measured.points.push_back({s, curve.x[i], curve.y[i], deviation});
       measured.rms += curve.y[i] * curve.y[i];
     }
   }
-  if (measured.points.empty())
-    throw InputError(fmt::format("no measured point lies between {:.4g} and {:.4g} (SI)", from, to));
+  if (measured.points.empty()) {
+    const bool negative = std::ranges::all_of(curves, [](const SampledCurve* curve) {
+      return std::ranges::all_of(curve->x, [](double x) { return x <= 0.0; });
+    });
+    throw InputError(fmt::format("no measured point lies between {:.4g} and {:.4g} (SI){}", from, to,
+                                 negative && to > 0.0 ? ": all measured displacements are negative, the computed ones "
+                                                        "are not; turn their sign, and that of the forces"
+                                                      : ""));
+  }
   measured.rms = std::sqrt(measured.rms / static_cast<double>(measured.points.size()));
   return measured;
 }
 
 }  // namespace
+
+void require_deviations(const std::vector<MeasuredCurve>& specimens) {
+  for (const MeasuredCurve& specimen : specimens)
+    for (std::size_t i = 0; i < specimen.curve.deviation.size(); ++i)
+      if (!(specimen.curve.deviation[i] > 0.0)) throw zero_deviation(specimen.curve, i);
+}
 
 MeasuredPoints points_between(const std::vector<SampledCurve>& specimens, double from, double to) {
   std::vector<const SampledCurve*> curves;
@@ -72,8 +88,7 @@ std::optional<std::vector<double>> residuals_of(const ModelCurves& models, const
     const SampledCurve& model = model_of(models, point);
     const double slack = rounding * (model.x.back() - model.x.front());
     if (point.x < model.x.front() - slack || point.x > model.x.back() + slack) return std::nullopt;
-    const double scale = measured.noise_is_known ? point.deviation : measured.rms;
-    residuals.push_back((model.at(point.x) - point.y) / scale);
+    residuals.push_back((model.at(point.x) - point.y) / measured.scale(point));
   }
   return residuals;
 }
@@ -86,18 +101,63 @@ double rms_residual(const ModelCurves& models, const MeasuredPoints& measured) {
   return std::sqrt(sum / static_cast<double>(residuals->size()));
 }
 
+double relative_misfit(const std::vector<double>& residuals, const MeasuredPoints& measured) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    sum += std::pow(residuals[i] * measured.scale(measured.points[i]), 2);
+  return std::sqrt(sum / static_cast<double>(residuals.size())) / measured.rms;
+}
+
+std::vector<double> weights_by_scatter(const std::vector<double>& residuals, const MeasuredPoints& measured) {
+  constexpr double alike = 1.2, most = 10.0;
+  std::vector<double> scatter, n;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    const auto& point = measured.points[i];
+    scatter.resize(std::max(scatter.size(), point.specimen + 1), 0.0);
+    n.resize(scatter.size(), 0.0);
+    scatter[point.specimen] += std::pow(residuals[i] * measured.scale(point), 2);
+    n[point.specimen] += 1.0;
+  }
+  double largest = 0.0;
+  for (std::size_t s = 0; s < scatter.size(); ++s) {
+    scatter[s] = std::sqrt(scatter[s] / std::max(n[s], 1.0));
+    largest = std::max(largest, scatter[s]);
+  }
+  std::vector<double> weights;
+  double squares = 0.0;
+  for (std::size_t s = 0; s < scatter.size(); ++s) {
+    weights.push_back(1.0 / std::max(scatter[s], largest / most));
+    squares += n[s] * weights[s] * weights[s];
+  }
+  if (scatter.size() < 2 || !(largest > 0.0) || !(largest > alike * std::ranges::min(scatter))) return {};
+  for (double& weight : weights) weight /= std::sqrt(squares / static_cast<double>(residuals.size()));
+  return weights;
+}
+
 std::vector<std::vector<double>> set_up_errors(const ModelCurves& models, const MeasuredPoints& measured) {
   std::vector<std::vector<double>> columns(5);
   for (const auto& point : measured.points) {
     const SampledCurve& model = model_of(models, point);
     const double low = model.x.front(), high = model.x.back(), step = 2e-3 * (high - low);
-    const double scale = measured.noise_is_known ? point.deviation : measured.rms;
+    const double scale = measured.scale(point);
     const double x = std::clamp(point.x, low, high), left = std::max(x - step, low), right = std::min(x + step, high);
     const double force = model.at(x), slope = (model.at(right) - model.at(left)) / (right - left);
     const double effects[] = {1.0, slope, slope * force, force, slope * x};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].push_back(effects[k] / scale);
   }
   return columns;
+}
+
+double explaining_force_offset(const std::vector<double>& residuals, const std::vector<std::vector<double>>& errors) {
+  return -explained_by(residuals, errors)[0];
+}
+
+bool contradicts_unloaded_start(const SampledCurve& curve, double force_offset) {
+  constexpr double unloaded = 0.02, noticeable = 0.05;  // of the largest force
+  double largest = 0.0;
+  for (const double force : curve.y) largest = std::max(largest, std::abs(force));
+  return !curve.y.empty() && std::abs(curve.y.front()) < unloaded * largest &&
+         std::abs(force_offset) > noticeable * largest;
 }
 
 double rms_difference(const SampledCurve& model, const MeasuredPoints& measured, std::size_t specimen) {

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace pfdm {
 namespace {
 
@@ -27,6 +29,8 @@ Json to_json(const std::vector<FittedParameter>& parameters) {
                     {"upper_bound", p.upper_bound},
                     {"at_bound", p.at_bound},
                     {"log_scale", p.log_scale}});
+    if (p.widened_by > 1.0) list.back()["widened_by"] = p.widened_by;
+    if (!std::isnan(p.moved_by_finer)) list.back()["moved_by_finer"] = p.moved_by_finer;
     if (p.profile)
       list.back()["profile"] = {{"lower", p.profile->lower},
                                 {"upper", p.profile->upper},
@@ -58,6 +62,7 @@ Json to_json(const FitFindings& found) {
                {"warnings", found.warnings},
                {"start_rms_residual", start_rms},
                {"path", to_json(found.path)}};
+  if (!found.finer.empty()) json["finer"] = found.finer;
   if (found.first_rms) json["first_guess_rms_residual"] = *found.first_rms;
   if (!found.screened.empty()) json["screened"] = to_json(found.screened);
   return json;
@@ -100,6 +105,7 @@ std::optional<FittedProfile> profile_in(const Json& parameter) {
 }
 
 std::vector<FittedParameter> parameters_in(const Json& list) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<FittedParameter> parameters;
   for (const Json& p : list)
     parameters.push_back({.name = p.at("name"),
@@ -110,7 +116,8 @@ std::vector<FittedParameter> parameters_in(const Json& list) {
                           .upper = number_of(p.at("upper")),
                           .first_guess = number_of(p.at("first_guess")),
                           .at_bound = p.at("at_bound"),
-                          .profile = profile_in(p)});
+                          .profile = profile_in(p),
+                          .moved_by_finer = p.contains("moved_by_finer") ? number_of(p.at("moved_by_finer")) : none});
   return parameters;
 }
 
@@ -183,37 +190,6 @@ FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitRe
                                 .log_scale = p.log_scale});
   }
   return found;
-}
-
-bool judge(FitFindings& found, JudgedData data) {
-  FitEvidence evidence{.converged = found.converged,
-                       .message = found.message,
-                       .misfit = data.misfit,
-                       .series = std::move(data.series),
-                       .noise_is_known = found.noise_is_known,
-                       .negligible = data.negligible,
-                       .starts = found.starts,
-                       .found = std::move(data.reasons)};
-  for (const FittedParameter& p : found.parameters)
-    evidence.estimates.push_back({.name = p.name,
-                                  .value = p.estimate,
-                                  .standard_error = p.standard_error,
-                                  .lower_bound = p.lower_bound,
-                                  .upper_bound = p.upper_bound,
-                                  .at_bound = p.at_bound});
-  Judgement judgement = judge(evidence);
-  found.verdict = judgement.verdict;
-  found.reasons = std::move(judgement.reasons);
-  found.converged = found.converged && found.verdict != Verdict::failed;
-  if (found.verdict != Verdict::sound) withhold_intervals(found);
-  return judgement.model_error;
-}
-
-void withhold_intervals(FitFindings& found) {
-  for (FittedParameter& p : found.parameters) {
-    p.standard_error = p.lower = p.upper = std::numeric_limits<double>::quiet_NaN();
-    p.profile.reset();
-  }
 }
 
 ExperimentMisfit experiment_misfit(std::string name, std::size_t n_data, const ExperimentMisfit::Absolute& absolute,

@@ -30,6 +30,9 @@ struct FittedParameter {
   bool at_bound = false;
   bool log_scale = false;
   std::optional<FittedProfile> profile = std::nullopt;
+  double widened_by = 1.0;  ///< standard error and interval, for correlated residuals
+  /// How far a finer discretisation moves the estimate, to first order; NaN: it was not tried.
+  double moved_by_finer = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// What a fit, or a stage of one, found.
@@ -49,20 +52,11 @@ struct FitFindings {
   std::vector<FitIteration> starts{};    ///< what each start came to
   std::vector<FitIteration> path{};      ///< of the best start
   std::vector<FitIteration> screened{};  ///< points of a sample
+  /// By which the intervals of the parameters were widened; empty unless the verdict is that of correlated residuals.
+  std::vector<CorrelatedError> correlated{};
+  std::string finer{};  ///< the finer discretisation; empty: none was tried
 };
 FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result);
-
-/// What findings do not hold of what a verdict needs.
-struct JudgedData {
-  std::vector<ResidualSeries> series{};
-  double negligible = 0.0;             ///< FitEvidence::negligible
-  double misfit = 0.0;                 ///< FitEvidence::misfit
-  std::vector<std::string> reasons{};  ///< that only this kind of fit knows
-};
-/// Gives findings their verdict. Estimates of a fit that is not sound lose their intervals and standard errors, and one
-/// that has failed has not converged. Returns whether the residuals are more than noise.
-bool judge(FitFindings& found, JudgedData data);
-void withhold_intervals(FitFindings& found);
 
 /// Data and how well the estimates meet them.
 struct ExperimentMisfit {

@@ -93,6 +93,9 @@ struct FitResult {
   std::vector<FitEstimate> estimates;
   Eigen::MatrixXd covariance;   ///< of the parameters, of their logarithms on a logarithmic scale
   Eigen::MatrixXd correlation;  ///< likewise
+  /// d residual_i / d parameter_j, without priors (n, k), and (J^T J + priors)^-1 (k, k), zero for what the data do not
+  /// determine; of the parameters' logarithms on a logarithmic scale.
+  Eigen::MatrixXd derivatives, inverse_normal;
   std::vector<std::string> warnings;
   std::vector<FitIteration> path;      ///< of the best start
   std::vector<FitIteration> screened;  ///< points, in the order of the sample; rms infinite where there is no answer

@@ -101,6 +101,22 @@ void warn_of_poor_estimates(const ScaledModel& model, FitResult& result) {
   }
 }
 
+/// From scaled parameters to parameters. `inverse`: of the visible ones.
+void set_linear_model(const ScaledModel& model, const Eigen::MatrixXd& J, const std::vector<std::size_t>& visible,
+                      const Eigen::MatrixXd& inverse, FitResult& result) {
+  const auto n = static_cast<Eigen::Index>(model.n_residuals()), k = static_cast<Eigen::Index>(model.n_parameters());
+  Eigen::VectorXd scale(k);
+  for (Eigen::Index j = 0; j < k; ++j) scale[j] = model.scale(static_cast<std::size_t>(j));
+  result.derivatives = J.topRows(n) * scale.cwiseInverse().asDiagonal();
+  result.inverse_normal = Eigen::MatrixXd::Zero(k, k);
+  for (std::size_t a = 0; a < visible.size(); ++a)
+    for (std::size_t b = 0; b < visible.size(); ++b) {
+      const auto i = static_cast<Eigen::Index>(visible[a]), j = static_cast<Eigen::Index>(visible[b]);
+      result.inverse_normal(i, j) =
+          inverse(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) * scale[i] * scale[j];
+    }
+}
+
 void set_correlation(FitResult& result) {
   const Eigen::VectorXd error = result.covariance.diagonal().cwiseSqrt();
   result.correlation = Eigen::MatrixXd::Identity(error.size(), error.size());
@@ -142,12 +158,13 @@ void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResul
   const double variance = model.problem().noise_is_known ? 1.0 : freedom > 0.0 ? total / freedom : infinite;
   const double t = model.problem().noise_is_known ? student_95(1e9) : student_95(freedom);
 
+  set_linear_model(model, *J, visible, inverse, result);
   result.covariance = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k));
-  for (std::size_t a = 0; a < visible.size(); ++a)
-    for (std::size_t b = 0; b < visible.size(); ++b)
-      result.covariance(static_cast<Eigen::Index>(visible[a]), static_cast<Eigen::Index>(visible[b])) =
-          variance * inverse(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) * model.scale(visible[a]) *
-          model.scale(visible[b]);
+  for (const std::size_t a : visible)
+    for (const std::size_t b : visible) {
+      const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
+      result.covariance(i, j) = variance * result.inverse_normal(i, j);
+    }
   for (std::size_t j = 0; j < k; ++j) {
     const auto index = static_cast<Eigen::Index>(j);
     const bool known = std::ranges::count(visible, j) > 0 && !undetermined[j];

@@ -18,6 +18,10 @@ constexpr double false_alarm = 0.002;
 constexpr double no_fit = 0.9;                 // misfit over what was measured
 constexpr double noticeable_excess = 1.1;      // of the residuals over the stated noise
 constexpr double noticeable_inflation = 1.25;  // of the intervals, by correlated residuals
+constexpr double chance_of_widening = 0.01;    // that noise alone widens the intervals
+constexpr double inflation_to_widen = 1.1;     // by correlated residuals whose intervals are known
+constexpr double least_visible = 0.3;          // of the variance of an estimate's error, in the residuals
+constexpr double least_freedom = 3.0;          // residuals beyond the parameters that tell whether the model fits
 
 double sum_of_squares(const std::vector<double>& values) {
   double sum = 0.0;
@@ -49,17 +53,44 @@ bool is_negligible(const FitEvidence& evidence, const std::vector<double>& value
   return squares <= evidence.negligible * evidence.negligible * static_cast<double>(values.size());
 }
 
-void judge_whiteness(const FitEvidence& evidence, std::vector<std::string>& reasons) {
+/// Whether the residuals show how far the correlation of their noise moves each estimate.
+bool correlation_is_resolved(const FitEvidence& evidence) {
+  return !evidence.correlated.empty() && std::ranges::all_of(evidence.correlated, [](const CorrelatedError& error) {
+    return error.visible >= least_visible;
+  });
+}
+
+/// A reason for each series whose residuals are correlated: surely, or so that their intervals need be widened.
+std::vector<std::string> correlated_series(const FitEvidence& evidence, bool surely) {
+  std::vector<std::string> reasons;
   for (const ResidualSeries& series : evidence.series) {
     if (is_negligible(evidence, series.values)) continue;
     const Whiteness w = whiteness(series.values);
-    const double allowed = false_alarm / static_cast<double>(evidence.series.size());
-    if (w.probability < allowed && w.inflation > noticeable_inflation)
+    const auto n = static_cast<double>(evidence.series.size());
+    const bool is_sure = w.probability < false_alarm / n && w.inflation > noticeable_inflation;
+    if (is_sure || (!surely && w.probability_of_sum < chance_of_widening / n && w.inflation > inflation_to_widen))
       reasons.push_back(
           fmt::format("the residuals of {} are correlated over {}: neighbours by {:.2f}, and intervals would be {:.1f} "
                       "times too narrow; an error of the model, or noise that is not independent",
                       series.name, series.along, w.neighbours, w.inflation));
   }
+  return reasons;
+}
+
+std::string widening_text(const FitEvidence& evidence) {
+  const double most = std::ranges::max(evidence.correlated, {}, &CorrelatedError::widening).widening;
+  return fmt::format("standard errors are widened for the correlation, by up to {:.1f} times", most);
+}
+
+/// Too few data to show whether the model is right.
+void judge_number(const FitEvidence& evidence, std::vector<std::string>& reasons) {
+  std::size_t n = 0;
+  for (const ResidualSeries& series : evidence.series) n += series.values.size();
+  const std::size_t k = evidence.estimates.size();
+  if (n > 0 && static_cast<double>(n) < static_cast<double>(k) + least_freedom)
+    reasons.push_back(
+        fmt::format("{} data for {} parameter{}: nothing shows whether the model fits; {} or more are needed", n, k,
+                    k == 1 ? "" : "s", k + static_cast<std::size_t>(least_freedom)));
 }
 
 void judge_estimates(const std::vector<JudgedEstimate>& estimates, std::vector<std::string>& reasons) {
@@ -96,11 +127,23 @@ void judge_starts(const FitEvidence& evidence, std::vector<std::string>& reasons
   }
 }
 
+/// That noise of n values gives as large a sum of its correlations at so many lags, by Bartlett's weights: normal.
+double chance_of_sum(const std::vector<double>& correlation, std::size_t lags, std::size_t n) {
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t k = 1; k <= lags; ++k) {
+    const double weight = 1.0 - static_cast<double>(k) / static_cast<double>(lags + 1);
+    sum += weight * correlation[k - 1];
+    squares += weight * weight * static_cast<double>(n - k) / static_cast<double>(n);
+  }
+  return 0.5 * std::erfc(sum / std::sqrt(2.0 * squares / static_cast<double>(n)));
+}
+
 }  // namespace
 
 std::string_view name_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::sound: return "sound";
+    case Verdict::correlated: return "sound with correlated residuals";
     case Verdict::questionable: return "questionable";
     case Verdict::failed: break;
   }
@@ -108,7 +151,7 @@ std::string_view name_of(Verdict verdict) {
 }
 
 Verdict verdict_named(std::string_view name) {
-  for (const Verdict verdict : {Verdict::sound, Verdict::questionable, Verdict::failed})
+  for (const Verdict verdict : {Verdict::sound, Verdict::correlated, Verdict::questionable, Verdict::failed})
     if (name_of(verdict) == name) return verdict;
   throw InputError(fmt::format("\"{}\" is no verdict on a fit", name));
 }
@@ -134,16 +177,31 @@ Whiteness whiteness(const std::vector<double>& values) {
   }
   portmanteau *= static_cast<double>(n) * static_cast<double>(n + 2);
   result.probability = exceeded(portmanteau, static_cast<double>(lags));
+  result.probability_of_sum =
+      std::min(1.0, 2.0 * std::min(chance_of_sum(correlation, 1, n), chance_of_sum(correlation, lags, n)));
   return result;
 }
 
-double rms_left_by(const std::vector<double>& values, const std::vector<std::vector<double>>& columns) {
-  Eigen::VectorXd left = Eigen::VectorXd::Map(values.data(), std::ssize(values));
-  Eigen::MatrixXd A(left.size(), std::ssize(columns));
+std::vector<double> explained_by(const std::vector<double>& values, const std::vector<std::vector<double>>& columns) {
+  std::vector<double> coefficients(columns.size(), 0.0);
+  if (columns.empty() || values.size() < columns.size()) return coefficients;
+  Eigen::MatrixXd A(std::ssize(values), std::ssize(columns));
   for (Eigen::Index j = 0; j < A.cols(); ++j)
-    A.col(j) = Eigen::VectorXd::Map(columns[static_cast<std::size_t>(j)].data(), left.size());
-  if (A.cols() > 0 && A.rows() >= A.cols()) left -= A * scaled_least_squares(A, left);
-  return left.norm() / std::sqrt(static_cast<double>(left.size()));
+    A.col(j) = Eigen::VectorXd::Map(columns[static_cast<std::size_t>(j)].data(), A.rows());
+  Eigen::VectorXd::Map(coefficients.data(), A.cols()) =
+      scaled_least_squares(A, Eigen::VectorXd::Map(values.data(), A.rows()));
+  return coefficients;
+}
+
+double rms_left_by(const std::vector<double>& values, const std::vector<std::vector<double>>& columns) {
+  const std::vector<double> coefficients = explained_by(values, columns);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    double left = values[i];
+    for (std::size_t j = 0; j < columns.size(); ++j) left -= coefficients[j] * columns[j][i];
+    sum += left * left;
+  }
+  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 Judgement judge(const FitEvidence& evidence) {
@@ -157,11 +215,20 @@ Judgement judge(const FitEvidence& evidence) {
   reasons.insert(reasons.end(), evidence.found.begin(), evidence.found.end());
   const std::size_t before = reasons.size();
   judge_size(evidence, reasons);
-  judge_whiteness(evidence, reasons);
-  const bool model_error = reasons.size() > before;
+  const std::vector<std::string> correlated = correlated_series(evidence, !correlation_is_resolved(evidence));
+  const bool model_error = reasons.size() > before || !correlated_series(evidence, true).empty();
+  const std::size_t others = reasons.size();
+  reasons.insert(reasons.end(), correlated.begin(), correlated.end());
+  const std::size_t all = reasons.size();
+  judge_number(evidence, reasons);
   judge_estimates(evidence.estimates, reasons);
   judge_starts(evidence, reasons);
-  const Verdict verdict = failed ? Verdict::failed : reasons.empty() ? Verdict::sound : Verdict::questionable;
+  const bool only_correlated = others == 0 && reasons.size() == all && correlation_is_resolved(evidence);
+  if (only_correlated && !correlated.empty()) reasons.push_back(widening_text(evidence));
+  const Verdict verdict = failed            ? Verdict::failed
+                          : reasons.empty() ? Verdict::sound
+                          : only_correlated ? Verdict::correlated
+                                            : Verdict::questionable;
   return {.verdict = verdict, .reasons = std::move(reasons), .model_error = model_error};
 }
 

@@ -4,6 +4,7 @@
 // called into question.
 
 #include "solver/calibration/calibration.h"
+#include "solver/calibration/correlated_errors.h"
 
 #include <cstddef>
 #include <limits>
@@ -15,16 +16,20 @@ namespace pfdm {
 
 enum class Verdict {
   sound,         ///< nothing speaks against the estimates and their intervals
+  correlated,    ///< sound, with intervals widened for the correlation of the residuals
   questionable,  ///< the estimates are what the data give, but their intervals do not hold: reasons say why
   failed,        ///< there is no fit
 };
+/// "sound", "sound with correlated residuals", "questionable", "failed".
 std::string_view name_of(Verdict verdict);
+/// Whether the estimates have intervals.
+inline bool is_sound(Verdict verdict) { return verdict <= Verdict::correlated; }
 /// Throws InputError.
 Verdict verdict_named(std::string_view name);
 
 struct Judgement {
   Verdict verdict = Verdict::sound;
-  std::vector<std::string> reasons{};  ///< each with its number; none of a sound fit
+  std::vector<std::string> reasons{};  ///< each with its number; none where the verdict is "sound"
   bool model_error = false;            ///< the residuals are more than noise
 };
 
@@ -53,6 +58,8 @@ struct FitEvidence {
   /// Residuals below are errors of the computation, without noise to hide them.
   double negligible = 0.0;
   std::vector<JudgedEstimate> estimates{};
+  /// Their errors where the residuals are correlated; empty: correlated residuals leave no intervals.
+  std::vector<CorrelatedError> correlated{};
   std::vector<FitIteration> starts{};  ///< what each start came to, parameters in the order of the estimates
   std::vector<std::string> found{};    ///< reasons that only this kind of fit can know
 };
@@ -66,9 +73,15 @@ struct Whiteness {
   /// largest: what varies in a shorter time than all lags is correlated too. At least 1.
   double inflation = 1.0;
   double probability = 1.0;  ///< that noise gives as much correlation (Ljung, Box, Biometrika 65 (1978) 297)
+  /// That noise gives as large a correlation of neighbours, or as large a sum over all lags by Bartlett's weights; the
+  /// less probable, twice. Sees slow noise of a small part that the sum of squares does not.
+  double probability_of_sum = 1.0;
 };
 /// Over up to 20 lags, an eighth of the values at most; fewer than 16 values say nothing.
 Whiteness whiteness(const std::vector<double>& values);
+
+/// Coefficients of these columns in the least squares of the values; zero where there are more columns than values.
+std::vector<double> explained_by(const std::vector<double>& values, const std::vector<std::vector<double>>& columns);
 
 /// Rms of what least squares by these columns leave of the values.
 double rms_left_by(const std::vector<double>& values, const std::vector<std::vector<double>>& columns);

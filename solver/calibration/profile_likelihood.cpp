@@ -28,7 +28,7 @@ class ProfileSide {
     const double n = static_cast<double>(result.residuals.size());
     const double freedom = n - static_cast<double>(problem.parameters.size());
     variance_ = problem.noise_is_known ? 1.0 : result.sum_of_squares / freedom;
-    due_ = problem.noise_is_known ? student_95(1e9) : student_95(freedom);
+    due_ = how.due.value_or(problem.noise_is_known ? student_95(1e9) : student_95(freedom));
     settings_.starts = 1;
     settings_.screened = 0;
     settings_.iterated = {};

@@ -37,6 +37,8 @@ struct ProfileInterval {
 struct ProfileSettings {
   double precision = 0.01;  ///< of the deviations at the ends; between the last points they are interpolated
   int most_points = 12;     ///< on each side
+  /// Deviations at the ends; Student's 97.5 % quantile if not given. Larger where the residuals are correlated.
+  std::optional<double> due = std::nullopt;
   std::function<void(std::size_t k, double value)> trying = {};  ///< before each fit of the others
 };
 

@@ -43,14 +43,14 @@ void HeatedBody::step(double dt) {
 }
 
 // The flux from the cell to the face goes on into the surroundings.
-std::vector<double> HeatedBody::face_rise(const std::string& name) const {
+std::vector<double> HeatedBody::face_rise(const std::string& name, const CellField<double>& cells) const {
   using Kind = DiffusionBoundary::Kind;
   const Patch& patch = mesh_.patch(name);
   const auto found = std::ranges::find(boundary_, name, &DiffusionBoundary::patch);
   std::vector<double> rise;
   for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
     const Index c = mesh_.owner[f];
-    double value = rise_[c];
+    double value = cells[c];
     if (found != boundary_.end()) {
       const Vector n = mesh_.face_area[f].normalized();
       const double within = material_.conductivity / std::abs((mesh_.face_centre[f] - mesh_.cell_centre[c]).dot(n));
@@ -64,9 +64,9 @@ std::vector<double> HeatedBody::face_rise(const std::string& name) const {
   return rise;
 }
 
-SurfaceTemperature HeatedBody::surface(const std::string& name) const {
+SurfaceTemperature HeatedBody::surface(const std::string& name, const CellField<double>& cells) const {
   const Patch& patch = mesh_.patch(name);
-  const std::vector<double> rise = face_rise(name);
+  const std::vector<double> rise = face_rise(name, cells);
   SurfaceTemperature result{.mean = 0.0, .largest = rise.front()};
   double area = 0.0;
   for (std::size_t k = 0; k < rise.size(); ++k) {

@@ -51,8 +51,11 @@ class HeatedBody {
   const CellField<double>& rise() const { return rise_; }  ///< [K]
   const HeatAccount& account() const { return account_; }
   /// Of the faces of a patch, in its order [K].
-  std::vector<double> face_rise(const std::string& patch) const;
-  SurfaceTemperature surface(const std::string& patch) const;
+  std::vector<double> face_rise(const std::string& patch) const { return face_rise(patch, rise_); }
+  SurfaceTemperature surface(const std::string& patch) const { return surface(patch, rise_); }
+  /// Likewise of another rise of the cells [K].
+  std::vector<double> face_rise(const std::string& patch, const CellField<double>& rise) const;
+  SurfaceTemperature surface(const std::string& patch, const CellField<double>& rise) const;
 
  private:
   const Mesh& mesh_;

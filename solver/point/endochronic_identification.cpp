@@ -220,4 +220,74 @@ std::optional<double> effect_of_steps(const LawFit& fit, const std::vector<Mater
   return deviation > 0.0 ? std::sqrt(change) / deviation : 0.0;
 }
 
+namespace {
+
+/// What quarter steps change of an estimate, in its standard errors; the largest. Nothing where the law cannot follow.
+std::optional<double> move_by_steps(const LawFit& fit, const std::vector<MaterialExperiment>& experiments,
+                                    const ControlSettings& control) {
+  ControlSettings finer = control;
+  finer.substeps = 4 * control.substeps;
+  const auto then = fit_residuals(fit.law, experiments, finer);
+  const FitResult& result = fit.result;
+  if (!then || then->size() != result.residuals.size()) return std::nullopt;
+  const auto n = std::ssize(*then);
+  const Eigen::VectorXd change =
+      Eigen::VectorXd::Map(then->data(), n) - Eigen::VectorXd::Map(result.residuals.data(), n);
+  const Eigen::VectorXd moves = result.inverse_normal * (result.derivatives.transpose() * change);
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < moves.size(); ++j)
+    if (const double variance = result.covariance(j, j); variance > 0.0 && std::isfinite(variance))
+      largest = std::max(largest, std::abs(moves[j]) / std::sqrt(variance));
+  return largest;
+}
+
+}  // namespace
+
+EndochronicLaw law_that_bears(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                              const EndochronicIdentificationSettings& settings) {
+  constexpr double growth = 1.3, most = 100.0;
+  const auto first_that_breaks = [&](const EndochronicLaw& trial) {
+    return std::ranges::find_if(experiments, [&](const MaterialExperiment& experiment) {
+      return experiment.follows_stress && !respond(trial, experiment, settings.control);
+    });
+  };
+  EndochronicLaw larger = law;
+  double factor = 1.0;
+  for (auto broken = first_that_breaks(law); broken != experiments.end(); broken = first_that_breaks(larger)) {
+    factor *= growth;
+    if (!settings.choice.kernel || factor > most)
+      throw InputError(
+          fmt::format("the first guess does not bear the stresses of \"{}\": a larger C or f_inf of "
+                      "[material], or shorter increments (substeps of [fit])",
+                      broken->name));
+    for (std::size_t i = 0; i < larger.kernel.size(); ++i) larger.kernel[i].C = factor * law.kernel[i].C;
+  }
+  if (factor > 1.0)
+    settings.say(
+        fmt::format("the first guess does not bear the given stresses: the fit starts with C {:.3g} times as "
+                    "large",
+                    factor));
+  return larger;
+}
+
+void divide_steps(EndochronicIdentification& found, const std::vector<MaterialExperiment>& experiments,
+                  const EndochronicIdentificationSettings& settings, ControlSettings& control) {
+  constexpr double allowed = 0.1, noiseless = 1e-4, wrong = 3.0;
+  constexpr int most = 16;
+  for (int turn = 0; turn < 3 && control.substeps < most; ++turn) {
+    if (relative_misfit(found.fit.law, experiments, control) < noiseless) return;
+    if (found.fit.result.noise_is_known && found.fit.result.rms > wrong) return;
+    const auto move = move_by_steps(found.fit, experiments, control);
+    if (!move || *move <= allowed) return;
+    const double factor = std::sqrt(*move / (0.7 * allowed));  // a scheme of second order
+    const int before = control.substeps;
+    control.substeps = std::min(most, std::max(before + 1, static_cast<int>(std::ceil(before * factor))));
+    settings.say(
+        fmt::format("{} steps of the model for each increment of the curves: with {} they move an estimate by "
+                    "{:.2g} of its standard errors",
+                    control.substeps, before, *move));
+    found.fit = fit_law(found.fit.law, found.fit.choice, experiments, settings.limits, settings.fit, control);
+  }
+}
+
 }  // namespace pfdm

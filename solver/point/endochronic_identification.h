@@ -63,4 +63,18 @@ const IdentificationMethod& identification_method(std::string_view name);
 std::optional<double> effect_of_steps(const LawFit& fit, const std::vector<MaterialExperiment>& experiments,
                                       const ControlSettings& control);
 
+/// The law, or with the kernel's C larger by one factor, so that it bears the stresses of the experiments that follow
+/// them; `settings.say` is told. Throws InputError that names an experiment whose stresses it does not bear, where the
+/// kernel is not estimated or a factor of 100 does not do.
+EndochronicLaw law_that_bears(const EndochronicLaw& law, const std::vector<MaterialExperiment>& experiments,
+                              const EndochronicIdentificationSettings& settings);
+
+/// Divides the increments of the curves further, and fits again from the estimates on, until what steps of a quarter
+/// change would move no estimate by more than 0.1 of its standard errors, or 16 steps an increment are reached.
+/// `control`: of the fit that was done; comes back with the steps of the last one. Fits that leave no noise, below 1e-4
+/// of the data, stay as they are: such curves were computed with these steps. So do those that leave three times the
+/// stated noise: they are wrong.
+void divide_steps(EndochronicIdentification& found, const std::vector<MaterialExperiment>& experiments,
+                  const EndochronicIdentificationSettings& settings, ControlSettings& control);
+
 }  // namespace pfdm

@@ -81,6 +81,13 @@ Hypothesis of_scale(const VibrationRecord& record) {
   if (is_about(1.0 / g0)) return in_unit("base", "g0", 1.0 / g0);
   if (is_about(1e-3)) return in_unit("relative", "mm/s^2", 1e-3);
   if (is_about(1e3)) return in_unit("base", "mm/s^2", 1e3);
+  constexpr double least_of_units = 2.0;
+  if (factor < least_of_units && factor > 1.0 / least_of_units)
+    return {
+        fmt::format("the scale of one channel is off by a factor of {:.3g}, or the sample is softer or stiffer than "
+                    "the model at these amplitudes",
+                    factor),
+        "the relative channel multiplied by it", [factor](VibrationRecord r) { return scaled(std::move(r), factor); }};
   return {fmt::format("the unit or the scale of one channel is wrong by a factor of {:.3g}", factor),
           "the relative channel multiplied by it",
           [factor](VibrationRecord r) { return scaled(std::move(r), factor); }};

@@ -16,7 +16,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Faults = std::vector<RecordFault>;
 
-constexpr double least_periods = 20.0;  // of the lowest frequency, in a record
+constexpr double least_periods = 20.0;      // of the lowest frequency, in a record
+constexpr double highest_of_rate = 0.3907;  // of the band; analysers sample at 2.56 times the band
 
 double quantile(VectorXd values, double part) {
   const auto at = static_cast<Index>(part * static_cast<double>(values.size() - 1));
@@ -54,13 +55,14 @@ void check_time(const RawRecord& r, Faults& faults) {
   const double step = median(dt);
   for (Index i = 0; i < dt.size(); ++i) {
     if (dt[i] > 0.0) continue;
-    faults.push_back({"time_runs_backwards",
-                      fmt::format("time does not increase: from {} s to {} s at sample {}", t[i], t[i + 1], i + 1)});
+    faults.push_back(
+        {"time_runs_backwards",
+         fmt::format("time does not increase: from {:.10g} s to {:.10g} s at sample {}", t[i], t[i + 1], i + 1)});
     return;
   }
   for (Index i = 0; i < dt.size(); ++i) {
     if (dt[i] <= 1.5 * step) continue;
-    faults.push_back({"gap", fmt::format("{:.3g} s are missing after {} s", dt[i] - step, t[i])});
+    faults.push_back({"gap", fmt::format("{:.3g} s are missing after {:.10g} s", dt[i] - step, t[i])});
     return;
   }
   // Times are printed with few digits: the criterion is the distance of samples from an even grid.
@@ -81,10 +83,10 @@ void check_extent(const RawRecord& r, double rate, Faults& faults) {
   if (duration * r.band_low < least_periods)
     faults.push_back({"too_short", fmt::format("{:.3g} s contain {:.2g} periods of {} Hz; at least {} are required",
                                                duration, duration * r.band_low, r.band_low, least_periods)});
-  if (r.band_high > 0.38 * rate)
+  if (r.band_high > highest_of_rate * rate)
     faults.push_back({"sampled_too_slowly",
                       fmt::format("the excitation reaches {} Hz; {:.6g} samples per second resolve up to {:.4g} Hz",
-                                  r.band_high, rate, 0.38 * rate)});
+                                  r.band_high, rate, highest_of_rate * rate)});
 }
 
 bool is_constant(const VectorXd& x) {

@@ -619,18 +619,25 @@ INSTANTIATE_TEST_SUITE_P(Inputs, BadCurveFit, testing::ValuesIn(bad_fits),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(CurveFit, RefusesWhatCannotBeFitted) {
-  const auto expect = [](const std::string& good, const std::string& bad, const std::string& message) {
+  const auto expect_in = [](const std::string& command, const std::string& good, const std::string& bad,
+                            const std::string& message) {
     const TemporaryCase directory(replaced(bar_case() + bar_fit, good, bad));
     directory.write("data.csv", "displacement_m,force_N,s\n0,0,0\n1e-5,1,0\n");
-    const Outcome outcome = run({"fit", directory.path().string()});
+    const Outcome outcome = run({command, directory.path().string()});
     EXPECT_EQ(outcome.status, 2);
     EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  const auto expect = [&](const std::string& good, const std::string& bad, const std::string& message) {
+    expect_in("fit", good, bad, message);
   };
   expect("[\"10 GPa\", \"90 GPa\"]", "[\"40 GPa\", \"90 GPa\"]",
          "the case's own value, 30 GPa, from which the fit starts, is outside these bounds");
   expect("force = { column = \"force_N\" }", "force = { column = \"force_N\" }\ndeviation = { column = \"s\" }",
          "the standard deviation of \"one\" at 0 (SI) is zero");
+  expect_in("check", "force = { column = \"force_N\" }",
+            "force = { column = \"force_N\" }\ndeviation = { column = \"s\" }",
+            "the standard deviation of \"one\" at 0 (SI) is zero");
   expect("bounds = [\"10 GPa\"", "prior = { mean = \"30 GPa\", deviation = \"1 GPa\" }\nbounds = [\"10 GPa\"",
          "a prior requires the noise of the data to be known");
 }

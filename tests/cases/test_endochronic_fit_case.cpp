@@ -173,6 +173,17 @@ TEST(EndochronicFitCase, FitsStrainsAtGivenStressToo) {
   EXPECT_GT(compared["experiments"][1]["rms_misfit"].get<double>(), 1e-5) << "the first guess is wrong";
 }
 
+// A first guess with a twentieth of the stresses that it has to bear.
+TEST(EndochronicFitCase, StartsWithALawThatBearsTheCreep) {
+  const FitCase fit(fit_table + creep_experiment);
+  write_creep(fit);
+  const std::string text = content_of(fit.directory.path() / "case.toml");
+  fit.directory.write("case.toml", replaced(replaced(text, "20 GPa", "1 GPa"), "6 GPa", "0.3 GPa"));
+  const Outcome outcome = run({"fit", fit.directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("the fit starts with C "), std::string::npos) << outcome.out;
+}
+
 // The misfit of the case's own law, found from the columns of the curve.
 TEST(EndochronicFitCase, IsComparedWithoutAFit) {
   const FitCase fit;

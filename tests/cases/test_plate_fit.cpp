@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <complex>
 #include <random>
 
 namespace pfdm {
@@ -176,6 +177,45 @@ TEST(PlateFit, CallsAWrongSupportIntoQuestion) {
   const json fit = fitted(directory);
   EXPECT_NE(fit["verdict"], "sound");
   EXPECT_FALSE(fit["reasons"].empty());
+}
+
+/// H1.csv with every value changed.
+template <class Change>
+void change_H1(const TemporaryCase& directory, const Change& change) {
+  const CsvTable table = read_csv(directory.path() / "H1.csv");
+  std::string text = "# synthetic\nfrequency_Hz,magnitude,phase_rad\n";
+  for (std::size_t i = 0; i < table.n_rows(); ++i) {
+    const std::complex<double> H = change(std::polar(table.column("magnitude")[i], table.column("phase_rad")[i]));
+    text += fmt::format("{},{},{}\n", table.column("frequency_Hz")[i], std::abs(H), std::arg(H));
+  }
+  directory.write("H1.csv", text);
+}
+
+TEST(PlateFit, NamesTheOtherSignOfPhaseAndARelativeH1) {
+  const TemporaryCase directory(plate_of(14, 0.3, 4) + fit_of_three);
+  write_twin_data(plate_of(20, 0.2, 10), directory);
+  change_H1(directory, [](std::complex<double> H) { return std::conj(H); });
+  json fit = fitted(directory);
+  EXPECT_NE(fit["verdict"], "sound");
+  EXPECT_THAT(fit["reasons"].dump(), testing::HasSubstr("H1 of the other sign of phase"));
+  change_H1(directory, [](std::complex<double> H) { return std::conj(H) - 1.0; });
+  fit = fitted(directory);
+  EXPECT_NE(fit["verdict"], "sound");
+  EXPECT_THAT(fit["reasons"].dump(), testing::HasSubstr("H1 of the acceleration relative to the base: it is to be"));
+  EXPECT_TRUE(fit["parameters"][0]["lower"].is_null());
+}
+
+// Data of a plate of seven layers, which are those that four are compared with.
+TEST(PlateFit, TellsTheErrorOfItsMeshBesideTheInterval) {
+  const TemporaryCase directory(plate_of(14, 0.3, 4) + fit_of_three);
+  write_twin_data(replaced(plate_of(20, 0.2, 10), "length = \"8 mm\", cells = 4", "length = \"8 mm\", cells = 7"),
+                  directory);
+  const json fit = fitted(directory);
+  EXPECT_EQ(fit["verdict"], "sound") << fit["reasons"];
+  EXPECT_EQ(fit["finer"], "mesh.z[0].cells = 7");
+  const json& p = fit["parameters"][0];
+  EXPECT_NEAR(p["estimate"].get<double>() + p["moved_by_finer"].get<double>(), modulus, 0.01 * modulus);
+  RecordProperty("estimate", p.dump());
 }
 
 TEST(PlateFit, SaysWhatIsWrong) {

@@ -2,6 +2,7 @@
 #include "postproc/curves/curve_misfit.h"
 #include "solver/calibration/calibration_verdict.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,6 +41,29 @@ TEST(CurveMisfit, RefusesWhatHasNoWeight) {
 }
 
 // A curve that is measured with an offset, a displacement too small and a soft frame.
+TEST(CurveMisfit, SaysThatDisplacementsAreNegative) {
+  const SampledCurve pulled_back = curve({-2e-6, -1e-6}, {-2.0, -1.0});
+  EXPECT_THAT([&] { points_between(std::vector{pulled_back}, 1e-9, 1e-5); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("all measured displacements are negative")));
+}
+
+TEST(CurveMisfit, WeighsSpecimensByTheirScatter) {
+  MeasuredPoints points{.points = {{0, 0.0, 2.0, 0.0}, {0, 1.0, 2.0, 0.0}, {1, 0.0, 2.0, 0.0}, {1, 1.0, 2.0, 0.0}},
+                        .rms = 2.0};
+  EXPECT_TRUE(weights_by_scatter({0.01, -0.01, 0.01, 0.01}, points).empty());
+  points.weight = weights_by_scatter({0.01, -0.01, 0.04, 0.04}, points);
+  ASSERT_EQ(points.weight.size(), 2u);
+  EXPECT_NEAR(points.weight[0] / points.weight[1], 4.0, 1e-12);
+  EXPECT_NEAR(points.scale(points.points[0]) * 4.0, points.scale(points.points[2]), 1e-12);
+}
+
+TEST(CurveMisfit, KnowsWhichOffsetsContradictACurve) {
+  const SampledCurve unloaded = curve({0.0, 1.0, 2.0}, {0.1, 10.0, 4.0});
+  EXPECT_TRUE(contradicts_unloaded_start(unloaded, -2.1));
+  EXPECT_FALSE(contradicts_unloaded_start(unloaded, 0.3));
+  EXPECT_FALSE(contradicts_unloaded_start(curve({0.0, 1.0}, {2.0, 10.0}), 2.1));
+}
+
 TEST(CurveMisfit, SetUpErrorsExplainASetUp) {
   std::vector<double> x, force, measured;
   for (int i = 0; i <= 100; ++i) {

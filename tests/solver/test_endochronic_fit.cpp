@@ -189,6 +189,32 @@ TEST(EndochronicFit, SaysHowFarItsStepsMoveTheEstimates) {
   EXPECT_GE(largest, 0.2 * *effect);
 }
 
+// The same data: the steps are divided until what is left of their error does not matter.
+TEST(EndochronicFit, DividesItsStepsAsFarAsTheNoiseAsksFor) {
+  const std::vector<double> strain = independent::triangles(0.008, 8, 80);
+  const std::vector<double> stress = independent::stress_of({}, strain, 100);
+  double square = 0.0;
+  for (const double s : stress) square += s * s / static_cast<double>(stress.size());
+  const auto test = [&](double noise) {
+    return std::vector{independent::tension_test(strain, stress, noise * std::sqrt(square), 1)};
+  };
+  const EndochronicLaw start = two_term_law({{30e9, 700.0}, {4e9, 60.0}});
+  std::vector<int> substeps;
+  for (const double noise : {4e-4, 1e-2}) {
+    const auto data = test(noise);
+    EndochronicIdentification found = identification_method("hardening").identify(start, data, {});
+    const std::vector<FitEstimate> before = found.fit.result.estimates;
+    ControlSettings control;
+    divide_steps(found, data, {}, control);
+    substeps.push_back(control.substeps);
+    const LawFit fine = identification_method("hardening").identify(start, data, {.control = {.substeps = 16}}).fit;
+    for (std::size_t j = 0; j < before.size(); ++j)
+      EXPECT_NEAR(found.fit.result.estimates[j].value, fine.result.estimates[j].value, 0.2 * before[j].standard_error);
+  }
+  EXPECT_GT(substeps[0], 1);
+  EXPECT_EQ(substeps[1], 1) << "noise of 1 % hides the error of the steps";
+}
+
 // The rounds of the report's scheme end on no estimate; those of the joint fit hold the truth.
 TEST(EndochronicFit, StaggeredPassesOverToTheJointFit) {
   const std::map<std::string, double> truth{{"C_1", 30e9},     {"alpha_1", 700.0}, {"C_2", 4e9},

@@ -3,6 +3,7 @@
 #include "mesh/dual.h"
 #include "physics/error.h"
 #include "solver/dynamics/heated_body.h"
+#include "solver/dynamics/steady_heating.h"
 
 #include <cmath>
 #include <numbers>
@@ -31,6 +32,30 @@ TEST(HeatedBody, SlabWithConvection) {
   EXPECT_NEAR(slab_error(80, 20) / slab_error(80, 40), 2.0, 0.15);  // backward Euler
   const double coarse = slab_error(6, 4800), fine = slab_error(12, 4800);
   EXPECT_GT(std::log2(coarse / fine), 1.8);
+}
+
+// A source that stays, convection into warmer surroundings and a flux: the same surface without the steps between.
+TEST(HeatedBody, SteadySourceInAKrylovSpace) {
+  const Mesh mesh = box(10, 8, 4, {0.1, 0.08, 0.01});
+  const HeatedMaterial material{.conductivity = 0.3, .capacity = 2e6};
+  const std::vector<DiffusionBoundary> boundary{
+      {.patch = "zmax", .kind = Kind::exchange, .value = 1.0, .coefficient = 12.0},
+      {.patch = "xmin", .kind = Kind::exchange, .value = 0.0, .coefficient = 150.0},
+      {.patch = "ymin", .kind = Kind::flux, .value = 20.0}};
+  CellField<double> source(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    source[c] = 2e4 * (1.0 + std::sin(60.0 * mesh.cell_centre[c].x()) * std::cos(50.0 * mesh.cell_centre[c].y()));
+  HeatedBody body(mesh, material, boundary);
+  body.set_source(source);
+  constexpr int n = 200;
+  const auto reduced = surface_under_steady_source(mesh, material, boundary, source, "zmax", 15.0, n);
+  ASSERT_EQ(reduced.size(), as_size(n));
+  for (int k = 0; k < n; ++k) {
+    body.step(15.0);
+    const SurfaceTemperature due = body.surface("zmax");
+    EXPECT_NEAR(reduced[as_size(k)].mean, due.mean, 1e-6 * due.largest);
+    EXPECT_NEAR(reduced[as_size(k)].largest, due.largest, 1e-6 * due.largest);
+  }
 }
 
 // Two half-spaces of unequal temperature touch: the interface takes the temperature of their effusivities.

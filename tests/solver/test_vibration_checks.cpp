@@ -50,6 +50,15 @@ TEST(VibrationChecks, FindNothingWrongWithAGoodRecord) {
   EXPECT_EQ(sampling_rate(without_time), 1000.0);
 }
 
+// Analysers sample at 2.56 times the highest frequency.
+TEST(VibrationChecks, AcceptRecordsAtTheAnalysersRate) {
+  RawRecord r = good_record();
+  r.band_high = *r.rate / 2.56;
+  EXPECT_EQ(std::ranges::count(names(r), "sampled_too_slowly"), 0);
+  r.band_high = *r.rate / 2.5;
+  EXPECT_EQ(std::ranges::count(names(r), "sampled_too_slowly"), 1);
+}
+
 // One row and the next are a tenth apart in both ends of the band, or in one: only the first is a matter of the rate.
 TEST(VibrationChecks, TellARateFromABand) {
   RawRecord r = good_record();

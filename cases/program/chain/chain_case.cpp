@@ -29,8 +29,17 @@ ChainFigure read_figure(const ConfigTable& table, const ChainJob& job) {
   return figure;
 }
 
+Verdict read_accepted(const ConfigTable& table, const ChainJob& job) {
+  const auto accept = table.find("accept");
+  if (!accept) return Verdict::correlated;
+  if (job.name != "fit") throw accept->error("only a step that does \"fit\" has a verdict");
+  const std::string verdicts[] = {"sound", "questionable"};
+  return accept->one_of(verdicts, "verdict with which a chain goes on") == "sound" ? Verdict::correlated
+                                                                                   : Verdict::questionable;
+}
+
 ChainStep read_step(const ConfigTable& table, const fs::path& directory) {
-  table.with_keys({"name", "case", "does", "figures"});
+  table.with_keys({"name", "case", "does", "accept", "figures"});
   const ConfigValue place = table.at("case");
   const auto does = table.find("does");
   ChainStep step{.name = table.string("name", fs::path(place.string()).lexically_normal().string()),
@@ -40,6 +49,7 @@ ChainStep read_step(const ConfigTable& table, const fs::path& directory) {
                  .place = place};
   if (!fs::path(place.string()).is_relative())
     throw place.error("the way to a step's case starts at the chain's directory; this path does not");
+  step.accepted = read_accepted(table, *step.job);
   for (const ConfigTable& figure : table.tables("figures")) step.figures.push_back(read_figure(figure, *step.job));
   return step;
 }

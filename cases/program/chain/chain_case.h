@@ -4,6 +4,7 @@
 
 #include "cases/program/input/config.h"
 #include "cases/program/session/runnable_case.h"
+#include "solver/calibration/calibration_verdict.h"
 
 #include <filesystem>
 #include <functional>
@@ -38,6 +39,7 @@ struct ChainStep {
   std::string name;
   std::filesystem::path where;  ///< of its case: a directory, or a .toml file in it
   const ChainJob* job = nullptr;
+  Verdict accepted = Verdict::correlated;  ///< the worst verdict on its fit with which the chain goes on
   std::vector<ChainFigure> figures;
   ConfigValue place;  ///< for messages
 };

@@ -62,29 +62,51 @@ bool lies_in(const fs::path& file, const fs::path& folder) {
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
 }
 
-/// Of the step's case and data, those that are results of earlier steps.
-std::vector<std::string> files_taken(const ChainProgram& program, const ReadyStep& ready) {
+fs::path results_of(const ChainStep& step) {
+  return (step.where.extension() == ".toml" ? step.where.parent_path() : step.where) / "results";
+}
+
+/// The step's case, if it is a file of its own, and its data.
+std::vector<fs::path> files_of(const ReadyStep& ready) {
   std::vector<fs::path> named = data_files_named(ready.file);
   if (ready.step.where.extension() == ".toml") named.push_back(ready.step.where);
+  return named;
+}
+
+/// Of the step's case and data, those that are results of earlier steps.
+std::vector<std::string> files_taken(const ChainProgram& program, const ReadyStep& ready) {
   std::vector<std::string> taken;
   for (const ChainStep& earlier : program.chain.steps) {
     if (&earlier == &ready.step) break;
-    const fs::path directory = earlier.where.extension() == ".toml" ? earlier.where.parent_path() : earlier.where;
-    for (const fs::path& file : named)
-      if (lies_in(file, directory / "results")) taken.push_back(file.lexically_normal().string());
+    for (const fs::path& file : files_of(ready))
+      if (lies_in(file, results_of(earlier))) taken.push_back(file.lexically_normal().string());
   }
   return taken;
 }
 
-/// "sound" of a fit; empty for other jobs. Throws NoConvergence for one that has failed: nothing may be built on it.
+/// Whether a file or a number of the step is a result of `earlier`.
+bool takes_from(const ReadyStep& ready, const ChainStep& earlier) {
+  std::vector<fs::path> sources = files_of(ready);
+  for (const TakenNumber& number : numbers_taken(ready.file)) sources.push_back(ready.file.directory / number.from);
+  return std::ranges::any_of(sources, [&](const fs::path& file) { return lies_in(file, results_of(earlier)); });
+}
+
+/// "sound" of a fit; empty for other jobs. Throws NoConvergence for one on which nothing may be built: that has failed,
+/// or whose verdict is worse than the step accepts.
 std::string verdict_of(const ReadyStep& ready, Log& log) {
   if (ready.step.job->name != "fit") return "";
   std::string verdict = read_json(ready.outcome(), "fit",
                                   [](const auto& json) { return json.at("verdict").template get<std::string>(); });
-  if (verdict == "failed")
+  const Verdict found = verdict_named(verdict);
+  if (found == Verdict::failed)
     throw NoConvergence(fmt::format("step {}: the fit has failed ({} says why); the chain ends here", ready.step.name,
                                     ready.outcome().string()));
-  if (verdict != "sound")
+  if (found > ready.step.accepted)
+    throw NoConvergence(
+        fmt::format("step {}: the fit is {} ({} says why); the chain ends here. accept = \"{}\" in its "
+                    "[[step]] builds on it all the same",
+                    ready.step.name, verdict, ready.outcome().string(), verdict));
+  if (!is_sound(found))
     log.warn(fmt::format("step {}: the fit is {} ({} says why); later steps use its estimates all the same",
                          ready.step.name, verdict, ready.outcome().string()));
   return verdict;
@@ -135,11 +157,18 @@ void check(const ChainProgram& program, Session& session) {
   log.say(fmt::format("{}: {}", program.name, program.chain.title));
   const ChainRecord record = read_chain(session.results);
   const ChainStep* waited_for = nullptr;  // the first that has to be done
+  std::vector<const ChainStep*> open;     // what has to be done, and what depends on it
   for (const ChainStep& step : program.chain.steps) try {
       const ReadyStep ready = get_ready(step, session);
       const bool done = done_before(record, ready, session.version) != nullptr;
       if (!done && waited_for == nullptr) waited_for = &step;
-      log.say(fmt::format("step {}: {}, {}", step.name, step.job->name, done ? "done" : "to be done"));
+      const auto source = std::ranges::find_if(open, [&](const ChainStep* s) { return takes_from(ready, *s); });
+      const std::string state = !done ? "to be done"
+                                : source == open.end()
+                                    ? "done"
+                                    : fmt::format("done again if \"{}\" gives it other values", (*source)->name);
+      if (!done || source != open.end()) open.push_back(&step);
+      log.say(fmt::format("step {}: {}, {}", step.name, step.job->name, state));
       say_taken(ready, log);
     } catch (const InputError& error) {
       if (waited_for == nullptr) throw;

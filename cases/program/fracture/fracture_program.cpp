@@ -7,6 +7,7 @@
 #include "cases/program/fracture/fracture_laws.h"
 #include "cases/program/fracture/fracture_report.h"
 #include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/other_laws.h"
 #include "cases/program/fracture/progress.h"
 #include "cases/program/session/earlier_results.h"
 #include "cases/program/session/report_parts.h"
@@ -14,6 +15,7 @@
 #include "cases/program/session/stopwatch.h"
 #include "cases/program/studies/curve_fit.h"
 #include "mesh/quality.h"
+#include "postproc/curves/curve_misfit.h"
 #include "postproc/files/folder_lock.h"
 #include "solver/fracture/fracture_run.h"
 #include "solver/fracture/resolution.h"
@@ -90,6 +92,11 @@ double estimated_memory(const Mesh& mesh) {
 }
 
 void check_fit(const FractureProgram& program, Log& log) {
+  if (program.experiment)
+    program.fit->where.in_context([&] {
+      require_deviations(program.experiment->specimens);
+      return true;
+    });
   require_start_within_bounds(program.fit->where, program.fit->parameters);
   for (const CurveFitParameter& parameter : program.fit->parameters)
     log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
@@ -331,6 +338,7 @@ void fit(const FractureProgram& program, Session& session) {
              .straight_to = experiment.stiffness_to,
              .set_ups = [](const CaseFile& file) { return read_set_ups(file.config.root()); },
              .read_curve = read,
+             .other_laws = with_other_laws(program.file),
              .name = program.name,
              .hash = program.hash,
              .title = program.fracture.title},

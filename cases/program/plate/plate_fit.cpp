@@ -4,6 +4,7 @@
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/stopwatch.h"
 #include "physics/error.h"
+#include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/files/folder_lock.h"
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm {
@@ -70,22 +72,37 @@ FitSettings settings_of(const PlateFit& fit, Session& session) {
   return settings;
 }
 
-/// With the verdict, and what the model may lack if the residuals are more than noise.
-FitFindings judged(const PlateFit& fit, const FitProblem& problem, const FitResult& result, PlateModel& model,
-                   std::vector<FitSuspect>& suspects) {
+/// Rms of the residuals of H1.
+double rms_of_responses(const PlateFit& fit, const std::vector<double>& residuals) {
+  std::size_t n = 0;
+  for (const MeasuredResponse& measured : fit.responses) n += measured.magnitude.size() + measured.phase.size();
+  return n == 0 ? 0.0 : rms({residuals.begin(), residuals.begin() + static_cast<std::ptrdiff_t>(n)});
+}
+
+/// What the residuals that are more than noise may come from, as reasons. Returns what was tried.
+std::vector<FitSuspect> add_suspects(const PlateFit& fit, const FitResult& result, PlateModel& model,
+                                     const FitSettings& settings, FitFindings& found) {
   constexpr double telling = 0.5, alike = 1.2;  // of the rms
-  FitFindings found = findings_of(problem.parameters, result);
-  if (!judge(found, {.series = model.series(result.residuals)})) return found;
-  suspects = suspects_of(model, fit, result.values(), result.residuals);
+  const double of_responses = rms_of_responses(fit, result.residuals);
+  std::vector<FitSuspect> readings = suspected_readings(model, fit, settings);
+  if (!readings.empty() && readings.front().rms < telling * of_responses) {
+    question(found, fmt::format("the rms of the residuals of H1 falls from {:.3g} to {:.3g} if it is taken for {}",
+                                of_responses, readings.front().rms, readings.front().what));
+    return readings;
+  }
+  std::vector<FitSuspect> suspects = suspects_of(model, fit, result.values(), result.residuals);
   if (suspects.empty() || suspects.front().rms > telling * result.rms) {
-    found.reasons.emplace_back("nothing that was tried explains it: look at supports, dimensions and density");
-    return found;
+    if (!is_sound(found.verdict))
+      found.reasons.emplace_back(
+          "nothing that was tried explains it: look at supports, dimensions and density, and at the mesh (finer of "
+          "[fit])");
+    return suspects;
   }
   for (const FitSuspect& suspect : suspects)
     if (suspect.rms <= alike * suspects.front().rms)
-      found.reasons.push_back(fmt::format("the rms of the residuals would fall from {:.3g} to {:.3g} with {}",
-                                          result.rms, suspect.rms, suspect.what));
-  return found;
+      question(found, fmt::format("the rms of the residuals would fall from {:.3g} to {:.3g} with {}", result.rms,
+                                  suspect.rms, suspect.what));
+  return suspects;
 }
 
 void write_curves(const fs::path& folder, const PlateFit& fit, const PlateCurves& first, const PlateCurves& fitted) {
@@ -171,17 +188,24 @@ void fit_plate(const PlateProgram& program, Session& session) {
   const auto first = model.curves(program.parsed);
   if (!first) throw ComputationError("the case itself, from which the fit starts, has no resonance or no response");
   const FitProblem problem = problem_of(fit, model);
-  const FitResult result = pfdm::fit(problem, settings_of(fit, session));
+  const FitSettings settings = settings_of(fit, session);
+  const FitResult result = pfdm::fit(problem, settings);
   const PlateCurves fitted = model.curves(model.with(result.values())).value();
+  const std::vector<ExperimentMisfit> experiments = misfits(fit, fitted);
+  FitFindings found = findings_of(problem.parameters, result);
   std::vector<FitSuspect> suspects;
+  if (judge(found, {.series = model.series(result.residuals),
+                    .result = &result,
+                    .misfit = std::ranges::max(experiments, {}, &ExperimentMisfit::relative).relative,
+                    .finer = on_finer_mesh(program.file, fit, result.values(), session.log)}))
+    suspects = add_suspects(fit, result, model, settings, found);
   FitReport report{.case_name = program.name,
                    .case_hash = program.hash,
                    .version = session.version,
                    .method = "response_and_temperature",
-                   .found = judged(fit, problem, result, model, suspects),
-                   .experiments = misfits(fit, fitted),
-                   .own = {}};
-  report.own = own_findings(suspects);
+                   .found = std::move(found),
+                   .experiments = experiments,
+                   .own = own_findings(suspects)};
   report.wall_seconds = watch.seconds();
   if (const auto residuals = model.residuals(model.with(first_guess(fit)))) report.found.first_rms = rms(*residuals);
   write_curves(session.results, fit, *first, fitted);

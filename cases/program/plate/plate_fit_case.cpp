@@ -94,7 +94,7 @@ MeasuredRise read_rise(const ConfigTable& table, const PlateCase& c, const std::
 std::optional<PlateFit> read_plate_fit(const CaseFile& file, const PlateCase& c) {
   const ConfigTable root = file.config.root();
   if (!root.has("fit")) return std::nullopt;
-  const ConfigTable table = root.table("fit").with_keys({"parameters", "responses", "temperatures", "starts"});
+  const ConfigTable table = root.table("fit").with_keys({"parameters", "responses", "temperatures", "starts", "finer"});
   PlateFit fit{.parameters = read_fit_parameters(table, file),
                .responses = {},
                .rises = {},

@@ -43,7 +43,7 @@ std::optional<PlateCurves> PlateModel::curves(const PlateCase& c) {
     run_.take(case_);
     for (const MeasuredResponse& response : fit_.responses)
       curves.H1.push_back(run_.transmissions(response.at, response.frequency));
-    if (!fit_.rises.empty()) curves.rise = rises();
+    if (!fit_.rises.empty() && reads_as_usual()) curves.rise = rises();
   } catch (const InputError&) {
     return std::nullopt;
   } catch (const ComputationError&) {
@@ -56,11 +56,19 @@ std::vector<std::vector<double>> PlateModel::rises() {
   std::vector<double> time, mean, largest;
   const double frequency =
       case_.excitation.type == "harmonic" ? run_.driving_frequency(case_.heating->surroundings) : 0.0;
-  run_.heat(frequency, [&](const HeatingRow& row, const HeatedBody&, const CellField<double>&) {
-    time.push_back(row.time);
-    mean.push_back(row.surface.mean);
-    largest.push_back(row.surface.largest);
-  });
+  const auto add = [&](double at, const SurfaceTemperature& surface) {
+    time.push_back(at);
+    mean.push_back(surface.mean);
+    largest.push_back(surface.largest);
+  };
+  if (case_.material.depends_on_temperature()) {
+    run_.heat(frequency,
+              [&](const HeatingRow& row, const HeatedBody&, const CellField<double>&) { add(row.time, row.surface); });
+  } else {
+    double step = 0.0;
+    add(0.0, {});
+    for (const SurfaceTemperature& surface : run_.steady_surface(frequency, step)) add(time.back() + step, surface);
+  }
   std::vector<std::vector<double>> rises;
   for (const MeasuredRise& measured : fit_.rises) {
     rises.emplace_back();
@@ -75,13 +83,17 @@ std::optional<std::vector<double>> PlateModel::residuals(const PlateCase& c) {
   std::vector<double> residuals;
   for (std::size_t k = 0; k < fit_.responses.size(); ++k) {
     const MeasuredResponse& measured = fit_.responses[k];
-    const auto& H1 = computed->H1[k];
+    std::vector<std::complex<double>> H1 = computed->H1[k];
+    for (std::complex<double>& H : H1) {
+      if (reading_.relative) H -= 1.0;
+      if (reading_.conjugate) H = std::conj(H);
+    }
     for (std::size_t i = 0; i < H1.size(); ++i)
       residuals.push_back(std::log(std::abs(H1[i]) / measured.magnitude[i]) / measured.deviation);
     for (std::size_t i = 0; i < measured.phase.size(); ++i)
       residuals.push_back(std::remainder(std::arg(H1[i]) - measured.phase[i], 2.0 * pi) / measured.deviation);
   }
-  for (std::size_t k = 0; k < fit_.rises.size(); ++k)
+  for (std::size_t k = 0; k < computed->rise.size(); ++k)
     for (std::size_t i = 0; i < computed->rise[k].size(); ++i)
       residuals.push_back((computed->rise[k][i] - fit_.rises[k].rise[i]) / fit_.rises[k].deviation);
   return residuals;

@@ -1,6 +1,7 @@
 #include "cases/program/plate/plate_run.h"
 
 #include "physics/error.h"
+#include "solver/dynamics/steady_heating.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
@@ -163,6 +164,15 @@ PlateRun::Heat PlateRun::heat_of(const std::vector<Part>& all, double temperatur
 
 Eigen::VectorXcd PlateRun::motion(double frequency, double temperature) const {
   return case_->excitation.level * response_.displacement(at(frequency, temperature));
+}
+
+std::vector<SurfaceTemperature> PlateRun::steady_surface(double frequency, double& step) const {
+  const PlateHeating& heating = *case_->heating;
+  const auto n_steps = static_cast<int>(std::ceil(heating.duration / heating.step - 1e-9));
+  step = heating.duration / n_steps;
+  return surface_under_steady_source(mesh_, case_->material.heat, heating.boundary,
+                                     heat_of(parts(frequency), heating.surroundings).source, heating.surface, step,
+                                     n_steps);
 }
 
 // To first order the modulus of a warm body is that at its temperature, weighted by the heat source.

@@ -35,6 +35,9 @@ class PlateRun {
   /// Heats the body; `done` is called at the start and after each step.
   using Done = std::function<void(const HeatingRow&, const HeatedBody&, const CellField<double>& source)>;
   void heat(double frequency, const Done& done) const;
+  /// The surface at the ends of the steps of [heating], and their length; of a body whose modulus does not depend on
+  /// the temperature, so that its heat stays as it is. As heat() tells it, within 1e-7 of the largest rise.
+  std::vector<SurfaceTemperature> steady_surface(double frequency, double& step) const;
   /// u of the motion at the excitation's level, of a harmonic one [m].
   Eigen::VectorXcd motion(double frequency, double temperature) const;
 

@@ -230,6 +230,7 @@ EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw
   settings.control.largest_increment =
       fit.number("largest_strain_increment", range::positive, settings.control.largest_increment);
   settings.control.substeps = static_cast<int>(fit.integer("substeps", substeps_range, 1));
+  result.divides_steps = !fit.has("substeps");
   read_terms(fit, settings);
   read_bounds(fit, law, settings);
   for (const ConfigTable& table : fit.tables("experiments")) {

@@ -13,6 +13,7 @@ namespace pfdm {
 struct EndochronicFit {
   const IdentificationMethod* method = nullptr;
   EndochronicIdentificationSettings settings;
+  bool divides_steps = true;  ///< the program chooses how many steps an increment is; false: the case does
   std::vector<MaterialExperiment> experiments;  ///< that the law is fitted to
   std::vector<MaterialExperiment> predicted;    ///< that only judge it
   std::vector<std::filesystem::path> data_files;

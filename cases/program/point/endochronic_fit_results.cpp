@@ -2,6 +2,7 @@
 
 #include "cases/program/input/endochronic_reader.h"
 #include "cases/program/point/endochronic_comparison.h"
+#include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/point/endochronic_fit.h"
@@ -16,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double negligible_misfit = 1e-4;  // of the rms measured: what steps and rounding leave
+constexpr double most_of_noise = 0.01;      // likewise; correlated residuals above are an error of the law
 
 /// The residuals of each channel of each experiment.
 std::vector<ResidualSeries> series_of(const EndochronicFit& fit, const std::vector<double>& residuals) {
@@ -37,12 +39,13 @@ std::vector<ResidualSeries> series_of(const EndochronicFit& fit, const std::vect
 /// What doubts about the fit say of the law. Terms of the kernel that saturate at once stand for a yield surface.
 void suspect_law(const EndochronicLaw& law, double misfit, bool model_error, FitFindings& findings) {
   constexpr double rigid = 10.0;
+  if (is_sound(findings.verdict)) return;
   const double largest = std::ranges::max(law.kernel, {}, &KernelTerm::C).C / law.elasticity.young_modulus();
   if (model_error)
     findings.reasons.push_back(
         fmt::format("the law with {} kernel terms is the wrong model for these curves, which it misses by {:.2g} %",
                     law.kernel.size(), 100.0 * misfit));
-  if (findings.verdict != Verdict::sound && largest > rigid)
+  if (largest > rigid)
     findings.reasons.push_back(
         fmt::format("a C of {:.3g} times Young's modulus stands for an elastic range: a law with a yield surface, as "
                     "Chaboche's, has one, the endochronic law has not",
@@ -73,27 +76,28 @@ std::vector<std::string> failed_predictions(const EndochronicFit& fit, const End
   return reasons;
 }
 
-/// A second-order scheme: steps of a quarter leave a sixteenth of the error.
-void warn_of_steps(const EndochronicFit& fit, const EndochronicIdentification& found, FitFindings& findings) {
-  constexpr double noticed = 0.3;  // of the standard errors
-  const auto effect = effect_of_steps(found.fit, fit.experiments, fit.settings.control);
-  if (effect && *effect > noticed)
-    findings.warnings.push_back(fmt::format(
-        "the increments of the curves are the steps of the model, which may move an estimate by up to {:.2g} of "
-        "its standard errors; \"substeps\" divides them",
-        *effect));
+/// The law with steps of a quarter.
+std::optional<FinerModel> with_quarter_steps(const EndochronicFit& fit, const EndochronicIdentification& found) {
+  ControlSettings finer = fit.settings.control;
+  finer.substeps *= 4;
+  auto residuals = fit_residuals(found.fit.law, fit.experiments, finer);
+  if (!residuals) return std::nullopt;
+  return FinerModel{fmt::format("substeps = {}", finer.substeps), std::move(*residuals)};
 }
 
 FitFindings judged(const EndochronicFit& fit, const EndochronicIdentification& found) {
   FitFindings findings = findings_of(found.fit.parameters, found.fit.result);
   if (!found.remark.empty()) findings.warnings.push_back(found.remark);
   const double misfit = relative_misfit(found.fit.law, fit.experiments, fit.settings.control);
-  const bool model_error = judge(findings, {.series = series_of(fit, found.fit.result.residuals),
-                                            .negligible = negligible_misfit,
-                                            .misfit = misfit,
-                                            .reasons = failed_predictions(fit, found.fit.law, misfit)});
+  const bool model_error =
+      judge(findings, {.series = series_of(fit, found.fit.result.residuals),
+                       .result = &found.fit.result,
+                       .correlated_is_noise = misfit < most_of_noise,
+                       .negligible = negligible_misfit,
+                       .misfit = misfit,
+                       .reasons = failed_predictions(fit, found.fit.law, misfit),
+                       .finer = misfit < negligible_misfit ? std::nullopt : with_quarter_steps(fit, found)});
   suspect_law(found.fit.law, misfit, model_error, findings);
-  if (findings.verdict == Verdict::sound) warn_of_steps(fit, found, findings);
   return findings;
 }
 

@@ -131,7 +131,9 @@ void fit_case(const EndochronicProgram& program, Session& session) {
   log.say(fmt::format("method {}: {}; {} experiments, {} more to be predicted", fit.method->name,
                       fit.method->description, fit.experiments.size(), fit.predicted.size()));
   fit.settings.say = [&log](const std::string& message) { log.say(message); };
-  const EndochronicIdentification found = fit.method->identify(program.point.law, fit.experiments, fit.settings);
+  EndochronicIdentification found = fit.method->identify(
+      law_that_bears(program.point.law, fit.experiments, fit.settings), fit.experiments, fit.settings);
+  if (fit.divides_steps) divide_steps(found, fit.experiments, fit.settings, fit.settings.control);
   const double seconds = watch.seconds();
   log.open_file(session.results / "fit.log", false);  // not before: it belongs to the estimates that are there
   const FitFindings findings = write_fit_results(session.results, program.file, fit, found,

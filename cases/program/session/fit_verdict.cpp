@@ -14,13 +14,13 @@ std::string interval_text(double lower, double upper, double confidence, int dig
 }
 
 std::string verdict_text(const FitFindings& found) {
-  return fmt::format("{}{}", name_of(found.verdict), found.verdict == Verdict::sound ? "" : ", no intervals");
+  return fmt::format("{}{}", name_of(found.verdict), is_sound(found.verdict) ? "" : ", no intervals");
 }
 
 void say_verdict(const FitFindings& found, const Session& session) {
   for (const std::string& warning : found.warnings) session.log.warn(warning);
   for (const std::string& reason : found.reasons) session.log.warn(reason);
-  const bool sound = found.verdict == Verdict::sound;
+  const bool sound = is_sound(found.verdict);
   session.log.say(
       fmt::format("verdict: {}{}", name_of(found.verdict),
                   sound ? "" : "; see the warnings above. The estimates have no intervals, which would not hold"));

@@ -20,6 +20,7 @@ struct CurveFitJob {
   /// What the set-up adds to each specimen's curve, as a case says.
   std::function<std::vector<SetUp>(const CaseFile&)> set_ups;
   CurveModel::ReadCurve read_curve;
+  std::vector<CaseVariant> other_laws;  ///< that are tried where the residuals are more than noise
   std::string name;
   std::string hash;
   std::string title;

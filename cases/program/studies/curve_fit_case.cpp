@@ -1,5 +1,7 @@
 #include "cases/program/studies/curve_fit_case.h"
 
+#include "cases/program/studies/finer_case.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -148,7 +150,8 @@ std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
   if (!root.has("fit")) return std::nullopt;
   const ConfigTable fit =
       root.table("fit").with_keys({"parameters", "stages", "step", "differences", "tolerance", "maximum_iterations",
-                                   "starts", "screened", "spread", "intervals"});
+                                   "starts", "screened", "spread", "intervals", "finer"});
+  finer_case(fit, file);  // whether it makes sense
   CurveFitSettings settings{.parameters = {}, .stages = {}, .solver = read_settings(fit), .where = fit};
   const std::string kinds[] = {"linear", "profile"};
   if (const auto intervals = fit.find("intervals"))

@@ -2,6 +2,7 @@
 
 #include "cases/program/session/fit_verdict.h"
 #include "postproc/curves/curve_misfit.h"
+#include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 
@@ -39,7 +40,7 @@ FitFindings merged(const std::vector<FitStage>& stages) {
       whole.warnings.push_back(fmt::format(
           "{} was estimated in stage \"{}\"; the intervals of the others are conditional on it", p.name, stage->name));
     }
-  if (whole.verdict != Verdict::sound) withhold_intervals(whole);
+  if (!is_sound(whole.verdict)) withhold_intervals(whole);
   return whole;
 }
 

@@ -128,10 +128,11 @@ AnalysedRecord summary_of(const VibrationTest& test, const VibrationRecord& r, c
 }
 
 void say_record(const AnalysedRecord& s, Log& log) {
-  log.say(fmt::format(
-      "{}: {} s at {:g} samples/s, {} to {} Hz; base {:.4g} g0 rms, mean density {:.4g} g0^2/Hz{}", s.name, s.duration,
-      s.rate, s.band_low, s.band_high, s.level.rms_base / standard_gravity, s.level.base_density / g0_squared,
-      s.sine_amplitude ? fmt::format(", sine of {:.4g} g0", *s.sine_amplitude / standard_gravity) : ""));
+  log.say(
+      fmt::format("{}: {:.10g} s at {:g} samples/s, {} to {} Hz; base {:.4g} g0 rms, mean density {:.4g} g0^2/Hz{}",
+                  s.name, s.duration, s.rate, s.band_low, s.band_high, s.level.rms_base / standard_gravity,
+                  s.level.base_density / g0_squared,
+                  s.sine_amplitude ? fmt::format(", sine of {:.4g} g0", *s.sine_amplitude / standard_gravity) : ""));
   log.say(fmt::format("  Hann window, {} segments of {} with {:g} % overlap ({:.4g} independent), resolution {:.4g} Hz",
                       s.segments, s.segment, 100.0 * s.overlap, s.averages, s.resolution));
   log.say(fmt::format("  largest response {:.4g} times the base at {:.5g} Hz", s.resonance.response,

@@ -1,6 +1,7 @@
 #include "cases/program/vibration/mass_material_identified.h"
 
 #include "physics/error.h"
+#include "postproc/curves/fit_judgement.h"
 #include "solver/vibration/identification_changes.h"
 #include "solver/vibration/identification_evidence.h"
 #include "solver/vibration/identification_faults.h"

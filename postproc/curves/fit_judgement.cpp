@@ -1,0 +1,147 @@
+#include "postproc/curves/fit_judgement.h"
+
+#include "solver/calibration/calibration_statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr double noticeable_move = 0.3;  // by a finer discretisation, of the standard error
+constexpr double most_of_move = 4.0;     // of what a finer discretisation does to residuals, and the exact model would
+
+std::vector<CorrelatedError> errors_if_correlated(const JudgedData& data) {
+  if (data.result == nullptr || !data.correlated_is_noise || data.result->inverse_normal.size() == 0) return {};
+  std::vector<std::size_t> lengths;
+  for (const ResidualSeries& series : data.series) lengths.push_back(series.values.size());
+  return correlated_errors(*data.result, lengths);
+}
+
+void widen(FittedParameter& p, const CorrelatedError& error) {
+  p.widened_by = error.widening;
+  p.standard_error *= error.widening;
+  const double reach = student_95(std::min(error.freedom, 1e9)) * p.standard_error;
+  p.lower = p.log_scale ? p.estimate * std::exp(-reach / p.estimate) : p.estimate - reach;
+  p.upper = p.log_scale ? p.estimate * std::exp(reach / p.estimate) : p.estimate + reach;
+}
+
+FitEvidence evidence_of(const FitFindings& found, const JudgedData& data) {
+  FitEvidence evidence{.converged = found.converged,
+                       .message = found.message,
+                       .misfit = data.misfit,
+                       .series = data.series,
+                       .noise_is_known = found.noise_is_known,
+                       .negligible = data.negligible,
+                       .correlated = errors_if_correlated(data),
+                       .starts = found.starts,
+                       .found = data.reasons};
+  for (const FittedParameter& p : found.parameters)
+    evidence.estimates.push_back({.name = p.name,
+                                  .value = p.estimate,
+                                  .standard_error = p.standard_error,
+                                  .lower_bound = p.lower_bound,
+                                  .upper_bound = p.upper_bound,
+                                  .at_bound = p.at_bound});
+  return evidence;
+}
+
+Eigen::VectorXd change_by_finer(const JudgedData& data) {
+  const auto as_vector = [](const std::vector<double>& v) { return Eigen::VectorXd::Map(v.data(), std::ssize(v)); };
+  return as_vector(data.finer->residuals) - as_vector(data.result->residuals);
+}
+
+/// The data with what a finer discretisation and other estimates explain taken from the residuals; nothing where it is
+/// not in the direction of the finer one, or more than the discretisation's error can be.
+std::optional<FitResult> without_error_of_discretisation(const JudgedData& data) {
+  const FitResult& result = *data.result;
+  const Eigen::VectorXd change = change_by_finer(data);
+  std::vector<std::vector<double>> columns{{change.begin(), change.end()}};
+  for (Eigen::Index j = 0; j < result.derivatives.cols(); ++j)
+    if (result.inverse_normal(j, j) > 0.0)
+      columns.emplace_back(result.derivatives.col(j).begin(), result.derivatives.col(j).end());
+  const std::vector<double> coefficients = explained_by(result.residuals, columns);
+  // The exact model would leave residuals + f * change with f > 0.
+  if (!(-coefficients[0] > 0.0 && -coefficients[0] < most_of_move)) return std::nullopt;
+  FitResult left = result;
+  for (std::size_t i = 0; i < left.residuals.size(); ++i)
+    for (std::size_t j = 0; j < columns.size(); ++j) left.residuals[i] -= coefficients[j] * columns[j][i];
+  return left;
+}
+
+/// The evidence once the error of the discretisation is taken out.
+std::optional<FitEvidence> evidence_without_discretisation(const FitFindings& found, JudgedData data) {
+  const auto left = without_error_of_discretisation(data);
+  if (!left) return std::nullopt;
+  auto next = left->residuals.begin();
+  for (ResidualSeries& series : data.series) {
+    const auto end = next + std::ssize(series.values);
+    series.values.assign(next, end);
+    next = end;
+  }
+  data.result = &*left;
+  return evidence_of(found, data);
+}
+
+void add_moves(FitFindings& found, const JudgedData& data) {
+  const Eigen::VectorXd moves =
+      -data.result->inverse_normal * (data.result->derivatives.transpose() * change_by_finer(data));
+  found.finer = data.finer->what;
+  for (std::size_t j = 0; j < found.parameters.size(); ++j) {
+    FittedParameter& p = found.parameters[j];
+    const double move = moves[static_cast<Eigen::Index>(j)];
+    p.moved_by_finer = p.log_scale ? p.estimate * std::expm1(move) : move;
+    if (std::abs(p.moved_by_finer) > noticeable_move * p.standard_error)
+      found.warnings.push_back(
+          fmt::format("with {} {} would be {:.4g}, {:+.2g} %: {:.2g} standard errors, which the "
+                      "interval does not hold",
+                      data.finer->what, p.name, p.estimate + p.moved_by_finer, 100.0 * p.moved_by_finer / p.estimate,
+                      std::abs(p.moved_by_finer) / p.standard_error));
+  }
+}
+
+}  // namespace
+
+bool judge(FitFindings& found, JudgedData data) {
+  FitEvidence evidence = evidence_of(found, data);
+  Judgement judgement = judge(evidence);
+  if (data.finer && data.result != nullptr) {
+    if (judgement.model_error)
+      if (auto other = evidence_without_discretisation(found, data)) {
+        if (Judgement better = judge(*other); !better.model_error || better.verdict < judgement.verdict) {
+          judgement = std::move(better);
+          evidence = std::move(*other);
+          found.warnings.push_back(
+              fmt::format("the residuals hold the error of the discretisation: {} takes it out", data.finer->what));
+        }
+      }
+    add_moves(found, data);
+  }
+  found.verdict = judgement.verdict;
+  found.reasons = std::move(judgement.reasons);
+  found.converged = found.converged && found.verdict != Verdict::failed;
+  if (!is_sound(found.verdict)) withhold_intervals(found);
+  if (found.verdict == Verdict::correlated) {
+    for (std::size_t j = 0; j < evidence.correlated.size(); ++j) widen(found.parameters[j], evidence.correlated[j]);
+    found.correlated = std::move(evidence.correlated);
+  }
+  return judgement.model_error;
+}
+
+void question(FitFindings& found, std::string reason) {
+  found.reasons.push_back(std::move(reason));
+  found.verdict = std::max(found.verdict, Verdict::questionable);
+  withhold_intervals(found);
+}
+
+void withhold_intervals(FitFindings& found) {
+  found.correlated.clear();
+  for (FittedParameter& p : found.parameters) {
+    p.standard_error = p.lower = p.upper = std::numeric_limits<double>::quiet_NaN();
+    p.profile.reset();
+  }
+}
+
+}  // namespace pfdm

@@ -1,0 +1,38 @@
+#pragma once
+// What a fit found, and its verdict: intervals are widened, or withheld.
+
+#include "postproc/curves/fit_json.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// The same model with a finer mesh, or finer steps, at the estimates.
+struct FinerModel {
+  std::string what;               ///< is finer: "mesh.z[0].cells = 10"
+  std::vector<double> residuals;  ///< as many as those of the fit
+};
+
+/// What findings do not hold of what a verdict needs.
+struct JudgedData {
+  std::vector<ResidualSeries> series{};
+  /// The fit, where correlated residuals may be noise: of a sound one they widen the intervals. Null: they leave none.
+  const FitResult* result = nullptr;
+  bool correlated_is_noise = true;  ///< false: correlated residuals are an error of the model, and leave no intervals
+  double negligible = 0.0;          ///< FitEvidence::negligible
+  double misfit = 0.0;              ///< FitEvidence::misfit
+  std::vector<std::string> reasons{};  ///< that only this kind of fit knows
+  std::optional<FinerModel> finer{};   ///< needs the fit
+};
+/// Gives findings their verdict. Estimates of a fit that is not sound lose their intervals and standard errors, those
+/// of one with correlated residuals get wider ones, and one that has failed has not converged. What a finer
+/// discretisation does to the residuals counts as explained. Returns whether the residuals are more than white noise.
+bool judge(FitFindings& found, JudgedData data);
+
+/// One more reason: the findings are questionable at best, and lose their intervals.
+void question(FitFindings& found, std::string reason);
+void withhold_intervals(FitFindings& found);
+
+}  // namespace pfdm

@@ -1,0 +1,108 @@
+#include "solver/dynamics/steady_heating.h"
+
+#include "physics/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Eigen::Index between_trials = 4;  // vectors
+
+std::vector<DiffusionBoundary> homogeneous(std::vector<DiffusionBoundary> boundary) {
+  for (DiffusionBoundary& on : boundary) on.value = 0.0;
+  return boundary;
+}
+
+VectorXd as_vector(const CellField<double>& field) {
+  return VectorXd::Map(&field[0], static_cast<Eigen::Index>(field.size()));
+}
+
+/// A step from a rise, without a source.
+class Step {
+ public:
+  Step(const Mesh& mesh, const HeatedMaterial& material, const std::vector<DiffusionBoundary>& boundary, double dt)
+      : diffusion_(mesh, {.conductivity = CellField<double>(as_size(mesh.n_cells()), material.conductivity),
+                          .capacity = CellField<double>(as_size(mesh.n_cells()), material.capacity),
+                          .boundary = homogeneous(boundary),
+                          .precision = 1e-11}),
+        field_(as_size(mesh.n_cells()), 0.0),
+        dt_(dt) {}
+  VectorXd operator()(const VectorXd& rise) {
+    for (Index c = 0; c < field_.size(); ++c) field_[c] = rise[c];
+    if (!diffusion_.step(dt_, field_).converged) throw ComputationError("conduction of heat: a step did not converge");
+    return as_vector(field_);
+  }
+
+ private:
+  Diffusion diffusion_;
+  CellField<double> field_;
+  double dt_;
+};
+
+/// Columns: coefficients of the rise after each step in the first m vectors, times the norm of the first step's rise.
+MatrixXd coefficients(const MatrixXd& hessenberg, Eigen::Index m, double norm, int n) {
+  MatrixXd all(m, n);
+  VectorXd now = VectorXd::Zero(m);
+  for (int step = 0; step < n; ++step) {
+    now = hessenberg.topLeftCorner(m, m) * now;
+    now[0] += norm;
+    all.col(step) = now;
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<SurfaceTemperature> surface_under_steady_source(const Mesh& mesh, const HeatedMaterial& material,
+                                                            const std::vector<DiffusionBoundary>& boundary,
+                                                            const CellField<double>& source, const std::string& patch,
+                                                            double dt, int n, double precision) {
+  HeatedBody body(mesh, material, boundary);
+  body.set_source(source);
+  body.step(dt);
+  const VectorXd first = as_vector(body.rise());
+  const double norm = first.norm();
+  std::vector<SurfaceTemperature> surface(static_cast<std::size_t>(n));
+  Step step(mesh, material, boundary, dt);
+  const auto most = static_cast<Eigen::Index>(n);
+  MatrixXd V(first.size(), 0), H = MatrixXd::Zero(most + 1, most), weights;
+  if (!(norm > 0.0)) {
+    std::ranges::fill(surface, body.surface(patch));
+    return surface;
+  }
+  V.conservativeResize(Eigen::NoChange, 1);
+  V.col(0) = first / norm;
+  for (Eigen::Index m = 1;; ++m) {
+    VectorXd next = step(V.col(m - 1));
+    for (int twice = 0; twice < 2; ++twice) {
+      const VectorXd along = V.transpose() * next;
+      next -= V * along;
+      H.col(m - 1).head(m) += along;
+    }
+    const double rest = next.norm();
+    H(m, m - 1) = rest;
+    const bool ends = m == most || !(rest > 1e-14);
+    if (ends || m % between_trials == 0) {
+      weights = coefficients(H, m, norm, n);
+      // What the space lacks after each step, kept from then on at most.
+      const double lacks = rest * weights.row(m - 1).cwiseAbs().sum();
+      if (ends || lacks <= precision * weights.colwise().norm().maxCoeff()) break;
+    }
+    V.conservativeResize(Eigen::NoChange, m + 1);
+    V.col(m) = next / rest;
+  }
+  CellField<double> rise(as_size(mesh.n_cells()), 0.0);
+  for (Eigen::Index k = 0; k < weights.cols(); ++k) {
+    const VectorXd there = V.leftCols(weights.rows()) * weights.col(k);
+    for (Index c = 0; c < rise.size(); ++c) rise[c] = there[c];
+    surface[static_cast<std::size_t>(k)] = body.surface(patch, rise);
+  }
+  return surface;
+}
+
+}  // namespace pfdm
