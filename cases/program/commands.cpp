@@ -1,6 +1,7 @@
 #include "cases/program/commands.h"
 
 #include "cases/program/input/config.h"
+#include "postproc/curves/instruction_set.h"
 #include "postproc/exports/export_formats.h"
 
 #include <fmt/format.h>
@@ -27,8 +28,9 @@ struct CommandText {
 
 constexpr CommandText case_commands[] = {
     {"run", "Run a case: make the mesh, solve, write the results",
-     "Writes to CASE/results: summary.json, run.log and, by kind of case,\n  fracture       force_displacement.csv, "
-     "fields.pvd (ParaView), mesh.vtu, cohesive laws\n  endochronic    history.csv\n  mass_material  a CSV file for "
+     "Writes to CASE/results: summary.json, run.log, case.toml (as it ran) and, by kind of case,\n"
+     "  fracture       force_displacement.csv, fields.pvd (ParaView), mesh.vtu, cohesive laws\n  endochronic    "
+     "history.csv\n  mass_material  a CSV file for "
      "each test\nA fracture run that was killed or interrupted continues with --restart."},
     {"check", "Read everything and solve nothing: say what would run, or what is wrong", "Writes no files."},
     {"mesh", "Make the mesh and measure its quality", "Writes CASE/results/mesh.vtu."},
@@ -45,14 +47,15 @@ constexpr CommandText case_commands[] = {
      "case keeps "
      "its runs in CASE/results/runs; the same command continues them."},
     {"sweep", "Run a case with the sets of values that it names in [sweep]",
-     "Writes to CASE/results: sweep.csv, a row for each run. The runs are kept in CASE/results/runs;\nthe same command "
-     "continues them."},
+     "Writes to CASE/results: sweep.csv, a row for each run. The runs are kept in CASE/results/runs, with links by\n"
+     "their values in runs_by_value; the same command continues them. pfdm report CASE then draws the figures."},
     {"analyse", "Analyse the vibration records of a case without a fit: spectra, responses, harmonics",
      "Writes to CASE/results/analysis: analysis.json and, of each test NAME, NAME_spectra.csv (densities, H1, H2, Hv,\n"
      "coherence with bounds), NAME_spectrogram.csv and, of sines, NAME_harmonics.csv, NAME_envelopes.csv (recorded,\n"
      "and of the models of the case and of its fits). pfdm report then draws a page of each test."},
     {"report", "Draw pictures and plots of the results on one page",
-     "Writes to CASE/results/report: report.pdf, report.png; after analyse NAME/report.pdf and .png of each test."},
+     "Writes to CASE/results/report: report.pdf, report.png; after analyse NAME/report.pdf and .png of each test; of\n"
+     "a sweep its figures against the values. CASE may be the folder of results too, as that of a run of a sweep."},
 };
 
 constexpr CommandText other_commands[] = {
@@ -95,7 +98,8 @@ Parser::Parser() {
   formatter->label("Subcommands", "Commands");
   formatter->label("Positionals", "Arguments");
   formatter->label("REQUIRED", "");
-  app.set_version_flag("--version", "pfdm " PFDM_VERSION, "Print the version and exit");
+  app.set_version_flag("--version", fmt::format("pfdm " PFDM_VERSION " ({})", instruction_set()),
+                       "Print the version and the processors that it was compiled for, and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   app.footer(
       fmt::format("\npfdm COMMAND --help says more of a command. A case is a directory with a case.toml, as\n"
@@ -115,6 +119,10 @@ void Parser::add_case_options() {
     of.add_option("--threads", line.threads, "number of threads (default: all cores)")
         ->check(CLI::Range(1, 4096).description(""))
         ->type_name("N");
+    of.add_option("--set", line.set, "another value for a key of the case; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->allow_extra_args(false);
     of.add_flag("--quiet", line.quiet, "say nothing but warnings and errors");
     if (of.get_name() != "check")
       of.add_option("--output", line.output, "results directory (default: CASE/results)")

@@ -15,7 +15,8 @@ namespace pfdm {
 struct CommandLine {
   std::string command;
   std::string case_directory;
-  std::string output;  ///< directory; empty: the case's own
+  std::string output;            ///< directory; empty: the case's own
+  std::vector<std::string> set;  ///< KEY=VALUE
   int threads = 1;
   std::optional<Index> max_steps{};
   bool restart = false;

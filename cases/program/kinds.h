@@ -10,6 +10,13 @@ namespace pfdm {
 /// The table of the executable: all kinds (kinds.cpp), or the one of pfdm_fracture (fracture_kind_only.cpp).
 std::span<const CaseKind> case_kinds();
 
+/// The names of all kinds that there are, in the full program's order.
+inline constexpr std::string_view all_kind_names[] = {"chain",      "endochronic",   "fracture",
+                                                      "homogenize", "mass_material", "plate"};
+
+/// False for a kind that there is and that this executable was built without.
+bool knows_kind(const CaseFile& file);
+
 /// Throws InputError for whatever is wrong with the file, unknown keys included.
 RunnableCase read_case(const CaseFile& file);
 

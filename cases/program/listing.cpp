@@ -101,6 +101,8 @@ void list_laws(std::ostream& out) {
     out << fmt::format("\n{}: {}\n", kind.name, kind.description);
     for (const LawTable& table : kind.laws()) list_table(out, table);
   }
+  if (case_kinds().size() < std::size(all_kind_names))
+    out << "\nKinds of case that this program was built without, until one of them is used: cases/README.md\n";
 }
 
 }  // namespace pfdm

@@ -1,5 +1,6 @@
 #include "cases/program/program.h"
 #include "cases/program/session/stop_signal.h"
+#include "postproc/curves/instruction_set.h"
 
 #include <unistd.h>
 
@@ -9,7 +10,9 @@
 namespace {
 
 bool can_run_here() {
-#ifdef __AVX2__
+#if defined(__AVX512VL__)
+  return __builtin_cpu_supports("avx512vl");
+#elif defined(__AVX2__)
   return __builtin_cpu_supports("avx2");
 #else
   return true;
@@ -20,8 +23,8 @@ bool can_run_here() {
 
 int main(int argc, char** argv) {
   if (!can_run_here()) {
-    std::cerr << "pfdm: this program was compiled for processors with AVX2, which this one lacks: build it "
-                 "here (./pfdm does), or with -DPFDM_ARCH=x86-64-v2\n";
+    std::cerr << "pfdm: this program was compiled for " << pfdm::instruction_set()
+              << ", which this processor lacks: build it here (./pfdm does), or with -DPFDM_ARCH=x86-64-v2\n";
     return 1;
   }
   const int status = pfdm::run_program({argv + 1, argv + argc}, std::cout, std::cerr, isatty(STDOUT_FILENO) == 1);

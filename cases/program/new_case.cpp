@@ -127,14 +127,14 @@ std::string copy_steps(const CaseFile& chain, const fs::path& directory) {
 void make_case(const fs::path& directory, const fs::path& like, std::ostream& out) {
   require_empty(directory);
   const CaseFile old = open_case(like);
-  read_case(old);  // a copy of what is wrong helps nobody
+  if (knows_kind(old)) read_case(old);  // a copy of what is wrong helps nobody
   const std::string name = whole(directory).filename().string(), old_name = case_name(old);
   DataCopies data;
   std::string text = old.config.root().string("kind") == "chain"
                          ? copy_steps(old, directory)
                          : with_paths(old, [&](const std::string& path) { return data.renamed(path, old.directory); });
   text = with_value(text, "title",
-                    quoted_toml(fmt::format("{} (begun as a copy of {}: edit this title)", name, old_name)));
+                    fmt::format("{}  # edit this title; begun as a copy of {}", quoted_toml(name), old_name));
   make_folder(directory);
   data.copy_to(directory);
   write_file(directory / "README.md", readme(name, old_name));

@@ -2,22 +2,33 @@
 
 #include "cases/program/commands.h"
 #include "cases/program/completion.h"
+#include "cases/program/input/case_override.h"
+#include "cases/program/input/kept_case.h"
 #include "cases/program/kinds.h"
 #include "cases/program/listing.h"
 #include "cases/program/new_case.h"
 #include "cases/program/session/stop_signal.h"
 #include "cases/program/studies/sweep_on_slurm.h"
+#include "postproc/files/other_case.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <utility>
 
 namespace pfdm {
 namespace {
 
 enum ExitStatus { done = 0, computation_failed = 1, input_wrong = 2 };
+
+/// Those of a job's options that say which case and which results its next command is about.
+std::string options_of(const CommandLine& line) {
+  std::string options;
+  for (const std::string& word : line.set) options += fmt::format(" --set {}", quoted(word));
+  return line.output.empty() ? options : fmt::format("{} --output {}", options, line.output);
+}
 
 /// What is kept after an interruption, and how the job is continued.
 std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
@@ -28,7 +39,15 @@ std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
                        line.command);
   if (line.command != "run") return "";
   return fmt::format("; pfdm run {}{} --restart continues from the last complete step", line.case_directory,
-                     line.output.empty() ? "" : fmt::format(" --output {}", line.output));
+                     options_of(line));
+}
+
+/// The command that looks at what a run, or a sweep, has made.
+void say_next(const CommandLine& line, const RunnableCase& runnable, Log& log) {
+  const char* launcher = std::getenv("PFDM_LAUNCHER");  // that the user has called
+  if ((line.command == "run" || (line.command == "sweep" && !line.slurm)) && runnable.report)
+    log.say(fmt::format("next: {} report {}{}", launcher != nullptr ? launcher : "pfdm", line.case_directory,
+                        options_of(line)));
 }
 
 const std::function<void(Session&)>& job_of(const CommandLine& line, const RunnableCase& runnable) {
@@ -79,11 +98,16 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
                   .exports = line.exports};
   if (line.prepared)
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");
-  const CaseFile file = open_case_or_name_nearest(line.case_directory);
+  const CaseFile file = with_overrides(open_case_or_name_nearest(line.case_directory), line.set);
   const RunnableCase runnable = read_case(file);
   for (const std::string& remark : file.config.remarks()) log.say(remark);
-  if (session.results.empty()) session.results = file.directory / "results";
-  do_job(job_of(line, runnable), session, way_on(line, runnable));
+  if (session.results.empty()) session.results = own_results(file);
+  try {
+    do_job(job_of(line, runnable), session, way_on(line, runnable));
+  } catch (const OtherCase& error) {
+    throw InputError(error.what() + words_on_changes(file, session.results));
+  }
+  say_next(line, runnable, log);
 }
 
 void do_init(const CommandLine& line, std::ostream& out) {

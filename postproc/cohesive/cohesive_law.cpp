@@ -103,10 +103,9 @@ Energies mean_energies(const ColumnRecord& record, const CohesiveLaw& law) {
   return mean;
 }
 
-// Of a cap of the sphere with the whole area.
-double cap_angle(double cap, double whole) { return std::acos(std::clamp(1.0 - 2.0 * cap / whole, -1.0, 1.0)); }
-
 }  // namespace
+
+double cap_angle(double cap, double whole) { return std::acos(std::clamp(1.0 - 2.0 * cap / whole, -1.0, 1.0)); }
 
 bool was_damaged(const ColumnRecord& record, std::size_t place) {
   return std::ranges::any_of(

@@ -76,6 +76,9 @@ struct Debonding {
   double angle_minus = 0.0;  ///< likewise about the other pole
 };
 
+/// Polar angle of a cap of the area `cap` on a sphere of the area `whole` [rad].
+double cap_angle(double cap, double whole);
+
 std::vector<Debonding> debonding_of(const ColumnRecord& record);
 
 }  // namespace pfdm

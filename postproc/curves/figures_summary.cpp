@@ -1,5 +1,6 @@
 #include "postproc/curves/figures_summary.h"
 
+#include "postproc/curves/instruction_set.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/json.h"
@@ -23,10 +24,15 @@ Json to_json(const std::vector<NamedFigures>& tests) {
 }  // namespace
 
 void write_figures_summary(const std::filesystem::path& path, const FiguresSummary& s) {
-  Json json = {{"case", s.case_name},          {"status", s.status},
-               {"version", s.version},         {"case_hash", s.case_hash},
-               {"threads", s.threads},         {"wall_seconds", s.wall_seconds},
-               {"cpu_seconds", cpu_seconds()}, {"peak_memory_bytes", std::llround(peak_memory())}};
+  Json json = {{"case", s.case_name},
+               {"status", s.status},
+               {"version", s.version},
+               {"instruction_set", instruction_set()},
+               {"case_hash", s.case_hash},
+               {"threads", s.threads},
+               {"wall_seconds", s.wall_seconds},
+               {"cpu_seconds", cpu_seconds()},
+               {"peak_memory_bytes", std::llround(peak_memory())}};
   for (const auto& [name, value] : s.figures) json[name] = value;
   if (!s.tests.empty()) json["tests"] = to_json(s.tests);
   write_file(path, json.dump(2) + "\n");

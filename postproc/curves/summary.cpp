@@ -1,5 +1,6 @@
 #include "postproc/curves/summary.h"
 
+#include "postproc/curves/instruction_set.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/json.h"
 
@@ -64,6 +65,7 @@ Json to_json(const RunSummary& s) {
   Json json = {{"case", s.case_name},
                {"status", s.status},
                {"version", s.version},
+               {"instruction_set", instruction_set()},
                {"case_hash", s.case_hash},
                {"threads", s.threads},
                {"cells", s.cells},
@@ -79,6 +81,7 @@ Json to_json(const RunSummary& s) {
   if (s.figures) json.update(to_json(*s.figures));
   for (const auto& [name, value] : s.other_figures) json[name] = value;
   for (const auto& [name, count] : s.other_counts) json[name] = count;
+  for (const auto& [name, text] : s.other_texts) json[name] = text;
   return json;
 }
 
@@ -160,6 +163,8 @@ RunSummary read_run_summary(const std::filesystem::path& path) {
         s.other_counts[name] = value;
       else if (value.is_number() || value.is_null())
         s.other_figures[name] = number_of(value);
+      else if (value.is_string())
+        s.other_texts[name] = value;
     }
     return s;
   });

@@ -57,6 +57,7 @@ struct RunSummary {
   std::optional<Headlines> figures;             ///< of kinds that have a force-displacement curve
   std::map<std::string, double> other_figures;  ///< a case's own, with the unit in the name
   std::map<std::string, std::int64_t> other_counts;
+  std::map<std::string, std::string> other_texts;
 };
 
 /// Written whole or not at all; numbers that are not finite become null. Throws ComputationError if the file cannot be
@@ -76,8 +77,8 @@ struct ReadSummary {
 /// Nothing if there is no such file. Throws InputError for a file that is no summary.
 std::optional<ReadSummary> read_summary(const std::filesystem::path& path);
 
-/// What write_summary() wrote; all figures are in other_figures and other_counts. Throws InputError that names the file
-/// for what is no summary.
+/// What write_summary() wrote; all figures are in other_figures, other_counts and other_texts. Throws InputError that
+/// names the file for what is no summary.
 RunSummary read_run_summary(const std::filesystem::path& path);
 
 /// The most memory that this process has had so far [byte].

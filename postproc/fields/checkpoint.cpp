@@ -4,6 +4,7 @@
 
 #include "physics/error.h"
 #include "postproc/files/atomic_file.h"
+#include "postproc/files/other_case.h"
 #include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
@@ -151,8 +152,8 @@ FractureState read_checkpoint(const std::filesystem::path& path, const std::stri
   std::vector<char> hash;
   reader(hash);
   if (!std::equal(hash.begin(), hash.end(), case_hash.begin(), case_hash.end()))
-    throw InputError(fmt::format("the checkpoint {} belongs to another case or to other input ({} instead of {})",
-                                 path.string(), std::string(hash.begin(), hash.end()), case_hash));
+    throw OtherCase(fmt::format("the checkpoint {} belongs to another case or to other input ({} instead of {})",
+                                path.string(), std::string(hash.begin(), hash.end()), case_hash));
   FractureState state;
   archive_state(reader, state);
   reader.expect_end();

@@ -13,7 +13,7 @@ namespace pfdm {
 void write_checkpoint(const std::filesystem::path& path, const FractureState& state, const std::string& case_hash);
 
 /// Throws InputError if the file cannot be read, is not a checkpoint, is truncated or corrupt (checksum), has another
-/// version's format or belongs to another case.
+/// version's format; OtherCase if it belongs to another case.
 FractureState read_checkpoint(const std::filesystem::path& path, const std::string& case_hash);
 
 }  // namespace pfdm

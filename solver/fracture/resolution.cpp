@@ -33,10 +33,13 @@ double width(const Mesh& mesh, Index cell) {
   return std::sqrt(area(largest) * (is_triangle ? 4.0 / std::numbers::sqrt3 : 1.0));
 }
 
-// Of each region the cell that is the thickest for its ell, and the means of width and ell over its cells.
+bool is_too_thick(double h, double ell) { return h > (1.0 + rounding) * ell / cells_in_ell; }
+
+// Of each region the cell that is the thickest for its ell, how many are too thick, and the sums of width and ell.
 struct Sizes {
   double thickness = 0.0, ell = 1.0;  // [m]
-  double width = 0.0, mean_ell = 0.0, n_cells = 0.0;
+  double width = 0.0, all_ell = 0.0;  // [m]
+  Index n_cells = 0, n_too_thick = 0;
 };
 std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model) {
   std::vector<Sizes> sizes(model.regions.size());
@@ -46,47 +49,109 @@ std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model)
     Sizes& of_region = sizes[as_size(mesh.region[c])];
     if (const double h = thickness(mesh, c); h / region.ell > of_region.thickness / of_region.ell)
       of_region.thickness = h, of_region.ell = region.ell;
+    of_region.n_too_thick += is_too_thick(thickness(mesh, c), region.ell) ? 1 : 0;
     of_region.width += width(mesh, c);
-    of_region.mean_ell += region.ell;
-    of_region.n_cells += 1.0;
+    of_region.all_ell += region.ell;
+    ++of_region.n_cells;
   }
   return sizes;
 }
 
+void add_words_on_thickness(const std::string& region, const Sizes& sizes, ResolutionWords& words) {
+  if (sizes.n_too_thick == 0) return;
+  const std::string sizes_words =
+      fmt::format("region \"{}\": cells are up to {:.3g} m thick, ell is {:.3g} m", region, sizes.thickness, sizes.ell);
+  if (sizes.n_too_thick == sizes.n_cells)
+    words.warnings.push_back(
+        fmt::format("{}: no crack would be resolved (at most ell/{:g}: smaller cells in [mesh], or a "
+                    "larger length in [fracture])",
+                    sizes_words, cells_in_ell));
+  else
+    words.remarks.push_back(
+        fmt::format("{}: a crack is resolved in {} of {} cells (at most ell/{:g}); the run warns if it "
+                    "enters others",
+                    sizes_words, sizes.n_cells - sizes.n_too_thick, sizes.n_cells, cells_in_ell));
+}
+
+void add_words_on_strength(const std::string& name, const RegionModel& region, ResolutionWords& words) {
+  if (!region.damageable || !region.strength.is_chosen()) return;
+  if (const double largest = largest_length(region.strength.data()); region.ell > largest)
+    words.warnings.push_back(fmt::format(
+        "region \"{}\": ell is {:.3g} m; a model of strength needs less than 3 Gc/(16 W) = {:.3g} m, W being the "
+        "energy density at the tensile strength",
+        name, region.ell, largest));
+}
+
+void add_words_on_band(const Band& band, const Sizes& sizes, const FractureModel& model, double ell,
+                       bool corrects_toughness, ResolutionWords& words) {
+  const auto n = static_cast<double>(sizes.n_cells);
+  if (sizes.width > widest_in_ell * sizes.all_ell)
+    words.warnings.push_back(fmt::format(
+        "region \"{}\": cells are {:.3g} m wide along the band in the mean, ell is {:.3g} m: the front of a "
+        "crack that runs along it would not be resolved (at most ell: surface_size of the particle, or cells of "
+        "[mesh])",
+        band.region, sizes.width / n, sizes.all_ell / n));
+  const double half = std::min(model.crack->support, long_tail) * ell,
+               beyond = energy_beyond(*model.crack, 0.5 * band.width / ell);
+  if (corrects_toughness ? beyond > 0.5 : band.width < 2.0 * half)
+    words.warnings.push_back(fmt::format(
+        "region \"{}\" is {:.3g} m wide: the profile of a crack in it, {:.3g} m with this ell, reaches beyond it with "
+        "{:.0f} % of its energy (a wider band, or a smaller length of [regions.{}])",
+        band.region, band.width, 2.0 * half, 100.0 * beyond, band.region));
+}
+
 }  // namespace
 
-std::vector<std::string> resolution_warnings(const Mesh& mesh, const FractureModel& model,
-                                             std::span<const Band> bands) {
-  std::vector<std::string> warnings;
+// ds/dd = -ell/sqrt(alpha), and the density of the surface energy is proportional to alpha.
+double energy_beyond(const CrackGeometry& crack, double distance) {
+  constexpr int n = 20000;
+  double s = 0.0, within = 0.0;
+  for (int i = 0; i < n && s < distance; ++i) {
+    const double root = std::sqrt(crack.alpha(1.0 - (i + 0.5) / n));
+    s += 1.0 / (n * root);
+    within += root / n;
+  }
+  return s < distance ? 0.0 : std::max(0.0, 1.0 - within * 4.0 / crack.c0);
+}
+
+ResolutionWords resolution_words(const Mesh& mesh, const FractureModel& model, std::span<const Band> bands,
+                                 bool corrects_toughness) {
+  ResolutionWords words;
   const std::vector<Sizes> sizes = sizes_by_region(mesh, model);
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
-    if (sizes[r].thickness > (1.0 + rounding) * sizes[r].ell / cells_in_ell)
-      warnings.push_back(fmt::format(
-          "region \"{}\": cells are up to {:.3g} m thick, ell is {:.3g} m: a crack in the thick ones would not "
-          "be resolved (at most ell/{:g})",
-          mesh.region_names[r], sizes[r].thickness, sizes[r].ell, cells_in_ell));
-    const RegionModel& region = model.regions[r];
-    if (!region.damageable || !region.strength.is_chosen()) continue;
-    if (const double largest = largest_length(region.strength.data()); region.ell > largest)
-      warnings.push_back(fmt::format(
-          "region \"{}\": ell is {:.3g} m; a model of strength needs less than 3 Gc/(16 W) = {:.3g} m, W being the "
-          "energy density at the tensile strength",
-          mesh.region_names[r], region.ell, largest));
+    add_words_on_thickness(mesh.region_names[r], sizes[r], words);
+    add_words_on_strength(mesh.region_names[r], model.regions[r], words);
   }
   for (const Band& band : bands) {
     const auto r = as_size(mesh.region_index(band.region));
-    const RegionModel& region = model.regions[r];
-    if (region.damageable && sizes[r].width > widest_in_ell * sizes[r].mean_ell)
-      warnings.push_back(fmt::format(
-          "region \"{}\": cells are {:.3g} m wide along the band in the mean, ell is {:.3g} m: the front of a "
-          "crack that runs along it would not be resolved (at most ell)",
-          band.region, sizes[r].width / sizes[r].n_cells, sizes[r].mean_ell / sizes[r].n_cells));
-    const double half = std::min(model.crack->support, long_tail) * region.ell;
-    if (region.damageable && band.width < 2.0 * half)
-      warnings.push_back(
-          fmt::format("region \"{}\" is {:.3g} m wide: the profile of a crack in it, {:.3g} m with this ell, reaches "
-                      "beyond it",
-                      band.region, band.width, 2.0 * half));
+    if (model.regions[r].damageable)
+      add_words_on_band(band, sizes[r], model, model.regions[r].ell, corrects_toughness, words);
+  }
+  return words;
+}
+
+CoarseCells::CoarseCells(const Mesh& mesh, const FractureModel& model)
+    : mesh_(mesh), model_(model), told_(model.regions.size(), false) {
+  const std::vector<Sizes> sizes = sizes_by_region(mesh, model);
+  for (std::size_t r = 0; r < sizes.size(); ++r) told_[r] = sizes[r].n_too_thick == sizes[r].n_cells;  // before the run
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const RegionModel& region = model.in_cell(mesh, c);
+    if (region.damageable && is_too_thick(thickness(mesh, c), region.ell)) cells_.push_back(c);
+  }
+}
+
+std::vector<std::string> CoarseCells::look(const CellField<double>& damage) {
+  constexpr double cracked = 0.5;
+  std::vector<std::string> warnings;
+  for (const Index c : cells_) {
+    const auto r = as_size(mesh_.region[c]);
+    if (told_[r] || !(damage[c] > cracked)) continue;
+    told_[r] = true;
+    const Vector x = mesh_.cell_centre[c].unaryExpr([](double v) { return std::abs(v) < 1e-15 ? 0.0 : v; });
+    warnings.push_back(fmt::format(
+        "region \"{}\": a crack has entered cells that do not resolve it, {:.3g} m thick at ({:.3g}, {:.3g}, {:.3g}) m "
+        "with ell = {:.3g} m (at most ell/{:g}): smaller cells there in [mesh], or a larger length in [fracture]",
+        mesh_.region_names[r], thickness(mesh_, c), x.x(), x.y(), x.z(), model_.in_cell(mesh_, c).ell, cells_in_ell));
   }
   return warnings;
 }

@@ -11,9 +11,34 @@
 
 namespace pfdm {
 
-/// A line for each region whose cells are too thick for ell (more than ell/2 across their thinnest direction), and for
-/// each band whose cells are too wide for ell (more than ell along it in the mean) or that is too narrow for its
-/// crack's profile. A crack there would not dissipate its toughness, or its front would not be resolved.
-std::vector<std::string> resolution_warnings(const Mesh& mesh, const FractureModel& model, std::span<const Band> bands);
+struct ResolutionWords {
+  /// Of each region whose cells are all too thick for ell (more than ell/2 across their thinnest direction), and of
+  /// each band whose cells are too wide for ell (more than ell along it in the mean) or that is too narrow for its
+  /// crack's profile. A crack there would not dissipate its toughness, or its front would not be resolved.
+  std::vector<std::string> warnings;
+  std::vector<std::string> remarks;  ///< of each region some of whose cells are too thick: cracks may stay out of them
+};
+
+/// `corrects_toughness`: whether the toughness of the bands allows for what of a crack's profile lies beyond them; one
+/// is then too narrow where most of its surface energy does.
+ResolutionWords resolution_words(const Mesh& mesh, const FractureModel& model, std::span<const Band> bands,
+                                 bool corrects_toughness);
+
+/// The part of a crack's surface energy that lies farther than `distance` from its middle, over ell; of a broken bar.
+double energy_beyond(const CrackGeometry& crack, double distance);
+
+/// Cells in which a crack would not be resolved, of regions of which others are fine enough.
+class CoarseCells {
+ public:
+  CoarseCells(const Mesh& mesh, const FractureModel& model);
+  /// A warning for each region in which a crack (d > 0.5) has now entered such cells; each region is named once.
+  std::vector<std::string> look(const CellField<double>& damage);
+
+ private:
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  std::vector<Index> cells_;
+  std::vector<bool> told_;  // region by region
+};
 
 }  // namespace pfdm

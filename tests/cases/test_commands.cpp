@@ -1,6 +1,7 @@
 // The command line: what was meant by words that it does not know, help, completion, new cases.
 
 #include "cases/program/commands.h"
+#include "cases/program/kinds.h"
 #include "cases/program/listing.h"
 #include "cases/program/session/external_program.h"
 #include "tests/cases/temporary_case.h"
@@ -63,6 +64,12 @@ TEST(Commands, HelpIsThatOfTheOption) {
   }
 }
 
+TEST(Commands, KnowAllKindsByName) {
+  std::vector<std::string_view> names;
+  for (const CaseKind& kind : case_kinds()) names.push_back(kind.name);
+  EXPECT_TRUE(std::ranges::equal(names, all_kind_names));
+}
+
 TEST(Commands, SayWhichTableIsMissing) {
   const TemporaryCase directory(bar_case());
   expect_wrong({"fit", directory.path().string()}, "the case has no [fit] table; it needs [[fit.parameters]]");
@@ -122,7 +129,8 @@ TEST(Init, MakesACaseThatChecksLikeTheOld) {
     const Outcome outcome = run({"init", made.string(), "--like", name});
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("then: pfdm check " + made.string()));
-    EXPECT_THAT(content_of(made / "case.toml"), HasSubstr("edit this title"));
+    EXPECT_THAT(content_of(made / "case.toml"),
+                HasSubstr("title = \"" + name + "\"  # edit this title; begun as a copy of " + name));
     EXPECT_THAT(content_of(made / "case.toml"), Not(HasSubstr("\"../")));
     EXPECT_THAT(content_of(made / "README.md"), HasSubstr("`" + name + "`"));
     EXPECT_FALSE(fs::exists(made / "results"));

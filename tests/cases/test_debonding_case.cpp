@@ -97,6 +97,22 @@ TEST(DebondingCase, CurveIsThatOfSpringsInSeries) {
   EXPECT_THAT(checked.out, HasSubstr("2 points of mean strain and stress, periodic"));
 }
 
+// The plane has dissipated 0.9025 of its toughness at an opening of some 180 um; steps of the strain are 2.5 %.
+TEST(DebondingCase, TellsStrainAndStressOfTheFirstDebonding) {
+  const TemporaryCase directory(
+      replaced(parted_box(), "[{ strain_zz = \"15 %\" }, { strain_zz = 0.05 }]", "[{ strain_zz = 0.25 }]"));
+  const Outcome outcome = run({"run", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json summary = nlohmann::json::parse(content_of(directory.results() / "summary.json"));
+  EXPECT_NEAR(summary["first_debonding_strain_zz"], 0.175, 1e-12);
+  EXPECT_NEAR(summary["first_debonding_strain_zz_after"], 0.2, 1e-12);
+  EXPECT_NEAR(summary["first_debonding_stress_zz_Pa"], stress_at(0.175), 1e-6 * ft);
+  EXPECT_FALSE(summary.contains("first_debonding_force_N"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("first debonding of \"bond\" between strain_zz = 0.175 and 0.2, where the mean stress "
+                        "zz goes from "));
+}
+
 // Without friction there is no stress at no strain; the plane resists compression by its initial stiffness.
 TEST(DebondingCase, PathMayEndAtZeroAndPassIt) {
   const TemporaryCase directory(replaced(parted_box(), "strain_zz = 0.05", "strain_zz = -0.15 }, { strain_zz = 0"));

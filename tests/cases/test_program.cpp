@@ -288,6 +288,25 @@ TEST(Program, WarnsOfCellsThatAreTooThickForTheLength) {
       << outcome.out;
 }
 
+/// Cells of 0.2 mm in the middle, where the bar breaks, and 2 mm elsewhere, all 0.5 mm across; ell is 0.6 mm.
+std::string graded_bar() {
+  std::string text =
+      replaced(bar_case(), "{ length = \"20 mm\", cells = 21 }",
+               "{ length = \"8 mm\", cells = 4 }, { length = \"4 mm\", cells = 20 }, { length = \"8 mm\", "
+               "cells = 4 }");
+  return replaced(replaced(text, "\"4 mm\"\n\n", "\"0.6 mm\"\n\n"), "\"80 J/m^2\"", "\"8 J/m^2\"");
+}
+
+TEST(Program, DoesNotWarnOfCoarseCellsThatNoCrackEnters) {
+  const TemporaryCase fine(graded_bar());
+  const Outcome within = run({"run", fine.path().string()});
+  ASSERT_EQ(within.status, 0) << within.err;
+  EXPECT_THAT(within.out,
+              ::testing::HasSubstr("region \"bar\": cells are up to 0.0005 m thick, ell is 0.0006 m: a crack "
+                                   "is resolved in 32 of 48 cells"));
+  EXPECT_THAT(within.out, ::testing::Not(::testing::HasSubstr("warning")));
+}
+
 TEST(Program, WarnsOfABandThatIsNarrowerThanItsCracksProfile) {
   const TemporaryCase directory(replaced(bar_case(), "toughness = \"80 J/m^2\"\n",
                                          "toughness = \"80 J/m^2\"\nband = { width = \"0.8 mm\", between = [\"bar\", "

@@ -46,6 +46,8 @@ TEST(Units, SaysWhatWasFoundAndWhatIsDue) {
             "\"fast\" does not start with a number; expected a length, as in \"20 um\"");
   EXPECT_EQ(message_of("20 30 um", dimension::length),
             "\"20 30 um\" has two numbers; expected a length, as in \"20 um\"");
+  EXPECT_NE(message_of("0,5 mm", dimension::length).find("\"0,5 mm\" has a comma; numbers have a decimal point"),
+            std::string::npos);
   EXPECT_NE(message_of("1 mol", dimension::energy).find("expected an energy"), std::string::npos);
 }
 

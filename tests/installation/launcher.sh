@@ -7,9 +7,9 @@ set -euo pipefail
 root=$1 folder=$2
 rm -rf "$folder"
 mkdir -p "$folder"/tools "$folder"/checkout/{physics,mesh,solver,postproc,cases/{program,bar,point}}
-cp "$root/pfdm" "$folder/checkout/pfdm"
-touch "$folder/checkout/CMakeLists.txt"
-printf '# a bar\nkind = "fracture"\n' >"$folder/checkout/cases/bar/case.toml"
+cp "$root"/{pfdm,README.md,CMakeLists.txt} "$folder/checkout/"
+printf '# a bar\nkind = "fracture"\ntitle = "A bar"\ncsv = "../point/data.csv"\n' >"$folder/checkout/cases/bar/case.toml"
+echo 1 >"$folder/checkout/cases/point/data.csv"
 printf 'kind = "endochronic" # not kind = "fracture"\n' >"$folder/checkout/cases/point/case.toml"
 
 tool() { cat >"$folder/tools/$1" && chmod +x "$folder/tools/$1"; }
@@ -21,7 +21,10 @@ EOF
 tool cmake <<'EOF'
 #!/bin/sh
 while [ "$1" != -B ]; do shift; done
-mkdir -p "$2" && echo PFDM_BUILD_TESTS:BOOL=OFF >"$2/CMakeCache.txt"
+build=$2
+mkdir -p "$build" && echo PFDM_BUILD_TESTS:BOOL=OFF >"$build/CMakeCache.txt"
+shift 2
+echo "$@" >"$build/../configured"
 EOF
 tool ninja <<'EOF'
 #!/bin/sh
@@ -36,25 +39,76 @@ EOF
 cd "$folder/checkout"
 export PATH=$folder/tools:$PATH XDG_CACHE_HOME=$folder/cache
 failed=0
+complain() {
+  printf '%s\n' "$*"
+  failed=1
+}
+
+# $1: the status; $2: what is to be said among other things; then the words. Nothing may be built.
+expect_no_build() {
+  local status=0 said
+  said=$(./pfdm "${@:3}" 2>&1) || status=$?
+  [[ $status == "$1" && $said == *"$2"* ]] || complain "pfdm ${*:3}: status $status, said \"$said\", expected $1, \"$2\""
+  [[ ! -e build && ! -e $folder/cache ]] || complain "pfdm ${*:3} builds"
+}
+version=$(sed -n 's/^project(pfdm VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+expect_no_build 0 "pfdm $version (not built yet)" --version
+expect_no_build 0 "./pfdm run CASE [--restart]" --help
+expect_no_build 0 "./pfdm run CASE [--restart]" help
+expect_no_build 0 "meshes, solves, writes the results" help run
+expect_no_build 0 "meshes, solves, writes the results" run --help
+expect_no_build 0 "bar                         fracture       A bar" list
+expect_no_build 0 "then: ./pfdm check new" init new --like bar
+expect_no_build 2 "a new case goes into a new directory" init new --like bar
+expect_no_build 2 "there is no such case directory" init other --like none
+expect_no_build 2 "unknown command" runn cases/bar
+expect_no_build 2 "there is no such case directory" run cases/none
+expect_no_build 2 "there are no results; ./pfdm run cases/bar makes them" report cases/bar
+[[ -f new/README.md && $(<new/data/point_data.csv) == 1 ]] || complain "init leaves out files"
+[[ $(<new/case.toml) == *'title = "new"'*'csv = "data/point_data.csv"'* ]] || complain "init: $(<new/case.toml)"
+
 # $1: what is to be said, $2: the targets built so far; then the words.
 expect() {
   local said built
   said=$(./pfdm "${@:3}" 2>"$folder/messages")
   built=$(paste -sd ' ' build/release/targets)
   if [[ $said != "$1" || $built != "$2" ]]; then
-    printf 'pfdm %s: said "%s", expected "%s"; built "%s", expected "%s"\n' "${*:3}" "$said" "$1" "$built" "$2"
-    failed=1
+    complain "pfdm ${*:3}: said \"$said\", expected \"$1\"; built \"$built\", expected \"$2\""
   fi
 }
 expect "pfdm_fracture run cases/bar" "pfdm_fracture" run cases/bar
 expect "pfdm_fracture check --threads 2 cases/bar/case.toml" "pfdm_fracture" check --threads 2 cases/bar/case.toml
-expect "pfdm list" "pfdm_fracture pfdm" list
+expect "pfdm_fracture list" "pfdm_fracture" list
+expect "pfdm_fracture init new --like bar" "pfdm_fracture" init new --like bar
+expect "pfdm_fracture help run" "pfdm_fracture" help run
+expect "pfdm_fracture --version" "pfdm_fracture" --version
+expect "pfdm_fracture report cases/bar" "pfdm_fracture" report cases/bar
+expect "pfdm run cases/point" "pfdm_fracture pfdm" run cases/point
 expect "pfdm run cases/bar" "pfdm_fracture pfdm" run cases/bar
 sleep 0.01
 touch physics/law.cpp
+expect "pfdm list" "pfdm_fracture pfdm" list
+grep --quiet 'the sources have changed since' "$folder/messages" || complain "list does not say that the program is old"
 expect "pfdm run cases/bar" "pfdm_fracture pfdm pfdm" run cases/bar
 rm -r build
 expect "pfdm run cases/point" "pfdm" run cases/point
-rm -r build
-expect "pfdm init cases/bar" "pfdm" init cases/bar
+
+# What the compiler may use where /proc/cpuinfo shows these flags: $1, of the flags that follow.
+expect_level() {
+  local level
+  level=$(cpuinfo=$folder/cpuinfo bash -c 'source <(sed -n "/^lower_level()/,/^}/p" pfdm | sed "s|/proc/cpuinfo|$cpuinfo|")
+    uname() { echo x86_64; }; lower_level' 2>&1)
+  [[ $level == "$1" ]] || complain "level \"$level\", expected \"$1\""
+}
+v2="cx16 lahf_lm popcnt sse4_1 sse4_2 ssse3"
+v3="$v2 avx avx2 bmi1 bmi2 f16c fma abm movbe"
+flags() { printf 'processor : 0\nflags\t\t: fpu %s\n' "$*" >"$folder/cpuinfo"; }
+flags "$v3 avx512f" && expect_level ""
+for hidden in abm bmi1 bmi2 movbe f16c; do
+  flags "${v3/ $hidden/}" && expect_level "x86-64-v2 -mavx2"
+done
+flags "${v3/ fma/}" && expect_level ""  # no operation is fused
+flags "${v3/ avx2/}" && expect_level x86-64-v2
+flags "$v2" && expect_level x86-64-v2
+flags "sse2" && expect_level x86-64
 exit $failed

@@ -3,7 +3,9 @@
 #include "cases/program/chain/chain_case.h"
 #include "cases/program/chain/chain_page.h"
 #include "cases/program/chain/chain_record.h"
+#include "cases/program/input/kept_case.h"
 #include "cases/program/input/result_number.h"
+#include "cases/program/session/head_line.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/stopwatch.h"
 #include "postproc/files/atomic_file.h"
@@ -42,7 +44,7 @@ ReadyStep get_ready(const ChainStep& step, const Session& session) {
   return step.place.in_context([&] {
     CaseFile file = open_case(step.where);
     if (file.config.root().string("kind") == "chain") throw InputError("a step of a chain cannot be a chain itself");
-    ReadyStep ready{step, file, session.read_case(file), file.directory / "results", ""};
+    ReadyStep ready{step, file, session.read_case(file), own_results(file), ""};
     for (const std::string& remark : ready.file.config.remarks()) session.log.say(remark);
     if (!ready.job()) throw InputError(fmt::format("this kind of case has no \"{}\"", step.job->name));
     ready.key = case_hash(file, data_files_named(file));
@@ -191,8 +193,7 @@ void run_case(const ChainProgram& program, Session& session) {
   const FolderLock lock(session.results);
   Log& log = session.log;
   log.open_file(session.results / "run.log", false);
-  log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, program.chain.title,
-                      session.threads));
+  log.say(head_line(session, fmt::format("case {}: {}", program.name, program.chain.title)));
   const ChainRecord earlier = read_chain(session.results);
   ChainRecord record{.case_name = program.name, .status = "incomplete", .version = session.version, .steps = {}};
   const Stopwatch watch;

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/fracture_program.h"
 
+#include "cases/program/fracture/end_of_run.h"
 #include "cases/program/fracture/experiment_case.h"
 #include "cases/program/fracture/fracture_case.h"
 #include "cases/program/fracture/fracture_cohesive.h"
@@ -9,7 +10,10 @@
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/fracture/other_laws.h"
 #include "cases/program/fracture/progress.h"
+#include "cases/program/fracture/run_estimate.h"
+#include "cases/program/input/kept_case.h"
 #include "cases/program/session/earlier_results.h"
+#include "cases/program/session/head_line.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/stop_signal.h"
 #include "cases/program/session/stopwatch.h"
@@ -17,6 +21,7 @@
 #include "mesh/quality.h"
 #include "postproc/curves/curve_misfit.h"
 #include "postproc/files/folder_lock.h"
+#include "postproc/files/other_case.h"
 #include "solver/fracture/fracture_run.h"
 #include "solver/fracture/resolution.h"
 
@@ -62,7 +67,10 @@ Mesh make_mesh(const FractureProgram& program, Log& log) {
 FractureRun make_run(const FractureProgram& program, const Mesh& mesh, Log& log) {
   const FractureCase& fracture = program.fracture;
   FractureModel model = model_on(fracture, mesh);
-  for (const std::string& warning : resolution_warnings(mesh, model, fracture.materials.bands)) log.warn(warning);
+  const ResolutionWords words =
+      resolution_words(mesh, model, fracture.materials.bands, fracture.materials.corrects_toughness);
+  for (const std::string& remark : words.remarks) log.say(remark);
+  for (const std::string& warning : words.warnings) log.warn(warning);
   return FractureRun(mesh, std::move(model), fracture.staggered, fracture.loading);
 }
 
@@ -84,13 +92,6 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Peak of the bead benchmark: 193 MB with 98,000 faces (42,000 tetrahedra and prisms), 448 MB with 261,000; 272 MB
-/// with 77,000 faces of 17,000 polyhedra, which VTK's grid holds as triangles.
-double estimated_memory(const Mesh& mesh) {
-  const bool polyhedra = std::ranges::find(mesh.shape, CellShape::polyhedron) != mesh.shape.end();
-  return (polyhedra ? 3.1e3 : 1.9e3) * mesh.n_faces() + 40e6;
-}
-
 void check_fit(const FractureProgram& program, Log& log) {
   if (program.experiment)
     program.fit->where.in_context([&] {
@@ -102,6 +103,7 @@ void check_fit(const FractureProgram& program, Log& log) {
     log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
                         parameter.in_case.shown(parameter.in_fit.lower),
                         parameter.in_case.shown(parameter.in_fit.upper)));
+  log.say(fmt::format("pfdm fit would make some {} runs", estimated_runs(*program.fit)));
 }
 
 void check(const FractureProgram& program, Session& session) {
@@ -119,6 +121,7 @@ void check(const FractureProgram& program, Session& session) {
   log.say(fmt::format("memory about {:.0f} MB", 1e-6 * estimated_memory(mesh)));
   log.say(fmt::format("steps {} or more, up to load {:g}", std::ceil(loading.end / loading.maximum_increment - 1e-9),
                       loading.end));
+  log.say(time_words(mesh, run.model(), loading, session.results, program.hash));
   if (program.fit) check_fit(program, log);
   for (const ColumnSet& set : columns)
     log.say(fmt::format("cohesive law of \"{}\" from {} columns", set.name, set.columns.size()));
@@ -144,6 +147,8 @@ std::optional<FractureState> state_to_go_on_from(const FractureProgram& program,
         (state->damage.size() != initial.damage.size() || state->displacement.size() != initial.displacement.size()))
       throw InputError(fmt::format("{}: the checkpoint belongs to another mesh", session.results.string()));
     return state;
+  } catch (const OtherCase& error) {
+    throw OtherCase(fmt::format("{}; without --restart the run starts anew and replaces it", error.what()));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}; without --restart the run starts anew and replaces it", error.what()));
   }
@@ -178,6 +183,7 @@ struct RunningCase {
   RunTimes& times;
   FractureRun& run;
   FractureResults& results;
+  CoarseCells coarse;
   FractureState state;   ///< the last one that was reached
   bool goes_on = false;  ///< from a state that is in the results already
 };
@@ -185,6 +191,7 @@ struct RunningCase {
 void record(RunningCase& c, const FractureState& now, const StepReport& report) {
   const Stopwatch watch;
   for (const std::string& remark : report.remarks) c.session.log.warn(remark);
+  for (const std::string& warning : c.coarse.look(now.damage)) c.session.log.warn(warning);
   for (const std::string& warning : c.results.step_done(now, report, [&] { return c.run.output(now); }))
     c.session.log.warn(warning);
   c.state = now;
@@ -228,11 +235,21 @@ std::string advance(RunningCase& c) {
   return reason;
 }
 
-/// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said.
+/// Steps may have come between them and the end.
+void repeat_warnings(Log& log) {
+  if (log.warnings().empty()) return;
+  log.say(fmt::format("  {} of this run:", counted(static_cast<Index>(log.warnings().size()), "warning")));
+  for (const std::string& warning : log.warnings()) log.say(fmt::format("  - {}", warning));
+}
+
+/// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said at last.
 std::string finish(RunningCase& c, const std::string& status) {
   RunSummary summary = summary_of(c.program, c.session, c.run, c.times);
   summary.status = status;
-  c.results.write_summary(summary);
+  summary = c.results.write_summary(summary);
+  for (const std::string& line : what_happened(c.program.fracture, c.program.file, summary, c.results.folder()))
+    c.session.log.say("  " + line);
+  repeat_warnings(c.session.log);
   return fmt::format("{} at step {}, load {:.6g}, after {:.1f} s; results in {}", status, c.state.step, c.state.load,
                      c.times.whole.seconds(), c.session.results.string());
 }
@@ -289,10 +306,8 @@ void run_case(FractureProgram program, Session& session) {
   if (session.figures_only) {
     program.fracture.output.figures_only = true;
     program.fracture.output.tips.clear();
-    program.fracture.cohesive = {};
   }
-  session.log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, program.name, program.fracture.title,
-                              session.threads));
+  session.log.say(head_line(session, fmt::format("case {}: {}", program.name, program.fracture.title)));
   RunTimes times;
   MeshStore own_mesh;
   const Mesh& mesh = find_mesh(program, session.meshes ? *session.meshes : own_mesh, session.log);
@@ -300,22 +315,26 @@ void run_case(FractureProgram program, Session& session) {
   FractureRun run = make_run(program, mesh, session.log);
   warn_of_interfaces(run, session.log);
   const FractureState initial = run.initial_state();
-  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
+  const std::vector<ColumnSet> surfaces = column_sets(program.fracture.cohesive, mesh, run.model());
+  const std::vector<ColumnSet> none, &columns = session.figures_only ? none : surfaces;
+  const DebondingWatch watch(surfaces, program.fracture.cohesive.axis, initial.damage);
   const FolderLock lock(session.results);
   const auto last = state_to_go_on_from(program, initial, session);
   if (last && last->load >= program.fracture.loading.end && status_of_earlier(session.results) == "complete") {
     session.log.say(fmt::format("the run in {} is complete already", session.results.string()));
     return;
   }
-  FractureResults results(session.results, mesh, run.model(), program.fracture, columns, program.hash, last);
+  FractureResults results(session.results, mesh, run.model(), program.fracture, columns, watch, program.hash, last);
   if (!session.figures_only) write_mesh(results.folder(), mesh);
   session.log.open_file(results.folder() / "run.log", last.has_value());
   if (session.restart)
     session.log.say(last ? fmt::format("continuing after step {}, load {:.6g}", last->step, last->load)
                          : "no checkpoint found: starting from the beginning");
   else if (results.wait())
-    say_what_is_replaced(session, program.hash, true);
-  RunningCase running{program, session, times, run, results, last ? *last : initial, last.has_value()};
+    say_what_is_replaced(session, program.file, program.hash, true);
+  if (!session.figures_only) keep_case(program.file, session.version, session.results, results.folder());
+  RunningCase running{
+      program, session, times, run, results, CoarseCells(mesh, run.model()), last ? *last : initial, last.has_value()};
   solve(running);
 }
 

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/fracture_report.h"
 
+#include "cases/program/fracture/end_of_run.h"
 #include "cases/program/fracture/fit_on_page.h"
 #include "cases/program/fracture/fracture_pictures.h"
 #include "cases/program/fracture/fracture_results.h"
@@ -97,12 +98,16 @@ Table run_table(const FractureStory& story) {
 
 Table figures_table(const FractureStory& story) {
   const Headlines f = headlines(story.curve, story.component());
+  const bool at_end = f.displacement_at_peak == f.final_displacement && f.peak_force == f.final_force;
   Table table{.caption = "Figures",
-              .rows = {{"peak force", shown(f.peak_force, "N")},
+              .rows = {{at_end ? "peak force, at the end" : "peak force", shown(f.peak_force, "N")},
                        {"its displacement", shown(f.displacement_at_peak, "m")},
                        {"initial stiffness", shown(f.initial_stiffness, "N") + "/m"},
                        {"final force", shown(f.final_force, "N")},
                        {"final displacement", shown(f.final_displacement, "m")}}};
+  if (story.summary)
+    for (std::vector<std::string>& row : first_debonding_rows(*story.summary, story.fracture))
+      table.rows.push_back(std::move(row));
   constexpr std::size_t n_always = 3;  // energies that are shown if they are zero, too
   const auto add = [&](std::string_view what, std::string value) {
     table.rows.push_back({std::string(what), std::move(value)});

@@ -147,7 +147,7 @@ void remove_earlier_run(const fs::path& directory) {
   remove_what_was_made_of_them(directory);
   std::error_code ignored;
   for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file, means_file,
-                           homogenized_file, load_cases_file})
+                           homogenized_file, load_cases_file, first_debonding_file})
     fs::remove(directory / file, ignored);
   remove_columns(directory / columns_folder);
   for (const char* folder : {frames_folder, interfaces_folder})
@@ -203,12 +203,14 @@ FractureResults::Files::Files(const fs::path& folder, const FractureCase& fractu
 
 FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const FractureModel& model,
                                  const FractureCase& fracture, const std::vector<ColumnSet>& columns,
-                                 std::string case_hash, const std::optional<FractureState>& last)
+                                 const DebondingWatch& watch, std::string case_hash,
+                                 const std::optional<FractureState>& last)
     : directory_(std::move(directory)),
       mesh_(mesh),
       fracture_(fracture),
       model_(model),
       sets_(columns),
+      watch_(watch),
       case_hash_(std::move(case_hash)),
       curve_patch_(fracture.box ? std::nullopt : std::optional(patch_number(mesh, fracture.output.curve.patch))),
       place_(directory_, !last && has_results(directory_)),
@@ -224,6 +226,7 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
   last_step_ = last->step;
   last_load_ = last->load;
   damage_ = last->damage;
+  debonding_ = take_first_debonding(folder() / first_debonding_file, last->step);
 }
 
 std::vector<std::string> FractureResults::step_done(const FractureState& state, const StepReport& report,
@@ -235,6 +238,7 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
   last_load_ = state.load;
   damage_ = state.damage;
   files_->curve.add(row_of(report));
+  note_debonding(state, report, output);
   const bool waits = may_wait();
   if (files_->means) files_->means->append(row_of_means(report), !waits);
   if (waits) {
@@ -252,6 +256,12 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
   write_state(state);
   if (state.step > 0) take_place(state);
   return warnings;
+}
+
+void FractureResults::note_debonding(const FractureState& state, const StepReport& report, const Output& output) {
+  if (debonding_) return;
+  debonding_ = watch_.look(state.damage, report, output);
+  if (debonding_) write_first_debonding(folder() / first_debonding_file, *debonding_);
 }
 
 CurveRow FractureResults::row_of(const StepReport& report) const {
@@ -356,7 +366,16 @@ std::map<std::string, double> FractureResults::last_energy_release() const {
   return figures;
 }
 
-void FractureResults::write_summary(RunSummary summary) const {
+/// Of a box in place of force and displacement: mean stress and strain, which are those over its side and length.
+std::map<std::string, double> FractureResults::figures_of_debonding() const {
+  if (!watch_.has_surfaces()) return {};
+  std::map<std::string, double> figures =
+      debonding_figures(debonding_, files_->curve.rows(), fracture_.output.curve.component);
+  if (fracture_.box) name_as_means(figures, model_.motion.size, fracture_.box->component);
+  return figures;
+}
+
+RunSummary FractureResults::write_summary(RunSummary summary) const {
   summary.case_hash = case_hash_;
   summary.cells = mesh_.n_cells();
   summary.steps = last_step_;
@@ -364,7 +383,10 @@ void FractureResults::write_summary(RunSummary summary) const {
   summary.other_figures = damaged_areas();
   summary.other_figures.merge(last_energy_release());
   if (files_->means) summary.other_figures.merge(figures_of_means(*files_->means, fracture_.box->component));
+  summary.other_figures.merge(figures_of_debonding());
+  if (debonding_) summary.other_texts["first_debonding_surface"] = debonding_->surface;
   pfdm::write_summary(folder() / summary_file, summary);
+  return summary;
 }
 
 }  // namespace pfdm

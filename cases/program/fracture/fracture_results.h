@@ -6,6 +6,7 @@
 #include "cases/program/session/stopwatch.h"
 #include "mesh/mesh.h"
 #include "postproc/cohesive/column_record.h"
+#include "postproc/cohesive/first_debonding.h"
 #include "postproc/curves/curve_csv.h"
 #include "postproc/curves/summary.h"
 #include "postproc/fields/pvd.h"
@@ -62,10 +63,11 @@ std::vector<StoredStep> stored_interfaces(const std::filesystem::path& results);
 class FractureResults {
  public:
   /// Continues after `last`, or starts anew: results of an earlier run are kept until the first step is done and
-  /// on the disk. Keeps references to mesh, model, case and columns.
+  /// on the disk. `columns` are recorded, `watch` looks for the first debonding. Keeps references to mesh, model, case,
+  /// columns and watch.
   FractureResults(std::filesystem::path directory, const Mesh& mesh, const FractureModel& model,
-                  const FractureCase& fracture, const std::vector<ColumnSet>& columns, std::string case_hash,
-                  const std::optional<FractureState>& last);
+                  const FractureCase& fracture, const std::vector<ColumnSet>& columns, const DebondingWatch& watch,
+                  std::string case_hash, const std::optional<FractureState>& last);
 
   /// Where the files are now, in the directory or, as long as earlier results are there, within it.
   const std::filesystem::path& folder() const { return place_.folder(); }
@@ -81,8 +83,8 @@ class FractureResults {
   void write_what_waits(const FractureState& state);
   /// A frame of the last state, if it has none yet.
   void write_last_frame(const Output& output);
-  /// Fills in what the curve and the last damage tell.
-  void write_summary(RunSummary summary) const;
+  /// Fills in what the curve and the last damage tell; returns the whole.
+  RunSummary write_summary(RunSummary summary) const;
 
   const CurveRow& last_row() const { return files_->curve.rows().back(); }
 
@@ -106,7 +108,9 @@ class FractureResults {
   void write_frame(Index step, double load, const OutputFields& output);
   void write_interfaces(Index step, double time, const OutputFields& output);
   void add_energy_release(const FractureState& state, const OutputFields& output, std::vector<std::string>& warnings);
+  void note_debonding(const FractureState& state, const StepReport& report, const Output& output);
   CurveRow row_of(const StepReport& report) const;
+  std::map<std::string, double> figures_of_debonding() const;
   std::map<std::string, double> damaged_areas() const;
   std::map<std::string, double> last_energy_release() const;
 
@@ -115,6 +119,8 @@ class FractureResults {
   const FractureCase& fracture_;
   const FractureModel& model_;
   const std::vector<ColumnSet>& sets_;
+  const DebondingWatch& watch_;
+  std::optional<FirstDebonding> debonding_;
   std::string case_hash_;
   std::optional<Index> curve_patch_;  // none of a box
   NewResults place_;

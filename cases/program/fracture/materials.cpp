@@ -277,6 +277,7 @@ Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaul
     if (!over.used)
       throw over.value.error(
           fmt::format("region \"{}\" has no material; name it in some material's regions", over.region));
+  materials.corrects_toughness = defaults.corrects_toughness;
   materials.bands = defaults.bands;
   for (const RegionOverride& over : overrides)
     if (over.band) materials.bands.push_back(*over.band);

@@ -71,6 +71,25 @@ std::map<std::string, double> figures_of_means(const StepTable& table, const std
   return figures;
 }
 
+void name_as_means(std::map<std::string, double>& figures, const Vector& size, const std::array<int, 2>& component) {
+  const auto [i, j] = component;
+  const std::string name(name_of_component(component));
+  std::map<std::string, double> means;
+  for (const auto& [key, value] : figures) {
+    const auto renamed = [&key](std::string_view what, const std::string& by, std::string_view unit) {
+      std::string result = key;
+      return result.replace(key.find(what), what.size(), by).replace(result.rfind(unit), unit.size(), "");
+    };
+    if (key.find("displacement") != std::string::npos)
+      means[renamed("displacement", "strain_" + name, "_m")] = value / ((i == j ? 1.0 : 2.0) * size[j]);
+    else if (key.find("force") != std::string::npos)
+      means[renamed("force", "stress_" + name, "_N") + "_Pa"] = value * size[j] / size.prod();
+    else
+      means[key] = value;
+  }
+  figures = std::move(means);
+}
+
 MeanCurve read_mean_curve(const std::filesystem::path& results, const std::vector<InterfaceSettings>& interfaces,
                           const std::array<int, 2>& component) {
   const CsvTable table = read_csv(results / means_file, {.own_names = columns_of_means(interfaces)});

@@ -31,6 +31,10 @@ CurveRow curve_row_of_box(const StepReport& report, const Vector& size, const st
 /// Peak, modulus at first and last values, with units in their names.
 std::map<std::string, double> figures_of_means(const StepTable& table, const std::array<int, 2>& component);
 
+/// Puts mean strains "..._strain_zz..." and stresses "..._stress_zz_..._Pa" in place of the displacements and forces
+/// that curve_row_of_box() made of them.
+void name_as_means(std::map<std::string, double>& figures, const Vector& size, const std::array<int, 2>& component);
+
 /// Strain and stress [Pa] of a component, from the file.
 struct MeanCurve {
   std::vector<double> strain, stress;

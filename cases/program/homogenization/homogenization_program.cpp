@@ -128,7 +128,8 @@ void run_case(const HomogenizationProgram& program, Session& session) {
     say_result(program, result, material, log);
     return "complete";
   };
-  run_whole({.name = program.name,
+  run_whole({.file = program.file,
+             .name = program.name,
              .title = homogenization.title,
              .hash = program.hash,
              .compute = compute,

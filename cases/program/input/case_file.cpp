@@ -1,5 +1,6 @@
 #include "cases/program/input/case_file.h"
 
+#include "cases/program/input/kept_case.h"
 #include "cases/program/input/result_number.h"
 #include "postproc/files/text_file.h"
 
@@ -83,6 +84,20 @@ std::vector<const TomlValue*> values_that_name_files(const TomlValue& root) {
   return found;
 }
 
+constexpr std::string_view usual_stem = "case";
+
+bool has_usual_name(const CaseFile& file) { return file.stem == usual_stem || file.stem.empty(); }
+
+/// "fitted" of case.fitted.toml, "coarse" of coarse.toml.
+std::string short_stem(const CaseFile& file) {
+  const std::string prefix = std::string(usual_stem) + ".";
+  return file.stem.starts_with(prefix) ? file.stem.substr(prefix.size()) : file.stem;
+}
+
+std::filesystem::path whole_directory(const CaseFile& file) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory));
+}
+
 }  // namespace
 
 CaseFile open_case(const std::filesystem::path& where) {
@@ -94,17 +109,26 @@ CaseFile open_case(const std::filesystem::path& where) {
   if (is_not_there(file)) throw InputError(fmt::format("{}: it contains no case.toml", where.string()));
   std::string text = read_file(file);
   Config config(text, file.string());
-  return {.directory = directory, .stem = file.stem().string(), .text = std::move(text), .config = std::move(config)};
+  return where_it_ran(
+      {.directory = directory, .stem = file.stem().string(), .text = std::move(text), .config = std::move(config)});
+}
+
+std::string name_among_results(const CaseFile& file) {
+  const bool in_results = whole_directory(file).filename() == "results";
+  return in_results && !has_usual_name(file) ? short_stem(file) : "";
 }
 
 std::string case_name(const CaseFile& file) {
-  constexpr std::string_view usual = "case";
-  const auto directory = std::filesystem::weakly_canonical(std::filesystem::absolute(file.directory));
-  const bool in_results = file.stem != usual && directory.filename() == "results";
-  std::string name = (in_results ? directory.parent_path() : directory).filename().string();
-  const std::string prefix = std::string(usual) + ".";
-  if (file.stem == usual || file.stem.empty()) return name;
-  return name + "." + (file.stem.starts_with(prefix) ? file.stem.substr(prefix.size()) : file.stem);
+  if (!file.kept_name.empty()) return file.kept_name;
+  const std::filesystem::path directory = whole_directory(file);
+  const bool in_results = !name_among_results(file).empty();
+  const std::string name = (in_results ? directory.parent_path() : directory).filename().string();
+  return has_usual_name(file) ? name : name + "." + short_stem(file);
+}
+
+void for_each_value(const TomlValue& root,
+                    const std::function<void(const std::string& path, const TomlValue& value)>& see) {
+  visit("", root, see);
 }
 
 std::string case_hash(const CaseFile& file, std::span<const std::filesystem::path> data_files,
@@ -145,7 +169,12 @@ std::string content_hash(const std::filesystem::path& file) {
 
 CaseFile with_text(const CaseFile& file, std::string text) {
   Config config(text, (file.directory / "case.toml").string());
-  return {.directory = file.directory, .stem = file.stem, .text = std::move(text), .config = std::move(config)};
+  return {.directory = file.directory,
+          .stem = file.stem,
+          .text = std::move(text),
+          .config = std::move(config),
+          .kept_in = file.kept_in,
+          .kept_name = file.kept_name};
 }
 
 std::string table_hash(const CaseFile& file, std::string_view table,

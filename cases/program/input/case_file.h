@@ -18,14 +18,25 @@ struct CaseFile {
   std::string stem{};  ///< of the file, "case" of case.toml
   std::string text;
   Config config;
+  std::filesystem::path kept_in{};  ///< of a case that a run has kept (kept_case.h), the folder of its results
+  std::string kept_name{};          ///< likewise, the name of the case that ran
 };
 
-/// `where` is a case directory or a .toml file in it. Throws InputError if there is none or it is no TOML.
+/// `where` is a case directory or a .toml file in it. A case that a run has kept is the one that ran, in its directory.
+/// Throws InputError if there is none or it is no TOML.
 CaseFile open_case(const std::filesystem::path& where);
 
-/// The name of its directory, of the case that was run where that is its results; of another file than case.toml with
-/// its stem: "glass_bead_fit.fitted" of glass_bead_fit/results/case.fitted.toml, "glass_bead.coarse" of coarse.toml.
+/// The name of its directory, of the case that was run where that is its results or the file was kept by a run
+/// (kept_case.h); of another file than case.toml with its stem: "glass_bead_fit.fitted" of
+/// glass_bead_fit/results/case.fitted.toml, "glass_bead.coarse" of coarse.toml.
 std::string case_name(const CaseFile& file);
+
+/// Of a file other than case.toml in a folder "results" its name there: "fitted" of case.fitted.toml; else empty.
+std::string name_among_results(const CaseFile& file);
+
+/// Calls `see` with every value of a parsed file and its path, as in "mesh.particles[0].diameter".
+void for_each_value(const TomlValue& root,
+                    const std::function<void(const std::string& path, const TomlValue& value)>& see);
 
 /// Of what case.toml says, but for title and comments, of the numbers that it takes from result files, and of the data
 /// files that it uses; 16 hexadecimal digits (FNV-1a). `left_out`: tables after a change of which a run may be

@@ -126,7 +126,8 @@ void run_case(const PlateProgram& program, Session& session) {
     write_figures_summary(folder / summary_file, summary);
     return summary.status;
   };
-  run_whole({.name = program.name,
+  run_whole({.file = program.file,
+             .name = program.name,
              .title = program.parsed.title,
              .hash = program.hash,
              .compute = compute_all,

@@ -108,7 +108,8 @@ void run_case(const EndochronicProgram& program, Session& session) {
     log.say(fmt::format("{} of {} increments", history.points.size() - 1, n_increments(loading)));
     return history.converged ? "complete" : "failed";
   };
-  run_whole({.name = program.name,
+  run_whole({.file = program.file,
+             .name = program.name,
              .title = program.point.title,
              .hash = program.hash,
              .compute = compute,

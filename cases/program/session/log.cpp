@@ -9,6 +9,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace pfdm {
@@ -22,10 +23,11 @@ struct Log::Sinks {
   std::shared_ptr<spdlog::logger> console;
   std::shared_ptr<spdlog::logger> file;  // null until open_file()
   std::vector<std::string> said_before;  // for the file, when it is opened
+  std::vector<std::string> warnings;
 };
 
 Log::Log(std::ostream& console, std::ostream& errors, bool terminal, bool quiet)
-    : sinks_(std::make_unique<Sinks>(Sinks{console, errors, terminal, quiet, false, nullptr, nullptr, {}})) {
+    : sinks_(std::make_unique<Sinks>(Sinks{console, errors, terminal, quiet, false, nullptr, nullptr, {}, {}})) {
   auto sink = std::make_shared<spdlog::sinks::ostream_sink_mt>(console, true);
   sinks_->console = std::make_shared<spdlog::logger>("console", sink);
   sinks_->console->set_pattern("%v");
@@ -69,7 +71,10 @@ void Log::say(const std::string& message) {
   to_file(message);
 }
 
+const std::vector<std::string>& Log::warnings() const { return sinks_->warnings; }
+
 void Log::warn(const std::string& message) {
+  if (std::ranges::find(sinks_->warnings, message) == sinks_->warnings.end()) sinks_->warnings.push_back(message);
   say(fmt::format("warning: {}", message));
   if (sinks_->quiet) sinks_->errors << "pfdm: warning: " << message << std::endl;
 }

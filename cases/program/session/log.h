@@ -5,6 +5,7 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace pfdm {
 
@@ -26,6 +27,8 @@ class Log {
 
   void say(const std::string& message);
   void warn(const std::string& message);
+  /// What was warned of so far, each once.
+  const std::vector<std::string>& warnings() const;
   /// A step of long work is done: `line` goes to the file, and to a console that is no terminal.
   void step(const std::string& line);
   /// Shown in the terminal's last line until something else is said; no more of it than fits.

@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "postproc/files/atomic_file.h"
+#include "postproc/files/other_case.h"
 #include "postproc/files/text_file.h"
 #include "postproc/page/page_drawing.h"
 
@@ -67,7 +68,7 @@ std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t 
 
 void require_case(const std::filesystem::path& file, const std::string& found, const std::string& due) {
   if (found != due)
-    throw InputError(
+    throw OtherCase(
         fmt::format("{}: it belongs to another case, or to this one before it was changed (hash {}, expected {})",
                     file.string(), found, due));
 }

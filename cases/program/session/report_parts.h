@@ -30,7 +30,7 @@ std::vector<PageRow> in_pairs(std::vector<PageBlock> blocks);
 /// The warnings of a log, each once; nothing where there are none. At most `limit` are told.
 std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t limit = 6);
 
-/// Throws InputError if a file of the results does not have the hash of this case.
+/// Throws OtherCase if a file of the results does not have the hash of this case.
 void require_case(const std::filesystem::path& file, const std::string& found, const std::string& due);
 
 /// What `read` makes of a file of the results, which has a case_hash; nothing if there is no such file. Throws like

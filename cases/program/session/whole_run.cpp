@@ -1,6 +1,8 @@
 #include "cases/program/session/whole_run.h"
 
+#include "cases/program/input/kept_case.h"
 #include "cases/program/session/earlier_results.h"
+#include "cases/program/session/head_line.h"
 #include "cases/program/session/report_parts.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/folder_lock.h"
@@ -48,9 +50,10 @@ void run_whole(const WholeRun& run, Session& session) {
   NewResults place(session.results, has_results(run, session.results));
   Log& log = session.log;
   log.open_file(place.folder() / "run.log", false);
-  log.say(fmt::format("pfdm {}, case {}: {}; {} threads", session.version, run.name, run.title, session.threads));
+  log.say(head_line(session, fmt::format("case {}: {}", run.name, run.title)));
   if (session.restart) log.say("this kind of case cannot be restarted: starting from the beginning");
-  if (place.wait()) say_what_is_replaced(session, run.hash, false);
+  if (place.wait()) say_what_is_replaced(session, run.file, run.hash, false);
+  if (!session.figures_only) keep_case(run.file, session.version, session.results, place.folder());
   const std::string ending = run.compute(place.folder(), watch);
   place.take_place([&] { remove_earlier(run, session.results); }, summary_file);
   log.say(fmt::format("{} after {:.1f} s; results in {}", ending, watch.seconds(), session.results.string()));

@@ -1,6 +1,7 @@
 #pragma once
 // A run without steps that could be restarted. Its results take the place of earlier ones once all of them are there.
 
+#include "cases/program/input/case_file.h"
 #include "cases/program/session/session.h"
 #include "cases/program/session/stopwatch.h"
 #include "postproc/curves/figures_summary.h"
@@ -13,6 +14,7 @@
 namespace pfdm {
 
 struct WholeRun {
+  const CaseFile& file;
   std::string name;   ///< of the case
   std::string title;  ///< of the case
   std::string hash;   ///< of the case and its data

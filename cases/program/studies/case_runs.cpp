@@ -1,5 +1,6 @@
 #include "cases/program/studies/case_runs.h"
 
+#include "cases/program/input/kept_case.h"
 #include "cases/program/session/runnable_case.h"
 #include "cases/program/session/stop_signal.h"
 #include "postproc/curves/summary.h"
@@ -148,7 +149,7 @@ int CaseRuns::do_run(const Wanted& wanted, int threads, Log& log) {
   };
   try {
     make_folder(wanted.folder);
-    write_file(wanted.folder / "case.toml", moved(wanted.variant->file, wanted.folder));
+    keep_case(wanted.variant->file, session_.version, wanted.folder, wanted.folder);
     session_.read_case(wanted.variant->file).run(session);
     return run_went_well;
   } catch (const NoConvergence& failure) {

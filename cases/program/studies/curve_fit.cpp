@@ -1,5 +1,6 @@
 #include "cases/program/studies/curve_fit.h"
 
+#include "cases/program/session/head_line.h"
 #include "cases/program/session/stopwatch.h"
 #include "cases/program/studies/curve_fit_at_work.h"
 #include "cases/program/studies/curve_fit_results.h"
@@ -238,8 +239,7 @@ std::vector<CurveFitStage>::const_iterator CurveFit::last_stage_of(std::size_t p
 void fit_curve(const CurveFitJob& job, Session& session) {
   require_start_within_bounds(job.settings.where, job.settings.parameters);
   const FolderLock lock(session.results);
-  session.log.say(
-      fmt::format("pfdm {}, fit of {}: {}; {} threads", session.version, job.name, job.title, session.threads));
+  session.log.say(head_line(session, fmt::format("fit of {}: {}", job.name, job.title)));
   session.log.open_file(session.results / "fit.log", true);
   CurveFit(job, session).run();
 }

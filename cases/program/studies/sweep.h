@@ -11,4 +11,7 @@ namespace pfdm {
 /// instead, and the table is written by a later call that finds them.
 void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& session);
 
+/// Says how many runs the sweep has, and with which values; warns of sets of values that the case's own rules exclude.
+void say_sweep(const CaseFile& file, const SweepSettings& settings, Session& session);
+
 }  // namespace pfdm

@@ -215,7 +215,8 @@ void run_case(const MassMaterialProgram& program, Session& session) {
     write_figures_summary(folder / summary_file, summary);
     return summary.status;
   };
-  run_whole({.name = program.name,
+  run_whole({.file = program.file,
+             .name = program.name,
              .title = c.title,
              .hash = program.hash,
              .compute = compute,

@@ -1,0 +1,66 @@
+#include "cases/program/fracture/run_estimate.h"
+
+#include "postproc/curves/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace pfdm {
+namespace {
+
+/// "40 s", "3 min", "2 h"; one digit and a half.
+std::string about(double seconds) {
+  const auto rounded = [](double value) { return value < 9.5 ? std::round(value) : 5.0 * std::round(value / 5.0); };
+  if (seconds < 1.0) return "1 s";
+  if (seconds < 90.0) return fmt::format("{:g} s", rounded(seconds));
+  if (seconds < 5400.0) return fmt::format("{:g} min", rounded(seconds / 60.0));
+  return fmt::format("{:g} h", rounded(seconds / 3600.0));
+}
+
+std::optional<double> measured_seconds(const std::filesystem::path& results, const std::string& case_hash) {
+  try {
+    const auto summary = read_summary(results / summary_file);
+    if (summary && summary->status == "complete" && summary->case_hash == case_hash)
+      return summary->number("wall_seconds");
+  } catch (const InputError&) {  // no summary: as good as none
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+/// Peak of the bead benchmark: 193 MB with 98,000 faces (42,000 tetrahedra and prisms), 448 MB with 261,000; 272 MB
+/// with 77,000 faces of 17,000 polyhedra, which VTK's grid holds as triangles.
+double estimated_memory(const Mesh& mesh) {
+  const bool polyhedra = std::ranges::find(mesh.shape, CellShape::polyhedron) != mesh.shape.end();
+  return (polyhedra ? 3.1e3 : 1.9e3) * mesh.n_faces() + 40e6;
+}
+
+std::string time_words(const Mesh& mesh, const FractureModel& model, const LoadingSettings& loading,
+                       const std::filesystem::path& results, const std::string& case_hash) {
+  if (const auto seconds = measured_seconds(results, case_hash))
+    return fmt::format("time: the complete run in {} took {:.3g} s", results.string(), *seconds);
+  // Processor time of a cell in a step of the largest increment: of 20 shipped cases 3e-5 to 7e-4 s, their median.
+  constexpr double usual = 1.1e-4, finite_strain = 5.0;
+  const double steps = std::ceil(loading.end / loading.maximum_increment - 1e-9);
+  const double seconds = usual * steps * mesh.n_cells() * (model.is_finite_strain() ? finite_strain : 1.0);
+  return fmt::format(
+      "time: about {} of one processor by cells and steps; shipped cases take a third to seven times such an estimate",
+      about(seconds));
+}
+
+/// Five iterations of a stage, each with the run itself and the differences of its parameters: bar_fit 33,
+/// glass_bead_fit 29, glass_bead_calibration 35 runs.
+int estimated_runs(const CurveFitSettings& fit) {
+  constexpr int iterations = 5;
+  const int each = fit.solver.differences == Differences::central ? 2 : 1;
+  int runs = 0;
+  for (const CurveFitStage& stage : fit.stages)
+    runs += stage.starts * iterations * (1 + each * static_cast<int>(stage.parameters.size())) + stage.screened;
+  return runs;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,181 @@
+#include "cases/program/studies/sweep_report.h"
+
+#include "cases/program/session/report_parts.h"
+#include "postproc/curves/summary.h"
+#include "postproc/files/csv_table.h"
+#include "postproc/page/page_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_runs_shown = 40, most_figures = 6, most_columns = 3, most_series = 8;
+
+/// Figures that one asks for first; others that differ between the runs follow.
+constexpr std::string_view wanted_first[] = {"peak_force_N", "displacement_at_peak_m", "first_debonding_force_N",
+                                             "first_debonding_displacement_m", "initial_stiffness_N_per_m"};
+
+/// Endings of columns' names, and the units that they stand for; the longest first.
+struct Ending {
+  std::string_view ending, unit;
+  bool takes_prefix;
+};
+constexpr Ending endings[] = {{"_N_per_m", "N/m", false}, {"_J_per_m2", "J/m²", false},
+                              {"_m2", "m^2", true},       {"_m3", "m^3", true},
+                              {"_Pa", "Pa", true},        {"_Hz", "Hz", true},
+                              {"_deg", "°", false},       {"_N", "N", true},
+                              {"_J", "J", true},          {"_m", "m", true},
+                              {"_s", "s", true},          {"_K", "K", false},
+                              {"_kg", "kg", false}};
+
+/// A column as it is shown: words, unit and the numbers in it.
+struct ShownColumn {
+  std::string words, unit;
+  std::vector<double> values;
+  std::string title() const { return fmt::format("{} [{}]", words, unit.empty() ? "-" : unit); }
+};
+
+ShownColumn shown_column(const CsvTable& table, std::size_t j) {
+  const std::string& name = table.names[j];
+  const auto ending = std::ranges::find_if(endings, [&](const Ending& e) { return name.ends_with(e.ending); });
+  ShownColumn column{.words = name, .unit = {}, .values = table.columns[j]};
+  if (ending != std::end(endings)) {
+    column.words = name.substr(0, name.size() - ending->ending.size());
+    DisplayUnit unit{.factor = 1.0, .name = std::string(ending->unit)};
+    if (ending->takes_prefix) unit = common_unit(std::span(&table.columns[j], 1), ending->unit);
+    column.unit = unit.name;
+    column.values = in_unit(table.columns[j], unit);
+  }
+  std::ranges::replace(column.words, '_', ' ');
+  return column;
+}
+
+/// Whether the finite values of a column differ.
+bool varies(const std::vector<double>& values) {
+  double least = INFINITY, most = -INFINITY;
+  for (const double value : values)
+    if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
+  return most - least > 1e-9 * std::max(std::abs(least), std::abs(most));
+}
+
+/// Numbers of columns: what the sweep changes, and figures that came out.
+struct SweepColumns {
+  std::vector<std::size_t> parameters, figures;
+};
+
+SweepColumns columns_of(const CsvTable& table) {
+  SweepColumns columns;
+  const std::size_t converged = table.find("converged");
+  for (std::size_t j = 1; j < converged; ++j) columns.parameters.push_back(j);
+  const auto add = [&](std::size_t j) {
+    if (columns.figures.size() < most_figures && varies(table.columns[j]) &&
+        std::ranges::count(columns.figures, j) == 0)
+      columns.figures.push_back(j);
+  };
+  for (const std::string_view name : wanted_first)
+    if (const auto found = std::ranges::find(table.names, name); found != table.names.end())
+      add(static_cast<std::size_t>(found - table.names.begin()));
+  for (std::size_t j = converged + 1; j < table.names.size(); ++j) add(j);
+  return columns;
+}
+
+Table runs_table(const CsvTable& table, const SweepColumns& columns) {
+  std::vector<std::size_t> all = columns.parameters;
+  all.insert(all.end(), columns.figures.begin(),
+             columns.figures.begin() + static_cast<std::ptrdiff_t>(std::min(columns.figures.size(), most_columns)));
+  const std::size_t n = std::min(table.n_rows(), most_runs_shown);
+  Table shown_table{.caption = n < table.n_rows() ? fmt::format("The first {} of {} runs", n, table.n_rows()) : "Runs",
+                    .rows = {{"run"}},
+                    .has_header = true};
+  for (std::size_t i = 0; i < n; ++i) shown_table.rows.push_back({fmt::format("{}", i + 1)});
+  for (const std::size_t j : all) {
+    const ShownColumn column = shown_column(table, j);
+    shown_table.rows[0].push_back(column.title());
+    for (std::size_t i = 0; i < n; ++i) shown_table.rows[i + 1].push_back(shown(column.values[i]));
+  }
+  return shown_table;
+}
+
+/// The runs by the value of what is changed besides; of too many values, or none, all together.
+std::map<double, std::vector<std::size_t>> groups(const CsvTable& table, const SweepColumns& columns, std::size_t x) {
+  std::map<double, std::vector<std::size_t>> by_value;
+  const bool two = columns.parameters.size() == 2;
+  const std::size_t other = two && columns.parameters[0] == x ? columns.parameters[1] : columns.parameters[0];
+  for (std::size_t i = 0; i < table.n_rows(); ++i) by_value[two ? table.columns[other][i] : 0.0].push_back(i);
+  if (by_value.size() <= most_series) return by_value;
+  by_value.clear();
+  for (std::size_t i = 0; i < table.n_rows(); ++i) by_value[0.0].push_back(i);
+  return by_value;
+}
+
+Chart figure_chart(const CsvTable& table, const SweepColumns& columns, std::size_t x, std::size_t figure) {
+  const ShownColumn across = shown_column(table, x), up = shown_column(table, figure);
+  Chart chart{.caption = up.words, .x = {.title = across.title()}, .y = {.title = up.title()}, .series = {}};
+  const auto by_value = groups(table, columns, x);
+  for (const auto& [value, runs] : by_value) {
+    std::vector<std::pair<double, double>> points;
+    for (const std::size_t i : runs)
+      if (std::isfinite(up.values[i])) points.emplace_back(across.values[i], up.values[i]);
+    std::ranges::sort(points);
+    Series series{.label = {}, .x = {}, .y = {}, .style = SeriesStyle::line_with_points};
+    if (by_value.size() > 1) {
+      const std::size_t other = columns.parameters[0] == x ? columns.parameters[1] : columns.parameters[0];
+      const ShownColumn column = shown_column(table, other);
+      series.label = fmt::format("{} {} {}", column.words, shown(column.values[runs.front()]), column.unit);
+    } else if (columns.parameters.size() > 1) {
+      series.style = SeriesStyle::points;
+    }
+    for (const auto& [at, y] : points) {
+      series.x.push_back(at);
+      series.y.push_back(y);
+    }
+    series.colour = static_cast<int>(chart.series.size());
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+}  // namespace
+
+ReportPage sweep_page(const fs::path& results, const std::string& title, const std::string& version) {
+  const CsvTable table = read_csv(results / sweep_file, {.has_gaps = true});
+  const SweepColumns columns = columns_of(table);
+  const auto converged = std::ranges::count(table.column("converged"), 1.0);
+  ReportPage page{
+      .title = title,
+      .subtitle = fmt::format("pfdm {}, sweep of {} runs, {} of them converged", version, table.n_rows(), converged),
+      .rows = {PageRow{.blocks = {runs_table(table, columns)}}}};
+  std::vector<PageBlock> charts;
+  for (const std::size_t figure : columns.figures)
+    for (const std::size_t x : columns.parameters)
+      if (varies(table.columns[x]) && charts.size() < most_figures)
+        charts.emplace_back(figure_chart(table, columns, x, figure));
+  for (PageRow& row : in_pairs(std::move(charts))) page.rows.push_back(std::move(row));
+  if (!table.comments.empty())
+    page.rows.push_back(
+        {.blocks = {TextBlock{.caption = "Folders, and runs that did not converge",
+                              .lines = {table.comments.begin(),
+                                        table.comments.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                                     table.comments.size(), most_runs_shown))}}}});
+  return page;
+}
+
+bool has_own_run(const fs::path& results) {
+  return fs::exists(results / summary_file) || fs::exists(results / "checkpoint.bin") ||
+         fs::exists(results / "fit.json");
+}
+
+void report_sweep(const std::string& title, Session& session) {
+  const fs::path folder = session.results / "report" / (has_own_run(session.results) ? "sweep" : "");
+  write_page(folder, sweep_page(session.results, title, session.version));
+  session.log.say(fmt::format("written to {} and report.png", (folder / "report.pdf").string()));
+}
+
+}  // namespace pfdm
