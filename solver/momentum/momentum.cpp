@@ -253,6 +253,7 @@ void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
 void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& out) const {
   compute_linear_forces(u);
   sum_forces(out);
+  hold_spins(out);
   pull_by_springs(u, out);
   if (is_finite()) {
     pressed_faces_.add_turn(u, gradients_, out);
@@ -330,6 +331,7 @@ std::vector<Vector> MomentumOperator::traction_forces(double t) const {
 
 std::vector<Vector> MomentumOperator::load_vector(double t) const {
   std::vector<Vector> load = traction_forces(t);
+  add_spin_targets(t, load);
   if (has_initial_stress()) take_away_initial_forces(load);
   if (is_finite()) pressed_faces_.add_initial_turn(load);
   return load;

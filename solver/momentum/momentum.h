@@ -195,6 +195,12 @@ class MomentumOperator {
   void add_initial_forces() const;
   void compute_forces(const std::vector<Vector>& u) const;
   void sum_forces(std::vector<Vector>& out) const;
+  double prescribed_slope(const SpinHold& hold, double t) const;
+  double shear_stiffness(Index cell) const;
+  void resist_spin(const SpinHold& hold, double much, std::vector<Vector>& v) const;
+  void hold_spins(std::vector<Vector>& out) const;
+  void add_spin_targets(double t, std::vector<Vector>& load) const;
+  void add_free_part(std::vector<Vector>& forces, std::vector<Vector>& out) const;
   void gather_from_images(std::vector<Vector>& forces) const;
   void work_on_free_strains(std::vector<Vector>& out) const;
   Vector place(Index face_node) const {
