@@ -135,6 +135,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
   condense(moduli_);
   pressure_.take_over(moduli_, g);
   stiffness_ = {};
+  law_ = {};
   linear_stress_ = std::move(stress);
   if (has_linear_stress()) condense(linear_stress_);
   gradient_.update(g, part);
@@ -158,13 +159,6 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
     side.a_n = jump_modulus(side.cell) / h;
     side.a_t = moduli_[side.cell].mu / h;
   });
-}
-
-void MomentumOperator::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part) {
-  condense(stiffness);
-  stiffness_ = std::move(stiffness);
-  gradient_.update(g, part);
-  set_face_tensors();
 }
 
 void MomentumOperator::set_face_tensors() {
