@@ -213,13 +213,14 @@ MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticit
   return g * stiffness_matrix(c) + (1.0 - g) * tangent(axes, split.kept(c, axes.value));
 }
 
-double degraded_tangent_product(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& at,
-                                const Tensor& eps) {
-  if (split.has_secant()) return 2.0 * energy_density(split.secant(c, g, split.closure(at)), eps);
-  const double whole = 2.0 * energy_density(c, eps);
-  if (g == 1.0) return whole;
-  const PrincipalAxes axes = principal_axes(at);
-  return g * whole + (1.0 - g) * tangent_product(axes, split.kept(c, axes.value), to_mandel(eps));
+Tensor degradable_stress(const EnergySplit& split, const IsotropicElasticity& c, const Tensor& eps) {
+  if (split.has_secant()) {
+    const double closure = split.closure(eps);
+    return stress(split.secant(c, 1.0, closure), eps) - stress(split.secant(c, 0.0, closure), eps);
+  }
+  const PrincipalAxes axes = principal_axes(eps);
+  const Vector kept = split.kept(c, axes.value).stress;
+  return stress(c, eps) - axes.direction * kept.asDiagonal() * axes.direction.transpose();
 }
 
 Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps) {

@@ -70,11 +70,8 @@ class EnergySplit {
 /// influence. At eps = 0 cracks are open.
 MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
 
-/// eps . degraded_tangent(split, c, g, at) eps [J/m^3]: twice the energy density that it gives the strain eps.
-double degraded_tangent_product(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& at,
-                                const Tensor& eps);
-
-/// sigma [Pa] of the material degraded to g.
+/// What damage degrades of the stress [Pa], before it does: dpsi_plus/deps of a variational split.
+Tensor degradable_stress(const EnergySplit& split, const IsotropicElasticity& c, const Tensor& eps);
 Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
 
 std::span<const SplitLaw> energy_splits();

@@ -1,5 +1,9 @@
 #include "physics/principal.h"
 
+#include <array>
+#include <cmath>
+#include <utility>
+
 namespace pfdm {
 namespace {
 
@@ -34,7 +38,30 @@ Directions directions(const PrincipalAxes& strain) {
 
 }  // namespace
 
+namespace {
+
+// Of a tensor without shear across the plane 12: by the angle of its first axis, 2 phi.
+PrincipalAxes axes_in_plane(const Tensor& a) {
+  const double half = 0.5 * (a(0, 0) - a(1, 1)), mean = 0.5 * (a(0, 0) + a(1, 1)), shear = a(1, 0);
+  const double radius = std::hypot(half, shear), phi = 0.5 * std::atan2(shear, half);
+  const double c = std::cos(phi), s = std::sin(phi);
+  std::array<std::pair<double, Vector>, 3> axes{
+      {{mean - radius, Vector(-s, c, 0.0)}, {mean + radius, Vector(c, s, 0.0)}, {a(2, 2), Vector::UnitZ()}}};
+  if (axes[2].first < axes[1].first) std::swap(axes[1], axes[2]);
+  if (axes[1].first < axes[0].first) std::swap(axes[0], axes[1]);
+  PrincipalAxes sorted;
+  for (Index i = 0; i < 3; ++i) {
+    const auto& [value, direction] = axes[static_cast<std::size_t>(i)];
+    sorted.value[i] = value;
+    sorted.direction.col(i) = direction;
+  }
+  return sorted;
+}
+
+}  // namespace
+
 PrincipalAxes principal_axes(const Tensor& a) {
+  if (a(2, 0) == 0.0 && a(2, 1) == 0.0) return axes_in_plane(a);
   const Eigen::SelfAdjointEigenSolver<Tensor> solver(a);
   return {.value = solver.eigenvalues(), .direction = solver.eigenvectors()};
 }
@@ -43,12 +70,6 @@ MandelMatrix tangent(const PrincipalAxes& strain, const PrincipalStress& sigma) 
   const Directions axes = directions(strain);
   return axes.normal * sigma.slope * axes.normal.transpose() +
          axes.shear * shear_slopes(strain, sigma).asDiagonal() * axes.shear.transpose();
-}
-
-double tangent_product(const PrincipalAxes& strain, const PrincipalStress& sigma, const Mandel& v) {
-  const Directions axes = directions(strain);
-  const Vector normal = axes.normal.transpose() * v, shear = axes.shear.transpose() * v;
-  return normal.dot(sigma.slope * normal) + shear.dot(shear_slopes(strain, sigma).cwiseProduct(shear));
 }
 
 }  // namespace pfdm

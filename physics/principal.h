@@ -22,7 +22,5 @@ struct PrincipalStress {
 
 /// d sigma / d eps [Pa] at the strain of these axes; symmetric.
 MandelMatrix tangent(const PrincipalAxes& strain, const PrincipalStress& sigma);
-/// v . tangent v [Pa]
-double tangent_product(const PrincipalAxes& strain, const PrincipalStress& sigma, const Mandel& v);
 
 }  // namespace pfdm

@@ -18,7 +18,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view magic = "PFDMCKPT";
-constexpr std::uint32_t format_version = 8;
+constexpr std::uint32_t format_version = 9;
 constexpr std::size_t size_position = magic.size() + sizeof(format_version);
 constexpr std::size_t header_size = size_position + sizeof(std::uint64_t);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -96,11 +96,11 @@ class Reader {
 // The one list of what is in a state, for both directions; it does not compile any more when the state gets a member.
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
-  auto& [step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, histories, interfaces,
-         boundary_force, energy] = state;
+  auto& [step, load, increment, displacement, damage, driving_energy, closure, histories, interfaces, boundary_force,
+         energy] = state;
   const auto each = [&](auto&... members) { (archive(members), ...); };
-  each(step, load, increment, displacement, damage, driving_energy, closure, tangent_strain, histories.first,
-       histories.values, interfaces, boundary_force);
+  each(step, load, increment, displacement, damage, driving_energy, closure, histories.first, histories.values,
+       interfaces, boundary_force);
   for (const EnergyEntry& entry : energy_entries) archive(energy.*entry.value);
 }
 

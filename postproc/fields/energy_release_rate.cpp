@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
+#include <variant>
 
 namespace pfdm {
 namespace {
@@ -83,21 +85,60 @@ Elastic elastic_in(const Mesh& mesh, const OutputFields& output, Index c) {
   return {moment * closure.inverse(), output.energy_density[c]};
 }
 
-// The elasticities of the ring's cells above and below the crack, if each side has one.
-std::optional<InterfaceCrack> crack_between(const Mesh& mesh, const FractureModel& model, const TipRegion& region,
-                                            const CellField<Vector>& gradient, const Vector& tip) {
+struct Crack {
+  InterfaceCrack between;
+  bool is_half = false;  // one side of it is the mirror image of the other
+};
+
+// A condition under which the body goes on as its mirror image beyond a face with this normal.
+bool is_mirror(const BoundaryCondition& condition, const Vector& normal, const Vector& x) {
+  if (condition.kind == BoundaryCondition::Kind::symmetry) return true;
+  if (condition.kind != BoundaryCondition::Kind::components) return false;
+  if (condition.pressure || (condition.value && !condition.value(x, 1.0).isZero())) return false;
+  for (Index i = 0; i < 3; ++i)
+    if (condition.displacement_prescribed[as_size(i)] != (std::abs(normal[i]) > 0.5)) return false;
+  return normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
+}
+
+// Whether the crack's plane ahead of the tip is one of symmetry, as far as the ring reaches.
+bool is_mirrored(const Mesh& mesh, const FractureModel& model, const TipRegion& region, const FaceField<double>& q,
+                 const Vector& tip) {
+  const Vector across = region.front.cross(region.direction);
+  bool any = false;
+  for (const Patch& patch : mesh.patches) {
+    const auto on = std::ranges::find(model.boundary, patch.name, &BoundaryCondition::patch);
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Vector r = mesh.face_centre[f] - tip, n = mesh.face_area[f].normalized();
+      const bool is_ahead = r.dot(region.direction) > 0.0 && std::abs(r.dot(across)) < 1e-6 * region.outer;
+      if (q[f] == 0.0 || !is_ahead || std::abs(n.dot(across)) < 0.5) continue;
+      if (on == model.boundary.end() || !is_mirror(*on, n, mesh.face_centre[f])) return false;
+      any = true;
+    }
+  }
+  return any;
+}
+
+// The elasticities of the ring's cells above and below the crack; or why there are none.
+std::variant<Crack, std::string_view> crack_between(const Mesh& mesh, const FractureModel& model,
+                                                    const TipRegion& region, const FaceField<double>& q,
+                                                    const CellField<Vector>& gradient, const Vector& tip) {
+  if (model.is_finite_strain()) return "they are those of small strain";
   std::optional<IsotropicElasticity> upper, lower;
   const Vector across = region.front.cross(region.direction);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     if (gradient[c].squaredNorm() == 0.0) continue;
     std::optional<IsotropicElasticity>& side = (mesh.cell_centre[c] - tip).dot(across) >= 0.0 ? upper : lower;
-    if (model.in_cell(mesh, c).material) return std::nullopt;
+    if (model.in_cell(mesh, c).material)
+      return "they are those of linear elasticity, and a material of the ring is not";
     const IsotropicElasticity& elasticity = model.in_cell(mesh, c).elasticity;
-    if (side && !(*side == elasticity)) return std::nullopt;
+    if (side && !(*side == elasticity)) return "the part of the ring on one side of the crack has two elasticities";
     side = elasticity;
   }
-  if (!upper || !lower) return std::nullopt;
-  return InterfaceCrack{.upper = *upper, .lower = *lower, .reference_length = region.reference_length};
+  const bool is_half = !upper || !lower;
+  if (is_half && !is_mirrored(mesh, model, region, q, tip))
+    return "the ring lies on one side of the crack, whose plane is not one of symmetry ahead of the tip";
+  const IsotropicElasticity& one = upper ? *upper : *lower;
+  return Crack{{.upper = one, .lower = lower.value_or(one), .reference_length = region.reference_length}, is_half};
 }
 
 // The mixed part of G of the body's field and the near field with K, times the extent along the front [J/m].
@@ -175,19 +216,21 @@ EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, 
 StressIntensity stress_intensity(const Mesh& mesh, const FractureModel& model, const OutputFields& output,
                                  const TipRegion& region) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const StressIntensity unknown{none, none, none};
-  const Vector tip = crack_tip(mesh, output.damage, region);
-  const FaceField<double> q = weights(mesh, region, tip);
-  if (leaves_body(mesh, region, q) || model.is_finite_strain()) return unknown;
+  const EnergyRelease release = energy_release_rate(mesh, output, region);
+  if (std::isnan(release.G)) return {none, none, none, ""};
+  const FaceField<double> q = weights(mesh, region, release.tip);
   CellField<Vector> gradient(as_size(mesh.n_cells()));
   parallel_for(mesh.n_cells(), [&](Index c) { gradient[c] = gradient_of(mesh, q, c); });
-  std::optional<InterfaceCrack> crack = crack_between(mesh, model, region, gradient, tip);
-  if (!crack) return unknown;
-  crack->plane_stress = output.plane_stress_normal.squaredNorm() > 0.0;
-  const double scale = 0.5 * crack->modulus() / extent_along(mesh, region.front);
-  const double K1 = scale * interaction(mesh, output, region, *crack, gradient, tip, {1.0, 0.0});
-  const double K2 = scale * interaction(mesh, output, region, *crack, gradient, tip, {0.0, 1.0});
-  return {K1, K2, std::atan2(K2, K1)};
+  std::variant<Crack, std::string_view> found = crack_between(mesh, model, region, q, gradient, release.tip);
+  if (const auto* why = std::get_if<std::string_view>(&found)) return {none, none, none, *why};
+  Crack& crack = std::get<Crack>(found);
+  crack.between.plane_stress = output.plane_stress_normal.squaredNorm() > 0.0;
+  const double K1 = interaction(mesh, output, region, crack.between, gradient, release.tip, {1.0, 0.0});
+  const double K2 = interaction(mesh, output, region, crack.between, gradient, release.tip, {0.0, 1.0});
+  const double G = std::max(release.G, 0.0) * (crack.is_half ? 2.0 : 1.0);
+  const double size = std::sqrt(crack.between.modulus() * G);
+  const double angle = crack.is_half ? (K1 < 0.0 ? std::numbers::pi : 0.0) : std::atan2(K2, K1);
+  return {size * std::cos(angle), crack.is_half ? 0.0 : size * std::sin(angle), angle, ""};
 }
 
 }  // namespace pfdm

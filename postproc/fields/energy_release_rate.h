@@ -12,9 +12,11 @@
 // stress and the energy per reference volume take their places, distances are those of the reference mesh, and G is per
 // reference area.
 //
-// The stress intensities of both modes by the interaction integral (Yau, Wang, Corten, J. Appl. Mech. 47 (1980) 335; of
-// a crack between two materials Matos et al., Int. J. Fract. 40 (1989) 235): the mixed part of G of the body's field
-// and of the near field with K1 = 1, and with K2 = 1.
+// The ratio of the stress intensities of both modes by the interaction integral (Yau, Wang, Corten, J. Appl. Mech. 47
+// (1980) 335; of a crack between two materials Matos et al., Int. J. Fract. 40 (1989) 235): the mixed part of G of the
+// body's field and of the near field with K1 = 1, and with K2 = 1. Their size is that of G, K1^2 + K2^2 = H G: the
+// near field of a discrete crack is that of a tip some tenths of a cell ahead, so that the integrals about the given
+// tip also collect the next terms of the body's field, to the first power of the cells' size. G does not.
 
 #include "physics/interface_crack.h"
 #include "solver/fracture/fracture_model.h"
@@ -69,11 +71,12 @@ struct EnergyRelease {
 
 EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, const TipRegion& region);
 
-/// At the region's reference length; see physics/interface_crack.h. All NaN where G is, at finite strain, and where the
-/// ring has cells of two elasticities on one side of the crack, or of materials with a history.
+/// At the region's reference length; see physics/interface_crack.h. A crack in a plane of symmetry, with half of the
+/// body beside it, has that of the whole body. All NaN where G is, and where there are none.
 struct StressIntensity {
   double K1 = 0.0, K2 = 0.0;  ///< [Pa m^1/2]
   double phase_angle = 0.0;   ///< atan2(K2, K1) [radian]
+  std::string_view why_none;  ///< why they are NaN, for messages; empty where G is, and where they are not
 };
 
 StressIntensity stress_intensity(const Mesh& mesh, const FractureModel& model, const OutputFields& output,

@@ -6,14 +6,6 @@
 #include <cmath>
 
 namespace pfdm {
-namespace {
-
-// Step of a cell whose strain oscillates. It recovers slowly: broken cells between two loose halves would oscillate
-// again at once.
-constexpr float least_share = 1.0F / 256.0F, recovery = 1.05F;
-
-}  // namespace
-
 CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model)
     : mesh_(mesh), model_(model), materials_(mesh, model), finite_(mesh, model), is_isotropic_(model.is_isotropic()) {}
 
@@ -22,9 +14,6 @@ void CellStiffness::start_step(double duration) {
   const auto n = as_size(mesh_.n_cells());
   closing_ = CellField<float>(n, 0.0F);
   turns_ = CellField<Index>(n, 0);
-  if (is_isotropic_) return;
-  move_ = CellField<Tensor>(n);
-  share_ = CellField<float>(n, 1.0F);
 }
 
 const IsotropicElasticity& CellStiffness::elasticity(Index cell) const {
@@ -65,16 +54,13 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
     parallel_for(mesh_.n_cells(), [&](Index c) { moduli[c] = split(c).secant(elasticity(c), g[c], state.closure[c]); });
     momentum.set_moduli(moduli, g, materials_.any() ? linearised(state, g, moduli) : CellField<LinearStress>());
   } else {
-    CellField<MandelMatrix> C(n);
-    parallel_for(mesh_.n_cells(), [&](Index c) { C[c] = stiffness(c, g[c], state); });
-    momentum.set_stiffness(std::move(C), g);
+    momentum.set_law(law(g, state.closure), g, state.displacement);
   }
 }
 
 bool CellStiffness::has_degradable_part(Index cell) const {
   const EnergySplit& law = split(cell);
-  return model_.in_cell(mesh_, cell).damageable && !finite_.any() && !materials_.has(cell) && law.has_secant() &&
-         law.is_variational();
+  return model_.in_cell(mesh_, cell).damageable && !finite_.any() && !materials_.has(cell) && law.is_variational();
 }
 
 bool CellStiffness::descends() const {
@@ -88,7 +74,8 @@ bool CellStiffness::depends_on_strain() const {
   constexpr double g = 0.5;
   for (Index c = 0; c < mesh_.n_cells(); ++c)
     if (model_.in_cell(mesh_, c).damageable &&
-        (!has_degradable_part(c) || split(c).secant(elasticity(c), g, 0.0) != split(c).secant(elasticity(c), g, 1.0)))
+        (!has_degradable_part(c) || !split(c).has_secant() ||
+         split(c).secant(elasticity(c), g, 0.0) != split(c).secant(elasticity(c), g, 1.0)))
       return true;
   return false;
 }
@@ -97,7 +84,7 @@ bool CellStiffness::depends_on_strain() const {
 CellField<IsotropicElasticity> CellStiffness::degradable_part(const FractureState& state) const {
   CellField<IsotropicElasticity> part(as_size(mesh_.n_cells()), {});
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (!has_degradable_part(c)) return;
+    if (!has_degradable_part(c) || !split(c).has_secant()) return;
     const EnergySplit& law = split(c);
     const IsotropicElasticity whole = law.secant(elasticity(c), 1.0, state.closure[c]);
     const IsotropicElasticity kept = law.secant(elasticity(c), 0.0, state.closure[c]);
@@ -106,11 +93,22 @@ CellField<IsotropicElasticity> CellStiffness::degradable_part(const FractureStat
   return part;
 }
 
-// Where the splits of the regions differ in kind.
-MandelMatrix CellStiffness::stiffness(Index cell, double g, const FractureState& state) const {
-  const EnergySplit& law = split(cell);
-  return law.has_secant() ? stiffness_matrix(law.secant(elasticity(cell), g, state.closure[cell]))
-                          : degraded_tangent(law, elasticity(cell), g, state.tangent_strain[cell]);
+// The splits of the regions may differ in kind.
+StrainLaw CellStiffness::law(const CellField<double>& g, const CellField<double>& closure) const {
+  struct At {
+    CellField<double> g, closure;
+  };
+  const auto at = std::make_shared<const At>(At{g, closure});
+  return {.tangent =
+              [this, at](Index c, const Tensor& strain) {
+                const EnergySplit& by = split(c);
+                return by.has_secant() ? stiffness_matrix(by.secant(elasticity(c), at->g[c], at->closure[c]))
+                                       : degraded_tangent(by, elasticity(c), at->g[c], strain);
+              },
+          .degradable = [this](Index c, const Tensor& strain) -> Tensor {
+            if (!has_degradable_part(c) || split(c).has_secant()) return Tensor::Zero();
+            return degradable_stress(split(c), elasticity(c), strain);
+          }};
 }
 
 // What the split keeps beyond g times the stiffness is elastic.
@@ -203,8 +201,7 @@ double CellStiffness::follow(const CellMechanics& mechanics, FractureState& stat
     return 0.0;
   }
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    return split(c).has_secant() ? follow_with_closure(c, closing_strain(c, mechanics, state), state)
-                                 : follow_with_tangent(c, mechanics.strain[c], state);
+    return split(c).has_secant() ? follow_with_closure(c, closing_strain(c, mechanics, state), state) : 0.0;
   });
 }
 
@@ -237,21 +234,6 @@ double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, Frac
   const bool there = std::abs(next / wanted - 1.0) < 1e-3 || g == 1.0;
   closure = there ? closure + lag : (next - g) / (1.0 - g);
   return mesh_.cell_volume[cell] * std::abs(wrong);
-}
-
-// Newton's step; a cell whose strain oscillates takes a fraction of it that decreases with each reversal.
-double CellStiffness::follow_with_tangent(Index cell, const Tensor& strain, FractureState& state) {
-  Tensor& tangent_strain = state.tangent_strain[cell];
-  const double g = factor(cell, state.damage[cell]);
-  if (g == 1.0) return 0.0;
-  const double used = degraded_tangent_product(split(cell), elasticity(cell), g, tangent_strain, strain);
-  const double due = degraded_tangent_product(split(cell), elasticity(cell), g, strain, strain);
-  const Tensor move = strain - tangent_strain;
-  const bool turned = contract(move, move_[cell]) < 0.0;
-  share_[cell] = turned ? std::max(0.5F * share_[cell], least_share) : std::min(recovery * share_[cell], 1.0F);
-  move_[cell] = move;
-  tangent_strain += static_cast<double>(share_[cell]) * move;
-  return 0.5 * mesh_.cell_volume[cell] * std::abs(due - used);
 }
 
 }  // namespace pfdm

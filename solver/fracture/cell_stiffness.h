@@ -45,6 +45,9 @@ class CellStiffness {
   bool descends() const;
   /// Whether the stiffness of some damageable cell depends on its strain, as where cracks close.
   bool depends_on_strain() const;
+  /// Whether stresses are functions of the strain, linearised about the displacements of the state: equilibrium is
+  /// found by Newton's method.
+  bool is_linearised() const { return finite_.any() || !is_isotropic_; }
   /// What a cell stores [J].
   double stored_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   double stored_energy(Index cell, const FiniteEnergies& at, double d) const;
@@ -70,11 +73,10 @@ class CellStiffness {
                                      const CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
   const EnergySplit& split(Index cell) const;
-  MandelMatrix stiffness(Index cell, double g, const FractureState& state) const;
+  StrainLaw law(const CellField<double>& g, const CellField<double>& closure) const;
   bool has_degradable_part(Index cell) const;
   Tensor closing_strain(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   double follow_with_closure(Index cell, const Tensor& strain, FractureState& state);
-  double follow_with_tangent(Index cell, const Tensor& strain, FractureState& state);
 
   const Mesh& mesh_;
   const FractureModel& model_;
@@ -83,8 +85,6 @@ class CellStiffness {
   bool is_isotropic_;         // every split has isotropic secant moduli
   CellField<float> closing_;  // per cell: last change of the closure, and
   CellField<Index> turns_;    // number of its reversals within the step
-  CellField<Tensor> move_;    // last change of the tangent strain, and
-  CellField<float> share_;    // the fraction of it that the cell may take
 };
 
 }  // namespace pfdm

@@ -4,6 +4,7 @@
 #include "solver/fracture/combinations.h"
 #include "solver/fracture/residual_stiffness.h"
 #include "solver/fracture/staggered.h"
+#include "solver/fracture/unconverged.h"
 #include "solver/momentum/rigid_motion.h"
 #include "solver/parallel.h"
 
@@ -39,18 +40,18 @@ struct FractureRun::Parts {
   Unknowns unknowns;
   std::vector<Index> sides;  // of a box that moves by its mean strain
   Staggered staggered;
-  Index maximum_iterations;
+  StaggeredSettings settings;
   ResidualStiffness residual_stiffness;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
-  Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& settings, LoadingSettings l)
+  Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& given, LoadingSettings l)
       : mesh(m),
         model(std::move(fm)),
         loading(std::move(l)),
         unknowns((require_complete(m, model), place_unknowns(m, elastic_body(model)))),
         sides(faces_of_sides(model.motion)),
-        staggered(m, model, unknowns, settings),
-        maximum_iterations(settings.maximum_iterations),
+        staggered(m, model, unknowns, given),
+        settings(given),
         residual_stiffness(model.residual_stiffness) {
     require_combination(mesh, model, unknowns, loading);
     relax_initial_damage();
@@ -86,7 +87,7 @@ struct FractureRun::Parts {
     double next = increment;
     if (outcome.iterations <= easy_iterations)
       next = std::min(grown, loading.maximum_increment);
-    else if (double(outcome.iterations) <= bearable_share * double(maximum_iterations) &&
+    else if (double(outcome.iterations) <= bearable_share * double(settings.maximum_iterations) &&
              increment < loading.initial_increment)
       next = std::min(grown, loading.initial_increment);
     // Extrapolates the damage and release per increment of this step.
@@ -119,18 +120,38 @@ struct FractureRun::Parts {
                    : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)"));
   }
 
+  bool allows(const FractureModel& other_model, const LoadingSettings& other) const {
+    try {
+      require_combination(mesh, other_model, unknowns, other);
+    } catch (const InputError&) {
+      return false;
+    }
+    return true;
+  }
+
+  Remedies remedies(double load) const {
+    Remedies may;
+    if (!(model.viscosity > 0.0)) {
+      FractureModel viscous = model;
+      LoadingSettings timed = loading;
+      viscous.viscosity = timed.duration = 1.0;
+      may.viscosity = allows(viscous, timed);
+    }
+    if (std::isfinite(loading.maximum_dissipation)) return may;
+    LoadingSettings controlled = loading;
+    controlled.maximum_dissipation = 1.0;
+    const std::vector<Vector> tractions = staggered.balance().traction_forces(load);
+    may.dissipation_control =
+        std::ranges::any_of(tractions, [](const Vector& f) { return !f.isZero(); }) && allows(model, controlled);
+    return may;
+  }
+
   [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) const {
-    const std::string advice = outcome.settled
-                                   ? fmt::format(
-                                         "its damage and energies have converged, but the momentum balance could not "
-                                         "be solved to better than {:.2g}; increase solver.equilibrium_tolerance",
-                                         outcome.residual)
-                                   : "more iterations (solver.maximum_iterations) or a smaller "
-                                     "loading.minimum_increment may help; where tractions drive unstable crack growth, "
-                                     "prescribe displacements or use dissipation control (loading.maximum_dissipation)";
     throw NoConvergence(
-        fmt::format("step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load): {}",
-                    trial.step, trial.load, loading.minimum_increment, advice));
+        fmt::format("step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load, "
+                    "loading.minimum_increment) in {} iterations: {}; {}",
+                    trial.step, trial.load, loading.minimum_increment, outcome.iterations,
+                    what_changes(mesh, settings, outcome), what_to_try(settings, outcome, remedies(trial.load))));
   }
 
   Trial attempt(const FractureState& state, double planned, const IterationWatch& watch) {
@@ -221,7 +242,6 @@ FractureState FractureRun::initial_state() const {
   state.closure = CellField<double>(n, 0.0);
   state.histories = parts_->staggered.stiffness().materials().virgin_histories();
   state.interfaces = parts_->staggered.faces().virgin_histories();
-  if (!parts_->model.is_isotropic()) state.tangent_strain = CellField<Tensor>(n);
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
   return state;
 }
@@ -250,8 +270,9 @@ StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) 
     }
     planned = cut * trial.increment;
     if (planned < parts_->loading.minimum_increment) parts_->fail_unconverged(trial.state, outcome);
-    remarks.push_back(fmt::format("step {} at load {:.6g} did not converge; the increment is cut to {:.3g}",
-                                  trial.state.step, trial.state.load, planned));
+    remarks.push_back(fmt::format("step {} at load {:.6g} did not converge: {}; the increment is cut to {:.3g}",
+                                  trial.state.step, trial.state.load,
+                                  what_changes(parts_->mesh, parts_->settings, outcome), planned));
   }
 }
 

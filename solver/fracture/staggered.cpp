@@ -1,10 +1,12 @@
 #include "solver/fracture/staggered.h"
 
 #include "solver/fracture/finite_newton.h"
+#include "solver/fracture/law_newton.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -183,6 +185,15 @@ struct Staggered::Loop {
 
   CoupledNewton::Moved advance(CellField<double>& answer);
 
+  // The cell whose damage changes most, and by how much.
+  std::pair<Index, double> largest_change(const CellField<double>& answer) const {
+    const auto change_of = [&](Index c) { return std::abs(answer[c] - state.damage[c]); };
+    const double change = parallel_max(answer.size(), change_of);
+    Index cell = 0;
+    while (cell + 1 < answer.size() && change_of(cell) < change) ++cell;
+    return {cell, change};
+  }
+
   // The L2 norm of what the damage changes by, over that of the damage.
   double mean_change(const CellField<double>& answer) const {
     const auto square = [&](const auto& value) {
@@ -198,7 +209,7 @@ struct Staggered::Loop {
     const bool solved =
         follows_path() ? s.follow_path(start, path, state, answer) : s.solve_damage(start, state, answer);
     const double load_scale = state.load / load;
-    const double change = parallel_max(answer.size(), [&](Index c) { return std::abs(answer[c] - state.damage[c]); });
+    const auto [restless, change] = largest_change(answer);
     const bool damage_is_settled =
         change < s.settings_.damage_tolerance ||
         (s.settings_.damage_tolerance_l2 > 0.0 && mean_change(answer) < s.settings_.damage_tolerance_l2);
@@ -206,6 +217,7 @@ struct Staggered::Loop {
     const double energy_change = (std::abs(energy - energy_before) + energies.unsettled) / std::max(energy, 1e-300);
     energy_before = energy;
     ++outcome.iterations;
+    outcome.rest = {restless, change, energy_change};
     outcome.settled = solved && damage_is_settled && energy_change < s.settings_.energy_tolerance &&
                       std::abs(load_scale - 1.0) < s.settings_.damage_tolerance;
     outcome.converged = outcome.settled && outcome.residual <= s.settings_.equilibrium_tolerance;
@@ -250,6 +262,7 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
     loop.iterate();
     if (watch && loop.outcome.iterations > iterations) watch(loop.report);
   }
+  loop.outcome.circles = !loop.outcome.converged && loop.relaxation.goes_in_circles();
   return loop.outcome;
 }
 
@@ -275,10 +288,11 @@ Equilibrium Staggered::solve_momentum(const FractureState& start, FractureState&
                                       const MomentumSolver::Tolerance& tolerance, Index most_newton_steps) {
   const auto lap = clock_.lap("momentum");
   if (faces_.any()) {
-    const CellLaws cells = stiffness_.finite().any() ? [&] { stiffness_.set(state, momentum_); } : CellLaws();
+    const CellLaws cells = stiffness_.is_linearised() ? [&] { stiffness_.set(state, momentum_); } : CellLaws();
     return solve_with_faces(faces_, start.interfaces, state.load, tolerance, cells, momentum_, state.displacement);
   }
   if (stiffness_.finite().any()) return solve_finite(stiffness_, tolerance, momentum_, state, most_newton_steps);
+  if (stiffness_.is_linearised()) return solve_with_laws(stiffness_, tolerance, momentum_, state);
   return momentum_.solve(state.load, tolerance, state.displacement);
 }
 

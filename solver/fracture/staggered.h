@@ -19,6 +19,13 @@
 
 namespace pfdm {
 
+/// What the last iteration of a step changed.
+struct Restless {
+  Index cell = 0;       ///< the one whose damage changed most
+  double damage = 0.0;  ///< by this
+  double energy = 0.0;  ///< the energy, relative
+};
+
 struct StepOutcome {
   bool converged = false;
   bool failed = false;          ///< abandoned: no finite solution
@@ -27,8 +34,10 @@ struct StepOutcome {
   double energy_release = 0.0;  ///< change of elastic energy by damage, over elastic and fracture energy before it
   Index iterations = 0;
   Index krylov_iterations = 0;
-  bool collapsed = false;        ///< abandoned: only the residual stiffness carries the loads
-  bool settled = false;          ///< all criteria hold but that of the momentum balance
+  bool collapsed = false;  ///< abandoned: only the residual stiffness carries the loads
+  bool settled = false;    ///< all criteria hold but that of the momentum balance
+  bool circles = false;    ///< not converged: the iteration had a limit cycle
+  Restless rest{};
   double residual = 0.0;         ///< of the momentum balance, relative
   EnergyAccount energy{};        ///< elastic at the end, dissipated within the step
   double starting_energy = 0.0;  ///< elastic, at the load of the step with the damage that it began with [J]
@@ -56,6 +65,7 @@ class Staggered {
                          const IterationWatch& watch = {});
 
   MomentumSolver& momentum() { return momentum_; }
+  const MomentumOperator& balance() const { return momentum_.balance(); }
   DamageEquation& damage_equation() { return damage_; }
   const DamageEquation& damage_equation() const { return damage_; }
   CellStiffness& stiffness() { return stiffness_; }

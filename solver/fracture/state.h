@@ -20,11 +20,9 @@ struct FractureState {
   double increment = 0.0;  ///< the next increment to try
   /// Displacement [m] of the cells, then of the faces that carry an unknown (material interfaces and boundary).
   std::vector<Vector> displacement;
-  CellField<double> damage;          ///< d [-]
-  CellField<double> driving_energy;  ///< psi_plus, or its history [J/m^3]
-  CellField<double> closure;         ///< of the energy split: 1 where cracks are closed, 0 where open
-  /// Strain in whose direction the tangent stiffness is taken [-]; empty for splits with isotropic secant moduli.
-  CellField<Tensor> tangent_strain;
+  CellField<double> damage;                  ///< d [-]
+  CellField<double> driving_energy;          ///< psi_plus, or its history [J/m^3]
+  CellField<double> closure;                 ///< of the energy split: 1 where cracks are closed, 0 where open
   CellHistories histories;                   ///< of the effective materials
   std::vector<InterfaceHistory> interfaces;  ///< of the cohesive faces, one surface after the other
   std::vector<Vector> boundary_force;        ///< on each boundary face [N], in the mesh's face order

@@ -12,4 +12,9 @@ inline Tensor acoustic_tensor(const MandelMatrix& C, const Vector& n) {
   return strain.transpose() * C * strain;
 }
 
+/// (h_P A_P^-1 + h_N A_N^-1)^-1 [Pa/m] of two of them [Pa] over distances [m].
+inline Tensor in_series(const Tensor& A_P, double h_P, const Tensor& A_N, double h_N) {
+  return symmetric_part((h_P * A_P.inverse() + h_N * A_N.inverse()).inverse());
+}
+
 }  // namespace pfdm

@@ -135,6 +135,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
   condense(moduli_);
   pressure_.take_over(moduli_, g);
   stiffness_ = {};
+  law_ = {};
   linear_stress_ = std::move(stress);
   if (has_linear_stress()) condense(linear_stress_);
   gradient_.update(g, part);
@@ -158,13 +159,6 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
     side.a_n = jump_modulus(side.cell) / h;
     side.a_t = moduli_[side.cell].mu / h;
   });
-}
-
-void MomentumOperator::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part) {
-  condense(stiffness);
-  stiffness_ = std::move(stiffness);
-  gradient_.update(g, part);
-  set_face_tensors();
 }
 
 void MomentumOperator::set_face_tensors() {
@@ -253,6 +247,7 @@ void MomentumOperator::compute_forces(const std::vector<Vector>& u) const {
 void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& out) const {
   compute_linear_forces(u);
   sum_forces(out);
+  hold_spins(out);
   pull_by_springs(u, out);
   if (is_finite()) {
     pressed_faces_.add_turn(u, gradients_, out);
@@ -330,6 +325,7 @@ std::vector<Vector> MomentumOperator::traction_forces(double t) const {
 
 std::vector<Vector> MomentumOperator::load_vector(double t) const {
   std::vector<Vector> load = traction_forces(t);
+  add_spin_targets(t, load);
   if (has_initial_stress()) take_away_initial_forces(load);
   if (is_finite()) pressed_faces_.add_initial_turn(load);
   return load;

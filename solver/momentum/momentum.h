@@ -14,6 +14,9 @@
 //
 // General stiffness C: the same with a = (n.C.n) / h, the acoustic tensor of the face normal, as a full 3x3 tensor.
 //
+// A stress that depends on the strain: C is that of the strain eps = sym(G + (u_f - u_c - G d) n^T / h) on each side of
+// a face, and u_f is where the true tractions of both sides agree (momentum_law.cpp).
+//
 // A material with a history is linearised within each solve, sigma = C eps + sigma_0, for the stresses only: a, b and c
 // remain those of its elastic moduli. The converged solution therefore does not depend on C, which may change with the
 // direction of the strain increment.
@@ -67,6 +70,7 @@
 #include "solver/momentum/finite_law.h"
 #include "solver/momentum/momentum_faces.h"
 #include "solver/momentum/pressed_faces.h"
+#include "solver/momentum/strain_law.h"
 #include "solver/momentum/unknowns.h"
 #include "solver/scalar/gradient.h"
 
@@ -87,8 +91,11 @@ class MomentumOperator {
                   CellField<LinearStress> stress = {});
   /// For bodies of flat cells that bend, as plates in layers of hexahedra; before set_moduli(). See momentum_jump.cpp.
   void relax_flat_cells();
-  /// The same with any symmetric positive definite stiffness [Pa] in each cell.
-  void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g, double part = 0.0);
+  /// A stress by the strain, linearised about the displacements u; being of first degree, it is exact there. The faces
+  /// are found from where they were, or `afresh`.
+  void set_law(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u, bool afresh, double part = 0.0);
+  bool has_law() const { return static_cast<bool>(law_); }
+  CellField<double> side_stiffness() const;  ///< a measure of a h with such a law [Pa]
 
   /// Finite strain: the balance linearised about the displacements u, and pressures on patches about the load parameter
   /// t. There it is exact. In plane stress the laws are condensed already.
@@ -166,6 +173,7 @@ class MomentumOperator {
   using Side = momentum_faces::Side;
   using SplitFace = momentum_faces::SplitFace;
   using LinkTensors = momentum_faces::LinkTensors;
+  using SideLaw = momentum_faces::SideLaw;
   using FaceTurn = momentum_faces::FaceTurn;
   using Push = momentum_faces::Push;
   using JumpTurn = momentum_faces::JumpTurn;
@@ -195,6 +203,12 @@ class MomentumOperator {
   void add_initial_forces() const;
   void compute_forces(const std::vector<Vector>& u) const;
   void sum_forces(std::vector<Vector>& out) const;
+  double prescribed_slope(const SpinHold& hold, double t) const;
+  double shear_stiffness(Index cell) const;
+  void resist_spin(const SpinHold& hold, double much, std::vector<Vector>& v) const;
+  void hold_spins(std::vector<Vector>& out) const;
+  void add_spin_targets(double t, std::vector<Vector>& load) const;
+  void add_free_part(std::vector<Vector>& forces, std::vector<Vector>& out) const;
   void gather_from_images(std::vector<Vector>& forces) const;
   void work_on_free_strains(std::vector<Vector>& out) const;
   Vector place(Index face_node) const {
@@ -214,6 +228,14 @@ class MomentumOperator {
   static std::size_t turn_P(std::size_t link) { return 2 * link; }
   static std::size_t turn_N(std::size_t link) { return 2 * link + 1; }
   std::size_t turn_of_side(std::size_t side) const { return 2 * links_.size() + side; }
+  struct AtStrain {
+    MandelMatrix C;  // condensed in plane stress
+    Tensor strain;   // with that across a plate
+  };
+  AtStrain law_at(Index cell, const Tensor& strain) const;
+  SideLaw side_law(Index cell, const Tensor& strain, const Vector& n) const;
+  struct LinkBalance;
+  void settle_link(std::size_t i, bool has_faces, const std::vector<Vector>& u);
   // a h, of cells that are not isotropic.
   Tensor acoustic(Index cell, const Vector& n) const;
   Tensor capped_acoustic(Index cell, const Vector& n) const;
@@ -253,6 +275,7 @@ class MomentumOperator {
   }
   // Part of it that varies with the displacements.
   Vector linear_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn) const {
+    if (has_law()) return side_laws_[turn].rows * to_mandel(symmetric_part(gradients_[cell]));
     if (!is_finite()) return normal_stress(cell, n, d);
     const FaceTurn& by = face_turns_[turn];
     const Vector t = stresses_[cell] * n + by.turn * (cofactor_change_[cell] * n) + by.swell * volume_rate_[cell];
@@ -277,20 +300,20 @@ class MomentumOperator {
   Vector hold(std::size_t i, const Vector& v) const {
     return is_isotropic() ? scale(sides_[i].a_n, sides_[i].a_t, sides_[i].n, v) : side_tensors_[i] * v;
   }
-  Tensor compact_link(const Link& link) const;
-  Tensor compact_side(const Side& side) const;
+  Tensor compact_link(std::size_t i) const;
+  Tensor compact_side(std::size_t i) const;
   Tensor compact_sector(Index cell) const;
   // Stress [Pa] across the plane of a plane mesh, per unit of n (x) n.
   double stress_across(Index cell, const Tensor& strain) const;
   // Stores the coefficients of the strain across the plate, and replaces the stiffness by the condensed one.
   void condense(CellField<IsotropicElasticity>& moduli);
-  void condense(CellField<MandelMatrix>& stiffness);
   void condense(CellField<LinearStress>& stress);
   // In plane stress the strain across the plate is added; else the gradient stays as it is.
   Tensor with_strain_across(Index cell, const Tensor& gradient) const;
   Vector face_displacement(std::size_t link, const std::vector<Vector>& u) const;
   FaceField<Vector> face_displacements(const std::vector<Vector>& u) const;
-  double part_energy(Index cell, const IsotropicElasticity& part, const Tensor& strain, const FaceField<Vector>& u_face,
+  template <class Stress>
+  double part_energy(Index cell, const Stress& stress_of, const Tensor& strain, const FaceField<Vector>& u_face,
                      const std::vector<Vector>& u) const;
   Vector seen_from(Index cell, Index face, const FaceField<Vector>& u_face, const std::vector<Vector>& u) const;
 
@@ -298,9 +321,12 @@ class MomentumOperator {
   const Unknowns& unknowns_;
   Gradient gradient_;
   CellField<IsotropicElasticity> moduli_;
-  CellField<double> jump_share_;           // lambda_s + 2 mu over lambda + 2 mu, undamaged; 1 except in polyhedra
-  CellField<double> liquidity_;            // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is
-  CellField<MandelMatrix> stiffness_;      // empty while all cells are isotropic, as are the tensors of the faces
+  CellField<double> jump_share_;  // lambda_s + 2 mu over lambda + 2 mu, undamaged; 1 except in polyhedra
+  CellField<double> liquidity_;   // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is
+  CellField<MandelMatrix>
+      stiffness_;  // of such a law; empty while all cells are isotropic, as are the tensors of the faces
+  StrainLaw law_;  // may be empty
+  std::vector<SideLaw> side_laws_;         // of it: two per link, then one per side
   CellField<LinearStress> linear_stress_;  // may be empty
   CellField<FiniteLaw> finite_;            // of finite strain, as what follows; else empty
   CellField<Tensor> F_, cofactor_;         // at which the laws are linearised

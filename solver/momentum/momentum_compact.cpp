@@ -1,5 +1,6 @@
 // The compact matrix of the momentum balance (momentum.h).
 
+#include "solver/momentum/acoustic_tensor.h"
 #include "solver/momentum/momentum.h"
 
 #include <numeric>
@@ -23,8 +24,10 @@ void decouple(const Vector& n, BlockTriplets& matrix) {
 
 }  // namespace
 
-Tensor MomentumOperator::compact_link(const Link& link) const {
+Tensor MomentumOperator::compact_link(std::size_t i) const {
+  const Link& link = links_[i];
   const double h_P = bounded_height(link.d_P, link.n), h_N = bounded_height(link.d_N, link.n);
+  if (has_law()) return link.area * in_series(side_laws_[turn_P(i)].acoustic, h_P, side_laws_[turn_N(i)].acoustic, h_N);
   if (!is_isotropic()) return link.area * jump_tensor(link, h_P, h_N);
   const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
   const double full = 1.0 / (h_P / P.constrained_modulus() + h_N / N.constrained_modulus());
@@ -33,8 +36,10 @@ Tensor MomentumOperator::compact_link(const Link& link) const {
   return link.area * scaling(along, across, link.n);
 }
 
-Tensor MomentumOperator::compact_side(const Side& side) const {
+Tensor MomentumOperator::compact_side(std::size_t i) const {
+  const Side& side = sides_[i];
   const double h = bounded_height(side.d, side.n);
+  if (has_law()) return (side.area / h) * side_laws_[turn_of_side(i)].acoustic;
   if (!is_isotropic()) return (side.area / h) * capped_acoustic(side.cell, side.n);
   return (side.area / h) * scaling(jump_modulus(side.cell), moduli_[side.cell].mu, side.n);
 }
@@ -54,14 +59,16 @@ BlockTriplets MomentumOperator::compact_matrix() const {
   BlockTriplets matrix;
   matrix.diagonal.assign(as_size(unknowns_.n_nodes()), Tensor::Zero());
   matrix.off_diagonal.reserve(links_.size() + sides_.size());
-  for (const Link& link : links_) {
-    const Tensor c = compact_link(link);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Link& link = links_[i];
+    const Tensor c = compact_link(i);
     matrix.diagonal[as_size(link.P)] += c;
     matrix.diagonal[as_size(link.N)] += c;
     matrix.off_diagonal.push_back({link.P, link.N, -c});
   }
-  for (const Side& side : sides_) {
-    const Tensor a = compact_side(side);
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const Side& side = sides_[i];
+    const Tensor a = compact_side(i);
     const Tensor& is_free = unknowns_.free_directions[as_size(side.node - unknowns_.n_cells)];
     const Index node = row[as_size(side.node)];
     matrix.diagonal[as_size(side.cell)] += a;

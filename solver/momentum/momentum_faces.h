@@ -2,7 +2,7 @@
 // The faces of the momentum balance and what it stores of them; see momentum.h.
 
 #include "mesh/mesh.h"
-#include "physics/tensor.h"
+#include "physics/mandel.h"
 
 namespace pfdm {
 
@@ -47,6 +47,11 @@ struct LinkTensors {
   Tensor weight;    // of sigma_P n in the traction
   Tensor c;         // [Pa/m]
   Tensor softness;  // (a + b)^-1 [m/Pa]
+};
+// The law of one side of a face at its strain.
+struct SideLaw {
+  Eigen::Matrix<double, 3, 6> rows;  // n.C: traction on n by the strain [Pa]
+  Tensor acoustic;                   // n.C.n [Pa]
 };
 // What the traction on one side of a face changes by with its c = cof F N: turn dc, through a and the pressure; and
 // the constant part of the linearised traction.

@@ -14,11 +14,6 @@
 namespace pfdm {
 namespace {
 
-// (h_P A_P^-1 + h_N A_N^-1)^-1
-Tensor in_series(const Tensor& A_P, double h_P, const Tensor& A_N, double h_N) {
-  return symmetric_part((h_P * A_P.inverse() + h_N * A_N.inverse()).inverse());
-}
-
 Tensor pushed_forward(double mu, double m, const Vector& c) { return mu * Tensor::Identity() + m * c * c.transpose(); }
 
 // 1/J^2, where J < 1/2 its tangent there: a has to be finite and positive definite for every F.

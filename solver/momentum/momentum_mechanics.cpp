@@ -9,6 +9,25 @@
 #include "solver/parallel.h"
 
 namespace pfdm {
+namespace {
+
+// Parts of the stiffness: the stress [Pa] by the strain of a cell, and on its faces; the least energy [J/m^3] of a
+// cell, given that of its mean strain. That of a law is never negative, but for rounding.
+struct IsotropicPart {
+  IsotropicElasticity moduli, jump;
+  Tensor of_cell(const Tensor& strain) const { return stress(moduli, strain); }
+  Tensor at_face(const Tensor& strain) const { return stress(jump, strain); }
+  double least(double mean) const { return std::min(mean, 0.0); }
+};
+struct LawPart {
+  const StrainLaw& law;
+  Index cell;
+  Tensor of_cell(const Tensor& strain) const { return law.degradable(cell, strain); }
+  Tensor at_face(const Tensor& strain) const { return of_cell(strain); }
+  double least(double) const { return 0.0; }
+};
+
+}  // namespace
 
 // (a + b)^-1 v
 Vector MomentumOperator::give(std::size_t i, const Vector& v) const {
@@ -53,17 +72,10 @@ void MomentumOperator::condense(CellField<LinearStress>& stress) {
   });
 }
 
-void MomentumOperator::condense(CellField<MandelMatrix>& stiffness) {
-  if (!unknowns_.plane_stress) return;
-  CellField<LinearStress> stress(as_size(stiffness.size()));
-  parallel_for(stiffness.size(), [&](Index c) { stress[c].C = stiffness[c]; });
-  condense(stress);
-  parallel_for(stiffness.size(), [&](Index c) { stiffness[c] = stress[c].C; });
-}
-
 Tensor MomentumOperator::with_strain_across(Index cell, const Tensor& gradient) const {
   if (!unknowns_.plane_stress || is_finite()) return gradient;
   const Vector& n = unknowns_.plane_normal;
+  if (has_law()) return gradient - symmetric_part(gradient) + law_at(cell, symmetric_part(gradient)).strain;
   return gradient + strain_across_[cell](to_mandel(symmetric_part(gradient))) * n * n.transpose();
 }
 
@@ -72,7 +84,7 @@ double MomentumOperator::stress_across(Index cell, const Tensor& strain) const {
   if (is_isotropic() && !has_linear_stress()) return moduli_[cell].lambda * strain.trace() + pressure_.mean(cell);
   const Vector& normal = unknowns_.plane_normal;
   const Mandel stress =
-      is_isotropic() ? linear_stress_[cell](to_mandel(strain)) : Mandel(stiffness_[cell] * to_mandel(strain));
+      has_law() ? Mandel(law_.tangent(cell, strain) * to_mandel(strain)) : linear_stress_[cell](to_mandel(strain));
   return normal.dot(to_tensor(stress) * normal);
 }
 
@@ -107,9 +119,10 @@ Vector MomentumOperator::moved_with(Index cell, Index face, const std::vector<Ve
 }
 
 // The energy of the mean strain and of what the strains of the faces differ from it.
-double MomentumOperator::part_energy(Index cell, const IsotropicElasticity& part, const Tensor& strain,
+template <class Stress>
+double MomentumOperator::part_energy(Index cell, const Stress& stress_of, const Tensor& strain,
                                      const FaceField<Vector>& u_face, const std::vector<Vector>& u) const {
-  const IsotropicElasticity moduli = with_jump_modulus(cell, part);
+  const Tensor mean_stress = stress_of.at_face(strain);
   const Tensor& G = gradients_[cell];
   double varying = 0.0;
   for (const Index f : mesh_.faces_of_cell(cell)) {
@@ -118,10 +131,10 @@ double MomentumOperator::part_energy(Index cell, const IsotropicElasticity& part
     const Vector n = area.normalized(), d = mesh_.face_centre[f] - mesh_.cell_centre[cell];
     const Vector rise = seen_from(cell, f, u_face, u) - u[as_size(cell)];
     const Tensor at_face = with_strain_across(cell, G + (rise - G * d) * n.transpose() / bounded_height(d, n));
-    varying += 0.5 * rise.dot(stress(moduli, symmetric_part(at_face) - strain) * area);
+    varying += 0.5 * rise.dot((stress_of.at_face(symmetric_part(at_face)) - mean_stress) * area);
   }
-  const double mean = energy_density(part, strain);
-  return std::max(mean + varying / mesh_.cell_volume[cell], std::min(mean, 0.0));
+  const double mean = 0.5 * contract(stress_of.of_cell(strain), strain);
+  return std::max(mean + varying / mesh_.cell_volume[cell], stress_of.least(mean));
 }
 
 CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted wanted,
@@ -156,7 +169,10 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
     result.strain[c] = symmetric_part(gradient);
     result.energy[c] = work;
     if (part.size() > 0 && part[c].mu > 0.0)
-      result.part_energy[c] = part_energy(c, part[c], result.strain[c], u_face, u);
+      result.part_energy[c] =
+          part_energy(c, IsotropicPart{part[c], with_jump_modulus(c, part[c])}, result.strain[c], u_face, u);
+    else if (part.size() > 0 && has_law())
+      result.part_energy[c] = part_energy(c, LawPart{law_, c}, result.strain[c], u_face, u);
     if (with_gradient) result.gradient[c] = gradient;
     if (is_finite()) {
       result.stress[c] = moment * closure_[c] / volume;

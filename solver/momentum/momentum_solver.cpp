@@ -52,12 +52,15 @@ void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, co
   if (renew_preconditioner(g, struggled_ && has_moved(moduli))) built_moduli_ = moduli;
 }
 
-void MomentumSolver::set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g) {
-  CellField<double> trace(as_size(stiffness.size()));
-  parallel_for(stiffness.size(), [&](Index c) { trace[c] = stiffness[c].trace(); });
+void MomentumSolver::set_law(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u) {
   if (starts_afresh_) is_built_ = false;
-  operator_.set_stiffness(std::move(stiffness), g, gradient_lag());
-  if (renew_preconditioner(trace, false)) built_moduli_ = {};
+  const bool afresh = !is_built_;
+  operator_.set_law(std::move(law), g, u, afresh, gradient_lag());
+  const CellField<double> measure = operator_.side_stiffness();
+  if (is_built_ && !has_changed(measure)) return;
+  built_measure_ = measure;
+  built_moduli_ = {};
+  is_built_ = is_due_ = true;
 }
 
 void MomentumSolver::set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u,
@@ -183,8 +186,8 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
 }
 
 double MomentumSolver::residual(double t, const std::vector<Vector>& u) {
-  // At finite strain residuals are compared between linearisations.
-  const bool keeps_scale = operator_.is_finite() && !scale_.empty();
+  // Residuals are compared between linearisations.
+  const bool keeps_scale = (operator_.is_finite() || operator_.has_law()) && !scale_.empty();
   if (is_due_ && !keeps_scale) build_preconditioner();
   std::vector<Vector> rest = load_vector(t), image(u.size());
   const double reference = reference_norm(t, rest);

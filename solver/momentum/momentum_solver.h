@@ -20,6 +20,7 @@ struct Equilibrium {
   Index iterations = 0;
   double initial_residual = 0.0;  ///< relative to that of the prescribed displacements and tractions alone
   double residual = 0.0;          ///< at the end, relative likewise
+  Index newton_steps = 0;         ///< of laws that are linearised
 };
 
 class MomentumSolver {
@@ -35,8 +36,9 @@ class MomentumSolver {
   /// the moduli in every cell.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                   CellField<LinearStress> stress = {});
-  /// The same with a general stiffness [Pa]; the preconditioner is rebuilt by changes of its trace.
-  void set_stiffness(CellField<MandelMatrix> stiffness, const CellField<double>& g);
+  /// A stress by the strain, linearised about the displacements u (MomentumOperator::set_law). The next solve rebuilds
+  /// the preconditioner if the stiffness of some cell's faces has changed by more than a factor of 2.
+  void set_law(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u);
   /// Finite strain: the balance is linearised about the displacements u and the load parameter t
   /// (MomentumOperator::set_finite). The next solve rebuilds the preconditioner if the stiffness of some cell's faces
   /// has changed by more than a factor of 2, or has turned.

@@ -113,6 +113,13 @@ Motion motion_at(const Part& part, const Vector& x) {
   return motion;
 }
 
+// Faces hold rotations that their centres do not see.
+void resist_spins(const Unknowns& unknowns, const CellField<Index>& part_of, std::vector<Part>& parts) {
+  for (const SpinHold& hold : unknowns.spin_holds)
+    if (const Index part = part_of[hold.cell]; part >= 0)
+      parts[as_size(part)].form.bottomRightCorner<3, 3>() += hold.lever * hold.lever.transpose();
+}
+
 void resist(Part& part, const Vector& x, const Tensor& prescribed) {
   const Motion motion = motion_at(part, x);
   part.form += motion.transpose() * prescribed * motion;
@@ -186,6 +193,7 @@ void require_held(const Mesh& mesh, const Unknowns& unknowns, const CellField<do
     const Index face = unknowns.face_of_node[k], part = placed.part[mesh.owner[face]];
     if (part >= 0) resist(parts[as_size(part)], place(face), Tensor::Identity() - unknowns.free_directions[k]);
   }
+  resist_spins(unknowns, placed.part, parts);
   for (Index face = mesh.n_interior_faces(); face < mesh.n_faces(); ++face) {
     const Index image = partner[as_size(face)], part = placed.part[mesh.owner[face]];
     if (image > face && part >= 0 && part == placed.part[mesh.owner[image]])

@@ -189,6 +189,7 @@ Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   place_sector(sector_normals, unknowns);
   hold(body, unknowns);
   unknowns.pressure_cells = pressure_cells(mesh, body, unknowns);
+  unknowns.spin_holds = spin_holds(mesh, unknowns);
   return unknowns;
 }
 

@@ -8,6 +8,7 @@
 #include "mesh/mesh.h"
 #include "physics/elasticity.h"
 #include "solver/momentum/boundary_condition.h"
+#include "solver/momentum/spin_holds.h"
 
 #include <functional>
 #include <vector>
@@ -86,7 +87,8 @@ struct Unknowns {
   bool plane_stress = false;       ///< across the plane patches; else plane strain
   Vector radial = Vector::Zero();  ///< of axisymmetric meshes: from the axis z along the middle of the sector
   Index n_cells = 0;
-  std::vector<Index> pressure_cells;  ///< entry k is the cell of unknown n_nodes() + k
+  std::vector<SpinHold> spin_holds{};  ///< of cells in columns one cell wide; else empty
+  std::vector<Index> pressure_cells;   ///< entry k is the cell of unknown n_nodes() + k
 
   bool is_axisymmetric() const { return radial != Vector::Zero(); }
   Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <vector>
 
 namespace pfdm {
@@ -99,12 +100,13 @@ class BoundedNewton {
 
   double balance(Index c) const { return flux_.balance(c, u_, local_.slope(c, u_[c])); }
 
-  // Where f falls, cells in which it outweighs the fluxes would have a negative diagonal.
+  // Where f falls, cells in which it outweighs the fluxes would have a negative diagonal. One without fluxes goes to
+  // the bound that its residual points to.
   double diagonal(Index c) const {
     constexpr double least = 0.1;  // of the fluxes' part
     const double fluxes = flux_.diagonal(c);
     const double sum = fluxes + local_.curvature(c, u_[c]);
-    return fluxes > 0.0 ? std::max(sum, least * fluxes) : sum;
+    return std::max(sum, fluxes > 0.0 ? least * fluxes : std::numeric_limits<double>::min());
   }
 
   // Newton's steps can go to and fro between two sides of the solution for ever. A cell whose residual changes sign

@@ -40,6 +40,15 @@ class Gradient {
     return gradient;
   }
 
+  /// The transpose: adds to v what forces that do the work B : grad u are at the samples and at the cell.
+  void spread(Index cell, const Tensor& B, std::vector<Vector>& v) const {
+    for (std::size_t s = begin(cell); s < end(cell); ++s) {
+      const Vector force = B * coefficient_[s];
+      v[static_cast<std::size_t>(sample_[s])] += force;
+      v[static_cast<std::size_t>(cell)] -= force;
+    }
+  }
+
   Vector of(const double* d, Index cell) const {
     Vector gradient = Vector::Zero();
     for (std::size_t s = begin(cell); s < end(cell); ++s) gradient += (d[sample_[s]] - d[cell]) * coefficient_[s];

@@ -131,9 +131,12 @@ TEST(Unknowns, MotionsThatAreFreeAreNamed) {
   const Mesh mesh = box(3, 3, 3);
   EXPECT_THAT(refusal(mesh, {of_kind("xmin", Kind::symmetry), of_kind("ymin", Kind::symmetry)}),
               HasSubstr("the body can still move rigidly: it can move along z;"));
-  // The centres of the faces that are held lie on one line.
-  EXPECT_THAT(refusal(box(10, 1, 1, {10.0, 1.0, 1.0}), {clamped("xmin"), clamped("xmax")}),
-              HasSubstr("it can rotate about x through (5, 0.5, 0.5) m"));
+  // One face of many holds no rotation.
+  BoxHexesSettings pinned;
+  pinned.axes = {{{{1.0, 3, 1.0}}, {{1.0, 3, 1.0}}, {{1.0, 3, 1.0}}}};
+  pinned.patches = {{"pin", {0.4, 0.4, -1.0}, {0.6, 0.6, 0.01}}};
+  EXPECT_THAT(refusal(make_box_hexes(pinned), {clamped("pin")}),
+              HasSubstr("it can rotate about x and y and z through"));
 }
 
 // A body far from the origin and very small is judged like one at the origin.
@@ -172,14 +175,24 @@ TEST(Unknowns, OneCellWideBarsBetweenPlanesAreAccepted) {
                        of_kind("ymax", Kind::symmetry), of_kind("zmin", Kind::plane), of_kind("zmax", Kind::plane)}))));
 }
 
-// With symmetry on all four sides the face centres, where displacements are held, lie in the two planes through the
-// axis: the unknowns can turn about it, and the matrix is singular.
-TEST(Unknowns, OneCellWideBarsBetweenSymmetriesAreRefused) {
-  const Mesh mesh = box(10, 1, 1, {10.0, 1.0, 1.0});
-  EXPECT_THAT(
-      refusal(mesh, {clamped("xmin"), clamped("xmax"), of_kind("ymin", Kind::symmetry), of_kind("ymax", Kind::symmetry),
-                     of_kind("zmin", Kind::symmetry), of_kind("zmax", Kind::symmetry)}),
-      HasSubstr("rigid"));
+// The face centres where displacements are held lie in planes through an axis, about which the unknowns can turn: the
+// faces on the planes hold that.
+TEST(Unknowns, OneCellWideBarsAndSingleCellsAreHeldByTheirPlanes) {
+  const auto holds = [](const Mesh& mesh, std::vector<BoundaryCondition> boundary) {
+    return place_unknowns(mesh, elastic_body(model_of(mesh, std::move(boundary)))).spin_holds.size();
+  };
+  const Mesh bar = box(10, 1, 1, {10.0, 1.0, 1.0}), cell = box(1, 1, 1);
+  EXPECT_GT(holds(bar, {clamped("xmin"), clamped("xmax")}), 0u);
+  EXPECT_GT(
+      holds(bar, {clamped("xmin"), clamped("xmax"), of_kind("ymin", Kind::symmetry), of_kind("ymax", Kind::symmetry),
+                  of_kind("zmin", Kind::symmetry), of_kind("zmax", Kind::symmetry)}),
+      0u);
+  EXPECT_GT(holds(cell, {of_kind("xmin", Kind::symmetry), of_kind("ymin", Kind::symmetry),
+                         of_kind("zmin", Kind::symmetry), held_along("ymax", 1)}),
+            0u);
+  EXPECT_EQ(holds(box(10, 2, 2), {clamped("xmin")}), 0u);
+  EXPECT_THAT(refusal(cell, {of_kind("xmin", Kind::symmetry), of_kind("ymin", Kind::symmetry)}),
+              HasSubstr("it can move along z"));
 }
 
 TEST(Unknowns, PlatesAreInPlaneStrainOrInPlaneStress) {

@@ -7,7 +7,7 @@
 
 #include "tests/verification/support.h"
 
-#include "solver/fracture/cell_stiffness.h"
+#include "solver/fracture/law_newton.h"
 
 #include <gtest/gtest.h>
 
@@ -43,6 +43,7 @@ class Body {
         stiffness_(mesh, model_) {
     state_.closure = CellField<double>(as_size(mesh.n_cells()), 0.0);
     state_.displacement.assign(as_size(unknowns_.n_unknowns()), Vector::Zero());
+    state_.load = 1.0;
     stiffness_.start_step(0.0);
   }
 
@@ -52,8 +53,10 @@ class Body {
     double energy = 0.0;
     for (int round = 0; round < 40; ++round) {
       stiffness_.set(state_, solver_);
-      const Equilibrium on = solver_.solve(
-          1.0, {.reduction = 0.0, .ceiling = 1e-11, .floor = 1e-11, .most_iterations = 400}, state_.displacement);
+      constexpr MomentumSolver::Tolerance tight{
+          .reduction = 0.0, .ceiling = 1e-11, .floor = 1e-11, .most_iterations = 400};
+      const Equilibrium on = stiffness_.is_linearised() ? solve_with_laws(stiffness_, tight, solver_, state_)
+                                                        : solver_.solve(state_.load, tight, state_.displacement);
       EXPECT_TRUE(on.converged);
       cells_ = solver_.balance().mechanics(state_.displacement, MomentumOperator::Wanted::without_gradient,
                                            stiffness_.degradable_part(state_));
@@ -136,8 +139,9 @@ TEST_P(Splits, DrivingEnergyOfAFrontsCellsIsTheDerivativeOfTheEnergy) {
     double driving, of_mean_strain;
   };
   std::vector<Seen> cells;
+  const Index every = energy_split(GetParam()).has_secant() ? 11 : 17;  // the others take longer
   for (Index c = 0; c < mesh.n_cells(); ++c)
-    if (d[c] > 0.5 && d[c] < 0.93 && std::abs(mesh.cell_centre[c].norm() - 1.2) < 0.03 && c % 11 == 0)
+    if (d[c] > 0.5 && d[c] < 0.93 && std::abs(mesh.cell_centre[c].norm() - 1.2) < 0.03 && c % every == 0)
       cells.push_back({c, body.driving_energy(c), body.energy_of_mean_strain(c)});
   ASSERT_GT(cells.size(), 5u);
   std::vector<double> ratio;
@@ -162,7 +166,7 @@ TEST_P(Splits, DrivingEnergyOfAFrontsCellsIsTheDerivativeOfTheEnergy) {
   EXPECT_LT(ratio.back(), 1.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Front, Splits, ::testing::Values("none", "volumetric_deviatoric"),
+INSTANTIATE_TEST_SUITE_P(Front, Splits, ::testing::Values("none", "volumetric_deviatoric", "spectral", "no_tension"),
                          [](const auto& which) { return std::string(which.param); });
 
 }  // namespace

@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 namespace pfdm::verification {
 namespace {
@@ -39,8 +41,9 @@ OutputFields elastic_fields(const Mesh& mesh, const FractureModel& model) {
   return fields;
 }
 
-// A square of 2 mm, slit to its middle, n cells a side; K in units of sqrt(E' G).
-SlitPlate solve(Index n, double K_I, double K_II) {
+// A square of 2 mm, slit to its middle, n cells a side; K in units of sqrt(E' G). `next`: the next field's stresses
+// over those of the near field, in about, at 1 mm from the tip.
+SlitPlate solve(Index n, double K_I, double K_II, const std::array<double, 2>& next = {0.0, 0.0}) {
   constexpr double half = 1e-3;
   SlitPlate plate;
   plate.mesh = make_box_hexes({.origin = {-half, -half, 0.0},
@@ -51,8 +54,10 @@ SlitPlate solve(Index n, double K_I, double K_II) {
   const double K = std::sqrt(E / (1.0 - nu * nu) * G_exact);
   std::vector<BoundaryCondition> boundary{plane_on("zmin"), plane_on("zmax")};
   for (const char* side : {"xmin", "xmax", "ymin", "ymax"})
-    boundary.push_back(
-        displacement_on(side, [=](const Vector& x) { return near_field(elasticity, x, K * K_I, K * K_II); }));
+    boundary.push_back(displacement_on(side, [=](const Vector& x) -> Vector {
+      const double unit = K / (std::sqrt(2.0 * std::numbers::pi) * half);
+      return near_field(elasticity, x, K * K_I, K * K_II) + next_field(elasticity, x, unit * next[0], unit * next[1]);
+    }));
   plate.model = elastic_model({elasticity}, boundary);
   plate.fields = elastic_fields(plate.mesh, plate.model);
   return plate;
@@ -141,6 +146,28 @@ TEST(StressIntensity, OfASlitIsThatOfItsField) {
     const StressIntensity K_coarse = intensity_of(coarse, {.name = "tip", .inner = 0.3e-3, .outer = 0.8e-3}, 1e-3);
     EXPECT_LT(std::hypot(K.K1 / unit - K_I, K.K2 / unit - K_II),
               0.6 * std::hypot(K_coarse.K1 / unit - K_I, K_coarse.K2 / unit - K_II));
+  }
+}
+
+// The field of most bodies has next terms. With those, too, the size, which is that of G, and the phase angle are right
+// to the first power of h.
+TEST(StressIntensity, OfAFieldWithNextTermsIsThatOfTheSingularOne) {
+  const double unit = std::sqrt(E / (1.0 - nu * nu) * G_exact);
+  for (const auto& next : {std::array{1.0, 0.0}, std::array{0.0, 1.0}, std::array{-0.5, 0.5}}) {
+    std::vector<double> size, angle;
+    for (const Index n : {40, 80}) {
+      const SlitPlate plate = solve(n, 0.8, 0.6, next);
+      const StressIntensity K = intensity_of(plate, {.name = "tip", .inner = 0.3e-3, .outer = 0.8e-3}, 1e-3);
+      size.push_back(std::hypot(K.K1, K.K2) / unit - 1.0);
+      angle.push_back(K.phase_angle - std::atan2(0.6, 0.8));
+      report_row("next terms " + std::to_string(next[0]) + ", " + std::to_string(next[1]) +
+                     ", h = " + std::to_string(2000 / n) + " um",
+                 {{"|K| - 1", size.back()}, {"phase angle - due [degree]", 57.29578 * angle.back()}});
+    }
+    EXPECT_NEAR(size[1], 0.0, 0.015);
+    EXPECT_NEAR(angle[1], 0.0, 0.015);
+    EXPECT_LT(std::abs(size[1]), 0.6 * std::abs(size[0]) + 1e-3);
+    EXPECT_LT(std::abs(angle[1]), 0.6 * std::abs(angle[0]) + 1e-3);
   }
 }
 

@@ -88,11 +88,8 @@ std::optional<std::string> doubt_about(const EnergyRelease& release, const std::
   return std::nullopt;
 }
 
-std::string no_intensity(const std::string& region) {
-  return fmt::format(
-      "energy release rate \"{}\": no stress intensities: they are those of linear elasticity at small strain, with a "
-      "single elasticity in the part of the ring on each side of the crack",
-      region);
+std::string no_intensity(const std::string& region, std::string_view why) {
+  return fmt::format("energy release rate \"{}\": no stress intensities: {}", region, why);
 }
 
 /// Continues a list of frames up to the last step, or starts one.
@@ -293,7 +290,7 @@ void FractureResults::add_energy_release(const FractureState& state, const Outpu
     if (region.reference_length > 0.0) {
       const StressIntensity intensity = stress_intensity(mesh_, model_, output, region);
       row.insert(row.end(), {intensity.K1, intensity.K2, intensity.phase_angle * 180.0 / std::numbers::pi});
-      if (!doubt && std::isnan(intensity.K1)) doubt = no_intensity(region.name);
+      if (!doubt && std::isnan(intensity.K1)) doubt = no_intensity(region.name, intensity.why_none);
     }
     if (warned_of_tip_[i]) continue;
     if (doubt) warnings.push_back(*doubt);

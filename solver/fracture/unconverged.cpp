@@ -1,0 +1,49 @@
+#include "solver/fracture/unconverged.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+namespace pfdm {
+
+std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome) {
+  if (outcome.failed) return "no displacements were found that balance the forces";
+  std::vector<std::string> left;
+  const Vector& x = mesh.cell_centre[outcome.rest.cell];
+  if (outcome.rest.damage >= settings.damage_tolerance && !outcome.settled)
+    left.push_back(
+        fmt::format("the damage of cell {} at ({:.4g}, {:.4g}, {:.4g}) m changes by {:.1e} an iteration "
+                    "(solver.damage_tolerance = {:g})",
+                    outcome.rest.cell, x[0], x[1], x[2], outcome.rest.damage, settings.damage_tolerance));
+  if (outcome.rest.energy >= settings.energy_tolerance && !outcome.settled)
+    left.push_back(fmt::format("the energy changes by {:.1e} of it (solver.energy_tolerance = {:g})",
+                               outcome.rest.energy, settings.energy_tolerance));
+  if (outcome.residual > settings.equilibrium_tolerance)
+    left.push_back(fmt::format("the residual of the momentum balance is {:.1e} (solver.equilibrium_tolerance = {:g})",
+                               outcome.residual, settings.equilibrium_tolerance));
+  return left.empty() ? "the last iteration has not settled" : fmt::format("{}", fmt::join(left, ", "));
+}
+
+std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& outcome, const Remedies& remedies) {
+  if (outcome.settled)
+    return "its damage and energies have converged: a larger solver.equilibrium_tolerance accepts it";
+  std::vector<std::string> ways;
+  if (outcome.failed) {
+    ways.emplace_back("a smaller loading.minimum_increment");
+  } else if (!outcome.circles) {
+    ways.push_back(fmt::format("more than {} iterations (solver.maximum_iterations)", settings.maximum_iterations));
+  } else {
+    ways.emplace_back("smaller cells there");
+    ways.emplace_back("larger tolerances");
+  }
+  if (remedies.viscosity) ways.emplace_back("a viscosity (fracture.viscosity, with loading.duration)");
+  if (remedies.dissipation_control)
+    ways.emplace_back(
+        "dissipation control (loading.maximum_dissipation) or prescribed displacements in place of tractions");
+  return fmt::format("{}may help: {}",
+                     outcome.circles ? "its iterations go in circles, more of them do not help; what " : "what ",
+                     fmt::join(ways, ", "));
+}
+
+}  // namespace pfdm

@@ -1,0 +1,21 @@
+#pragma once
+// What to say of a step that did not converge.
+
+#include "solver/fracture/staggered.h"
+
+#include <string>
+
+namespace pfdm {
+
+/// The criteria that do not hold, with the cell whose damage changes most: "the damage of cell 12 at (...) m changes by
+/// 3e-04 ...".
+std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome);
+
+/// What else the case allows, to be tried where the smallest increment does not converge.
+struct Remedies {
+  bool viscosity = false;
+  bool dissipation_control = false;  ///< and something is loaded by tractions, under which cracks may run
+};
+std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& outcome, const Remedies& remedies);
+
+}  // namespace pfdm
