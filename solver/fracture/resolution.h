@@ -16,4 +16,8 @@ namespace pfdm {
 /// crack's profile. A crack there would not dissipate its toughness, or its front would not be resolved.
 std::vector<std::string> resolution_warnings(const Mesh& mesh, const FractureModel& model, std::span<const Band> bands);
 
+/// A line for each region of hexahedra in which cracks may choose a direction: what its rows of cells do to that, and
+/// to the surface energy (tests/verification/README.md has the measurements).
+std::vector<std::string> direction_remarks(const Mesh& mesh, const FractureModel& model);
+
 }  // namespace pfdm
