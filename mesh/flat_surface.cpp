@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -15,6 +17,14 @@ constexpr double rounding = 1e-6;  // of lengths
 // By how far a point is above the plane [m].
 double height(const FlatSurface& surface, const Vector& x) { return surface.normal.dot(x - surface.point); }
 
+bool has_boundary_face_in(const Mesh& mesh, const FlatSurface& surface, Index cell, double tolerance) {
+  return std::ranges::any_of(mesh.faces_of_cell(cell), [&](Index f) {
+    return !mesh.is_interior(f) && std::ranges::all_of(mesh.points_of_face(f), [&](Index p) {
+      return std::abs(height(surface, mesh.points[as_size(p)])) <= tolerance;
+    });
+  });
+}
+
 bool goes_through(const Mesh& mesh, const FlatSurface& surface, Index cell) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const Index p : mesh.points_of_cell(cell)) {
@@ -23,13 +33,51 @@ bool goes_through(const Mesh& mesh, const FlatSurface& surface, Index cell) {
   }
   const double tolerance = rounding * (most - least);
   if (least > tolerance || most < -tolerance) return false;
-  if (most > tolerance) return true;
-  return std::ranges::any_of(mesh.faces_of_cell(cell), [&](Index f) {
-    return !mesh.is_interior(f) && std::ranges::all_of(mesh.points_of_face(f), [&](Index p) {
-      return std::abs(height(surface, mesh.points[as_size(p)])) <= tolerance;
-    });
-  });
+  return most > tolerance || has_boundary_face_in(mesh, surface, cell, tolerance);
 }
+
+// The cells of a layer that are needed to keep its two sides apart. Others are taken back, beginning with those whose
+// centres are the farthest from the surface: of a staircase the cells that join its steps.
+class Thinning {
+ public:
+  Thinning(const Mesh& mesh, const FlatSurface& surface, const std::vector<Index>& cells)
+      : mesh_(mesh), surface_(surface), on_(as_size(mesh.n_cells()), 0) {
+    for (const Index c : cells) {
+      on_[c] = 1;
+      size_ = std::max(size_, std::cbrt(mesh.cell_volume[c]));
+    }
+  }
+
+  std::vector<Index> needed(std::vector<Index> cells) {
+    std::vector<std::pair<long, Index>> in_turn;  // steps of rounding from the surface: machines agree about equal ones
+    for (const Index c : cells) in_turn.emplace_back(-std::abs(steps(c)), c);
+    std::ranges::sort(in_turn);
+    for (const auto& [steps, c] : in_turn)
+      if (can_leave(c)) on_[c] = 0;
+    std::erase_if(cells, [&](Index c) { return on_[c] == 0; });
+    return cells;
+  }
+
+ private:
+  long steps(Index cell) const { return std::lround(height(surface_, mesh_.cell_centre[cell]) / (rounding * size_)); }
+
+  // Whether no face joins the cell to one that is not of the layer and whose centre is not on the same side. The
+  // mirror image of a cell on the boundary is one.
+  bool can_leave(Index cell) const {
+    const long here = steps(cell);
+    if (has_boundary_face_in(mesh_, surface_, cell, rounding * size_)) return false;
+    return std::ranges::all_of(mesh_.faces_of_cell(cell), [&](Index f) {
+      if (!mesh_.is_interior(f) || on_[mesh_.across(f, cell)] != 0) return true;
+      const long there = steps(mesh_.across(f, cell));
+      return (here > 0 && there > 0) || (here < 0 && there < 0);
+    });
+  }
+
+  const Mesh& mesh_;
+  const FlatSurface& surface_;
+  CellField<char> on_;
+  double size_ = 0.0;  // of the layer's largest cell [m]
+};
 
 // Vector area of the closed polygon [m^2].
 Vector area_of(const std::vector<Vector>& corners) {
@@ -90,7 +138,7 @@ std::vector<Index> cells_on(const Mesh& mesh, const FlatSurface& surface) {
   std::vector<Index> cells;
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (goes_through(mesh, surface, c) && surface.has_foot(mesh.cell_centre[c])) cells.push_back(c);
-  return cells;
+  return Thinning(mesh, surface, cells).needed(std::move(cells));
 }
 
 }  // namespace pfdm

@@ -21,9 +21,10 @@ FlatSurface strip(const Vector& from, const Vector& to, const Vector& front);
 /// With these corners [m], in order. Throws InputError if they are fewer than three, or not in one plane.
 FlatSurface polygon(const std::vector<Vector>& corners);
 
-/// The cells that the surface goes through, in ascending order, one layer of them: where it lies on faces, those on the
-/// side that its normal points to; on the boundary those that are there. A cell counts where the foot of its centre is
-/// within the outline.
+/// The cells that the surface goes through, in ascending order, as few as keep its two sides apart: no face joins cells
+/// beside them whose centres are on two sides. An oblique surface takes cells of hexahedra that meet at edges. Where it
+/// lies on faces, those on the side that its normal points to; on the boundary those that are there. A cell counts
+/// where the foot of its centre is within the outline.
 std::vector<Index> cells_on(const Mesh& mesh, const FlatSurface& surface);
 
 }  // namespace pfdm

@@ -1,5 +1,6 @@
 #include "solver/fracture/damage_equation.h"
 
+#include "solver/fracture/symmetry_planes.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -25,8 +26,10 @@ CellField<double> energy_density(const Mesh& mesh, const FractureModel& model) {
 
 // The damage is zero at the faces of undamageable cells. Cohesive faces let no damage through, and set none.
 TwoPointFlux::Medium medium_of(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal) {
-  TwoPointFlux::Medium medium{
-      .conductance = CellField<double>(as_size(mesh.n_cells()), 0.0), .plane_normal = plane_normal, .limited = true};
+  TwoPointFlux::Medium medium{.conductance = CellField<double>(as_size(mesh.n_cells()), 0.0),
+                              .plane_normal = plane_normal,
+                              .shift = damage_points(mesh, model),
+                              .limited = true};
   if (!model.interfaces.empty()) medium.cut = FaceField<char>(as_size(mesh.n_faces()), 0);
   for (const CohesiveSurface& surface : model.interfaces)
     for (const Index f : surface.faces) medium.cut[f] = 1;

@@ -41,4 +41,8 @@ class CoarseCells {
   std::vector<bool> told_;  // region by region
 };
 
+/// A line for each region of hexahedra in which cracks may choose a direction: what its rows of cells do to that, and
+/// to the surface energy (tests/verification/README.md has the measurements).
+std::vector<std::string> direction_remarks(const Mesh& mesh, const FractureModel& model);
+
 }  // namespace pfdm

@@ -61,6 +61,7 @@ class Neighbourhood {
 
 std::vector<Vector> node_positions(const Mesh& mesh, const GradientSettings& settings) {
   std::vector<Vector> position(mesh.cell_centre.begin(), mesh.cell_centre.end());
+  for (Index c = 0; c < settings.shift.size(); ++c) position[as_size(c)] += settings.shift[c];
   for (const FaceField<Index>* nodes : {&settings.node_of_face, &settings.neighbour_node})
     for (Index f = 0; f < nodes->size(); ++f) {
       const auto node = as_size((*nodes)[f]);

@@ -19,6 +19,7 @@ struct GradientSettings {
   FaceField<Index> node_of_face;         ///< sample nodes on faces (-1: none), numbered from n_cells on; or empty
   FaceField<Index> neighbour_node{};     ///< of the neighbour's side, where the sides have nodes of their own; likewise
   FaceField<char> cut{};                 ///< nonzero: the cells beside the face do not sample each other; or empty
+  CellField<Vector> shift{};             ///< of the point of a cell's value from the cell's centre [m]; or empty
   Vector plane_normal = Vector::Zero();  ///< direction in which the gradient is zero, if any
   std::vector<char> wanted;              ///< nonzero for cells whose gradient is needed; empty: all
   bool zero_if_deficient = false;        ///< too few neighbours: gradient zero; otherwise InputError

@@ -15,12 +15,6 @@ constexpr double smooth_ratio = 1.25;  // of the conductances of neighbours, bel
 
 Vector unit_normal(const Mesh& mesh, Index face) { return mesh.face_area[face] / mesh.face_area[face].norm(); }
 
-/// The part of a centre-to-face vector that lies in the face: it is not in the two-point flux.
-Vector within_face(const Mesh& mesh, Index face, Index cell, const Vector& normal) {
-  const Vector d = mesh.face_centre[face] - mesh.cell_centre[cell];
-  return d - d.dot(normal) * normal;
-}
-
 // Whether u has no kink between two cells: equal conductances, or of a region's own cells nearly equal ones.
 bool is_smooth(const Mesh& mesh, const CellField<double>& conductance, Index a, Index b) {
   const auto [least, most] = std::minmax(conductance[a], conductance[b]);
@@ -73,6 +67,16 @@ TwoPointFlux::TwoPointFlux(const Mesh& mesh, Medium medium)
   build_exchanges();
 }
 
+Vector TwoPointFlux::point_of(Index cell) const {
+  return medium_.shift.size() > 0 ? mesh_.cell_centre[cell] + medium_.shift[cell] : mesh_.cell_centre[cell];
+}
+
+// The part of a point-to-face vector that lies in the face: it is not in the two-point flux.
+Vector TwoPointFlux::within_face(Index face, Index cell, const Vector& normal) const {
+  const Vector d = mesh_.face_centre[face] - point_of(cell);
+  return d - d.dot(normal) * normal;
+}
+
 void TwoPointFlux::build_links() {
   for (Exchange& exchange : medium_.exchanges) exchange.corrected = exchange.corrected && is_oblique(exchange);
   const CellField<double>& k = medium_.conductance;
@@ -81,9 +85,9 @@ void TwoPointFlux::build_links() {
     if (!(k[P] > 0.0 && k[N] > 0.0) || (medium_.cut.size() > 0 && medium_.cut[f] != 0)) continue;
     const double area = mesh_.face_area[f].norm();
     const Vector n = mesh_.face_area[f] / area;
-    const double h_P = std::abs((mesh_.face_centre[f] - mesh_.cell_centre[P]).dot(n));
-    const double h_N = std::abs((mesh_.face_centre[f] - mesh_.cell_centre[N]).dot(n));
-    const Vector centre_line = (mesh_.cell_centre[N] - mesh_.cell_centre[P]).normalized();
+    const double h_P = std::abs((mesh_.face_centre[f] - point_of(P)).dot(n));
+    const double h_N = std::abs((mesh_.face_centre[f] - point_of(N)).dot(n));
+    const Vector centre_line = (point_of(N) - point_of(P)).normalized();
     links_.push_back({.face = f,
                       .P = P,
                       .N = N,
@@ -93,7 +97,7 @@ void TwoPointFlux::build_links() {
 }
 
 bool TwoPointFlux::is_oblique(const Exchange& exchange) const {
-  const Vector d = mesh_.face_centre[exchange.face] - mesh_.cell_centre[exchange.cell];
+  const Vector d = mesh_.face_centre[exchange.face] - point_of(exchange.cell);
   const Vector n = unit_normal(mesh_, exchange.face);
   return (d - d.dot(n) * n).norm() > orthogonal * d.norm();
 }
@@ -102,7 +106,7 @@ void TwoPointFlux::build_exchanges() {
   for (const Exchange& exchange : medium_.exchanges) {
     const Index c = exchange.cell;
     const Vector n = unit_normal(mesh_, exchange.face);
-    const double h = std::abs((mesh_.face_centre[exchange.face] - mesh_.cell_centre[c]).dot(n));
+    const double h = std::abs((mesh_.face_centre[exchange.face] - point_of(c)).dot(n));
     const double resistance = h / medium_.conductance[c] + 1.0 / exchange.coefficient;
     const double coefficient = mesh_.face_area[exchange.face].norm() / resistance;
     exchange_coefficient_.push_back(coefficient);
@@ -120,6 +124,7 @@ Gradient TwoPointFlux::build_gradient() const {
   return Gradient(mesh_, {.zone = smooth_zones(mesh_, medium_.conductance),
                           .node_of_face = {},
                           .cut = medium_.cut,
+                          .shift = medium_.shift,
                           .plane_normal = medium_.plane_normal,
                           .wanted = std::move(wanted),
                           .zero_if_deficient = true});
@@ -143,8 +148,8 @@ void TwoPointFlux::renew_correction(const CellField<double>& u) {
     const Link& link = links_[as_size(i)];
     if (!link.corrected) return;
     const Vector n = unit_normal(mesh_, link.face);
-    const double beyond = gradients_[as_size(link.N)].dot(within_face(mesh_, link.face, link.N, n)) -
-                          gradients_[as_size(link.P)].dot(within_face(mesh_, link.face, link.P, n));
+    const double beyond = gradients_[as_size(link.N)].dot(within_face(link.face, link.N, n)) -
+                          gradients_[as_size(link.P)].dot(within_face(link.face, link.P, n));
     const double most = std::min(range_[as_size(link.P)], range_[as_size(link.N)]);
     correction_[as_size(i)] = link.coefficient * std::clamp(beyond, -most, most);
   });
@@ -157,7 +162,7 @@ void TwoPointFlux::renew_correction(const CellField<double>& u) {
     const Exchange& exchange = medium_.exchanges[k];
     const Index c = exchange.cell;
     if (exchange.corrected) {
-      const Vector across = within_face(mesh_, exchange.face, c, unit_normal(mesh_, exchange.face));
+      const Vector across = within_face(exchange.face, c, unit_normal(mesh_, exchange.face));
       const double most = range_[as_size(c)];
       exchange_correction_[k] = -exchange_coefficient_[k] * std::clamp(gradients_[as_size(c)].dot(across), -most, most);
     }

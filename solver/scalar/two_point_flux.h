@@ -28,6 +28,7 @@ class TwoPointFlux {
     std::vector<Exchange> exchanges{};
     Vector plane_normal = Vector::Zero();  ///< of one-cell-thick meshes
     FaceField<char> cut{};                 ///< nonzero where there is no flux; or empty
+    CellField<Vector> shift{};             ///< of the point of a cell's value from the cell's centre [m]; or empty
     bool limited = false;                  ///< the deferred correction, to the range of u around a face
   };
   TwoPointFlux(const Mesh& mesh, Medium medium);
@@ -60,6 +61,8 @@ class TwoPointFlux {
   void build_links();
   void build_exchanges();
   bool is_oblique(const Exchange& exchange) const;
+  Vector point_of(Index cell) const;                                       // that its value stands for [m]
+  Vector within_face(Index face, Index cell, const Vector& normal) const;  // of the way from there to the face [m]
   Gradient build_gradient() const;
 
   const Mesh& mesh_;

@@ -51,8 +51,7 @@ struct Result {
   Index cells = 0;
 };
 
-Result solve(const Mesh& mesh, const std::string& law, const Manufactured& exact, const std::string& region = {}) {
-  const FractureModel model = model_of(mesh, law);
+Result solve(const Mesh& mesh, const FractureModel& model, const Manufactured& exact, const std::string& region = {}) {
   DamageEquation equation(mesh, model, Vector::Zero());
   equation.set_source(source_of(mesh, model, exact));
   const auto n = as_size(mesh.n_cells());
@@ -79,6 +78,10 @@ Result solve(const Mesh& mesh, const std::string& law, const Manufactured& exact
   }
   result.error = std::sqrt(result.error / volume);
   return result;
+}
+
+Result solve(const Mesh& mesh, const std::string& law, const Manufactured& exact, const std::string& region = {}) {
+  return solve(mesh, model_of(mesh, law), exact, region);
 }
 
 void expect_order(const std::string& label, const std::vector<Result>& results, double least_order,
@@ -137,6 +140,23 @@ TEST(DamageEquationVerification, SecondOrderOnPolyhedra) {
   for (const double size : {0.2, 0.125, 0.08})
     results.push_back(solve(barycentric_dual(tetrahedra(size)), "AT2", waves));
   expect_order("AT2 on polyhedra", results, 1.8, 1.5e-3);
+}
+
+// The damage of cells beside planes of symmetry is that on the planes (solver/fracture/symmetry_planes.h).
+TEST(DamageEquationVerification, SecondOrderBesidePlanesOfSymmetry) {
+  const auto solved = [](const Mesh& mesh) {
+    FractureModel model = model_of(mesh, "AT2");
+    for (const char* side : {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"})
+      model.boundary.push_back(symmetry_on(side));
+    return solve(mesh, model, waves);
+  };
+  std::vector<Result> hexahedral;
+  for (const Index n : {8, 16, 24}) {
+    BoxHexesSettings box;
+    box.axes = {{{{1.0, n, 1.0}}, {{1.0, n, 1.0}}, {{1.0, n, 1.0}}}};
+    hexahedral.push_back(solved(make_box_hexes(box)));
+  }
+  expect_order("hexahedra between planes of symmetry", hexahedral, 1.9, 2e-3);
 }
 
 // (Gc/2) (int d^2 / ell + ell |grad d|^2) of the waves.

@@ -1,0 +1,149 @@
+// Surface energy of straight cracks at any angle to the rows of a mesh: their cells are broken, the damage beside them
+// takes the profile of least energy. In a continuous body it is Gc per area at every angle.
+
+#include "mesh/flat_surface.h"
+#include "solver/fracture/damage_equation.h"
+
+#include "tests/verification/support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pfdm::verification {
+namespace {
+
+constexpr double Gc = 1.0;
+
+struct StraightCrack {
+  double angle = 0.0;   // to x, about z [degrees]
+  double offset = 0.0;  // from the middle of the unit square
+};
+
+FractureModel model_of(const std::string& law, double ell) {
+  FractureModel model;
+  model.regions = {{.elasticity = {}, .Gc = Gc, .ell = ell}};
+  model.crack = &crack_geometry(law);
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
+  return model;
+}
+
+// Surface energy per length and thickness about the middle of a crack through the unit square, over Gc: a mean with a
+// weight that falls to zero at its ends.
+double energy_of(const Mesh& mesh, double thickness, const FractureModel& model, const Vector& plane_normal,
+                 const StraightCrack& crack) {
+  const double angle = crack.angle * std::numbers::pi / 180.0;
+  const Vector along(std::cos(angle), std::sin(angle), 0.0), up(-along.y(), along.x(), 0.0);
+  const Vector middle = Vector(0.5, 0.5, 0.0) + crack.offset * up;
+  CellField<double> d(as_size(mesh.n_cells()), 0.0);
+  for (const Index c : cells_on(mesh, strip(middle - 2.0 * along, middle + 2.0 * along, Vector::UnitZ()))) d[c] = 1.0;
+  DamageEquation equation(mesh, model, plane_normal);
+  d = equation.relaxed(d);
+  equation.renewed_fracture_energy(d);
+  const CellField<double> density = equation.fracture_energy_density(d);
+  constexpr double half = 0.3, ramp = 0.15;
+  double energy = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const double at = std::abs(along.dot(mesh.cell_centre[c] - middle));
+    energy += std::clamp((half - at) / ramp, 0.0, 1.0) * density[c] * mesh.cell_volume[c];
+  }
+  return energy / (Gc * thickness * (2.0 * half - ramp));
+}
+
+struct Range {
+  double least = 1e300, most = 0.0;
+};
+
+// Over angles, each with the mean of two places between the cells.
+Range energies(const std::string& label, const Mesh& mesh, double thickness, const std::string& law, double h,
+               double n_cells_per_ell, const Vector& plane_normal, const std::vector<double>& angles) {
+  const FractureModel model = model_of(law, n_cells_per_ell * h);
+  Range range;
+  std::vector<std::pair<std::string, double>> row;
+  for (const double angle : angles) {
+    double mean = 0.0;
+    for (const double offset : {0.03, 0.37})
+      mean += energy_of(mesh, thickness, model, plane_normal, {.angle = angle, .offset = offset * h}) / 2.0;
+    row.emplace_back(fmt::format("{:g} degrees", angle), mean);
+    range.least = std::min(range.least, mean);
+    range.most = std::max(range.most, mean);
+  }
+  report_row(fmt::format("{}, {}, ell/h = {:g}", label, law, n_cells_per_ell), row);
+  return range;
+}
+
+const std::vector<double> some_angles{0.0, 10.0, 20.0, 30.0, 45.0};
+
+// A staircase of cells that meet at faces would cost h/(2 ell) more than a row (AT2).
+TEST(CrackDirections, CostTheSameOnHexahedra) {
+  constexpr Index n_cells = 61;
+  constexpr double h = 1.0 / n_cells;
+  BoxHexesSettings settings;
+  settings.axes = {{{{1.0, n_cells, 1.0}}, {{1.0, n_cells, 1.0}}, {{h, 1, 1.0}}}};
+  const Mesh mesh = make_box_hexes(settings);
+  for (const auto& [law, cells, most] : {std::tuple{"AT2", 2.0, 1.075},
+                                         {"AT2", 3.0, 1.045},
+                                         {"AT2", 4.0, 1.033},
+                                         {"AT1", 2.0, 1.06},
+                                         {"AT1", 3.0, 1.04},
+                                         {"AT1", 4.0, 1.03},
+                                         {"Wu", 2.0, 1.05},
+                                         {"Wu", 3.0, 1.04},
+                                         {"Wu", 4.0, 1.03}}) {
+    const Range range = energies("hexahedra", mesh, h, law, h, cells, Vector::UnitZ(), some_angles);
+    EXPECT_LE(range.most, most) << law << ", ell/h = " << cells;
+    EXPECT_GE(range.least, 0.98) << law << ", ell/h = " << cells;
+  }
+}
+
+TEST(CrackDirections, CostTheSameOnPrisms) {
+  constexpr Index n_cells = 45;
+  constexpr double h = 1.0 / n_cells;
+  const Mesh mesh = extruded_triangles(n_cells, {0.0, h});
+  for (const std::string law : {"AT2", "AT1", "Wu"}) {
+    const Range range = energies("prisms", mesh, h, law, h, 3.0, Vector::UnitZ(), {0.0, 20.0, 45.0, 70.0, 135.0});
+    EXPECT_LE(range.most, 1.06) << law;
+    EXPECT_GE(range.least, 0.94) << law;
+  }
+}
+
+TEST(CrackDirections, CostTheSameOnTetrahedraAndPolyhedra) {
+  constexpr double h = 1.0 / 20.0, thickness = 0.2;
+  ParticlesInBoxSettings settings;
+  settings.upper = {1.0, 1.0, thickness};
+  settings.boundary_size = h;
+  settings.size_far = h;
+  const Mesh mesh = make_particles_in_box(settings), dual = barycentric_dual(mesh);
+  for (const auto& [label, cells, most] : {std::tuple{"tetrahedra", &mesh, 1.03}, {"polyhedra", &dual, 1.1}}) {
+    const Range range = energies(label, *cells, thickness, "AT2", h, 3.0, Vector::Zero(), {0.0, 20.0, 45.0});
+    EXPECT_LE(range.most, most) << label;
+    EXPECT_LE(range.most, 1.02 * range.least) << label;
+  }
+}
+
+// Twice the energy of half a crack, whose cells have a face in a plane of symmetry: as a crack of [initial] there.
+TEST(CrackDirections, CostTheSameInAPlaneOfSymmetryOfTetrahedra) {
+  constexpr double h = 1.0 / 16.0, height = 1.0, side = 0.5;
+  ParticlesInBoxSettings settings;
+  settings.upper = {side, side, height};
+  settings.boundary_size = h;
+  settings.size_far = h;
+  const Mesh mesh = make_particles_in_box(settings);
+  for (const double cells : {2.0, 3.0}) {
+    FractureModel model = model_of("AT2", cells * h);
+    model.boundary = {symmetry_on("zmin")};
+    CellField<double> d(as_size(mesh.n_cells()), 0.0);
+    for (const Index c : cells_on(mesh, disc(Vector::Zero(), Vector::UnitZ(), 10.0))) d[c] = 1.0;
+    DamageEquation equation(mesh, model, Vector::Zero());
+    d = equation.relaxed(d);
+    const double energy = 2.0 * equation.renewed_fracture_energy(d) / (Gc * side * side);
+    report_row("tetrahedra beside a plane of symmetry", {{"ell/h", cells}, {"energy", energy}});
+    EXPECT_NEAR(energy, 1.0, 0.3 / cells);
+  }
+}
+
+}  // namespace
+}  // namespace pfdm::verification
