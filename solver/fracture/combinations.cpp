@@ -56,11 +56,12 @@ void require_path(const Mesh& mesh, const FractureModel& m, const Unknowns& unkn
 // not turned with the body.
 void require_finite_interfaces(const FractureModel& m) {
   for (const CohesiveSurface& surface : m.interfaces) {
-    if (surface.law.shear_ratio != 1.0)
-      throw InputError(
-          fmt::format("materials of finite strain can only be combined with cohesive interfaces whose shear_ratio is "
-                      "1; that of \"{}\" is {:g}",
-                      surface.name, surface.law.shear_ratio));
+    if (!surface.law.pulls_along_separation())
+      throw InputError(fmt::format(
+          "materials of finite strain can only be combined with cohesive interfaces that pull along their separation: "
+          "\"camacho_ortiz\" whose shear_ratio is 1, or another mixed_mode than \"xu_needleman\"; that of \"{}\" is "
+          "\"{}\" with {:g}",
+          surface.name, surface.law.mixed_mode->name, surface.law.shear_ratio));
     if (surface.law.friction > 0.0)
       throw InputError(fmt::format(
           "materials of finite strain cannot be combined with the friction of the interface \"{}\"", surface.name));
