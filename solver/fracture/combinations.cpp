@@ -1,5 +1,7 @@
 #include "solver/fracture/combinations.h"
 
+#include "solver/fracture/held_interfaces.h"
+
 #include "physics/error.h"
 
 #include <fmt/format.h>
@@ -167,6 +169,7 @@ void require_complete(const Mesh& mesh, const FractureModel& model) {
 void require_combination(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
                          const LoadingSettings& loading) {
   require_plain_interfaces(model, loading);
+  require_whole_box(mesh, model, unknowns);
   if (model.viscosity > 0.0 && !(loading.duration > 0.0))
     throw InputError("viscosity (fracture.viscosity) requires loading.duration, the time in which t grows by 1");
   for (const RegionModel& region : model.regions)
