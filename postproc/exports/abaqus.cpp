@@ -84,7 +84,7 @@ std::string elastic(const ExportedLaw& law) {
   return "*ELASTIC, TYPE=TRACTION\n" + three(law.stiffness.value, law.shear_stiffness.value);
 }
 
-std::string remark_on_tables(const ExportedLaw& law) {
+std::string abaqus_table_remark(const ExportedLaw& law) {
   if (is_by_displacement(law))
     return "Cohesive surfaces of Abaqus/Explicit take MODE MIX RATIO=ACCUMULATED ENERGY in place of ENERGY.";
   if (law.mix == ModeMix::one_energy) return "";
@@ -103,7 +103,7 @@ std::string abaqus_input(const ExportedLaw& law, const UnitSystem&) {
   text += comment_lines(
       "with that thickness, so that strains are separations. Cohesive surfaces: name the interaction in your *CONTACT "
       "PAIR. " +
-          quadratic_strength_remark(law) + " " + remark_on_tables(law),
+          quadratic_strength_remark(law) + " " + abaqus_table_remark(law),
       "**");
   text += fmt::format("*MATERIAL, NAME={}\n", name) + elastic(law) + bilinear(law);
   text += fmt::format("*MATERIAL, NAME={}_TABLE\n", name) + elastic(law) + tabular(law);

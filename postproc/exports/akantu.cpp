@@ -21,7 +21,7 @@ std::string parameters(const ExportedLaw& law) {
 }
 
 /// In shear the rise is beta^2/kappa times as stiff.
-std::string remark_on_modes(const ExportedLaw& law) {
+std::string akantu_remark(const ExportedLaw& law) {
   if (law.mix == ModeMix::one_energy) return "";
   const double b = law.shear_ratio(), kappa = law.shear_energy.value / law.energy.value;
   return fmt::format("Strength and energy are the law's in each mode alone; between them kappa mixes, and not {}. ",
@@ -41,7 +41,7 @@ std::string akantu_input(const ExportedLaw& law, const UnitSystem&) {
              "Into your material file, beside the materials of the bodies. cohesive_linear is for elements that "
              "are inserted where sigma_c is reached (extrinsic): it has no rise. Elements that are there from the "
              "beginning (intrinsic): the second. " +
-                 remark_on_modes(law),
+                 akantu_remark(law),
              "#") +
          fmt::format("material cohesive_linear [\n{}]\n", parameters(law)) +
          as_comment(fmt::format("material cohesive_bilinear [\n{}    delta_0 = {}\n]\n", parameters(law),

@@ -17,7 +17,7 @@ namespace {
 constexpr int wide = 16;
 constexpr std::string_view blank = "                ";
 
-std::string remark_on_modes(const ExportedLaw& law) {
+std::string optistruct_remark(const ExportedLaw& law) {
   if (law.mix == ModeMix::one_energy) return "";
   return fmt::format(
              "One energy for all modes and BETA^2 times the stiffness in shear: GII, the exponent and {} have no "
@@ -32,7 +32,7 @@ std::string optistruct_input(const ExportedLaw& law, const UnitSystem&) {
   return comment_lines(
              "Peak traction 2 COHE/MAXOD, at CRTOD. BETA is shear strength over strength. SFC: in compression the "
              "stiffness of the rise. PCOHE refers to MID. " +
-                 remark_on_modes(law),
+                 optistruct_remark(law),
              "$") +
          fmt::format("{:<8}{}{}\n", "MCOHE*", integer_field(1, wide), integer_field(1, wide)) + "*\n" +
          fmt::format("{:<8}{}{}{}{}\n", "*", real_field(law.energy.value, wide), real_field(law.onset(), wide),

@@ -98,8 +98,8 @@ std::vector<LawCurve> curves_of(const InterfaceLaw& law, const std::string& figu
   return curves;
 }
 
-Series series_of(const InterfaceLaw& law, const InterfaceStrength& at, const LawCurve& curve, double end,
-                 const DisplayUnit& x, const DisplayUnit& y) {
+Series given_series(const InterfaceLaw& law, const InterfaceStrength& at, const LawCurve& curve, double end,
+                    const DisplayUnit& x, const DisplayUnit& y) {
   Series series{.label = curve.label, .x = {0.0}, .y = {0.0}, .style = curve.style};
   constexpr int points = 400;
   std::vector<double> separations;
@@ -116,7 +116,7 @@ Series series_of(const InterfaceLaw& law, const InterfaceStrength& at, const Law
   return series;
 }
 
-double largest(const std::vector<FaceState>& states, double FaceState::*value) {
+double largest_of(const std::vector<FaceState>& states, double FaceState::*value) {
   double most = 0.0;
   for (const FaceState& state : states) most = std::max(most, state.*value);
   return most;
@@ -137,10 +137,10 @@ Chart interface_chart(const InterfaceSettings& interface, const ColumnRecord& re
     for (const LawCurve& curve : curves) end = std::max(end, beyond_end * end_along(law, at, curve.direction));
   }
   const std::vector<FaceState> states = states_of(law, record, end);
-  const double widest = uniform ? end : largest(states, &FaceState::separation);
+  const double widest = uniform ? end : largest_of(states, &FaceState::separation);
   const DisplayUnit x = display_unit(widest, "m");
   const DisplayUnit y =
-      display_unit(std::max({at.strength, at.shear_strength, largest(states, &FaceState::traction)}), "Pa");
+      display_unit(std::max({at.strength, at.shear_strength, largest_of(states, &FaceState::traction)}), "Pa");
   const std::string_view which = law.mixed_mode->is_potential ? "normal" : "equivalent";
   Chart chart{.caption = fmt::format("Given law of \"{}\" and states of its faces", record.name),
               .x = {.title = fmt::format("{} separation [{}]", which, x.name), .from = 0.0},
@@ -157,7 +157,7 @@ Chart interface_chart(const InterfaceSettings& interface, const ColumnRecord& re
     faces.y.push_back(y.factor * state.traction);
   }
   chart.series.push_back(std::move(faces));
-  for (const LawCurve& curve : curves) chart.series.push_back(series_of(law, at, curve, end, x, y));
+  for (const LawCurve& curve : curves) chart.series.push_back(given_series(law, at, curve, end, x, y));
   return chart;
 }
 
