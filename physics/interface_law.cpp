@@ -1,65 +1,73 @@
 #include "physics/interface_law.h"
 
+#include "physics/xu_needleman.h"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pfdm {
 namespace {
 
-ModeMixture benzeggagh_kenane(const InterfaceStrength& s, double B, double eta) {
-  const double part = std::pow(B, eta), slope = eta * std::pow(B, eta - 1.0);
-  const double more = s.shear_strength * s.shear_strength - s.strength * s.strength;
-  const double strength = std::sqrt(s.strength * s.strength + more * part);
-  return {.strength = strength,
-          .toughness = s.toughness + (s.shear_toughness - s.toughness) * part,
-          .strength_by_B = 0.5 * more * slope / strength,
-          .toughness_by_B = (s.shear_toughness - s.toughness) * slope};
-}
+double mean_of(double a, double b) { return 0.5 * (a + b); }
 
-ModeMixture power_law(const InterfaceStrength& s, double B, double eta) {
-  const double opening = (1.0 - B) / s.toughness, shear = B / s.shear_toughness;
-  const double toughness = std::pow(std::pow(opening, eta) + std::pow(shear, eta), -1.0 / eta);
-  const double slope = std::pow(shear, eta - 1.0) / s.shear_toughness - std::pow(opening, eta - 1.0) / s.toughness;
-  const double n = 1.0 / (s.strength * s.strength), t = 1.0 / (s.shear_strength * s.shear_strength);
-  const double strength = 1.0 / std::sqrt((1.0 - B) * n + B * t);
-  return {.strength = strength,
-          .toughness = toughness,
-          .strength_by_B = -0.5 * strength * strength * strength * (t - n),
-          .toughness_by_B = -std::pow(toughness, 1.0 + eta) * slope};
+XuNeedleman potential_of(const InterfaceStrength& at) {
+  return XuNeedleman::of(at.strength, at.toughness, at.shear_strength, at.shear_toughness);
 }
-
-constexpr MixedMode modes[] = {
-    {"camacho_ortiz", "equivalent separation; shear_ratio beta: shear strength over strength, one toughness", nullptr},
-    {"benzeggagh_kenane", "Gc = G_n + (G_s - G_n) B^exponent; shear_strength, shear_toughness, exponent",
-     benzeggagh_kenane},
-    {"power_law", "((1-B)/G_n)^exponent + (B/G_s)^exponent = Gc^-exponent; the same keys", power_law},
-};
 
 }  // namespace
 
-std::span<const MixedMode> mixed_modes() { return modes; }
-
 /// A separation in the terms of the law.
 struct InterfaceLaw::Opening {
-  Vector n;
-  double normal;  // delta_n [m]
-  Vector shear;   // delta_s [m]
-  Tensor along;   // of separations into those that the law works on, rho along the face
-  Vector worked;  // <delta_n> n + rho delta_s [m]
-  double lambda;  // [m]
-  double B;       // mode mixity
-  double rho;
+  double normal;    // delta_n [m]
+  Vector n, shear;  // delta_s [m]
+  double rho, k;
+  Vector measured;  // <delta_n> n + rho delta_s [m], whose product with the separation is lambda^2
+  Tensor along;     // n n^T where it is open, k along the face
+  Vector pulled;    // along separation [m], which the traction is along
+  double lambda;    // [m]
+  double B;         // mode mixity
 
-  Opening(const Vector& normal_vector, const Vector& separation, double shear_ratio)
-      : n(normal_vector), normal(n.dot(separation)), shear(separation - normal * n), rho(shear_ratio * shear_ratio) {
-    along = rho * (Tensor::Identity() - n * n.transpose());
-    if (normal >= 0.0) along += n * n.transpose();
-    worked = along * separation;
-    lambda = std::sqrt(worked.dot(separation));
+  Opening(const InterfaceLaw& law, const Vector& normal_vector, const Vector& separation)
+      : normal(normal_vector.dot(separation)), n(normal_vector), shear(separation - normal * n) {
+    const double beta2 = law.shear_ratio * law.shear_ratio;
+    rho = law.mixed_mode->keeps_stiffness ? 1.0 / beta2 : beta2;
+    k = law.mixed_mode->keeps_stiffness ? 1.0 : beta2;
+    measured = weighted(rho) * separation;
+    along = weighted(k);
+    pulled = along * separation;
+    lambda = std::sqrt(measured.dot(separation));
     B = lambda > 0.0 ? std::min(1.0, rho * shear.squaredNorm() / (lambda * lambda)) : 0.0;
   }
   bool is_closed() const { return normal < 0.0; }
-  Vector B_by_separation() const { return 2.0 / (lambda * lambda) * (rho * shear - B * worked); }
+  double opened() const { return std::max(0.0, normal); }
+  // Of the energy of a separation over that of the law in opening at the same lambda: traction and separation are not
+  // those of one potential where rho and k differ.
+  double share() const { return 1.0 - B + B * k / rho; }
+  Vector share_slope() const { return 2.0 / (lambda * lambda) * (pulled - share() * measured); }
+  Vector B_slope() const { return 2.0 / (lambda * lambda) * (rho * shear - B * measured); }
+
+ private:
+  Tensor weighted(double in_shear) const {
+    Tensor weights = in_shear * (Tensor::Identity() - n * n.transpose());
+    if (normal >= 0.0) weights += n * n.transpose();
+    return weights;
+  }
+};
+
+/// T less what contact and friction add, and its derivative in two parts: `secant` separation + what changes it.
+struct InterfaceLaw::Pull {
+  Tensor secant;         // [Pa/m]
+  Tensor secant_change;  // T's derivative less it [Pa/m]
+  Vector traction;       // [Pa]
+  double shear;          // S_s of T_s = S_s delta_s [Pa/m]
+  Vector shear_slope;    // its derivative by the separation
+};
+
+/// What a step dissipates [J/m^2], with its derivative by the separation at the step's end [Pa].
+struct InterfaceLaw::Loss {
+  double energy;
+  Vector slope;
 };
 
 LawPoint InterfaceLaw::point(const InterfaceStrength& at, const ModeMixture& mixture, double lambda) const {
@@ -69,22 +77,58 @@ LawPoint InterfaceLaw::point(const InterfaceStrength& at, const ModeMixture& mix
   return law->at(*law, lambda, mixture.strength, mixture.toughness, std::span(parameters, 1 + shape.size()));
 }
 
-// dS/dB. Beyond the rise T = sigma f(w), w = (lambda - sigma/K) sigma/Gs, Gs = Gc - sigma^2/(2K).
+ModeMixture InterfaceLaw::mixture(const InterfaceStrength& at, double B) const {
+  if (depends_on_mode()) return mixed_mode->at(at, B, exponent);
+  return {.strength = at.strength, .toughness = at.toughness};
+}
+
+namespace {
+
+/// Beyond a straight rise of stiffness K: T = sigma f(w), w = (lambda - sigma/K) sigma/rest, rest = Gc - sigma^2/(2K).
+struct BeyondRise {
+  double rise, rest, rest_by_B, w_by_B;
+
+  BeyondRise(const ModeMixture& m, double K, double lambda)
+      : rise(m.strength / K),
+        rest(m.toughness - 0.5 * m.strength * rise),
+        rest_by_B(m.toughness_by_B - rise * m.strength_by_B) {
+    const double opening = lambda - rise;
+    w_by_B = ((opening - rise) * m.strength_by_B - opening * m.strength / rest * rest_by_B) / rest;
+  }
+};
+
+}  // namespace
+
+// Of the secant at constant lambda, by B.
 double InterfaceLaw::secant_by_mode(const InterfaceStrength& at, const ModeMixture& m, const LawPoint& p,
                                     double lambda) const {
-  const double rise = m.strength / at.stiffness;
-  if (lambda < rise || p.slope == 0.0) return 0.0;
-  const double rest = m.toughness - 0.5 * m.strength * rise;
-  const double f_slope = p.slope * rest / (m.strength * m.strength), opening = lambda - rise;
-  const double w_by_strength = (opening - rise) / rest + opening * m.strength * rise / (rest * rest);
-  const double w_by_toughness = -opening * m.strength / (rest * rest);
-  const double by_strength = p.traction / m.strength + m.strength * f_slope * w_by_strength;
-  const double by_toughness = m.strength * f_slope * w_by_toughness;
-  return (by_strength * m.strength_by_B + by_toughness * m.toughness_by_B) / lambda;
+  const BeyondRise beyond(m, at.stiffness, lambda);
+  if (lambda < beyond.rise || p.slope == 0.0) return 0.0;
+  const double f_slope = p.slope * beyond.rest / (m.strength * m.strength);
+  return (p.traction / m.strength * m.strength_by_B + m.strength * f_slope * beyond.w_by_B) / lambda;
+}
+
+// Of the law's work at constant lambda, by B.
+double InterfaceLaw::work_by_mode(const InterfaceStrength& at, const ModeMixture& m, double lambda) const {
+  const BeyondRise beyond(m, at.stiffness, lambda);
+  if (lambda < beyond.rise) return 0.0;
+  const LawPoint p = point(at, m, lambda);
+  const double done = (p.work - 0.5 * m.strength * beyond.rise) / beyond.rest;  // of the rest
+  return beyond.rise * m.strength_by_B + beyond.rest_by_B * done +
+         beyond.rest * p.traction / m.strength * beyond.w_by_B;
 }
 
 double InterfaceLaw::initial_stiffness(const InterfaceStrength& at) const {
   return point(at, {.strength = at.strength, .toughness = at.toughness}, 0.0).slope;
+}
+
+double InterfaceLaw::initial_shear_stiffness(const InterfaceStrength& at) const {
+  if (mixed_mode->is_potential) return potential_of(at).shear_secant(0.0, 0.0);
+  return (mixed_mode->keeps_stiffness ? 1.0 : shear_ratio * shear_ratio) * initial_stiffness(at);
+}
+
+bool InterfaceLaw::pulls_along_separation() const {
+  return !mixed_mode->is_potential && (mixed_mode->keeps_stiffness || shear_ratio == 1.0);
 }
 
 double InterfaceLaw::steepest_fall(const InterfaceStrength& at) const {
@@ -102,10 +146,11 @@ double InterfaceLaw::dissipated(const InterfaceStrength& at, const ModeMixture& 
   return p.work - 0.5 * p.traction * lambda;
 }
 
-// The separation where the law has come down to a secant, between zero and one where it is lower.
-double InterfaceLaw::separation_at_secant(const InterfaceStrength& at, const ModeMixture& mixture, double secant,
-                                          double above) const {
-  double below = 0.0;
+// The separation where the law has come down to a secant; infinite for none.
+double InterfaceLaw::separation_at_secant(const InterfaceStrength& at, const ModeMixture& mixture,
+                                          double secant) const {
+  if (!(secant > 0.0)) return std::numeric_limits<double>::infinity();
+  double below = 0.0, above = mixture.strength / secant;
   while (above - below > 1e-15 * above) {
     const double middle = 0.5 * (below + above);
     if (middle == below || middle == above) break;
@@ -118,64 +163,143 @@ double InterfaceLaw::secant_after(const InterfaceStrength& at, const InterfaceHi
   const double K = initial_stiffness(at);
   if (depends_on_mode()) return (1.0 - history.reached) * K;
   if (!(history.reached > 0.0)) return K;
-  return point(at, {.strength = at.strength, .toughness = at.toughness}, history.reached).traction / history.reached;
+  return point(at, mixture(at, 0.0), history.reached).traction / history.reached;
 }
 
-double InterfaceLaw::left_to_dissipate(const InterfaceStrength& at, double B, const InterfaceHistory& history) const {
+double InterfaceLaw::shear_secant_after(const InterfaceStrength& at, const InterfaceHistory& history) const {
+  if (mixed_mode->is_potential) return potential_of(at).shear_secant(history.reached, history.reached_in_shear);
+  return secant_after(at, history) * initial_shear_stiffness(at) / initial_stiffness(at);
+}
+
+double InterfaceLaw::left_to_dissipate(const InterfaceStrength& at, const Opening& o,
+                                       const InterfaceHistory& history) const {
+  const ModeMixture now = mixture(at, o.B);
+  if (!depends_on_mode()) return o.share() * std::max(0.0, now.toughness - dissipated(at, now, history.reached));
   const double kept = secant_after(at, history);
   if (!(kept > 0.0)) return 0.0;
-  const ModeMixture mixture = mixed_mode->at(at, B, exponent);
-  const double reached = separation_at_secant(at, mixture, kept, mixture.strength / kept);
-  return std::max(0.0, mixture.toughness - dissipated(at, mixture, reached));
+  return std::max(0.0, now.toughness - dissipated(at, now, separation_at_secant(at, now, kept)));
+}
+
+// Sheared alone, an interface keeps 1 - q of its work of opening.
+double InterfaceLaw::left_in_potential(const InterfaceStrength& at, const Opening& o,
+                                       const InterfaceHistory& history) const {
+  const XuNeedleman potential = potential_of(at);
+  const double x = history.reached, y = history.reached_in_shear;
+  const bool opens = std::max(x, o.normal / potential.length_n) > 1e-9;
+  const double whole = opens ? potential.work : potential.q * potential.work;
+  return std::max(0.0, whole - potential.potential(x, y) + potential.stored(x, y));
 }
 
 double InterfaceLaw::damage(const InterfaceStrength& at, const Vector& n, const Vector& separation,
                             const InterfaceHistory& history) const {
   if (!(history.dissipated > 0.0)) return 0.0;
-  if (!depends_on_mode()) return std::min(history.dissipated / at.toughness, 1.0);
-  const double left = left_to_dissipate(at, Opening(n, separation, shear_ratio).B, history);
+  const Opening o(*this, n, separation);
+  const double left = mixed_mode->is_potential ? left_in_potential(at, o, history) : left_to_dissipate(at, o, history);
   return history.dissipated / (history.dissipated + left);
 }
 
-// The law's own part: traction, tangent and history by decohesion; dS/d separation.
-void InterfaceLaw::pull(const InterfaceStrength& at, const Opening& o, const InterfaceHistory& before,
-                        InterfaceResponse& response, Vector& secant_by_separation) const {
+// Of a rule with one law for all modes, whose lambda grows from `reached`.
+InterfaceLaw::Loss InterfaceLaw::lost(const InterfaceStrength& at, const Opening& from, const Opening& to,
+                                      double reached, const LawPoint& p, const Vector& secant_slope) const {
+  const double share = from.lambda > 0.0 ? mean_of(from.share(), to.share()) : to.share();
+  const double part = from.lambda > 0.0 ? 0.5 : 1.0;  // of the share that changes with the separation
+  const double energy = p.work - 0.5 * p.traction * to.lambda - dissipated(at, mixture(at, 0.0), reached);
+  return {.energy = share * energy,
+          .slope = -0.5 * share * to.lambda * to.lambda * secant_slope + part * energy * to.share_slope()};
+}
+
+// The secant falls from `kept` to that of p; at a secant S a mode mixity B dissipates lambda(S, B)^2/2 per secant.
+InterfaceLaw::Loss InterfaceLaw::lost_by_mode(const InterfaceStrength& at, const Opening& from, const Opening& to,
+                                              double kept, const LawPoint& p, const Vector& secant_slope) const {
+  const ModeMixture here = mixture(at, to.B);
+  const double reached = separation_at_secant(at, here, kept);
+  const double by_B = work_by_mode(at, here, to.lambda) - work_by_mode(at, here, reached);
+  const Loss at_end{.energy = dissipated(at, here, to.lambda) - dissipated(at, here, reached),
+                    .slope = -0.5 * to.lambda * to.lambda * secant_slope + by_B * to.B_slope()};
+  if (!(from.lambda > 0.0)) return at_end;
+  const ModeMixture there = mixture(at, from.B);
+  const double lambda = separation_at_secant(at, there, p.traction / to.lambda);
+  const double whole = std::isfinite(lambda) ? dissipated(at, there, lambda) : there.toughness;
+  const double energy = whole - dissipated(at, there, separation_at_secant(at, there, kept));
+  const Vector slope = std::isfinite(lambda) ? (-0.5 * lambda * lambda * secant_slope).eval() : Vector::Zero().eval();
+  return {.energy = mean_of(energy, at_end.energy), .slope = 0.5 * (slope + at_end.slope)};
+}
+
+InterfaceLaw::Pull InterfaceLaw::pull(const InterfaceStrength& at, const Opening& o, const InterfaceHistory& before,
+                                      InterfaceResponse& response) const {
   const double negligible = 1e-14 * at.toughness / at.strength;  // of a separation
-  const ModeMixture mixture = depends_on_mode() ? mixed_mode->at(at, o.B, exponent)
-                                                : ModeMixture{.strength = at.strength, .toughness = at.toughness};
   const double kept = secant_after(at, before);
-  secant_by_separation = Vector::Zero();
   double S = kept;
+  Vector slope = Vector::Zero();
   if (o.lambda > negligible) {
-    const LawPoint p = point(at, mixture, o.lambda);
+    const ModeMixture here = mixture(at, o.B);
+    const LawPoint p = point(at, here, o.lambda);
     const double now = p.traction / o.lambda;
     if (depends_on_mode() ? now < kept : o.lambda > before.reached) {
       S = now;
-      secant_by_separation = (p.slope - S) / (o.lambda * o.lambda) * o.worked;
-      if (depends_on_mode()) secant_by_separation += secant_by_mode(at, mixture, p, o.lambda) * o.B_by_separation();
-      const double from = depends_on_mode() ? separation_at_secant(at, mixture, kept, o.lambda) : before.reached;
+      slope = (p.slope - S) / (o.lambda * o.lambda) * o.measured;
+      if (depends_on_mode()) slope += secant_by_mode(at, here, p, o.lambda) * o.B_slope();
+      // Turned with the body: only the length of the slip counts.
+      const Opening from(*this, o.n, before.opening * o.n + before.shear.norm() * o.n.unitOrthogonal());
+      const Loss loss =
+          depends_on_mode() ? lost_by_mode(at, from, o, kept, p, slope) : lost(at, from, o, before.reached, p, slope);
       response.history.reached = depends_on_mode() ? 1.0 - S / at.stiffness : o.lambda;
-      response.history.dissipated += dissipated(at, mixture, o.lambda) - dissipated(at, mixture, from);
+      response.history.dissipated += loss.energy;
+      response.dissipation_slope = loss.slope;
     }
   }
-  response.traction = S * o.worked;
-  response.secant = S * o.along;
-  response.tangent = response.secant + o.worked * secant_by_separation.transpose();
-  response.stored = 0.5 * S * o.lambda * o.lambda;
-  response.dissipation_slope = -0.5 * o.lambda * o.lambda * secant_by_separation;
+  return {.secant = S * o.along,
+          .secant_change = o.pulled * slope.transpose(),
+          .traction = S * o.pulled,
+          .shear = o.k * S,
+          .shear_slope = o.k * slope};
 }
 
-// Friction on the broken part D = 1 - S/K of a closed face, or none of it on an open one.
-void InterfaceLaw::rub(double K, const Opening& o, const InterfaceHistory& before, double secant_before,
-                       const Vector& secant_by_separation, InterfaceResponse& response) const {
+InterfaceLaw::Pull InterfaceLaw::pull_by_potential(const InterfaceStrength& at, const Opening& o,
+                                                   const InterfaceHistory& before, InterfaceResponse& response) const {
+  const XuNeedleman potential = potential_of(at);
+  const double sheared = o.shear.norm();
+  const XuNeedlemanStep step{.x_kept = before.reached,
+                             .y_kept = before.reached_in_shear,
+                             .x_start = std::max(0.0, before.opening) / potential.length_n,
+                             .y_start = before.shear.norm() / potential.length_s,
+                             .x = o.opened() / potential.length_n,
+                             .y = sheared / potential.length_s};
+  const double x = step.largest_x(), y = step.largest_y();
+  const Vector none = Vector::Zero();
+  const Vector x_slope = o.normal > 0.0 ? Vector(o.n / potential.length_n) : none;
+  const Vector y_slope = sheared > 0.0 ? Vector(o.shear / (sheared * potential.length_s)) : none;
+  const Vector x_grows = step.x > step.x_kept ? x_slope : none, y_grows = step.y > step.y_kept ? y_slope : none;
+  const XuNeedlemanLoss loss = pfdm::dissipated(potential, step);
+  response.history.reached = x;
+  response.history.reached_in_shear = y;
+  response.history.dissipated += loss.energy;
+  response.dissipation_slope = loss.by_x * x_slope + loss.by_y * y_slope;
+  const double S_n = o.is_closed() ? 0.0 : potential.normal_secant(x, y), S_s = potential.shear_secant(x, y);
+  const Vector n_slope = potential.normal_secant_by_x(x, y) * x_grows + potential.normal_secant_by_y(x, y) * y_grows;
+  const Vector s_slope = potential.shear_secant_by_x(x, y) * x_grows + potential.shear_secant_by_y(x, y) * y_grows;
+  const Tensor normal = o.n * o.n.transpose();
+  return {.secant = S_n * normal + S_s * (Tensor::Identity() - normal),
+          .secant_change = o.opened() * o.n * n_slope.transpose() + o.shear * s_slope.transpose(),
+          .traction = S_n * o.opened() * o.n + S_s * o.shear,
+          .shear = S_s,
+          .shear_slope = s_slope};
+}
+
+// Friction on the broken part D = 1 - S_s/K_s of a closed face, or none of it on an open one. Sliding works against the
+// mean of the limits at the step's ends, from where the face closes.
+void InterfaceLaw::rub(const InterfaceStrength& at, const Opening& o, const InterfaceHistory& before, const Pull& own,
+                       InterfaceResponse& response) const {
+  const double K = initial_stiffness(at), k = initial_shear_stiffness(at);
+  const double D_before = std::clamp(1.0 - shear_secant_after(at, before) / k, 0.0, 1.0);
+  const double elastic_before = before.opening < 0.0 ? 0.5 * k * (before.shear - before.slip).squaredNorm() : 0.0;
   if (!o.is_closed()) {
     response.history.slip = o.shear;
     return;
   }
   const Tensor along = Tensor::Identity() - o.n * o.n.transpose();
-  const double k = o.rho * K, limit = -friction * K * o.normal;
-  const double D = std::clamp(1.0 - response.secant.trace() / (2.0 * o.rho) / K, 0.0, 1.0);
-  const double D_before = std::clamp(1.0 - secant_before / K, 0.0, 1.0);
+  const double limit = -friction * K * o.normal, limit_before = std::max(0.0, -friction * K * before.opening);
+  const double D = std::clamp(1.0 - own.shear / k, 0.0, 1.0);
   Vector tau = k * (o.shear - before.slip);
   Tensor tangent = k * along;
   const double trial = tau.norm();
@@ -185,29 +309,37 @@ void InterfaceLaw::rub(double K, const Opening& o, const InterfaceHistory& befor
         limit / trial * k * (along - direction * direction.transpose()) - friction * K * direction * o.n.transpose();
     tau = limit * direction;
     response.history.slip = o.shear - tau / k;
+    const double closed = before.opening > 0.0 ? o.normal / (o.normal - before.opening) : 1.0;  // part of the step
+    response.history.rubbed += closed * mean_of(D_before * limit_before, D * limit) * (trial - limit) / k;
   }
   const double elastic = 0.5 * tau.squaredNorm() / k;
   response.traction += D * tau;
-  response.tangent += D * tangent - tau * secant_by_separation.transpose() / K;
+  response.tangent += D * tangent - tau * own.shear_slope.transpose() / k;
   response.secant += (trial > limit ? limit / trial : 1.0) * D * k * along;
   response.stored += D * elastic;
-  response.history.rubbed += D * tau.dot(response.history.slip - before.slip) - (D - D_before) * elastic;
+  response.history.rubbed -= (D - D_before) * mean_of(elastic_before, elastic);
 }
 
 InterfaceResponse InterfaceLaw::respond(const InterfaceStrength& at, const Vector& n, const Vector& separation,
                                         const InterfaceHistory& before) const {
-  const Opening opening(n, separation, shear_ratio);
+  const Opening o(*this, n, separation);
   InterfaceResponse response{.traction = {}, .tangent = {}, .secant = {}, .history = before};
-  Vector secant_by_separation;
-  pull(at, opening, before, response, secant_by_separation);
+  response.history.opening = o.normal;
+  response.history.shear = o.shear;
+  const Pull own =
+      mixed_mode->is_potential ? pull_by_potential(at, o, before, response) : pull(at, o, before, response);
+  response.traction = own.traction;
+  response.secant = own.secant;
+  response.tangent = own.secant + own.secant_change;
+  response.stored = 0.5 * own.traction.dot(separation);
+  if (friction > 0.0) rub(at, o, before, own, response);
+  if (!o.is_closed()) return response;
   const double K = initial_stiffness(at);
-  if (friction > 0.0) rub(K, opening, before, secant_after(at, before), secant_by_separation, response);
-  if (!opening.is_closed()) return response;
   const Tensor contact = K * n * n.transpose();
   response.traction += contact * separation;
   response.tangent += contact;
   response.secant += contact;
-  response.stored += 0.5 * K * opening.normal * opening.normal;
+  response.stored += 0.5 * K * o.normal * o.normal;
   return response;
 }
 

@@ -96,21 +96,55 @@ Json to_json(const CohesiveResult& result) {
   return json;
 }
 
+/// Null where it varies from place to place.
+Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json to_json(const GivenFigures& given) {
+  return {{"law", given.law},
+          {"mixed_mode", given.mixed_mode},
+          {"strength_Pa", number_or_null(given.strength)},
+          {"toughness_J_per_m2", number_or_null(given.toughness)},
+          {"shear_strength_Pa", number_or_null(given.shear_strength)},
+          {"shear_toughness_J_per_m2", number_or_null(given.shear_toughness)}};
+}
+
+/// Means over the faces of an interface whose law is given: where they open one after the other these follow no law.
+Json mean_to_json(const CohesiveResult& result) {
+  const CohesiveFigures& f = result.figures;
+  return {{"polar_angle_from_deg", degrees(result.law.from)},
+          {"polar_angle_to_deg", degrees(result.law.to)},
+          {"faces", result.law.places.size()},
+          {"area_m2", result.law.area},
+          {"largest_mean_traction_Pa", f.strength},
+          {"mean_separation_there_m", f.critical_separation},
+          {"largest_mean_separation_m", f.final_separation},
+          {"final_mean_traction_Pa", f.final_traction},
+          {"largest_mean_tangential_traction_Pa", f.largest_tangential},
+          {"work_of_tractions_at_least_J_per_m2", f.energy_at_least},
+          {"dissipated_J_per_m2", f.surface_energy}};
+}
+
+Json surface_to_json(const CohesiveReport& report, std::size_t r) {
+  const ColumnRecord& record = report.records[r];
+  Json surface = {{"name", record.name}, {"kind", name_of(record.kind)}, {"law_is_given", record.is_cohesive}};
+  if (r < report.given.size() && report.given[r]) surface["given_law"] = to_json(*report.given[r]);
+  surface["places"] = record.places.size();
+  surface["never_damaged_places"] = n_never_damaged(record);
+  surface["area_m2"] = record.area();
+  surface["debonded_area_m2"] = debonding_of(record).back().area;
+  surface["laws"] = Json::array();
+  if (record.is_cohesive) surface["means_over_faces"] = Json::array();
+  for (const CohesiveResult& result : report.results[r])
+    if (record.is_cohesive)
+      surface["means_over_faces"].push_back(mean_to_json(result));
+    else
+      surface["laws"].push_back(to_json(result));
+  return surface;
+}
+
 Json to_json(const CohesiveReport& report) {
   Json json = {{"case", report.case_name}, {"version", report.version}, {"case_hash", report.case_hash}};
-  for (std::size_t r = 0; r < report.records.size(); ++r) {
-    const ColumnRecord& record = report.records[r];
-    Json surface = {{"name", record.name},
-                    {"kind", name_of(record.kind)},
-                    {"law_is_given", record.is_cohesive},
-                    {"places", record.places.size()},
-                    {"never_damaged_places", n_never_damaged(record)},
-                    {"area_m2", record.area()},
-                    {"debonded_area_m2", debonding_of(record).back().area},
-                    {"laws", Json::array()}};
-    for (const CohesiveResult& result : report.results[r]) surface["laws"].push_back(to_json(result));
-    json["surfaces"].push_back(surface);
-  }
+  for (std::size_t r = 0; r < report.records.size(); ++r) json["surfaces"].push_back(surface_to_json(report, r));
   return json;
 }
 
@@ -144,8 +178,9 @@ std::vector<std::string> surface_remarks(const CohesiveReport& report) {
                                   record.places.size(), sound_damage);
     if (record.is_cohesive)
       lines.back() +=
-          "; faces of a cohesive interface, whose law the case gives: separation and traction of the faces, "
-          "surface_energy_J_per_m2: what they dissipated, largest_damage: that over their toughness";
+          "; faces of a cohesive interface, whose law the case gives: means over faces, which open one after the "
+          "other, "
+          "are no law; surface_energy_J_per_m2: what they dissipated, largest_damage: that over their toughness";
   }
   return lines;
 }

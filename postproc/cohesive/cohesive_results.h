@@ -3,7 +3,8 @@
 //
 //   cohesive_law.csv         the averaged laws, a row for each load step of each law; none for surfaces never damaged
 //   cohesive_law_places.csv  those of every place that was damaged
-//   cohesive.json            figures and fitted analytic laws of the averaged ones
+//   cohesive.json            figures and fitted analytic laws of the averaged ones; of cohesive interfaces the law that
+//                            is given, and figures of the means over its faces, which are no law
 //   debonding.csv            debonded area and angles against the load, a row for each load step of each surface
 
 #include "postproc/cohesive/cohesive_fit.h"
@@ -27,6 +28,13 @@ struct CohesiveResult {
 /// All of a surface's averaged laws; none if it was never damaged.
 std::vector<CohesiveResult> evaluate(const ColumnRecord& record);
 
+/// The law of a cohesive interface, as its case gives it; figures that vary from place to place are left out.
+struct GivenFigures {
+  std::string law, mixed_mode;
+  std::optional<double> strength{}, toughness{};              ///< in opening [Pa], [J/m^2]
+  std::optional<double> shear_strength{}, shear_toughness{};  ///< likewise in shear
+};
+
 struct CohesiveReport {
   std::string case_name;
   std::string case_hash;
@@ -37,6 +45,8 @@ struct CohesiveReport {
   int component = 2;                                 ///< of the curve's force
   /// Of each record the strength in shear that its band has over that in opening, where it is known; empty: of none.
   std::vector<std::optional<double>> shear_ratios{};
+  /// Of each record the law that is given, if there is one; empty: of none.
+  std::vector<std::optional<GivenFigures>> given{};
 };
 
 inline constexpr const char* cohesive_files[] = {"cohesive_law.csv", "cohesive_law_places.csv", "cohesive.json",

@@ -32,11 +32,6 @@ Shape shape_of(const Mesh& mesh, const CohesiveSurface& surface) {
   return {.is_flat = sum.norm() > flat * whole, .outwards = volume < 0.0 ? -1.0 : 1.0};
 }
 
-double toughness_of(const CohesiveSurface& surface, std::size_t k) {
-  const InterfaceStrength& at = surface.at[k];
-  return surface.law.depends_on_mode() ? std::max(at.toughness, at.shear_toughness) : at.toughness;
-}
-
 }  // namespace
 
 ColumnSet face_columns(const Mesh& mesh, const CohesiveSurface& surface, const Vector& axis) {
@@ -71,7 +66,7 @@ std::vector<ColumnSample> sample_faces(const Mesh& mesh, const FractureModel& mo
     };
     samples[k] = {.traction = components(now.traction[i]),
                   .separation = components(now.separation[i]),
-                  .surface_energy = now.damage[i] * toughness_of(surface, k),
+                  .surface_energy = now.dissipated[i],
                   .largest_damage = now.damage[i]};
   }
   return samples;

@@ -17,6 +17,7 @@ std::string figure_line(std::string_view name, const Figure& figure, std::string
 
 ExportedLaw in_units(ExportedLaw law, const UnitSystem& units) {
   law.stiffness.value /= units.stiffness();
+  law.shear_stiffness.value /= units.stiffness();
   law.strength.value /= units.stress;
   law.shear_strength.value /= units.stress;
   law.energy.value /= units.energy();
@@ -35,11 +36,14 @@ std::vector<std::string> export_head(const ExportedLaw& law, const UnitSystem& u
                   "of the lines above: SI",
                   units.name, units.length_name, units.stress_name, units.energy_name, stiffness_unit));
   head.push_back(figure_line("stiffness", law.stiffness, stiffness_unit));
+  head.push_back(figure_line("shear stiffness", law.shear_stiffness, stiffness_unit));
   head.push_back(figure_line("strength", law.strength, units.stress_name));
   head.push_back(figure_line("shear strength", law.shear_strength, units.stress_name));
   head.push_back(figure_line("GI", law.energy, units.energy_name));
   head.push_back(figure_line("GII", law.shear_energy, units.energy_name));
   head.push_back(figure_line("exponent", law.exponent, ""));
+  head.push_back(fmt::format("Modes are mixed by {} ({} of pfdm) unless this file says otherwise below",
+                             name_of(law.mix), law.rule));
   head.push_back(fmt::format(
       "Bilinear law: rise to {:.6g} {}, zero at {:.6g} {}; it has the strength and GI, and not the shape of the {}",
       law.onset(), units.length_name, law.final_separation(), units.length_name, law.origin));

@@ -209,6 +209,20 @@ std::vector<std::string> remarks_of(const CohesiveReport& report, const Candidat
 
 }  // namespace
 
+std::string_view name_of(ModeMix mix) {
+  switch (mix) {
+    case ModeMix::benzeggagh_kenane: return "Benzeggagh and Kenane's rule";
+    case ModeMix::power_law: return "the power law";
+    case ModeMix::one_energy: break;
+  }
+  return "Camacho and Ortiz' rule";
+}
+
+bool ExportedLaw::has_one_stiffness() const {
+  constexpr double rounding = 1e-9;
+  return std::abs(shear_stiffness.value - stiffness.value) <= rounding * stiffness.value;
+}
+
 ExportedLaw law_to_export(const CohesiveReport& report, const ExportChoice& choice) {
   const Candidate chosen = choose(report, choice);
   ExportedLaw law;
@@ -224,6 +238,8 @@ ExportedLaw law_to_export(const CohesiveReport& report, const ExportChoice& choi
                                                   "--shear-energy)"};
   law.exponent = choice.exponent ? Figure{*choice.exponent, "given (--exponent)"}
                                  : Figure{2.0, "assumed; of no effect while GII = GI (else --exponent)"};
+  law.mix = law.shear_energy.value == law.energy.value ? ModeMix::one_energy : ModeMix::benzeggagh_kenane;
+  law.shear_stiffness = shear_stiffness_of(law);
   law.remarks = remarks_of(report, chosen, law.energy.value);
   add_tables(law, whole_curve(chosen.known.states, chosen.extent == Extent::complete, law, compliance));
   return law;

@@ -12,6 +12,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pfdm {
@@ -32,14 +33,24 @@ struct Figure {
   std::string basis{};  ///< what it rests on
 };
 
+/// How a law mixes its modes. b: shear strength over strength; B: the shear's share of the work.
+enum class ModeMix {
+  one_energy,         ///< Camacho and Ortiz': GII = GI, stiffness in shear b^2 K, T_n^2 + (T_s/b)^2 = strength^2
+  benzeggagh_kenane,  ///< GI + (GII - GI) B^exponent, strength^2 likewise
+  power_law           ///< ((1-B)/GI)^exponent + (B/GII)^exponent = Gc^-exponent, (T_n/s_n)^2 + (T_s/s_s)^2 = 1
+};
+
 struct ExportedLaw {
-  std::string surface;                 ///< plain name
-  Figure stiffness;                    ///< K, normal and tangential [Pa/m]
-  Figure strength;                     ///< normal [Pa]
-  Figure shear_strength;               ///< [Pa]
-  Figure energy;                       ///< GI: whole area of the law [J/m^2]
-  Figure shear_energy;                 ///< GII [J/m^2]
-  Figure exponent;                     ///< [-]
+  std::string surface;     ///< plain name
+  Figure stiffness;        ///< K, normal [Pa/m]
+  Figure shear_stiffness;  ///< [Pa/m]
+  Figure strength;         ///< normal [Pa]
+  Figure shear_strength;   ///< [Pa]
+  Figure energy;           ///< GI: whole area of the law [J/m^2]
+  Figure shear_energy;     ///< GII [J/m^2]
+  Figure exponent;         ///< [-]
+  ModeMix mix = ModeMix::one_energy;
+  std::string rule = "camacho_ortiz";  ///< of pfdm, which the mix stands for
   double initiation = 0.0;             ///< traction at which the law leaves K delta: where D begins [Pa]
   std::vector<TractionPoint> curve{};  ///< from (0, 0) to (final separation, 0)
   std::vector<DamagePoint> damage{};   ///< from the initiation to 1
@@ -48,12 +59,19 @@ struct ExportedLaw {
   double damage_error = 0.0;           ///< of D-delta likewise, everywhere: at most
   std::vector<std::string> remarks{};  ///< source, frame, what was seen; SI
 
+  /// Shear strength over strength.
+  double shear_ratio() const { return shear_strength.value / strength.value; }
+  /// Whether all modes have one stiffness, so that an opened interface pulls along its separation.
+  bool has_one_stiffness() const;
   double onset() const { return strength.value / stiffness.value; }                ///< of the bilinear law [m]
   double final_separation() const { return 2.0 * energy.value / strength.value; }  ///< likewise
 };
 
 /// Tables follow the record's states within this share of the strength, each step of the two that make them.
 constexpr double table_tolerance = 1e-3;
+
+/// As the rules are called in the heads of the files: "Benzeggagh and Kenane's rule".
+std::string_view name_of(ModeMix mix);
 
 /// Throws InputError where no law was recorded, none is chosen, or the chosen values make none: a stiffness with which
 /// the rise alone takes more than the energy, a law that is not known to its end without an energy.

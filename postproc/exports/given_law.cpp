@@ -41,21 +41,48 @@ Figure chosen_or(const std::optional<double>& chosen, const char* option, const 
   return chosen ? Figure{*chosen, fmt::format("given ({})", option)} : else_this;
 }
 
+/// The rule of the case, or what comes nearest to it. With one stiffness and a shear toughness of b^2 GI the strengths
+/// and energies mix as by the power law of exponent 1.
+ModeMix mix_of(const MixedMode& rule) {
+  if (rule.name == "benzeggagh_kenane" || rule.is_potential) return ModeMix::benzeggagh_kenane;
+  return rule.name == "camacho_ortiz" ? ModeMix::one_energy : ModeMix::power_law;
+}
+
+Figure exponent_of(const InterfaceLaw& law, const std::string& rule, bool one_energy) {
+  if (law.depends_on_mode()) return {law.exponent, rule};
+  if (law.mixed_mode->keeps_stiffness) return {1.0, rule};
+  return {2.0, one_energy ? std::string("assumed; of no effect while GII = GI (else --exponent)")
+                          : fmt::format("assumed: the case mixes modes by {} (else --exponent)", law.mixed_mode->name)};
+}
+
+/// The strengths and energies of both modes; before the stiffness.
 void add_modes(const GivenLaw& given, const ExportChoice& choice, ExportedLaw& law) {
   const InterfaceLaw& of = given.law;
-  const bool by_mode = of.depends_on_mode();
-  const std::string rule = fmt::format("of the case, {}", of.mixed_mode->name);
+  const MixedMode& mode = *of.mixed_mode;
+  const std::string rule = fmt::format("of the case, {}", mode.name);
+  const double b = of.shear_ratio;
+  law.rule = mode.name;
+  law.mix = mix_of(mode);
   law.shear_strength = chosen_or(choice.shear_strength, "--shear-strength",
-                                 {by_mode ? given.at.shear_strength : of.shear_ratio * given.at.strength, rule});
-  law.shear_energy =
-      chosen_or(choice.shear_energy, "--shear-energy", {by_mode ? given.at.shear_toughness : given.at.toughness, rule});
-  const bool as_here = of.mixed_mode->name == "benzeggagh_kenane";
-  law.exponent =
-      chosen_or(choice.exponent, "--exponent",
-                as_here ? Figure{of.exponent, rule}
-                        : Figure{2.0, law.shear_energy.value == law.energy.value
-                                          ? "assumed; of no effect while GII = GI (else --exponent)"
-                                          : fmt::format("assumed: the case mixes modes by {}", of.mixed_mode->name)});
+                                 {mode.has_shear_strength() ? given.at.shear_strength : b * given.at.strength, rule});
+  law.shear_energy = chosen_or(
+      choice.shear_energy, "--shear-energy",
+      {mode.has_shear_strength() ? given.at.shear_toughness : (mode.keeps_stiffness ? b * b : 1.0) * given.at.toughness,
+       rule});
+  const bool one_energy = law.shear_energy.value == law.energy.value;
+  if (law.mix == ModeMix::one_energy && !one_energy) law.mix = ModeMix::benzeggagh_kenane;
+  law.exponent = chosen_or(choice.exponent, "--exponent", exponent_of(of, rule, one_energy));
+}
+
+/// In shear; after the stiffness.
+void add_shear_stiffness(const GivenLaw& given, ExportedLaw& law) {
+  law.shear_stiffness = shear_stiffness_of(law);
+  if (!given.law.mixed_mode->is_potential) return;
+  const double ratio = given.law.initial_shear_stiffness(given.at) / given.law.initial_stiffness(given.at);
+  law.shear_stiffness = {ratio * law.stiffness.value, "that of the potential over its normal one, times the stiffness"};
+  law.remarks.emplace_back(
+      "Modes: Xu and Needleman's potential has no counterpart; strengths and energies of the two modes are its own, "
+      "between them they are mixed otherwise");
 }
 
 }  // namespace
@@ -73,11 +100,12 @@ ExportedLaw law_to_export(const GivenLaw& given, const ExportChoice& choice) {
   law.origin = "law of the case";
   law.strength = {at.strength, "of the case"};
   law.energy = {at.toughness, "of the case"};
+  add_modes(given, choice, law);
   const double compliance = given.at.stiffness > 0.0 ? 1.0 / given.at.stiffness : own_compliance(states, at.strength);
   law.stiffness = given.at.stiffness > 0.0 && !choice.stiffness ? Figure{given.at.stiffness, "of the case"}
                                                                 : stiffness_of(law, compliance, choice);
-  add_modes(given, choice, law);
   law.remarks = given.remarks;
+  add_shear_stiffness(given, law);
   law.remarks.push_back(fmt::format("Law: {} ({}), modes by {}", given.law.law->name, given.law.law->description,
                                     given.law.mixed_mode->name));
   if (given.law.friction > 0.0)

@@ -40,6 +40,14 @@ Figure stiffness_of(const ExportedLaw& law, double compliance, const ExportChoic
                                    : "rule: 50 strength^2/GI in series with the law's own rise (else --stiffness)"};
 }
 
+Figure shear_stiffness_of(const ExportedLaw& law) {
+  const double b2 = law.shear_ratio() * law.shear_ratio();
+  if (law.mix != ModeMix::one_energy)
+    return {law.stiffness.value, fmt::format("the stiffness: {} has one for all modes", name_of(law.mix))};
+  return {b2 * law.stiffness.value,
+          fmt::format("(shear strength / strength)^2 = {:.4g} times the stiffness, by {}", b2, name_of(law.mix))};
+}
+
 std::vector<TractionPoint> whole_curve(std::span<const TractionPoint> states, bool is_complete, const ExportedLaw& law,
                                        double compliance) {
   const double K = law.stiffness.value, shift = 1.0 / K - compliance;

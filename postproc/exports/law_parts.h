@@ -17,6 +17,9 @@ double own_compliance(std::span<const TractionPoint> states, double strength);
 /// K of a law whose strength and energy are known, by the rule or as chosen. Throws InputError if it is too soft.
 Figure stiffness_of(const ExportedLaw& law, double compliance, const ExportChoice& choice);
 
+/// Stiffness in shear of a law whose strengths, stiffness and mix of the modes are known: b^2 K of one energy, else K.
+Figure shear_stiffness_of(const ExportedLaw& law);
+
 /// The states with the penalty stiffness in series, and to zero traction at their end: at once where the law is known
 /// to its end, else along a line of the energy that is missing.
 std::vector<TractionPoint> whole_curve(std::span<const TractionPoint> states, bool is_complete, const ExportedLaw& law,

@@ -22,7 +22,9 @@ constexpr std::string_view of_stress = "1 -1 -2", of_energy = "1 0 -2";
 std::string solids4foam_input(const ExportedLaw& law, const UnitSystem&) {
   return comment_lines(
              "Into boundaryField of 0/D, one or the other, with type, relaxationFactor and value of your patch. "
-             "Cracks begin rigidly: the stiffness has no place. variableMixedMode keeps strength and energy; "
+             "Cracks begin rigidly: the stiffnesses have no place. Modes: the squares of the tractions over their "
+             "strengths add up to one, and so do the energies over theirs; no other rule has a place. "
+             "variableMixedMode keeps strength and energy; "
              "its traction stays at the strength up to GI/strength (Dugdale). linear (mode I only) softens "
              "linearly to 2 GI/strength.",
              "//") +

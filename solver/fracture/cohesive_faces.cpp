@@ -232,7 +232,8 @@ std::vector<OutputInterface> CohesiveFaces::output(const MomentumOperator& balan
                         .separation = CellField<Vector>(n),
                         .traction = CellField<Vector>(n),
                         .opening = CellField<double>(n),
-                        .damage = CellField<double>(n)};
+                        .damage = CellField<double>(n),
+                        .dissipated = CellField<double>(n)};
     for (Index i = 0; i < static_cast<Index>(n); ++i, ++k) {
       const Face& face = faces_[k];
       const Vector separation = balance.separation(k, state.displacement);
@@ -240,6 +241,7 @@ std::vector<OutputInterface> CohesiveFaces::output(const MomentumOperator& balan
       out.separation[i] = sign * separation;
       const Vector along = normal(face, balance);
       out.opening[i] = along.dot(separation);
+      out.dissipated[i] = state.interfaces[k].dissipated;
       out.damage[i] = law(face).damage(face.at, along, separation, state.interfaces[k]);
       out.traction[i] = sign * law(face).respond(face.at, along, separation, state.interfaces[k]).traction;
     }

@@ -1,5 +1,7 @@
 #include "solver/fracture/combinations.h"
 
+#include "solver/fracture/held_interfaces.h"
+
 #include "physics/error.h"
 
 #include <fmt/format.h>
@@ -56,11 +58,12 @@ void require_path(const Mesh& mesh, const FractureModel& m, const Unknowns& unkn
 // not turned with the body.
 void require_finite_interfaces(const FractureModel& m) {
   for (const CohesiveSurface& surface : m.interfaces) {
-    if (surface.law.shear_ratio != 1.0)
-      throw InputError(
-          fmt::format("materials of finite strain can only be combined with cohesive interfaces whose shear_ratio is "
-                      "1; that of \"{}\" is {:g}",
-                      surface.name, surface.law.shear_ratio));
+    if (!surface.law.pulls_along_separation())
+      throw InputError(fmt::format(
+          "materials of finite strain can only be combined with cohesive interfaces that pull along their separation: "
+          "\"camacho_ortiz\" whose shear_ratio is 1, or another mixed_mode than \"xu_needleman\"; that of \"{}\" is "
+          "\"{}\" with {:g}",
+          surface.name, surface.law.mixed_mode->name, surface.law.shear_ratio));
     if (surface.law.friction > 0.0)
       throw InputError(fmt::format(
           "materials of finite strain cannot be combined with the friction of the interface \"{}\"", surface.name));
@@ -166,6 +169,7 @@ void require_complete(const Mesh& mesh, const FractureModel& model) {
 void require_combination(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
                          const LoadingSettings& loading) {
   require_plain_interfaces(model, loading);
+  require_whole_box(mesh, model, unknowns);
   if (model.viscosity > 0.0 && !(loading.duration > 0.0))
     throw InputError("viscosity (fracture.viscosity) requires loading.duration, the time in which t grows by 1");
   for (const RegionModel& region : model.regions)

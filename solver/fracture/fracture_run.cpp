@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "solver/fracture/combinations.h"
+#include "solver/fracture/held_interfaces.h"
 #include "solver/fracture/residual_stiffness.h"
 #include "solver/fracture/staggered.h"
 #include "solver/fracture/unconverged.h"
@@ -301,7 +302,11 @@ OutputFields FractureRun::output(const FractureState& state) {
   return fields;
 }
 
-std::vector<std::string> FractureRun::interface_warnings() const { return parts_->staggered.faces().warnings(); }
+std::vector<std::string> FractureRun::interface_warnings() const {
+  std::vector<std::string> lines = parts_->staggered.faces().warnings();
+  for (std::string& line : held_interface_warnings(parts_->mesh, parts_->model)) lines.push_back(std::move(line));
+  return lines;
+}
 
 const FractureModel& FractureRun::model() const { return parts_->model; }
 

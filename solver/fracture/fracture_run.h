@@ -36,7 +36,7 @@ class FractureRun {
 
   OutputFields output(const FractureState& state);
   const FractureModel& model() const;
-  std::vector<std::string> interface_warnings() const;  ///< of cells too large for their cohesive laws
+  std::vector<std::string> interface_warnings() const;  ///< of cells too large for their laws; of held sides
   Index n_unknowns() const;                             ///< of displacement
   std::map<std::string, double> cpu_seconds_by_stage() const;
   Index krylov_iterations() const;

@@ -62,6 +62,7 @@ struct OutputInterface {
   CellField<Vector> traction;    ///< on the first side [Pa]
   CellField<double> opening;     ///< along the normal [m]
   CellField<double> damage;      ///< fraction of the toughness that has been dissipated
+  CellField<double> dissipated;  ///< by decohesion [J/m^2]
 };
 
 /// Fields for output at a converged state.

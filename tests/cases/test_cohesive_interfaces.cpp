@@ -40,7 +40,12 @@ TEST(CohesiveInterfaces, RecordsCohesiveInterfaces) {
   const nlohmann::json surface = json_in(glued.results() / "cohesive.json")["surfaces"][0];
   EXPECT_EQ(surface["law_is_given"], true);
   EXPECT_EQ(surface["kind"], "plane");
-  EXPECT_TRUE(surface["laws"][0]["fits"].empty());
+  EXPECT_TRUE(surface["laws"].empty());
+  EXPECT_EQ(surface["given_law"]["law"], "linear");
+  EXPECT_EQ(surface["given_law"]["strength_Pa"], strength);
+  EXPECT_EQ(surface["given_law"]["toughness_J_per_m2"], toughness);
+  EXPECT_EQ(surface["given_law"]["shear_strength_Pa"], strength);
+  EXPECT_NEAR(surface["means_over_faces"][0]["dissipated_J_per_m2"].get<double>(), toughness, 1e-6 * toughness);
   EXPECT_EQ(read_csv(glued.results() / "debonding.csv").column("debonded_area_m2").back(), 1e-6);
 }
 

@@ -209,6 +209,21 @@ TEST(DebondingCase, AndTheLinearOneReplaceEachOther) {
   EXPECT_TRUE(exists("homogenized.json") && exists("mesh.vtu"));
 }
 
+// An interface that ends at a side which is in one piece cannot open there; periodic sides let it.
+TEST(DebondingCase, SaysWhereSidesHoldAnInterface) {
+  const std::string half = replaced(parted_box(), "law = \"linear\"", "law = \"linear\"\nwhere = \"x < 0.0005\"");
+  const auto run_of = [](const std::string& text) {
+    const TemporaryCase directory(replaced(text, "[loading]\n", "[loading]\nend = 0.1\n"));
+    return run({"run", directory.path().string()});
+  };
+  const Outcome held = run_of(replaced(half, "boundary = \"periodic\"", "boundary = \"uniform displacement\""));
+  EXPECT_EQ(held.status, 0) << held.err;
+  EXPECT_THAT(held.out + held.err, HasSubstr("interface \"bond\" ends at a side of the box"));
+  const Outcome periodic = run_of(half);
+  EXPECT_EQ(periodic.status, 0) << periodic.err;
+  EXPECT_THAT(periodic.out + periodic.err, testing::Not(HasSubstr("ends at a side")));
+}
+
 // The two parts of the box are joined by its periodic sides.
 TEST(DebondingCase, ACrackMayGoRightAcrossAPeriodicBox) {
   std::string cracked = parted_box();
@@ -274,6 +289,10 @@ const BadInput bad_inputs[] = {
      "boundary = \"periodic\"",
      "boundary = \"uniform traction\"",
      {"[homogenization] boundary", "needs \"periodic\" or \"uniform displacement\""}},
+    {"parted_and_held",
+     "boundary = \"periodic\"",
+     "boundary = \"uniform displacement\"",
+     {"interface \"bond\" parts the box", "would hold it together", "take \"periodic\""}},
     {"unknown_component", "{ strain_zz = 0.05 }", "{ strain_zx = 0.05 }", {"\"strain_zx\" is not known here"}},
     {"without_unit", "{ strain_zz = 0.05 }", "{ strain_zz = 0.05, stress_xx = 3 }", {"stress_xx", "has no unit"}},
     {"percent_forgotten", "{ strain_zz = 0.05 }", "{ strain_zz = 6 }", {"strain_zz", "write \"6 %\""}},

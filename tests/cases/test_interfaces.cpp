@@ -258,6 +258,19 @@ const BadInput bad_inputs[] = {
      "law = \"linear\"",
      "law = \"xu_needleman\"\nmixed_mode = \"power_law\"",
      {"a law with a straight rise", "xu_needleman"}},
+    {"potential_of_another_law",
+     "law = \"linear\"",
+     "law = \"linear\"\nmixed_mode = \"xu_needleman\"",
+     {"mixed_mode", "potential of the law \"xu_needleman\"", "linear"}},
+    {"potential_without_shear_strength",
+     "law = \"linear\"",
+     "law = \"xu_needleman\"\nmixed_mode = \"xu_needleman\"",
+     {"\"shear_strength\" is missing"}},
+    {"potential_tougher_in_shear",
+     "law = \"linear\"",
+     "law = \"xu_needleman\"\nmixed_mode = \"xu_needleman\"\nshear_strength = \"2 MPa\"\nshear_toughness = \"101 "
+     "J/m^2\"",
+     {"shear_toughness", "more than the toughness in opening, 100 J/m^2"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, BadInterface, testing::ValuesIn(bad_inputs),

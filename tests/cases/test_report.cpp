@@ -100,6 +100,91 @@ TEST(Report, TellsOfAFracture) {
   EXPECT_THAT(row_of(block<Table>(page, "Model and run"), "fracture"), HasSubstr("AT1"));
 }
 
+// A crack that runs along a beam, one face after the other: the mean traction over all faces stays far below the
+// strength. The page draws the law that the case gives, and its faces are on it.
+std::string peeled_beam() {
+  return R"(kind = "fracture"
+title = "a peeled beam"
+[mesh]
+generator = "box_hexes"
+x = [{ length = "12 mm", cells = 48 }]
+y = [{ length = "2 mm", cells = 4 }]
+z = [{ length = "1 mm", cells = 1 }]
+region = "arms"
+[[mesh.slits]]
+name = "slit"
+lower = ["-1 mm", "1 mm", "-1 mm"]
+upper = ["4 mm", "1 mm", "2 mm"]
+[[mesh.patches]]
+name = "upper"
+lower = ["-1 mm", "1 mm", "-1 mm"]
+upper = ["1e-6 mm", "3 mm", "2 mm"]
+[[mesh.patches]]
+name = "lower"
+lower = ["-1 mm", "-1 mm", "-1 mm"]
+upper = ["1e-6 mm", "1 mm", "2 mm"]
+[materials.polymer]
+regions = ["arms"]
+young_modulus = "3 GPa"
+poisson_ratio = 0.3
+damageable = false
+[fracture]
+split = "none"
+[[interface]]
+name = "glue"
+plane = { point = ["0 mm", "1 mm", "0 mm"], normal = [0, 1, 0] }
+law = "linear"
+strength = "20 MPa"
+toughness = "200 J/m^2"
+[[boundary]]
+patch = "upper"
+displacement = ["free", "0.5 mm", "free"]
+[[boundary]]
+patch = "lower"
+displacement = ["free", "-0.5 mm", "free"]
+[[boundary]]
+patch = "xmax"
+displacement = ["0 mm", "0 mm", "free"]
+[[boundary]]
+patches = ["zmin", "zmax"]
+type = "plane"
+[loading]
+initial_increment = 0.025
+maximum_increment = 0.025
+[output]
+curve = { patch = "upper", component = "y" }
+frames_every = 0
+)";
+}
+
+TEST(Report, DrawsTheGivenLawOfAnInterfaceAndTheStatesOfItsFaces) {
+  const TemporaryCase directory(peeled_beam());
+  const Outcome ran = run({"run", directory.path().string(), "--quiet"});
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Chart law = block<Chart>(page_of_fracture(directory), "Given law of \"glue\"");
+  EXPECT_EQ(law.x.title, "equivalent separation [µm]");
+  EXPECT_EQ(law.y.title, "equivalent traction [MPa]");
+  ASSERT_EQ(law.series.size(), 2u);
+  const Series &faces = law.series[0], &given = law.series[1];
+  EXPECT_EQ(given.label, "given: linear, 20\u00a0MPa, 200 J/m²");
+  EXPECT_NEAR(*std::ranges::max_element(given.y), 20.0, 1e-3);
+  EXPECT_GT(given.x.back(), 20.0);  // 2 G/strength
+  ASSERT_GT(faces.x.size(), 40u);
+  std::size_t softened = 0;
+  for (std::size_t i = 0; i < faces.x.size(); ++i) {  // on the line to 20 um, or on the way back to the origin
+    EXPECT_LE(faces.y[i], 20.0 * std::max(0.0, 1.0 - faces.x[i] / 20.0) + 0.05) << faces.x[i];
+    softened += faces.x[i] > 1.0 && faces.y[i] > 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(softened, 5u);
+  const std::string json = content_of(directory.results() / "cohesive.json");
+  const std::size_t first = json.find("strength_Pa");
+  EXPECT_EQ(std::stod(json.substr(first + 14)), 20e6) << json.substr(first, 40);
+  EXPECT_THAT(json, HasSubstr("\"toughness_J_per_m2\": 200.0"));
+  const std::size_t mean = json.find("largest_mean_traction_Pa");
+  ASSERT_NE(mean, std::string::npos);
+  EXPECT_LT(std::stod(json.substr(mean + 27)), 10e6);
+}
+
 TEST(Report, RefusesACurveWithoutRows) {
   const TemporaryCase directory(bar_case());
   ASSERT_EQ(run({"run", directory.path().string()}).status, 0);

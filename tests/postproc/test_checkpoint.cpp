@@ -29,7 +29,13 @@ FractureState awkward_state() {
   s.histories.gradient(1) = Tensor::Constant(0.1);
   s.histories.of(1)[1] = std::nextafter(1.0, 0.0);
   s.histories.of(2)[0] = -0.0;
-  s.interfaces = {{.reached = 0.1, .dissipated = 1.0 / 3.0, .rubbed = -0.0, .slip = Vector(1e-9, -0.0, 3.0)}};
+  s.interfaces = {{.reached = 0.1,
+                   .reached_in_shear = 0.7,
+                   .dissipated = 1.0 / 3.0,
+                   .rubbed = -0.0,
+                   .slip = Vector(1e-9, -0.0, 3.0),
+                   .opening = -0.0,
+                   .shear = Vector(0.0, 1e-310, -2.0)}};
   s.boundary_force = {Vector(1, 2, 3), Vector(4, 5, 6)};
   s.energy = {std::exp(2.0), std::exp(0.5), std::exp(1.0), std::exp(-1.0), std::exp(-2.0)};
   return s;
@@ -105,8 +111,8 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr("another case"));
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
-  other[8] = 9;
-  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 9; this program reads format 8"));
+  other[8] = 10;
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 10; this program reads format 9"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
   EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));

@@ -95,7 +95,10 @@ TEST(GivenLaws, HaveTheModesOfTheirRule) {
   EXPECT_EQ(law.shear_energy.value, 50.0);
   EXPECT_EQ(law.exponent.value, 3.0);
   given.law.mixed_mode = &named(mixed_modes(), "power_law");
-  EXPECT_THAT(law_to_export(given, {}).exponent.basis, testing::HasSubstr("the case mixes modes by power_law"));
+  EXPECT_EQ(law_to_export(given, {}).exponent.value, 1.7);
+  EXPECT_EQ(law_to_export(given, {}).mix, ModeMix::power_law);
+  EXPECT_THAT(export_text(formats_named({"moose"}).front(), law_to_export(given, {}), unit_system("SI")),
+              testing::HasSubstr("mixed_mode_criterion = POWER_LAW\n"));
 }
 
 void expect_refusal(const ExportChoice& choice, const std::string& message) {

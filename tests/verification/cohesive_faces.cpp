@@ -339,7 +339,8 @@ TEST_P(MixedPath, IsTheLaws) {
               1e-10 * toughness * edge * edge);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, MixedPath, testing::Values("camacho_ortiz", "benzeggagh_kenane", "power_law"),
+INSTANTIATE_TEST_SUITE_P(Rules, MixedPath,
+                         testing::Values("camacho_ortiz", "equal_stiffness", "benzeggagh_kenane", "power_law"),
                          [](const auto& test) { return std::string(test.param); });
 
 }  // namespace

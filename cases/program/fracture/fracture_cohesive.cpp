@@ -1,6 +1,7 @@
 #include "cases/program/fracture/fracture_cohesive.h"
 
 #include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/interface_chart.h"
 #include "cases/program/fracture/law_source.h"
 #include "cases/program/input/units.h"
 #include "physics/angle.h"
@@ -192,6 +193,9 @@ void write_cohesive_laws(const FractureCase& fracture, const CaseFile& file, con
   for (const ColumnRecord& record : report.records) {
     report.results.push_back(evaluate(record));
     report.shear_ratios.push_back(shear_ratio_of(fracture, record));
+    const auto given = std::ranges::find(fracture.interfaces, record.name, &InterfaceSettings::name);
+    report.given.push_back(
+        record.is_cohesive && given != fracture.interfaces.end() ? std::optional(given_figures(*given)) : std::nullopt);
   }
   write_cohesive_results(session.results, report);
   for (std::size_t r = 0; r < report.records.size(); ++r) {

@@ -5,6 +5,7 @@
 #include "cases/program/fracture/fracture_pictures.h"
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/fracture/fracture_side_by_side.h"
+#include "cases/program/fracture/interface_chart.h"
 #include "cases/program/fracture/mean_curve.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/angle.h"
@@ -301,6 +302,14 @@ Chart law_chart(const ColumnRecord& record) {
   return chart;
 }
 
+/// Of the first surface: the law that was extracted, or the given one of an interface beside what its faces did.
+Chart first_law_chart(const FractureStory& story) {
+  const ColumnRecord& record = story.records.front();
+  const auto& interfaces = story.fracture.interfaces;
+  const auto given = std::ranges::find(interfaces, record.name, &InterfaceSettings::name);
+  return record.is_cohesive && given != interfaces.end() ? interface_chart(*given, record) : law_chart(record);
+}
+
 /// Tables, pictures and charts of a run.
 std::vector<PageRow> run_rows(const FractureStory& story, const std::filesystem::path& results) {
   std::vector<PageRow> rows;
@@ -310,7 +319,7 @@ std::vector<PageRow> run_rows(const FractureStory& story, const std::filesystem:
   for (PageBlock& picture : interface_pictures(story.curve, results)) blocks.push_back(std::move(picture));
   blocks.emplace_back(story.fracture.box ? mean_chart(story, results) : force_chart(story));
   blocks.emplace_back(energy_chart(story));
-  if (has_law(story.records)) blocks.emplace_back(law_chart(story.records.front()));
+  if (has_law(story.records)) blocks.emplace_back(first_law_chart(story));
   blocks.emplace_back(iterations_chart(story));
   if (story.experiment)
     for (PageBlock& chart : side_by_side_charts(*story.experiment, story.curve, story.records))

@@ -101,15 +101,18 @@ void read_modes(const ConfigTable& table, InterfaceSettings& settings) {
   const auto mode = table.find("mixed_mode");
   law.mixed_mode = mode ? &choose(*mode, mixed_modes(), "mixed mode") : &mixed_modes().front();
   law.friction = table.number("friction", range::not_negative, 0.0);
-  if (!law.depends_on_mode()) {
+  if (!law.mixed_mode->suits(*law.law))
+    throw mode->error(
+        law.mixed_mode->is_potential
+            ? fmt::format("it is the potential of the law \"xu_needleman\"; the law here is \"{}\"", law.law->name)
+            : fmt::format("it needs a law with a straight rise; \"{}\" has none", law.law->name));
+  if (!law.mixed_mode->has_shear_strength()) {
     law.shear_ratio = table.number("shear_ratio", range::positive, 1.0);
     return;
   }
-  if (!law.law->has_rise())
-    throw mode->error(fmt::format("it needs a law with a straight rise; \"{}\" has none", law.law->name));
   settings.shear_strength = read_parameter(table.at("shear_strength"), dimension::stress, range::positive);
   settings.shear_toughness = read_parameter(table.at("shear_toughness"), dimension::toughness, range::positive);
-  law.exponent = table.number("exponent", at_least_one, 1.0);
+  if (law.depends_on_mode()) law.exponent = table.number("exponent", at_least_one, 1.0);
 }
 
 void read_place(const ConfigTable& table, InterfaceSettings& settings) {
@@ -168,6 +171,12 @@ InterfaceStrength strength_at(const InterfaceSettings& settings, const Vector& x
                        .stiffness = settings.stiffness};
   if (settings.shear_strength) at.shear_strength = stronger * settings.shear_strength->at(x);
   if (settings.shear_toughness) at.shear_toughness = tougher * settings.shear_toughness->at(x);
+  constexpr double equal = 1.0 + 1e-12;
+  if (settings.law.mixed_mode->is_potential && at.shear_toughness > equal * at.toughness)
+    throw settings.where.at("shear_toughness")
+        .error(fmt::format("{:.4g} J/m^2 is more than the toughness in opening, {:.4g} J/m^2: by Xu and Needleman's "
+                           "potential a sheared interface would then push its sides apart",
+                           at.shear_toughness, at.toughness));
   return at;
 }
 

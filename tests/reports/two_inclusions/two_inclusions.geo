@@ -1,0 +1,40 @@
+// Two half discs in a plate, one layer of prisms. Lengths in mm. two_inclusions.msh: gmsh -3 two_inclusions.geo (4.8),
+// with its coordinates rounded to 1e-7.
+SetFactory("OpenCASCADE");
+If (!Exists(h)) h = 0.02; EndIf
+Rectangle(1) = {0, 0, 0, 1, 0.5};
+Disk(2) = {0.4, 0, 0, 0.25, 0.25};
+Disk(3) = {0.6, 0.5, 0, 0.25, 0.25};
+inside() = BooleanIntersection{ Surface{2, 3}; Delete; }{ Surface{1}; };
+all() = BooleanFragments{ Surface{1}; Delete; }{ Surface{inside()}; Delete; };
+arcs() = Curve In BoundingBox{0.15 - 1e-4, -1e-4, -1e-4, 0.65 + 1e-4, 0.25 + 1e-4, 1e-4};
+arcs() += Curve In BoundingBox{0.35 - 1e-4, 0.25 - 1e-4, -1e-4, 0.85 + 1e-4, 0.5 + 1e-4, 1e-4};
+Field[1] = Distance;
+Field[1].CurvesList = {arcs()};
+Field[1].NumPointsPerCurve = 200;
+Field[2] = Threshold;
+Field[2].InField = 1;
+Field[2].SizeMin = h;
+Field[2].SizeMax = 3.5 * h;
+Field[2].DistMin = 2 * h;
+Field[2].DistMax = 8 * h;
+Background Field = 2;
+Mesh.MeshSizeExtendFromBoundary = 0;
+Mesh.MeshSizeFromPoints = 0;
+layer[] = Extrude {0, 0, 1} { Surface{:}; Layers{1}; Recombine; };
+e = 1e-4;
+discs() = Volume In BoundingBox{0.15 - e, -e, -e, 0.65 + e, 0.25 + e, 1 + e};
+discs() += Volume In BoundingBox{0.35 - e, 0.25 - e, -e, 0.85 + e, 0.5 + e, 1 + e};
+plate() = Volume{:};
+plate() -= discs();
+Physical Volume("inclusions") = {discs()};
+Physical Volume("matrix") = {plate()};
+left() = Surface In BoundingBox{-e, -e, -e, e, 0.5 + e, 1 + e};
+right() = Surface In BoundingBox{1 - e, -e, -e, 1 + e, 0.5 + e, 1 + e};
+front() = Surface In BoundingBox{-e, -e, -e, 1 + e, 0.5 + e, e};
+back() = Surface In BoundingBox{-e, -e, 1 - e, 1 + e, 0.5 + e, 1 + e};
+Physical Surface("left") = {left()};
+Physical Surface("right") = {right()};
+Physical Surface("front") = {front()};
+Physical Surface("back") = {back()};
+Mesh.MshFileVersion = 2.2;
