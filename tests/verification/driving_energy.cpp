@@ -166,7 +166,7 @@ TEST_P(Splits, DrivingEnergyOfAFrontsCellsIsTheDerivativeOfTheEnergy) {
   EXPECT_LT(ratio.back(), 1.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Front, Splits, ::testing::Values("none", "volumetric_deviatoric", "spectral", "no_tension"),
+INSTANTIATE_TEST_SUITE_P(Front, Splits, ::testing::Values("none", "volumetric_deviatoric", "spectral"),
                          [](const auto& which) { return std::string(which.param); });
 
 }  // namespace
