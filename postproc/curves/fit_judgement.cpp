@@ -140,6 +140,7 @@ void withhold_intervals(FitFindings& found) {
   found.correlated.clear();
   for (FittedParameter& p : found.parameters) {
     p.standard_error = p.lower = p.upper = std::numeric_limits<double>::quiet_NaN();
+    p.widened_by = 1.0;
     p.profile.reset();
   }
 }

@@ -153,8 +153,10 @@ TEST(FitDoubts, SpecimensAreWeightedByTheirOwnScatter) {
   EXPECT_NEAR(p["estimate"].get<double>(), 33e9, 4.0 * p["standard_error"].get<double>());
 }
 
+// The bar that is four times as tough does not break within the record: every descent from there ends at once.
 TEST(FitDoubts, AFirstGuessFourTimesOffIsScreenedByItself) {
-  std::string bar = bar_case();
+  const std::string bar = replaced(replaced(bar_case(), "maximum_increment = 0.1", "maximum_increment = 0.02"),
+                                   "initial_increment = 0.1", "initial_increment = 0.02");
   const TemporaryCase truth(bar);
   ASSERT_EQ(run({"run", truth.path().string(), "--quiet"}).status, 0);
   const CsvTable curve = read_csv(truth.results() / "force_displacement.csv");
@@ -162,13 +164,14 @@ TEST(FitDoubts, AFirstGuessFourTimesOffIsScreenedByItself) {
   data.comments = {"SYNTHETIC, a run"};
   data.add("u_m", curve.column("displacement_m"));
   data.add("F_N", curve.column("force_x_N"));
-  bar = replaced(replaced(bar, "\"100 J/m^2\"", "\"25 J/m^2\""), "\"80 J/m^2\"", "\"20 J/m^2\"");
-  const TemporaryCase directory(bar + experiment(specimen("one")) +
+  const std::string far = replaced(replaced(bar, "\"100 J/m^2\"", "\"400 J/m^2\""), "\"80 J/m^2\"", "\"320 J/m^2\"");
+  const TemporaryCase directory(far + experiment(specimen("one")) +
                                 "\n[fit]\n[[fit.parameters]]\nkey = [\"materials.concrete.toughness\", "
                                 "\"regions.weak.toughness\"]\nbounds = [\"10 J/m^2\", \"500 J/m^2\"]\n");
   write_csv(directory.path() / "one.csv", data);
   const json fit = fitted(directory);
-  EXPECT_NEAR(fit["parameters"][0]["estimate"].get<double>(), 100.0, 2.0);
+  EXPECT_NEAR(fit["parameters"][0]["estimate"].get<double>(), 100.0, 3.0);
+  EXPECT_NE(fit["verdict"], "failed");
 }
 
 // ---- The mesh's error beside the interval

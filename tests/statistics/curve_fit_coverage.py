@@ -99,7 +99,7 @@ class Count:
         print(f"seed {seed}: rms residual {fit['rms_residual']:.4f}, {fit['fracture']['runs']['made']} runs made, "
               f"{fit['verdict']}", flush=True)
         self.verdicts.append(fit["verdict"])
-        if fit["verdict"] != "sound":
+        if not fit["verdict"].startswith("sound"):
             print(f"    {'; '.join(fit['reasons'])}", flush=True)
             return
         for p in fit["parameters"]:

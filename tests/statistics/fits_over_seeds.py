@@ -53,7 +53,7 @@ class Tally:
             return
         self.estimates.append([found[name] for name in self.truth])
         by_name = {p["name"]: p for p in parameters}
-        if verdict == "sound":  # others have no intervals
+        if verdict.startswith("sound"):  # others have no intervals
             self.held.append([by_name[n]["lower"] <= t <= by_name[n]["upper"] for n, t in self.truth.items()])
             self.deviations.append([by_name[n]["standard_error"] for n in self.truth])
         for name, error in (self.errors(found, self.truth) if self.errors else {}).items():
@@ -117,7 +117,7 @@ def repeat(options, tally, write_case, every=20):
                 if options.keep:
                     with options.keep.open("a", encoding="utf-8") as file:
                         file.write(json.dumps({"study": study, **fit}) + "\n")
-            if fit["verdict"] != "sound":
+            if not fit["verdict"].startswith("sound"):
                 print(f"seed {seed}: {fit['verdict']}: {'; '.join(fit['reasons'])}")
             tally.add(fit["verdict"], fit["parameters"], fit["seconds"])
             if number % every == 0 or number == options.number:

@@ -153,8 +153,8 @@ void say(const PlateFit& fit, const FitReport& report, Log& log) {
     const FittedParameter& p = report.found.parameters[j];
     const CaseParameter& in_case = fit.parameters[j].in_case;
     const double unit = in_case.unit_in_si;
-    log.say(
-        fmt::format("  {} = {}, {}", p.name, in_case.shown(p.estimate), interval_text(p.lower / unit, p.upper / unit)));
+    log.say(fmt::format("  {} = {}, {}{}", p.name, in_case.shown(p.estimate),
+                        interval_text(p.lower / unit, p.upper / unit), moved_text(p)));
   }
   for (const ExperimentMisfit& e : report.experiments)
     log.say(fmt::format("rms difference from {}: {:.2f} % of its rms", e.name, 100.0 * e.relative));

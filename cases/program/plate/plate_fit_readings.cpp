@@ -4,7 +4,7 @@
 
 #include "physics/error.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace pfdm {
 namespace {

@@ -13,6 +13,11 @@ std::string interval_text(double lower, double upper, double confidence, int dig
   return fmt::format("{:g} % between {:.{}g} and {:.{}g}", 100.0 * confidence, lower, digits, upper, digits);
 }
 
+std::string moved_text(const FittedParameter& p) {
+  if (!std::isfinite(p.moved_by_finer)) return "";
+  return fmt::format("; finer: {:+.2g} %", 100.0 * p.moved_by_finer / p.estimate);
+}
+
 std::string verdict_text(const FitFindings& found) {
   return fmt::format("{}{}", name_of(found.verdict), is_sound(found.verdict) ? "" : ", no intervals");
 }

@@ -11,6 +11,9 @@ namespace pfdm {
 /// "95 % between 1 and 2", or that there is no interval; values with `digits` significant digits.
 std::string interval_text(double lower, double upper, double confidence = 0.95, int digits = 6);
 
+/// "; finer: +0.21 %" of an estimate that a finer discretisation was tried on, else nothing.
+std::string moved_text(const FittedParameter& p);
+
 /// The verdict, and what it means for the intervals: of tables.
 std::string verdict_text(const FitFindings& found);
 

@@ -18,6 +18,7 @@ namespace {
 
 constexpr double least_change = 0.02;       // of chi^2: an eighth of a standard error is not worth more runs
 constexpr double negligible_misfit = 1e-4;  // of the rms force: what load steps and tolerances leave
+constexpr double most_of_noise = 0.05;      // likewise; correlated residuals above, of no stated noise, are the model's
 
 // Load steps make a curve uneven, and the differences of two curves more so: effects of two parameters that differ by
 // less than this cannot be told apart.
@@ -199,10 +200,12 @@ bool CurveFit::screen(const FitProblem& problem, const FitSettings& settings, do
 }
 
 bool CurveFit::judge_stage(const DoneStage& done, FitFindings& found) {
+  const double misfit = relative_misfit(done.result.residuals, done.points);
   return judge(found, {.series = series_of(done.points, done.result.residuals),
                        .result = &done.result,
+                       .correlated_is_noise = done.points.noise_is_known || misfit < most_of_noise,
                        .negligible = negligible_misfit,
-                       .misfit = relative_misfit(done.result.residuals, done.points),
+                       .misfit = misfit,
                        .finer = on_finer_model(done)});
 }
 

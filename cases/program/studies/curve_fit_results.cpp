@@ -95,9 +95,9 @@ void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& p
                       *whole.first_rms));
   for (const FittedParameter& found : whole.parameters) {
     const CaseParameter& p = *std::ranges::find(parameters, found.name, &CaseParameter::name);
-    log.say(fmt::format("  {} = {:.5g} {}, {}{}, first guess {:.5g}", p.name, p.in_file_units(found.estimate), p.unit,
+    log.say(fmt::format("  {} = {:.5g} {}, {}{}{}, first guess {:.5g}", p.name, p.in_file_units(found.estimate), p.unit,
                         interval_text(p.in_file_units(found.lower), p.in_file_units(found.upper), 0.95, 5),
-                        profile_text(p, found), p.in_file_units(found.first_guess)));
+                        profile_text(p, found), moved_text(found), p.in_file_units(found.first_guess)));
   }
   for (std::size_t j = 0; j < whole.parameters.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)
