@@ -20,7 +20,7 @@ namespace pfdm {
 namespace {
 
 constexpr int time_response = 1;       // function type
-constexpr int acceleration = 12;       // specific data type
+constexpr int acceleration_data = 12;  // specific data type
 constexpr int lines_before_data = 11;  // of dataset 58
 
 /// Records 7 and 12: what the data values are.
@@ -148,7 +148,7 @@ class UffReader {
     const std::string_view ordinate = next_line("record 9");
     f.label = unless_none(field(ordinate, 26, 20));
     f.unit = unit_of(field(ordinate, 47, 20));
-    f.was_in_g = parse_int(field(ordinate, 0, 10)) == acceleration && (f.unit == "g" || f.unit == "G");
+    f.was_in_g = parse_int(field(ordinate, 0, 10)) == acceleration_data && (f.unit == "g" || f.unit == "G");
     if (f.was_in_g) f.unit = "g0";
     next_line("record 10");
     next_line("record 11");

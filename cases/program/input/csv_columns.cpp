@@ -95,7 +95,9 @@ std::vector<double> read_times(const ConfigTable& table, const CsvTable& file) {
   });
   const double factor = unit_of_column(table, "time_unit", file, column, dimension::time);
   std::vector<double> times = file.columns[column];
-  for (double& t : times) t *= factor;
+  const auto first = std::ranges::find_if(times, [](double t) { return !std::isnan(t); });
+  const double begin = first == times.end() ? 0.0 : *first;
+  for (double& t : times) t = factor * (t - begin);
   return times;
 }
 

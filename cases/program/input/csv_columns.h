@@ -29,7 +29,7 @@ void leave_out_gaps(const ConfigTable& table, std::span<std::vector<double>* con
 /// case gives them.
 CsvTable read_csv_of(const ConfigTable& table, const std::filesystem::path& case_directory);
 
-/// Times as the file has them [s]: column "time" (time_s) in "time_unit" (s); NaN where an entry is empty.
+/// Times since the first that the file has [s]: column "time" (time_s) in "time_unit" (s); NaN where an entry is empty.
 std::vector<double> read_times(const ConfigTable& table, const CsvTable& file);
 
 /// Times from 0 on. Throws InputError if they do not rise, or are fewer than two.
