@@ -32,7 +32,8 @@ set(rooms
     "postproc/records: physics postproc/files"
     "cases/program/input: physics postproc/files"
     "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page cases/program/input"
-    "cases/program/studies: physics solver/calibration postproc/files postproc/curves cases/program/input cases/program/session"
+    "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/page cases/program/input
+     cases/program/session"
     "cases/program/chain: physics postproc/files postproc/page cases/program/input cases/program/session"
     "cases/program/point: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
      cases/program/session"
