@@ -34,7 +34,7 @@ set(rooms
     "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page cases/program/input"
     "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/page cases/program/input
      cases/program/session"
-    "cases/program/chain: physics postproc/files postproc/page cases/program/input cases/program/session"
+    "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
     "cases/program/point: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
      cases/program/session"
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/vibration postproc/page postproc/records
