@@ -3,6 +3,7 @@
 #include "physics/error.h"
 #include "solver/fracture/combinations.h"
 #include "solver/fracture/residual_stiffness.h"
+#include "solver/fracture/spread_damage.h"
 #include "solver/fracture/staggered.h"
 #include "solver/momentum/rigid_motion.h"
 #include "solver/parallel.h"
@@ -41,6 +42,7 @@ struct FractureRun::Parts {
   Staggered staggered;
   Index maximum_iterations;
   ResidualStiffness residual_stiffness;
+  SpreadDamage spread_damage;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
   Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& settings, LoadingSettings l)
@@ -159,10 +161,13 @@ struct FractureRun::Parts {
     for (const EnergyEntry& entry : energy_entries)
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
     next.increment = next_increment(planned, outcome);
+    const bool follows_path = std::isfinite(loading.maximum_dissipation);
+    const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
     state = std::move(next);
-    const std::string remark = residual_stiffness.remark(
+    const std::string residual = residual_stiffness.remark(
         outcome.share, std::max(outcome.starting_energy, state.energy.external_work), state.load);
-    if (!remark.empty()) remarks.push_back(remark);
+    for (const std::string& remark : {unstable, residual})
+      if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);
     result.remarks = std::move(remarks);
     return result;
