@@ -163,6 +163,22 @@ double DamageEquation::fracture_energy(const CellField<double>& d) const {
   return local + parallel_sum(static_cast<Index>(flux_.links().size()), [&](Index i) { return flux_.energy(i, d); });
 }
 
+double DamageEquation::unevenness(const CellField<double>& d) const {
+  const double gradient =
+      parallel_sum(static_cast<Index>(flux_.links().size()), [&](Index i) { return flux_.energy(i, d); });
+  const double square =
+      parallel_sum(mesh_.n_cells(), [&](Index c) { return mesh_.cell_volume[c] * density_[c] * d[c] * d[c]; });
+  return square > 0.0 ? gradient / square : 0.0;
+}
+
+// d(sigma)/d(eps) of sigma = g E eps with the damage that minimises g psi + w, psi = E eps^2/2, is negative.
+bool DamageEquation::softens(Index cell, double d, double psi_plus) const {
+  const Degradation& degradation = model_.degradation_of(model_.in_cell(mesh_, cell));
+  const double slope = degradation.g_prime(d);
+  const double curvature = density_[cell] * model_.crack->alpha_second(d) + degradation.g_second(d) * psi_plus;
+  return is_damageable(cell) && 2.0 * slope * slope * psi_plus > degradation.g(d) * curvature;
+}
+
 CellField<double> DamageEquation::fracture_energy_density(const CellField<double>& d) const {
   CellField<double> energy(as_size(mesh_.n_cells()));
   for (Index c = 0; c < mesh_.n_cells(); ++c) energy[c] = local_energy(c, d[c]);

@@ -36,6 +36,10 @@ class DamageEquation {
   double renewed_fracture_energy(const CellField<double>& d);
   /// The same per cell volume; half of a face's energy belongs to each of its cells [J/m^3].
   CellField<double> fracture_energy_density(const CellField<double>& d) const;
+  /// int ell^2 |grad d|^2 over int d^2, weighted by Gc/(c0 ell): 1 about a crack of AT2, 0 where d is uniform.
+  double unevenness(const CellField<double>& d) const;
+  /// Whether the stress of a uniform body of this cell's material falls while its strain and damage grow, at psi_plus.
+  bool softens(Index cell, double d, double psi_plus) const;
   /// Viscous resistance to changes of the damage from `from` [J/m^3], eta over the time step, from now on.
   void resist_change(double resistance, const CellField<double>& from);
   /// External driving force c [J/m^3], from now on; empty: none.

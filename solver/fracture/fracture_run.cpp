@@ -4,6 +4,7 @@
 #include "solver/fracture/combinations.h"
 #include "solver/fracture/held_interfaces.h"
 #include "solver/fracture/residual_stiffness.h"
+#include "solver/fracture/spread_damage.h"
 #include "solver/fracture/staggered.h"
 #include "solver/fracture/unconverged.h"
 #include "solver/momentum/rigid_motion.h"
@@ -43,6 +44,7 @@ struct FractureRun::Parts {
   Staggered staggered;
   StaggeredSettings settings;
   ResidualStiffness residual_stiffness;
+  SpreadDamage spread_damage;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
   Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& given, LoadingSettings l)
@@ -181,10 +183,13 @@ struct FractureRun::Parts {
     for (const EnergyEntry& entry : energy_entries)
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
     next.increment = next_increment(planned, outcome);
+    const bool follows_path = std::isfinite(loading.maximum_dissipation);
+    const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
     state = std::move(next);
-    const std::string remark = residual_stiffness.remark(
+    const std::string residual = residual_stiffness.remark(
         outcome.share, std::max(outcome.starting_energy, state.energy.external_work), state.load);
-    if (!remark.empty()) remarks.push_back(remark);
+    for (const std::string& remark : {unstable, residual})
+      if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);
     result.remarks = std::move(remarks);
     return result;

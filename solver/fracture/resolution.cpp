@@ -159,26 +159,31 @@ std::vector<std::string> CoarseCells::look(const CellField<double>& damage) {
 std::vector<std::string> direction_remarks(const Mesh& mesh, const FractureModel& model) {
   constexpr Index in_a_plane = 4;  // interior faces of a hexahedron with neighbours in two directions
   constexpr double cost = 0.21;    // of an oblique crack over one along a row, times c0 ell/h: AT2, AT1 and Wu
-  std::vector<Index> n_hexahedra(model.regions.size(), 0), n_cells(model.regions.size(), 0);
+  struct Hexahedra {
+    Index n = 0, n_cells = 0;
+    double thickness = 1.0;  // the least, over ell
+  };
+  std::vector<Hexahedra> regions(model.regions.size());
+  const auto is_interior = [&](Index f) { return mesh.is_interior(f); };
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const auto is_interior = [&](Index f) { return mesh.is_interior(f); };
-    ++n_cells[as_size(mesh.region[c])];
-    if (mesh.shape[c] == CellShape::hexahedron &&
-        std::ranges::count_if(mesh.faces_of_cell(c), is_interior) >= in_a_plane)
-      ++n_hexahedra[as_size(mesh.region[c])];
+    Hexahedra& region = regions[as_size(mesh.region[c])];
+    ++region.n_cells;
+    if (!model.in_cell(mesh, c).damageable || mesh.shape[c] != CellShape::hexahedron) continue;
+    if (std::ranges::count_if(mesh.faces_of_cell(c), is_interior) < in_a_plane) continue;
+    ++region.n;
+    region.thickness = std::min(region.thickness, thickness(mesh, c) / model.in_cell(mesh, c).ell);
   }
-  const std::vector<Sizes> sizes = sizes_by_region(mesh, model);
   std::vector<std::string> remarks;
-  for (std::size_t r = 0; r < model.regions.size(); ++r) {
-    if (!model.regions[r].damageable || 2 * n_hexahedra[r] < n_cells[r]) continue;
-    const double h_over_ell = sizes[r].thickness / sizes[r].ell;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    if (2 * regions[r].n < regions[r].n_cells || regions[r].n == 0) continue;
     remarks.push_back(fmt::format(
-        "region \"{}\": cracks oblique to the rows of hexahedra cost up to {:.1f} % more than along them (ell/h = "
-        "{:.2g} where cells are largest), and growing ones keep to the rows: at ell/h = 3 one that ought to turn by "
-        "11, 25, "
-        "35 degrees turns by 0, 8, 29. Where directions are not known beforehand, use smaller cells, prisms or "
-        "tetrahedra ([mesh])",
-        mesh.region_names[r], 100.0 * cost / model.crack->c0 * h_over_ell, 1.0 / h_over_ell));
+        "region \"{}\": cracks oblique to the rows of hexahedra cost up to {:.1f} % more than along them where cells "
+        "are "
+        "smallest (ell/h = {:.2g}), and growing ones keep to the rows: at ell/h = 3 one that ought to turn by 11, 25, "
+        "35 "
+        "degrees turns by 0, 8, 29. Where directions are not known beforehand, use smaller cells, prisms or tetrahedra "
+        "([mesh])",
+        mesh.region_names[r], 100.0 * cost / model.crack->c0 * regions[r].thickness, 1.0 / regions[r].thickness));
   }
   return remarks;
 }

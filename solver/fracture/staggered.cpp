@@ -266,6 +266,24 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
   return loop.outcome;
 }
 
+bool Staggered::has_reduced_energy() const {
+  return !faces_.any() && !stiffness_.finite().any() && !stiffness_.materials().any() && !model_.has_strength() &&
+         !(model_.viscosity > 0.0) && !model_.motion.any() && model_.irreversibility != Irreversibility::history;
+}
+
+double Staggered::reduced_energy(FractureState state) {
+  degrade(state);
+  momentum_.solve(state.load, {.reduction = 0.0, .ceiling = last_tolerance, .floor = last_tolerance},
+                  state.displacement);
+  const CellMechanics mechanics = momentum_.balance().mechanics(
+      state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
+  double energy = damage_.renewed_fracture_energy(state.damage);
+  energy += parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
+  const std::vector<Vector> load = momentum_.balance().load_vector(state.load);
+  for (std::size_t i = 0; i < load.size(); ++i) energy -= load[i].dot(state.displacement[i]);
+  return energy;
+}
+
 double Staggered::work(const FractureState& from, const std::vector<Vector>& force,
                        const std::vector<Vector>& displacement) const {
   double work = 0.0;

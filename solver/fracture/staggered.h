@@ -64,6 +64,14 @@ class Staggered {
   StepOutcome solve_step(const FractureState& start, FractureState& state, const StepLimits& limits = {},
                          const IterationWatch& watch = {});
 
+  /// Elastic and surface energy [J], less the potential of tractions, with the displacements that balance the state's
+  /// damage at its load and the split as it is there. has_reduced_energy: whether there is nothing besides, as cohesive
+  /// faces, histories of materials, finite strain, a viscosity or a strength model.
+  double reduced_energy(FractureState state);
+  bool has_reduced_energy() const;
+
+  const Mesh& mesh() const { return mesh_; }
+  const FractureModel& model() const { return model_; }
   MomentumSolver& momentum() { return momentum_; }
   const MomentumOperator& balance() const { return momentum_.balance(); }
   DamageEquation& damage_equation() { return damage_; }

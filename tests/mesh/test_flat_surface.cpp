@@ -67,6 +67,13 @@ TEST(FlatSurface, EndsAtItsOutline) {
               100.0 * std::numbers::pi * 0.16, 4.0);
 }
 
+// A staircase of cells that meet at faces would take 19 a layer.
+TEST(FlatSurface, TakesCellsThatMeetAtEdgesWhereItIsOblique) {
+  const Mesh mesh = cube();
+  for (const double offset : {0.0, 0.03, -0.02})
+    EXPECT_EQ(cells_on(mesh, disc({0.5 + offset, 0.5, 0.5}, Vector(1.0, -1.0, 0.0), 10.0)).size(), 100U) << offset;
+}
+
 // No two cells that share a face are on two sides of it.
 void expect_cut(const Mesh& mesh, const Vector& point, const Vector& normal) {
   CellField<char> on(as_size(mesh.n_cells()), 0);

@@ -1,6 +1,7 @@
 #include "cases/program/fracture/fracture_case.h"
 
 #include "cases/program/fracture/material_keys.h"
+#include "solver/fracture/toughness_perturbation.h"
 
 #include <fmt/format.h>
 
@@ -71,9 +72,10 @@ void read_delta(const ConfigTable& table, const FractureModel& model, StrengthCh
 }
 
 MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
-  const ConfigTable table = root.table("fracture")
-                                .with_keys({"model", "degradation", "softening", "split", "effective_toughness",
-                                            "irreversibility", "length", "residual_stiffness", "viscosity", "delta"});
+  const ConfigTable table =
+      root.table("fracture")
+          .with_keys({"model", "degradation", "softening", "split", "effective_toughness", "irreversibility", "length",
+                      "residual_stiffness", "viscosity", "delta", "perturbation", "perturbation_seed"});
   MaterialDefaults defaults;
   model.crack = &read_model(table, defaults.strength);
   const auto degrading = table.find("degradation"), split = table.find("split");
@@ -93,6 +95,17 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   if (model.degradation.law().needs_strength)
     defaults.softening = find_law(table, "softening", softening_law("linear"), softening_laws(), "softening law");
   return defaults;
+}
+
+constexpr Range below_half{0.0, 0.5, false, "between 0 and 0.5"};
+
+Perturbation read_perturbation(const ConfigTable& root) {
+  if (!root.has("fracture")) return {};
+  const ConfigTable table = root.table("fracture");
+  if (table.has("perturbation_seed") && !table.has("perturbation"))
+    throw table.at("perturbation_seed").error("this belongs to a perturbation, which is not given");
+  return {.part = table.number("perturbation", below_half, 0.0),
+          .seed = static_cast<std::uint64_t>(table.integer("perturbation_seed", range::seed, 1))};
 }
 
 /// Of bodies in which only interfaces break.
@@ -310,6 +323,7 @@ FractureCase read_body(const ConfigTable& root, const std::filesystem::path& cas
   fracture.mesh = read_mesh_recipe(root.table("mesh"), {case_directory, defaults.ell});
   defaults.bands = fracture.mesh.bands;
   fracture.materials = read_materials(root, defaults);
+  fracture.perturbation = read_perturbation(root);
   fracture.initial_damage = read_initial_damage(root, fracture.model);
   fracture.interfaces = read_interfaces(root, case_directory, fracture.data_files);
   fracture.loading = read_loading(root, fracture.model);
@@ -336,6 +350,7 @@ FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
   for (const TipRegion& region : fracture.output.tips) require_ring(mesh, region);
   FractureModel model = fracture.model;
   place_materials(fracture.materials, mesh, model);
+  if (const Perturbation& by = fracture.perturbation; by.part > 0.0) perturb_toughness(mesh, by.part, by.seed, model);
   place_interfaces(fracture.interfaces, mesh, model);
   if (fracture.initial_damage) model.initial_damage = damage_at_the_start(*fracture.initial_damage, model, mesh);
   if (fracture.box) model.motion = fracture.box->motion(mesh, model);

@@ -12,6 +12,7 @@
 #include "solver/fracture/fracture_model.h"
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,6 +35,12 @@ struct FractureOutput {
   std::vector<TipRegion> tips;           ///< around which the energy release rate is measured
 };
 
+/// Random changes of the cells' toughness, so that a uniform body has a weakest place.
+struct Perturbation {
+  double part = 0.0;  ///< of the toughness; 0: none
+  std::uint64_t seed = 1;
+};
+
 /// A box that is loaded by mean strains or stresses in place of boundary conditions; of kind "homogenize".
 struct BoxCase {
   std::function<BoxMotion(const Mesh& mesh, const FractureModel& model)> motion;
@@ -49,6 +56,7 @@ struct FractureCase {
   std::optional<BoxCase> box;  ///< then there are none of these
   std::vector<InterfaceSettings> interfaces;
   FractureModel model;  ///< what depends on the mesh is filled in by model_on()
+  Perturbation perturbation;
   std::optional<InitialDamage> initial_damage;
   StaggeredSettings staggered;
   LoadingSettings loading;
