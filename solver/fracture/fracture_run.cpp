@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "solver/fracture/combinations.h"
+#include "solver/fracture/finite_stop.h"
 #include "solver/fracture/residual_stiffness.h"
 #include "solver/fracture/staggered.h"
 #include "solver/momentum/rigid_motion.h"
@@ -40,6 +41,7 @@ struct FractureRun::Parts {
   std::vector<Index> sides;  // of a box that moves by its mean strain
   Staggered staggered;
   Index maximum_iterations;
+  double equilibrium_tolerance;
   ResidualStiffness residual_stiffness;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
@@ -51,6 +53,7 @@ struct FractureRun::Parts {
         sides(faces_of_sides(model.motion)),
         staggered(m, model, unknowns, settings),
         maximum_iterations(settings.maximum_iterations),
+        equilibrium_tolerance(settings.equilibrium_tolerance),
         residual_stiffness(model.residual_stiffness) {
     require_combination(mesh, model, unknowns, loading);
     relax_initial_damage();
@@ -116,21 +119,30 @@ struct FractureRun::Parts {
         "cells carries its tractions. {}; a smaller loading.maximum_increment locates the load more exactly",
         held, load,
         falls_back ? "No intact ligament carries load any more"
-                   : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)"));
+        : model.is_finite_strain()
+            ? "Prescribe displacements instead"
+            : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)"));
   }
 
-  [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) const {
-    const std::string advice = outcome.settled
-                                   ? fmt::format(
-                                         "its damage and energies have converged, but the momentum balance could not "
-                                         "be solved to better than {:.2g}; increase solver.equilibrium_tolerance",
-                                         outcome.residual)
-                                   : "more iterations (solver.maximum_iterations) or a smaller "
-                                     "loading.minimum_increment may help; where tractions drive unstable crack growth, "
-                                     "prescribe displacements or use dissipation control (loading.maximum_dissipation)";
+  std::string advice_on(const FractureState& trial, const StepOutcome& outcome) {
+    if (model.is_finite_strain())
+      return finite_stop(mesh, model,
+                         {.equilibrium_tolerance = equilibrium_tolerance, .maximum_iterations = maximum_iterations},
+                         staggered.momentum().balance(), trial.damage, outcome);
+    if (outcome.settled)
+      return fmt::format(
+          "its damage and energies have converged, but the momentum balance could not be solved to better than {:.2g}; "
+          "increase solver.equilibrium_tolerance",
+          outcome.residual);
+    return "more iterations (solver.maximum_iterations) or a smaller loading.minimum_increment may help; where "
+           "tractions drive unstable crack growth, prescribe displacements or use dissipation control "
+           "(loading.maximum_dissipation)";
+  }
+
+  [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) {
     throw NoConvergence(
         fmt::format("step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load): {}",
-                    trial.step, trial.load, loading.minimum_increment, advice));
+                    trial.step, trial.load, loading.minimum_increment, advice_on(trial, outcome)));
   }
 
   Trial attempt(const FractureState& state, double planned, const IterationWatch& watch) {
