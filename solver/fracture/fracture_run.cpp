@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "solver/fracture/combinations.h"
+#include "solver/fracture/finite_stop.h"
 #include "solver/fracture/held_interfaces.h"
 #include "solver/fracture/residual_stiffness.h"
 #include "solver/fracture/spread_damage.h"
@@ -120,7 +121,9 @@ struct FractureRun::Parts {
         "cells carries its tractions. {}; a smaller loading.maximum_increment locates the load more exactly",
         held, load,
         falls_back ? "No intact ligament carries load any more"
-                   : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)"));
+        : model.is_finite_strain()
+            ? "Prescribe displacements instead"
+            : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)"));
   }
 
   bool allows(const FractureModel& other_model, const LoadingSettings& other) const {
@@ -149,12 +152,17 @@ struct FractureRun::Parts {
     return may;
   }
 
-  [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) const {
+  std::string words_on(const FractureState& trial, const StepOutcome& outcome) {
+    if (model.is_finite_strain())
+      return finite_stop(mesh, model, settings, staggered.momentum().balance(), trial.damage, outcome);
+    return what_changes(mesh, settings, outcome) + "; " + what_to_try(settings, outcome, remedies(trial.load));
+  }
+
+  [[noreturn]] void fail_unconverged(const FractureState& trial, const StepOutcome& outcome) {
     throw NoConvergence(
         fmt::format("step {} at load {:.6g} did not converge with the smallest increment ({:.3g} of the load, "
-                    "loading.minimum_increment) in {} iterations: {}; {}",
-                    trial.step, trial.load, loading.minimum_increment, outcome.iterations,
-                    what_changes(mesh, settings, outcome), what_to_try(settings, outcome, remedies(trial.load))));
+                    "loading.minimum_increment) in {} iterations: {}",
+                    trial.step, trial.load, loading.minimum_increment, outcome.iterations, words_on(trial, outcome)));
   }
 
   Trial attempt(const FractureState& state, double planned, const IterationWatch& watch) {
