@@ -99,11 +99,11 @@ struct Gathered {
   std::vector<Value> values;
 };
 
-// Adds up the entries of each aggregate's rows by the aggregate of their column; those that stay within go to `inside`.
+// Adds up the entries of each aggregate's rows by the aggregate of their column; those without one go to `left_out`.
 template <class Value>
 Gathered<Value> gather(const std::vector<Index>& offsets, const std::vector<Index>& columns,
                        const std::vector<Value>& values, const std::vector<Index>& aggregate_of, Index count,
-                       std::vector<Value>* inside) {
+                       std::vector<Value>* left_out) {
   const Members members = members_of(aggregate_of, count);
   Gathered<Value> result;
   std::vector<Index> slot(as_size(count), -1);
@@ -113,11 +113,8 @@ Gathered<Value> gather(const std::vector<Index>& offsets, const std::vector<Inde
       const auto i = as_size(members.rows[as_size(m)]);
       for (Index k = offsets[i]; k < offsets[i + 1]; ++k) {
         const Index to = aggregate_of[as_size(columns[as_size(k)])];
-        if (to < 0) continue;
-        if (to == a) {
-          if (inside != nullptr) (*inside)[as_size(a)] += values[as_size(k)];
-          continue;
-        }
+        if (to < 0 && left_out != nullptr) (*left_out)[as_size(a)] += values[as_size(k)];
+        if (to < 0 || to == a) continue;
         if (slot[as_size(to)] < 0) {
           slot[as_size(to)] = static_cast<Index>(result.columns.size());
           result.columns.push_back(to);
@@ -174,11 +171,16 @@ BlockMatrix compress(const BlockTriplets& triplets, const std::vector<Index>& po
     matrix.columns[slot] = column;
     matrix.blocks[slot] = to_block(value);
   };
+  std::vector<Tensor> row_sum = triplets.diagonal;
   for (const auto& entry : triplets.off_diagonal) {
     const Index row = position_of_node[as_size(entry.row)], column = position_of_node[as_size(entry.column)];
     put(row, column, entry.value);
     put(column, row, entry.value.transpose());
+    row_sum[as_size(entry.row)] += entry.value;
+    row_sum[as_size(entry.column)] += entry.value.transpose();
   }
+  matrix.row_sum.resize(n);
+  for (std::size_t i = 0; i < n; ++i) matrix.row_sum[as_size(position_of_node[i])] = to_block(row_sum[i]);
   invert_diagonal(matrix);
   return matrix;
 }
@@ -190,16 +192,23 @@ Aggregates aggregate(const BlockMatrix& matrix, int n_passes) {
   return stalls ? aggregate(matrix, n_passes, Joining::all_that_hang) : result;
 }
 
+// Within an aggregate the entries cancel: what is left of the diagonal is the rows' sums and the couplings to others.
 BlockMatrix coarsen(const BlockMatrix& matrix, const Aggregates& aggregates) {
   BlockMatrix coarse;
-  coarse.diagonal.resize(as_size(aggregates.count));
-  for (std::size_t i = 0; i < aggregates.of_row.size(); ++i)
-    if (aggregates.of_row[i] >= 0) coarse.diagonal[as_size(aggregates.of_row[i])] += matrix.diagonal[i];
-  auto gathered = gather<Block>(matrix.offsets, matrix.columns, matrix.blocks, aggregates.of_row, aggregates.count,
-                                &coarse.diagonal);
+  std::vector<Block> left_out(as_size(aggregates.count));
+  auto gathered =
+      gather<Block>(matrix.offsets, matrix.columns, matrix.blocks, aggregates.of_row, aggregates.count, &left_out);
   coarse.offsets = std::move(gathered.offsets);
   coarse.columns = std::move(gathered.columns);
   coarse.blocks = std::move(gathered.values);
+  coarse.row_sum.resize(as_size(aggregates.count));
+  for (std::size_t i = 0; i < aggregates.of_row.size(); ++i)
+    if (const Index to = aggregates.of_row[i]; to >= 0) coarse.row_sum[as_size(to)] += matrix.row_sum[i];
+  for (std::size_t i = 0; i < left_out.size(); ++i) coarse.row_sum[i] -= left_out[i];
+  coarse.diagonal = coarse.row_sum;
+  for (Index i = 0; i < aggregates.count; ++i)
+    for (Index k = coarse.offsets[as_size(i)]; k < coarse.offsets[as_size(i) + 1]; ++k)
+      coarse.diagonal[as_size(i)] -= coarse.blocks[as_size(k)];
   invert_diagonal(coarse);
   return coarse;
 }

@@ -17,6 +17,10 @@ struct Block {  // NOLINT(bugprone-reserved-identifier): clang-tidy 14 takes a n
     for (int k = 0; k < 3; ++k) column[k] += b.column[k];
     return *this;
   }
+  Block& operator-=(const Block& b) {
+    for (int k = 0; k < 3; ++k) column[k] -= b.column[k];
+    return *this;
+  }
   Lane operator*(const Lane& x) const { return column[0] * x[0] + column[1] * x[1] + column[2] * x[2]; }
 };
 
@@ -42,13 +46,16 @@ struct BlockTriplets {
   std::vector<Entry> off_diagonal;
 };
 
-/// Compressed rows; the diagonal apart, with its inverse.
+/// Compressed rows; the diagonal apart, with its inverse. What a row adds up to stands apart as well: the stiffness
+/// that holds a part of a body which moves as a whole, and which is lost in the diagonal's rounding if the part is
+/// stiff.
 struct BlockMatrix {
   std::vector<Index> offsets;
   std::vector<Index> columns;
   std::vector<Block> blocks;
   std::vector<Block> diagonal;
   std::vector<Block> inverse_diagonal;
+  std::vector<Block> row_sum;  ///< diagonal and blocks together
 
   Index n_rows() const { return static_cast<Index>(diagonal.size()); }
 };

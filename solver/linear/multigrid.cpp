@@ -70,9 +70,14 @@ void sweep_backward(const BlockMatrix& a, const std::vector<std::vector<Index>>&
     });
 }
 
+// By differences, so that what moves as a whole is not lost in rounding.
 void multiply(const BlockMatrix& a, const std::vector<Lane>& x, std::vector<Lane>& y) {
   parallel_for(a.n_rows(), [&](Index i) {
-    y[as_size(i)] = a.diagonal[as_size(i)] * x[as_size(i)] + off_diagonal_product(a, i, x);
+    const Lane own = x[as_size(i)];
+    Lane sum = a.row_sum[as_size(i)] * own;
+    for (Index k = a.offsets[as_size(i)]; k < a.offsets[as_size(i) + 1]; ++k)
+      sum += a.blocks[as_size(k)] * Lane(x[as_size(a.columns[as_size(k)])] - own);
+    y[as_size(i)] = sum;
   });
 }
 
@@ -133,32 +138,39 @@ void Multigrid::set_up_work_space() {
   factor_coarsest();
 }
 
+// In double precision, with the diagonal as the sum of its parts: of a stiff part that is hardly held, single precision
+// would not know how well.
 void Multigrid::factor_coarsest() {
   const BlockMatrix& last = levels_.back().matrix;
   const Index n = 3 * last.n_rows();
-  std::vector<float> dense(as_size(n) * as_size(n), 0.0F);
-  const auto add_block = [&](Index row, Index column, const Block& block) {
+  std::vector<double> dense(as_size(n) * as_size(n), 0.0);
+  const auto add_block = [&](Index row, Index column, const Tensor& block) {
     for (Index j = 0; j < 3; ++j)
-      for (Index i = 0; i < 3; ++i)
-        dense[as_size(3 * column + j) * as_size(n) + as_size(3 * row + i)] += block.column[j][i];
+      for (Index i = 0; i < 3; ++i) dense[as_size(3 * column + j) * as_size(n) + as_size(3 * row + i)] += block(i, j);
   };
   for (Index i = 0; i < last.n_rows(); ++i) {
-    add_block(i, i, last.diagonal[as_size(i)]);
-    for (Index k = last.offsets[as_size(i)]; k < last.offsets[as_size(i) + 1]; ++k)
-      add_block(i, last.columns[as_size(k)], last.blocks[as_size(k)]);
+    add_block(i, i, to_tensor(last.row_sum[as_size(i)]));
+    for (Index k = last.offsets[as_size(i)]; k < last.offsets[as_size(i) + 1]; ++k) {
+      const Tensor block = to_tensor(last.blocks[as_size(k)]);
+      add_block(i, last.columns[as_size(k)], block);
+      add_block(i, i, -block);
+    }
   }
-  // A part that is hardly held, as the halves of a broken body, is singular to single precision.
-  for (float shift = 1e-6F; !coarsest_.compute(n, dense) && shift < 1.0F; shift *= 10.0F)
-    for (Index i = 0; i < n; ++i) dense[as_size(i) * as_size(n + 1)] *= 1.0F + shift;
+  // Parts of a broken body may not be held at all.
+  for (double shift = 1e-12; !coarsest_.compute(n, dense) && shift < 1.0; shift *= 10.0)
+    for (Index i = 0; i < n; ++i) dense[as_size(i) * as_size(n + 1)] *= 1.0 + shift;
 }
 
 void Multigrid::apply(const std::vector<Lane>& b, std::vector<Lane>& x) { cycle(0, b, x); }
 
 void Multigrid::solve_coarsest(const std::vector<Lane>& b, std::vector<Lane>& x) const {
-  std::vector<float> flat(3 * b.size());
+  std::vector<double> flat(3 * b.size());
   for (std::size_t i = 0; i < b.size(); ++i) std::copy_n(b[i].data(), 3, flat.data() + 3 * i);
   coarsest_.solve(flat);
-  for (std::size_t i = 0; i < b.size(); ++i) x[i] = {flat[3 * i], flat[3 * i + 1], flat[3 * i + 2], 0.0F};
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    std::transform(flat.data() + 3 * i, flat.data() + 3 * i + 3, x[i].data(), [](double v) { return float(v); });
+    x[i][3] = 0.0F;
+  }
 }
 
 void Multigrid::cycle(std::size_t l, const std::vector<Lane>& b, std::vector<Lane>& x) {

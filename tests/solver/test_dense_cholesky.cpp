@@ -14,35 +14,35 @@ namespace pfdm {
 namespace {
 
 // Diagonally dominant, n x n.
-Eigen::MatrixXf sample(Index n) {
-  Eigen::MatrixXf a(n, n);
+Eigen::MatrixXd sample(Index n) {
+  Eigen::MatrixXd a(n, n);
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j)
-      a(i, j) = i == j ? 2.0F * static_cast<float>(n) : std::sin(1.0F + float(i) * float(j));
+      a(i, j) = i == j ? 2.0 * static_cast<double>(n) : std::sin(1.0 + double(i) * double(j));
   return a;
 }
 
-std::vector<float> columns_of(const Eigen::MatrixXf& a) { return {a.data(), a.data() + a.size()}; }
+std::vector<double> columns_of(const Eigen::MatrixXd& a) { return {a.data(), a.data() + a.size()}; }
 
 TEST(DenseCholesky, SolvesAsEigenDoes) {
   for (const Index n : {1, 7, 8, 9, 16, 61}) {
-    const Eigen::MatrixXf a = sample(n);
-    std::vector<float> b(static_cast<std::size_t>(n));
-    for (Index i = 0; i < n; ++i) b[static_cast<std::size_t>(i)] = std::cos(float(i));
-    const Eigen::VectorXf right = a.llt().solve(Eigen::Map<Eigen::VectorXf>(b.data(), n));
+    const Eigen::MatrixXd a = sample(n);
+    std::vector<double> b(static_cast<std::size_t>(n));
+    for (Index i = 0; i < n; ++i) b[static_cast<std::size_t>(i)] = std::cos(double(i));
+    const Eigen::VectorXd right = a.llt().solve(Eigen::Map<Eigen::VectorXd>(b.data(), n));
     DenseCholesky factors;
     ASSERT_TRUE(factors.compute(n, columns_of(a)));
     factors.solve(b);
-    EXPECT_LE((Eigen::Map<Eigen::VectorXf>(b.data(), n) - right).norm(), 1e-5F * right.norm()) << n;
+    EXPECT_LE((Eigen::Map<Eigen::VectorXd>(b.data(), n) - right).norm(), 1e-12 * right.norm()) << n;
   }
 }
 
 TEST(DenseCholesky, RefusesWhatIsNotPositiveDefinite) {
   DenseCholesky factors;
-  Eigen::MatrixXf a = sample(20);
-  a(17, 17) = -1.0F;
+  Eigen::MatrixXd a = sample(20);
+  a(17, 17) = -1.0;
   EXPECT_FALSE(factors.compute(20, columns_of(a)));
-  a(17, 17) = std::nanf("");
+  a(17, 17) = std::nan("");
   EXPECT_FALSE(factors.compute(20, columns_of(a)));
 }
 
