@@ -39,6 +39,7 @@ CellField<Vector> damage_points(const Mesh& mesh, const FractureModel& model) {
       if (!has_opposite_face(mesh, c, n)) continue;
       if (shift.size() == 0) shift = CellField<Vector>(as_size(mesh.n_cells()), Vector::Zero());
       const double to_plane = (mesh.face_centre[f] - mesh.cell_centre[c]).dot(n);
+      if (to_plane > 0.5 * model.in_cell(mesh, c).ell) continue;
       if (shift[c].dot(n) < 0.5 * to_plane) shift[c] += to_plane * n;  // once, if several faces lie in the plane
     }
   }
