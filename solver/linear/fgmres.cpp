@@ -6,21 +6,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace pfdm {
 namespace {
 
-using Single = Eigen::Vector3f;
-
-// The Arnoldi process of one cycle.
+// The Arnoldi process of one cycle, its vectors stored as numbers of type Real.
+template <class Real>
 struct Basis {
+  using Stored = Eigen::Matrix<Real, 3, 1>;
+  using Stretch = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
   explicit Basis(std::size_t n) : work(n), image(n), size(static_cast<Index>(n)) {}
 
-  std::vector<std::vector<Single>> v, z;
+  std::vector<std::vector<Stored>> v, z;
   std::vector<Vector> work, image;
   Index size;
 
-  static void push(std::vector<std::vector<Single>>& to, Index k, std::size_t n) {
+  static void push(std::vector<std::vector<Stored>>& to, Index k, std::size_t n) {
     if (to.size() <= as_size(k)) to.emplace_back(n);
   }
 
@@ -32,9 +35,9 @@ struct Basis {
           Eigen::VectorXd sum = Eigen::VectorXd::Zero(k);
           const Index from = b * block, length = std::min(block, size - from);
           const Eigen::Map<const Eigen::VectorXd> w(image[as_size(from)].data(), 3 * length);
-          const Eigen::VectorXf single = w.cast<float>();
+          const Stretch rounded = w.cast<Real>();
           for (Index j = 0; j < k; ++j)
-            sum[j] = ordered_dot(v[as_size(j)][as_size(from)].data(), single.data(), 3 * length);
+            sum[j] = ordered_dot(v[as_size(j)][as_size(from)].data(), rounded.data(), 3 * length);
           return sum;
         },
         Eigen::VectorXd::Zero(k), blocks_per_task);
@@ -46,7 +49,7 @@ struct Basis {
       const Index from = b * block, length = std::min(block, size - from);
       Eigen::Map<Eigen::VectorXd> w(image[as_size(from)].data(), 3 * length);
       for (Index j = 0; j < h.size(); ++j)
-        w -= h[j] * Eigen::Map<const Eigen::VectorXf>(v[as_size(j)][as_size(from)].data(), 3 * length).cast<double>();
+        w -= h[j] * Eigen::Map<const Stretch>(v[as_size(j)][as_size(from)].data(), 3 * length).template cast<double>();
       return ordered_dot(w.data(), w.data(), 3 * length);
     };
     return parallel_sum((size + block - 1) / block, subtract_block, 0.0, blocks_per_task);
@@ -77,7 +80,9 @@ struct Hessenberg {
   }
 };
 
-double start(const KrylovProblem& problem, const std::vector<Vector>& b, const std::vector<Vector>& x, Basis& basis) {
+template <class Real>
+double start(const KrylovProblem& problem, const std::vector<Vector>& b, const std::vector<Vector>& x,
+             Basis<Real>& basis) {
   problem.apply(x, basis.image);
   parallel_for(basis.size, [&](Index i) {
     basis.image[as_size(i)] = problem.scale[as_size(i)] * (b[as_size(i)] - basis.image[as_size(i)]);
@@ -86,17 +91,18 @@ double start(const KrylovProblem& problem, const std::vector<Vector>& b, const s
 }
 
 // One Arnoldi step; returns h_{k+1,k}.
-double extend(const KrylovProblem& problem, Basis& basis, Index k, Eigen::VectorXd& h) {
+template <class Real>
+double extend(const KrylovProblem& problem, Basis<Real>& basis, Index k, Eigen::VectorXd& h) {
   const auto n = as_size(basis.size);
   parallel_for(basis.size, [&](Index i) {
-    basis.image[as_size(i)] = basis.v[as_size(k)][as_size(i)].cast<double>() / problem.scale[as_size(i)];
+    basis.image[as_size(i)] = basis.v[as_size(k)][as_size(i)].template cast<double>() / problem.scale[as_size(i)];
   });
   problem.precondition(basis.image, basis.work);
-  Basis::push(basis.z, k, n);
+  Basis<Real>::push(basis.z, k, n);
   parallel_for(basis.size, [&](Index i) {
-    Single& z = basis.z[as_size(k)][as_size(i)];
-    z = basis.work[as_size(i)].cast<float>();
-    basis.work[as_size(i)] = z.cast<double>();
+    auto& z = basis.z[as_size(k)][as_size(i)];
+    z = basis.work[as_size(i)].template cast<Real>();
+    basis.work[as_size(i)] = z.template cast<double>();
   });
   problem.apply(basis.work, basis.image);
   const double before = parallel_sum(basis.size, [&](Index i) {
@@ -114,33 +120,31 @@ double extend(const KrylovProblem& problem, Basis& basis, Index k, Eigen::Vector
   return std::sqrt(after);
 }
 
-void normalise(Basis& basis, Index k, double norm) {
-  Basis::push(basis.v, k, as_size(basis.size));
-  parallel_for(basis.size,
-               [&](Index i) { basis.v[as_size(k)][as_size(i)] = (basis.image[as_size(i)] / norm).cast<float>(); });
-}
-
-void add_combination(const Basis& basis, const Hessenberg& hessenberg, Index k, std::vector<Vector>& x) {
-  const Eigen::VectorXd y =
-      hessenberg.R.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(hessenberg.rhs.head(k));
+template <class Real>
+void normalise(Basis<Real>& basis, Index k, double norm) {
+  Basis<Real>::push(basis.v, k, as_size(basis.size));
   parallel_for(basis.size, [&](Index i) {
-    for (Index j = 0; j < k; ++j) x[as_size(i)] += y[j] * basis.z[as_size(j)][as_size(i)].cast<double>();
+    basis.v[as_size(k)][as_size(i)] = (basis.image[as_size(i)] / norm).template cast<Real>();
   });
 }
 
-}  // namespace
-
-double scaled_norm(const std::vector<Vector>& v, const std::vector<double>& scale) {
-  return std::sqrt(parallel_sum(static_cast<Index>(v.size()),
-                                [&](Index i) { return (scale[as_size(i)] * v[as_size(i)]).squaredNorm(); }));
+template <class Real>
+void add_combination(const Basis<Real>& basis, const Hessenberg& hessenberg, Index k, std::vector<Vector>& x) {
+  const Eigen::VectorXd y =
+      hessenberg.R.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(hessenberg.rhs.head(k));
+  parallel_for(basis.size, [&](Index i) {
+    for (Index j = 0; j < k; ++j) x[as_size(i)] += y[j] * basis.z[as_size(j)][as_size(i)].template cast<double>();
+  });
 }
 
-KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector>& b, std::vector<Vector>& x,
-                          const std::function<double(double initial)>& target_of, Index most_iterations) {
+template <class Real>
+KrylovResult solve_with(const KrylovProblem& problem, const std::vector<Vector>& b, std::vector<Vector>& x,
+                        const std::function<double(double initial)>& target_of, Index most_iterations) {
   constexpr double modest_drop = 1e-4;
-  constexpr double greatest_drop = 1e-5;  // of one cycle: a basis in single precision follows no further
+  // Of one cycle: a basis in single precision follows no further.
+  constexpr double greatest_drop = std::is_same_v<Real, float> ? 1e-5 : 1e-10;
   constexpr double stagnation = 0.5;
-  Basis basis(x.size());
+  Basis<Real> basis(x.size());
   KrylovResult result;
   double beta = start(problem, b, x, basis);
   result.initial_residual = result.residual = beta;
@@ -173,6 +177,19 @@ KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector
     stagnates = result.residual <= problem.good_enough && result.residual > stagnation * beta;
     beta = result.residual;
   }
+}
+
+}  // namespace
+
+double scaled_norm(const std::vector<Vector>& v, const std::vector<double>& scale) {
+  return std::sqrt(parallel_sum(static_cast<Index>(v.size()),
+                                [&](Index i) { return (scale[as_size(i)] * v[as_size(i)]).squaredNorm(); }));
+}
+
+KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector>& b, std::vector<Vector>& x,
+                          const std::function<double(double initial)>& target_of, Index most_iterations) {
+  return problem.stores_doubles ? solve_with<double>(problem, b, x, target_of, most_iterations)
+                                : solve_with<float>(problem, b, x, target_of, most_iterations);
 }
 
 }  // namespace pfdm

@@ -1,7 +1,7 @@
 #pragma once
-// Flexible GMRES (Saad, SIAM J. Sci. Comput. 14 (1993) 461) with restarts. The basis is stored in single precision;
-// iterate, operator and the residual at every restart are in double precision, so the reported residual is the true
-// one.
+// Flexible GMRES (Saad, SIAM J. Sci. Comput. 14 (1993) 461) with restarts. The basis is stored in single precision
+// unless told otherwise; iterate, operator and the residual at every restart are in double precision, so the reported
+// residual is the true one.
 
 #include "physics/tensor.h"
 
@@ -27,7 +27,9 @@ struct KrylovProblem {
   /// The norm is that of scale_i r_i.
   std::vector<double> scale;
   Index restart_length = 40;  ///< vectors of a cycle
-  double good_enough = 0.0;   ///< a residual from which on a cycle that does not halve it ends the solution
+  /// The basis in double precision: cycles then follow modes far below the others, as those of slender beams.
+  bool stores_doubles = false;
+  double good_enough = 0.0;  ///< a residual from which on a cycle that does not halve it ends the solution
 };
 
 /// Improves x until the scaled residual of A x = b is at most target(initial residual), in at most `most_iterations`.

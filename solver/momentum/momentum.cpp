@@ -61,6 +61,18 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
   forces_.resize(links_.size() + sides_.size());
   if (pressure_.any()) flux_.resize(forces_.size());
   list_forces_of_cells();
+  cubic_ = CubicFaces(mesh, unknowns, sides_by_turn());
+}
+
+std::vector<CubicFaces::Side> MomentumOperator::sides_by_turn() const {
+  std::vector<CubicFaces::Side> by_turn;
+  by_turn.reserve(2 * links_.size() + sides_.size());
+  for (const Link& link : links_) {
+    by_turn.push_back({.cell = link.P, .face = link.face});
+    by_turn.push_back({.cell = link.N, .face = link.face});
+  }
+  for (const Side& side : sides_) by_turn.push_back({.cell = side.cell, .face = side.face});
+  return by_turn;
 }
 
 void MomentumOperator::add_links() {
@@ -139,6 +151,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
   linear_stress_ = std::move(stress);
   if (has_linear_stress()) condense(linear_stress_);
   gradient_.update(g, part);
+  has_linear_stress() ? cubic_.leave_out() : cubic_.weigh(g);
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     Link& link = links_[as_size(i)];
     const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
@@ -151,7 +164,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
     link.c_t = a_t * link.weight_t;
     link.jump_n = jump_stiffness(link.P, link.N, h_P, h_N, link.c_n);
     link.jump_t = slip_stiffness(link.P, link.N, link.c_n, link.c_t);
-    if (has_relaxed_flat_cells_) link.jump_t *= bending_part(link);
+    if (has_relaxed_flat_cells_ && !(cubic_.fits(link.P) && cubic_.fits(link.N))) link.jump_t *= bending_part(link);
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     Side& side = sides_[as_size(i)];
@@ -185,6 +198,7 @@ void MomentumOperator::reconstruct(const std::vector<Vector>& u) const {
     if (unknowns_.is_axisymmetric())
       gradients_[c] += (r.dot(u[as_size(c)]) / r.dot(mesh_.cell_centre[c])) * across * across.transpose();
   });
+  if (cubic_.any()) cubic_.read(u, gradients_);
   if (pressure_.any()) pressure_.read(u);
 }
 
@@ -203,8 +217,8 @@ void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const
     const Link& link = links_[as_size(i)];
     const Vector stress_P = linear_traction(link.P, link.n, link.d_P, turn_P(as_size(i)));
     const Vector stress_N = linear_traction(link.N, link.n, link.d_N, turn_N(as_size(i)));
-    const Vector u_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
-    const Vector jump = u[as_size(link.N)] + gradients_[link.N] * link.d_N - u_P;
+    const Vector u_P = u[as_size(link.P)] + rise(link.P, link.d_P, turn_P(as_size(i)));
+    const Vector jump = u[as_size(link.N)] + rise(link.N, link.d_N, turn_N(as_size(i))) - u_P;
     if (!flux_.empty()) flux_[as_size(i)] = link_flux(as_size(i), u_P, jump, stress_N - stress_P);
     if (!moved_.empty()) moved_[as_size(i)] = linear_face_displacement(as_size(i), u_P, jump, stress_N - stress_P);
     forces_[as_size(i)] = link.area * (stress_N + weigh(as_size(i), stress_P - stress_N) + pull(as_size(i), jump));
@@ -212,7 +226,8 @@ void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];
-    const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - gradients_[side.cell] * side.d;
+    const Vector gap =
+        u[as_size(side.node)] - u[as_size(side.cell)] - rise(side.cell, side.d, turn_of_side(as_size(i)));
     const Vector stress = linear_traction(side.cell, side.n, side.d, turn_of_side(as_size(i)));
     forces_[as_size(n_links + i)] = side.area * (stress + hold(as_size(i), gap));
     if (!flux_.empty()) flux_[as_size(n_links + i)] = side_flux(side, u[as_size(side.node)]);

@@ -9,6 +9,9 @@
 // series flux remains: a broken cell (g -> 0) disconnects its neighbours. Faces between elastic zones and on the
 // boundary carry u_f itself: each side has t_c = sigma_c n + a_c (u_f - u_c - G_c d_c).
 //
+// Where few layers of hexahedra bend at small strain, sigma_P is that of the mean gradient over the face of a cubic
+// fit, and G_P d_P the rise of that fit (cubic_faces.h), on interface and boundary faces too.
+//
 // Axisymmetric meshes (a sector one cell wide): the gradient also has the hoop strain u_r / r, and the two faces of the
 // sector act on the cell with the hoop stress sigma_phi: -2 sin(half the angle) A sigma_phi along r.
 //
@@ -67,6 +70,7 @@
 #include "solver/linear/block_matrix.h"
 #include "solver/momentum/cell_mechanics.h"
 #include "solver/momentum/cell_pressure.h"
+#include "solver/momentum/cubic_faces.h"
 #include "solver/momentum/finite_law.h"
 #include "solver/momentum/momentum_faces.h"
 #include "solver/momentum/pressed_faces.h"
@@ -90,6 +94,7 @@ class MomentumOperator {
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0,
                   CellField<LinearStress> stress = {});
   /// For bodies of flat cells that bend, as plates in layers of hexahedra; before set_moduli(). See momentum_jump.cpp.
+  /// Cells with cubic faces need none.
   void relax_flat_cells();
   /// A stress by the strain, linearised about the displacements u; being of first degree, it is exact there. The faces
   /// are found from where they were, or `afresh`.
@@ -102,6 +107,8 @@ class MomentumOperator {
   void set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double t,
                   double part = 0.0);
   bool is_finite() const { return finite_.size() > 0; }
+  /// In some cells (cubic_faces.h); at finite strain in none.
+  bool has_cubic_faces() const { return cubic_.any() && !is_finite(); }
   const CellField<Tensor>& deformation() const { return F_; }       ///< F by least squares, at which it is linearised
   const CellField<Tensor>& cofactors() const { return cofactor_; }  ///< likewise
   CellField<double> face_stiffness() const;                         ///< a measure of a h at finite strain [Pa]
@@ -196,6 +203,7 @@ class MomentumOperator {
   void add_links();
   void add_sides();
   void list_forces_of_cells();
+  std::vector<CubicFaces::Side> sides_by_turn() const;
   Vector turned_spring(std::size_t k) const;
   void pull_by_springs(const std::vector<Vector>& u, std::vector<Vector>& out) const;
   // Forces of the displacements, of the initial stresses, and of both, into forces_.
@@ -236,6 +244,10 @@ class MomentumOperator {
   SideLaw side_law(Index cell, const Tensor& strain, const Vector& n) const;
   struct LinkBalance;
   void settle_link(std::size_t i, bool has_faces, const std::vector<Vector>& u);
+  std::size_t turn_at(const SignedForce& on) const {
+    const auto i = as_size(on.force);
+    return i >= links_.size() ? turn_of_side(i - links_.size()) : (on.sign > 0.0 ? turn_P(i) : turn_N(i));
+  }
   // a h, of cells that are not isotropic.
   Tensor acoustic(Index cell, const Vector& n) const;
   Tensor capped_acoustic(Index cell, const Vector& n) const;
@@ -262,21 +274,31 @@ class MomentumOperator {
   void find_pressure_forces(const CellField<double>& tension) const;
   void find_finite_pressure_forces(const CellField<double>& q) const;
   Vector moved_with(Index cell, Index face, const std::vector<Vector>& u) const;
-  Vector normal_stress(Index cell, const Vector& n) const {
-    const Tensor& G = gradients_[cell];
+  Vector normal_stress(Index cell, const Vector& n) const { return normal_stress(cell, gradients_[cell], n); }
+  Vector normal_stress(Index cell, const Tensor& G, const Vector& n) const {
     if (!is_isotropic()) return to_tensor(stiffness_[cell] * to_mandel(symmetric_part(G))) * n;
     if (has_linear_stress()) return to_tensor(linear_stress_[cell].C * to_mandel(symmetric_part(G))) * n;
     const IsotropicElasticity& c = moduli_[cell];
     return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
   }
-  // At the distance d from the cell's centre; only the pressure varies within a cell.
-  Vector normal_stress(Index cell, const Vector& n, const Vector& d) const {
-    return pressure_.any() ? (normal_stress(cell, n) + pressure_.at(cell, d) * n).eval() : normal_stress(cell, n);
+  // On side number `turn`, at the distance d from the cell's centre. Within a cell the pressure varies, and the
+  // gradient where cells fit a cubic.
+  Vector normal_stress(Index cell, const Vector& n, const Vector& d, std::size_t turn) const {
+    Vector stress =
+        cubic_.any() ? normal_stress(cell, gradients_[cell] + cubic_.at(turn).gradient, n) : normal_stress(cell, n);
+    if (pressure_.any()) stress += pressure_.at(cell, d) * n;
+    return stress;
+  }
+  // What the cell's displacement rises by to the centre of side number `turn`.
+  Vector rise(Index cell, const Vector& d, std::size_t turn) const {
+    Vector linear = gradients_[cell] * d;
+    if (cubic_.any()) linear += cubic_.at(turn).rise;
+    return linear;
   }
   // Part of it that varies with the displacements.
   Vector linear_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn) const {
     if (has_law()) return side_laws_[turn].rows * to_mandel(symmetric_part(gradients_[cell]));
-    if (!is_finite()) return normal_stress(cell, n, d);
+    if (!is_finite()) return normal_stress(cell, n, d, turn);
     const FaceTurn& by = face_turns_[turn];
     const Vector t = stresses_[cell] * n + by.turn * (cofactor_change_[cell] * n) + by.swell * volume_rate_[cell];
     return pressure_.any() ? (t + pressure_.at(cell, d) * (cofactor_[cell] * n)).eval() : t;
@@ -320,6 +342,7 @@ class MomentumOperator {
   const Mesh& mesh_;
   const Unknowns& unknowns_;
   Gradient gradient_;
+  mutable CubicFaces cubic_;  // its sides are numbered as face_turns_
   CellField<IsotropicElasticity> moduli_;
   CellField<double> jump_share_;  // lambda_s + 2 mu over lambda + 2 mu, undamaged; 1 except in polyhedra
   CellField<double> liquidity_;   // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is

@@ -43,6 +43,7 @@ void MomentumOperator::set_finite(const FiniteLawAt& law, const CellField<double
       if (jump_share_[link.P] < 1.0 || jump_share_[link.N] < 1.0) jump_turns_.resize(links_.size());
   }
   gradient_.update(g, part);
+  cubic_.leave_out();
   pressure_.weigh(g);
   reconstruct(u);
   parallel_for(mesh_.n_cells(), [&](Index c) {

@@ -42,8 +42,8 @@ Vector MomentumOperator::give(std::size_t i, const Vector& v) const {
 // tensor, (a + b)^-1 b is the transpose of P's weight.
 Vector MomentumOperator::face_displacement(std::size_t i, const std::vector<Vector>& u) const {
   const Link& link = links_[i];
-  const Vector from_P = u[as_size(link.P)] + gradients_[link.P] * link.d_P;
-  const Vector from_N = u[as_size(link.N)] + gradients_[link.N] * link.d_N;
+  const Vector from_P = u[as_size(link.P)] + rise(link.P, link.d_P, turn_P(i));
+  const Vector from_N = u[as_size(link.N)] + rise(link.N, link.d_N, turn_N(i));
   Vector stress_jump =
       linear_traction(link.N, link.n, link.d_N, turn_N(i)) - linear_traction(link.P, link.n, link.d_P, turn_P(i));
   if (has_initial_stress())
@@ -125,13 +125,18 @@ double MomentumOperator::part_energy(Index cell, const Stress& stress_of, const 
   const Tensor mean_stress = stress_of.at_face(strain);
   const Tensor& G = gradients_[cell];
   double varying = 0.0;
+  std::size_t k = cell_offsets_[as_size(cell)];
   for (const Index f : mesh_.faces_of_cell(cell)) {
     if (force_of_face_[as_size(f)] < 0) continue;
+    const std::size_t turn = turn_at(cell_forces_[k++]);
     const Vector area = (mesh_.owner[f] == cell ? 1.0 : -1.0) * mesh_.face_area[f];
     const Vector n = area.normalized(), d = mesh_.face_centre[f] - mesh_.cell_centre[cell];
-    const Vector rise = seen_from(cell, f, u_face, u) - u[as_size(cell)];
-    const Tensor at_face = with_strain_across(cell, G + (rise - G * d) * n.transpose() / bounded_height(d, n));
-    varying += 0.5 * rise.dot((stress_of.at_face(symmetric_part(at_face)) - mean_stress) * area);
+    const Vector move = seen_from(cell, f, u_face, u) - u[as_size(cell)];
+    Tensor in_cell = G;
+    if (cubic_.any()) in_cell += cubic_.at(turn).gradient;
+    const Vector gap = move - rise(cell, d, turn);
+    const Tensor at_face = with_strain_across(cell, in_cell + gap * n.transpose() / bounded_height(d, n));
+    varying += 0.5 * move.dot((stress_of.at_face(symmetric_part(at_face)) - mean_stress) * area);
   }
   const double mean = 0.5 * contract(stress_of.of_cell(strain), strain);
   return std::max(mean + varying / mesh_.cell_volume[cell], stress_of.least(mean));

@@ -87,6 +87,7 @@ class MomentumSolver {
   void add_body_force(std::vector<Vector>& load) const;
   bool renew_preconditioner(const CellField<double>& measure, bool must_be);
   double gradient_lag();
+  Index restart_length() const;
   std::vector<Vector> load_vector(double t) const;
   double reference_norm(double t, const std::vector<Vector>& load);
 

@@ -28,22 +28,26 @@ StiffnessCoupling::StiffnessCoupling(const MomentumOperator& balance, CellField<
     });
   balance.find_gradients(u);
   // Along n; d.n is negative on the side that n leads into.
-  const auto traction = [&](Index cell, const Vector& n, const Vector& d, const Vector& u_f) -> Vector {
+  const auto traction = [&](Index cell, const Vector& n, const Vector& d, const Vector& u_f,
+                            std::size_t turn) -> Vector {
     const IsotropicElasticity& p = part[cell];
-    const Tensor& G = balance.gradients_[cell];
+    Tensor G = balance.gradients_[cell];
+    if (balance.cubic_.any()) G += balance.cubic_.at(turn).gradient;
     const double h = d.dot(n);
     return (p.lambda * G.trace()) * n + p.mu * (G * n + G.transpose() * n) +
-           MomentumOperator::scale(p.constrained_modulus() / h, p.mu / h, n, u_f - u[as_size(cell)] - G * d);
+           MomentumOperator::scale(p.constrained_modulus() / h, p.mu / h, n,
+                                   u_f - u[as_size(cell)] - balance.rise(cell, d, turn));
   };
   parallel_for(static_cast<Index>(tau_P_.size()), [&](Index i) {
     const auto& link = balance.links_[as_size(i)];
     const Vector u_f = balance.face_displacement(as_size(i), u);
-    tau_P_[as_size(i)] = link.area * traction(link.P, link.n, link.d_P, u_f);
-    tau_N_[as_size(i)] = link.area * traction(link.N, link.n, link.d_N, u_f);
+    tau_P_[as_size(i)] = link.area * traction(link.P, link.n, link.d_P, u_f, balance.turn_P(as_size(i)));
+    tau_N_[as_size(i)] = link.area * traction(link.N, link.n, link.d_N, u_f, balance.turn_N(as_size(i)));
   });
   parallel_for(static_cast<Index>(tau_.size()), [&](Index i) {
     const auto& side = balance.sides_[as_size(i)];
-    tau_[as_size(i)] = side.area * traction(side.cell, side.n, side.d, u[as_size(side.node)]);
+    tau_[as_size(i)] =
+        side.area * traction(side.cell, side.n, side.d, u[as_size(side.node)], balance.turn_of_side(as_size(i)));
   });
 }
 

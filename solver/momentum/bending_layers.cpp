@@ -1,0 +1,163 @@
+#include "solver/momentum/bending_layers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+// A pair of opposite faces.
+struct OppositeFaces {
+  std::array<Index, 2> face{-1, -1};
+};
+
+bool touch(const Mesh& mesh, Index f, Index g) {
+  const auto a = mesh.points_of_face(f), b = mesh.points_of_face(g);
+  return std::any_of(a.begin(), a.end(), [&](Index p) { return std::find(b.begin(), b.end(), p) != b.end(); });
+}
+
+// A line of cells through opposite faces. Ends may be free, planes of symmetry, or neither: held, or beside other
+// cells.
+struct LayerLine {
+  double n = 0.0, length = 0.0;
+  int n_mirrors = 0, n_held = 0;
+
+  double times() const { return n_mirrors == 1 ? 2.0 : 1.0; }
+  // Cells between the free surfaces on both sides.
+  bool has_layers() const { return n_held == 0 && n_mirrors < 2; }
+};
+
+class LayerLines {
+ public:
+  LayerLines(const Mesh& mesh, const Unknowns& unknowns)
+      : mesh_(mesh), unknowns_(unknowns), ends_(ends()), pairs_(as_size(mesh.n_cells())) {
+    for (Index c = 0; c < mesh.n_cells(); ++c) {
+      lines_.emplace_back();
+      pairs_[as_size(c)] = pairs_of(c);
+    }
+    for (Index c = 0; c < mesh.n_cells(); ++c)
+      for (int axis = 0; axis < n_axes(c); ++axis)
+        if (lines_[as_size(c)][as_size(axis)].n == 0.0) walk(c, axis);
+  }
+
+  /// Three of a hexahedron, two in a plane mesh; one of a prism, across its triangles.
+  int n_axes(Index cell) const {
+    int n = 0;
+    for (const OppositeFaces& pair : pairs_[as_size(cell)]) n += pair.face[0] >= 0 ? 1 : 0;
+    return n;
+  }
+  const LayerLine& line(Index cell, int axis) const { return lines_[as_size(cell)][as_size(axis)]; }
+  double length(Index cell, int axis) const {
+    const auto& [f, g] = pairs_[as_size(cell)][as_size(axis)].face;
+    return (mesh_.face_centre[g] - mesh_.face_centre[f]).norm();
+  }
+
+ private:
+  using Step = std::pair<Index, int>;
+
+  enum class End : char { free, mirror, held };
+
+  FaceField<End> ends() const {
+    FaceField<End> end(as_size(mesh_.n_faces()), End::free);
+    for (const PatchCondition& on : unknowns_.conditions) {
+      using Kind = BoundaryCondition::Kind;
+      const auto& held = on.condition.displacement_prescribed;
+      const bool is_held = on.condition.kind == Kind::components && held[0] && held[1] && held[2];
+      if (on.condition.kind != Kind::symmetry && !is_held) continue;
+      const End kind = is_held ? End::held : End::mirror;
+      const Patch& patch = mesh_.patches[as_size(on.patch)];
+      for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) end[f] = kind;
+    }
+    return end;
+  }
+
+  // Those within the plane of a plane mesh first, the other one left out.
+  std::array<OppositeFaces, 3> pairs_of(Index cell) const {
+    std::array<OppositeFaces, 3> pairs;
+    std::size_t n = 0;
+    for (const Index f : mesh_.faces_of_cell(cell)) {
+      const Index g = opposite_face(mesh_, cell, f);
+      if (g < f || is_beside_plane(f) || is_beside_plane(g)) continue;
+      if (n < 3) pairs[n++].face = {f, g};
+    }
+    return pairs;
+  }
+  bool is_beside_plane(Index face) const { return !mesh_.is_interior(face) && unknowns_.node_of_face[face] < 0; }
+
+  void walk(Index cell, int axis) {
+    std::vector<Step> steps{{cell, axis}};
+    LayerLine line;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+      const End end = follow(cell, pairs_[as_size(cell)][as_size(axis)].face[side], steps);
+      line.n_mirrors += end == End::mirror ? 1 : 0;
+      line.n_held += end == End::held ? 1 : 0;
+    }
+    for (const auto& [c, a] : steps) {
+      line.n += 1.0;
+      line.length += length(c, a);
+    }
+    for (const auto& [c, a] : steps) lines_[as_size(c)][as_size(a)] = line;
+  }
+
+  // Adds the cells beyond a face.
+  End follow(Index cell, Index face, std::vector<Step>& steps) const {
+    const Index first = cell;
+    while (mesh_.is_interior(face) && !is_split(face)) {
+      cell = mesh_.across(face, cell);
+      if (cell == first) return End::held;
+      const int axis = axis_of(cell, face);
+      if (axis < 0) return End::held;
+      steps.emplace_back(cell, axis);
+      const auto& ends = pairs_[as_size(cell)][as_size(axis)].face;
+      face = ends[0] == face ? ends[1] : ends[0];
+    }
+    return mesh_.is_interior(face) ? End::free : ends_[face];
+  }
+  bool is_split(Index face) const { return unknowns_.neighbour_node.size() > 0 && unknowns_.neighbour_node[face] >= 0; }
+  int axis_of(Index cell, Index face) const {
+    for (int a = 0; a < n_axes(cell); ++a)
+      for (const Index f : pairs_[as_size(cell)][as_size(a)].face)
+        if (f == face) return a;
+    return -1;
+  }
+
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+  FaceField<End> ends_;
+  std::vector<std::array<OppositeFaces, 3>> pairs_;
+  std::vector<std::array<LayerLine, 3>> lines_;
+};
+
+constexpr double least_error = 0.005, least_slenderness = 3.0;
+
+}  // namespace
+
+Index opposite_face(const Mesh& mesh, Index cell, Index face) {
+  const CellShape shape = mesh.shape[cell];
+  if (shape != CellShape::hexahedron && shape != CellShape::wedge) return -1;
+  for (const Index f : mesh.faces_of_cell(cell))
+    if (!touch(mesh, f, face)) return f;
+  return -1;
+}
+
+std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
+  std::vector<char> bends(as_size(mesh.n_cells()), 0);
+  if (unknowns.motion.any() || !unknowns.periodic.empty()) return bends;
+  const LayerLines lines(mesh, unknowns);
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const double nu = unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio();
+    for (int across = 0; across < lines.n_axes(c); ++across)
+      for (int along = 0; along < lines.n_axes(c); ++along) {
+        const LayerLine &layers = lines.line(c, across), &length = lines.line(c, along);
+        const double n = layers.times() * layers.n, thickness = layers.times() * layers.length;
+        if (across == along || !layers.has_layers()) continue;
+        if (length.times() * length.length < least_slenderness * thickness) continue;
+        const BendingLayers at{.n = n, .thickness = thickness, .length = lines.length(c, along)};
+        if (std::max(at.excess(nu), at.lack()) > least_error) bends[as_size(c)] = 1;
+      }
+  }
+  return bends;
+}
+
+}  // namespace pfdm

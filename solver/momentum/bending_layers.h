@@ -1,0 +1,31 @@
+#pragma once
+// Where few layers of cells bend: lines of cells through opposite faces, and what gradients of one ring would make of
+// their bending.
+
+#include "mesh/mesh.h"
+#include "solver/momentum/unknowns.h"
+
+#include <vector>
+
+namespace pfdm {
+
+/// Layers across a body at a cell, and the cell's longest edge along them.
+struct BendingLayers {
+  double n = 0.0;          ///< layers, twice as many where the last one lies on a plane of symmetry
+  double thickness = 0.0;  ///< of all of them [m]
+  double length = 0.0;     ///< of the cell along the layers [m]
+
+  /// Bending stiffness with gradients of one ring over the exact one: 1.5 (1 - nu) (length/thickness)^2 too much, and
+  /// (3 - 2/n)/n^2 too little.
+  double excess(double nu) const { return 1.5 * (1.0 - nu) * length * length / (thickness * thickness); }
+  double lack() const { return n > 1.0 ? (3.0 - 2.0 / n) / (n * n) : 1.0; }
+};
+
+/// The face of a hexahedron opposite to one of its faces, or a prism's other triangle; else -1.
+Index opposite_face(const Mesh& mesh, Index cell, Index face);
+
+/// Per cell, nonzero for hexahedra in bodies at least three times as long as thick whose layers would bend with an
+/// error of more than half a per cent. None in boxes that follow a mean strain.
+std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns);
+
+}  // namespace pfdm
