@@ -109,7 +109,7 @@ TEST(ShippedCases, QuickBeadAtFiniteStrainIsSofter) {
   const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
 
   // The README's table. By small strain 2.20 N at 31.2 um, and proportional to it until the damage counts.
-  EXPECT_NEAR(force[1], 2.140, 0.002);
+  EXPECT_NEAR(force[1], 2.138, 0.002);
   EXPECT_LT(force[1], 0.98 * 2.20);
   EXPECT_GT(force[1], 0.96 * 2.20) << "the first slope is the same";
   for (std::size_t i = 2; i < 6; ++i) {
@@ -129,11 +129,11 @@ TEST(ShippedCases, BeadInRubberDebondsAsItsReadmeSays) {
   ASSERT_EQ(curve.n_rows(), 16u);
   const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
   EXPECT_NEAR(u[10], 200e-6, 1e-9);
-  EXPECT_NEAR(force[10], 0.3242, 1e-4);
-  EXPECT_NEAR(u[14], 257.5e-6, 0.1e-6);
-  EXPECT_NEAR(force[14], 0.399, 1e-3);
-  EXPECT_NEAR(u[15], 259.5e-6, 0.1e-6);
-  EXPECT_NEAR(force[15], 0.369, 2e-3);
+  EXPECT_NEAR(force[10], 0.3257, 1e-4);
+  EXPECT_NEAR(u[14], 252.0e-6, 0.1e-6);
+  EXPECT_NEAR(force[14], 0.394, 1e-3);
+  EXPECT_NEAR(u[15], 254.0e-6, 0.1e-6);
+  EXPECT_NEAR(force[15], 0.364, 2e-3);
   for (std::size_t i = 1; i < 16; ++i) {
     const double kept = curve.column("elastic_energy_J")[i] + curve.column("interface_energy_J")[i] +
                         curve.column("interface_dissipation_J")[i];

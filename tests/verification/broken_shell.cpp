@@ -169,11 +169,12 @@ ShellErrors errors_of(const Shell& shell) {
 
 class BrokenShell : public testing::TestWithParam<std::tuple<Index, double, bool, Cells>> {};
 
-// A third more than are taken; prisms of 1e-6 that are open are the hardest.
-Index most_iterations(Index n_broken, double g, bool closed, bool of_polyhedra) {
-  if (of_polyhedra) return closed ? 155 : 117;
+// A third more than are taken, and what ten meshes that differ by rounding scatter (README.md). Prisms of 1e-6 that are
+// open are the hardest: on some meshes the body within the shell hardly moves as a whole.
+Index most_iterations(double g, bool closed, bool of_polyhedra) {
+  if (of_polyhedra) return closed ? 210 : 117;
   if (closed) return 112;
-  return n_broken == 4 && g < 1e-3 ? 490 : 170;
+  return g < 1e-3 ? 490 : 170;
 }
 
 // A twenty-faced sphere of 1280 triangles is 1 % smaller than round; the stress within the shell, a small one, suffers
@@ -191,7 +192,7 @@ TEST_P(BrokenShell, LoadsTheSphereAsInTheClosedForm) {
   EXPECT_LE(e.shell_strain, of_polyhedra ? 3.5e-2 : 2.5e-2);
   EXPECT_LE(e.stress_beyond, closed ? 2e-3 : (of_polyhedra ? 1.2e-2 : 1.5e-2));
   EXPECT_LE(e.stress_within, closed ? 0.06 : 0.25);
-  EXPECT_LE(e.iterations, most_iterations(n_broken, g, closed, of_polyhedra));
+  EXPECT_LE(e.iterations, most_iterations(g, closed, of_polyhedra));
 }
 
 std::string name_of(const testing::TestParamInfo<BrokenShell::ParamType>& test) {
