@@ -11,7 +11,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using PivotedQr = Eigen::ColPivHouseholderQR<MatrixXd>;
 
-VectorXd least_squares(const MatrixXd& A, const VectorXd& b) { return PivotedQr(A).solve(b); }
+VectorXd least_squares(const MatrixXd& A, const VectorXd& b) {
+  if (A.cols() == 0) return {};  // of which Eigen looks for the largest column
+  return PivotedQr(A).solve(b);
+}
 
 VectorXd scaled_least_squares(const MatrixXd& A, const VectorXd& b) {
   const VectorXd norms = A.colwise().norm().cwiseMax(1e-300);

@@ -66,7 +66,8 @@ void expect_exact(const Mesh& mesh, const LinearCase& exact, const std::vector<B
               {"iterations", solution->equilibrium.iterations}});
   EXPECT_LE(u, most_of_displacement);
   const double nu = exact.material.poisson_ratio();
-  EXPECT_LE(stress, nu > 0.4995 ? 1e-9 : (nu > 0.45 ? 5e-11 : 1e-11));
+  // What a residual of 1e-13 leaves of the pressure, by rounding: up to 1.2e-10, and 1.1e-9 at nu = 0.4999.
+  EXPECT_LE(stress, nu > 0.4995 ? 2e-9 : (nu > 0.45 ? 2e-10 : 1e-11));
   EXPECT_LE(strain, 4e-11);
   EXPECT_LE(reaction_imbalance(mesh, *solution), 2e-11);
   EXPECT_LE(energy_imbalance(mesh, *solution), 2e-11);
