@@ -1,7 +1,7 @@
 #pragma once
-// Elementary functions with the same bits on every processor. The C library has code of its own for processors with FMA,
-// whose results differ in the last bit. These are rounded once from long double, for which there is one code; results
-// agree but for one argument in some thousands, where long double itself has other widths (arm64).
+// Elementary functions with the same bits on every processor. The C library has code of its own for processors with
+// FMA, whose results differ in the last bit. These are rounded once from long double, for which there is one code;
+// results agree but for one argument in some thousands, where long double itself has other widths (arm64).
 
 #include <cmath>
 

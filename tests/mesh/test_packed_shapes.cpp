@@ -134,8 +134,8 @@ TEST(PackedShapes, FillTheirFractionTurnedAndApart) {
 }
 
 // Rounded bodies lose volume to their new triangles, and get it back; two shapes in turn, sizes by distribution,
-// layers outside of which the gap is kept. At a fraction of 0.2 all of 40 seeds pack; at 0.3 it depends on the rounding of
-// the processor whether one does.
+// layers outside of which the gap is kept. At a fraction of 0.2 all of 40 seeds pack; at 0.3 it depends on the rounding
+// of the processor whether one does.
 TEST(PackedShapes, OfTwoShapesAndManySizesHaveLayersToo) {
   PackedSpheresSettings settings = bricks(6, 0.12);
   TriangleSurface egg = unit_icosphere(10);
