@@ -36,10 +36,12 @@ Couplings couplings_of(const BlockMatrix& matrix) {
 
 // Each row with its most strongly coupled free neighbour, if that coupling is not weak against its strongest; rows that
 // find none join the pair of their strongest neighbour, one to a pair, or also all those that hang on this neighbour
-// alone: the smoother is exact for them.
+// alone: the smoother is exact for them. A row whose strongest neighbours are all taken stays alone before it joins one
+// that hardly holds it: an aggregate across a broken layer would tie the bodies on its sides to each other, and the
+// motion of one against the other would be left to the smoother.
 enum class Joining { one_to_a_pair, all_that_hang };
 std::vector<Index> match_pairs(const Couplings& couplings, Joining joining, Index& count) {
-  constexpr float weak = 0.25F;
+  constexpr float weak = 0.25F, hardly = 0.01F;  // of a row's strongest coupling
   constexpr Index none = -1;
   std::vector<Index> pair_of(as_size(couplings.n_rows()), none), size_of_pair;
   const auto strongest_neighbour = [&](Index i, const auto& qualifies) {
@@ -62,10 +64,11 @@ std::vector<Index> match_pairs(const Couplings& couplings, Joining joining, Inde
     }
     const bool hangs =
         joining == Joining::all_that_hang && couplings.offsets[as_size(i) + 1] - couplings.offsets[as_size(i)] == 1;
-    const Index host = strongest_neighbour(i, [&](Index j) {
-                         const Index pair = pair_of[as_size(j)];
-                         return pair != none && (hangs || size_of_pair[as_size(pair)] <= 2);
-                       }).first;
+    const auto [nearest, hold] = strongest_neighbour(i, [&](Index j) {
+      const Index pair = pair_of[as_size(j)];
+      return pair != none && (hangs || size_of_pair[as_size(pair)] <= 2);
+    });
+    const Index host = hold >= hardly * strongest ? nearest : none;
     pair_of[as_size(i)] = host != none ? pair_of[as_size(host)] : static_cast<Index>(size_of_pair.size());
     if (host != none)
       ++size_of_pair[as_size(pair_of[as_size(host)])];

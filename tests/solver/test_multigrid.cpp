@@ -237,6 +237,60 @@ TEST_F(Multigrids, DanglingNodesDoNotStallTheCoarsening) {
   expect_coarsened_with_dangling_nodes(1e-3);  // of a plate that is thick against the width of its cells
 }
 
+// Two grids of rows, numbered at random and joined by a layer a million times weaker than they are.
+struct TwoBodies {
+  BlockTriplets matrix;
+  std::vector<Index> body_of_row;
+};
+
+TwoBodies two_bodies(Index edge, RandomNumbers& random) {
+  std::vector<Index> number = in_order(as_size(2 * edge * edge));
+  for (std::size_t i = number.size(); i-- > 1;)
+    std::swap(number[i], number[static_cast<std::size_t>(random.between(0.0, static_cast<double>(i)))]);
+  TwoBodies result{.matrix = {}, .body_of_row = std::vector<Index>(number.size())};
+  BlockTriplets& a = result.matrix;
+  a.diagonal.assign(number.size(), 1e-9 * Tensor::Identity());
+  const auto row = [&](Index body, Index x, Index y) { return number[as_size((body * edge + x) * edge + y)]; };
+  const auto couple = [&](Index i, Index j, double stiffness) {
+    const Tensor c = stiffness * random.between(0.2, 1.0) * Tensor::Identity();
+    a.diagonal[as_size(i)] += c;
+    a.diagonal[as_size(j)] += c;
+    a.off_diagonal.push_back({i, j, -c});
+  };
+  for (Index x = 0; x < edge; ++x)
+    for (Index y = 0; y < edge; ++y) {
+      for (const Index body : {0, 1}) {
+        result.body_of_row[as_size(row(body, x, y))] = body;
+        if (x > 0) couple(row(body, x, y), row(body, x - 1, y), 1.0);
+        if (y > 0) couple(row(body, x, y), row(body, x, y - 1), 1.0);
+      }
+      couple(row(0, x, y), row(1, x, y), 1e-6);
+    }
+  return result;
+}
+
+// One aggregate with rows of both bodies would be enough to leave the motion of one against the other to the smoother.
+TEST_F(Multigrids, NoAggregateReachesAcrossABrokenLayer) {
+  RandomNumbers random;
+  for (int trial = 0; trial < 20; ++trial) {
+    TwoBodies bodies = two_bodies(40, random);
+    BlockMatrix matrix = compress(bodies.matrix, in_order(bodies.body_of_row.size()));
+    for (int level = 0; level < 3; ++level) {
+      const Aggregates aggregates = aggregate(matrix, 3);
+      EXPECT_LE(aggregates.count, matrix.n_rows() / 4);
+      std::vector<Index> body_of_aggregate(as_size(aggregates.count), -1);
+      for (std::size_t i = 0; i < aggregates.of_row.size(); ++i) {
+        ASSERT_GE(aggregates.of_row[i], 0);
+        Index& body = body_of_aggregate[as_size(aggregates.of_row[i])];
+        if (body < 0) body = bodies.body_of_row[i];
+        EXPECT_EQ(body, bodies.body_of_row[i]) << "numbering " << trial << ", level " << level;
+      }
+      matrix = coarsen(matrix, aggregates);
+      bodies.body_of_row = std::move(body_of_aggregate);
+    }
+  }
+}
+
 TEST_F(Multigrids, NothingToDoTakesNoIteration) {
   const BlockTriplets a = random_problem(50);
   Multigrid multigrid(compress(a, in_order(50)));
