@@ -4,6 +4,7 @@
 #include "cases/program/point/endochronic_comparison.h"
 #include "cases/program/point/endochronic_fit_results.h"
 #include "cases/program/point/endochronic_report.h"
+#include "cases/program/point/endochronic_words.h"
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/whole_run.h"
@@ -13,8 +14,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -32,32 +31,12 @@ std::size_t n_increments(const EndochronicLoading& loading) {
   return n;
 }
 
-/// Without a yield surface even the first strain is partly plastic.
-void say_initial_stiffness(const EndochronicLaw& law, Log& log) {
-  double C = 0.0;
-  for (const KernelTerm& term : law.kernel) C += term.C;
-  const double E = law.elasticity.young_modulus();
-  const double slope = E * 3.0 * C / (E + 3.0 * C);
-  log.say(fmt::format("tension begins with a slope of {:.6g} Pa, {:.1f} % of Young's modulus (sum of C: {:.6g} Pa)",
-                      slope, 100.0 * slope / E, C));
-}
-
-void say_law(const EndochronicLaw& law, Log& log) {
-  for (const KernelTerm& term : law.kernel) log.say(fmt::format("  C {:.6g} Pa, alpha {:.6g}", term.C, term.alpha));
-  log.say(fmt::format("hardening {}, rate factor {}", law.hardening.with_path.law->name,
-                      law.hardening.with_rate.law->name));
-  const double radius = saturation_radius(law, 0.0, 0.0);
-  if (std::isfinite(radius))
-    log.say(fmt::format("before hardening tension saturates at {:.6g} Pa", std::sqrt(1.5) * radius));
-  say_initial_stiffness(law, log);
-}
-
 void say_fit(const EndochronicFit& fit, const EndochronicLaw& law, Log& log) {
   std::vector<std::string> names;
   for (const FitParameter& p : fit_parameters(law, fit.settings.choice)) names.push_back(p.name);
-  log.say(fmt::format("fit by the method {} to {} experiments of {} values, rms stress {:.6g} Pa; first guess of {}",
+  log.say(fmt::format("fit by the method {} to {} experiments of {} values, rms stress {}; first guess of {}",
                       fit.method->name, fit.experiments.size(), n_measured(fit.experiments),
-                      rms_measured(fit.experiments), fmt::join(names, ", ")));
+                      stress_shown(rms_measured(fit.experiments)), fmt::join(names, ", ")));
 }
 
 void check(const EndochronicProgram& program, Session& session) {
@@ -102,10 +81,9 @@ void run_case(const EndochronicProgram& program, Session& session) {
     if (!history.converged) failure = fmt::format("case {}: {}", program.name, history.failure);
     write_results(program, history, session, folder, watch.seconds());
     if (history.points.size() < 2) throw NoConvergence(failure);
-    for (const auto& [name, value] : history_figures(program.point.law, history))
-      log.say(fmt::format("  {} = {:.6g}", name, value));
-    log.say(fmt::format("  newton_iterations = {}", newton_iterations(history)));
-    log.say(fmt::format("{} of {} increments", history.points.size() - 1, n_increments(loading)));
+    say_history(history_figures(program.point.law, history), log);
+    log.say(fmt::format("  {} of {} increments, {} iterations", history.points.size() - 1, n_increments(loading),
+                        newton_iterations(history)));
     return history.converged ? "complete" : "failed";
   };
   run_whole({.file = program.file,
@@ -140,9 +118,10 @@ void fit_case(const EndochronicProgram& program, Session& session) {
   const FitFindings findings = write_fit_results(session.results, program.file, fit, found,
                                                  {program.name, program.hash, session.version, seconds});
   say_estimates(findings, log);
-  log.say(fmt::format("rms misfit {:.6g} Pa of {:.6g} Pa rms stress; {} evaluations, {:.1f} s; {}",
-                      rms_misfit(found.fit.law, fit.experiments, fit.settings.control), rms_measured(fit.experiments),
-                      found.fit.result.evaluations, seconds, found.fit.result.message));
+  log.say(fmt::format("rms misfit {} of {} rms stress; {} evaluations, {:.1f} s; {}",
+                      stress_shown(rms_misfit(found.fit.law, fit.experiments, fit.settings.control)),
+                      stress_shown(rms_measured(fit.experiments)), found.fit.result.evaluations, seconds,
+                      found.fit.result.message));
   log.say(fmt::format("written to {}; run it with: pfdm run {}", session.results.string(),
                       (session.results / "case.fitted.toml").string()));
   say_verdict(findings, session);
