@@ -82,14 +82,15 @@ void remove_steps_beyond(const fs::path& folder, Index last) {
   for (const fs::path& file : beyond) fs::remove(file, ignored);
 }
 
-ColumnRecord read_record(const fs::path& folder) {
+ColumnRecord read_record(const fs::path& folder, std::optional<Index> last_step) {
   const CsvTable places = read_csv(folder / places_file);
   ColumnRecord record{.name = folder.filename().string(), .places = rows_of<Place>(places, visit_places), .steps = {}};
   if (std::ranges::count(places.comments, name_of(SurfaceKind::plane)) > 0) record.kind = SurfaceKind::plane;
   record.is_cohesive = std::ranges::count(places.comments, cohesive_mark) > 0;
   std::map<Index, fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (const auto step = step_of(entry.path())) files[*step] = entry.path();
+    if (const auto step = step_of(entry.path()); step && *step <= last_step.value_or(*step))
+      files[*step] = entry.path();
   for (const auto& [step, file] : files) {
     if (static_cast<std::size_t>(step) != record.steps.size())
       throw InputError(fmt::format("{}: step {} is missing; run the case again", folder.string(), record.steps.size()));
@@ -144,7 +145,7 @@ void ColumnFiles::append(Index step, const Mesh& mesh, const FractureModel& mode
     write_csv(folder_ / set.name / step_file(step), table_of(sample_columns(mesh, model, output, set), visit_samples));
 }
 
-std::vector<ColumnRecord> read_columns(const fs::path& folder) {
+std::vector<ColumnRecord> read_columns(const fs::path& folder, std::optional<Index> last_step) {
   std::vector<fs::path> sets;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
@@ -152,7 +153,7 @@ std::vector<ColumnRecord> read_columns(const fs::path& folder) {
   std::sort(sets.begin(), sets.end());
   std::vector<ColumnRecord> records;
   records.reserve(sets.size());
-  for (const fs::path& set : sets) records.push_back(read_record(set));
+  for (const fs::path& set : sets) records.push_back(read_record(set, last_step));
   return records;
 }
 

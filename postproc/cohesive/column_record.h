@@ -49,8 +49,8 @@ class ColumnFiles {
 /// Removes the records of an earlier run from `folder`, of surfaces that are no longer sampled as well.
 void remove_columns(const std::filesystem::path& folder);
 
-/// The records of all sets in `folder`, by name; none if there is no such folder. Throws InputError that names the file
-/// for what is not such a record, and for a record with a step missing.
-std::vector<ColumnRecord> read_columns(const std::filesystem::path& folder);
+/// The records of all sets in `folder`, by name; none if there is no such folder. With a `last_step`, only the steps up
+/// to it. Throws InputError that names the file for what is not such a record, and for a record with a step missing.
+std::vector<ColumnRecord> read_columns(const std::filesystem::path& folder, std::optional<Index> last_step = {});
 
 }  // namespace pfdm

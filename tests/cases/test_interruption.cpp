@@ -69,6 +69,43 @@ TEST_P(Interruption, LeavesASweepThatGoesOn) {
   EXPECT_TRUE(fs::exists(directory.results() / "sweep.csv"));
 }
 
+/// A run that goes on from its checkpoint is refused, and nothing changes in its results.
+void expect_no_restart(const TemporaryCase& directory, const std::string& message) {
+  const std::string checkpoint = content_of(directory.results() / "checkpoint.bin");
+  const ProgramEnd end = run_external({PFDM_PROGRAM, "run", directory.path().string(), "--restart"});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err, HasSubstr(message));
+  EXPECT_THAT(end.err, HasSubstr("without --restart the run starts anew"));
+  EXPECT_EQ(content_of(directory.results() / "checkpoint.bin"), checkpoint);
+}
+
+TEST(Restart, WantsEveryStepOfTheCurve) {
+  const TemporaryCase directory(bar_case());
+  ASSERT_EQ(run_external({PFDM_PROGRAM, "run", directory.path().string()}).status, 0);
+  const fs::path curve = directory.results() / "force_displacement.csv";
+  const std::string whole = content_of(curve);
+  const std::size_t last_row = whole.rfind('\n', whole.size() - 2) + 1;
+  directory.write("results/force_displacement.csv", whole.substr(0, last_row));
+  expect_no_restart(directory, "force_displacement.csv: step 10 is missing, although the checkpoint beside it is of ");
+  fs::remove(curve);
+  expect_no_restart(directory, "force_displacement.csv: step 0 is missing");
+  EXPECT_FALSE(fs::exists(curve));
+  directory.write("results/force_displacement.csv", whole);
+  EXPECT_EQ(run_external({PFDM_PROGRAM, "run", directory.path().string(), "--restart"}).status, 0);
+}
+
+TEST(Restart, WantsTheRecordOfItsColumns) {
+  const TemporaryCase directory(bar_case() + crack_plane());
+  ASSERT_EQ(run_external({PFDM_PROGRAM, "run", directory.path().string()}).status, 0);
+  const fs::path step = directory.results() / "columns/crack/step_000004.csv";
+  ASSERT_TRUE(fs::exists(step));
+  const std::string whole = content_of(step);
+  directory.write("results/columns/crack/step_000004.csv", whole.substr(0, whole.size() / 2));
+  expect_no_restart(directory, "step_000004.csv");
+  fs::remove(step);
+  expect_no_restart(directory, "columns/crack");
+}
+
 std::string shaken_for(const std::string& duration) {
   return soft_sample() +
          "[[test]]\nname = \"up\"\nexcitation = { type = \"swept_sine\", level = \"1 g0\", from = \"10 Hz\", "

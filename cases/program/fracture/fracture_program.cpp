@@ -10,6 +10,7 @@
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/fracture/other_laws.h"
 #include "cases/program/fracture/progress.h"
+#include "cases/program/fracture/recorded_steps.h"
 #include "cases/program/fracture/run_estimate.h"
 #include "cases/program/input/kept_case.h"
 #include "cases/program/session/earlier_results.h"
@@ -140,13 +141,14 @@ void mesh_only(const FractureProgram& program, Session& session) {
 }
 
 std::optional<FractureState> state_to_go_on_from(const FractureProgram& program, const FractureState& initial,
-                                                 const Session& session) {
+                                                 std::size_t n_column_sets, const Session& session) {
   if (!session.restart) return std::nullopt;
   try {
     auto state = find_checkpoint(session.results, program.hash);
     if (state &&
         (state->damage.size() != initial.damage.size() || state->displacement.size() != initial.displacement.size()))
       throw InputError(fmt::format("{}: the checkpoint belongs to another mesh", session.results.string()));
+    if (state) require_steps_up_to(*state, session.results, program.fracture, n_column_sets);
     return state;
   } catch (const OtherCase& error) {
     throw OtherCase(fmt::format("{}; without --restart the run starts anew and replaces it", error.what()));
@@ -320,7 +322,7 @@ void run_case(FractureProgram program, Session& session) {
   const std::vector<ColumnSet> none, &columns = session.figures_only ? none : surfaces;
   const DebondingWatch watch(surfaces, program.fracture.cohesive.axis, initial.damage);
   const FolderLock lock(session.results);
-  const auto last = state_to_go_on_from(program, initial, session);
+  const auto last = state_to_go_on_from(program, initial, columns.size(), session);
   if (last && last->load >= program.fracture.loading.end && status_of_earlier(session.results) == "complete") {
     session.log.say(fmt::format("the run in {} is complete already", session.results.string()));
     return;

@@ -29,8 +29,6 @@ constexpr const char* frames_file = "fields.pvd";
 constexpr const char* frames_folder = "fields";
 constexpr const char* interfaces_file = "interfaces.pvd";
 constexpr const char* interfaces_folder = "interfaces";
-constexpr const char* columns_folder = "columns";
-constexpr const char* energy_release_file = "energy_release_rate.csv";
 constexpr std::string_view headline_endings[] = {"_G_J_per_m2", "_K1_Pa_sqrt_m", "_K2_Pa_sqrt_m",
                                                  "_phase_angle_degree"};
 
@@ -62,17 +60,6 @@ void require_results(const fs::path& results, const std::string& case_hash) {
   if (!fs::exists(checkpoint) || !fs::exists(results / curve_file))
     throw InputError(fmt::format("{}: there are no results; pfdm run makes them", results.string()));
   read_checkpoint(checkpoint, case_hash);  // refuses another case's
-}
-
-std::vector<std::string> energy_release_columns(const std::vector<TipRegion>& regions) {
-  std::vector<std::string> names{"step", "load"};
-  for (const TipRegion& region : regions) {
-    std::vector<const char*> columns{"tip_x_m", "tip_y_m", "tip_z_m", "G_J_per_m2", "damaged_share"};
-    if (region.reference_length > 0.0)
-      columns.insert(columns.end(), {"K1_Pa_sqrt_m", "K2_Pa_sqrt_m", "phase_angle_degree"});
-    for (const char* what : columns) names.push_back(fmt::format("{}_{}", region.name, what));
-  }
-  return names;
 }
 
 std::optional<std::string> doubt_about(const EnergyRelease& release, const std::string& region) {
@@ -128,6 +115,17 @@ void write_mesh(const fs::path& results, const Mesh& mesh) {
                          {"aspect_ratio", &quality.aspect_ratio},
                          {"min_dihedral_angle", &quality.min_dihedral_angle}},
                         0.0);
+}
+
+std::vector<std::string> energy_release_columns(const std::vector<TipRegion>& regions) {
+  std::vector<std::string> names{"step", "load"};
+  for (const TipRegion& region : regions) {
+    std::vector<const char*> columns{"tip_x_m", "tip_y_m", "tip_z_m", "G_J_per_m2", "damaged_share"};
+    if (region.reference_length > 0.0)
+      columns.insert(columns.end(), {"K1_Pa_sqrt_m", "K2_Pa_sqrt_m", "phase_angle_degree"});
+    for (const char* what : columns) names.push_back(fmt::format("{}_{}", region.name, what));
+  }
+  return names;
 }
 
 std::optional<FractureState> find_checkpoint(const fs::path& results, const std::string& case_hash) {

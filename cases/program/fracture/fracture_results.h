@@ -24,9 +24,14 @@
 namespace pfdm {
 
 inline constexpr const char* checkpoint_file = "checkpoint.bin";
+inline constexpr const char* columns_folder = "columns";
+inline constexpr const char* energy_release_file = "energy_release_rate.csv";
 
 /// Writes mesh.vtu: material (the number of the region), volume [m^3] and quality figures. Makes the directory.
 void write_mesh(const std::filesystem::path& results, const Mesh& mesh);
+
+/// Names of the columns of energy_release_file.
+std::vector<std::string> energy_release_columns(const std::vector<TipRegion>& regions);
 
 /// The state to restart from; none if there is no checkpoint. Throws InputError if it belongs to another case.
 std::optional<FractureState> find_checkpoint(const std::filesystem::path& results, const std::string& case_hash);
