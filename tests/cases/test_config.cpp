@@ -140,5 +140,16 @@ TEST(Config, GivesTheLineOfASyntaxError) {
   EXPECT_NE(message_of([] { Config("a = 2001-01-01\n", "case.toml"); }), "no error");
 }
 
+// Each part of a dotted key is a table within the one before: 30,000 of them overflow the stack of what reads them.
+TEST(Config, RefusesKeysOfTooManyParts) {
+  std::string many = "a";
+  for (int i = 0; i < 30000; ++i) many += i % 3 == 0 ? ".a" : i % 3 == 1 ? " . 'b c'" : ".\"d\"";
+  for (const std::string& text : {many + " = 1", "[" + many + "]", "[[" + many + "]]", "x = [{ " + many + " = 1 }]"})
+    EXPECT_EQ(message_of([&] { Config("# a\nt = \"\"\"\nx\"\"\"\n" + text + "\n", "case.toml"); }),
+              "case.toml:4: a key has more than 32 parts with dots between them");
+  const std::string in_values = "a.b = 1\nt = '''" + many + "'''  # " + many + "\nx = [1.5, 2.5]\n";
+  EXPECT_EQ(message_of([&] { Config(in_values, "case.toml"); }), "no error");
+}
+
 }  // namespace
 }  // namespace pfdm

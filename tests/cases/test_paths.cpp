@@ -125,6 +125,21 @@ TEST(CaseFile, KeepsTablesWithDigitsBehindTheOneThatIsReplaced) {
             "[model]\nmass = 2\n[glass_2]\nE = 2\n");
 }
 
+TEST(CaseFile, FindsTablesBesideLinesOfAnyLength) {
+  const std::string blanks(200000, ' ');
+  const TemporaryCase directory("[ model ] # " + blanks + "x\nmass = 1\n" + blanks + "\nlist = [\n[1.0],\n[2.0]]\n" +
+                                "[[ other.part ]]\nE = 2\n");
+  EXPECT_EQ(with_table(open_case(directory.path()), "model", "[model]\nmass = 2\n", directory.results()),
+            "[model]\nmass = 2\n[[ other.part ]]\nE = 2\n");
+}
+
+TEST(ResultNumbers, AreLookedForByKeysOfAnyLength) {
+  const TemporaryCase directory(
+      replaced(bar_case(), "\"30 GPa\"", "{ from = \"x.json\", key = \"E_Pa" + std::string(50000, '[') + "0]\" }"));
+  directory.write("x.json", "{ \"E_Pa\": [3e10] }");
+  EXPECT_EQ(run({"check", directory.path().string()}).status, 0);
+}
+
 TEST(Sweep, RunsAgainWhereALoadingFileHasChanged) {
   const TemporaryCase directory(replaced(point_case, "DATA", "path.csv") +
                                 "[sweep]\nmethod = \"list\"\n[[sweep.parameters]]\n"
@@ -135,6 +150,15 @@ TEST(Sweep, RunsAgainWhereALoadingFileHasChanged) {
   EXPECT_THAT(run({"sweep", directory.path().string()}).out, HasSubstr("0 runs made, 2 reused"));
   directory.write("path.csv", "time_s,strain_xx\n0,0\n1,0.003\n");
   EXPECT_THAT(run({"sweep", directory.path().string()}).out, HasSubstr("2 runs made, 0 reused"));
+}
+
+TEST(Slurm, TakesNamesOfPartitionsOfAnyLength) {
+  const TemporaryCase directory(bar_case() +
+                                "\n[sweep]\nmethod = \"list\"\n[[sweep.parameters]]\nkey = "
+                                "\"materials.concrete.young_modulus\"\nvalues = [\"30 GPa\"]\n[sweep.slurm]\n"
+                                "memory = \"4 GB\"\npartition = \"" +
+                                std::string(50000, 'x') + "\"\n");
+  EXPECT_EQ(run({"check", directory.path().string()}).status, 0);
 }
 
 TEST(Slurm, TakesNoCommandForAPartition) {

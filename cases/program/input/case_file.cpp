@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <regex>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -27,12 +26,30 @@ std::uint64_t add_to_hash(std::uint64_t hash, std::string_view bytes) {
   return hash;
 }
 
+constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_";
+constexpr std::string_view in_table_names = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_0123456789-. \t";
+
+/// Takes one bracket or two from the front; false if there is none.
+bool take_brackets(std::string_view& text, char bracket) {
+  if (!text.starts_with(bracket)) return false;
+  text.remove_prefix(1);
+  if (text.starts_with(bracket)) text.remove_prefix(1);
+  return true;
+}
+
 // The table that a line opens, as in "material.hardening"; none if it opens none. A multi-line list also has lines that
 // begin with a bracket.
-std::optional<std::string> opened_table(const std::string& line) {
-  static const std::regex header(R"(^\s*\[\[?\s*([A-Za-z_](?:[A-Za-z0-9_.\s-]*[A-Za-z0-9_-])?)\s*\]\]?\s*(#.*)?$)");
-  std::smatch match;
-  return std::regex_match(line, match, header) ? std::optional(match[1].str()) : std::nullopt;
+std::optional<std::string> opened_table(std::string_view line) {
+  std::string_view rest = trimmed(line);
+  if (!take_brackets(rest, '[')) return std::nullopt;
+  rest = trimmed(rest);
+  const std::size_t end = std::min(rest.find_first_not_of(in_table_names), rest.size());
+  const std::string_view name = trimmed(rest.substr(0, end));
+  if (name.empty() || letters.find(name.front()) == std::string_view::npos || name.ends_with('.')) return std::nullopt;
+  rest.remove_prefix(end);
+  if (!take_brackets(rest, ']')) return std::nullopt;
+  rest = trimmed(rest);
+  return rest.empty() || rest.starts_with('#') ? std::optional(std::string(name)) : std::nullopt;
 }
 
 /// As opposed to what is there and cannot be read.

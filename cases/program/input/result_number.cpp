@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <regex>
 #include <vector>
 
 namespace pfdm {
@@ -37,10 +36,14 @@ const std::string* text_of(const TomlTable& table, std::string_view key) {
 }
 
 // "a.b[2]" as "a", "b", "2".
-std::vector<std::string> steps_of(const std::string& key) {
-  static const std::regex step(R"([^.\[\]]+)");
+std::vector<std::string> steps_of(std::string_view key) {
+  constexpr std::string_view separators = ".[]";
   std::vector<std::string> steps;
-  for (std::sregex_iterator it(key.begin(), key.end(), step), end; it != end; ++it) steps.push_back(it->str());
+  for (std::size_t begin = key.find_first_not_of(separators); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(key.find_first_of(separators, begin), key.size());
+    steps.emplace_back(key.substr(begin, end - begin));
+    begin = key.find_first_not_of(separators, end);
+  }
   return steps;
 }
 

@@ -1,5 +1,6 @@
 #include "cases/program/input/toml_document.h"
 
+#include "cases/program/input/key_depth.h"
 #include "physics/error.h"
 #include "postproc/files/text_file.h"
 
@@ -166,6 +167,7 @@ std::string quoted_toml(std::string_view text) {
 }
 
 TomlValue parse_toml(const std::string& text, const std::string& shown_as) {
+  refuse_deep_keys(text, shown_as);
   try {
     return plain(toml::parse(text), shown_as);
   } catch (const toml::parse_error& error) {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
-#include <regex>
 
 namespace pfdm {
 namespace {
@@ -16,24 +16,46 @@ namespace {
 constexpr Range cpus_range{1.0, 4096.0, false, "between 1 and 4096"};
 constexpr Range tasks_range{1.0, 1e6, false, "between 1 and 1000000"};
 
+constexpr std::string_view in_words = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-";
+
+/// "4G" of "4 GB", as Slurm writes it.
 std::string read_memory(const ConfigValue& value) {
-  static const std::regex amount(R"((\d{1,9}) ?([MGT])B)");
-  std::smatch match;
   const std::string text = value.string();
-  if (!std::regex_match(text, match, amount))
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+  std::string_view unit = std::string_view(text).substr(digits);
+  if (unit.starts_with(' ')) unit.remove_prefix(1);
+  if (digits < 1 || digits > 9 || (unit != "MB" && unit != "GB" && unit != "TB"))
     throw value.error(fmt::format(
         "\"{}\" is not an amount of memory; expected a whole number of MB, GB or TB, as in \"4 GB\"", text));
-  return fmt::format("{}{}", match[1].str(), match[2].str());
+  return fmt::format("{}{}", text.substr(0, digits), unit.front());
 }
 
 /// It becomes a line of the script.
 std::string read_partition(const ConfigValue& value) {
-  static const std::regex names("[A-Za-z0-9_.,:@+-]*");
-  const std::string text = value.string();
-  if (!std::regex_match(text, names))
+  std::string text = value.string();
+  if (text.find_first_not_of(std::string(in_words) + ",:@+") != std::string::npos)
     throw value.error(
         "this is not a partition, or a list of them, as in \"short,long\": letters, digits and _ . : @ + - only");
   return text;
+}
+
+std::string name_of_job(std::string name) {
+  for (char& c : name)
+    if (in_words.find(c) == std::string_view::npos) c = '_';
+  return name;
+}
+
+/// The first three columns and the rest of a line with bars between them; none if it has fewer.
+std::optional<std::array<std::string_view, 4>> columns_of(std::string_view line) {
+  std::array<std::string_view, 4> columns;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t bar = line.find('|');
+    if (bar == std::string_view::npos) return std::nullopt;
+    columns[i] = line.substr(0, bar);
+    line.remove_prefix(bar + 1);
+  }
+  columns[3] = line;
+  return columns;
 }
 
 std::vector<std::string> read_lines(const ConfigTable& table) {
@@ -76,7 +98,7 @@ std::string array_script(const SlurmSettings& settings, const std::string& name,
                          const std::string& commands) {
   std::string text = "#!/bin/bash\n";
   const auto ask = [&](const std::string& option) { text += fmt::format("#SBATCH --{}\n", option); };
-  ask("job-name=" + std::regex_replace(name, std::regex("[^A-Za-z0-9_.-]"), "_"));
+  ask("job-name=" + name_of_job(name));
   ask(fmt::format("array=1-{}{}", n_tasks, settings.at_once > 0 ? fmt::format("%{}", settings.at_once) : ""));
   ask("output=task_%a.log");
   ask("ntasks=1");
@@ -103,21 +125,22 @@ ActiveTasks active_tasks(const std::filesystem::path& folder) {
   const ProgramEnd end = run_external({"squeue", "--me", "--noheader", "--array", "--format=%F|%T|%r|%Z"});
   if (end.status != 0) throw objection("squeue", end);
   ActiveTasks active;
-  static const std::regex columns(R"(([^|]*)\|([^|]*)\|([^|]*)\|(.*))");
-  std::smatch match;
   for (std::string_view rest = end.out; !rest.empty();) {
-    const std::string line(take_line(rest));
-    if (!std::regex_match(line, match, columns) || match[4].str() != folder.string()) continue;
-    if (std::ranges::count(active.jobs, match[1].str()) == 0) active.jobs.push_back(match[1].str());
-    const bool waits = match[2].str() == "PENDING";
+    const auto columns = columns_of(take_line(rest));
+    if (!columns || (*columns)[3] != folder.string()) continue;
+    const auto [job, state, reason, of_folder] = *columns;
+    if (std::ranges::count(active.jobs, job) == 0) active.jobs.emplace_back(job);
+    const bool waits = state == "PENDING";
     ++(waits ? active.queued : active.running);
-    if (waits) active.reason = match[3].str();
+    if (waits) active.reason = reason;
   }
   return active;
 }
 
 std::string quoted(const std::string& word) {
-  return fmt::format("'{}'", std::regex_replace(word, std::regex("'"), "'\\''"));
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
 }
 
 }  // namespace pfdm
