@@ -250,7 +250,7 @@ void write_cohesive_results(const std::filesystem::path& results, const Cohesive
       "against "
       "(minus) the load");
   write_table(results / "debonding.csv", debonding_table(report), debonding);
-  write_file(results / "cohesive.json", to_json(report).dump(2) + "\n");
+  write_file(results / "cohesive.json", json_text(to_json(report)));
 }
 
 }  // namespace pfdm

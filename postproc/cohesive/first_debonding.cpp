@@ -121,7 +121,7 @@ void write_first_debonding(const std::filesystem::path& path, const FirstDebondi
                                        {"polar_angle_from_rad", first.polar_from},
                                        {"polar_angle_to_rad", first.polar_to},
                                        {"debonding_angle_rad", first.angle}};
-  write_file(path, json.dump(2) + "\n");
+  write_file(path, json_text(json));
 }
 
 std::optional<FirstDebonding> take_first_debonding(const std::filesystem::path& path, Index last_step) {

@@ -149,7 +149,7 @@ void write_comparison(const std::filesystem::path& results, const ComparisonRepo
   if (!report.energies.empty()) write_csv(results / "comparison_energies.csv", energies_table(report.energies));
   write_curves(results / "comparison.csv", report.force.curves, "force_N");
   if (report.angle) write_curves(results / "comparison_debonding.csv", report.angle->curves, "angle_rad");
-  write_file(results / "comparison.json", json.dump(2) + "\n");
+  write_file(results / "comparison.json", json_text(json));
 }
 
 }  // namespace pfdm

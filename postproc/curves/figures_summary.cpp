@@ -35,7 +35,7 @@ void write_figures_summary(const std::filesystem::path& path, const FiguresSumma
                {"peak_memory_bytes", std::llround(peak_memory())}};
   for (const auto& [name, value] : s.figures) json[name] = value;
   if (!s.tests.empty()) json["tests"] = to_json(s.tests);
-  write_file(path, json.dump(2) + "\n");
+  write_file(path, json_text(json));
 }
 
 std::vector<std::string> tests_of_figures_summary(const std::filesystem::path& path) {

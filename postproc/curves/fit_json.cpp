@@ -151,14 +151,14 @@ FitReport report_in(const Json& json) {
                    .experiments = {},
                    .own = {.kind = json.at("kind")}};
   for (const Json& e : json.at("experiments")) report.experiments.push_back(experiment_in(e));
-  report.own.json = json.at(report.own.kind).dump();
+  report.own.json = json_line(json.at(report.own.kind));
   return report;
 }
 
 }  // namespace
 
 OwnFindings own_findings(const FractureFindings& findings) {
-  return {.kind = "fracture", .json = to_json(findings).dump()};
+  return {.kind = "fracture", .json = json_line(to_json(findings))};
 }
 
 FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result) {
@@ -213,7 +213,7 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
   json.update(to_json(report.found));
   json["experiments"] = to_json(report.experiments);
   json[report.own.kind] = Json::parse(report.own.json);
-  write_file(file, json.dump(2) + "\n");
+  write_file(file, json_text(json));
 }
 
 FitReport read_fit_json(const std::filesystem::path& path) {

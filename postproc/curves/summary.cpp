@@ -120,7 +120,7 @@ Headlines headlines(std::span<const CurveRow> rows, int component) {
 }
 
 void write_summary(const std::filesystem::path& path, const RunSummary& summary) {
-  write_file(path, to_json(summary).dump(2) + "\n");
+  write_file(path, json_text(to_json(summary)));
 }
 
 double ReadSummary::number(std::string_view name) const {

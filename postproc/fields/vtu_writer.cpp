@@ -123,10 +123,17 @@ void insert_cell(vtkUnstructuredGrid& grid, const Mesh& mesh, const GridPoints& 
   grid.InsertNextCell(type, static_cast<vtkIdType>(all.size()), all.data(), faces.n_faces, faces.entries.data());
 }
 
+// VTK writes names into its XML as they are.
+std::string without_marks_of_xml(std::string name) {
+  for (char& c : name)
+    if (std::string_view("<>&\"'").find(c) != std::string_view::npos || static_cast<unsigned char>(c) < ' ') c = '_';
+  return name;
+}
+
 void add_region_numbers(vtkFieldData& data, const Mesh& mesh) {
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
     vtkNew<vtkIntArray> number;
-    number->SetName(("region_" + mesh.region_names[r]).c_str());
+    number->SetName(without_marks_of_xml("region_" + mesh.region_names[r]).c_str());
     number->InsertNextValue(static_cast<int>(r));
     data.AddArray(number);
   }

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,15 @@ inline nlohmann::ordered_json to_json(const Eigen::MatrixXd& matrix) {
 /// Numbers that are not finite are written as null.
 inline double number_of(const nlohmann::ordered_json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+/// The text of a JSON file. Bytes that are no UTF-8, as of a folder named in Latin-1, become the replacement character.
+inline std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+/// Likewise on one line.
+inline std::string json_line(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 /// What `take` makes of the file's content. Throws InputError that names the file for what is no `what`, as in "fit".

@@ -12,7 +12,7 @@ OwnFindings own_findings(const EndochronicFindings& findings) {
   for (const StaggeredRound& r : findings.rounds)
     json["staggered_rounds"].push_back(
         {{"rms_misfit_after_hardening_Pa", r.rms_after_hardening}, {"rms_misfit_after_kernel_Pa", r.rms_after_kernel}});
-  return {.kind = "endochronic", .json = json.dump()};
+  return {.kind = "endochronic", .json = json_line(json)};
 }
 
 }  // namespace pfdm

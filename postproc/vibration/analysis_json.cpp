@@ -40,7 +40,7 @@ void write_analysis_json(const std::filesystem::path& path, const AnalysisReport
                {"analysed", report.analysed}};
   json["records"] = Json::array();
   for (const AnalysedRecord& record : report.records) json["records"].push_back(to_json(record));
-  write_file(path, json.dump(2) + "\n");
+  write_file(path, json_text(json));
 }
 
 AnalysisStamp read_analysis_stamp(const std::filesystem::path& path) {

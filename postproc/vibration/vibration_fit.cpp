@@ -148,7 +148,9 @@ VibrationFindings findings_in(const Json& json) {
 
 }  // namespace
 
-OwnFindings own_findings(const VibrationFindings& findings) { return {.kind = kind, .json = to_json(findings).dump()}; }
+OwnFindings own_findings(const VibrationFindings& findings) {
+  return {.kind = kind, .json = json_line(to_json(findings))};
+}
 
 std::optional<VibrationFindings> vibration_findings(const OwnFindings& own) {
   if (own.kind != kind) return std::nullopt;

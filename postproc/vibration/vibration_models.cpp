@@ -59,7 +59,7 @@ void write_model_comparison(const std::filesystem::path& path, const ModelCompar
   for (const FittedModel& m : c.models) models.push_back(to_json(m));
   const Json json = {{"case", c.case_name}, {"case_hash", c.case_hash}, {"version", c.version},
                      {"method", c.method},  {"chosen", c.chosen},       {"models", models}};
-  write_file(path, json.dump(2) + "\n");
+  write_file(path, json_text(json));
 }
 
 ModelComparison read_model_comparison(const std::filesystem::path& path) {

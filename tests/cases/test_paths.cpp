@@ -140,6 +140,18 @@ TEST(ResultNumbers, AreLookedForByKeysOfAnyLength) {
   EXPECT_EQ(run({"check", directory.path().string()}).status, 0);
 }
 
+TEST(Paths, ThatAreNoUtf8KeepTheirResults) {
+  const TemporaryCase directory(bar_case());
+  const fs::path results = directory.path() / "l\xe4tin";
+  EXPECT_EQ(run({"run", directory.path().string(), "--output", results.string()}).status, 0);
+  EXPECT_TRUE(fs::exists(results / "summary.json"));
+  const fs::path moved_case = directory.path() / "f\xe4ll";
+  fs::create_directory(moved_case);
+  fs::copy_file(directory.path() / "case.toml", moved_case / "case.toml");
+  EXPECT_EQ(run({"run", moved_case.string()}).status, 0);
+  EXPECT_THAT(content_of(moved_case / "results/summary.json"), HasSubstr("\"case\": \"f\uFFFDll\""));
+}
+
 TEST(Sweep, RunsAgainWhereALoadingFileHasChanged) {
   const TemporaryCase directory(replaced(point_case, "DATA", "path.csv") +
                                 "[sweep]\nmethod = \"list\"\n[[sweep.parameters]]\n"

@@ -58,7 +58,7 @@ void write_chain(const std::filesystem::path& results, const ChainRecord& record
   for (const DoneStep& step : record.steps) steps.push_back(to_json(step));
   const Json json = {
       {"case", record.case_name}, {"status", record.status}, {"pfdm_version", record.version}, {"steps", steps}};
-  write_file(results / chain_file, json.dump(2) + "\n");
+  write_file(results / chain_file, json_text(json));
 }
 
 ChainRecord read_chain(const std::filesystem::path& results) {

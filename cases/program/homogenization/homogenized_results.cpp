@@ -157,7 +157,7 @@ void write_homogenized(const std::filesystem::path& folder, const Homogenization
   if (material.hashin_shtrikman)
     json["bounds"] = {{"hashin_shtrikman", to_json(*material.hashin_shtrikman)},
                       {"reuss_voigt", to_json(*material.reuss_voigt)}};
-  write_file(folder / homogenized_file, json.dump(2) + "\n");
+  write_file(folder / homogenized_file, json_text(json));
   write_csv(folder / load_cases_file, load_cases(result));
 }
 

@@ -169,7 +169,7 @@ std::vector<double> first_guess(const PlateFit& fit) {
 OwnFindings own_findings(const std::vector<FitSuspect>& suspects) {
   auto list = nlohmann::ordered_json::array();
   for (const FitSuspect& s : suspects) list.push_back({{"what", s.what}, {"rms_residual", s.rms}});
-  return {.kind = "plate", .json = nlohmann::ordered_json{{"suspects", list}}.dump()};
+  return {.kind = "plate", .json = json_line(nlohmann::ordered_json{{"suspects", list}})};
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ void compare_with_experiments(const EndochronicFit& fit, const EndochronicLaw& l
   }
   const nlohmann::ordered_json json = {
       {"case", case_name}, {"case_hash", case_hash}, {"pfdm_version", session.version}, {"experiments", list}};
-  write_file(session.results / "comparison.json", json.dump(2) + "\n");
+  write_file(session.results / "comparison.json", json_text(json));
   session.log.say(fmt::format("written to {}", session.results.string()));
 }
 
