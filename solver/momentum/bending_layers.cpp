@@ -131,6 +131,24 @@ class LayerLines {
 
 constexpr double least_error = 0.005, least_slenderness = 3.0;
 
+// see(cell, layers, nu) of the layers across each body that is long enough, at each of its cells, for each direction in
+// which it is.
+template <class See>
+void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
+  if (unknowns.motion.any() || !unknowns.periodic.empty()) return;
+  const LayerLines lines(mesh, unknowns);
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    for (int across = 0; across < lines.n_axes(c); ++across)
+      for (int along = 0; along < lines.n_axes(c); ++along) {
+        const LayerLine &layers = lines.line(c, across), &length = lines.line(c, along);
+        const double n = layers.times() * layers.n, thickness = layers.times() * layers.length;
+        if (across == along || !layers.has_layers()) continue;
+        if (length.times() * length.length < least_slenderness * thickness) continue;
+        see(c, BendingLayers{.n = n, .thickness = thickness, .length = lines.length(c, along)},
+            unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio());
+      }
+}
+
 }  // namespace
 
 Index opposite_face(const Mesh& mesh, Index cell, Index face) {
@@ -143,21 +161,20 @@ Index opposite_face(const Mesh& mesh, Index cell, Index face) {
 
 std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<char> bends(as_size(mesh.n_cells()), 0);
-  if (unknowns.motion.any() || !unknowns.periodic.empty()) return bends;
-  const LayerLines lines(mesh, unknowns);
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const double nu = unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio();
-    for (int across = 0; across < lines.n_axes(c); ++across)
-      for (int along = 0; along < lines.n_axes(c); ++along) {
-        const LayerLine &layers = lines.line(c, across), &length = lines.line(c, along);
-        const double n = layers.times() * layers.n, thickness = layers.times() * layers.length;
-        if (across == along || !layers.has_layers()) continue;
-        if (length.times() * length.length < least_slenderness * thickness) continue;
-        const BendingLayers at{.n = n, .thickness = thickness, .length = lines.length(c, along)};
-        if (std::max(at.excess(nu), at.lack()) > least_error) bends[as_size(c)] = 1;
-      }
-  }
+  over_layers(mesh, unknowns, [&](Index cell, const BendingLayers& at, double nu) {
+    if (std::max(at.excess(nu), at.lack()) > least_error) bends[as_size(cell)] = 1;
+  });
   return bends;
+}
+
+std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns) {
+  std::optional<BendingError> largest;
+  over_layers(mesh, unknowns, [&](Index cell, const BendingLayers& at, double nu) {
+    const double error = at.excess(nu) - at.lack();
+    if (!largest || std::abs(error) > std::abs(largest->error))
+      largest = {.cell = cell, .layers = at, .poisson_ratio = nu, .error = error};
+  });
+  return largest;
 }
 
 }  // namespace pfdm

@@ -5,6 +5,7 @@
 #include "mesh/mesh.h"
 #include "solver/momentum/unknowns.h"
 
+#include <optional>
 #include <vector>
 
 namespace pfdm {
@@ -27,5 +28,17 @@ Index opposite_face(const Mesh& mesh, Index cell, Index face);
 /// Per cell, nonzero for hexahedra in bodies at least three times as long as thick whose layers would bend with an
 /// error of more than half a per cent. None in boxes that follow a mean strain.
 std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns);
+
+/// The error of bending by gradients of one ring at a cell.
+struct BendingError {
+  Index cell = 0;
+  BendingLayers layers;
+  double poisson_ratio = 0.0;
+  double error = 0.0;  ///< bending stiffness over the exact one, less 1
+};
+
+/// Where hexahedra in bodies at least three times as long as thick would bend with the largest error; empty without
+/// such bodies. None in boxes that follow a mean strain.
+std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns);
 
 }  // namespace pfdm

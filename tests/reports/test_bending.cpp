@@ -31,5 +31,19 @@ TEST(ReportedBeams, FlapUnderTractionOnItsSide) {
   EXPECT_NEAR(summary_of("flap_6x15")["final_elastic_energy_J"].get<double>(), due, 0.015 * due);
 }
 
+// Peaks of 3.329 and 2.645 N. The arms of the first have cells three times as long as thick; each cell of 0.25 mm that
+// opens in front of them is a tooth of 1 % in its curve.
+TEST(ReportedBeams, CohesiveDoubleCantileversOfFlatCells) {
+  const nlohmann::json summary = summary_of("dcb_flat_cells");
+  EXPECT_NEAR(summary["peak_force_N"].get<double>(), 3.329, 0.02 * 3.329);
+  EXPECT_LT(summary["load_at_peak"].get<double>(), 0.51);
+}
+
+TEST(ReportedBeams, CohesiveDoubleCantileversOfSquareCells) {
+  const nlohmann::json summary = summary_of("dcb_square_cells");
+  EXPECT_NEAR(summary["peak_force_N"].get<double>(), 2.645, 0.01 * 2.645);
+  EXPECT_NEAR(summary["load_at_peak"].get<double>(), 0.8, 1e-9);
+}
+
 }  // namespace
 }  // namespace pfdm

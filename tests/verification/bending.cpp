@@ -3,6 +3,8 @@
 // nu^2) in plane strain); the plane field of a cantilever (Timoshenko, Goodier, Theory of Elasticity, art. 21), which
 // is cubic; at finite strain the elastica (Mattiasson, Int. J. Numer. Methods Eng. 17 (1981) 145).
 
+#include "solver/fracture/bending_words.h"
+#include "solver/momentum/bending_layers.h"
 #include "tests/verification/support.h"
 
 #include <fmt/format.h>
@@ -115,6 +117,39 @@ TEST(Bending, TwoToTwelveLayers) {
     EXPECT_NEAR(square, 1.0, 0.015) << across;
     EXPECT_NEAR(flat, 1.0, across > 2 ? 0.02 : 0.12) << across;  // with two layers 8 cells along the beam
   }
+}
+
+// In space each cell's gradient is that of one ring. The sides across z are planes of symmetry, so that the beam is
+// that in plane strain.
+TEST(Bending, InSpaceErrsAsTheFormulaSays) {
+  for (const double nu : {0.0, 0.3})
+    for (const Index across : {4, 6})
+      for (const double ratio : {1.0, 2.0, 4.0}) {
+        const Mesh mesh = mesh_of(along_with(ratio, across), across);
+        FractureModel model = elastic_model(
+            {from_young_poisson(E, nu)},
+            {symmetry_on("zmin"), symmetry_on("zmax"),
+             displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }), traction_of(Load::tip)});
+        const auto solution = solve_elastic(mesh, model, {}, 1e-9);
+        const auto end = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+        const double tip = solution->solver->balance().patch_displacements(solution->u)[end].y();
+        const double found = timoshenko({.nu = nu}) / tip - 1.0;
+        const double due = largest_bending_error(mesh, solution->unknowns)->error;
+        report_row(fmt::format("in space, nu = {}, {} layers, {} times as long as thick", nu, across, ratio),
+                   {{"stiffness over the beam's, less 1", found}, {"formula", due}});
+        EXPECT_NEAR(found, due, 0.02 + 0.25 * std::abs(due));
+        const auto warning = bending_warning(mesh, model);
+        ASSERT_TRUE(warning.has_value());
+        EXPECT_NE(
+            warning->find(fmt::format("about {:.0f} % too {}", 100.0 * std::abs(due), due > 0.0 ? "high" : "low")),
+            std::string::npos)
+            << *warning;
+        model.boundary[0] = plane_on("zmin");
+        model.boundary[1] = plane_on("zmax");
+        EXPECT_FALSE(bending_warning(mesh, model).has_value());  // it fits cubics
+        model.split = energy_split("spectral");
+        EXPECT_TRUE(bending_warning(mesh, model).has_value());
+      }
 }
 
 // A body that has lost half of its stiffness everywhere bends twice as much.

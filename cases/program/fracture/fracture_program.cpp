@@ -23,6 +23,7 @@
 #include "postproc/curves/curve_misfit.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/other_case.h"
+#include "solver/fracture/bending_words.h"
 #include "solver/fracture/fracture_run.h"
 #include "solver/fracture/resolution.h"
 
@@ -114,6 +115,7 @@ void check(const FractureProgram& program, Session& session) {
   const FractureRun run = make_run(program, mesh, log);
   warn_of_interfaces(run, log);
   for (const std::string& remark : direction_remarks(mesh, run.model())) log.say(remark);
+  if (const auto warning = bending_warning(mesh, run.model())) log.warn(*warning);
   const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
   log.say(fmt::format("{}: {}", program.name, program.fracture.title));
   if (program.fracture.box) log.say(program.fracture.box->words);
@@ -317,6 +319,7 @@ void run_case(FractureProgram program, Session& session) {
   times.mesh = times.whole.seconds();
   FractureRun run = make_run(program, mesh, session.log);
   warn_of_interfaces(run, session.log);
+  if (const auto words = bending_warning(mesh, run.model()); words && !session.figures_only) session.log.say(*words);
   const FractureState initial = run.initial_state();
   const std::vector<ColumnSet> surfaces = column_sets(program.fracture.cohesive, mesh, run.model());
   const std::vector<ColumnSet> none, &columns = session.figures_only ? none : surfaces;

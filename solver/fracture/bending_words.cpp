@@ -1,0 +1,49 @@
+#include "solver/fracture/bending_words.h"
+
+#include "solver/momentum/bending_layers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr double bearable = 0.03;
+constexpr int layers_for_it = 10;  // (3 - 2/n)/n^2 is then 2.8 %
+
+std::string reason(const FractureModel& model) {
+  if (model.is_finite_strain()) return "finite strain";
+  if (!model.is_isotropic()) return "a split without secant moduli";
+  if (std::ranges::any_of(model.regions, [](const RegionModel& region) { return region.material != nullptr; }))
+    return "a material with a history";
+  const auto has = [&](BoundaryCondition::Kind kind) {
+    return std::ranges::any_of(model.boundary, [&](const BoundaryCondition& on) { return on.kind == kind; });
+  };
+  if (has(BoundaryCondition::Kind::axisymmetric)) return "a body about an axis";
+  const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) { return is_front_or_back(on); });
+  return is_plane ? "" : "a body in space";
+}
+
+}  // namespace
+
+bool bends_by_one_ring(const FractureModel& model) { return !reason(model).empty(); }
+
+std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel& model) {
+  if (!bends_by_one_ring(model)) return std::nullopt;
+  const auto worst = largest_bending_error(mesh, place_unknowns(mesh, elastic_body(model)));
+  if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
+  const BendingLayers& at = worst->layers;
+  const double nu = worst->poisson_ratio;
+  return fmt::format(
+      "region \"{}\": {:g} layer{} of hexahedra {:.3g} m long across {:.3g} m: where they bend, their stiffness is "
+      "about "
+      "{:.0f} % too {} (1.5 (1 - nu) (length/thickness)^2 = {:.3g} less (3 - 2/n)/n^2 = {:.3g}; {}). For {:.0f} %: {} "
+      "layers of cells up to {:.2g} m long ([mesh])",
+      mesh.region_names[as_size(mesh.region[worst->cell])], at.n, at.n == 1.0 ? "" : "s", at.length, at.thickness,
+      100.0 * std::abs(worst->error), worst->error > 0.0 ? "high" : "low", at.excess(nu), at.lack(), reason(model),
+      100.0 * bearable, layers_for_it, at.thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))));
+}
+
+}  // namespace pfdm
