@@ -121,7 +121,6 @@ void Parser::add_case_options() {
         ->type_name("N");
     of.add_option("--set", line.set, "another value for a key of the case; may be repeated")
         ->type_name("KEY=VALUE")
-        ->expected(1)
         ->allow_extra_args(false);
     of.add_flag("--quiet", line.quiet, "say nothing but warnings and errors");
     if (of.get_name() != "check")

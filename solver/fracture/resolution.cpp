@@ -1,5 +1,7 @@
 #include "solver/fracture/resolution.h"
 
+#include "solver/momentum/bending_layers.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +15,8 @@ constexpr double cells_in_ell = 2.0;  // at least: the discrete toughness is the
 // Along a band: with edges of ell the force after a bead's debonding is within 1 % of that of finer ones. Layers
 // around a sphere widen outwards.
 constexpr double widest_in_ell = 1.25;
-constexpr double rounding = 1e-9;  // of sizes that come from coordinates
+constexpr double fine_share = 0.2;  // of a band's cells, if where its crack grows is meshed more finely than elsewhere
+constexpr double rounding = 1e-9;   // of sizes that come from coordinates
 constexpr double long_tail = 2.0;  // half-width over ell at which a profile without end has fallen to 2 % of its energy
 
 // Extent of a cell across its largest face: of a prism layer its thickness, of a brick its shortest edge, of a
@@ -25,8 +28,25 @@ double thickness(const Mesh& mesh, Index cell) {
   return std::min(mesh.cell_volume[cell], 2.0 * std::abs(to_face.dot(mesh.face_area[largest]))) / area(largest);
 }
 
+// Of a hexahedron of a mesh one cell thick, plane or axisymmetric, the longest edge in its plane; else 0.
+double width_in_plane(const Mesh& mesh, Index cell) {
+  if (mesh.shape[cell] != CellShape::hexahedron) return 0.0;
+  double width = 0.0;
+  bool is_flat = false;
+  for (const Index f : mesh.faces_of_cell(cell)) {
+    const Index other = opposite_face(mesh, cell, f);
+    if (other < 0) return 0.0;
+    if (mesh.is_interior(f) || mesh.is_interior(other))
+      width = std::max(width, 2.0 * mesh.cell_volume[cell] / (mesh.face_area[f].norm() + mesh.face_area[other].norm()));
+    else
+      is_flat = true;
+  }
+  return is_flat ? width : 0.0;
+}
+
 // Edge of a cell along its largest face, if that is a regular triangle or a square.
 double width(const Mesh& mesh, Index cell) {
+  if (const double in_plane = width_in_plane(mesh, cell); in_plane > 0.0) return in_plane;
   const auto area = [&](Index f) { return mesh.face_area[f].norm(); };
   const Index largest = std::ranges::max(mesh.faces_of_cell(cell), {}, area);
   const bool is_triangle = mesh.points_of_face(largest).size() == 3;
@@ -35,11 +55,21 @@ double width(const Mesh& mesh, Index cell) {
 
 bool is_too_thick(double h, double ell) { return h > (1.0 + rounding) * ell / cells_in_ell; }
 
-// Of each region the cell that is the thickest for its ell, how many are too thick, and the sums of width and ell.
+// What the cells along a band have to resolve [m]: ell, or with softening of a given strength the process zone
+// E' Gc/ft^2 at a crack's front if that is longer, E' = E/(1 - nu^2). In g'(0) = -4 E Gc/(c0 ell ft^2) are Gc and ft.
+double front_length(const FractureModel& model, const RegionModel& region) {
+  const Degradation& g = model.degradation_of(region);
+  if (!g.is_chosen() || !g.law().needs_strength) return region.ell;
+  const double nu = region.elasticity.poisson_ratio(), softening = -0.25 * model.crack->c0 * g.g_prime(0.0);
+  return region.ell * std::max(1.0, softening / (1.0 - nu * nu));
+}
+
+// Of each region the cell that is the thickest for its ell, how many are too thick, the sums of width and of the length
+// of a crack's front, and how many are no wider than that.
 struct Sizes {
   double thickness = 0.0, ell = 1.0;  // [m]
-  double width = 0.0, all_ell = 0.0;  // [m]
-  Index n_cells = 0, n_too_thick = 0;
+  double width = 0.0, front = 0.0;    // [m]
+  Index n_cells = 0, n_too_thick = 0, n_fine = 0;
 };
 std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model) {
   std::vector<Sizes> sizes(model.regions.size());
@@ -50,8 +80,10 @@ std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model)
     if (const double h = thickness(mesh, c); h / region.ell > of_region.thickness / of_region.ell)
       of_region.thickness = h, of_region.ell = region.ell;
     of_region.n_too_thick += is_too_thick(thickness(mesh, c), region.ell) ? 1 : 0;
-    of_region.width += width(mesh, c);
-    of_region.all_ell += region.ell;
+    const double along = width(mesh, c), front = front_length(model, region);
+    of_region.width += along;
+    of_region.front += front;
+    of_region.n_fine += along <= (1.0 + rounding) * front ? 1 : 0;
     ++of_region.n_cells;
   }
   return sizes;
@@ -85,12 +117,18 @@ void add_words_on_strength(const std::string& name, const RegionModel& region, R
 void add_words_on_band(const Band& band, const Sizes& sizes, const FractureModel& model, double ell,
                        bool corrects_toughness, ResolutionWords& words) {
   const auto n = static_cast<double>(sizes.n_cells);
-  if (sizes.width > widest_in_ell * sizes.all_ell)
+  if (sizes.width > widest_in_ell * sizes.front && static_cast<double>(sizes.n_fine) < fine_share * n)
     words.warnings.push_back(fmt::format(
-        "region \"{}\": cells are {:.3g} m wide along the band in the mean, ell is {:.3g} m: the front of a "
-        "crack that runs along it would not be resolved (at most ell: surface_size of the particle, or cells of "
+        "region \"{}\": cells are {:.3g} m wide along the band in the mean, {} {:.3g} m: the front of a "
+        "crack that runs along it would not be resolved (at most that: surface_size of the particle, or cells of "
         "[mesh])",
-        band.region, sizes.width / n, sizes.all_ell / n));
+        band.region, sizes.width / n,
+        sizes.front / n > 1.01 * ell ? "the front's process zone E' Gc/ft^2 is" : "ell is", sizes.front / n));
+  else if (sizes.width > widest_in_ell * sizes.front)
+    words.remarks.push_back(fmt::format(
+        "region \"{}\": the front of a crack that runs along the band is resolved in {} of {} cells, which are at most "
+        "{:.3g} m wide",
+        band.region, sizes.n_fine, sizes.n_cells, sizes.front / n));
   const double half = std::min(model.crack->support, long_tail) * ell,
                beyond = energy_beyond(*model.crack, 0.5 * band.width / ell);
   if (corrects_toughness ? beyond > 0.5 : band.width < 2.0 * half)

@@ -13,8 +13,9 @@ namespace pfdm {
 
 struct ResolutionWords {
   /// Of each region whose cells are all too thick for ell (more than ell/2 across their thinnest direction), and of
-  /// each band whose cells are too wide for ell (more than ell along it in the mean) or that is too narrow for its
-  /// crack's profile. A crack there would not dissipate its toughness, or its front would not be resolved.
+  /// each band whose cells are too wide along it (in the mean, and few are finer) for ell or, if longer, the process
+  /// zone of a law with softening, or that is too narrow for its crack's profile. A crack there would not dissipate its
+  /// toughness, or its front would not be resolved.
   std::vector<std::string> warnings;
   std::vector<std::string> remarks;  ///< of each region some of whose cells are too thick: cracks may stay out of them
 };

@@ -52,6 +52,18 @@ TEST(Overrides, DecideWhatRuns) {
   EXPECT_EQ(run({"report", place, "--set", "loading.end=0.5"}).status, 0);
 }
 
+// Each takes one word: what follows is a further one, or the case.
+TEST(Overrides, MayBeRepeated) {
+  const TemporaryCase directory(bar_case());
+  const std::string place = directory.path().string();
+  const Outcome whole =
+      run({"run", "--set", "loading.end=0.5", "--set", "loading.initial_increment=0.05", place, "--quiet"});
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const std::string ran = content_of(directory.path() / "results" / "case.toml");
+  EXPECT_THAT(ran, HasSubstr("end = 0.5"));
+  EXPECT_THAT(ran, HasSubstr("initial_increment = 0.05"));
+}
+
 void expect_refused_word(const std::string& word, const std::string& message) {
   const TemporaryCase directory(bar_case());
   const Outcome outcome = run({"check", directory.path().string(), "--set", word});

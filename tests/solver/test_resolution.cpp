@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +48,58 @@ TEST(Resolution, TellsOfACrackThatEntersCoarseCells) {
             std::string::npos)
       << warnings[0];
   EXPECT_TRUE(coarse.look(damage).empty());  // said once
+}
+
+/// A plane band one cell wide in z, 0.2 m thick in y, of columns whose lengths along x are given; ell is 0.1 m.
+struct PlaneBand {
+  Mesh mesh;
+  FractureModel model;
+  std::vector<Band> bands{{.region = "body", .width = 0.2, .neighbours = {}}};
+
+  explicit PlaneBand(std::vector<AxisBlock> columns) {
+    BoxHexesSettings box;
+    box.axes = {{std::move(columns), {{0.2, 4, 1.0}}, {{3.0, 1, 1.0}}}};
+    mesh = make_box_hexes(box);
+    model.regions.resize(1);
+    model.regions[0].ell = 0.1;
+    model.regions[0].elasticity = from_young_poisson(1e6, 0.4);
+    law("AT1", degradation("quadratic"));
+  }
+  void law(const char* crack, const Degradation& g) {
+    model.crack = &crack_geometry(crack);
+    model.degradation = g;
+  }
+  ResolutionWords words() const { return resolution_words(mesh, model, bands, true); }
+};
+
+bool warns_of_width(const ResolutionWords& words) {
+  return std::ranges::any_of(words.warnings, [](const std::string& w) { return w.find("wide along") != w.npos; });
+}
+
+// A column along the band has the length of its cells, however wide the mesh is in z.
+TEST(Resolution, HoldsCellsAlongABandAgainstEll) {
+  EXPECT_TRUE(warns_of_width(PlaneBand({{1.0, 7, 1.0}}).words()));
+  EXPECT_FALSE(warns_of_width(PlaneBand({{1.0, 10, 1.0}}).words()));
+}
+
+// E Gc/((1 - nu^2) ft^2) is 0.2 m with 1.68e4 J/m^2 and 316 kPa, 0.05 m with twice that strength.
+TEST(Resolution, HoldsCellsAlongABandWithSofteningAgainstTheProcessZone) {
+  PlaneBand band({{1.4, 7, 1.0}});
+  const SofteningLaw& linear = softening_law("linear");
+  const double E = 1e6, Gc = 0.2 * (1.0 - 0.16) * 1e11 / E;
+  band.law("Wu", rational_degradation(rational_coefficients(linear, E, Gc, std::sqrt(1e11), 0.1)));
+  EXPECT_FALSE(warns_of_width(band.words()));
+  band.law("Wu", rational_degradation(rational_coefficients(linear, E, Gc, std::sqrt(4e11), 0.1)));
+  const ResolutionWords words = band.words();
+  EXPECT_TRUE(warns_of_width(words));
+  EXPECT_NE(words.warnings[0].find("ell is 0.1 m"), std::string::npos) << words.warnings[0];
+}
+
+TEST(Resolution, RemarksOnABandThatIsFineWhereItsCrackGrows) {
+  const ResolutionWords words = PlaneBand({{1.0, 10, 1.0}, {9.0, 15, 1.0}}).words();
+  EXPECT_FALSE(warns_of_width(words));
+  ASSERT_EQ(words.remarks.size(), 1u);
+  EXPECT_NE(words.remarks[0].find("is resolved in 40 of 100 cells"), std::string::npos) << words.remarks[0];
 }
 
 }  // namespace

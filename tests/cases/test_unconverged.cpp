@@ -1,0 +1,56 @@
+// A run that stops because its smallest increment does not converge says which cell, and what this case allows.
+
+#include "tests/cases/temporary_case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace pfdm {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A bar that is allowed few iterations a step, too few where its weak cells, at 10 mm, break.
+std::string hasty_bar(int iterations = 5) {
+  const std::string text = replaced(bar_case(), "toughness = \"80 J/m^2\"", "toughness = \"60 J/m^2\"");
+  return replaced(text, "maximum_increment = 0.1\n", "maximum_increment = 0.1\nminimum_increment = 0.02\n") +
+         "\n[solver]\nmaximum_iterations = " + std::to_string(iterations) + "\n";
+}
+
+std::string failure_of(const std::string& text) {
+  const TemporaryCase directory(text);
+  const Outcome outcome = run({"run", directory.path().string(), "--quiet"});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  const auto last = outcome.err.find("with the smallest increment");
+  return last == std::string::npos ? outcome.err : outcome.err.substr(last);
+}
+
+TEST(Unconverged, NamesTheCellThatBreaksAndWhatHelps) {
+  const std::string words = failure_of(hasty_bar());
+  EXPECT_THAT(words, HasSubstr("(0.02 of the load, loading.minimum_increment) in 5 iterations: "));
+  EXPECT_THAT(words, ContainsRegex("the damage of cell 2[01] at \\(0\\.01, 0\\.000[27]5, 0\\.0005\\) m changes by "
+                                   "[0-9.]+e-0[0-9] an iteration \\(solver\\.damage_tolerance = 0\\.0001\\)"));
+  EXPECT_THAT(words, HasSubstr("what may help: more than 5 iterations (solver.maximum_iterations), a viscosity "
+                               "(fracture.viscosity, with loading.duration)"));
+  EXPECT_THAT(words, Not(HasSubstr("dissipation control")));  // nothing is loaded by tractions
+
+  const TemporaryCase patient(hasty_bar(500));
+  const Outcome outcome = run({"run", patient.path().string(), "--quiet"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
+TEST(Unconverged, OffersWhatTheCaseAllows) {
+  const std::string viscous =
+      replaced(replaced(hasty_bar(), "length = \"4 mm\"", "length = \"4 mm\"\nviscosity = \"1 Pa s\""), "[loading]\n",
+               "[loading]\nduration = \"1 s\"\n");
+  EXPECT_THAT(failure_of(viscous), Not(HasSubstr("a viscosity")));
+  std::string pulled = replaced(hasty_bar(3), "displacement = [\"0.015 mm\", \"free\", \"free\"]",
+                                "traction = [\"30 MPa\", \"0 Pa\", \"0 Pa\"]");
+  pulled = replaced(pulled, "frames_at = [\"0.006 mm\"]", "");
+  EXPECT_THAT(failure_of(pulled), HasSubstr("dissipation control (loading.maximum_dissipation)"));
+}
+
+}  // namespace
+}  // namespace pfdm
