@@ -30,7 +30,7 @@ double CellStiffness::factor(Index cell, double d) const {
 
 CellField<double> CellStiffness::factors(const FractureState& state) const {
   CellField<double> g(as_size(mesh_.n_cells()));
-  parallel_for(mesh_.n_cells(), [&](Index c) { g[c] = factor(c, state.damage[c]); });
+  parallel_for(mesh_.n_cells(), [&](Index c) { g[c] = factor(c, seen(c, state)); });
   return g;
 }
 
@@ -178,10 +178,10 @@ double CellStiffness::stored_energy(Index cell, const FiniteEnergies& at, double
   return finite_.stored_energy(cell, at, factor(cell, d));
 }
 
-double CellStiffness::residual_energy(Index cell, double psi_plus, double d) const {
+double CellStiffness::residual_energy(Index cell, double psi_plus, const FractureState& state) const {
   const RegionModel& region = model_.in_cell(mesh_, cell);
   if (!region.damageable) return 0.0;
-  const double lost = 1.0 - model_.degradation_of(region).g(d);
+  const double lost = 1.0 - model_.degradation_of(region).g(seen(cell, state));
   return model_.residual_stiffness * lost * psi_plus * mesh_.cell_volume[cell];
 }
 
@@ -211,7 +211,7 @@ double CellStiffness::follow(const CellMechanics& mechanics, FractureState& stat
 Tensor CellStiffness::closing_strain(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
   const Tensor& strain = mechanics.strain[cell];
   if (materials_.has(cell)) return strain;
-  const double g = factor(cell, state.damage[cell]);
+  const double g = factor(cell, seen(cell, state));
   const double K = split(cell).secant(elasticity(cell), g, state.closure[cell]).bulk_modulus();
   return deviator(strain) + mechanics.stress[cell].trace() / (9.0 * K) * Tensor::Identity();
 }
@@ -222,7 +222,7 @@ double CellStiffness::follow_with_closure(Index cell, const Tensor& strain, Frac
   double& closure = state.closure[cell];
   const double lag = split(cell).closure(strain) - closure;
   if (lag == 0.0) return 0.0;
-  const double g = factor(cell, state.damage[cell]);
+  const double g = factor(cell, seen(cell, state));
   const double wrong = energy_density(split(cell).secant(elasticity(cell), g, closure + lag), strain) -
                        energy_density(split(cell).secant(elasticity(cell), g, closure), strain);
   if (lag * closing_[cell] < 0.0) ++turns_[cell];

@@ -19,6 +19,9 @@ class CellStiffness {
   /// At the beginning of a load step, which takes `duration` [s]: clears the memory of how the strains moved in the
   /// previous one.
   void start_step(double duration);
+  /// The damage that degrades stiffness where it is not the states' own (stiffness_damage.h), for the states that
+  /// follow.
+  void see(CellField<double> damage) { seen_ = std::move(damage); }
   /// Gives the momentum balance the stiffness that belongs to the damage, closure and tangent strain of the state.
   void set(const FractureState& state, MomentumSolver& momentum) const;
   /// The part of the stiffness that damage degrades, by cell; zero where it is not given by isotropic moduli, and where
@@ -53,7 +56,7 @@ class CellStiffness {
   double stored_energy(Index cell, const FiniteEnergies& at, double d) const;
   /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]
   /// (residual_stiffness.h).
-  double residual_energy(Index cell, double psi_plus, double d) const;
+  double residual_energy(Index cell, double psi_plus, const FractureState& state) const;
   /// Energy dissipated by the materials [J] from one state to the other.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   /// Of the undamaged material [Pa], on which strength depends: at finite strain Biot's.
@@ -67,6 +70,9 @@ class CellStiffness {
 
  private:
   double factor(Index cell, double d) const;  // g, the residual stiffness included
+  double seen(Index cell, const FractureState& state) const {
+    return seen_.size() > 0 ? seen_[cell] : state.damage[cell];
+  }
   FiniteEnergies finite_energies(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   CellField<double> factors(const FractureState& state) const;
   CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
@@ -82,6 +88,7 @@ class CellStiffness {
   const FractureModel& model_;
   MaterialCells materials_;
   FiniteCells finite_;
+  CellField<double> seen_;    // may be empty
   bool is_isotropic_;         // every split has isotropic secant moduli
   CellField<float> closing_;  // per cell: last change of the closure, and
   CellField<Index> turns_;    // number of its reversals within the step

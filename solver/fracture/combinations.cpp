@@ -132,6 +132,25 @@ void require_strength(const FractureModel& m) {
   }
 }
 
+void require_mean_damage(const Mesh& mesh, const FractureModel& m) {
+  const auto refuse = [](std::string_view what) {
+    throw InputError(fmt::format(
+        "stiffness by the mean damage (fracture.stiffness_damage = \"mean\") cannot be combined with {}", what));
+  };
+  if (m.is_finite_strain()) refuse("materials of finite strain");
+  if (m.has_strength()) refuse("a strength model");
+  if (m.irreversibility != Irreversibility::bounds) refuse("an irreversibility other than \"bounds\"");
+  for (const RegionModel& region : m.regions) {
+    if (!region.damageable) continue;
+    if (region.material) refuse(fmt::format("damageable materials of the law \"{}\"", region.material->name()));
+    if (!m.split_of(region).is_variational())
+      refuse(fmt::format("the split \"{}\", whose driving force is not the derivative of an energy",
+                         m.split_of(region).name()));
+  }
+  if (std::ranges::find(mesh.shape.begin(), mesh.shape.end(), CellShape::hexahedron) == mesh.shape.end())
+    refuse("a mesh without hexahedra: only they have it");
+}
+
 void require_history(const FractureModel& m, const Material& law, const LoadingSettings& loading) {
   if (!m.is_isotropic())
     throw InputError(
@@ -176,6 +195,7 @@ void require_combination(const Mesh& mesh, const FractureModel& model, const Unk
     if (region.material && !model.is_finite_strain()) require_history(model, *region.material, loading);
   if (model.is_finite_strain()) require_finite(mesh, model, unknowns, loading);
   if (model.has_strength()) require_strength(model);
+  if (model.stiffness_by == StiffnessBy::mean) require_mean_damage(mesh, model);
   if (controls_dissipation(loading)) require_path(mesh, model, unknowns, loading);
 }
 

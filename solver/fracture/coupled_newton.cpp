@@ -41,7 +41,7 @@ struct CoupledNewton::System {
   std::vector<double> diagonal, r_d, z_d;
   ConjugateGradients::Held held;
   ConjugateGradients by_damage;
-  CellField<double> dd, dg, energy;
+  CellField<double> dd, dg, energy, by_mean;
   std::vector<Vector> u, force;
 
   System(const CoupledNewton& newton, const Iterate& at, const FractureState& state, const CellField<double>& answer)
@@ -50,7 +50,7 @@ struct CoupledNewton::System {
         coupling(momentum.balance(), newton.part_, state.displacement),
         n_cells(newton.mesh_.n_cells()),
         n_u(state.displacement.size()),
-        g_prime(as_size(n_cells), 0.0),
+        g_prime(damage.stiffness_slopes(state.damage)),
         root(as_size(n_cells), 1.0),
         diagonal(as_size(n_cells), 1.0),
         r_d(as_size(n_cells)),
@@ -60,12 +60,11 @@ struct CoupledNewton::System {
         dd(as_size(n_cells)),
         dg(as_size(n_cells)),
         energy(as_size(n_cells)),
+        by_mean(as_size(n_cells)),
         u(n_u),
         force(n_u) {
     parallel_for(n_cells, [&](Index c) {
       if (!damage.is_damageable(c)) return;
-      const Degradation& degradation = newton.model_.degradation_of(newton.model_.in_cell(newton.mesh_, c));
-      g_prime[c] = (1.0 - newton.model_.residual_stiffness) * degradation.g_prime(state.damage[c]);
       diagonal[as_size(c)] = damage.diagonal(c, state.damage[c], state.driving_energy[c]);
       root[c] = std::sqrt(diagonal[as_size(c)]);
       held[as_size(c)] = answer[c] > at.lower[c] && answer[c] < 1.0 ? 0 : 1;
@@ -79,16 +78,19 @@ struct CoupledNewton::System {
 
   void apply(const std::vector<Vector>& x, std::vector<Vector>& y) {
     std::copy_n(x.begin(), n_u, u.begin());
-    parallel_for(n_cells, [&](Index c) {
-      dd[c] = of(x, c) / root[c];
-      dg[c] = g_prime[c] * dd[c];
-    });
+    parallel_for(n_cells, [&](Index c) { dd[c] = of(x, c) / root[c]; });
+    const StiffnessDamage& by = damage.stiffness_damage();
+    const CellField<double> mean = by.means(dd);
+    parallel_for(n_cells, [&](Index c) { dg[c] = g_prime[c] * mean[c]; });
     coupling.apply(u, dg, force, energy);
+    parallel_for(n_cells, [&](Index c) { by_mean[c] = g_prime[c] * energy[c] + damage.mean_curvature(c) * mean[c]; });
+    const CellField<double> drive = by.spread(by_mean);
     std::copy(force.begin(), force.end(), y.begin());
     y.back().setZero();  // the last vector may have room for more cells than there are
     parallel_for(n_cells, [&](Index c) {
-      const double fluxes = diagonal[as_size(c)] * dd[c] - damage.coupling().times(c, dd.data());
-      of(y, c) = is_held(c) ? of(x, c) : (fluxes + g_prime[c] * energy[c]) / root[c];
+      const double own = diagonal[as_size(c)] - damage.mean_diagonal(c);
+      const double fluxes = own * dd[c] - damage.coupling().times(c, dd.data());
+      of(y, c) = is_held(c) ? of(x, c) : (fluxes + drive[c]) / root[c];
     });
   }
 
@@ -101,8 +103,10 @@ struct CoupledNewton::System {
         .reduction = damage_reduction, .least = 0.0, .most_iterations = most_damage_iterations};
     by_damage.solve(diagonal, held, tolerance, r_d, z_d);
     z.back().setZero();
+    parallel_for(n_cells, [&](Index c) { dd[c] = z_d[as_size(c)]; });
+    const CellField<double> mean = damage.stiffness_damage().means(dd);
     parallel_for(n_cells, [&](Index c) {
-      dg[c] = g_prime[c] * z_d[as_size(c)];
+      dg[c] = g_prime[c] * mean[c];
       of(z, c) = is_held(c) ? of(r, c) : z_d[as_size(c)] * root[c];
     });
     coupling.apply(dg, force);

@@ -80,23 +80,63 @@ DamageEquation::DamageEquation(const Mesh& mesh, const FractureModel& model, con
       model_(model),
       damageable_(damageable_cells(mesh, model)),
       density_(energy_density(mesh, model)),
-      flux_(mesh, medium_of(mesh, model, plane_normal)) {}
+      flux_(mesh, medium_of(mesh, model, plane_normal)),
+      stiffness_damage_(mesh, model, plane_normal) {}
 
 double DamageEquation::local_slope(Index cell, double d, double psi) const {
   const Degradation& degradation = model_.degradation_of(model_.in_cell(mesh_, cell));
-  const double slope =
-      density_[cell] * model_.crack->alpha_prime(d) + (1.0 - model_.residual_stiffness) * degradation.g_prime(d) * psi;
+  const double own = drive_.from.size() > 0 ? 0.0 : (1.0 - model_.residual_stiffness) * degradation.g_prime(d) * psi;
+  const double slope = density_[cell] * model_.crack->alpha_prime(d) + own;
   const double source = source_.size() > 0 ? source_[cell] : 0.0;
   const double force = force_.size() > 0 ? degradation.g(d) * force_[cell] : 0.0;
   const double resistance = resistance_ > 0.0 ? resistance_ * (d - from_[cell]) : 0.0;
-  return mesh_.cell_volume[cell] * (slope + resistance - source - force);
+  const double local = mesh_.cell_volume[cell] * (slope + resistance - source - force);
+  if (drive_.from.size() == 0) return local;
+  return local + drive_.slope[cell] + drive_.diagonal[cell] * (d - drive_.from[cell]);
 }
 
 double DamageEquation::local_curvature(Index cell, double d, double psi) const {
   const Degradation& degradation = model_.degradation_of(model_.in_cell(mesh_, cell));
   const double force = force_.size() > 0 ? degradation.g_prime(d) * force_[cell] : 0.0;
-  return mesh_.cell_volume[cell] * (density_[cell] * model_.crack->alpha_second(d) + resistance_ - force +
-                                    (1.0 - model_.residual_stiffness) * degradation.g_second(d) * psi);
+  const double own = drive_.from.size() > 0 ? 0.0 : (1.0 - model_.residual_stiffness) * degradation.g_second(d) * psi;
+  return mesh_.cell_volume[cell] * (density_[cell] * model_.crack->alpha_second(d) + resistance_ - force + own) +
+         mean_diagonal(cell);
+}
+
+void DamageEquation::linearise_drive(const CellField<double>& psi_plus, const CellField<double>& d) {
+  if (!stiffness_damage_.any()) return;
+  constexpr double least_curvature = 0.2;  // of that at a fixed dD/dx: where the energy is not convex in d
+  const auto n = as_size(mesh_.n_cells());
+  const CellField<double> mean = stiffness_damage_.means(d);
+  CellField<double> slope(n, 0.0), bound(n, 0.0);
+  drive_.curvature = CellField<double>(n, 0.0);
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    if (!is_damageable(c)) return;
+    const Degradation& degradation = model_.degradation_of(model_.in_cell(mesh_, c));
+    const StiffnessDamage::At D = stiffness_damage_.at(c, mean[c]);
+    const double energy = mesh_.cell_volume[c] * (1.0 - model_.residual_stiffness) * psi_plus[c];
+    const double convex = energy * degradation.g_second(D.value) * D.slope * D.slope;
+    slope[c] = energy * degradation.g_prime(D.value) * D.slope;
+    drive_.curvature[c] = convex + energy * degradation.g_prime(D.value) * D.curvature;
+    bound[c] = std::max(drive_.curvature[c], least_curvature * convex);
+  });
+  drive_.slope = stiffness_damage_.spread(slope);
+  drive_.diagonal = stiffness_damage_.spread(bound);
+  drive_.from = d;
+}
+
+CellField<double> DamageEquation::stiffness_slopes(const CellField<double>& d) const {
+  CellField<double> slope = stiffness_damage_.means(d);
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    if (!is_damageable(c)) {
+      slope[c] = 0.0;
+      return;
+    }
+    const Degradation& degradation = model_.degradation_of(model_.in_cell(mesh_, c));
+    const StiffnessDamage::At D = stiffness_damage_.at(c, slope[c]);
+    slope[c] = (1.0 - model_.residual_stiffness) * degradation.g_prime(D.value) * D.slope;
+  });
+  return slope;
 }
 
 double DamageEquation::driving_curvature(Index cell, double d, double psi_slope) const {
@@ -127,6 +167,7 @@ double DamageEquation::viscous_dissipation(const CellField<double>& d) const {
 
 ScalarSolution DamageEquation::solve(const CellField<double>& psi_plus, const CellField<double>& lower,
                                      const ScalarTolerance& tolerance, CellField<double>& d) {
+  linearise_drive(psi_plus, d);
   const auto fixed = [&](Index c, double) { return DrivingAt{.value = psi_plus[c]}; };
   const DamageTerm<decltype(fixed)> term{*this, fixed, lower};
   return BoundedNewton(flux_, term, d).solve(tolerance);

@@ -3,13 +3,16 @@
 //
 //   (Gc/(c0 ell)) alpha'(d) + (1 - k) g'(d) psi_plus - div((2 Gc ell/c0) grad d) = 0,  lower <= d <= 1,
 //
-// no flux through the boundary, d = 0 in undamageable regions. With a strength model Gc is delta Gc, and an external
-// driving force c adds -g(d) c (physics/strength_model.h). With a viscosity eta (Ginzburg-Landau; Miehe,
-// Welschinger, Hofacker, Int. J. Numer. Meth. Engng 83 (2010) 1273) the left side has eta (d - d_n)/dt as well.
-// Two-point fluxes, bounds by active set: two_point_flux.h, bounded_newton.h.
+// no flux through the boundary, d = 0 in undamageable regions. Where the stiffness has a damage of its own
+// (stiffness_damage.h), the term in psi_plus is A^T (g'(D) phi' psi_plus). It is linearised about the d that a solution
+// begins with, with a diagonal that bounds its derivative from above, so that each solution descends. With a strength
+// model Gc is delta Gc, and an external driving force c adds -g(d) c (physics/strength_model.h). With a viscosity eta
+// (Ginzburg-Landau; Miehe, Welschinger, Hofacker, Int. J. Numer. Meth. Engng 83 (2010) 1273) the left side has eta (d -
+// d_n)/dt as well. Two-point fluxes, bounds by active set: two_point_flux.h, bounded_newton.h.
 
 #include "solver/fracture/driving_law.h"
 #include "solver/fracture/fracture_model.h"
+#include "solver/fracture/stiffness_damage.h"
 #include "solver/scalar/bounded_newton.h"
 #include "solver/scalar/two_point_flux.h"
 
@@ -51,6 +54,14 @@ class DamageEquation {
   double imbalance(Index cell, const CellField<double>& d, double psi_plus) const;
   double diagonal(Index cell, double d, double psi_plus) const;
   const SymmetricCoupling& coupling() const { return flux_.coupling(); }
+  /// By which damage the stiffness is degraded.
+  const StiffnessDamage& stiffness_damage() const { return stiffness_damage_; }
+  /// Derivatives of the stiffness factors by the means of d, at d [-].
+  CellField<double> stiffness_slopes(const CellField<double>& d) const;
+  /// Of the energy of degraded stiffness by the means of d, at the d with which the last solution began, and the
+  /// diagonal that stood for it [J]; zero where each cell's own d degrades it.
+  double mean_curvature(Index cell) const { return drive_.curvature.size() > 0 ? drive_.curvature[cell] : 0.0; }
+  double mean_diagonal(Index cell) const { return drive_.diagonal.size() > 0 ? drive_.diagonal[cell] : 0.0; }
   bool is_damageable(Index cell) const { return damageable_[cell] != 0; }
   /// Additional source per volume [J/m^3], for manufactured solutions.
   void set_source(CellField<double> source) { source_ = std::move(source); }
@@ -62,12 +73,20 @@ class DamageEquation {
   double local_curvature(Index cell, double d, double psi) const;          // its derivative [J]
   double driving_curvature(Index cell, double d, double psi_slope) const;  // the part of it that psi's slope adds [J]
   double local_energy(Index cell, double d) const;                         // [J]
+  void linearise_drive(const CellField<double>& psi_plus, const CellField<double>& d);
 
   const Mesh& mesh_;
   const FractureModel& model_;
   CellField<char> damageable_;
   CellField<double> density_;  // Gc/(c0 ell) [J/m^3]
   TwoPointFlux flux_;          // of the conductance 2 Gc ell/c0 [J/m]
+  StiffnessDamage stiffness_damage_;
+  // The term in psi_plus, linearised about `from`: its slope there, diagonal for its derivative, and derivative by the
+  // means of d [J]; empty where it is each cell's own.
+  struct Drive {
+    CellField<double> from, slope, diagonal, curvature;
+  };
+  Drive drive_;
   CellField<double> source_;
   CellField<double> force_;  // empty without
   double resistance_ = 0.0;  // [J/m^3]

@@ -41,6 +41,9 @@ enum class Irreversibility {
   history,    ///< the driving energy is the largest that was seen (Miehe et al., CMAME 199 (2010) 2765, eq. 38)
 };
 
+/// The damage that degrades the stiffness of a cell: its own, or of hexahedra the mean about it (stiffness_damage.h).
+enum class StiffnessBy { cell, mean };
+
 /// Interior faces whose sides a cohesive law joins.
 struct CohesiveSurface {
   std::string name;
@@ -62,6 +65,7 @@ struct FractureModel {
   Degradation degradation{};
   EnergySplit split{};
   Irreversibility irreversibility = Irreversibility::bounds;
+  StiffnessBy stiffness_by = StiffnessBy::cell;
   double residual_stiffness = 1e-6;           ///< k of g_k = (1 - k) g + k
   double viscosity = 0.0;                     ///< eta of the damage equation [Pa s]; 0: rate-independent
   std::vector<BoundaryCondition> boundary;    ///< patches that are not named are free

@@ -213,9 +213,10 @@ struct FractureRun::Parts {
     if (model.motion.any()) r.means = box_means(mesh, unknowns, sides, state.boundary_force, state.displacement);
     r.debonded_area =
         staggered.faces().debonded_areas(staggered.momentum().balance(), state.displacement, state.interfaces);
-    r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return state.damage[c]; });
+    const CellField<double> damage = staggered.damage_equation().stiffness_damage().of(state.damage);
+    r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return damage[c]; });
     r.damaged_volume =
-        parallel_sum(mesh.n_cells(), [&](Index c) { return state.damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
+        parallel_sum(mesh.n_cells(), [&](Index c) { return damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
     r.staggered_iterations = outcome.iterations;
     r.krylov_iterations = outcome.krylov_iterations;
     r.increment = increment;
@@ -300,7 +301,7 @@ OutputFields FractureRun::output(const FractureState& state) {
     density[c] = staggered.stiffness().stored_energy(c, mechanics, state) / mesh.cell_volume[c];
   OutputFields fields{.displacement = CellField<Vector>(
                           std::vector<Vector>(state.displacement.begin(), state.displacement.begin() + mesh.n_cells())),
-                      .damage = state.damage,
+                      .damage = staggered.damage_equation().stiffness_damage().of(state.damage),
                       .stress = mechanics.stress,
                       .strain = mechanics.strain,
                       .gradient = mechanics.gradient,

@@ -299,6 +299,7 @@ double Staggered::work(const FractureState& from, const std::vector<Vector>& for
 
 void Staggered::degrade(const FractureState& state) {
   const auto lap = clock_.lap("moduli_and_preconditioner");
+  if (damage_.stiffness_damage().any()) stiffness_.see(damage_.stiffness_damage().of(state.damage));
   stiffness_.set(state, momentum_);
 }
 
@@ -369,7 +370,7 @@ double Staggered::drive(const FractureState& start, FractureState& state, double
     const double psi = scale * scale * psi_plus_[c];
     const double opening = strength_.closed.size() > 0 ? psi - scale * scale * strength_.closed[c] : psi;
     state.driving_energy[c] = history ? std::max(opening, start.driving_energy[c]) : opening;
-    return stiffness_.residual_energy(c, psi, state.damage[c]);
+    return stiffness_.residual_energy(c, psi, state);
   });
 }
 

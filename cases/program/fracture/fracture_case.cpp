@@ -72,10 +72,10 @@ void read_delta(const ConfigTable& table, const FractureModel& model, StrengthCh
 }
 
 MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
-  const ConfigTable table =
-      root.table("fracture")
-          .with_keys({"model", "degradation", "softening", "split", "effective_toughness", "irreversibility", "length",
-                      "residual_stiffness", "viscosity", "delta", "perturbation", "perturbation_seed"});
+  const ConfigTable table = root.table("fracture")
+                                .with_keys({"model", "degradation", "softening", "split", "effective_toughness",
+                                            "irreversibility", "length", "stiffness_damage", "residual_stiffness",
+                                            "viscosity", "delta", "perturbation", "perturbation_seed"});
   MaterialDefaults defaults;
   model.crack = &read_model(table, defaults.strength);
   const auto degrading = table.find("degradation"), split = table.find("split");
@@ -84,6 +84,10 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   if (const auto irreversibility = table.find("irreversibility"))
     model.irreversibility = read_irreversibility(*irreversibility);
   read_delta(table, model, defaults.strength);
+  const std::string damages[] = {"cell", "mean"};
+  if (const auto by = table.find("stiffness_damage"))
+    model.stiffness_by =
+        by->one_of(damages, "damage of the stiffness") == "mean" ? StiffnessBy::mean : StiffnessBy::cell;
   model.residual_stiffness = table.number("residual_stiffness", above_zero_below_one, model.residual_stiffness);
   if (table.has("viscosity")) model.viscosity = table.quantity("viscosity", dimension::viscosity, range::not_negative);
   defaults.crack = model.crack;
