@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <unordered_map>
 
 namespace pfdm {
@@ -172,24 +174,36 @@ Body read_body(const BodySettings& settings) {
 }
 
 std::vector<std::size_t> chosen_steps(const std::vector<double>& progress, std::size_t count) {
-  std::vector<double> way(progress.size(), 0.0);
-  for (std::size_t i = 1; i < way.size(); ++i) way[i] = way[i - 1] + std::abs(progress[i] - progress[i - 1]);
-  std::vector<std::size_t> chosen;
-  if (way.empty()) return chosen;
-  if (way.size() <= count || count < 2) {
-    for (std::size_t i = 0; i < way.size(); ++i) chosen.push_back(i);
-    return chosen;
+  constexpr double share_of_steps = 0.2;  // of the way, so that steps without progress count too
+  constexpr std::size_t n_jumps = 3;
+  const std::size_t n = progress.size();
+  std::vector<std::size_t> chosen(n);
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  if (n <= std::max<std::size_t>(count, 2)) return chosen;
+  std::vector<double> way(n, 0.0);
+  std::vector<std::size_t> jumps(chosen.begin() + 1, chosen.end());
+  for (std::size_t i = 1; i < n; ++i) way[i] = way[i - 1] + std::abs(progress[i] - progress[i - 1]);
+  std::ranges::stable_sort(jumps, std::greater(), [&](std::size_t i) { return way[i] - way[i - 1]; });
+  const double of_step = (way.back() > 0.0 ? share_of_steps * way.back() : 1.0) / static_cast<double>(n);
+  for (std::size_t i = 0; i < n; ++i) way[i] += of_step * static_cast<double>(i);
+  chosen = {0, n - 1};
+  const auto add = [&](std::size_t i) {
+    if (chosen.size() < count && std::ranges::find(chosen, i) == chosen.end()) chosen.push_back(i);
+  };
+  for (std::size_t k = 0; k < n_jumps; ++k)  // both sides of what happens at once
+    for (const std::size_t i : {jumps[k % jumps.size()] - 1, jumps[k % jumps.size()]}) add(i);
+  while (chosen.size() < count) {  // the one that is farthest from all
+    const auto distance = [&](std::size_t i) {
+      double nearest = way.back();
+      for (const std::size_t c : chosen) nearest = std::min(nearest, std::abs(way[i] - way[c]));
+      return nearest;
+    };
+    std::size_t farthest = 0;
+    for (std::size_t i = 1; i < n; ++i)
+      if (distance(i) > distance(farthest)) farthest = i;
+    add(farthest);
   }
-  chosen.push_back(0);
-  for (std::size_t k = 1; k < count; ++k) {
-    const double due = way.back() * static_cast<double>(k) / static_cast<double>(count - 1);
-    std::size_t best = chosen.back() + 1;
-    const std::size_t last = way.size() - (count - k);
-    for (std::size_t i = best; i <= last; ++i)
-      if (std::abs(way[i] - due) < std::abs(way[best] - due)) best = i;
-    chosen.push_back(best);
-  }
-  chosen.back() = way.size() - 1;
+  std::ranges::sort(chosen);
   return chosen;
 }
 

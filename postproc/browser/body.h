@@ -58,7 +58,8 @@ struct BodySettings {
 /// Throws InputError for files that are no frames of one run.
 Body read_body(const BodySettings& settings);
 
-/// At most `count` of the steps, first and last among them, dense where `progress`, one value for each, changes much.
+/// At most `count` of the steps, but two at least: first and last, both sides of the largest jumps of `progress`, one
+/// value for each, and from there on always the one that is farthest from all.
 std::vector<std::size_t> chosen_steps(const std::vector<double>& progress, std::size_t count);
 
 }  // namespace pfdm

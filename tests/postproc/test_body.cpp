@@ -205,6 +205,11 @@ TEST(ChosenSteps, AreDenseWhereMuchHappens) {
   EXPECT_EQ(chosen.back(), 50u);
   EXPECT_TRUE(std::ranges::is_sorted(chosen, std::less_equal()));
   EXPECT_GE(std::ranges::count_if(chosen, [](std::size_t i) { return i >= 24 && i < 30; }), 5);
+  std::vector<double> jump(40, 0.0);
+  for (std::size_t i = 0; i < jump.size(); ++i) jump[i] = 0.01 * static_cast<double>(i) + (i >= 17 ? 5.0 : 0.0);
+  const std::vector<std::size_t> about = chosen_steps(jump, 10);
+  EXPECT_TRUE(std::ranges::includes(about, std::vector<std::size_t>{0, 16, 17, 39}));
+  EXPECT_EQ(chosen_steps(std::vector<double>(40, 1.0), 2), (std::vector<std::size_t>{0, 39}));
   EXPECT_EQ(chosen_steps({0.0, 1.0, 2.0}, 12), (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_TRUE(chosen_steps({}, 12).empty());
 }

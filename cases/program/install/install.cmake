@@ -45,7 +45,8 @@ install(
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfdm
   COMPONENT development
   FILES_MATCHING
-  PATTERN "*.h")
+  PATTERN "*.h"
+  PATTERN script EXCLUDE)
 install(
   EXPORT pfdm
   FILE pfdmTargets.cmake

@@ -100,14 +100,24 @@ std::string command_of(const fs::path& results) {
   return fmt::format("./pfdm {} {}", job, quoted((is_default ? results.parent_path() : file).string()));
 }
 
+/// Of a number in `unit`: with a prefix where the unit takes one.
+DisplayUnit unit_of_estimate(double value, const std::string& unit) {
+  constexpr std::array taking_prefix{"Pa", "m", "N", "Hz"};
+  if (std::ranges::find(taking_prefix, unit) != taking_prefix.end()) return display_unit(value, unit);
+  return {.factor = 1.0, .name = unit == "1" ? "" : unit};
+}
+
 /// Verdict and estimates.
 void add_fit(BrowserPage& page, const FitReport& fit) {
   page.headline.push_back(fmt::format("The fit is {}.", verdict_text(fit.found)));
   for (const FittedParameter& p : fit.found.parameters) {
+    const DisplayUnit unit = unit_of_estimate(p.estimate, p.unit);
     const bool has_interval = std::isfinite(p.lower) && std::isfinite(p.upper);
     page.figures.push_back({.label = p.name,
-                            .value = fmt::format("{:.4g} {}", p.estimate, p.unit),
-                            .note = has_interval ? interval_text(p.lower, p.upper, fit.confidence, 4) : "no interval"});
+                            .value = in_print(fmt::format("{:.4g} {}", unit.factor * p.estimate, unit.name)),
+                            .note = has_interval
+                                        ? interval_text(unit.factor * p.lower, unit.factor * p.upper, fit.confidence, 4)
+                                        : "no interval"});
   }
 }
 

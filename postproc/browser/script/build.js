@@ -30,7 +30,9 @@ const made = await build({
 function licence_of(name) {
   const folder = new URL(`node_modules/${name}/`, here);
   const { version, license } = JSON.parse(readFileSync(new URL("package.json", folder)));
-  const file = ["LICENSE", "LICENSE.md", "LICENSE.txt", "license", "LICENCE"].find((f) => existsSync(new URL(f, folder)));
+  const file = ["LICENSE", "LICENSE.md", "LICENSE.txt", "license", "LICENCE"].find((f) =>
+    existsSync(new URL(f, folder)),
+  );
   const head = () => readFileSync(new URL(`${name}.js`, folder), "utf8").match(/\/\*([^]*?)\*\//)?.[1] ?? "";
   const text = (file ? readFileSync(new URL(file, folder), "utf8") : head()).trim();
   return `${name} ${version}, ${license}\n\n${text}`.replaceAll("*/", "* /").replaceAll("\r", "");

@@ -9,12 +9,22 @@ const broken = 0.95;
 
 /** The numbers of the page's data, unpacked. */
 async function unpacked(body) {
-  const [shape, region, open] = await Promise.all([octets(body.shape), octets(body.region), body.open ? octets(body.open) : null]);
-  const [corners, stream, parents] = await Promise.all([integers(body.corners), integers(body.stream), integers(body.base)]);
+  const [shape, region, open] = await Promise.all([
+    octets(body.shape),
+    octets(body.region),
+    body.open ? octets(body.open) : null,
+  ]);
+  const [corners, stream, parents] = await Promise.all([
+    integers(body.corners),
+    integers(body.stream),
+    integers(body.base),
+  ]);
   const n = body.n_points;
   const places = await Promise.all(body.points.map((axis) => quantised(axis, 1, n)));
   const moves = await Promise.all(body.displacement.map((axis) => quantised(axis, body.frames.length, n)));
-  const fields = await Promise.all(body.fields.map((field) => quantised(field.values, body.frames.length, shape.length)));
+  const fields = await Promise.all(
+    body.fields.map((field) => quantised(field.values, body.frames.length, shape.length)),
+  );
   const cells = new Cells({ shape, corners, stream, region, base: parents, open });
   return { cells, places: places.map(([block]) => block), moves, fields };
 }
@@ -29,7 +39,8 @@ function quantile_range(blocks, scale) {
   const sample = [];
   const every = Math.max(1, Math.floor((blocks.length * blocks[0].length) / 60000));
   let k = 0;
-  for (const block of blocks) for (; k < block.length || ((k -= block.length), false); k += every) sample.push(block[k]);
+  for (const block of blocks)
+    for (; k < block.length || ((k -= block.length), false); k += every) sample.push(block[k]);
   sample.sort((a, b) => a - b);
   const at = (q) => scale * sample[Math.min(sample.length - 1, Math.floor(q * sample.length))];
   return [at(0.002), at(0.998)];
@@ -41,7 +52,11 @@ export class Body {
     this.steps = steps;
     this.on_frame = on_frame;
     this.frame = data.frames.length - 1;
-    this.holder = element("div", { class: "scene", tabindex: "0", "aria-label": "The body. Arrows: steps; space: play; h, j, k, l: turn; plus and minus: zoom" });
+    this.holder = element("div", {
+      class: "scene",
+      tabindex: "0",
+      "aria-label": "The body. Arrows: steps; space: play; h, j, k, l: turn; plus and minus: zoom",
+    });
     this.note = element("div", { class: "note" });
     this.read = element("div", { class: "read" });
     this.state = element("p", { class: "state", "aria-live": "polite" });
@@ -67,7 +82,8 @@ export class Body {
     this.length = Math.hypot(...this.size);
     let most = 0;
     for (let f = 0; f < data.frames.length; ++f)
-      for (let i = 0; i < data.n_points; ++i) most = Math.max(most, Math.hypot(...this.moves.map((axis) => axis[f][i])));
+      for (let i = 0; i < data.n_points; ++i)
+        most = Math.max(most, Math.hypot(...this.moves.map((axis) => axis[f][i])));
     this.most_moved = most;
     this.warp = most === 0 || most > 0.02 * this.length ? 1 : round_down((0.08 * this.length) / most);
     this.is_flat = this.data.flat_axis >= 0;
@@ -77,14 +93,20 @@ export class Body {
     this.hide_broken = true;
     this.mesh_lines = false;
     const displacement = {
-      name: "displacement", unit: data.displacement_unit.name, factor: data.displacement_unit.factor,
+      name: "displacement",
+      unit: data.displacement_unit.name,
+      factor: data.displacement_unit.factor,
       at_points: (f, i) => Math.hypot(...this.moves.map((axis) => axis[f][i])),
       range: [0, most * data.displacement_unit.factor],
     };
     const component = {
-      name: `displacement ${"xyz"[data.component]}`, unit: displacement.unit, factor: displacement.factor,
+      name: `displacement ${"xyz"[data.component]}`,
+      unit: displacement.unit,
+      factor: displacement.factor,
       at_points: (f, i) => this.moves[data.component][f][i],
-      range: [data.displacement[data.component].from, data.displacement[data.component].to].map((v) => v * displacement.factor),
+      range: [data.displacement[data.component].from, data.displacement[data.component].to].map(
+        (v) => v * displacement.factor,
+      ),
     };
     this.quantities = data.fields.map((field, k) => ({
       ...field,
@@ -97,7 +119,8 @@ export class Body {
       if (q.map === diverging) q.range = [-1, 1].map((s) => s * Math.max(-q.range[0], q.range[1]));
       if (!(q.range[0] < q.range[1])) q.range = [q.range[0], q.range[0] + (Math.abs(q.range[0]) || 1)];
     }
-    const has_damage = this.quantities[0].name === "damage" && this.fields[0].some((block) => block.some((v) => v > 0.05));
+    const has_damage =
+      this.quantities[0].name === "damage" && this.fields[0].some((block) => block.some((v) => v > 0.05));
     this.quantity = this.quantities[has_damage ? 0 : Math.min(1, this.quantities.length - 1)];
     if (!has_damage && this.quantities.length > 3) this.quantity = this.quantities[1];
     this.damage = this.quantities[0].name === "damage" ? this.fields[0] : null;
@@ -112,10 +135,21 @@ export class Body {
   controls() {
     const { data } = this;
     const last = data.frames.length - 1;
-    this.slider = element("input", { type: "range", min: 0, max: last, value: last, "aria-label": "step", oninput: () => this.go(Number(this.slider.value)) });
+    this.slider = element("input", {
+      type: "range",
+      min: 0,
+      max: last,
+      value: last,
+      "aria-label": "step",
+      oninput: () => this.go(Number(this.slider.value)),
+    });
     this.play_button = element("button", { onclick: () => this.play(), "aria-label": "play or stop" }, "\u25b6 Play");
     const choice = (names, chosen, act) => {
-      const select = element("select", { onchange: () => act(select.selectedIndex) }, ...names.map((name, i) => element("option", { selected: i === chosen }, name)));
+      const select = element(
+        "select",
+        { onchange: () => act(select.selectedIndex) },
+        ...names.map((name, i) => element("option", { selected: i === chosen }, name)),
+      );
       return select;
     };
     const label = (text, ...what) => element("label", {}, text, ...what);
@@ -123,32 +157,60 @@ export class Body {
       const box = element("input", { type: "checkbox", checked: on, onchange: () => (act(box.checked), this.draw()) });
       return label("", box, text);
     };
-    const quantity = choice(this.quantities.map((q) => q.name), this.quantities.indexOf(this.quantity), (i) => {
-      this.quantity = this.quantities[i];
-      this.map_choice.value = this.quantity.map;
-      this.draw();
-    });
-    this.map_choice = choice(Object.keys(colour_maps), 0, (i) => ((this.quantity.map = Object.keys(colour_maps)[i]), this.draw()));
+    const quantity = choice(
+      this.quantities.map((q) => q.name),
+      this.quantities.indexOf(this.quantity),
+      (i) => {
+        this.quantity = this.quantities[i];
+        this.map_choice.value = this.quantity.map;
+        this.draw();
+      },
+    );
+    this.map_choice = choice(
+      Object.keys(colour_maps),
+      0,
+      (i) => ((this.quantity.map = Object.keys(colour_maps)[i]), this.draw()),
+    );
     this.map_choice.value = this.quantity.map;
-    const warp = element("input", { type: "number", min: 0, step: "any", value: this.warp, style: "width: 6em", oninput: () => {
-      const value = Number(warp.value);
-      if (!Number.isFinite(value)) return;
-      this.warp = value;
-      this.draw();
-    } });
+    const warp = element("input", {
+      type: "number",
+      min: 0,
+      step: "any",
+      value: this.warp,
+      style: "width: 6em",
+      oninput: () => {
+        const value = Number(warp.value);
+        if (!Number.isFinite(value)) return;
+        this.warp = value;
+        this.draw();
+      },
+    });
     const rows = [
       element("div", { class: "steps", hidden: last === 0 }, this.play_button, this.slider),
       this.state,
       (this.scale = element("div", { class: "scale" })),
-      element("div", { class: "controls" }, label("colour", quantity), label("map", this.map_choice), label("warp (1 is true)", warp),
+      element(
+        "div",
+        { class: "controls" },
+        label("colour", quantity),
+        label("map", this.map_choice),
+        label("warp (1 is true)", warp),
         this.damage ? check("leave broken cells out", true, (on) => (this.hide_broken = on)) : null,
         check("mesh", false, (on) => (this.mesh_lines = on)),
         element("button", { onclick: () => this.home() }, "Front"),
-        element("button", { onclick: () => this.save_picture() }, "Picture")),
+        element("button", { onclick: () => this.save_picture() }, "Picture"),
+      ),
     ];
     if (!this.is_flat && data.cuts !== "none") rows.push(this.cut_controls(choice, label));
     if (data.regions.length > 1)
-      rows.push(element("div", { class: "controls" }, "regions:", ...data.regions.map((name, r) => check(name, true, (on) => (this.regions[r] = on)))));
+      rows.push(
+        element(
+          "div",
+          { class: "controls" },
+          "regions:",
+          ...data.regions.map((name, r) => check(name, true, (on) => (this.regions[r] = on))),
+        ),
+      );
     return rows;
   }
 
@@ -169,8 +231,16 @@ export class Body {
       tell();
       this.draw();
     });
-    const across = choice(["no cut", "across x", "across y", "across z"], this.cut.axis + 1, (i) => (this.set_cut_axis(i - 1), tell(), this.draw()));
-    const flip = element("button", { onclick: () => ((this.cut.flipped = !this.cut.flipped), this.draw()) }, "Other side");
+    const across = choice(
+      ["no cut", "across x", "across y", "across z"],
+      this.cut.axis + 1,
+      (i) => (this.set_cut_axis(i - 1), tell(), this.draw()),
+    );
+    const flip = element(
+      "button",
+      { onclick: () => ((this.cut.flipped = !this.cut.flipped), this.draw()) },
+      "Other side",
+    );
     tell();
     return element("div", { class: "controls" }, label("cut", across), label("", at), place, flip);
   }
@@ -192,7 +262,8 @@ export class Body {
     const { cells, frame } = this;
     const shown_cells = new Uint8Array(cells.n);
     for (let i = 0; i < cells.n; ++i)
-      shown_cells[i] = this.regions[cells.region[i]] && !(this.damage && this.hide_broken && this.damage[frame][i] > broken) ? 1 : 0;
+      shown_cells[i] =
+        this.regions[cells.region[i]] && !(this.damage && this.hide_broken && this.damage[frame][i] > broken) ? 1 : 0;
     this.soup = surface_of(cells, shown_cells, this.sides());
     const { a, b, t } = this.soup;
     const points = new Float32Array(3 * a.length);
@@ -208,7 +279,12 @@ export class Body {
       }
       return found;
     };
-    this.scene.show({ points, colours: this.colours(), lines: of_ends(this.mesh_lines ? this.soup.lines : []), borders: of_ends(this.soup.borders) });
+    this.scene.show({
+      points,
+      colours: this.colours(),
+      lines: of_ends(this.mesh_lines ? this.soup.lines : []),
+      borders: of_ends(this.soup.borders),
+    });
     this.tell();
   }
 
@@ -224,7 +300,9 @@ export class Body {
     const q = this.quantity;
     const { a, b, t, cell } = this.soup;
     if (q.at_cells) return q.factor * q.at_cells[this.frame][cell[Math.floor(vertex / 3)]];
-    return q.factor * ((1 - t[vertex]) * q.at_points(this.frame, a[vertex]) + t[vertex] * q.at_points(this.frame, b[vertex]));
+    return (
+      q.factor * ((1 - t[vertex]) * q.at_points(this.frame, a[vertex]) + t[vertex] * q.at_points(this.frame, b[vertex]))
+    );
   }
 
   colours() {
@@ -254,8 +332,14 @@ export class Body {
     const middle = (q.range[0] + q.range[1]) / 2;
     this.scale.replaceChildren(
       shown(q.range[0]),
-      element("div", { class: "strip", style: `background: linear-gradient(to right, ${stops.join(",")}); print-color-adjust: exact` }),
-      shown(q.range[1]), ` ${q.unit}`, element("span", { class: "faint" }, `(middle ${shown(middle)})`));
+      element("div", {
+        class: "strip",
+        style: `background: linear-gradient(to right, ${stops.join(",")}); print-color-adjust: exact`,
+      }),
+      shown(q.range[1]),
+      ` ${q.unit}`,
+      element("span", { class: "faint" }, `(middle ${shown(middle)})`),
+    );
     this.slider.value = this.frame;
     this.slider.setAttribute("aria-valuetext", this.state.textContent);
   }
@@ -306,19 +390,31 @@ export class Body {
       return [low, high];
     });
     const middle = moved.map(([low, high]) => (low + high) / 2);
-    let direction = this.cut.axis === 0 ? [0.86, -0.42, 0.28] : this.cut.axis === 2 ? [0.4, -0.5, 0.77] : [0.42, -0.86, 0.28];
+    let direction =
+      this.cut.axis === 0 ? [0.86, -0.42, 0.28] : this.cut.axis === 2 ? [0.4, -0.5, 0.77] : [0.42, -0.86, 0.28];
     let up = [0, 0, 1];
     if (this.is_flat) {
-      direction = [[1, 0, 0], [0, -1, 0], [0, 0, 1]][this.data.flat_axis];
+      direction = [
+        [1, 0, 0],
+        [0, -1, 0],
+        [0, 0, 1],
+      ][this.data.flat_axis];
       up = this.data.flat_axis === 2 ? [0, 1, 0] : [0, 0, 1];
     }
-    const right = [direction[1] * up[2] - direction[2] * up[1], direction[2] * up[0] - direction[0] * up[2], direction[0] * up[1] - direction[1] * up[0]];
+    const right = [
+      direction[1] * up[2] - direction[2] * up[1],
+      direction[2] * up[0] - direction[0] * up[2],
+      direction[0] * up[1] - direction[1] * up[0],
+    ];
     const half = moved.map(([low, high]) => (high - low) / 2);
     const reach = (axis) => Math.abs(axis[0]) * half[0] + Math.abs(axis[1]) * half[1] + Math.abs(axis[2]) * half[2];
     const { width, height } = this.holder.getBoundingClientRect();
     const norm = Math.hypot(...right);
-    const above = [0, 1, 2].map((i) => up[i] - direction[i] * (up[0] * direction[0] + up[1] * direction[1] + up[2] * direction[2]));
-    const fit = 1.08 * Math.max(reach(above) / Math.hypot(...above), (reach(right) / norm) * (height / Math.max(1, width)));
+    const above = [0, 1, 2].map(
+      (i) => up[i] - direction[i] * (up[0] * direction[0] + up[1] * direction[1] + up[2] * direction[2]),
+    );
+    const fit =
+      1.08 * Math.max(reach(above) / Math.hypot(...above), (reach(right) / norm) * (height / Math.max(1, width)));
     this.scene.look(middle, direction, up, 4 * this.length, fit);
     this.draw();
   }
@@ -333,22 +429,36 @@ export class Body {
 
   listen() {
     const acts = {
-      ArrowLeft: () => this.go(this.frame - 1), ArrowRight: () => this.go(this.frame + 1), Home: () => this.go(0),
-      End: () => this.go(this.data.frames.length - 1), " ": () => this.play(),
-      h: () => this.scene.turn(10, 0), l: () => this.scene.turn(-10, 0), j: () => this.scene.turn(0, -10), k: () => this.scene.turn(0, 10),
-      "+": () => this.scene.zoom(1.2), "-": () => this.scene.zoom(1 / 1.2),
+      ArrowLeft: () => this.go(this.frame - 1),
+      ArrowRight: () => this.go(this.frame + 1),
+      Home: () => this.go(0),
+      End: () => this.go(this.data.frames.length - 1),
+      " ": () => this.play(),
+      h: () => this.scene.turn(10, 0),
+      l: () => this.scene.turn(-10, 0),
+      j: () => this.scene.turn(0, -10),
+      k: () => this.scene.turn(0, 10),
+      "+": () => this.scene.zoom(1.2),
+      "-": () => this.scene.zoom(1 / 1.2),
     };
-    this.holder.addEventListener("keydown", (e) => {
-      if (!acts[e.key] || e.ctrlKey || e.metaKey || e.altKey) return;
-      acts[e.key]();
-      e.preventDefault();
-      e.stopPropagation();
-    }, { capture: true });
+    this.holder.addEventListener(
+      "keydown",
+      (e) => {
+        if (!acts[e.key] || e.ctrlKey || e.metaKey || e.altKey) return;
+        acts[e.key]();
+        e.preventDefault();
+        e.stopPropagation();
+      },
+      { capture: true },
+    );
     this.holder.addEventListener("pointermove", (e) => {
       if (e.buttons) return;
       const home = this.holder.getBoundingClientRect();
       const found = this.scene.pick(e.clientX - home.left, e.clientY - home.top);
-      this.read.textContent = found < 0 ? "" : `${this.data.regions[this.cells.region[this.soup.cell[found]]] ?? ""}: ${shown(this.value_at(3 * found))} ${this.quantity.unit}`;
+      this.read.textContent =
+        found < 0
+          ? ""
+          : `${this.data.regions[this.cells.region[this.soup.cell[found]]] ?? ""}: ${shown(this.value_at(3 * found))} ${this.quantity.unit}`;
     });
     this.holder.addEventListener("pointerleave", () => (this.read.textContent = ""));
   }

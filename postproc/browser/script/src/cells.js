@@ -2,10 +2,34 @@
 
 /** Faces of the shapes by their corners, outwards (VTK's order). */
 const faces_of_shape = {
-  4: [[0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 2, 1]],
-  5: [[0, 3, 2, 1], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]],
-  6: [[0, 1, 2], [3, 5, 4], [0, 3, 4, 1], [1, 4, 5, 2], [2, 5, 3, 0]],
-  8: [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]],
+  4: [
+    [0, 1, 3],
+    [1, 2, 3],
+    [2, 0, 3],
+    [0, 2, 1],
+  ],
+  5: [
+    [0, 3, 2, 1],
+    [0, 1, 4],
+    [1, 2, 4],
+    [2, 3, 4],
+    [3, 0, 4],
+  ],
+  6: [
+    [0, 1, 2],
+    [3, 5, 4],
+    [0, 3, 4, 1],
+    [1, 4, 5, 2],
+    [2, 5, 3, 0],
+  ],
+  8: [
+    [0, 4, 7, 3],
+    [1, 2, 6, 5],
+    [0, 1, 5, 4],
+    [3, 7, 6, 2],
+    [0, 3, 2, 1],
+    [4, 5, 6, 7],
+  ],
 };
 
 export const beyond = -2; // a neighbour that the page does not have
@@ -171,7 +195,8 @@ function clipped(cells, f, side) {
   return [rim, crossings];
 }
 
-const rim_of = (cells, f) => Array.from(cells.corners.subarray(cells.corner_at[f], cells.corner_at[f + 1]), (c) => [c, c, 0]);
+const rim_of = (cells, f) =>
+  Array.from(cells.corners.subarray(cells.corner_at[f], cells.corner_at[f + 1]), (c) => [c, c, 0]);
 
 /** Segments of a convex section, one after the other. */
 function joined(segments) {

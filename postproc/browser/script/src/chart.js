@@ -46,7 +46,8 @@ function draw_series(series) {
       const { ctx } = u;
       const x = (i) => to_x(xs[i], scale_x, wide, left);
       const y = (i, values = ys) => to_y(values[i], scale_y, high, top);
-      const drawable = (i) => ys[i] !== null && xs[i] !== null && (scale_x.distr !== 3 || xs[i] > 0) && (scale_y.distr !== 3 || ys[i] > 0);
+      const drawable = (i) =>
+        ys[i] !== null && xs[i] !== null && (scale_x.distr !== 3 || xs[i] > 0) && (scale_y.distr !== 3 || ys[i] > 0);
       ctx.save();
       ctx.beginPath();
       ctx.rect(left, top, wide, high);
@@ -93,8 +94,23 @@ function draw_series(series) {
   };
 }
 
+/** Of a logarithmic axis: powers of ten, and 2 and 5 times these where there are few. */
+const with_label = (name) => (u, ticks) => {
+  const { min, max } = u.scales[name];
+  const few = Math.log10(max / min) < 2.5;
+  return ticks.map((v) => {
+    const lead = Math.round(v / 10 ** Math.floor(Math.log10(v) + 1e-9));
+    return lead === 1 || (few && (lead === 2 || lead === 5)) ? v : null;
+  });
+};
+
 function options_of(chart, width, hooks) {
-  const scale = (axis) => ({ time: false, distr: chart[axis].logarithmic ? 3 : 1, auto: false, range: (u, from, to) => [from, to] });
+  const scale = (axis) => ({
+    time: false,
+    distr: chart[axis].logarithmic ? 3 : 1,
+    auto: false,
+    range: (u, from, to) => [from, to],
+  });
   const axis = (name) => ({
     label: chart[name].title,
     stroke: () => colour_of("--ink"),
@@ -103,6 +119,7 @@ function options_of(chart, width, hooks) {
     font: '13px "Liberation Sans", Helvetica, Arial, sans-serif',
     labelFont: '14px "Liberation Sans", Helvetica, Arial, sans-serif',
     size: name === "y" ? 64 : 44,
+    ...(chart[name].logarithmic ? { filter: with_label(name) } : {}),
     values: (u, ticks) => ticks.map((v) => (v === null ? "" : shown(v))),
   });
   return {
@@ -194,7 +211,12 @@ export function csv_of(chart) {
  * run's curve; a mark is at the current one, and a click goes to the nearest.
  */
 export function chart_section(chart, link) {
-  const holder = element("div", { class: "chart", tabindex: "0", role: "img", "aria-label": `${chart.caption}: ${chart.y.title} over ${chart.x.title}` });
+  const holder = element("div", {
+    class: "chart",
+    tabindex: "0",
+    role: "img",
+    "aria-label": `${chart.caption}: ${chart.y.title} over ${chart.x.title}`,
+  });
   const tip = element("div", { class: "tip", hidden: true });
   const key = key_of(chart);
   const linked = link ? chart.series.findIndex((series) => series.of_steps) : -1;
@@ -253,7 +275,10 @@ export function chart_section(chart, link) {
       let row = 0;
       const series = chart.series[linked];
       for (let i = 0; i < series.x.length; ++i) {
-        const d = Math.hypot(plot.valToPos(series.x[i], "x") - plot.cursor.left, plot.valToPos(series.y[i], "y") - plot.cursor.top);
+        const d = Math.hypot(
+          plot.valToPos(series.x[i], "x") - plot.cursor.left,
+          plot.valToPos(series.y[i], "y") - plot.cursor.top,
+        );
         if (d < best) [best, row] = [d, i];
       }
       link.go(row);
@@ -267,8 +292,17 @@ export function chart_section(chart, link) {
       "div",
       { class: "head" },
       element("h2", {}, chart.caption),
-      element("div", {}, element("button", { onclick: () => plot && whole(), title: "Show all again (double click does it too)" }, "Whole"), " ",
-        element("button", { onclick: () => save(`${file_name(chart.caption)}.csv`, csv_of(chart), "text/csv") }, "CSV")),
+      element(
+        "div",
+        {},
+        element(
+          "button",
+          { onclick: () => plot && whole(), title: "Show all again (double click does it too)" },
+          "Whole",
+        ),
+        " ",
+        element("button", { onclick: () => save(`${file_name(chart.caption)}.csv`, csv_of(chart), "text/csv") }, "CSV"),
+      ),
     ),
     key,
     holder,

@@ -5,8 +5,7 @@ const viridis = "440154481a6c472f7d41448739568c31688e2a788e23888e1f988b22a88435b
 
 function of_hex(text) {
   const rows = [];
-  for (let i = 0; i < text.length; i += 6)
-    rows.push([0, 2, 4].map((k) => parseInt(text.slice(i + k, i + k + 2), 16)));
+  for (let i = 0; i < text.length; i += 6) rows.push([0, 2, 4].map((k) => parseInt(text.slice(i + k, i + k + 2), 16)));
   return rows;
 }
 

@@ -37,4 +37,9 @@ export function save(name, content, type) {
 }
 
 /** A name of a file from a caption. */
-export const file_name = (caption) => caption.toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_|_$/g, "").slice(0, 60) || "data";
+export const file_name = (caption) =>
+  caption
+    .toLowerCase()
+    .replace(/[^a-z0-9]+/g, "_")
+    .replace(/^_|_$/g, "")
+    .slice(0, 60) || "data";

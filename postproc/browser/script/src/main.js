@@ -12,12 +12,23 @@ const redraws = [];
 
 function table_section(table) {
   const rows = table.rows.map((cells, i) =>
-    element("tr", {}, ...cells.map((cell) => element(i === 0 && table.has_header ? "th" : "td", {}, cell))));
-  return element("section", {}, element("h2", {}, table.caption), element("div", { class: "scrolls" }, element("table", {}, ...rows)));
+    element("tr", {}, ...cells.map((cell) => element(i === 0 && table.has_header ? "th" : "td", {}, cell))),
+  );
+  return element(
+    "section",
+    {},
+    element("h2", {}, table.caption),
+    element("div", { class: "scrolls" }, element("table", {}, ...rows)),
+  );
 }
 
 const text_section = (text) =>
-  element("section", {}, element("h2", {}, text.caption), ...text.lines.map((line) => element("p", { style: "margin: 0 0 6px; overflow-wrap: anywhere" }, line)));
+  element(
+    "section",
+    {},
+    element("h2", {}, text.caption),
+    ...text.lines.map((line) => element("p", { style: "margin: 0 0 6px; overflow-wrap: anywhere" }, line)),
+  );
 
 const makers = {
   chart: (block, link) => chart_section(block, link),
@@ -40,21 +51,37 @@ function set_theme(theme) {
 
 function head() {
   const other = () => set_theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
-  return element("header", {},
+  return element(
+    "header",
+    {},
     element("div", {}, element("h1", {}, data.title), element("p", { class: "faint" }, data.subtitle)),
-    element("button", { onclick: other, title: "Dark or light" }, "\u25d0"));
+    element("button", { onclick: other, title: "Dark or light" }, "\u25d0"),
+  );
 }
 
-const figure = ({ label, value, note }) => element("div", { class: "figure" }, element("span", {}, label), element("b", {}, value), note ? element("span", {}, note) : null);
+const figure = ({ label, value, note }) =>
+  element(
+    "div",
+    { class: "figure" },
+    element("span", {}, label),
+    element("b", {}, value),
+    note ? element("span", {}, note) : null,
+  );
 
 function origin() {
   const rows = data.origin.map(([name, value]) => element("tr", {}, element("td", {}, name), element("td", {}, value)));
   const section = element("section", {}, element("h2", {}, "Where it comes from"), element("table", {}, ...rows));
   if (data.command) section.append(element("p", {}, "Made again by ", element("code", {}, data.command)));
   if (data.case_text)
-    section.append(element("details", {}, element("summary", {}, "The case file as it ran"),
-      element("p", {}, element("button", { onclick: () => save("case.toml", data.case_text, "text/plain") }, "Save")),
-      element("pre", {}, data.case_text)));
+    section.append(
+      element(
+        "details",
+        {},
+        element("summary", {}, "The case file as it ran"),
+        element("p", {}, element("button", { onclick: () => save("case.toml", data.case_text, "text/plain") }, "Save")),
+        element("pre", {}, data.case_text),
+      ),
+    );
   return section;
 }
 
@@ -78,8 +105,15 @@ function stage(link_holder) {
       () => (document.documentElement.dataset.body = "shown"),
       (error) => {
         document.documentElement.dataset.body = "missing";
-        body.holder.replaceChildren(element("p", { style: "padding: 20px" }, `The body cannot be shown: ${error.message}. The curves do without.`));
-      });
+        body.holder.replaceChildren(
+          element(
+            "p",
+            { style: "padding: 20px" },
+            `The body cannot be shown: ${error.message}. The curves do without.`,
+          ),
+        );
+      },
+    );
   };
   return { section: element("div", { class: "pair stage" }, body.section, right), started };
 }
@@ -89,10 +123,18 @@ function build() {
   document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
   const holder = {};
   const main = element("main", {}, head());
-  if (data.headline.length) main.append(element("div", { class: "headline" }, ...data.headline.map((line) => element("p", {}, line))));
+  if (data.headline.length)
+    main.append(element("div", { class: "headline" }, ...data.headline.map((line) => element("p", {}, line))));
   if (data.figures.length) main.append(element("div", { class: "figures" }, ...data.figures.map(figure)));
   if (data.warnings.length)
-    main.append(element("section", { class: "warnings" }, element("h2", {}, `Warnings (${data.warnings.length})`), element("ul", {}, ...data.warnings.map((w) => element("li", {}, w)))));
+    main.append(
+      element(
+        "section",
+        { class: "warnings" },
+        element("h2", {}, `Warnings (${data.warnings.length})`),
+        element("ul", {}, ...data.warnings.map((w) => element("li", {}, w))),
+      ),
+    );
   const shown_body = stage(holder);
   if (shown_body) main.append(shown_body.section);
   main.append(element("div", { class: "grid" }, ...data.blocks.map((block) => section_of(block, holder.link))));

@@ -17,22 +17,17 @@ function bounds_of(picture) {
   return box[0] <= box[2] ? box : [0, 0, 1, 1];
 }
 
-/** Value and corners of a cell; of a rectangle two opposite ones are given. */
-function whole_cell(cell) {
-  if (cell.length !== 5) return cell;
-  const [value, x, y, to_x, to_y] = cell;
-  return [value, x, y, to_x, y, to_x, to_y, x, to_y];
-}
-
-export function picture_section(given) {
-  const picture = { ...given, cells: given.cells.map(whole_cell) };
+/** A cell is its value and its corners, two opposite ones of a rectangle. */
+export function picture_section(picture) {
   const canvas = element("canvas", { role: "img", "aria-label": picture.caption });
   const box = bounds_of(picture);
   const wide = box[2] - box[0] || 1;
   const high = box[3] - box[1] || 1;
-  const draw = () => {
+  let drawn = 0;
+  const draw = (anew = true) => {
     const width = canvas.clientWidth;
-    if (!width) return;
+    if (!width || (!anew && width === drawn)) return;
+    drawn = width;
     const height = picture.stretched ? Math.round(0.55 * width) : Math.round(Math.min(900, (width * high) / wide));
     const ratio = window.devicePixelRatio || 1;
     canvas.style.height = `${height}px`;
@@ -51,6 +46,13 @@ export function picture_section(given) {
       const part = Math.min(1, Math.max(0, (cell[0] - picture.least) / (picture.most - picture.least || 1)));
       const k = 3 * Math.round(255 * part);
       ctx.fillStyle = ctx.strokeStyle = `rgb(${table[k]},${table[k + 1]},${table[k + 2]})`;
+      if (cell.length === 5) {
+        const [, left_x, low_y, right_x, high_y] = cell;
+        const [x0, x1] = [x(left_x), x(right_x)].sort((a, b) => a - b);
+        const [y0, y1] = [y(low_y), y(high_y)].sort((a, b) => a - b);
+        ctx.fillRect(Math.floor(x0), Math.floor(y0), Math.ceil(x1) - Math.floor(x0), Math.ceil(y1) - Math.floor(y0));
+        continue;
+      }
       trace(cell, 1);
       ctx.closePath();
       ctx.fill();
@@ -68,10 +70,29 @@ export function picture_section(given) {
     return `rgb(${table[k]},${table[k + 1]},${table[k + 2]})`;
   });
   const unit = (v) => shown(v);
-  const section = element("section", { class: "picture" }, element("h2", {}, picture.caption), canvas,
-    element("div", { class: "scale" }, unit(picture.least), element("div", { class: "strip", style: `background: linear-gradient(to right, ${stops.join(",")}); print-color-adjust: exact` }), unit(picture.most), ` ${picture.value_title}`),
-    element("p", { class: "faint" }, `${picture.x_title}: ${unit(box[0])} to ${unit(box[2])}; ${picture.y_title}: ${unit(box[1])} to ${unit(box[3])}`));
-  on_size(section, draw);
-  section.repaint = draw;
+  const section = element(
+    "section",
+    { class: "picture" },
+    element("h2", {}, picture.caption),
+    canvas,
+    element(
+      "div",
+      { class: "scale" },
+      unit(picture.least),
+      element("div", {
+        class: "strip",
+        style: `background: linear-gradient(to right, ${stops.join(",")}); print-color-adjust: exact`,
+      }),
+      unit(picture.most),
+      ` ${picture.value_title}`,
+    ),
+    element(
+      "p",
+      { class: "faint" },
+      `${picture.x_title}: ${unit(box[0])} to ${unit(box[2])}; ${picture.y_title}: ${unit(box[1])} to ${unit(box[3])}`,
+    ),
+  );
+  on_size(section, () => draw(false));
+  section.repaint = () => draw();
   return section;
 }

@@ -41,7 +41,9 @@ export class Scene {
     this.interactor.initialize();
     this.interactor.setInteractorStyle(vtkInteractorStyle.newInstance());
     // The wheel scrolls the page unless the picture has the focus.
-    holder.addEventListener("wheel", (e) => document.activeElement !== holder && e.stopPropagation(), { capture: true });
+    holder.addEventListener("wheel", (e) => document.activeElement !== holder && e.stopPropagation(), {
+      capture: true,
+    });
     this.interactor.bindEvents(holder);
     holder.addEventListener("pointerdown", () => holder.focus({ preventScroll: true }), { capture: true });
 
@@ -83,14 +85,16 @@ export class Scene {
     const n = points.length / 3;
     surface.getPoints().setData(points, 3);
     const cells = new Uint32Array((4 * n) / 3);
-    for (let i = 0, k = 0; i < n; ) {
+    for (let i = 0, k = 0; i < n;) {
       cells[k++] = 3;
       cells[k++] = i++;
       cells[k++] = i++;
       cells[k++] = i++;
     }
     surface.getPolys().setData(cells);
-    surface.getPointData().setScalars(vtkDataArray.newInstance({ name: "colour", numberOfComponents: 3, values: colours }));
+    surface
+      .getPointData()
+      .setScalars(vtkDataArray.newInstance({ name: "colour", numberOfComponents: 3, values: colours }));
     this.points = points;
     this.surface.mapper.setInputData(surface);
     this.surface.actor.setVisibility(n > 0);
@@ -106,7 +110,7 @@ export class Scene {
     const data = vtkPolyData.newInstance();
     data.getPoints().setData(ends, 3);
     const cells = new Uint32Array(ends.length / 2);
-    for (let i = 0, k = 0; k < cells.length; ) {
+    for (let i = 0, k = 0; k < cells.length;) {
       cells[k++] = 2;
       cells[k++] = i++;
       cells[k++] = i++;
@@ -155,15 +159,25 @@ export class Scene {
     let best = Infinity;
     let found = -1;
     for (let i = 0; i < p.length; i += 9) {
-      const ax = p[i + 3] - p[i], ay = p[i + 4] - p[i + 1], az = p[i + 5] - p[i + 2];
-      const bx = p[i + 6] - p[i], by = p[i + 7] - p[i + 1], bz = p[i + 8] - p[i + 2];
-      const nx = d[1] * bz - d[2] * by, ny = d[2] * bx - d[0] * bz, nz = d[0] * by - d[1] * bx;
+      const ax = p[i + 3] - p[i],
+        ay = p[i + 4] - p[i + 1],
+        az = p[i + 5] - p[i + 2];
+      const bx = p[i + 6] - p[i],
+        by = p[i + 7] - p[i + 1],
+        bz = p[i + 8] - p[i + 2];
+      const nx = d[1] * bz - d[2] * by,
+        ny = d[2] * bx - d[0] * bz,
+        nz = d[0] * by - d[1] * bx;
       const det = ax * nx + ay * ny + az * nz;
       if (det === 0) continue;
-      const sx = from[0] - p[i], sy = from[1] - p[i + 1], sz = from[2] - p[i + 2];
+      const sx = from[0] - p[i],
+        sy = from[1] - p[i + 1],
+        sz = from[2] - p[i + 2];
       const u = (sx * nx + sy * ny + sz * nz) / det;
       if (u < 0 || u > 1) continue;
-      const qx = sy * az - sz * ay, qy = sz * ax - sx * az, qz = sx * ay - sy * ax;
+      const qx = sy * az - sz * ay,
+        qy = sz * ax - sx * az,
+        qz = sx * ay - sy * ax;
       const v = (d[0] * qx + d[1] * qy + d[2] * qz) / det;
       if (v < 0 || u + v > 1) continue;
       const t = (bx * qx + by * qy + bz * qz) / det;
