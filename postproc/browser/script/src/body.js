@@ -1,6 +1,7 @@
-// The body: what is shown of it, and the controls.
+// The body: what is shown of it, and how.
 import { Cells, surface_of } from "./cells.js";
 import { colour_maps, diverging } from "./colours.js";
+import { controls_of, listen } from "./controls.js";
 import { integers, octets, quantised } from "./bytes.js";
 import { colour_of, element, save, shown } from "./elements.js";
 import { Scene } from "./scene.js";
@@ -68,10 +69,10 @@ export class Body {
     this.prepare();
     this.scene = new Scene(this.holder);
     this.holder.append(this.note, this.read);
-    this.section.append(...this.controls());
+    this.section.append(...controls_of(this));
     this.repaint();
     this.home();
-    this.listen();
+    listen(this);
   }
 
   prepare() {
@@ -130,119 +131,6 @@ export class Body {
     this.cut.axis = axis;
     if (axis >= 0) this.cut.at = this.data.cut_at[axis];
     this.cut.flipped = false;
-  }
-
-  controls() {
-    const { data } = this;
-    const last = data.frames.length - 1;
-    this.slider = element("input", {
-      type: "range",
-      min: 0,
-      max: last,
-      value: last,
-      "aria-label": "step",
-      oninput: () => this.go(Number(this.slider.value)),
-    });
-    this.play_button = element("button", { onclick: () => this.play(), "aria-label": "play or stop" }, "\u25b6 Play");
-    const choice = (names, chosen, act) => {
-      const select = element(
-        "select",
-        { onchange: () => act(select.selectedIndex) },
-        ...names.map((name, i) => element("option", { selected: i === chosen }, name)),
-      );
-      return select;
-    };
-    const label = (text, ...what) => element("label", {}, text, ...what);
-    const check = (text, on, act) => {
-      const box = element("input", { type: "checkbox", checked: on, onchange: () => (act(box.checked), this.draw()) });
-      return label("", box, text);
-    };
-    const quantity = choice(
-      this.quantities.map((q) => q.name),
-      this.quantities.indexOf(this.quantity),
-      (i) => {
-        this.quantity = this.quantities[i];
-        this.map_choice.value = this.quantity.map;
-        this.draw();
-      },
-    );
-    this.map_choice = choice(
-      Object.keys(colour_maps),
-      0,
-      (i) => ((this.quantity.map = Object.keys(colour_maps)[i]), this.draw()),
-    );
-    this.map_choice.value = this.quantity.map;
-    const warp = element("input", {
-      type: "number",
-      min: 0,
-      step: "any",
-      value: this.warp,
-      style: "width: 6em",
-      oninput: () => {
-        const value = Number(warp.value);
-        if (!Number.isFinite(value)) return;
-        this.warp = value;
-        this.draw();
-      },
-    });
-    const rows = [
-      element("div", { class: "steps", hidden: last === 0 }, this.play_button, this.slider),
-      this.state,
-      (this.scale = element("div", { class: "scale" })),
-      element(
-        "div",
-        { class: "controls" },
-        label("colour", quantity),
-        label("map", this.map_choice),
-        label("warp (1 is true)", warp),
-        this.damage ? check("leave broken cells out", true, (on) => (this.hide_broken = on)) : null,
-        check("mesh", false, (on) => (this.mesh_lines = on)),
-        element("button", { onclick: () => this.home() }, "Front"),
-        element("button", { onclick: () => this.save_picture() }, "Picture"),
-      ),
-    ];
-    if (!this.is_flat && data.cuts !== "none") rows.push(this.cut_controls(choice, label));
-    if (data.regions.length > 1)
-      rows.push(
-        element(
-          "div",
-          { class: "controls" },
-          "regions:",
-          ...data.regions.map((name, r) => check(name, true, (on) => (this.regions[r] = on))),
-        ),
-      );
-    return rows;
-  }
-
-  cut_controls(choice, label) {
-    const unit = this.data.length_unit;
-    const at = element("input", { type: "range", min: 0, max: 1000, "aria-label": "place of the cut" });
-    const place = element("span", {});
-    const fixed = this.data.cuts === "fixed";
-    const tell = () => {
-      const { axis } = this.cut;
-      at.disabled = axis < 0 || fixed;
-      place.textContent = axis < 0 ? "" : `${"xyz"[axis]} = ${shown(this.cut.at * unit.factor)} ${unit.name}`;
-      if (axis >= 0) at.value = Math.round((1000 * (this.cut.at - this.lower[axis])) / (this.size[axis] || 1));
-    };
-    at.addEventListener("input", () => {
-      const { axis } = this.cut;
-      this.cut.at = this.lower[axis] + (Number(at.value) / 1000) * this.size[axis];
-      tell();
-      this.draw();
-    });
-    const across = choice(
-      ["no cut", "across x", "across y", "across z"],
-      this.cut.axis + 1,
-      (i) => (this.set_cut_axis(i - 1), tell(), this.draw()),
-    );
-    const flip = element(
-      "button",
-      { onclick: () => ((this.cut.flipped = !this.cut.flipped), this.draw()) },
-      "Other side",
-    );
-    tell();
-    return element("div", { class: "controls" }, label("cut", across), label("", at), place, flip);
   }
 
   /** Distance from the cut of each corner, negative where the body is kept. */
@@ -425,41 +313,5 @@ export class Body {
 
   save_picture() {
     this.scene.picture().toBlob((blob) => save("body.png", blob, "image/png"));
-  }
-
-  listen() {
-    const acts = {
-      ArrowLeft: () => this.go(this.frame - 1),
-      ArrowRight: () => this.go(this.frame + 1),
-      Home: () => this.go(0),
-      End: () => this.go(this.data.frames.length - 1),
-      " ": () => this.play(),
-      h: () => this.scene.turn(10, 0),
-      l: () => this.scene.turn(-10, 0),
-      j: () => this.scene.turn(0, -10),
-      k: () => this.scene.turn(0, 10),
-      "+": () => this.scene.zoom(1.2),
-      "-": () => this.scene.zoom(1 / 1.2),
-    };
-    this.holder.addEventListener(
-      "keydown",
-      (e) => {
-        if (!acts[e.key] || e.ctrlKey || e.metaKey || e.altKey) return;
-        acts[e.key]();
-        e.preventDefault();
-        e.stopPropagation();
-      },
-      { capture: true },
-    );
-    this.holder.addEventListener("pointermove", (e) => {
-      if (e.buttons) return;
-      const home = this.holder.getBoundingClientRect();
-      const found = this.scene.pick(e.clientX - home.left, e.clientY - home.top);
-      this.read.textContent =
-        found < 0
-          ? ""
-          : `${this.data.regions[this.cells.region[this.soup.cell[found]]] ?? ""}: ${shown(this.value_at(3 * found))} ${this.quantity.unit}`;
-    });
-    this.holder.addEventListener("pointerleave", () => (this.read.textContent = ""));
   }
 }
