@@ -109,8 +109,10 @@ void take_mesh(Body& body, const StoredCells& mesh, const std::vector<Index>& ce
 /// Frames that the page has room for: 12 bytes for a point and a cell, packed to about a half and a third more as text.
 std::vector<BodyFrame> taken_frames(const BodySettings& settings, const Body& body) {
   constexpr double bytes_per_value = 2.0 * 0.5 * 4.0 / 3.0;
+  constexpr double more_for_part = 4.0;  // a large body may have a large page
   const double of_one = bytes_per_value * 3.0 * static_cast<double>(body.points.size() + body.shape.size());
-  const auto room = static_cast<std::size_t>(std::max(2.0, settings.most_bytes / of_one));
+  const double room_in_bytes = settings.most_bytes * (body.is_surface.empty() ? 1.0 : more_for_part);
+  const auto room = static_cast<std::size_t>(std::max(2.0, room_in_bytes / of_one));
   std::vector<BodyFrame> taken;
   for (const std::size_t i : chosen_steps(settings.progress, room)) taken.push_back(settings.frames.at(i));
   return taken;

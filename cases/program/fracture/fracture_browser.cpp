@@ -30,6 +30,18 @@ std::vector<std::string> words_of_steps(const FractureCase& fracture, const Curv
   return words;
 }
 
+/// The areas as vectors nearly sum up to their sum.
+bool is_flat(const ColumnRecord& record) {
+  constexpr double flat_share = 0.999;
+  double whole = 0.0;
+  Vector sum = Vector::Zero();
+  for (const Place& place : record.places) {
+    whole += place.area;
+    sum += place.area * place.normal;
+  }
+  return record.kind == SurfaceKind::plane || sum.norm() > flat_share * whole;
+}
+
 /// How far each curved surface has debonded about its poles along the load and against it.
 std::vector<PageBlock> debonding_charts(const std::vector<CurveRow>& curve, const fs::path& results) {
   std::vector<double> moved;
@@ -38,7 +50,7 @@ std::vector<PageBlock> debonding_charts(const std::vector<CurveRow>& curve, cons
   std::vector<PageBlock> charts;
   for (const ColumnRecord& record : find_column_record(results)) {
     const std::vector<Debonding> history = debonding_of(record);
-    if (record.kind == SurfaceKind::plane || history.size() != curve.size()) continue;
+    if (is_flat(record) || history.size() != curve.size()) continue;
     Series plus{.label = "pole along the load", .x = in_unit(moved, unit), .y = {}, .of_steps = true};
     Series minus{.label = "pole against the load", .x = plus.x, .y = {}, .colour = 1};
     for (const Debonding& d : history) {
