@@ -54,8 +54,9 @@ constexpr CommandText case_commands[] = {
      "coherence with bounds), NAME_spectrogram.csv and, of sines, NAME_harmonics.csv, NAME_envelopes.csv (recorded,\n"
      "and of the models of the case and of its fits). pfdm report then draws a page of each test."},
     {"report", "Draw pictures and plots of the results on one page",
-     "Writes to CASE/results/report: report.pdf, report.png; after analyse NAME/report.pdf and .png of each test; of\n"
-     "a sweep its figures against the values. CASE may be the folder of results too, as that of a run of a sweep."},
+     "Writes to CASE/results/report: report.pdf, report.png and index.html, a page that a browser opens without\n"
+     "network; after analyse a folder NAME with these of each test; of a sweep its figures against the values. CASE\n"
+     "may be the folder of results too, as that of a run of a sweep."},
 };
 
 constexpr CommandText other_commands[] = {

@@ -19,6 +19,7 @@ struct Series {
   SeriesStyle style = SeriesStyle::line;
   int colour = 0;               ///< number in the page's list of colours
   std::vector<double> upper{};  ///< of a band, whose lower edge is y
+  bool of_steps = false;        ///< a point for each row of the run's curve
 };
 
 struct ChartAxis {

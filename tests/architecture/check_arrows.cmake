@@ -29,9 +29,11 @@ set(rooms
     "postproc/cohesive: physics mesh solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"
     "postproc/exports: physics mesh solver/fracture postproc/files postproc/cohesive"
     "postproc/page: physics postproc/files"
+    "postproc/browser: physics mesh postproc/files postproc/fields postproc/page"
     "postproc/records: physics postproc/files"
     "cases/program/input: physics postproc/files"
-    "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page cases/program/input"
+    "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page postproc/browser
+     cases/program/input"
     "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/page cases/program/input
      cases/program/session"
     "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
@@ -40,7 +42,8 @@ set(rooms
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/vibration postproc/page postproc/records
      cases/program/input cases/program/session"
     "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
-     postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page cases/program/input cases/program/session cases/program/studies"
+     postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
+     cases/program/studies"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics solver/calibration
      postproc/files postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session
      cases/program/studies cases/program/fracture"

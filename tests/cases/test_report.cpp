@@ -355,9 +355,11 @@ TEST(Report, GoesWithTheRunThatItTellsOf) {
     ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
     ASSERT_EQ(run({"report", directory.path().string()}).status, 0);
     ASSERT_TRUE(fs::exists(directory.results() / "report" / "report.pdf"));
+    ASSERT_TRUE(fs::exists(directory.results() / "report" / "index.html"));
     ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
     EXPECT_FALSE(fs::exists(directory.results() / "report" / "report.pdf"));
     EXPECT_FALSE(fs::exists(directory.results() / "report" / "report.png"));
+    EXPECT_FALSE(fs::exists(directory.results() / "report" / "index.html"));
   }
 }
 

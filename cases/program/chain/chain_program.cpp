@@ -214,7 +214,7 @@ void run_case(const ChainProgram& program, Session& session) {
   }
   record.status = "complete";
   write_chain(session.results, record);
-  write_report(chain_page(record, program.chain.title), session);
+  write_report(chain_page(record, program.chain.title), session, {});
   log.say(fmt::format("complete after {:.1f} s; results in {}", watch.seconds(), session.results.string()));
 }
 
@@ -222,7 +222,7 @@ void report(const ChainProgram& program, Session& session) {
   const ChainRecord record = read_chain(session.results);
   if (record.steps.empty())
     throw InputError(fmt::format("{}: there are no results; pfdm run makes them", session.results.string()));
-  write_report(chain_page(record, program.chain.title), session);
+  write_report(chain_page(record, program.chain.title), session, {});
 }
 
 RunnableCase read_program(const CaseFile& file) {

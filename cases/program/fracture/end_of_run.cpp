@@ -104,33 +104,47 @@ Axes axes_of(const FractureCase& fracture, const CurveUnits& units) {
           "mean stress " + name};
 }
 
+/// Of force over displacement; of a box of stress over strain.
+struct Peak {
+  double most, at, last, end;
+  bool is_end() const { return most == last && at == end; }
+};
+
+Peak peak_of(const RunSummary& summary, const FractureCase& fracture, const Axes& axes) {
+  const Headlines& f = *summary.figures;
+  if (!fracture.box) return {f.peak_force, f.displacement_at_peak, f.final_force, f.final_displacement};
+  return {figure_of(summary, fmt::format("peak_{}_Pa", axes.y)), figure_of(summary, fmt::format("{}_at_peak", axes.x)),
+          figure_of(summary, fmt::format("final_{}_Pa", axes.y)), figure_of(summary, fmt::format("final_{}", axes.x))};
+}
+
 /// "greatest force 27.08 N at 624 um, the end of the curve"
 std::vector<std::string> lines_of_curve(const RunSummary& summary, const FractureCase& fracture,
                                         const CurveUnits& units) {
   if (!summary.figures) return {};
-  const Headlines& f = *summary.figures;
-  double peak = f.peak_force, at = f.displacement_at_peak, last = f.final_force, end = f.final_displacement;
   const Axes axes = axes_of(fracture, units);
-  if (fracture.box) {
-    peak = figure_of(summary, fmt::format("peak_{}_Pa", axes.y));
-    at = figure_of(summary, fmt::format("{}_at_peak", axes.x));
-    last = figure_of(summary, fmt::format("final_{}_Pa", axes.y));
-    end = figure_of(summary, fmt::format("final_{}", axes.x));
-  }
+  const Peak peak = peak_of(summary, fracture, axes);
   const std::string x = fracture.box ? axes.x + " = " : std::string();
-  std::string line =
-      fmt::format("greatest {} {} at {}{}", axes.y_words, shown_in(axes.y_shown, peak), x, shown_in(axes.x_shown, at));
-  if (peak == last && at == end) return {line + ", the end of the curve: it still rises there"};
-  return {fmt::format("{}; {} at the end, {}{}", line, shown_in(axes.y_shown, last), x, shown_in(axes.x_shown, end))};
+  std::string line = fmt::format("greatest {} {} at {}{}", axes.y_words, shown_in(axes.y_shown, peak.most), x,
+                                 shown_in(axes.x_shown, peak.at));
+  if (peak.is_end()) return {line + ", the end of the curve: it still rises there"};
+  return {fmt::format("{}; {} at the end, {}{}", line, shown_in(axes.y_shown, peak.last), x,
+                      shown_in(axes.x_shown, peak.end))};
 }
 
-std::string line_of_law(const nlohmann::ordered_json& surface) {
+/// Of a surface whose law is extracted, not given; none where it was never damaged.
+const nlohmann::ordered_json* strongest_law(const nlohmann::ordered_json& surface) {
+  if (surface.at("law_is_given").get<bool>()) return nullptr;
   const nlohmann::ordered_json* strongest = nullptr;
   for (const auto& law : surface.at("laws"))
     if (number_of(law.at("strength_Pa")) > 0.0 &&
         (strongest == nullptr || number_of(law.at("strength_Pa")) > number_of(strongest->at("strength_Pa"))))
       strongest = &law;
-  if (strongest == nullptr || surface.at("law_is_given").get<bool>()) return {};
+  return strongest;
+}
+
+std::string line_of_law(const nlohmann::ordered_json& surface) {
+  const nlohmann::ordered_json* strongest = strongest_law(surface);
+  if (strongest == nullptr) return {};
   const auto number = [&](const char* key) { return number_of(strongest->at(key)); };
   return fmt::format("law of \"{}\": largest normal traction {} at a separation of {}, surface energy {:.4g} J/m^2{}",
                      surface.at("name").get<std::string>(), shown_in({.si_unit = "Pa"}, number("strength_Pa")),
@@ -138,16 +152,43 @@ std::string line_of_law(const nlohmann::ordered_json& surface) {
                      strongest->at("traced").get<bool>() ? "" : "; not seen down to zero traction");
 }
 
-/// Of the surfaces whose laws are extracted, not given.
-std::vector<std::string> lines_of_laws(const fs::path& results) {
+/// What `of` says of each surface of cohesive.json; none if there is no such file.
+template <class T, class Of>
+std::vector<T> of_surfaces(const fs::path& results, const Of& of) {
   const fs::path file = results / "cohesive.json";
   if (!fs::exists(file)) return {};
-  return read_json(file, "file of cohesive laws", [](const nlohmann::ordered_json& json) {
-    std::vector<std::string> lines;
+  return read_json(file, "file of cohesive laws", [&](const nlohmann::ordered_json& json) {
+    std::vector<T> all;
     for (const auto& surface : json.at("surfaces"))
-      if (std::string line = line_of_law(surface); !line.empty()) lines.push_back(std::move(line));
-    return lines;
+      if (std::optional<T> one = of(surface)) all.push_back(std::move(*one));
+    return all;
   });
+}
+
+/// Of the surfaces whose laws are extracted, not given.
+std::vector<std::string> lines_of_laws(const fs::path& results) {
+  return of_surfaces<std::string>(results, [](const nlohmann::ordered_json& surface) {
+    std::string line = line_of_law(surface);
+    return line.empty() ? std::nullopt : std::optional(std::move(line));
+  });
+}
+
+std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface) {
+  const nlohmann::ordered_json* law = strongest_law(surface);
+  if (law == nullptr) return std::nullopt;
+  const auto number = [&](const char* key) { return number_of(law->at(key)); };
+  return HeadFigure{.label = fmt::format("Strength of \"{}\"", surface.at("name").get<std::string>()),
+                    .value = shown_in({.si_unit = "Pa"}, number("strength_Pa")),
+                    .note = fmt::format("largest normal traction, at a separation of {}; surface energy {:.4g} J/m^2{}",
+                                        shown_in({.si_unit = "m"}, number("critical_separation_m")),
+                                        number("surface_energy_J_per_m2"),
+                                        law->at("traced").get<bool>() ? "" : ", not seen down to zero traction")};
+}
+
+/// "74 s", "12 min"
+std::string duration_words(double seconds) {
+  if (seconds < 10.0) return fmt::format("{:.2g} s", seconds);
+  return seconds < 600.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
 }
 
 }  // namespace
@@ -212,6 +253,48 @@ std::vector<std::string> what_happened(const FractureCase& fracture, const CaseF
     lines.emplace_back("no debonding: every surface holds");
   for (std::string& line : lines_of_laws(results)) lines.push_back(std::move(line));
   return lines;
+}
+
+std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUnits& units, const RunSummary& summary,
+                                    const fs::path& results) {
+  std::vector<HeadFigure> figures;
+  const Axes axes = axes_of(fracture, units);
+  const auto debonding = [&](const std::string& name) { return figure_of(summary, "first_debonding_" + name); };
+  const double from = debonding(axes.x + axes.x_unit), to = debonding(axes.x + "_after" + axes.x_unit);
+  const auto surface = summary.other_texts.find("first_debonding_surface");
+  if (std::isfinite(from) && std::isfinite(to)) {
+    std::string note = fmt::format(
+        "{} from {}", axes.y_words,
+        two_shown(axes.y_shown, debonding(axes.y + axes.y_unit), "to", debonding(axes.y + "_after" + axes.y_unit)));
+    if (const double angle = debonding("angle_deg"); std::isfinite(angle))
+      note += fmt::format("; polar angles {:.0f} to {:.0f} degrees", debonding("polar_angle_from_deg"),
+                          debonding("polar_angle_to_deg"));
+    figures.push_back({.label = fmt::format("First debonding of \"{}\"",
+                                            surface == summary.other_texts.end() ? std::string() : surface->second),
+                       .value = two_shown(axes.x_shown, from, "to", to),
+                       .note = std::move(note)});
+  } else if (summary.other_figures.contains("first_debonding_load")) {
+    figures.push_back({.label = "Debonding", .value = "none", .note = "every surface holds"});
+  }
+  if (summary.figures) {
+    const Peak peak = peak_of(summary, fracture, axes);
+    figures.push_back(
+        {.label = fmt::format("Greatest {}", axes.y_words),
+         .value = shown_in(axes.y_shown, peak.most),
+         .note = fmt::format("at {}{}", fracture.box ? axes.x + " = " : "", shown_in(axes.x_shown, peak.at)) +
+                 (peak.is_end() ? ", the end of the curve" : "")});
+  }
+  for (HeadFigure& law : of_surfaces<HeadFigure>(results, figure_of_law)) figures.push_back(std::move(law));
+  figures.push_back(
+      {.label = "Run",
+       .value = summary.status,
+       .note = fmt::format("{} steps of {} cells in {} on {} thread{}", summary.steps, summary.cells,
+                           duration_words(summary.wall_seconds), summary.threads, summary.threads == 1 ? "" : "s")});
+  for (HeadFigure& figure : figures) {
+    figure.value = in_print(std::move(figure.value));
+    figure.note = in_print(std::move(figure.note));
+  }
+  return figures;
 }
 
 }  // namespace pfdm

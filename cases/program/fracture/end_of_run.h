@@ -3,6 +3,7 @@
 
 #include "cases/program/fracture/fracture_case.h"
 #include "cases/program/input/case_file.h"
+#include "postproc/browser/browser_page.h"
 #include "postproc/curves/summary.h"
 
 #include <filesystem>
@@ -38,5 +39,9 @@ std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& sum
 /// A line each: greatest force, end of the curve, first debonding, laws of bands that were extracted into `results`.
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const std::filesystem::path& results);
+
+/// The same figures, each for itself: first debonding, greatest force, laws, the run.
+std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUnits& units, const RunSummary& summary,
+                                    const std::filesystem::path& results);
 
 }  // namespace pfdm

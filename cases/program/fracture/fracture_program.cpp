@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/end_of_run.h"
 #include "cases/program/fracture/experiment_case.h"
+#include "cases/program/fracture/fracture_browser.h"
 #include "cases/program/fracture/fracture_case.h"
 #include "cases/program/fracture/fracture_cohesive.h"
 #include "cases/program/fracture/fracture_comparison.h"
@@ -372,7 +373,7 @@ void fit(const FractureProgram& program, Session& session) {
 
 void report(const FractureProgram& program, Session& session) {
   write_report(fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
-               session);
+               session, fracture_extras(program.fracture, program.file, program.hash, session.results));
 }
 
 /// The case that the program holds, once it is read; what needs [experiment] and [fit] is left out.

@@ -177,7 +177,8 @@ Chart force_chart(const FractureStory& story) {
   chart.series.push_back({.label = story.experiment ? "computed" : "",
                           .x = in_unit(u, x),
                           .y = in_unit(force, y),
-                          .style = SeriesStyle::line_with_points});
+                          .style = SeriesStyle::line_with_points,
+                          .of_steps = true});
   return chart;
 }
 
@@ -190,8 +191,11 @@ Chart mean_chart(const FractureStory& story, const std::filesystem::path& result
   return {.caption = "Mean stress against mean strain",
           .x = {.title = fmt::format("strain {} [-]", name)},
           .y = {.title = fmt::format("stress {} [{}]", name, y.name)},
-          .series = {
-              {.label = {}, .x = curve.strain, .y = in_unit(curve.stress, y), .style = SeriesStyle::line_with_points}}};
+          .series = {{.label = {},
+                      .x = curve.strain,
+                      .y = in_unit(curve.stress, y),
+                      .style = SeriesStyle::line_with_points,
+                      .of_steps = curve.strain.size() == story.curve.size()}}};
 }
 
 Chart energy_chart(const FractureStory& story) {
@@ -212,6 +216,7 @@ Chart energy_chart(const FractureStory& story) {
               .y = {.title = fmt::format("energy [{}]", unit.name)},
               .series = {}};
   add_series(chart, load, energies, names, unit);
+  for (Series& series : chart.series) series.of_steps = true;
   return chart;
 }
 
@@ -222,7 +227,8 @@ Chart iterations_chart(const FractureStory& story) {
           .series = {{.label = {},
                       .x = column(story.curve, [](const CurveRow& row) { return row.step; }),
                       .y = column(story.curve, [](const CurveRow& row) { return row.staggered_iterations; }),
-                      .style = SeriesStyle::line_with_points}}};
+                      .style = SeriesStyle::line_with_points,
+                      .of_steps = true}}};
 }
 
 /// Traction over separation; interrupted where the traction jumps down, since the law between is not known.

@@ -139,7 +139,8 @@ void run_case(const HomogenizationProgram& program, Session& session) {
 }
 
 void report(const HomogenizationProgram& program, Session& session) {
-  write_report(homogenization_page(program.homogenization.title, program.name, program.hash, session.results), session);
+  write_report(homogenization_page(program.homogenization.title, program.name, program.hash, session.results), session,
+               {.hash = program.hash});
 }
 
 RunnableCase read_program(const CaseFile& file) {

@@ -33,7 +33,7 @@ set(libraries options physics mesh solver postproc)
 foreach(room parallel linear scalar momentum dynamics homogenization fracture calibration point vibration)
   list(APPEND libraries solver_${room})
 endforeach()
-foreach(room files fields curves point vibration cohesive exports page records)
+foreach(room files fields curves point vibration cohesive exports page browser records)
   list(APPEND libraries postproc_${room})
 endforeach()
 foreach(library IN LISTS libraries)
@@ -45,7 +45,8 @@ install(
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfdm
   COMPONENT development
   FILES_MATCHING
-  PATTERN "*.h")
+  PATTERN "*.h"
+  PATTERN script EXCLUDE)
 install(
   EXPORT pfdm
   FILE pfdmTargets.cmake

@@ -2,7 +2,7 @@
 
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOXML IOLegacy FiltersCore)
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOCore IOXML IOLegacy FiltersCore)
 find_package(Freetype REQUIRED) # Cairo's headers include its
 find_package(spdlog REQUIRED)
 find_package(fmt REQUIRED)

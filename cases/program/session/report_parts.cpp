@@ -1,5 +1,6 @@
 #include "cases/program/session/report_parts.h"
 
+#include "cases/program/session/page_origin.h"
 #include "physics/error.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/other_case.h"
@@ -45,7 +46,7 @@ std::vector<PageRow> in_pairs(std::vector<PageBlock> blocks) {
   return rows;
 }
 
-std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t limit) {
+std::vector<std::string> warnings_of(const std::filesystem::path& log) {
   if (!std::filesystem::exists(log)) return {};
   const std::string content = read_file(log);
   constexpr std::string_view mark = " warning: ";
@@ -57,13 +58,18 @@ std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t 
     std::string warning(line.substr(at + mark.size()));
     if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
   }
+  return warnings;
+}
+
+std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t limit) {
+  std::vector<std::string> warnings = warnings_of(log);
   if (warnings.empty()) return {};
   const std::size_t n = warnings.size();
   if (n > limit) {
     warnings.resize(limit);
     warnings.push_back(fmt::format("and {} more in {}", n - limit, log.filename().string()));
   }
-  return {PageRow{.blocks = {TextBlock{.caption = "Warnings", .lines = std::move(warnings)}}}};
+  return {PageRow{.blocks = {TextBlock{.caption = std::string(warnings_caption), .lines = std::move(warnings)}}}};
 }
 
 void require_case(const std::filesystem::path& file, const std::string& found, const std::string& due) {
@@ -81,16 +87,21 @@ void remove_report(const std::filesystem::path& results) {
     if (entry.is_directory(ignored)) folders.push_back(entry.path());
   folders.push_back(folder);
   for (const std::filesystem::path& of : folders) {
-    for (const char* file : {"report.pdf", "report.png"}) std::filesystem::remove(of / file, ignored);
+    for (const char* file : {"report.pdf", "report.png", "index.html"}) std::filesystem::remove(of / file, ignored);
     remove_leftovers(of);
     std::filesystem::remove(of, ignored);  // unless there is something else in it
   }
 }
 
-void write_report(const ReportPage& page, Session& session) {
-  const std::filesystem::path folder = session.results / "report";
+void write_pages(const std::filesystem::path& folder, const ReportPage& page, Session& session, BrowserExtras extras) {
   write_page(folder, page);
   session.log.say(fmt::format("written to {} and report.png", (folder / "report.pdf").string()));
+  write_browser_page(folder, browser_page(page, session.results, std::move(extras)));
+  session.log.say(fmt::format("open in a browser: {}", (folder / "index.html").string()));
+}
+
+void write_report(const ReportPage& page, Session& session, BrowserExtras extras) {
+  write_pages(session.results / "report", page, session, std::move(extras));
 }
 
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 // What the pages of all kinds of case share.
 
 #include "cases/program/session/session.h"
+#include "postproc/browser/browser_page.h"
 #include "postproc/page/display_unit.h"
 #include "postproc/page/report_page.h"
 
@@ -27,7 +28,12 @@ void add_series(Chart& chart, const std::vector<double>& x, std::span<const std:
 /// Two blocks to a row.
 std::vector<PageRow> in_pairs(std::vector<PageBlock> blocks);
 
-/// The warnings of a log, each once; nothing where there are none. At most `limit` are told.
+inline constexpr std::string_view warnings_caption = "Warnings";
+
+/// The warnings of a log, each once; none if there is no such file.
+std::vector<std::string> warnings_of(const std::filesystem::path& log);
+
+/// The same as a block; nothing where there are none. At most `limit` are told.
 std::vector<PageRow> warnings_row(const std::filesystem::path& log, std::size_t limit = 6);
 
 /// Throws OtherCase if a file of the results does not have the hash of this case.
@@ -47,7 +53,22 @@ auto find_of_case(const std::filesystem::path& file, const std::string& hash, co
 /// What write_report() made of an earlier run.
 void remove_report(const std::filesystem::path& results);
 
-/// report/report.pdf and report/report.png in the session's results. Throws ComputationError.
-void write_report(const ReportPage& page, Session& session);
+/// What the page in the browser has beyond that on paper.
+struct BrowserExtras {
+  std::string hash{};                   ///< of the case; a fit of another one is not told of
+  std::vector<std::string> headline{};  ///< sentences
+  std::vector<HeadFigure> figures{};
+  std::vector<std::string> steps{};  ///< as in BrowserPage, as what follows
+  std::optional<Body> body{};
+  std::vector<PageBlock> more{};  ///< after those on paper
+  std::vector<std::string> beside{};
+};
+
+/// report.pdf, report.png and index.html in a folder, and says so. Warnings, the case as it ran and where it comes from
+/// are taken from the session's results; of a fit verdict and estimates too. Throws ComputationError.
+void write_pages(const std::filesystem::path& folder, const ReportPage& page, Session& session, BrowserExtras extras);
+
+/// The same in report/ of the session's results.
+void write_report(const ReportPage& page, Session& session, BrowserExtras extras);
 
 }  // namespace pfdm

@@ -174,8 +174,7 @@ bool has_own_run(const fs::path& results) {
 
 void report_sweep(const std::string& title, Session& session) {
   const fs::path folder = session.results / "report" / (has_own_run(session.results) ? "sweep" : "");
-  write_page(folder, sweep_page(session.results, title, session.version));
-  session.log.say(fmt::format("written to {} and report.png", (folder / "report.pdf").string()));
+  write_pages(folder, sweep_page(session.results, title, session.version), session, {});
 }
 
 }  // namespace pfdm

@@ -239,7 +239,7 @@ RunnableCase read_program(const CaseFile& file) {
           .analyse = [program](Session& session) { analyse_mass_material(*program, session); },
           .report =
               [program](Session& session) {
-                write_report(mass_material_page(*program, session), session);
+                write_report(mass_material_page(*program, session), session, {.hash = program->hash});
                 write_test_pages(*program, session);
               },
           .data_files = program->parsed.data_files};

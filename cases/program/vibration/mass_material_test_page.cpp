@@ -4,7 +4,6 @@
 #include "cases/program/session/report_parts.h"
 #include "cases/program/vibration/mass_material_analysis.h"
 #include "cases/program/vibration/vibration_charts.h"
-#include "postproc/page/page_drawing.h"
 #include "postproc/vibration/analysis_json.h"
 #include "solver/vibration/identification.h"
 #include "solver/vibration/signals_filter.h"
@@ -174,8 +173,7 @@ void write_test_pages(const MassMaterialProgram& program, Session& session) {
     const RecordAnalysis analysis = analysed(record, c.analysis);
     const TestStory story{program, test, record, analysis, models, *stamp};
     const fs::path folder = session.results / "report" / test.name;
-    write_page(folder, test_page(story, session.version));
-    session.log.say(fmt::format("written to {} and report.png", (folder / "report.pdf").string()));
+    write_pages(folder, test_page(story, session.version), session, {});
   }
 }
 

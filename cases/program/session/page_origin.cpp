@@ -1,0 +1,181 @@
+#include "cases/program/session/page_origin.h"
+
+#include "cases/program/session/fit_verdict.h"
+#include "physics/error.h"
+#include "postproc/curves/fit_json.h"
+#include "postproc/curves/summary.h"
+#include "postproc/files/text_file.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+/// As in "2026-01-31 12:00 UTC".
+std::string time_of(const fs::path& file) {
+  const auto when = std::chrono::file_clock::to_sys(fs::last_write_time(file));
+  return fmt::format(
+      "{:%Y-%m-%d %H:%M} UTC",
+      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::time_point_cast<std::chrono::seconds>(when))));
+}
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  constexpr std::string_view key = "model name";
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with(key))
+      if (const std::size_t at = line.find(": "); at != std::string::npos) return line.substr(at + 2);
+  return "processor not known";
+}
+
+/// The line of a log that tells version, instruction set, threads; empty if there is none.
+std::string head_of(const fs::path& log) {
+  const std::string content = read_file(log);
+  for (std::string_view rest = content; !rest.empty();) {
+    const std::string_view line = take_line(rest);
+    if (const std::size_t at = line.find("pfdm ");
+        at != std::string_view::npos && line.find(" (") != std::string_view::npos)
+      return std::string(line.substr(at));
+  }
+  return {};
+}
+
+Rows origin_of(const fs::path& results, const std::string& hash) {
+  Rows rows;
+  const auto add = [&](std::string name, std::string value) { rows.emplace_back(std::move(name), std::move(value)); };
+  for (const char* log : {"run.log", "fit.log"})
+    if (fs::exists(results / log))
+      if (std::string head = head_of(results / log); !head.empty()) add(log, std::move(head));
+  if (fs::exists(results / summary_file)) {
+    if (const auto summary = read_summary(results / summary_file)) {
+      add("status", summary->status);
+      if (const double wall = summary->number("wall_seconds"); std::isfinite(wall))
+        add("time", wall < 100.0 ? fmt::format("{:.3g} s", wall) : fmt::format("{:.0f} s", wall));
+      add("hash of the case", summary->case_hash);
+    }
+    add("ended", time_of(results / summary_file));
+  } else if (!hash.empty()) {
+    add("hash of the case", hash);
+  }
+  add("page made on", fmt::format("{}, {} threads", processor(), std::thread::hardware_concurrency()));
+  add("results", results.string());
+  return rows;
+}
+
+/// The case as it ran, or that in the folder above.
+fs::path case_of(const fs::path& results) {
+  for (const fs::path& file : {results / "case.toml", results.parent_path() / "case.toml"})
+    if (fs::exists(file)) return file;
+  return {};
+}
+
+/// In single quotes where the shell would take a part of it for its own.
+std::string quoted(const std::string& word) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./+=:,@%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string command_of(const fs::path& results) {
+  const fs::path file = case_of(results);
+  if (file.empty()) return {};
+  const bool is_default = results.filename() == "results" && fs::exists(results.parent_path() / "case.toml");
+  const char* job = fs::exists(results / summary_file) || !fs::exists(results / "fit.json") ? "run" : "fit";
+  return fmt::format("./pfdm {} {}", job, quoted((is_default ? results.parent_path() : file).string()));
+}
+
+/// Of a number in `unit`: with a prefix where the unit takes one.
+DisplayUnit unit_of_estimate(double value, const std::string& unit) {
+  constexpr std::array taking_prefix{"Pa", "m", "N", "Hz"};
+  if (std::ranges::find(taking_prefix, unit) != taking_prefix.end()) return display_unit(value, unit);
+  return {.factor = 1.0, .name = unit == "1" ? "" : unit};
+}
+
+/// Verdict and estimates.
+void add_fit(BrowserPage& page, const FitReport& fit) {
+  page.headline.push_back(fmt::format("The fit is {}.", verdict_text(fit.found)));
+  for (const FittedParameter& p : fit.found.parameters) {
+    const DisplayUnit unit = unit_of_estimate(p.estimate, p.unit);
+    const bool has_interval = std::isfinite(p.lower) && std::isfinite(p.upper);
+    page.figures.push_back({.label = p.name,
+                            .value = in_print(fmt::format("{:.4g} {}", unit.factor * p.estimate, unit.name)),
+                            .note = has_interval
+                                        ? interval_text(unit.factor * p.lower, unit.factor * p.upper, fit.confidence, 4)
+                                        : "no interval"});
+  }
+}
+
+/// Of a page that has no figures of its own: the first rows of the table that has them.
+std::vector<HeadFigure> figures_of_tables(const ReportPage& report) {
+  constexpr std::size_t most = 6;
+  std::vector<HeadFigure> figures;
+  for (const PageRow& row : report.rows)
+    for (const PageBlock& block : row.blocks) {
+      const auto* table = std::get_if<Table>(&block);
+      if (table == nullptr || !figures.empty()) continue;
+      const bool of_chain = table->caption == "Results";  // step, quantity, value, interval
+      const bool of_run = std::ranges::any_of(std::array{"Figures", "Closest isotropic", "Run"},
+                                              [&](const char* name) { return table->caption.starts_with(name); });
+      for (const auto& cells : table->rows) {
+        if (figures.size() == most || (table->has_header && &cells == &table->rows.front())) continue;
+        if (of_chain && cells.size() == 4)
+          figures.push_back({.label = cells[1],
+                             .value = cells[2],
+                             .note = cells[3].empty() ? cells[0] : fmt::format("{}; step {}", cells[3], cells[0])});
+        if (of_run && cells.size() == 2) figures.push_back({.label = cells[0], .value = cells[1], .note = {}});
+      }
+    }
+  return figures;
+}
+
+bool is_told_elsewhere(const PageBlock& block, const BrowserExtras& extras) {
+  if (const auto* text = std::get_if<TextBlock>(&block)) return text->caption == warnings_caption;
+  const auto* picture = std::get_if<Picture>(&block);
+  return picture != nullptr && extras.body && picture->caption.starts_with("Damage, plane");
+}
+
+}  // namespace
+
+BrowserPage browser_page(ReportPage report, const fs::path& results, BrowserExtras extras) {
+  for (PageRow& row : report.rows)
+    std::erase_if(row.blocks, [&](const PageBlock& block) { return is_told_elsewhere(block, extras); });
+  if (!extras.more.empty()) report.rows.push_back({.blocks = std::move(extras.more)});
+  BrowserPage page{.report = std::move(report),
+                   .headline = std::move(extras.headline),
+                   .figures = std::move(extras.figures),
+                   .warnings = {},
+                   .origin = origin_of(results, extras.hash),
+                   .command = command_of(results),
+                   .case_text = {},
+                   .steps = std::move(extras.steps),
+                   .body = std::move(extras.body),
+                   .beside = std::move(extras.beside)};
+  for (const char* log : {"run.log", "fit.log"})
+    for (std::string& warning : warnings_of(results / log)) page.warnings.push_back(std::move(warning));
+  if (const fs::path file = case_of(results); !file.empty()) page.case_text = read_file(file);
+  if (!extras.hash.empty() && fs::exists(results / "fit.json"))
+    if (const FitReport fit = read_fit_json(results / "fit.json"); fit.case_hash == extras.hash) add_fit(page, fit);
+  if (page.figures.empty()) page.figures = figures_of_tables(page.report);
+  if (page.headline.empty() && fs::exists(results / summary_file))
+    if (const auto summary = read_summary(results / summary_file))
+      page.headline.push_back(fmt::format("The run is {}.", summary->status));
+  return page;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,13 @@
+#pragma once
+// What the page in the browser tells beside the report: where it comes from, how it is made again.
+
+#include "cases/program/session/report_parts.h"
+
+#include <filesystem>
+
+namespace pfdm {
+
+/// Blocks of warnings are left out: all of them stand by themselves.
+BrowserPage browser_page(ReportPage report, const std::filesystem::path& results, BrowserExtras extras);
+
+}  // namespace pfdm

@@ -1,0 +1,159 @@
+// The page in the browser that pfdm report makes: its numbers are those of the results, and a browser shows it.
+
+#include "postproc/curves/summary.h"
+#include "postproc/files/csv_table.h"
+#include "postproc/files/text_file.h"
+#include "tests/cases/endochronic_case.h"
+#include "tests/cases/temporary_case.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdio>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* hostile = "</script><script>alert('x')</script> \\\"µ\\\" & <b>";
+
+nlohmann::json data_of(const std::string& html) {
+  const std::string mark = "id=\"pfdm-data\">";
+  const std::size_t from = html.find(mark) + mark.size();
+  return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
+}
+
+nlohmann::json block(const nlohmann::json& data, const std::string& caption) {
+  for (const auto& one : data["blocks"])
+    if (one["caption"].get<std::string>().starts_with(caption)) return one;
+  throw std::runtime_error("the page has no \"" + caption + "\"");
+}
+
+nlohmann::json figure(const nlohmann::json& data, const std::string& label) {
+  for (const auto& one : data["figures"])
+    if (one["label"].get<std::string>().starts_with(label)) return one;
+  throw std::runtime_error("the page has no figure \"" + label + "\"");
+}
+
+/// Runs the case and makes its page.
+std::string page_of(const TemporaryCase& directory) {
+  for (const char* command : {"run", "report"}) {
+    const Outcome outcome = run({command, directory.path().string()});
+    if (outcome.status != 0) throw std::runtime_error(outcome.err);
+  }
+  return read_file(directory.results() / "report" / "index.html");
+}
+
+TEST(Browser, ReportEndsWithThePathOfThePage) {
+  const TemporaryCase directory(bar_case());
+  ASSERT_EQ(run({"run", directory.path().string()}).status, 0);
+  const Outcome outcome = run({"report", directory.path().string()});
+  EXPECT_THAT(outcome.out, EndsWith((directory.results() / "report" / "index.html").string() + "\n"));
+}
+
+TEST(Browser, PageOfAFractureHasTheFiguresOfTheSummary) {
+  const TemporaryCase directory(bar_case() + crack_plane());
+  const std::string html = page_of(directory);
+  EXPECT_LT(html.size(), 5000000u);
+  const auto data = data_of(html);
+  const auto summary = read_summary(directory.results() / summary_file);
+  const double peak = summary->number("peak_force_N"), at = summary->number("displacement_at_peak_m");
+  EXPECT_EQ(figure(data, "Greatest force")["value"], fmt::format("{:.4g} N", peak));
+  EXPECT_THAT(figure(data, "Greatest force")["note"].get<std::string>(), HasSubstr(fmt::format("{:.4g} mm", 1e3 * at)));
+  EXPECT_THAT(data["headline"][0].get<std::string>(), HasSubstr(fmt::format("{:.4g} N", peak)));
+  EXPECT_EQ(figure(data, "Run")["value"], "complete");
+  const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
+  const auto series = block(data, "Force against displacement")["series"].back();
+  ASSERT_EQ(series["y"].size(), curve.n_rows());
+  EXPECT_EQ(series["of_steps"], true);
+  for (std::size_t i = 0; i < curve.n_rows(); ++i) {
+    const double force = curve.column("force_x_N")[i];
+    EXPECT_NEAR(series["y"][i].get<double>(), force, 1e-6 * std::abs(force));
+  }
+  EXPECT_EQ(data["steps"].size(), curve.n_rows());
+  EXPECT_EQ(data["command"], fmt::format("./pfdm run {}", directory.path().string()));
+  EXPECT_THAT(data["case_text"].get<std::string>(), HasSubstr("kind = \"fracture\""));
+  const auto body = data["body"];
+  EXPECT_EQ(body["frames"].back(), curve.n_rows() - 1);
+  EXPECT_EQ(body["flat_axis"], 2);
+  EXPECT_EQ(body["fields"][0]["name"], "damage");
+  const double moved = body["displacement"][0]["to"];
+  EXPECT_NEAR(moved, curve.column("displacement_m").back(), 1e-7 * moved);  // single precision in the file
+}
+
+TEST(Browser, ShowsWhatACaseSaysAsText) {
+  const TemporaryCase directory(replaced(bar_case(), "a bar", hostile));
+  const std::string html = page_of(directory);
+  EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(data_of(html)["title"].get<std::string>(), HasSubstr("</script><script>alert('x')</script> \"µ\" & <b>"));
+}
+
+TEST(Browser, PageOfAMaterialPointHasItsCurves) {
+  const TemporaryCase directory(tension_case());
+  const auto data = data_of(page_of(directory));
+  EXPECT_TRUE(data["body"].is_null());
+  EXPECT_GE(data["blocks"].size(), 2u);
+  EXPECT_THAT(data["title"].get<std::string>(), HasSubstr(":"));
+}
+
+/// What a browser does that loads the page, moves the slider and clicks on the curve; it tells in the title.
+constexpr const char* probe = R"(<script>
+(async () => {
+  const errors = [];
+  addEventListener("error", (e) => errors.push(e.message));
+  console.error = (...words) => errors.push(words.join(" "));
+  for (let i = 0; i < 300 && !document.documentElement.dataset.body; ++i) await new Promise((r) => setTimeout(r, 50));
+  const pixels = () => document.querySelector(".scene canvas").toDataURL();
+  const last = pixels();
+  const slider = document.querySelector(".steps input");
+  slider.value = 0;
+  slider.dispatchEvent(new Event("input"));
+  const first = pixels();
+  const over = document.querySelector(".u-over");
+  const box = over.getBoundingClientRect();
+  const at = { clientX: box.left + 0.95 * box.width, clientY: box.bottom - 5, bubbles: true };
+  for (const type of ["mousemove", "mousedown", "mouseup"]) over.dispatchEvent(new MouseEvent(type, at));
+  await new Promise((r) => setTimeout(r, 200));
+  document.title = JSON.stringify({ body: document.documentElement.dataset.body, slider: first !== last,
+                                    click: pixels() !== first, frame: slider.value, errors });
+})();
+</script>)";
+
+/// What a command prints.
+std::string said_by(const std::string& command) {
+  std::string text;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (pipe && std::fgets(buffer.data(), buffer.size(), pipe)) text += buffer.data();
+  if (pipe) pclose(pipe);
+  return text;
+}
+
+TEST(Browser, ShowsTheBodyAndLinksItWithTheCurve) {
+  if (said_by("command -v chromium").empty()) GTEST_SKIP() << "chromium is not installed";
+  const TemporaryCase directory(replaced(bar_case(), "a bar", hostile));
+  directory.write("probe.html", page_of(directory) + probe);
+  const std::string page = said_by(
+      fmt::format("HOME={0} timeout 100 chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
+                  "--enable-unsafe-swiftshader --window-size=1280,900 --virtual-time-budget=15000 --dump-dom "
+                  "file://{0}/probe.html 2>/dev/null",
+                  directory.path().string()));
+  const std::size_t from = page.find("<title>{");
+  ASSERT_NE(from, std::string::npos) << page.substr(0, 300);
+  const auto told = nlohmann::json::parse(page.substr(from + 7, page.find("</title>", from) - from - 7));
+  EXPECT_EQ(told["body"], "shown");
+  EXPECT_EQ(told["slider"], true);
+  EXPECT_EQ(told["click"], true);
+  EXPECT_NE(told["frame"], "0");
+  EXPECT_TRUE(told["errors"].empty()) << told["errors"];
+}
+
+}  // namespace
+}  // namespace pfdm

@@ -1,0 +1,35 @@
+# That postproc/browser/page.js is made of the sources beside it: by the hash in its first line, and with RECIPE=ON by
+# making it once more.
+#
+# cmake -DFOLDER=<postproc/browser> [-DRECIPE=ON -DOUT=<file>] -P check_page_script.cmake
+cmake_minimum_required(VERSION 3.25)
+
+file(GLOB names RELATIVE ${FOLDER}/script ${FOLDER}/script/src/*)
+list(SORT names)
+set(lines "")
+foreach(name build.js package-lock.json package.json ${names})
+  file(SHA256 ${FOLDER}/script/${name} hash)
+  string(APPEND lines "${hash}  ${name}\n")
+endforeach()
+string(SHA256 due "${lines}")
+file(STRINGS ${FOLDER}/page.js head LIMIT_COUNT 1)
+if(NOT head MATCHES "Sources: ${due}\\.")
+  message(FATAL_ERROR "page.js was made of other sources: npm ci && node build.js in postproc/browser/script\n${head}\n${due}")
+endif()
+file(STRINGS ${FOLDER}/script/package-lock.json hosts REGEX "\"resolved\"")
+if(hosts)
+  message(FATAL_ERROR "package-lock.json names hosts: npm install --omit-lockfile-registry-resolved")
+endif()
+
+if(RECIPE)
+  find_program(node NAMES node)
+  if(NOT node OR NOT IS_DIRECTORY ${FOLDER}/script/node_modules)
+    message(STATUS "skipped: it takes node, and npm ci in ${FOLDER}/script")
+    return()
+  endif()
+  execute_process(COMMAND ${node} ${FOLDER}/script/build.js ${OUT} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${OUT} ${FOLDER}/page.js RESULT_VARIABLE differs)
+  if(differs)
+    message(FATAL_ERROR "build.js makes another page.js, in ${OUT}")
+  endif()
+endif()
