@@ -72,6 +72,7 @@ class CellStiffness {
   CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
                                      const CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
+  const MandelMatrix* stiffness(Index cell) const;  // of elasticity that depends on the direction; else null
   const EnergySplit& split(Index cell) const;
   StrainLaw law(const CellField<double>& g, const CellField<double>& closure) const;
   bool has_degradable_part(Index cell) const;
@@ -82,7 +83,7 @@ class CellStiffness {
   const FractureModel& model_;
   MaterialCells materials_;
   FiniteCells finite_;
-  bool is_isotropic_;         // every split has isotropic secant moduli
+  bool is_isotropic_;         // every cell has isotropic secant moduli
   CellField<float> closing_;  // per cell: last change of the closure, and
   CellField<Index> turns_;    // number of its reversals within the step
 };
