@@ -195,8 +195,8 @@ struct FractureRun::Parts {
     const bool follows_path = std::isfinite(loading.maximum_dissipation);
     const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
     state = std::move(next);
-    const std::string residual = residual_stiffness.remark(
-        outcome.share, std::max(outcome.starting_energy, supplied(state.energy)), state.load);
+    const std::string residual =
+        residual_stiffness.remark(outcome.share, std::max(outcome.starting_energy, supplied(state.energy)), state.load);
     for (const std::string& remark : {unstable, residual})
       if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);
