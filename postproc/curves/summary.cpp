@@ -18,8 +18,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double balance_error(const CurveRow& start, const CurveRow& row) {
-  if (!(row.energy.external_work > 0.0)) return Headlines::none;
-  return std::abs(left_over(start.energy, row.energy)) / row.energy.external_work;
+  if (!(supplied(row.energy) > 0.0)) return Headlines::none;
+  return std::abs(left_over(start.energy, row.energy)) / supplied(row.energy);
 }
 
 double initial_stiffness(std::span<const CurveRow> rows, int component) {

@@ -20,6 +20,8 @@ const IsotropicElasticity& CellStiffness::elasticity(Index cell) const {
   return model_.in_cell(mesh_, cell).elasticity;
 }
 
+const MandelMatrix* CellStiffness::stiffness(Index cell) const { return model_.in_cell(mesh_, cell).stiffness.get(); }
+
 const EnergySplit& CellStiffness::split(Index cell) const { return model_.split_of(model_.in_cell(mesh_, cell)); }
 
 double CellStiffness::factor(Index cell, double d) const {
@@ -46,6 +48,7 @@ Tensor CellStiffness::thinned_gradient(Index cell, const CellMechanics& mechanic
 void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
   const auto n = as_size(mesh_.n_cells());
   const CellField<double> g = factors(state);
+  momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt);
   if (finite_.any()) {
     const auto law = [&](Index c, const Tensor& H) { return finite_.law(c, H, g[c], state.closure[c]); };
     momentum.set_finite(law, g, state.displacement, state.load);
@@ -74,7 +77,7 @@ bool CellStiffness::depends_on_strain() const {
   constexpr double g = 0.5;
   for (Index c = 0; c < mesh_.n_cells(); ++c)
     if (model_.in_cell(mesh_, c).damageable &&
-        (!has_degradable_part(c) || !split(c).has_secant() ||
+        (!has_degradable_part(c) || !split(c).has_secant() || stiffness(c) != nullptr ||
          split(c).secant(elasticity(c), g, 0.0) != split(c).secant(elasticity(c), g, 1.0)))
       return true;
   return false;
@@ -84,7 +87,7 @@ bool CellStiffness::depends_on_strain() const {
 CellField<IsotropicElasticity> CellStiffness::degradable_part(const FractureState& state) const {
   CellField<IsotropicElasticity> part(as_size(mesh_.n_cells()), {});
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (!has_degradable_part(c) || !split(c).has_secant()) return;
+    if (!has_degradable_part(c) || !split(c).has_secant() || stiffness(c) != nullptr) return;
     const EnergySplit& law = split(c);
     const IsotropicElasticity whole = law.secant(elasticity(c), 1.0, state.closure[c]);
     const IsotropicElasticity kept = law.secant(elasticity(c), 0.0, state.closure[c]);
@@ -102,11 +105,14 @@ StrainLaw CellStiffness::law(const CellField<double>& g, const CellField<double>
   return {.tangent =
               [this, at](Index c, const Tensor& strain) {
                 const EnergySplit& by = split(c);
+                if (const MandelMatrix* C = stiffness(c)) return MandelMatrix(at->g[c] * *C);
                 return by.has_secant() ? stiffness_matrix(by.secant(elasticity(c), at->g[c], at->closure[c]))
                                        : degraded_tangent(by, elasticity(c), at->g[c], strain);
               },
           .degradable = [this](Index c, const Tensor& strain) -> Tensor {
-            if (!has_degradable_part(c) || split(c).has_secant()) return Tensor::Zero();
+            if (!has_degradable_part(c)) return Tensor::Zero();
+            if (const MandelMatrix* C = stiffness(c)) return to_tensor(*C * to_mandel(strain));
+            if (split(c).has_secant()) return Tensor::Zero();
             return degradable_stress(split(c), elasticity(c), strain);
           }};
 }
@@ -137,8 +143,12 @@ double CellStiffness::integrate(const CellMechanics& mechanics, const FractureSt
 double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
   if (finite_.any()) return driving_energy(cell, finite_energies(cell, mechanics, state), state.damage[cell]).value;
   if (materials_.has(cell)) return materials_.energy(cell, state.histories).driving;
+  if (const MandelMatrix* C = stiffness(cell); C != nullptr && !has_degradable_part(cell)) {
+    const Mandel strain = to_mandel(mechanics.elastic_strain(cell));
+    return 0.5 * strain.dot(*C * strain);
+  }
   return has_degradable_part(cell) ? mechanics.part_energy[cell]
-                                   : split(cell).energy(elasticity(cell), mechanics.strain[cell]).psi_plus;
+                                   : split(cell).energy(elasticity(cell), mechanics.elastic_strain(cell)).psi_plus;
 }
 
 FiniteEnergies CellStiffness::finite_energies(Index cell, const CellMechanics& mechanics,
@@ -161,7 +171,7 @@ DrivingAt CellStiffness::driving_energy(Index cell, const FiniteEnergies& at, do
 
 Tensor CellStiffness::undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
   if (finite_.any()) return finite_.undamaged_biot_stress(cell, mechanics, factor(cell, state.damage[cell]));
-  return stress(elasticity(cell), mechanics.strain[cell]);
+  return stress(elasticity(cell), mechanics.elastic_strain(cell));
 }
 
 // Half the work on the elastic strain, and what is locked up.
@@ -201,7 +211,9 @@ double CellStiffness::follow(const CellMechanics& mechanics, FractureState& stat
     return 0.0;
   }
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    return split(c).has_secant() ? follow_with_closure(c, closing_strain(c, mechanics, state), state) : 0.0;
+    return split(c).has_secant() && stiffness(c) == nullptr
+               ? follow_with_closure(c, closing_strain(c, mechanics, state), state)
+               : 0.0;
   });
 }
 
@@ -209,7 +221,7 @@ double CellStiffness::follow(const CellMechanics& mechanics, FractureState& stat
 // volume change of the face displacements may have the other sign where the strain varies within a cell, and the crack
 // would open and close for ever.
 Tensor CellStiffness::closing_strain(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  const Tensor& strain = mechanics.strain[cell];
+  const Tensor strain = mechanics.elastic_strain(cell);
   if (materials_.has(cell)) return strain;
   const double g = factor(cell, seen(cell, state));
   const double K = split(cell).secant(elasticity(cell), g, state.closure[cell]).bulk_modulus();

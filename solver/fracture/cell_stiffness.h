@@ -78,6 +78,7 @@ class CellStiffness {
   CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
                                      const CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
+  const MandelMatrix* stiffness(Index cell) const;  // of elasticity that depends on the direction; else null
   const EnergySplit& split(Index cell) const;
   StrainLaw law(const CellField<double>& g, const CellField<double>& closure) const;
   bool has_degradable_part(Index cell) const;
@@ -89,7 +90,7 @@ class CellStiffness {
   MaterialCells materials_;
   FiniteCells finite_;
   CellField<double> seen_;    // may be empty
-  bool is_isotropic_;         // every split has isotropic secant moduli
+  bool is_isotropic_;         // every cell has isotropic secant moduli
   CellField<float> closing_;  // per cell: last change of the closure, and
   CellField<Index> turns_;    // number of its reversals within the step
 };

@@ -2,6 +2,7 @@
 
 #include "solver/fracture/held_interfaces.h"
 
+#include "physics/anisotropy.h"
 #include "physics/error.h"
 
 #include <fmt/format.h>
@@ -11,6 +12,8 @@
 
 namespace pfdm {
 namespace {
+
+std::string shown(const Vector& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", x[0], x[1], x[2]); }
 
 bool controls_dissipation(const LoadingSettings& loading) { return std::isfinite(loading.maximum_dissipation); }
 
@@ -169,6 +172,85 @@ void require_history(const FractureModel& m, const Material& law, const LoadingS
                     law.name()));
 }
 
+constexpr double close_to_zero = 1e-9;  // of a vector's part, relative
+
+void require_body_force(const Mesh& mesh, const Unknowns& unknowns, const LoadingSettings& loading) {
+  const Vector& across = unknowns.plane_normal;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const Vector force = unknowns.loads.force(mesh, c, loading.end);
+    if (std::abs(across.dot(force)) > close_to_zero * force.norm())
+      throw InputError(
+          fmt::format("the body force ([loads] gravity or body_force) at {} acts across a mesh one cell thick, which "
+                      "does not move that way",
+                      shown(mesh.cell_centre[c])));
+    const Vector half = unknowns.loads.force(mesh, c, 0.5 * loading.end);
+    if (controls_dissipation(loading) && (force - 2.0 * half).norm() > close_to_zero * force.norm())
+      throw InputError(
+          "dissipation control (loading.maximum_dissipation) requires body forces proportional to t: not applied = "
+          "\"from_start\" in [loads], nor expressions that are not proportional to t");
+  }
+}
+
+void require_eigenstrain(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns,
+                         const LoadingSettings& loading) {
+  if (m.is_finite_strain())
+    throw InputError(
+        "materials of finite strain cannot be combined with eigenstrains (eigenstrain, or expansion with [loads] "
+        "temperature_change)");
+  if (controls_dissipation(loading))
+    throw InputError(
+        "dissipation control (loading.maximum_dissipation) cannot be combined with eigenstrains (eigenstrain, or "
+        "expansion with [loads] temperature_change)");
+  for (std::size_t r = 0; r < m.regions.size(); ++r)
+    if (m.regions[r].material && (m.regions[r].eigenstrain || !m.regions[r].expansion.isZero()))
+      throw InputError(fmt::format(
+          "region \"{}\": a material of the law \"{}\" cannot be combined with eigenstrains (eigenstrain, expansion)",
+          mesh.region_names[r], m.regions[r].material->name()));
+  const Vector& across = unknowns.plane_normal;
+  for (Index c = 0; c < mesh.n_cells() && !across.isZero(); ++c) {
+    const Vector strain = to_tensor(unknowns.loads.eigenstrain(mesh, c, loading.end)) * across;
+    if ((strain - across.dot(strain) * across).norm() > close_to_zero * strain.norm())
+      throw InputError(fmt::format("the eigenstrain at {} shears across a mesh one cell thick, which does not follow",
+                                   shown(mesh.cell_centre[c])));
+  }
+}
+
+// Damage degrades the whole energy of such cells: splits by principal strains or by the change of volume are those of
+// isotropic elasticity.
+void require_anisotropy(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns) {
+  for (std::size_t r = 0; r < m.regions.size(); ++r) {
+    const RegionModel& region = m.regions[r];
+    if (!region.stiffness) continue;
+    const auto refuse = [&](const std::string& what) {
+      throw InputError(fmt::format("region \"{}\": elasticity that depends on the direction cannot be combined with {}",
+                                   mesh.region_names[r], what));
+    };
+    if (region.material) refuse(fmt::format("the law \"{}\"", region.material->name()));
+    if (!region.damageable) continue;
+    if (m.split_of(region).name() != "none")
+      refuse(fmt::format("the energy split \"{}\"; allowed: none", m.split_of(region).name()));
+    if (region.strength.is_chosen()) refuse("a model of strength");
+    if (m.degradation_of(region).law().needs_strength)
+      refuse(fmt::format("the degradation \"{}\", whose strength is that of one modulus",
+                         m.degradation_of(region).name()));
+  }
+  const Vector& across = unknowns.plane_normal;
+  for (Index c = 0; c < mesh.n_cells() && !across.isZero(); ++c)
+    if (const auto& C = m.in_cell(mesh, c).stiffness; C && !is_symmetric_about(*C, across))
+      throw InputError(
+          fmt::format("the elasticity at {} is not symmetric about the plane of a mesh one cell thick: stretching it "
+                      "would shear it across; turn the axes about the normal of the plane only",
+                      shown(mesh.cell_centre[c])));
+}
+
+void require_loads(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns, const LoadingSettings& loading) {
+  if (m.motion.any() && (m.has_body_force() || m.has_eigenstrain()))
+    throw InputError(
+        "a box that follows a mean strain cannot be combined with body forces or eigenstrains ([loads]; eigenstrain)");
+  if (m.has_body_force()) require_body_force(mesh, unknowns, loading);
+  if (m.has_eigenstrain()) require_eigenstrain(mesh, m, unknowns, loading);
+}
+
 }  // namespace
 
 void require_complete(const Mesh& mesh, const FractureModel& model) {
@@ -196,6 +278,8 @@ void require_combination(const Mesh& mesh, const FractureModel& model, const Unk
   if (model.is_finite_strain()) require_finite(mesh, model, unknowns, loading);
   if (model.has_strength()) require_strength(model);
   if (model.stiffness_by == StiffnessBy::mean) require_mean_damage(mesh, model);
+  require_loads(mesh, model, unknowns, loading);
+  if (model.is_anisotropic()) require_anisotropy(mesh, model, unknowns);
   if (controls_dissipation(loading)) require_path(mesh, model, unknowns, loading);
 }
 

@@ -16,6 +16,7 @@ struct EnergyAccount {
   double interface_energy = 0.0;       ///< stored in cohesive interfaces
   double interface_dissipation = 0.0;  ///< by decohesion and friction of cohesive interfaces
   double strength_dissipation = 0.0;   ///< by the driving force of a strength model; negative in tension
+  double eigenstrain_work = 0.0;       ///< supplied by eigenstrains, as by heating a bar that is held
   friend bool operator==(const EnergyAccount&, const EnergyAccount&) = default;
 };
 
@@ -44,6 +45,8 @@ inline constexpr EnergyEntry energy_entries[] = {
      "interface_dissipation", "dissipated by interfaces"},
     {&EnergyAccount::strength_dissipation, EnergyEntry::Role::dissipated, "strength_dissipation",
      "strength_dissipation", "dissipated by the strength's driving force"},
+    {&EnergyAccount::eigenstrain_work, EnergyEntry::Role::supplied, "eigenstrain_work", "eigenstrain_work",
+     "work of eigenstrains"},
 };
 
 /// The work that is neither stored nor dissipated, nor in the surface energy gained since `start`, where there may be
@@ -58,6 +61,14 @@ inline double left_over(const EnergyAccount& start, const EnergyAccount& now) {
     else
       sum -= now.*entry.value;
   }
+  return sum;
+}
+
+/// The work of forces and of eigenstrains.
+inline double supplied(const EnergyAccount& account) {
+  double sum = 0.0;
+  for (const EnergyEntry& entry : energy_entries)
+    if (entry.role == EnergyEntry::Role::supplied) sum += account.*entry.value;
   return sum;
 }
 

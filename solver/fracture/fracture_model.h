@@ -12,12 +12,17 @@
 #include "solver/momentum/preconditioner.h"
 #include "solver/momentum/unknowns.h"
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace pfdm {
+
+/// Of x [m] and the load parameter t.
+template <class Value>
+using LoadField = std::function<Value(const Vector& x, double t)>;
 
 struct RegionModel {
   IsotropicElasticity elasticity;
@@ -29,6 +34,13 @@ struct RegionModel {
   StrengthModel strength{};   ///< none is chosen: the energy alone drives damage
   /// The undamaged material, with the same elasticity; null: linear elastic.
   std::shared_ptr<const Material> material{};
+
+  double density = 0.0;                                    ///< on which gravity acts [kg/m^3]
+  Tensor expansion = Tensor::Zero();                       ///< thermal, symmetric [1/K]
+  std::shared_ptr<const LoadField<Tensor>> eigenstrain{};  ///< given besides [-]; null: none
+  /// Elasticity that depends on the direction [Pa]; `elasticity` is then the closest isotropic one, an estimate. Null:
+  /// `elasticity` is it.
+  std::shared_ptr<const MandelMatrix> stiffness{};
 
   /// Of the surface energy [J/m^2]: a strength model pays part of Gc otherwise.
   double surface_toughness() const { return strength.is_chosen() ? strength.delta() * Gc : Gc; }
@@ -43,6 +55,13 @@ enum class Irreversibility {
 
 /// The damage that degrades the stiffness of a cell: its own, or of hexahedra the mean about it (stiffness_damage.h).
 enum class StiffnessBy { cell, mean };
+
+/// What acts within the body; each may be empty: nothing. From the first step on: at the beginning there is none of it.
+struct BodyLoads {
+  LoadField<Vector> gravity{};      ///< acceleration [m/s^2], which acts on the density of the regions
+  LoadField<Vector> force{};        ///< per reference volume, in all regions [N/m^3]
+  LoadField<double> temperature{};  ///< change of it [K]
+};
 
 /// Interior faces whose sides a cohesive law joins.
 struct CohesiveSurface {
@@ -66,10 +85,11 @@ struct FractureModel {
   EnergySplit split{};
   Irreversibility irreversibility = Irreversibility::bounds;
   StiffnessBy stiffness_by = StiffnessBy::cell;
-  double residual_stiffness = 1e-6;           ///< k of g_k = (1 - k) g + k
-  double viscosity = 0.0;                     ///< eta of the damage equation [Pa s]; 0: rate-independent
-  std::vector<BoundaryCondition> boundary;    ///< patches that are not named are free
-  BoxMotion motion{};                         ///< of a box by its mean strain; then nothing is prescribed on patches
+  double residual_stiffness = 1e-6;         ///< k of g_k = (1 - k) g + k
+  double viscosity = 0.0;                   ///< eta of the damage equation [Pa s]; 0: rate-independent
+  std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
+  BoxMotion motion{};                       ///< of a box by its mean strain; then nothing is prescribed on patches
+  BodyLoads loads{};
   std::vector<CohesiveSurface> interfaces{};  ///< no face in two of them
   /// At load 0 the damage is nowhere below this, between 0 and 1 [-]: it has the profile of least surface energy.
   /// Empty: none.
@@ -86,10 +106,13 @@ struct FractureModel {
   }
   /// Whether the laws of the materials are of finite strain: those of all regions, or of none.
   bool is_finite_strain() const;
-  bool has_strength() const;  ///< whether some region has a strength model
+  bool has_strength() const;     ///< whether some region has a strength model
+  bool has_body_force() const;   ///< whether a force or gravity is given
+  bool has_eigenstrain() const;  ///< whether some region expands or has one
   /// The least damage that a step from this one may end with.
   CellField<double> lower_bound(const CellField<double>& damage) const;
-  /// Whether every split has isotropic secant moduli.
+  bool is_anisotropic() const;  ///< whether the elasticity of some region depends on the direction
+  /// Whether every cell has isotropic secant moduli.
   bool is_isotropic() const;
 };
 

@@ -187,15 +187,16 @@ struct FractureRun::Parts {
     next.energy = outcome.energy;
     next.energy.fracture = staggered.damage_equation().fracture_energy(next.damage);
     next.energy.external_work =
-        state.energy.external_work + staggered.work(state, next.boundary_force, next.displacement);
+        state.energy.external_work + staggered.work(state, next.load, next.boundary_force, next.displacement);
+    next.energy.eigenstrain_work += state.energy.eigenstrain_work;
     for (const EnergyEntry& entry : energy_entries)
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
     next.increment = next_increment(planned, outcome);
     const bool follows_path = std::isfinite(loading.maximum_dissipation);
     const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
     state = std::move(next);
-    const std::string residual = residual_stiffness.remark(
-        outcome.share, std::max(outcome.starting_energy, state.energy.external_work), state.load);
+    const std::string residual =
+        residual_stiffness.remark(outcome.share, std::max(outcome.starting_energy, supplied(state.energy)), state.load);
     for (const std::string& remark : {unstable, residual})
       if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);

@@ -11,8 +11,8 @@ namespace pfdm {
 struct ResidualShare {
   double elastic = 0.0;        ///< E
   double residual = 0.0;       ///< R
-  double traction_work = 0.0;  ///< prescribed tractions times displacements; together with the work of prescribed
-                               ///< displacements it is 2 E
+  double traction_work = 0.0;  ///< prescribed tractions times displacements; together with the work of
+                               ///< prescribed displacements it is 2 E
 };
 
 /// Whether the residual stiffness has nearly all of the energy.

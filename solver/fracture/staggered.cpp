@@ -34,7 +34,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       damage_(mesh, model, unknowns.plane_normal),
       way_(stiffness_.descends() ? Relaxation::Way::momentum : Relaxation::Way::secant),
       has_newton_(way_ == Relaxation::Way::momentum && !stiffness_.depends_on_strain() && !faces_.any() &&
-                  CoupledNewton::suits(mesh, unknowns)),
+                  !model.has_eigenstrain() && CoupledNewton::suits(mesh, unknowns)),
       psi_plus_(as_size(mesh.n_cells())) {}
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
@@ -42,6 +42,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   stiffness_.start_step(limits.duration);
   momentum_.start_afresh();  // as a restarted run does
   const StrengthDrive strength_before = strength_drive_of(start);
+  const FreeStrained strained_before = free_strained(start);
   StepOutcome outcome = alternate(start, state, limits, watch);
   if (outcome.failed || outcome.broke_too_much || outcome.collapsed) return outcome;
   // Reactions balance, and energies belong to the damage of the step.
@@ -67,6 +68,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   outcome.energy.strength_dissipation =
       strength_dissipation(mesh_, model_, strength_before, strength_, start.damage, state.damage);
   outcome.energy.plastic_dissipation = stiffness_.plastic_dissipation(start, state);
+  outcome.energy.eigenstrain_work = eigenstrain_work(strained_before, free_strained(state));
   return outcome;
 }
 
@@ -179,7 +181,8 @@ struct Staggered::Loop {
     if (!s.faces_.any() || !(start.load > 0.0)) return energies.stored;
     const double growth = state.load / start.load, stored = start.energy.elastic + start.energy.interface_energy;
     if (!finite) return growth * growth * stored;
-    const double work = s.work(start, s.momentum_.balance().boundary_forces(state.displacement), state.displacement);
+    const double work =
+        s.work(start, state.load, s.momentum_.balance().boundary_forces(state.displacement), state.displacement);
     return energies.stored + growth * (stored + work - energies.stored);
   }
 
@@ -267,8 +270,9 @@ StepOutcome Staggered::alternate(const FractureState& start, FractureState& stat
 }
 
 bool Staggered::has_reduced_energy() const {
-  return !faces_.any() && !stiffness_.finite().any() && !stiffness_.materials().any() && !model_.has_strength() &&
-         !(model_.viscosity > 0.0) && !model_.motion.any() && model_.irreversibility != Irreversibility::history;
+  return !faces_.any() && !model_.has_eigenstrain() && !stiffness_.finite().any() && !stiffness_.materials().any() &&
+         !model_.has_strength() && !(model_.viscosity > 0.0) && !model_.motion.any() &&
+         model_.irreversibility != Irreversibility::history;
 }
 
 double Staggered::reduced_energy(FractureState state) {
@@ -284,7 +288,7 @@ double Staggered::reduced_energy(FractureState state) {
   return energy;
 }
 
-double Staggered::work(const FractureState& from, const std::vector<Vector>& force,
+double Staggered::work(const FractureState& from, double t, const std::vector<Vector>& force,
                        const std::vector<Vector>& displacement) const {
   double work = 0.0;
   for (Index f = mesh_.n_interior_faces(); f < mesh_.n_faces(); ++f) {
@@ -294,7 +298,29 @@ double Staggered::work(const FractureState& from, const std::vector<Vector>& for
     work +=
         0.5 * (from.boundary_force[k] + force[k]).dot(displacement[as_size(node)] - from.displacement[as_size(node)]);
   }
+  if (const auto& body = unknowns_.loads.force)
+    work += parallel_sum(mesh_.n_cells(), [&](Index c) {
+      const Vector before = from.step > 0 ? body(mesh_, c, from.load) : Vector::Zero();
+      const Vector moved = displacement[as_size(c)] - from.displacement[as_size(c)];
+      return 0.5 * mesh_.cell_volume[c] * (before + body(mesh_, c, t)).dot(moved);
+    });
   return work;
+}
+
+Staggered::FreeStrained Staggered::free_strained(const FractureState& state) {
+  if (!model_.has_eigenstrain()) return {};
+  degrade(state);
+  CellMechanics mechanics =
+      momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::without_gradient);
+  return {std::move(mechanics.traction_moment), std::move(mechanics.eigenstrain)};
+}
+
+double Staggered::eigenstrain_work(const FreeStrained& from, const FreeStrained& to) const {
+  return parallel_sum(to.eigenstrain.size(), [&](Index c) {
+    if (from.eigenstrain.size() == 0) return -0.5 * to.traction_moment[c].dot(to.eigenstrain[c]);
+    const Mandel grown = to.eigenstrain[c] - from.eigenstrain[c];
+    return -0.5 * (from.traction_moment[c] + to.traction_moment[c]).dot(grown);
+  });
 }
 
 void Staggered::degrade(const FractureState& state) {
@@ -378,7 +404,18 @@ ResidualShare Staggered::residual_share(const FractureState& state, const Energi
   ResidualShare share{.elastic = energies.stored, .residual = energies.residual};
   if (!holds_all(share.residual, share.elastic)) return share;
   const std::vector<Vector> force = momentum_.balance().traction_forces(state.load);
-  for (std::size_t i = 0; i < force.size(); ++i) share.traction_work += force[i].dot(state.displacement[i]);
+  // A part that prescribed displacements move, or hold, bears its body forces there. One that falls moves much farther.
+  constexpr double falls = 3.0;
+  double prescribed = 0.0;
+  for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
+    const Vector& u = state.displacement[as_size(unknowns_.n_cells) + k];
+    prescribed = std::max(prescribed, (u - unknowns_.free_directions[k] * u).norm());
+  }
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    const bool is_body_force = i < as_size(unknowns_.n_cells);
+    if (is_body_force && state.displacement[i].norm() <= falls * prescribed) continue;
+    share.traction_work += force[i].dot(state.displacement[i]);
+  }
   return share;
 }
 

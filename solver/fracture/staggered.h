@@ -80,8 +80,9 @@ class Staggered {
   const CellStiffness& stiffness() const { return stiffness_; }
   const CohesiveFaces& faces() const { return faces_; }
   StageClock& clock() { return clock_; }
-  /// Of the boundary forces, which change linearly from one state to the other [J].
-  double work(const FractureState& from, const std::vector<Vector>& force,
+  /// Of the boundary forces and of the body forces, which change linearly from one state to the other, at the load `t`
+  /// [J].
+  double work(const FractureState& from, double t, const std::vector<Vector>& force,
               const std::vector<Vector>& displacement) const;
   /// Sets the degraded stiffness of the state in the momentum balance.
   void degrade(const FractureState& state);
@@ -109,6 +110,14 @@ class Staggered {
   ResidualShare residual_share(const FractureState& state, const Energies& energies);
   /// Of a strength model, at the equilibrium of this state; empty without.
   StrengthDrive strength_drive_of(const FractureState& state);
+  /// What the work of eigenstrains is made of, by cell (CellMechanics).
+  struct FreeStrained {
+    CellField<Mandel> traction_moment;  // [J]; empty without eigenstrains
+    CellField<Mandel> eigenstrain;      // [-]; empty: none
+  };
+  FreeStrained free_strained(const FractureState& state);
+  /// Energy that eigenstrains supply from one state to the other [J].
+  double eigenstrain_work(const FreeStrained& from, const FreeStrained& to) const;
   /// psi_plus_ and finite_.
   void find_driving_energy(const CellMechanics& mechanics, const FractureState& state);
   bool solve_damage(const FractureState& start, const FractureState& state, CellField<double>& d);

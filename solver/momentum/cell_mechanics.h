@@ -2,16 +2,21 @@
 // What the momentum balance says of cells for given displacements.
 
 #include "mesh/fields.h"
-#include "physics/tensor.h"
+#include "physics/mandel.h"
 
 namespace pfdm {
 
 /// Strain, stress and energy of the cells for a given displacement.
 struct CellMechanics {
-  CellField<Tensor> strain;    ///< from the two-sided face displacements (Green-Gauss) [-]
+  CellField<Tensor> strain;         ///< from the two-sided face displacements (Green-Gauss) [-]
+  CellField<Mandel> eigenstrain{};  ///< the part of it that makes no stress [-]; empty: none
+  /// With eigenstrains: sum A t (x) (x_f - x_c), with the stress across a plane mesh, [J]; else empty.
+  CellField<Mandel> traction_moment{};
   CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if not wanted
   CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]
-  CellField<double> energy;    ///< 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work
+  /// 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work. Of eigenstrains less half the
+  /// work of the traction moment on them.
+  CellField<double> energy;
   /// Of a part of the stiffness: its share in `energy`, per volume [J/m^3],
   ///
   ///   (1/2V) sum A (u_f - u_c).(part : eps_f) n,  eps_f = sym(G + (u_f - u_c - G d) n^T / h),
@@ -26,6 +31,10 @@ struct CellMechanics {
   /// least squares [-]; else empty.
   CellField<Tensor> reconstructed_gradient{};
   FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
+
+  Tensor elastic_strain(Index cell) const {
+    return eigenstrain.size() > 0 ? (strain[cell] - to_tensor(eigenstrain[cell])).eval() : strain[cell];
+  }
 };
 
 }  // namespace pfdm

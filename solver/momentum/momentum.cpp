@@ -143,12 +143,13 @@ void MomentumOperator::list_forces_of_cells() {
 void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,
                                   CellField<LinearStress> stress) {
   moduli_ = moduli;
-  renew_liquidity();
-  condense(moduli_);
-  pressure_.take_over(moduli_, g);
   stiffness_ = {};
   law_ = {};
   linear_stress_ = std::move(stress);
+  renew_liquidity();
+  condense(moduli_);
+  pressure_.take_over(moduli_, g);
+  find_initial_stress();
   if (has_linear_stress()) condense(linear_stress_);
   gradient_.update(g, part);
   has_linear_stress() ? cubic_.leave_out() : cubic_.weigh(g);
@@ -250,7 +251,7 @@ void MomentumOperator::add_initial_forces() const {
   });
   const Vector& across = unknowns_.plane_normal;
   parallel_for(sector_stress_.size(), [&](Index c) {
-    sector_stress_[c] += is_finite() ? initial_sector_[c] : across.dot(to_tensor(linear_stress_[c].initial) * across);
+    sector_stress_[c] += is_finite() ? initial_sector_[c] : across.dot(initial_stress(c) * across);
   });
 }
 
@@ -329,6 +330,8 @@ std::vector<Vector> MomentumOperator::traction_forces(double t) const {
     }
   }
   pressed_faces_.add_forces(t, load);
+  if (const auto& force = unknowns_.loads.force)
+    parallel_for(mesh_.n_cells(), [&](Index c) { load[as_size(c)] += mesh_.cell_volume[c] * force(mesh_, c, t); });
   const BoxMotion& motion = unknowns_.motion;
   for (std::size_t k = 0; k < motion.free_strains.size(); ++k)
     if (motion.free_strains[k].stress)
@@ -380,6 +383,7 @@ void MomentumOperator::take_away_initial_forces(std::vector<Vector>& load) const
   add_initial_forces();
   sum_forces(initial);
   for (std::size_t i = 0; i < load.size(); ++i) load[i] -= initial[i];
+  if (has_eigenstrain() && pressure_.any()) take_away_initial_volumes(load);
   for (std::size_t k = 0; k < volume_rows_.size(); ++k)
     load[as_size(unknowns_.n_nodes()) + k] -=
         mesh_.cell_volume[unknowns_.pressure_cells[k]] * volume_rows_[k].initial * Vector::UnitX();

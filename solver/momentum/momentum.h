@@ -39,6 +39,10 @@
 // Nearly incompressible cells have an additional unknown, a pressure q, which is added to sigma at the face; everywhere
 // else lambda_s replaces lambda (cell_pressure.h).
 //
+// Eigenstrains eps*, one per cell (thermal expansion, misfit): the stress is C (eps - eps*), and each side of a face
+// has the initial traction -n.C eps*, so that tractions agree across a face also where eps* jumps. Pressures have V (q
+// / (lambda - lambda_s) + tr eps*) = sum u_f.S.
+//
 // Split faces: each side has a node and a traction of its own, t_P and t_N as above, and a law of their separation
 // joins them, t_P = T(u_f,N - u_f,P) = -t_N. It is linearised within each solve, T = K (u_f,N - u_f,P) + T_0. At
 // finite strain T also turns with the two sides, that is with c = cof F N of both cells.
@@ -80,6 +84,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace pfdm {
@@ -117,6 +122,10 @@ class MomentumOperator {
     return finite_[cell].face.mu < share * unknowns_.sound[as_size(unknowns_.zone[cell])].mu;
   }
 
+  /// The eigenstrains of the body at the load parameter t, or none; before set_moduli() and set_law(). Returns whether
+  /// they have changed.
+  bool set_eigenstrain(std::optional<double> t);
+
   const std::vector<FaceSpring>& springs() const { return springs_; }
   /// In the order of the split faces.
   void set_springs(std::vector<FaceSpring> springs) { springs_ = std::move(springs); }
@@ -143,8 +152,8 @@ class MomentumOperator {
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each
   /// pressure V q / (lambda - lambda_s) - sum u_f.S [m^3]. Without initial stresses.
   void apply(const std::vector<Vector>& u, std::vector<Vector>& out) const;
-  /// Forces from prescribed tractions and pressures at the load parameter t [N]; the latter on the areas of the last
-  /// linearisation.
+  /// Forces from prescribed tractions, pressures and body forces at the load parameter t [N]; pressures on the areas of
+  /// the last linearisation.
   std::vector<Vector> traction_forces(double t) const;
   /// The same with those from initial stresses, [N].
   std::vector<Vector> load_vector(double t) const;
@@ -223,22 +232,30 @@ class MomentumOperator {
     return mesh_.face_centre[unknowns_.face_of_node[as_size(face_node - unknowns_.n_cells)]];
   }
   void take_away_initial_forces(std::vector<Vector>& load) const;
+  void take_away_initial_volumes(std::vector<Vector>& load) const;
+  void find_initial_stress();
   double link_flux(std::size_t i, const Vector& u_P, const Vector& jump, const Vector& stress_jump) const;
   double side_flux(const Side& side, const Vector& u_f) const;
   void balance_pressures(std::vector<Vector>& out) const;
   bool has_linear_stress() const { return linear_stress_.size() > 0; }
   bool is_isotropic() const { return stiffness_.size() == 0 && !is_finite(); }
-  bool has_initial_stress() const { return has_linear_stress() || is_finite(); }
+  bool has_eigenstrain() const { return eigenstrain_.size() > 0 && !is_finite(); }
+  bool has_initial_stress() const { return has_linear_stress() || is_finite() || has_eigenstrain(); }
   // On the P side, the N side of a link, or on a side: `turn` is its number among face_turns_.
   Vector initial_traction(Index cell, const Vector& n, std::size_t turn) const {
-    return is_finite() ? face_turns_[turn].initial : (to_tensor(linear_stress_[cell].initial) * n).eval();
+    if (is_finite()) return face_turns_[turn].initial;
+    return has_law() ? side_laws_[turn].initial : (initial_stress(cell) * n).eval();
+  }
+  Tensor initial_stress(Index cell) const {
+    return has_linear_stress() ? to_tensor(linear_stress_[cell].initial) : initial_stress_[cell];
   }
   static std::size_t turn_P(std::size_t link) { return 2 * link; }
   static std::size_t turn_N(std::size_t link) { return 2 * link + 1; }
   std::size_t turn_of_side(std::size_t side) const { return 2 * links_.size() + side; }
   struct AtStrain {
-    MandelMatrix C;  // condensed in plane stress
-    Tensor strain;   // with that across a plate
+    MandelMatrix C;                   // condensed in plane stress, as the
+    Mandel initial = Mandel::Zero();  // stress without strain [Pa]
+    Tensor strain;                    // with that across a plate
   };
   AtStrain law_at(Index cell, const Tensor& strain) const;
   SideLaw side_law(Index cell, const Tensor& strain, const Vector& n) const;
@@ -330,6 +347,9 @@ class MomentumOperator {
   // Stores the coefficients of the strain across the plate, and replaces the stiffness by the condensed one.
   void condense(CellField<IsotropicElasticity>& moduli);
   void condense(CellField<LinearStress>& stress);
+  Tensor without_eigenstrain(Index cell, const Tensor& strain) const {
+    return has_eigenstrain() ? (strain - to_tensor(eigenstrain_[cell])).eval() : strain;
+  }
   // In plane stress the strain across the plate is added; else the gradient stays as it is.
   Tensor with_strain_across(Index cell, const Tensor& gradient) const;
   Vector face_displacement(std::size_t link, const std::vector<Vector>& u) const;
@@ -349,17 +369,20 @@ class MomentumOperator {
   CellField<MandelMatrix>
       stiffness_;  // of such a law; empty while all cells are isotropic, as are the tensors of the faces
   StrainLaw law_;  // may be empty
-  std::vector<SideLaw> side_laws_;         // of it: two per link, then one per side
-  CellField<LinearStress> linear_stress_;  // may be empty
-  CellField<FiniteLaw> finite_;            // of finite strain, as what follows; else empty
-  CellField<Tensor> F_, cofactor_;         // at which the laws are linearised
-  CellField<Push> push_;                   // of their faces
-  std::vector<FaceTurn> face_turns_;       // two per link, then one per side
-  std::vector<JumpTurn> jump_turns_;       // per link; empty where the jump's stiffness is that of the tractions
-  std::vector<VolumeRow> volume_rows_;     // per pressure
-  CellField<double> pressure_at_;          // q there [Pa]; zero without
-  CellField<double> initial_sector_;       // of sector_stress_ [Pa]
-  CellField<StrainAcross> strain_across_;  // empty but in plane stress
+  std::vector<SideLaw> side_laws_;          // of it: two per link, then one per side
+  CellField<LinearStress> linear_stress_;   // may be empty
+  std::optional<double> eigenstrain_load_;  // load parameter of
+  CellField<Mandel> eigenstrain_;           // [-]; empty: none; and
+  CellField<Tensor> initial_stress_;        // -C eps* [Pa], condensed in plane stress; of isotropic cells and of laws
+  CellField<FiniteLaw> finite_;             // of finite strain, as what follows; else empty
+  CellField<Tensor> F_, cofactor_;          // at which the laws are linearised
+  CellField<Push> push_;                    // of their faces
+  std::vector<FaceTurn> face_turns_;        // two per link, then one per side
+  std::vector<JumpTurn> jump_turns_;        // per link; empty where the jump's stiffness is that of the tractions
+  std::vector<VolumeRow> volume_rows_;      // per pressure
+  CellField<double> pressure_at_;           // q there [Pa]; zero without
+  CellField<double> initial_sector_;        // of sector_stress_ [Pa]
+  CellField<StrainAcross> strain_across_;   // empty but in plane stress
   std::vector<Link> links_;
   bool has_relaxed_flat_cells_ = false;
   std::vector<Side> sides_;

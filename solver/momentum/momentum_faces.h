@@ -52,6 +52,7 @@ struct LinkTensors {
 struct SideLaw {
   Eigen::Matrix<double, 3, 6> rows;  // n.C: traction on n by the strain [Pa]
   Tensor acoustic;                   // n.C.n [Pa]
+  Vector initial = Vector::Zero();   // traction without strain [Pa]
 };
 // What the traction on one side of a face changes by with its c = cof F N: turn dc, through a and the pressure; and
 // the constant part of the linearised traction.

@@ -13,11 +13,11 @@
 namespace pfdm {
 namespace {
 
-momentum_faces::SideLaw side_law_of(const MandelMatrix& C, const Vector& n) {
+momentum_faces::SideLaw side_law_of(const MandelMatrix& C, const Mandel& initial, const Vector& n) {
   Eigen::Matrix<double, 6, 3> strain;
   for (Index k = 0; k < 3; ++k) strain.col(k) = to_mandel(symmetric_part(Vector::Unit(k) * n.transpose()));
   const Eigen::Matrix<double, 3, 6> rows = strain.transpose() * C;
-  return {.rows = rows, .acoustic = rows * strain};
+  return {.rows = rows, .acoustic = rows * strain, .initial = to_tensor(initial) * n};
 }
 
 Tensor stretched(const Tensor& G, const Vector& y, const Vector& n, double h) {
@@ -35,7 +35,12 @@ void MomentumOperator::set_law(StrainLaw law, const CellField<double>& g, const 
   const auto n = as_size(mesh_.n_cells());
   const bool has_faces = !side_laws_.empty() && !afresh;
   stiffness_ = CellField<MandelMatrix>(n);
-  parallel_for(mesh_.n_cells(), [&](Index c) { stiffness_[c] = law_at(c, symmetric_part(gradients_[c])).C; });
+  if (has_eigenstrain()) initial_stress_ = CellField<Tensor>(n);
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    const AtStrain at = law_at(c, symmetric_part(gradients_[c]));
+    stiffness_[c] = at.C;
+    if (has_eigenstrain()) initial_stress_[c] = to_tensor(at.initial);
+  });
   side_laws_.resize(2 * links_.size() + sides_.size());
   link_tensors_.resize(links_.size());
   side_tensors_.resize(sides_.size());
@@ -52,7 +57,12 @@ void MomentumOperator::set_law(StrainLaw law, const CellField<double>& g, const 
 
 // In plane stress the stiffness is condensed, and the strain that with the one across at which nothing acts there.
 MomentumOperator::AtStrain MomentumOperator::law_at(Index cell, const Tensor& strain) const {
-  AtStrain at{.C = law_.tangent(cell, strain), .strain = strain};
+  AtStrain at{.C = law_.tangent(cell, without_eigenstrain(cell, strain)), .strain = strain};
+  const auto linear = [&] {
+    return LinearStress{.C = at.C,
+                        .initial = has_eigenstrain() ? Mandel(-(at.C * eigenstrain_[cell])) : Mandel(Mandel::Zero())};
+  };
+  at.initial = linear().initial;
   if (!unknowns_.plane_stress) return at;
   constexpr int most_steps = 30;
   constexpr double precise = 1e-14;
@@ -60,19 +70,22 @@ MomentumOperator::AtStrain MomentumOperator::law_at(Index cell, const Tensor& st
   StrainAcross across;
   double before = 0.0;
   for (int k = 0; k < most_steps; ++k) {
-    across = strain_across({.C = at.C, .initial = Mandel::Zero()}, n);
+    across = strain_across(linear(), n);
     const double now = across(to_mandel(strain));
     at.strain = strain + now * n * n.transpose();
     if (std::abs(now - before) <= precise * at.strain.norm()) break;
     before = now;
-    at.C = law_.tangent(cell, at.strain);
+    at.C = law_.tangent(cell, without_eigenstrain(cell, at.strain));
   }
-  at.C = plane_stress({.C = at.C, .initial = Mandel::Zero()}, n).C;
+  const LinearStress condensed = plane_stress(linear(), n);
+  at.C = condensed.C;
+  at.initial = condensed.initial;
   return at;
 }
 
 MomentumOperator::SideLaw MomentumOperator::side_law(Index cell, const Tensor& strain, const Vector& n) const {
-  return side_law_of(law_at(cell, strain).C, n);
+  const AtStrain at = law_at(cell, strain);
+  return side_law_of(at.C, at.initial, n);
 }
 
 // The tractions of both sides of a link, by y_P.
@@ -91,7 +104,7 @@ struct MomentumOperator::LinkBalance {
     const Tensor at_N = stretched(of.gradients_[link.N], jump - y, link.n, h_N);
     P = of.side_law(link.P, at_P, link.n);
     N = of.side_law(link.N, at_N, link.n);
-    const Vector t_P = P.rows * to_mandel(at_P), t_N = N.rows * to_mandel(at_N);
+    const Vector t_P = P.rows * to_mandel(at_P) + P.initial, t_N = N.rows * to_mandel(at_N) + N.initial;
     negligible =
         precise * (t_P.norm() + t_N.norm()) + rounding * (P.rows.norm() * at_P.norm() + N.rows.norm() * at_N.norm());
     return t_P - t_N;
@@ -100,7 +113,7 @@ struct MomentumOperator::LinkBalance {
   // Of the present tangents.
   Vector linear_answer() const {
     const Vector apart = N.rows * to_mandel(symmetric_part(of.gradients_[link.N])) -
-                         P.rows * to_mandel(symmetric_part(of.gradients_[link.P]));
+                         P.rows * to_mandel(symmetric_part(of.gradients_[link.P])) + N.initial - P.initial;
     return softness() * (apart + N.acoustic * jump / h_N);
   }
 };
@@ -119,8 +132,12 @@ void MomentumOperator::settle_link(std::size_t i, bool has_faces, const std::vec
                       .h_P = std::abs(link.d_P.dot(link.n)),
                       .h_N = std::abs(link.d_N.dot(link.n))};
   if (!has_faces) {
-    balance.P = side_law_of(stiffness_[link.P], link.n);
-    balance.N = side_law_of(stiffness_[link.N], link.n);
+    const auto of_cell = [&](Index c) {
+      const Mandel initial = has_eigenstrain() ? to_mandel(initial_stress_[c]) : Mandel(Mandel::Zero());
+      return side_law_of(stiffness_[c], initial, link.n);
+    };
+    balance.P = of_cell(link.P);
+    balance.N = of_cell(link.N);
   }
   Vector y = balance.linear_answer(), rest = balance.unbalanced(y);
   for (int k = 0; k < most_steps && rest.norm() > balance.negligible; ++k) {

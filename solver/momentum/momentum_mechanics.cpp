@@ -56,11 +56,37 @@ Vector MomentumOperator::face_displacement(std::size_t i, const std::vector<Vect
 void MomentumOperator::condense(CellField<IsotropicElasticity>& moduli) {
   if (!unknowns_.plane_stress) return;
   strain_across_ = CellField<StrainAcross>(as_size(moduli.size()));
+  if (has_eigenstrain()) initial_stress_ = CellField<Tensor>(as_size(moduli.size()));
   parallel_for(moduli.size(), [&](Index c) {
-    strain_across_[c] =
-        strain_across({.C = stiffness_matrix(moduli[c]), .initial = Mandel::Zero()}, unknowns_.plane_normal);
+    LinearStress whole{.C = stiffness_matrix(moduli[c]), .initial = Mandel::Zero()};
+    if (has_eigenstrain()) {
+      whole.initial = -(whole.C * eigenstrain_[c]);
+      initial_stress_[c] = to_tensor(plane_stress(whole, unknowns_.plane_normal).initial);
+    }
+    strain_across_[c] = strain_across(whole, unknowns_.plane_normal);
     moduli[c] = plane_stress(moduli[c]);
   });
+}
+
+bool MomentumOperator::set_eigenstrain(std::optional<double> t) {
+  if (!unknowns_.loads.eigenstrain || t == eigenstrain_load_) return false;
+  eigenstrain_load_ = t;
+  eigenstrain_ = CellField<Mandel>(t ? as_size(mesh_.n_cells()) : 0);
+  parallel_for(eigenstrain_.size(), [&](Index c) { eigenstrain_[c] = unknowns_.loads.eigenstrain(mesh_, c, *t); });
+  return true;
+}
+
+// In plane stress that of isotropic cells is condensed with their moduli.
+void MomentumOperator::find_initial_stress() {
+  if (!has_eigenstrain()) return;
+  if (has_linear_stress()) {
+    parallel_for(linear_stress_.size(),
+                 [&](Index c) { linear_stress_[c].initial -= linear_stress_[c].C * eigenstrain_[c]; });
+  } else if (!unknowns_.plane_stress) {
+    initial_stress_ = CellField<Tensor>(as_size(moduli_.size()));
+    parallel_for(moduli_.size(),
+                 [&](Index c) { initial_stress_[c] = -stress(moduli_[c], to_tensor(eigenstrain_[c])); });
+  }
 }
 
 void MomentumOperator::condense(CellField<LinearStress>& stress) {
@@ -81,10 +107,15 @@ Tensor MomentumOperator::with_strain_across(Index cell, const Tensor& gradient) 
 
 double MomentumOperator::stress_across(Index cell, const Tensor& strain) const {
   if (unknowns_.plane_stress) return 0.0;
-  if (is_isotropic() && !has_linear_stress()) return moduli_[cell].lambda * strain.trace() + pressure_.mean(cell);
   const Vector& normal = unknowns_.plane_normal;
+  if (is_isotropic() && !has_linear_stress()) {
+    const double by_strain = moduli_[cell].lambda * strain.trace() + pressure_.mean(cell);
+    return has_eigenstrain() ? by_strain + normal.dot(initial_stress_[cell] * normal) : by_strain;
+  }
   const Mandel stress =
-      has_law() ? Mandel(law_.tangent(cell, strain) * to_mandel(strain)) : linear_stress_[cell](to_mandel(strain));
+      has_law()
+          ? Mandel(law_.tangent(cell, without_eigenstrain(cell, strain)) * to_mandel(without_eigenstrain(cell, strain)))
+          : linear_stress_[cell](to_mandel(strain));
   return normal.dot(to_tensor(stress) * normal);
 }
 
@@ -118,11 +149,12 @@ Vector MomentumOperator::moved_with(Index cell, Index face, const std::vector<Ve
   return u[as_size(cell)] - n.dot(u[as_size(cell)]) * n;
 }
 
-// The energy of the mean strain and of what the strains of the faces differ from it.
+// The energy of the mean strain and of what the strains of the faces differ from it; without eigenstrains, of which
+// the cell has one.
 template <class Stress>
 double MomentumOperator::part_energy(Index cell, const Stress& stress_of, const Tensor& strain,
                                      const FaceField<Vector>& u_face, const std::vector<Vector>& u) const {
-  const Tensor mean_stress = stress_of.at_face(strain);
+  const Tensor elastic = without_eigenstrain(cell, strain), mean_stress = stress_of.at_face(elastic);
   const Tensor& G = gradients_[cell];
   double varying = 0.0;
   std::size_t k = cell_offsets_[as_size(cell)];
@@ -136,9 +168,11 @@ double MomentumOperator::part_energy(Index cell, const Stress& stress_of, const 
     if (cubic_.any()) in_cell += cubic_.at(turn).gradient;
     const Vector gap = move - rise(cell, d, turn);
     const Tensor at_face = with_strain_across(cell, in_cell + gap * n.transpose() / bounded_height(d, n));
-    varying += 0.5 * move.dot((stress_of.at_face(symmetric_part(at_face)) - mean_stress) * area);
+    const Tensor change = stress_of.at_face(without_eigenstrain(cell, symmetric_part(at_face))) - mean_stress;
+    const Vector elastic_move = has_eigenstrain() ? (move - to_tensor(eigenstrain_[cell]) * d).eval() : move;
+    varying += 0.5 * elastic_move.dot(change * area);
   }
-  const double mean = 0.5 * contract(stress_of.of_cell(strain), strain);
+  const double mean = 0.5 * contract(stress_of.of_cell(elastic), elastic);
   return std::max(mean + varying / mesh_.cell_volume[cell], stress_of.least(mean));
 }
 
@@ -149,6 +183,8 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
   FaceField<Vector> u_face = face_displacements(u);
   const auto n = as_size(mesh_.n_cells());
   CellMechanics result{.strain = CellField<Tensor>(n),
+                       .eigenstrain = has_eigenstrain() ? eigenstrain_ : CellField<Mandel>(),
+                       .traction_moment = CellField<Mandel>(has_eigenstrain() ? n : 0),
                        .gradient = CellField<Tensor>(with_gradient ? n : 0),
                        .stress = CellField<Tensor>(n),
                        .energy = CellField<double>(n),
@@ -186,8 +222,14 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
     }
     const Vector& normal = unknowns_.plane_normal;
     result.stress[c] = symmetric_part((moment * closure_[c]) / volume);
-    if (!unknowns_.is_axisymmetric())
-      result.stress[c] += stress_across(c, result.strain[c]) * normal * normal.transpose();
+    if (!unknowns_.is_axisymmetric()) {
+      const Tensor across = stress_across(c, result.strain[c]) * normal * normal.transpose();
+      result.stress[c] += across;
+      moment += volume * across;
+    }
+    if (!has_eigenstrain()) return;
+    result.traction_moment[c] = to_mandel(symmetric_part(moment));
+    result.energy[c] -= 0.5 * result.traction_moment[c].dot(eigenstrain_[c]);
   });
   if (has_linear_stress()) {
     result.reconstructed_strain = CellField<Tensor>(n);

@@ -34,6 +34,26 @@ void MomentumOperator::balance_pressures(std::vector<Vector>& out) const {
   });
 }
 
+// What eigenstrains add to these rows: V tr eps*, less the fluxes of what their tractions move the faces by.
+void MomentumOperator::take_away_initial_volumes(std::vector<Vector>& load) const {
+  std::vector<double> flux(forces_.size(), 0.0);
+  parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
+    const Link& link = links_[as_size(i)];
+    const double softness = link.weight_n * (1.0 - link.weight_n) / link.c_n;
+    const Vector apart = (initial_stress(link.N) - initial_stress(link.P)) * link.n;
+    flux[as_size(i)] = link.area * softness * link.n.dot(apart);
+  });
+  const std::vector<Index>& cells = unknowns_.pressure_cells;
+  parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
+    const Index c = cells[as_size(k)];
+    double sum = 0.0;
+    for (std::size_t j = cell_offsets_[as_size(c)]; j < cell_offsets_[as_size(c) + 1]; ++j)
+      sum += cell_forces_[j].sign * flux[as_size(cell_forces_[j].force)];
+    const double freely = mesh_.cell_volume[c] * to_tensor(eigenstrain_[c]).trace();
+    load[as_size(unknowns_.n_nodes() + k)] -= (freely - sum) * Vector::UnitX();
+  });
+}
+
 std::vector<double> MomentumOperator::pressure_compliance() const {
   // Of the displacements' response to a pressure, times lambda_s + 2 mu: between 1, of smooth pressures in the
   // continuum, and what the damping of rough ones adds. Measured: 3 to 5 take the fewest iterations, 1 half as many

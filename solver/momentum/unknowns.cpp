@@ -160,6 +160,7 @@ Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   unknowns.n_cells = mesh.n_cells();
   unknowns.zone = elastic_zones(mesh, body);
   unknowns.sound = body.elasticity;
+  unknowns.loads = body.loads;
   unknowns.conditions = conditions_by_patch(mesh, body);
   unknowns.node_of_face = FaceField<Index>(static_cast<std::size_t>(mesh.n_faces()), -1);
   const auto add_node = [&](Index face, const Tensor& directions) {

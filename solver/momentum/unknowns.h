@@ -7,6 +7,7 @@
 
 #include "mesh/mesh.h"
 #include "physics/elasticity.h"
+#include "physics/mandel.h"
 #include "solver/momentum/boundary_condition.h"
 #include "solver/momentum/spin_holds.h"
 
@@ -48,6 +49,13 @@ struct BoxMotion {
   bool any() const { return !held.empty(); }
 };
 
+/// What acts within the cells of a mesh at the load parameter t; each may be empty: nothing. Of an eigenstrain eps* the
+/// stress is C (eps - eps*).
+struct VolumeLoads {
+  std::function<Vector(const Mesh& mesh, Index cell, double t)> force;        ///< per volume, of the reference [N/m^3]
+  std::function<Mandel(const Mesh& mesh, Index cell, double t)> eigenstrain;  ///< [-]
+};
+
 /// What the momentum balance is about.
 struct ElasticBody {
   std::vector<IsotropicElasticity> elasticity;  ///< of each region of the mesh, undamaged
@@ -56,6 +64,7 @@ struct ElasticBody {
   std::vector<BoundaryCondition> boundary;  ///< patches that are not named are free
   std::vector<Index> split_faces{};         ///< interior ones, none twice
   BoxMotion motion{};
+  VolumeLoads loads{};
   /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
   bool has_pressure = true;
 };
@@ -79,7 +88,8 @@ struct Unknowns {
   std::vector<Index> split_faces{};        ///< node_of_face is that of their owner's side,
   FaceField<Index> neighbour_node{};       ///< and this that of the neighbour's; -1 elsewhere; empty without any
   std::vector<PatchCondition> conditions;  ///< one per patch of the mesh, free by default
-  BoxMotion motion{};                      ///< as the body has it, and
+  VolumeLoads loads{};                     ///< as the body has them
+  BoxMotion motion{};                      ///< likewise, and
   std::vector<PeriodicNodes> periodic{};   ///< its pairs
   std::vector<Tensor> free_directions;     ///< per face node: projector onto the displacements that are not prescribed
   /// Across the one cell of plane and axisymmetric meshes; zero in three-dimensional ones.

@@ -111,8 +111,8 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr("another case"));
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
-  other[8] = 10;
-  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 10; this program reads format 9"));
+  other[8] = 11;
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 11; this program reads format 10"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
   EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));

@@ -40,12 +40,13 @@ void fill(const std::filesystem::path& path, Index n_rows) {
 TEST(CurveCsv, has_the_header_of_the_interface_and_a_row_per_step) {
   const TemporaryFolder folder;
   CurveFile file(folder / "c.csv");
-  append(file, {1, 0.05, 1e-6, Vector(0.5, 0, -2), {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9, 7e-9, 8e-9}, 0.25, 1e-12, 7});
+  append(file,
+         {1, 0.05, 1e-6, Vector(0.5, 0, -2), {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9, 7e-9, 8e-9, 9e-9}, 0.25, 1e-12, 7});
   EXPECT_EQ(content_of(folder / "c.csv"),
             "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,external_work_J,"
             "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J,plastic_dissipation_J,"
-            "interface_energy_J,interface_dissipation_J,strength_dissipation_J\n"
-            "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,4e-09,5e-09,6e-09,7e-09,8e-09\n");
+            "interface_energy_J,interface_dissipation_J,strength_dissipation_J,eigenstrain_work_J\n"
+            "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,4e-09,5e-09,6e-09,7e-09,8e-09,9e-09\n");
   EXPECT_EQ(folder.n_entries(), 1u);
 }
 
@@ -92,11 +93,11 @@ TEST(CurveCsv, a_restarted_file_equals_an_unbroken_one) {
 TEST(CurveCsv, names_file_and_line_of_what_is_not_a_row) {
   const TemporaryFolder folder;
   const std::string header = curve_header() + "\n";
-  const std::string good = "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0\n";
-  for (const std::string bad : {"1,2\n", "x,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0\n",
-                                "1,0.05,1e-06,0.5,0,-2 N,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0\n",
-                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,8\n",
-                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7.5,0,0,0,0,0\n", "\n"}) {
+  const std::string good = "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0\n";
+  for (const std::string bad : {"1,2\n", "x,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0\n",
+                                "1,0.05,1e-06,0.5,0,-2 N,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0\n",
+                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0,8\n",
+                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7.5,0,0,0,0,0,0\n", "\n"}) {
     put(folder / "bad.csv", header + good + bad + good);
     EXPECT_THAT(message_of<InputError>([&] { read_curve(folder / "bad.csv"); }), HasSubstr("bad.csv, line 3:")) << bad;
   }

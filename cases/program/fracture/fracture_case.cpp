@@ -201,7 +201,7 @@ StaggeredSettings read_solver(const ConfigTable& root) {
   return settings;
 }
 
-void read_curve(const ConfigTable& output, FractureCase& fracture) {
+void read_curve_patch(const ConfigTable& output, FractureCase& fracture) {
   const ConfigTable curve = output.table("curve").with_keys({"patch", "component"});
   fracture.curve_patch = curve.at("patch");
   fracture.output.curve.patch = curve.string("patch");
@@ -276,7 +276,7 @@ void read_frames_of(const ConfigTable& output, FractureCase& fracture) {
 void read_output(const ConfigTable& root, FractureCase& fracture) {
   const ConfigTable output = root.table("output").with_keys(
       {"curve", "frames_at", "frames_every", "time_value", "compression", "slices_through", "energy_release_rate"});
-  read_curve(output, fracture);
+  read_curve_patch(output, fracture);
   check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);  // the frames need the curve's patch
   read_frames_of(output, fracture);
   fracture.output.tips = read_energy_release(output);
@@ -290,11 +290,15 @@ void read_columns(const ConfigTable& root, FractureCase& fracture) {
       read_cohesive(root, fracture.materials.bands, interfaces, Vector::Unit(fracture.output.curve.component));
 }
 
+std::vector<double> loads_to_try(const LoadingSettings& loading) {
+  std::vector<double> loads{0.0, loading.initial_increment, loading.end};
+  loads.insert(loads.end(), loading.stops.begin(), loading.stops.end());
+  return loads;
+}
+
 /// Expressions are evaluated once where and when they will be, so that one without a value is refused before a run has
 /// taken time, and the place of earlier results.
-void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
-  std::vector<double> loads{0.0, fracture.loading.initial_increment, fracture.loading.end};
-  loads.insert(loads.end(), fracture.loading.stops.begin(), fracture.loading.stops.end());
+void require_boundary_values(const FractureCase& fracture, const Mesh& mesh, std::span<const double> loads) {
   for (const BoundarySettings& boundary : fracture.boundary) {
     const BoundaryCondition& condition = boundary.condition;
     const Patch& patch = mesh.patch(condition.patch);
@@ -310,9 +314,10 @@ void require_boundary_values(const FractureCase& fracture, const Mesh& mesh) {
 
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
   root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "boundary", "interface",
-                  "loading", "solver", "output", "cohesive", "experiment", "fit", "sweep"});
+                  "loads", "loading", "solver", "output", "cohesive", "experiment", "fit", "sweep"});
   FractureCase fracture = read_body(root, case_directory, false);
   fracture.boundary = read_boundary(root, fracture.materials);
+  fracture.model.loads = read_body_loads(root);
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
   read_output(root, fracture);
   read_columns(root, fracture);
@@ -326,6 +331,8 @@ FractureCase read_body(const ConfigTable& root, const std::filesystem::path& cas
       may_be_elastic && !root.has("fracture") ? elastic(fracture.model) : read_fracture(root, fracture.model);
   fracture.mesh = read_mesh_recipe(root.table("mesh"), {case_directory, defaults.ell});
   defaults.bands = fracture.mesh.bands;
+  defaults.loads_from_start = !may_be_elastic && apply_from_start(root);
+  fracture.file = root;
   fracture.materials = read_materials(root, defaults);
   fracture.perturbation = read_perturbation(root);
   fracture.initial_damage = read_initial_damage(root, fracture.model);
@@ -350,10 +357,23 @@ FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
   std::vector<std::string> patches;
   for (const Patch& patch : mesh.patches) patches.push_back(patch.name);
   check_names(fracture, mesh.region_names, patches);
-  require_boundary_values(fracture, mesh);
+  const std::vector<double> loads = loads_to_try(fracture.loading);
+  require_boundary_values(fracture, mesh, loads);
   for (const TipRegion& region : fracture.output.tips) require_ring(mesh, region);
   FractureModel model = fracture.model;
   place_materials(fracture.materials, mesh, model);
+  require_body_loads(*fracture.file, model, mesh, loads);
+  if (!fracture.output.tips.empty() && (model.has_body_force() || model.has_eigenstrain()))
+    throw InputError(
+        "[[output.energy_release_rate]] cannot be combined with body forces or eigenstrains: the integral over the "
+        "ring "
+        "does not have their part");
+  for (const TipRegion& region : fracture.output.tips)
+    if (region.reference_length > 0.0 && model.is_anisotropic())
+      throw InputError(fmt::format(
+          "[[output.energy_release_rate]] \"{}\": there are no stress intensities where elasticity depends on the "
+          "direction; leave out reference_length",
+          region.name));
   if (const Perturbation& by = fracture.perturbation; by.part > 0.0) perturb_toughness(mesh, by.part, by.seed, model);
   place_interfaces(fracture.interfaces, mesh, model);
   if (fracture.initial_damage) model.initial_damage = damage_at_the_start(*fracture.initial_damage, model, mesh);

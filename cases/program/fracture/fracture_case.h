@@ -1,6 +1,7 @@
 #pragma once
 // Reads a case of kind "fracture": mesh, materials, boundary conditions, loading, output.
 
+#include "cases/program/fracture/body_loads.h"
 #include "cases/program/fracture/boundary_reader.h"
 #include "cases/program/fracture/cohesive_case.h"
 #include "cases/program/fracture/energy_release_case.h"
@@ -64,6 +65,7 @@ struct FractureCase {
   CohesiveSettings cohesive;
   std::vector<std::filesystem::path> data_files;  ///< besides those of the mesh
   std::optional<ConfigValue> curve_patch;         ///< in the file, for messages
+  std::optional<ConfigTable> file;                ///< likewise
 };
 
 /// `root` is the whole case file. Throws InputError for all that can be told without the mesh.

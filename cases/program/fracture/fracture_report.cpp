@@ -201,7 +201,7 @@ Chart mean_chart(const FractureStory& story, const std::filesystem::path& result
 Chart energy_chart(const FractureStory& story) {
   const std::vector<double> load = column(story.curve, [](const CurveRow& row) { return row.load; });
   std::vector<std::vector<double>> energies{
-      column(story.curve, [](const CurveRow& row) { return row.energy.external_work; }),
+      column(story.curve, [](const CurveRow& row) { return supplied(row.energy); }),
       column(story.curve, [](const CurveRow& row) { return row.energy.elastic; }),
       column(story.curve, [](const CurveRow& row) { return row.energy.fracture; })};
   std::vector<std::string_view> names{"work", "elastic", "surface"};

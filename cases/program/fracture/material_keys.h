@@ -1,10 +1,12 @@
 #pragma once
 // The keys that [materials.NAME] and [regions.NAME] have in common.
 
+#include "cases/program/fracture/anisotropy_reader.h"
 #include "cases/program/input/amount.h"
 #include "physics/degradation.h"
-#include "physics/materials/material.h"
+#include "solver/fracture/fracture_model.h"
 
+#include <array>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -15,7 +17,11 @@ namespace pfdm {
 /// What a material or a region's override may say.
 struct MaterialKeys {
   std::optional<Parameter> young_modulus, poisson_ratio, toughness, strength, length, hydrostatic_strength,
-      compressive_strength;
+      compressive_strength, density;
+  std::optional<std::array<Parameter, 3>> expansion;  // [1/K]
+  std::shared_ptr<const LoadField<Tensor>> eigenstrain{};
+  std::shared_ptr<const MandelMatrix> stiffness{};  // along the axes; the moduli above are then the closest ones
+  std::optional<MaterialAxes> axes;
   std::optional<bool> damageable;
   std::optional<EnergySplit> split;
   std::optional<Degradation> degradation;
@@ -25,8 +31,8 @@ struct MaterialKeys {
 
 /// The keys in common, and others.
 std::vector<std::string_view> keys_with(std::initializer_list<std::string_view> others);
-/// All but the material.
-MaterialKeys read_keys(const ConfigTable& table);
+/// All but the material. With `loads_from_start` a plain eigenstrain does not grow with the load.
+MaterialKeys read_keys(const ConfigTable& table, bool loads_from_start);
 /// Those of the elasticity, and others; the material cannot be damaged.
 std::vector<std::string_view> elastic_keys_with(const std::vector<std::string_view>& others);
 MaterialKeys read_elastic_keys(const ConfigTable& table);

@@ -3,6 +3,7 @@
 #include "cases/program/fracture/material_keys.h"
 #include "cases/program/fracture/material_laws.h"
 #include "cases/program/input/path_reader.h"
+#include "physics/anisotropy.h"
 #include "physics/interface_toughness.h"
 
 #include <fmt/format.h>
@@ -68,12 +69,30 @@ StrengthModel make_strength(const MaterialKeys& keys, const RegionModel& model, 
   });
 }
 
+// What depends on the direction, in the frame of the mesh.
+void turn(const MaterialKeys& keys, const ConfigTable& table, const Vector& x, RegionModel& model) {
+  if (keys.axes && !keys.stiffness && !keys.expansion)
+    throw table.error("axes turn an elasticity that depends on the direction, or an expansion; neither is given");
+  const Tensor axes = keys.axes ? keys.axes->at(x) : Tensor::Identity();
+  if (keys.stiffness)
+    model.stiffness = keys.axes ? std::make_shared<const MandelMatrix>(turned(*keys.stiffness, axes)) : keys.stiffness;
+  if (!keys.expansion) return;
+  Vector along;
+  for (std::size_t i = 0; i < 3; ++i) along[static_cast<Index>(i)] = (*keys.expansion)[i].at(x);
+  const bool is_uniform = along[0] == along[1] && along[1] == along[2];  // without rounding by the axes
+  model.expansion =
+      keys.axes && !is_uniform ? Tensor(axes * along.asDiagonal() * axes.transpose()) : Tensor(along.asDiagonal());
+}
+
 RegionModel make_model(const MaterialKeys& keys, const std::string& region, const MaterialDefaults& defaults,
                        const ConfigTable& table, const Vector& x) {
   RegionModel model;
   model.elasticity = from_young_poisson(keys.young_modulus->at(x), keys.poisson_ratio->at(x));
   model.material = keys.material;
   model.split = keys.split.value_or(EnergySplit());
+  model.density = value_at(keys.density, x).value_or(0.0);
+  turn(keys, table, x, model);
+  model.eigenstrain = keys.eigenstrain;
   model.damageable = keys.damageable.value_or(true);
   model.Gc = value_at(keys.toughness, x).value_or(0.0);
   model.ell = value_at(keys.length, x).value_or(defaults.ell.value_or(0.0));
@@ -116,12 +135,12 @@ std::optional<Band> read_band(const std::string& region, const ConfigTable& tabl
       region, band.quantity("width", dimension::length, range::positive), {between[0].string(), between[1].string()}};
 }
 
-std::vector<RegionOverride> read_overrides(const ConfigTable& root) {
+std::vector<RegionOverride> read_overrides(const ConfigTable& root, bool loads_from_start) {
   std::vector<RegionOverride> overrides;
   if (!root.has("regions")) return overrides;
   for (const auto& [name, value] : root.table("regions").entries()) {
     const ConfigTable table = value.table().with_keys(keys_with({"band"}));
-    overrides.push_back({name, value, read_keys(table), read_band(name, table)});
+    overrides.push_back({name, value, read_keys(table, loads_from_start), read_band(name, table)});
   }
   return overrides;
 }
@@ -136,6 +155,9 @@ struct RegionKeys {
 
 // A history begins with the elasticity of its own table.
 void refuse_other_elasticity(const RegionOverride& over, const MaterialKeys& base) {
+  if (base.stiffness && !over.keys.stiffness && (over.keys.young_modulus || over.keys.poisson_ratio))
+    throw over.value.error(fmt::format(
+        "the elasticity of region \"{}\" depends on the direction; override it by another elasticity", over.region));
   if (base.material && (over.keys.young_modulus || over.keys.poisson_ratio))
     throw over.value.error(fmt::format(
         "the material of region \"{}\" has the law \"{}\", whose elasticity cannot be overridden; give it a "
@@ -170,8 +192,10 @@ MaterialKeys read_own_keys(const ConfigTable& given, const MaterialDefaults& def
   std::vector<std::string_view> allowed = keys_with({"regions", "law", "kernel"});
   allowed.insert(allowed.end(), law.keys.begin(), law.keys.end());
   const ConfigTable table = given.with_keys(allowed);
-  table.at("young_modulus"), table.at("poisson_ratio");
-  MaterialKeys keys = read_keys(table);
+  if (!table.has("elasticity")) table.at("young_modulus"), table.at("poisson_ratio");
+  MaterialKeys keys = read_keys(table, defaults.loads_from_start);
+  if (keys.stiffness && (table.has("law") || table.has("kernel")))
+    throw table.at("elasticity").error("elasticity that depends on the direction has no law besides");
   keys.material = law.read(table);
   return keys;
 }
@@ -180,7 +204,7 @@ void read_material(Materials& materials, const std::string& name, const ConfigTa
                    const MaterialDefaults& defaults, std::vector<RegionOverride>& overrides,
                    std::vector<RegionKeys>& regions) {
   const MaterialKeys base = read_own_keys(table, defaults);
-  const bool varies = base.young_modulus->varies || base.poisson_ratio->varies;
+  const bool varies = base.young_modulus->varies || base.poisson_ratio->varies || base.stiffness;
   const Vector anywhere = Vector::Zero();
   materials.by_name.push_back({name, varies ? std::nullopt
                                             : std::optional(from_young_poisson(base.young_modulus->at(anywhere),
@@ -262,14 +286,15 @@ const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const 
   const std::string wanted = name.one_of(names, "material");
   const auto found = std::ranges::find(by_name, wanted, &NamedElasticity::material);
   if (!found->elasticity)
-    throw name.error(fmt::format("the elasticity of material \"{}\" varies; a uniform one is required here", wanted));
+    throw name.error(
+        fmt::format("the elasticity of material \"{}\" varies; a uniform, isotropic one is required here", wanted));
   return *found->elasticity;
 }
 
 Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults) {
   Materials materials;
   std::vector<RegionOverride> overrides;
-  if (!defaults.elastic_with) overrides = read_overrides(root);
+  if (!defaults.elastic_with) overrides = read_overrides(root, defaults.loads_from_start);
   std::vector<RegionKeys> regions;
   for (const auto& [name, value] : root.table("materials").entries())
     read_material(materials, name, value.table(), defaults, overrides, regions);

@@ -56,6 +56,7 @@ struct MaterialDefaults {
   Degradation degradation{};                ///< of materials that name none
   const SofteningLaw* softening = nullptr;  ///< likewise; for degradations that need a strength
   StrengthChoice strength{};
+  bool loads_from_start = false;  ///< plain eigenstrains do not grow with the load
   /// Of cases without damage, laws of materials and overrides by region: materials have their elasticity, and these
   /// keys, which the caller reads.
   std::optional<std::vector<std::string_view>> elastic_with{};

@@ -50,7 +50,7 @@ Amount read_amount(const ConfigValue& value, const Dimension& due) {
                   return value.in_context([&] { return scaled.factor * scaled.expression(x, t); });
                 },
             .at_full_load = std::nullopt};
-  const double full = value.quantity(due);
+  const double full = plain_value(value, due, range::any);
   return {.value = [full](const Vector&, double t) { return t * full; }, .at_full_load = full};
 }
 
