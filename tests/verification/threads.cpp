@@ -57,7 +57,7 @@ TEST(Threads, ChangeNothing) {
   EXPECT_GT(*std::max_element(alone.state.damage.begin(), alone.state.damage.end()), 0.99);
   EXPECT_LE(alone.largest_imbalance, 1e-6);
 #if defined(__x86_64__)
-  EXPECT_EQ(checksum(alone.state), 13884742678993523745U);  // with AVX2, AVX-512 or neither
+  EXPECT_EQ(checksum(alone.state), 11069357578267660593U);  // with AVX2, AVX-512 or neither
 #endif
   for (const int threads : {2, 3}) {
     const Outcome together = debond(mesh, threads);

@@ -49,12 +49,17 @@ std::string law_text(const InterfaceSettings& interface) {
                      value(interface.toughness, [](double v) { return shown(v) + " J/m²"; }));
 }
 
+/// Three digits, but no power of ten.
+std::string shown_seconds(double seconds) {
+  return seconds < 100.0 ? fmt::format("{:.3g}", seconds) : fmt::format("{:.0f}", seconds);
+}
+
 std::string shown_seconds(const std::map<std::string, double>& stages) {
   std::vector<std::string> parts;
   for (const auto& [stage, seconds] : stages) {
     std::string name = stage;
     std::ranges::replace(name, '_', ' ');
-    parts.push_back(fmt::format("{} {:.3g}", name, seconds));
+    parts.push_back(fmt::format("{} {}", name, shown_seconds(seconds)));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -90,7 +95,8 @@ Table run_table(const FractureStory& story) {
   add("cells, unknowns", fmt::format("{}, {}", s.cells, s.unknowns));
   add("steps, staggered iterations", fmt::format("{}, {}", s.steps, s.staggered_iterations));
   add("linear iterations", fmt::format("{}", s.krylov_iterations));
-  add("time, threads", fmt::format("{:.3g} s wall, {:.3g} s CPU, {}", s.wall_seconds, s.cpu_seconds, s.threads));
+  add("time, threads",
+      fmt::format("{} s wall, {} s CPU, {}", shown_seconds(s.wall_seconds), shown_seconds(s.cpu_seconds), s.threads));
   add("wall by stage [s]", shown_seconds(s.wall_seconds_by_stage));
   add("CPU by stage [s]", shown_seconds(s.cpu_seconds_by_stage));
   add("peak memory", fmt::format("{:.0f} MB", 1e-6 * s.peak_memory));
