@@ -135,23 +135,10 @@ void require_strength(const FractureModel& m) {
   }
 }
 
-void require_mean_damage(const Mesh& mesh, const FractureModel& m) {
-  const auto refuse = [](std::string_view what) {
+void require_mean_damage(const Mesh& mesh, const FractureModel& model) {
+  if (const std::string what = what_excludes_mean_damage(mesh, model); !what.empty())
     throw InputError(fmt::format(
         "stiffness by the mean damage (fracture.stiffness_damage = \"mean\") cannot be combined with {}", what));
-  };
-  if (m.is_finite_strain()) refuse("materials of finite strain");
-  if (m.has_strength()) refuse("a strength model");
-  if (m.irreversibility != Irreversibility::bounds) refuse("an irreversibility other than \"bounds\"");
-  for (const RegionModel& region : m.regions) {
-    if (!region.damageable) continue;
-    if (region.material) refuse(fmt::format("damageable materials of the law \"{}\"", region.material->name()));
-    if (!m.split_of(region).is_variational())
-      refuse(fmt::format("the split \"{}\", whose driving force is not the derivative of an energy",
-                         m.split_of(region).name()));
-  }
-  if (std::ranges::find(mesh.shape.begin(), mesh.shape.end(), CellShape::hexahedron) == mesh.shape.end())
-    refuse("a mesh without hexahedra: only they have it");
 }
 
 void require_history(const FractureModel& m, const Material& law, const LoadingSettings& loading) {
@@ -252,6 +239,22 @@ void require_loads(const Mesh& mesh, const FractureModel& m, const Unknowns& unk
 }
 
 }  // namespace
+
+std::string what_excludes_mean_damage(const Mesh& mesh, const FractureModel& m) {
+  if (m.is_finite_strain()) return "materials of finite strain";
+  if (m.has_strength()) return "a strength model";
+  if (m.irreversibility != Irreversibility::bounds) return "an irreversibility other than \"bounds\"";
+  for (const RegionModel& region : m.regions) {
+    if (!region.damageable) continue;
+    if (region.material) return fmt::format("damageable materials of the law \"{}\"", region.material->name());
+    if (!m.split_of(region).is_variational())
+      return fmt::format("the split \"{}\", whose driving force is not the derivative of an energy",
+                         m.split_of(region).name());
+  }
+  if (std::ranges::find(mesh.shape.begin(), mesh.shape.end(), CellShape::hexahedron) == mesh.shape.end())
+    return "a mesh without hexahedra: only they have it";
+  return {};
+}
 
 void require_complete(const Mesh& mesh, const FractureModel& model) {
   if (model.regions.size() != mesh.region_names.size())

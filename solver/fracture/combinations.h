@@ -5,10 +5,15 @@
 #include "solver/fracture/fracture_run.h"
 #include "solver/momentum/unknowns.h"
 
+#include <string>
+
 namespace pfdm {
 
 /// Every region of the mesh has what the model needs of it.
 void require_complete(const Mesh& mesh, const FractureModel& model);
+
+/// What stiffness by the mean damage (StiffnessBy::mean) cannot be combined with; empty: nothing of this model.
+std::string what_excludes_mean_damage(const Mesh& mesh, const FractureModel& model);
 
 /// Splits, materials, strength models, interfaces and the way the load is found.
 void require_combination(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,

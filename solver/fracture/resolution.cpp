@@ -1,8 +1,10 @@
 #include "solver/fracture/resolution.h"
 
+#include "solver/fracture/combinations.h"
 #include "solver/momentum/bending_layers.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -194,7 +196,7 @@ std::vector<std::string> CoarseCells::look(const CellField<double>& damage) {
   return warnings;
 }
 
-std::vector<std::string> direction_remarks(const Mesh& mesh, const FractureModel& model) {
+std::string direction_remark(const Mesh& mesh, const FractureModel& model) {
   if (model.stiffness_by == StiffnessBy::mean) return {};  // cracks leave the rows
   constexpr Index in_a_plane = 4;  // interior faces of a hexahedron with neighbours in two directions
   constexpr double cost = 0.21;    // of an oblique crack over one along a row, times c0 ell/h: AT2, AT1 and Wu
@@ -212,17 +214,21 @@ std::vector<std::string> direction_remarks(const Mesh& mesh, const FractureModel
     ++region.n;
     region.thickness = std::min(region.thickness, thickness(mesh, c) / model.in_cell(mesh, c).ell);
   }
-  std::vector<std::string> remarks;
+  std::vector<std::string> names;
+  double finest = 1.0;  // thickness over ell
   for (std::size_t r = 0; r < regions.size(); ++r) {
     if (2 * regions[r].n < regions[r].n_cells || regions[r].n == 0) continue;
-    remarks.push_back(fmt::format(
-        "region \"{}\": cracks oblique to the rows of hexahedra cost up to {:.1f} % more than along them where cells "
-        "are smallest (ell/h = {:.2g}), and growing ones keep to the rows: at ell/h = 3 one that ought to turn by 11, "
-        "25, 35 degrees turns by 0, 8, 29. Where directions are not known beforehand, use fracture.stiffness_damage = "
-        "\"mean\", smaller cells, or prisms or tetrahedra ([mesh])",
-        mesh.region_names[r], 100.0 * cost / model.crack->c0 * regions[r].thickness, 1.0 / regions[r].thickness));
+    names.push_back(fmt::format("\"{}\"", mesh.region_names[r]));
+    finest = std::min(finest, regions[r].thickness);
   }
-  return remarks;
+  if (names.empty()) return {};
+  return fmt::format(
+      "region{} {}: cracks oblique to the rows of hexahedra cost up to {:.1f} % more than along them where cells are "
+      "smallest (ell/h = {:.2g}), and growing ones keep to the rows: at ell/h = 3 one that ought to turn by 11, 25, 35 "
+      "degrees turns by 0, 8, 29. Where directions are not known beforehand, use {}smaller cells, or prisms or "
+      "tetrahedra ([mesh])",
+      names.size() > 1 ? "s" : "", fmt::join(names, ", "), 100.0 * cost / model.crack->c0 * finest, 1.0 / finest,
+      what_excludes_mean_damage(mesh, model).empty() ? "fracture.stiffness_damage = \"mean\", " : "");
 }
 
 }  // namespace pfdm

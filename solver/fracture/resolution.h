@@ -42,8 +42,8 @@ class CoarseCells {
   std::vector<bool> told_;  // region by region
 };
 
-/// A line for each region of hexahedra in which cracks may choose a direction: what its rows of cells do to that, and
-/// to the surface energy (tests/verification/README.md has the measurements).
-std::vector<std::string> direction_remarks(const Mesh& mesh, const FractureModel& model);
+/// What the rows of cells do to directions and surface energy of cracks, in regions of hexahedra in which they may
+/// choose a direction (tests/verification/README.md has the measurements); empty: there is no such region.
+std::string direction_remark(const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm

@@ -115,7 +115,7 @@ void check(const FractureProgram& program, Session& session) {
   const Mesh mesh = make_mesh(program, log);
   const FractureRun run = make_run(program, mesh, log);
   warn_of_interfaces(run, log);
-  for (const std::string& remark : direction_remarks(mesh, run.model())) log.say(remark);
+  if (const std::string remark = direction_remark(mesh, run.model()); !remark.empty()) log.say(remark);
   if (const auto warning = bending_warning(mesh, run.model())) log.warn(*warning);
   const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
   log.say(fmt::format("{}: {}", program.name, program.fracture.title));
