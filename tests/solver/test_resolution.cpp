@@ -102,5 +102,27 @@ TEST(Resolution, RemarksOnABandThatIsFineWhereItsCrackGrows) {
   EXPECT_NE(words.remarks[0].find("is resolved in 40 of 100 cells"), std::string::npos) << words.remarks[0];
 }
 
+/// Two regions of 5 x 2 cells of 0.1 m; ell is 0.3 m.
+TEST(Resolution, RemarksOnceOnDirectionsAndNamesWhatTheModelAllows) {
+  BoxHexesSettings box;
+  box.axes = {{{{0.5, 5, 1.0}}, {{0.4, 4, 1.0}}, {{0.1, 1, 1.0}}}};
+  box.regions = {{.name = "upper", .lower = {-1.0, 0.2, -1.0}, .upper = {1.0, 1.0, 1.0}}};
+  const Mesh mesh = make_box_hexes(box);
+  FractureModel model;
+  model.crack = &crack_geometry("AT1");
+  model.split = energy_split("none");
+  model.regions.resize(2);
+  for (RegionModel& region : model.regions) region.ell = 0.3;
+  const std::string remark = direction_remark(mesh, model);
+  EXPECT_TRUE(remark.starts_with("regions \"body\", \"upper\": ")) << remark;
+  EXPECT_NE(remark.find("(ell/h = 3)"), std::string::npos) << remark;
+  EXPECT_NE(remark.find("stiffness_damage"), std::string::npos) << remark;
+  model.irreversibility = Irreversibility::history;  // not with the mean damage
+  EXPECT_EQ(direction_remark(mesh, model).find("stiffness_damage"), std::string::npos);
+  model.irreversibility = Irreversibility::bounds;
+  model.stiffness_by = StiffnessBy::mean;
+  EXPECT_EQ(direction_remark(mesh, model), "");
+}
+
 }  // namespace
 }  // namespace pfdm
