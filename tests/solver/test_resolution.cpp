@@ -102,11 +102,11 @@ TEST(Resolution, RemarksOnABandThatIsFineWhereItsCrackGrows) {
   EXPECT_NE(words.remarks[0].find("is resolved in 40 of 100 cells"), std::string::npos) << words.remarks[0];
 }
 
-/// Two regions of 5 x 2 cells of 0.1 m; ell is 0.3 m.
+/// Two regions of 20 x 8 cells of 0.1 m; ell is 0.3 m.
 TEST(Resolution, RemarksOnceOnDirectionsAndNamesWhatTheModelAllows) {
   BoxHexesSettings box;
-  box.axes = {{{{0.5, 5, 1.0}}, {{0.4, 4, 1.0}}, {{0.1, 1, 1.0}}}};
-  box.regions = {{.name = "upper", .lower = {-1.0, 0.2, -1.0}, .upper = {1.0, 1.0, 1.0}}};
+  box.axes = {{{{2.0, 20, 1.0}}, {{1.6, 16, 1.0}}, {{0.1, 1, 1.0}}}};
+  box.regions = {{.name = "upper", .lower = {-1.0, 0.8, -1.0}, .upper = {3.0, 2.0, 1.0}}};
   const Mesh mesh = make_box_hexes(box);
   FractureModel model;
   model.crack = &crack_geometry("AT1");
