@@ -15,6 +15,7 @@ constexpr int layers_for_it = 10;  // (3 - 2/n)/n^2 is then 2.8 %
 
 std::string reason(const FractureModel& model) {
   if (model.is_finite_strain()) return "finite strain";
+  if (model.is_anisotropic()) return "elasticity that depends on the direction";
   if (!model.is_isotropic()) return "a split without secant moduli";
   if (std::ranges::any_of(model.regions, [](const RegionModel& region) { return region.material != nullptr; }))
     return "a material with a history";
@@ -38,8 +39,8 @@ std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel
   const double nu = worst->poisson_ratio;
   return fmt::format(
       "region \"{}\": {:g} layer{} of hexahedra {:.3g} m long across {:.3g} m: where they bend, their stiffness is "
-      "about "
-      "{:.0f} % too {} (1.5 (1 - nu) (length/thickness)^2 = {:.3g} less (3 - 2/n)/n^2 = {:.3g}; {}). For {:.0f} %: {} "
+      "about {:.0f} % too {} (1.5 (1 - nu) (length/thickness)^2 = {:.3g} less (3 - 2/n)/n^2 = {:.3g}; {}). For {:.0f} "
+      "%: {} "
       "layers of cells up to {:.2g} m long ([mesh])",
       mesh.region_names[as_size(mesh.region[worst->cell])], at.n, at.n == 1.0 ? "" : "s", at.length, at.thickness,
       100.0 * std::abs(worst->error), worst->error > 0.0 ? "high" : "low", at.excess(nu), at.lack(), reason(model),

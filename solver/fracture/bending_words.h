@@ -9,8 +9,8 @@
 namespace pfdm {
 
 /// Whether the stiffness of hexahedra in layers comes from gradients of one ring: in space, about an axis, at finite
-/// strain, with a split without secant moduli, or with a material that has a history. Else they fit cubics
-/// (cubic_faces.h).
+/// strain, with a split without secant moduli, elasticity that depends on the direction, or a material that has a
+/// history. Else they fit cubics (cubic_faces.h).
 bool bends_by_one_ring(const FractureModel& model);
 
 /// A line on the layers that bend worst, if their stiffness in bending is wrong by more than 3 %.

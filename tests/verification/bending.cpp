@@ -149,6 +149,10 @@ TEST(Bending, InSpaceErrsAsTheFormulaSays) {
         EXPECT_FALSE(bending_warning(mesh, model).has_value());  // it fits cubics
         model.split = energy_split("spectral");
         EXPECT_TRUE(bending_warning(mesh, model).has_value());
+        model.regions[0].stiffness =
+            std::make_shared<const MandelMatrix>(stiffness_matrix(model.regions[0].elasticity));
+        EXPECT_NE(bending_warning(mesh, model).value_or("").find("; elasticity that depends on the direction)"),
+                  std::string::npos);
       }
 }
 
