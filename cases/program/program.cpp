@@ -7,6 +7,7 @@
 #include "cases/program/kinds.h"
 #include "cases/program/listing.h"
 #include "cases/program/new_case.h"
+#include "cases/program/session/external_program.h"
 #include "cases/program/session/stop_signal.h"
 #include "cases/program/studies/sweep_on_slurm.h"
 #include "postproc/files/other_case.h"

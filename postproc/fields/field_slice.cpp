@@ -1,7 +1,7 @@
 #include "postproc/fields/field_slice.h"
 
-#include "mesh/files/vtk_messages.h"
 #include "physics/error.h"
+#include "postproc/fields/stored_grid.h"
 
 #include <fmt/format.h>
 #include <vtkCell.h>
@@ -13,8 +13,6 @@
 #include <vtkPlane.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
 #include <map>
@@ -38,28 +36,19 @@ void add_edges(Edges& edges, const vtkIdType* corners, vtkIdType n, double mater
 
 }  // namespace
 
-struct StoredFrame::Data {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  vtkUnstructuredGrid* grid() const { return reader->GetOutput(); }
+struct StoredFrame::Data : StoredGrid {
+  using StoredGrid::StoredGrid;
   vtkDataArray* of_cells(const std::string& field) const {
     if (vtkDataArray* values = grid()->GetCellData()->GetArray(field.c_str())) return values;
     throw InputError(fmt::format("the frame has no field \"{}\"", field));
   }
 };
 
-StoredFrame::StoredFrame(const std::filesystem::path& file) : data_(std::make_unique<Data>()) {
-  if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: the frame does not exist", file.string()));
-  const CaughtVtkMessages caught;
-  data_->reader->SetFileName(file.c_str());
-  data_->reader->Update();
-  if (!caught.none() || data_->grid()->GetNumberOfCells() == 0)
-    throw InputError(
-        fmt::format("{}: this is not a frame: {}", file.string(), caught.none() ? "it has no cells" : caught.first()));
-}
+StoredFrame::StoredFrame(const std::filesystem::path& file) : data_(std::make_unique<Data>(file)) {}
 
 StoredFrame::~StoredFrame() = default;
 
-Index StoredFrame::n_cells() const { return static_cast<Index>(data_->grid()->GetNumberOfCells()); }
+Index StoredFrame::n_cells() const { return data_->n_cells(); }
 
 Vector StoredFrame::lower() const {
   const double* b = data_->grid()->GetBounds();

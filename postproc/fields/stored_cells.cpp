@@ -1,7 +1,7 @@
 #include "postproc/fields/stored_cells.h"
 
-#include "mesh/files/vtk_messages.h"
 #include "physics/error.h"
+#include "postproc/fields/stored_grid.h"
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
@@ -10,19 +10,15 @@
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
-#include <array>
 #include <string_view>
 
 namespace pfdm {
 
-struct StoredCells::Data {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
+struct StoredCells::Data : StoredGrid {
+  explicit Data(const std::filesystem::path& file) : StoredGrid(file), name(file.string()) {}
   std::string name;
   vtkNew<vtkIdList> ids;
-  vtkUnstructuredGrid* grid() const { return reader->GetOutput(); }
   vtkDataArray* required(vtkFieldData* data, const std::string& field, int component) const {
     vtkDataArray* array = data->GetArray(field.c_str());
     if (array == nullptr || array->GetNumberOfComponents() <= component)
@@ -31,20 +27,11 @@ struct StoredCells::Data {
   }
 };
 
-StoredCells::StoredCells(const std::filesystem::path& file) : data_(std::make_unique<Data>()) {
-  if (!std::filesystem::exists(file)) throw InputError(fmt::format("{}: the frame does not exist", file.string()));
-  const CaughtVtkMessages caught;
-  data_->name = file.string();
-  data_->reader->SetFileName(file.c_str());
-  data_->reader->Update();
-  if (!caught.none() || data_->grid()->GetNumberOfCells() == 0)
-    throw InputError(
-        fmt::format("{}: this is not a frame: {}", file.string(), caught.none() ? "it has no cells" : caught.first()));
-}
+StoredCells::StoredCells(const std::filesystem::path& file) : data_(std::make_unique<Data>(file)) {}
 
 StoredCells::~StoredCells() = default;
 
-Index StoredCells::n_cells() const { return static_cast<Index>(data_->grid()->GetNumberOfCells()); }
+Index StoredCells::n_cells() const { return data_->n_cells(); }
 
 std::vector<Vector> StoredCells::points() const {
   std::vector<Vector> points(static_cast<std::size_t>(data_->grid()->GetNumberOfPoints()));

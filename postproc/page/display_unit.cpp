@@ -44,4 +44,8 @@ std::string shown(double value) {
   return many_digits ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
+std::string shown_seconds(double seconds) {
+  return seconds < 100.0 ? fmt::format("{:.3g}", seconds) : fmt::format("{:.0f}", seconds);
+}
+
 }  // namespace pfdm

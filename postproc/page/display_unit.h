@@ -19,4 +19,7 @@ std::string shown(double value, std::string_view si_unit);
 /// Four digits; "-" for what is no number.
 std::string shown(double value);
 
+/// Three digits, but no power of ten: "9.72", "2731".
+std::string shown_seconds(double seconds);
+
 }  // namespace pfdm

@@ -290,4 +290,14 @@ inline const BarState& peak(const std::vector<BarState>& states) {
                            [](const BarState& a, const BarState& b) { return a.stress < b.stress; });
 }
 
+/// Of the steps of 0.1 in which this model breaks the bar, to 1.6 of the displacement at its strength.
+inline std::vector<StepReport> reports_of_break(const Bar& bar, const FractureModel& model) {
+  std::vector<StepReport> reports;
+  FractureRun run(bar.mesh(), model,
+                  {.damage_tolerance = 1e-6, .energy_tolerance = 1e-6, .equilibrium_tolerance = 1e-9},
+                  {.end = 1.6, .initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
+  run_to_end(run, [&](const FractureState&, const StepReport& report) { reports.push_back(report); });
+  return reports;
+}
+
 }  // namespace pfdm::verification

@@ -373,14 +373,7 @@ TEST(Eigenstrains, SphereThatDoesNotFit) {
 TEST(Eigenstrains, ShrinkingBarBreaksAsAPulledOne) {
   for (const char* split : {"none", "spectral"}) {
     const Bar bar({.length = 4.3, .poisson_ratio = 0.2, .split = split});
-    const auto run = [&](const FractureModel& model) {
-      std::vector<StepReport> reports;
-      FractureRun steps(bar.mesh(), model,
-                        {.damage_tolerance = 1e-6, .energy_tolerance = 1e-6, .equilibrium_tolerance = 1e-9},
-                        {.end = 1.6, .initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
-      run_to_end(steps, [&](const FractureState&, const StepReport& report) { reports.push_back(report); });
-      return reports;
-    };
+    const auto run = [&](const FractureModel& model) { return reports_of_break(bar, model); };
     FractureModel shrinking = bar.model();
     shrinking.boundary[1] = symmetry_on("xmax");
     const Tensor strain = -bar.strength() / Bar::E * Vector::UnitX() * Vector::UnitX().transpose();

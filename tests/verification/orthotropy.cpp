@@ -189,14 +189,7 @@ TEST(Orthotropy, RingUnderPressure) {
 // an isotropic one, whatever its stiffness across.
 TEST(Orthotropy, BarsBreakAsIsotropicOnes) {
   const Bar bar({.length = 4.3, .poisson_ratio = 0.2});
-  const auto run = [&](const FractureModel& model) {
-    std::vector<StepReport> reports;
-    FractureRun steps(bar.mesh(), model,
-                      {.damage_tolerance = 1e-6, .energy_tolerance = 1e-6, .equilibrium_tolerance = 1e-9},
-                      {.end = 1.6, .initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
-    run_to_end(steps, [&](const FractureState&, const StepReport& report) { reports.push_back(report); });
-    return reports;
-  };
+  const auto run = [&](const FractureModel& model) { return reports_of_break(bar, model); };
   FractureModel same = bar.model();
   for (RegionModel& region : same.regions) region.stiffness = shared(stiffness_matrix(region.elasticity));
   const Bar plain({.length = 4.3});

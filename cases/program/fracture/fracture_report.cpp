@@ -49,12 +49,7 @@ std::string law_text(const InterfaceSettings& interface) {
                      value(interface.toughness, [](double v) { return shown(v) + " J/m²"; }));
 }
 
-/// Three digits, but no power of ten.
-std::string shown_seconds(double seconds) {
-  return seconds < 100.0 ? fmt::format("{:.3g}", seconds) : fmt::format("{:.0f}", seconds);
-}
-
-std::string shown_seconds(const std::map<std::string, double>& stages) {
+std::string seconds_by_stage(const std::map<std::string, double>& stages) {
   std::vector<std::string> parts;
   for (const auto& [stage, seconds] : stages) {
     std::string name = stage;
@@ -97,8 +92,8 @@ Table run_table(const FractureStory& story) {
   add("linear iterations", fmt::format("{}", s.krylov_iterations));
   add("time, threads",
       fmt::format("{} s wall, {} s CPU, {}", shown_seconds(s.wall_seconds), shown_seconds(s.cpu_seconds), s.threads));
-  add("wall by stage [s]", shown_seconds(s.wall_seconds_by_stage));
-  add("CPU by stage [s]", shown_seconds(s.cpu_seconds_by_stage));
+  add("wall by stage [s]", seconds_by_stage(s.wall_seconds_by_stage));
+  add("CPU by stage [s]", seconds_by_stage(s.cpu_seconds_by_stage));
   add("peak memory", fmt::format("{:.0f} MB", 1e-6 * s.peak_memory));
   return table;
 }

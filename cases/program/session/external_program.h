@@ -6,6 +6,9 @@
 
 namespace pfdm {
 
+/// The word as one argument of a shell command, whatever is in it.
+std::string quoted(const std::string& word);
+
 /// Whether PATH leads to a program of this name.
 bool is_installed(const std::string& program);
 

@@ -1,5 +1,6 @@
 #include "cases/program/session/page_origin.h"
 
+#include "cases/program/session/external_program.h"
 #include "cases/program/session/fit_verdict.h"
 #include "physics/error.h"
 #include "postproc/curves/fit_json.h"
@@ -61,7 +62,7 @@ Rows origin_of(const fs::path& results, const std::string& hash) {
     if (const auto summary = read_summary(results / summary_file)) {
       add("status", summary->status);
       if (const double wall = summary->number("wall_seconds"); std::isfinite(wall))
-        add("time", wall < 100.0 ? fmt::format("{:.3g} s", wall) : fmt::format("{:.0f} s", wall));
+        add("time", shown_seconds(wall) + " s");
       add("hash of the case", summary->case_hash);
     }
     add("ended", time_of(results / summary_file));
@@ -80,16 +81,13 @@ fs::path case_of(const fs::path& results) {
   return {};
 }
 
-/// In single quotes where the shell would take a part of it for its own.
-std::string quoted(const std::string& word) {
+/// Quoted where the shell would take a part of it for its own.
+std::string shell_word(const std::string& word) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            std::string_view("_-./+=:,@%").find(c) != std::string_view::npos;
   };
-  if (!word.empty() && std::ranges::all_of(word, is_plain)) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
+  return !word.empty() && std::ranges::all_of(word, is_plain) ? word : quoted(word);
 }
 
 std::string command_of(const fs::path& results) {
@@ -97,7 +95,7 @@ std::string command_of(const fs::path& results) {
   if (file.empty()) return {};
   const bool is_default = results.filename() == "results" && fs::exists(results.parent_path() / "case.toml");
   const char* job = fs::exists(results / summary_file) || !fs::exists(results / "fit.json") ? "run" : "fit";
-  return fmt::format("./pfdm {} {}", job, quoted((is_default ? results.parent_path() : file).string()));
+  return fmt::format("./pfdm {} {}", job, shell_word((is_default ? results.parent_path() : file).string()));
 }
 
 /// Of a number in `unit`: with a prefix where the unit takes one.

@@ -137,10 +137,4 @@ ActiveTasks active_tasks(const std::filesystem::path& folder) {
   return active;
 }
 
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + "'";
-}
-
 }  // namespace pfdm

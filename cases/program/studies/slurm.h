@@ -50,7 +50,4 @@ struct ActiveTasks {
 /// Throws ComputationError if Slurm does not answer.
 ActiveTasks active_tasks(const std::filesystem::path& folder);
 
-/// The word as one argument of a shell command, whatever is in it.
-std::string quoted(const std::string& word);
-
 }  // namespace pfdm

@@ -1,5 +1,6 @@
 #include "cases/program/studies/sweep_on_slurm.h"
 
+#include "cases/program/session/external_program.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/text_file.h"
 
