@@ -1,6 +1,7 @@
 #include "postproc/files/atomic_file.h"
 
 #include "physics/error.h"
+#include "postproc/files/flush.h"
 #include "postproc/files/text_file.h"
 
 #include <fcntl.h>
@@ -35,8 +36,7 @@ class Descriptor {
 
   int get() const { return fd_; }
   // Network file systems may report a full disk only here.
-  void sync_and_close(const fs::path& shown) {
-    if (::fsync(fd_) != 0 && errno != EINVAL) fail(shown, errno);
+  void close(const fs::path& shown) {
     const int closed = ::close(std::exchange(fd_, -1));
     if (closed != 0) fail(shown, errno);
   }
@@ -44,12 +44,6 @@ class Descriptor {
  private:
   int fd_;
 };
-
-Descriptor opened(const fs::path& path, int flags, const fs::path& shown) {
-  const int fd = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
-  if (fd < 0) fail(shown, errno);
-  return Descriptor(fd);
-}
 
 // Leaves no temporary file behind, whatever happens.
 struct TemporaryFile {
@@ -74,16 +68,10 @@ TemporaryFile temporary_beside(const fs::path& path) {
   }
 }
 
-fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
-
-void sync_folder_of(const fs::path& path) {
-  opened(folder_of(path), O_RDONLY | O_DIRECTORY, path).sync_and_close(path);
-}
-
 void rename_into_place(TemporaryFile& temporary, const fs::path& path) {
   if (::rename(temporary.path.c_str(), path.c_str()) != 0) fail(path, errno);
   temporary.path.clear();
-  sync_folder_of(path);
+  flush_when_due(path);
 }
 
 }  // namespace
@@ -91,19 +79,18 @@ void rename_into_place(TemporaryFile& temporary, const fs::path& path) {
 void write_file(const fs::path& path, std::string_view content) {
   TemporaryFile temporary = temporary_beside(path);
   detail::write_all(temporary.file.get(), content, path);
-  temporary.file.sync_and_close(path);
+  temporary.file.close(path);
   rename_into_place(temporary, path);
 }
 
 void replace_file(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   TemporaryFile temporary = temporary_beside(path);
   write(temporary.path);
-  opened(temporary.path, O_RDONLY, path).sync_and_close(path);
   rename_into_place(temporary, path);
 }
 
 void move_file(const fs::path& from, const fs::path& to) {
-  if (::rename(from.c_str(), to.c_str()) == 0) return sync_folder_of(to);
+  if (::rename(from.c_str(), to.c_str()) == 0) return flush_when_due(to);
   if (errno != EXDEV) fail(to, errno);
   write_file(to, read_file(from));
   ::unlink(from.c_str());

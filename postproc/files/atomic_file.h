@@ -1,6 +1,7 @@
 #pragma once
-// Results files are written whole or not at all: into a temporary file of the same folder, flushed to the disk,
-// renamed. A file that is a link is replaced by a file; what it points to stays as it is.
+// Results files are written whole or not at all: into a temporary file of the same folder, renamed when it is whole.
+// When it reaches the disk, flush.h says. A file that is a link is replaced by a file; what it points to stays as it
+// is.
 
 #include <filesystem>
 #include <functional>

@@ -1,6 +1,7 @@
 #include "postproc/files/new_results.h"
 
 #include "postproc/files/atomic_file.h"
+#include "postproc/files/flush.h"
 
 #include <system_error>
 #include <utility>
@@ -49,6 +50,7 @@ NewResults::~NewResults() {
 
 void NewResults::take_place(const std::function<void()>& remove_earlier, std::string_view last) {
   if (!wait()) return;
+  flush_written_files();
   remove_earlier();
   move_entries(folder_, results_, last);
   if (fs::exists(folder_ / last)) move_file(folder_ / last, results_ / last);
