@@ -117,4 +117,19 @@ MeshQuality mesh_quality(const Mesh& mesh) {
   return quality;
 }
 
+std::optional<std::string> flat_cell_warning(const Mesh& mesh) {
+  constexpr double least = 0.5;  // [degrees]
+  const CellField<double> angles = cell_quality(mesh).min_dihedral_angle;
+  const auto worst = std::ranges::min_element(angles.values());
+  if (worst == angles.values().end() || *worst >= least) return std::nullopt;
+  const auto c = static_cast<Index>(worst - angles.values().begin());
+  const Vector& x = mesh.cell_centre[c];
+  return fmt::format(
+      "cell {} at ({:.4g}, {:.4g}, {:.4g}) m is flat or a needle: two of its faces meet at {:.2g} degrees. Equations "
+      "on "
+      "such cells are hardly solved. Take smaller triangles or cells there (mesh.size_far, surface_size), or surfaces "
+      "and sides that are farther apart; pfdm mesh measures all cells",
+      c, x[0], x[1], x[2], *worst);
+}
+
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 // How well shaped the cells are: what `pfdm mesh` prints and mesh.vtu holds.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +46,9 @@ struct MeshQuality {
 
 CellQuality cell_quality(const Mesh& mesh);
 MeshQuality mesh_quality(const Mesh& mesh);
+
+/// Names a cell that is so flat, or such a needle, that equations on the mesh are hardly solved, if there is one.
+std::optional<std::string> flat_cell_warning(const Mesh& mesh);
 
 /// A table of about twelve lines for people to read.
 std::string describe(const MeshQuality& quality);

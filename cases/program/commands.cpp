@@ -73,6 +73,15 @@ constexpr CommandText other_commands[] = {
      "The tests write to a temporary directory."},
 };
 
+/// More take memory and time and give nothing.
+int most_threads() { return std::max(64, 4 * static_cast<int>(std::thread::hardware_concurrency())); }
+
+const CLI::Validator& not_empty() {
+  static const CLI::Validator validator(
+      [](const std::string& word) { return word.empty() ? "a value is required" : ""; }, "");
+  return validator;
+}
+
 struct Parser {
   CLI::App app{"Phase-field damage mechanics on cell-centred finite volumes", "pfdm"};
   CommandLine line{};
@@ -118,7 +127,7 @@ void Parser::add_case_options() {
     CLI::App& of = command(text.name);
     of.add_option("CASE", line.case_directory, "the case directory, or a .toml file in it")->required()->type_name("");
     of.add_option("--threads", line.threads, "number of threads (default: all cores)")
-        ->check(CLI::Range(1, 4096).description(""))
+        ->check(CLI::Range(1, most_threads()).description(""))
         ->type_name("N");
     of.add_option("--set", line.set, "another value for a key of the case; may be repeated")
         ->type_name("KEY=VALUE")
@@ -126,7 +135,7 @@ void Parser::add_case_options() {
     of.add_flag("--quiet", line.quiet, "say nothing but warnings and errors");
     if (of.get_name() != "check")
       of.add_option("--output", line.output, "results directory (default: CASE/results)")
-          ->check(CLI::Validator([](const std::string& name) { return name.empty() ? "a name is required" : ""; }, ""))
+          ->check(not_empty())
           ->type_name("DIR");
   }
   command("run").add_flag("--restart", line.restart, "continue from the last complete step");
@@ -153,7 +162,7 @@ void Parser::add_export_options() {
       ->delimiter(',')
       ->allow_extra_args(false);
   const auto add = [&of](const std::string& name, auto& word, const std::string& meaning, const std::string& value) {
-    of.add_option(name, word, meaning)->type_name(value)->needs("--export");
+    of.add_option(name, word, meaning)->check(not_empty())->type_name(value)->needs("--export");
   };
   add("--units", words.units, fmt::format("of the files: {}", fmt::join(names_of_unit_systems(), ", ")), "UNITS");
   add("--surface", words.surface, "whose law (default: the one whose law is known best)", "NAME");

@@ -8,6 +8,7 @@
 #include "cases/program/listing.h"
 #include "cases/program/new_case.h"
 #include "cases/program/session/external_program.h"
+#include "cases/program/session/message_text.h"
 #include "cases/program/session/stop_signal.h"
 #include "cases/program/studies/sweep_on_slurm.h"
 #include "postproc/files/other_case.h"
@@ -16,7 +17,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace pfdm {
@@ -139,9 +144,18 @@ void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, b
     list_cases(shipped_cases(), out);
 }
 
+/// Whether the fault is in the name of a file, not in what became of it.
+bool is_about_a_name(const std::error_code& code) {
+  constexpr std::errc faults[] = {std::errc::filename_too_long, std::errc::no_such_file_or_directory,
+                                  std::errc::not_a_directory, std::errc::permission_denied,
+                                  std::errc::too_many_symbolic_link_levels};
+  return std::ranges::any_of(faults, [&](std::errc fault) { return code == fault; });
+}
+
 }  // namespace
 
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err, bool terminal) {
+  const auto say_error = [&err](std::string_view message) { err << "pfdm: " << message_text(message) << '\n'; };
   try {
     if (const auto line = read_command_line(arguments, out)) do_command(*line, out, err, terminal);
     return done;
@@ -149,14 +163,19 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
     err << "pfdm: " << wish.what() << '\n';
     return exit_status_of_signal(wish.signal);
   } catch (const InputError& error) {
-    err << "pfdm: " << error.what() << '\n';
+    say_error(error.what());
     return input_wrong;
   } catch (const ComputationError& error) {
-    err << "pfdm: " << error.what() << '\n';
+    say_error(error.what());
   } catch (const std::bad_alloc&) {
-    err << "pfdm: there is not enough memory; pfdm check says how much a case needs\n";
+    say_error("there is not enough memory; pfdm check says how much a fracture case needs");
+  } catch (const std::filesystem::filesystem_error& error) {
+    say_error(fmt::format("{}: {}", error.path1().string(), error.code().message()));
+    if (is_about_a_name(error.code())) return input_wrong;
+  } catch (const std::system_error& error) {
+    say_error(fmt::format("the system refuses a thread, a file or memory: {}", error.code().message()));
   } catch (const std::exception& error) {
-    err << "pfdm: internal error: " << error.what() << '\n';
+    say_error(fmt::format("internal error: {}", error.what()));
   }
   return computation_failed;
 }

@@ -16,6 +16,7 @@
 #include "mesh/files/gmsh_file.h"
 #include "mesh/files/vtk_file.h"
 #include "mesh/matching.h"
+#include "mesh/point_bounds.h"
 #include "physics/error.h"
 #include "physics/portable_math.h"
 
@@ -161,6 +162,7 @@ class Importer {
   void place_points() {
     soup_.points = std::move(file_.points);
     for (Vector& x : soup_.points) x *= settings_.scale;
+    check_points();
     if (settings_.merge_tolerance > 0.0) {
       new_point_ = merge_points(soup_.points, settings_.merge_tolerance);
     } else {
@@ -168,6 +170,14 @@ class Importer {
       std::iota(new_point_.begin(), new_point_.end(), 0);
     }
     drop_unused_points();
+  }
+
+  void check_points() const {
+    try {
+      require_bounded(soup_.points, "it");
+    } catch (const InputError& e) {
+      throw error(e.what());
+    }
   }
 
   // Meshers leave construction points in their files.

@@ -24,6 +24,8 @@
 
 #include "mesh/files/vtk_messages.h"
 #include "physics/error.h"
+#include "physics/packed_bytes.h"
+#include "physics/separate_process.h"
 
 namespace pfdm {
 namespace {
@@ -41,12 +43,15 @@ vtkSmartPointer<vtkUnstructuredGrid> read_with(const std::filesystem::path& path
   return grid;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path) {
+void require_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw InputError(fmt::format("cannot read the mesh {}: it is a directory", path.string()));
   if (!std::ifstream(path))
     throw InputError(fmt::format("cannot read the mesh {}: {}", path.string(), std::strerror(errno)));
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path) {
   if (path.extension() == ".vtu") return read_with<vtkXMLUnstructuredGridReader>(path);
   if (path.extension() == ".vtk") return read_with<vtkUnstructuredGridReader>(path);
   throw InputError(fmt::format("cannot read the mesh {}: its name must end in .vtu or .vtk", path.string()));
@@ -117,9 +122,7 @@ void copy_arrays(MeshFile& file, vtkUnstructuredGrid& grid) {
   }
 }
 
-}  // namespace
-
-MeshFile read_vtk_file(const std::filesystem::path& path) {
+MeshFile read_here(const std::filesystem::path& path) {
   const auto grid = read_grid(path);
   MeshFile file;
   try {
@@ -132,6 +135,41 @@ MeshFile read_vtk_file(const std::filesystem::path& path) {
     throw InputError(fmt::format("the mesh {}: {}", path.string(), e.what()));
   }
   return file;
+}
+
+/// What the formats of VTK have.
+std::string bytes_of(const MeshFile& file) {
+  BytePacker packer;
+  packer.put(file.points);
+  packer.put(file.cell_type);
+  packer.put(file.cell_offsets);
+  packer.put(file.cell_points);
+  packer.put(file.polyhedron_faces);
+  packer.put(file.integer_arrays);
+  return packer.take();
+}
+
+MeshFile file_in(const std::string& bytes) {
+  ByteUnpacker unpacker(bytes);
+  MeshFile file;
+  unpacker.take(file.points);
+  unpacker.take(file.cell_type);
+  unpacker.take(file.cell_offsets);
+  unpacker.take(file.cell_points);
+  unpacker.take(file.polyhedron_faces);
+  unpacker.take(file.integer_arrays);
+  return file;
+}
+
+}  // namespace
+
+// VTK's readers crash on some damaged files.
+MeshFile read_vtk_file(const std::filesystem::path& path) {
+  require_file(path);
+  const ProcessLimits limits = limits_of_reading(path);
+  const auto bytes = computed_separately([&] { return bytes_of(read_here(path)); }, limits);
+  if (!bytes) throw InputError(fmt::format("cannot read the mesh {}: {}", path.string(), words_on_damage(limits)));
+  return file_in(*bytes);
 }
 
 std::vector<Index> merge_points(std::vector<Vector>& points, double tolerance) {

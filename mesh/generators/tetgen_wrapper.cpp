@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <string>
 
 #include "mesh/generators/lifted_points.h"
 #include "physics/error.h"
+#include "physics/packed_bytes.h"
+#include "physics/separate_process.h"
 
 namespace pfdm {
 namespace {
@@ -136,9 +139,7 @@ TetgenOutput read_output(const TetgenInput& input, const Scaling& scaling, const
   return result;
 }
 
-}  // namespace
-
-TetgenOutput tetrahedralize_regions(const TetgenInput& input) {
+TetgenOutput tetrahedralized_here(const TetgenInput& input) {
   const Scaling scaling(input.surfaces.points);
   tetgenio in;
   tetgenio out;
@@ -148,6 +149,31 @@ TetgenOutput tetrahedralize_regions(const TetgenInput& input) {
   run_tetgen(input, scaling, in, out);
   TetgenOutput mesh = read_output(input, scaling, out);
   settle_lifted_points(input.surfaces.points.size(), mesh);
+  return mesh;
+}
+
+std::string bytes_of(const TetgenOutput& mesh) {
+  BytePacker packer;
+  packer.put(mesh.points);
+  packer.put(mesh.tetrahedra);
+  packer.put(mesh.region);
+  return packer.take();
+}
+
+}  // namespace
+
+// TetGen's destructors crash where it has given up.
+TetgenOutput tetrahedralize_regions(const TetgenInput& input) {
+  const auto bytes = computed_separately([&] { return bytes_of(tetrahedralized_here(input)); });
+  if (!bytes)
+    throw InputError(
+        "TetGen crashes between the surfaces of the mesh, or takes more memory than there is: they are flat, or far "
+        "closer to each other than their triangles are large");
+  ByteUnpacker unpacker(*bytes);
+  TetgenOutput mesh;
+  unpacker.take(mesh.points);
+  unpacker.take(mesh.tetrahedra);
+  unpacker.take(mesh.region);
   return mesh;
 }
 

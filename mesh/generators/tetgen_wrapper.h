@@ -28,8 +28,9 @@ struct TetgenOutput {
   std::vector<Index> region;                     ///< of each tetrahedron
 };
 
-/// The same input gives the same output every time. Not for several threads at once.
-/// Throws InputError if the surfaces cross or come too close to each other, ComputationError if TetGen gives up.
+/// The same input gives the same output every time. In a process of its own: `wanted_size` starts no threads.
+/// Throws InputError if the surfaces cross or come too close to each other, also where TetGen crashes on them,
+/// ComputationError if TetGen gives up.
 TetgenOutput tetrahedralize_regions(const TetgenInput& input);
 
 }  // namespace pfdm

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "mesh/point_bounds.h"
 #include "mesh/surfaces/cgal_surface.h"
 #include "physics/error.h"
 
@@ -53,6 +54,7 @@ void append(CgalMesh& mesh, const NamedSurface& named) {
 void check_surfaces(const std::vector<NamedSurface>& surfaces) {
   CgalMesh all;
   for (const NamedSurface& named : surfaces) {
+    require_bounded(named.surface.points, fmt::format("the surface of {}", named.name));
     check_alone(named);
     append(all, named);
   }

@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "mesh/surfaces/cgal_surface.h"
-#include "mesh/surfaces/separate_process.h"
 #include "mesh/surfaces/sphere_refinement.h"
 #include "physics/error.h"
+#include "physics/packed_bytes.h"
 #include "physics/portable_math.h"
+#include "physics/separate_process.h"
 
 namespace pfdm {
 namespace {
@@ -58,35 +58,18 @@ TriangleSurface remeshed_by_cgal(const NamedSurface& given, double size, double 
   return triangle_surface(mesh);
 }
 
-template <class T>
-void append_bytes(const std::vector<T>& values, std::string& bytes) {
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
-
-template <class T>
-const char* take_bytes(const char* bytes, std::vector<T>& values) {
-  const std::size_t n = values.size() * sizeof(T);
-  if (n > 0) std::memcpy(static_cast<void*>(values.data()), bytes, n);
-  return bytes + n;
-}
-
-// Number of points, points, triangles.
 std::string bytes_of(const TriangleSurface& surface) {
-  std::string bytes;
-  append_bytes(std::vector<std::size_t>{surface.points.size()}, bytes);
-  append_bytes(surface.points, bytes);
-  append_bytes(surface.triangles, bytes);
-  return bytes;
+  BytePacker packer;
+  packer.put(surface.points);
+  packer.put(surface.triangles);
+  return packer.take();
 }
 
 TriangleSurface surface_in(const std::string& bytes) {
-  std::vector<std::size_t> n_points(1);
-  const char* rest = take_bytes(bytes.data(), n_points);
+  ByteUnpacker unpacker(bytes);
   TriangleSurface surface;
-  surface.points.resize(n_points[0]);
-  rest = take_bytes(rest, surface.points);
-  surface.triangles.resize(static_cast<std::size_t>(bytes.data() + bytes.size() - rest) / sizeof(Triangle));
-  take_bytes(rest, surface.triangles);
+  unpacker.take(surface.points);
+  unpacker.take(surface.triangles);
   return surface;
 }
 

@@ -28,6 +28,10 @@ double own_compliance(std::span<const TractionPoint> states, double strength) {
 Figure stiffness_of(const ExportedLaw& law, double compliance, const ExportChoice& choice) {
   const double strength = law.strength.value, energy = law.energy.value;
   const double least = 0.5 * strength * strength / energy;  // its rise takes the whole energy
+  constexpr double most = 1e6;  // times the least: the rise is shorter than anything that a mesh or a table resolves
+  if (choice.stiffness && *choice.stiffness > most * least)
+    throw InputError(fmt::format("--stiffness {:.4g} Pa/m: at most {:g} strength^2 / (2 GI) = {:.4g} Pa/m",
+                                 *choice.stiffness, most, most * least));
   if (choice.stiffness) {
     if (*choice.stiffness > least) return {*choice.stiffness, "given (--stiffness)"};
     throw InputError(fmt::format("--stiffness {:.4g} Pa/m: the law needs more than strength^2 / (2 GI) = {:.4g} Pa/m",

@@ -3,6 +3,7 @@
 #include "physics/error.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/files/text_file.h"
+#include "postproc/records/separate_reading.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,11 +48,17 @@ SignalTable read_signals(const std::filesystem::path& path, const SignalText& te
   const std::string suffix = lower_case(path.extension().string());
   if (suffix == ".csv") return read_signals_csv(path, text);
   using Reader = SignalTable (*)(const std::filesystem::path&);
-  constexpr std::pair<std::string_view, Reader> readers[] = {{".mat", read_signals_mat},   {".uff", read_signals_uff},
-                                                             {".unv", read_signals_uff},   {".h5", read_signals_hdf5},
-                                                             {".hdf5", read_signals_hdf5}, {".wav", read_signals_wav}};
-  for (const auto& [extension, read] : readers)
-    if (suffix == extension) return read(path);
+  struct Format {
+    std::string_view extension;
+    Reader read;
+    bool by_foreign_library;
+  };
+  constexpr Format formats[] = {{".mat", read_signals_mat, true},   {".uff", read_signals_uff, false},
+                                {".unv", read_signals_uff, false},  {".h5", read_signals_hdf5, true},
+                                {".hdf5", read_signals_hdf5, true}, {".wav", read_signals_wav, true}};
+  for (const Format& format : formats)
+    if (suffix == format.extension)
+      return format.by_foreign_library ? read_separately(path, format.read) : format.read(path);
   throw InputError(
       fmt::format("{}: records are read from .csv, .mat, .uff, .unv, .h5, .hdf5 and .wav files", path.string()));
 }

@@ -13,6 +13,7 @@ namespace {
 
 // Largest numbers of FGMRES iterations, within the loop and of the last solve.
 constexpr Index inner_iterations = 80, last_iterations = 400;
+constexpr Index stuck_at_most = 20;
 // Likewise of Newton's steps at finite strain.
 constexpr Index inner_steps = 6, last_steps = 30;
 // Successive iterations in which only the residual stiffness may carry the loads: the first ones are inexact.
@@ -89,7 +90,8 @@ struct Staggered::Loop {
   CellField<double> last_damage{};          // at finite strain, likewise
   std::vector<Vector> last_displacement{};  // and
   double stored_at_unit_load = 0.0, energy_before = 0.0;
-  Index torn = 0;  // successive iterations in which only the residual stiffness carried the loads
+  Index torn = 0;   // successive iterations in which only the residual stiffness carried the loads
+  Index stuck = 0;  // in which the linear solver did not halve the residual
   StepOutcome outcome{};
   IterationReport report{};
 
@@ -136,7 +138,10 @@ struct Staggered::Loop {
     Equilibrium equilibrium = follows_faces() ? s.follow_faces(start, faces_path, tolerance, state)
                                               : s.solve_momentum(start, state, tolerance, inner_steps);
     if (s.stiffness_.finite().any()) equilibrium = approach(tolerance, equilibrium);
-    outcome.failed = !std::isfinite(equilibrium.residual);
+    const bool halves = equilibrium.residual <= 0.5 * equilibrium.initial_residual;
+    stuck = halves || equilibrium.iterations < inner_iterations ? 0 : stuck + 1;
+    outcome.stuck = stuck > stuck_at_most;
+    outcome.failed = !std::isfinite(equilibrium.residual) || outcome.stuck;
     outcome.residual = equilibrium.residual;
     report.krylov_iterations = equilibrium.iterations;
   }

@@ -29,6 +29,7 @@ struct Restless {
 struct StepOutcome {
   bool converged = false;
   bool failed = false;          ///< abandoned: no finite solution
+  bool stuck = false;           ///< and the reason is that the linear solver came no closer to balance
   bool broke_too_much = false;  ///< abandoned: a limit on damage or energy was exceeded
   double growth = 0.0;          ///< largest increase of d in a cell
   double energy_release = 0.0;  ///< change of elastic energy by damage, over elastic and fracture energy before it

@@ -8,6 +8,8 @@
 namespace pfdm {
 
 std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome) {
+  if (outcome.stuck)
+    return fmt::format("the linear solver came no closer to the balance of forces (residual {:.1e})", outcome.residual);
   if (outcome.failed) return "no displacements were found that balance the forces";
   std::vector<std::string> left;
   const Vector& x = mesh.cell_centre[outcome.rest.cell];
@@ -26,6 +28,8 @@ std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, co
 }
 
 std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& outcome, const Remedies& remedies) {
+  if (outcome.stuck)
+    return "what may help: cells of better shape (see pfdm mesh), a larger fracture.residual_stiffness";
   if (outcome.settled)
     return "its damage and energies have converged: a larger solver.equilibrium_tolerance accepts it";
   std::vector<std::string> ways;

@@ -73,5 +73,13 @@ TEST(Unconverged, AdvisesByTheWayInWhichItFailed) {
             "of tractions");
 }
 
+TEST(Unconverged, NamesCellsWhereTheLinearSolverIsStuck) {
+  StepOutcome outcome = restless(1);
+  outcome.failed = outcome.stuck = outcome.settled = true;
+  EXPECT_EQ(what_changes(three_cells(), {}, outcome),
+            "the linear solver came no closer to the balance of forces (residual 3.0e-05)");
+  EXPECT_THAT(what_to_try({}, outcome, {}), HasSubstr("cells of better shape (see pfdm mesh)"));
+}
+
 }  // namespace
 }  // namespace pfdm

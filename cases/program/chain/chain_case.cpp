@@ -14,6 +14,10 @@ constexpr ChainJob jobs[] = {
     {"fit", "as pfdm fit", &RunnableCase::fit, "fit.json"},
 };
 
+/// What runs and fits of all kinds write numbers into.
+const std::string files_of_numbers[] = {"summary.json",     "fit.json",      "fit_models.json",
+                                        "homogenized.json", "cohesive.json", "first_debonding.json"};
+
 ChainFigure read_figure(const ConfigTable& table, const ChainJob& job) {
   table.with_keys({"says", "file", "key", "unit", "interval"});
   ChainFigure figure{.says = table.string("says"),
@@ -26,6 +30,7 @@ ChainFigure read_figure(const ConfigTable& table, const ChainJob& job) {
   if (const auto interval = table.find("interval")) figure.interval = interval->list(2);
   if (fs::path(figure.file).has_parent_path())
     throw table.at("file").error(fmt::format("\"{}\" is not the name of a file in the step's results", figure.file));
+  if (table.has("file")) table.at("file").one_of(files_of_numbers, "file of numbers in a step's results");
   return figure;
 }
 

@@ -64,6 +64,7 @@ Mesh make_mesh(const FractureProgram& program, Log& log) {
   Mesh mesh = program.fracture.mesh.make();
   log.say(fmt::format("mesh: {} cells, {} points, {} faces, made in {:.1f} s", mesh.n_cells(), mesh.points.size(),
                       mesh.n_faces(), watch.seconds()));
+  if (const auto warning = flat_cell_warning(mesh)) log.warn(*warning);
   return mesh;
 }
 

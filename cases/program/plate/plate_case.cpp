@@ -175,6 +175,9 @@ void read_response(const ConfigTable& root, PlateCase& c) {
   c.n_modes = static_cast<int>(table.integer("modes", mode_count, 6));
   for (const ConfigTable& point : table.tables("points")) {
     point.with_keys({"name", "at"});
+    const std::string& name = point.at("name").string();
+    if (std::ranges::any_of(c.points, [&](const auto& earlier) { return earlier.name == name; }))
+      throw point.at("name").error(fmt::format("there is another point \"{}\"", name));
     c.points.push_back({.name = read_plain_name(point.at("name"), "a column"), .at = read_point(point.at("at"))});
   }
   if (c.points.empty()) throw table.error("it needs [[response.points]], one at least, each with a name and a place");

@@ -1,5 +1,6 @@
 #include "cases/program/session/log.h"
 
+#include "cases/program/session/message_text.h"
 #include "physics/error.h"
 
 #include <fmt/format.h>
@@ -73,7 +74,8 @@ void Log::say(const std::string& message) {
 
 const std::vector<std::string>& Log::warnings() const { return sinks_->warnings; }
 
-void Log::warn(const std::string& message) {
+void Log::warn(const std::string& given) {
+  const std::string message = message_text(given);
   if (std::ranges::find(sinks_->warnings, message) == sinks_->warnings.end()) sinks_->warnings.push_back(message);
   say(fmt::format("warning: {}", message));
   if (sinks_->quiet) sinks_->errors << "pfdm: warning: " << message << std::endl;

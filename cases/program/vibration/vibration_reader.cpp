@@ -31,6 +31,18 @@ const SignalColumn& column_of(const SignalTable& table, const std::string& name,
   }
 }
 
+/// Beyond what machines record: a damaged file or a wrong unit. In the SI unit of the column.
+void require_recordable(const Eigen::VectorXd& values, const SignalColumn& column, const Dimension& due,
+                        const std::filesystem::path& file) {
+  constexpr double most = 1e9;
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    if (std::abs(values[i]) > most)
+      throw InputError(fmt::format(
+          "{}: column \"{}\": sample {} is {:.3g} {}; a record has less than {:g} {}: is the unit right, and "
+          "the file whole?",
+          file.string(), column.name, i + 1, values[i], due.si_unit, most, due.si_unit));
+}
+
 /// Values in the SI unit of `due`.
 Eigen::VectorXd in_si(const SignalColumn& column, const std::optional<std::string>& stated, const Dimension& due,
                       const std::filesystem::path& file) {
@@ -38,11 +50,15 @@ Eigen::VectorXd in_si(const SignalColumn& column, const std::optional<std::strin
   if (unit.empty())
     throw InputError(fmt::format("{}: column \"{}\" has no unit; expected {}, as in \"{}\"", file.string(), column.name,
                                  with_article(due.name), due.si_unit));
+  double factor = 1.0;
   try {
-    return column.values * unit_in_si(unit, due);
+    factor = unit_in_si(unit, due);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: column \"{}\": {}", file.string(), column.name, error.what()));
   }
+  Eigen::VectorXd values = column.values * factor;
+  require_recordable(values, column, due, file);
+  return values;
 }
 
 Eigen::VectorXd acceleration(const SignalTable& table, const std::string& name, const std::optional<std::string>& unit,

@@ -1,0 +1,13 @@
+#pragma once
+// Messages as a person can read them, whatever is in the names and files that they quote.
+
+#include <string>
+#include <string_view>
+
+namespace pfdm {
+
+/// The message on one line, without control characters and without bytes that are no UTF-8 (as \x1b). Words that are
+/// longer than 120 bytes, paths than 250, keep their ends and tell how long they are; so does a message above 2000.
+std::string message_text(std::string_view message);
+
+}  // namespace pfdm
