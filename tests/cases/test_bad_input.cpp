@@ -416,7 +416,7 @@ TEST(BadInput, ResultsFolderWithoutAName) {
   const TemporaryCase directory(bar_case());
   const Outcome outcome = run({"run", directory.path().string(), "--output", ""});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("--output: a name is required"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("--output: a value is required"), std::string::npos) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(directory.results()));
 }
 

@@ -36,6 +36,37 @@ TEST(FolderLock, says_where_else_results_may_go) {
               HasSubstr("Not a directory; --output DIR puts the results elsewhere"));
 }
 
+TEST(FolderLock, leaves_folders_of_others_alone) {
+  const TemporaryFolder folder;
+  put(folder / ".notes.partial", "mine");
+  put(folder / "notes.txt", "mine");
+  EXPECT_THAT(
+      message_of<InputError>([&] { FolderLock lock(folder.path()); }),
+      HasSubstr("holds files that are not of pfdm, as \".notes.partial\": choose another folder with --output"));
+  EXPECT_EQ(content_of(folder / ".notes.partial"), "mine");
+  EXPECT_EQ(folder.n_entries(), 2u);
+  put(folder / owned_folder_mark, "");
+  EXPECT_NO_THROW(FolderLock lock(folder.path()));
+  EXPECT_EQ(content_of(folder / "notes.txt"), "mine");
+}
+
+TEST(FolderLock, knows_results_of_earlier_versions) {
+  const TemporaryFolder folder;
+  put(folder / "summary.json", "{}");
+  EXPECT_NO_THROW(FolderLock lock(folder.path()));
+  EXPECT_TRUE(std::filesystem::exists(folder / owned_folder_mark));
+}
+
+TEST(FolderLock, refuses_links_whose_targets_a_run_would_empty) {
+  const TemporaryFolder folder, other;
+  put(other / "step_0001.vtu", "another's");
+  put(folder / owned_folder_mark, "");
+  std::filesystem::create_directory_symlink(other.path(), folder / "fields");
+  EXPECT_THAT(message_of<InputError>([&] { FolderLock lock(folder.path()); }),
+              HasSubstr((folder / "fields").string() + " is a link to a folder"));
+  EXPECT_EQ(content_of(other / "step_0001.vtu"), "another's");
+}
+
 // Found out before a run has computed anything.
 TEST(FolderLock, refuses_a_folder_that_cannot_be_written_to) {
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
@@ -48,9 +79,10 @@ TEST(FolderLock, refuses_a_folder_that_cannot_be_written_to) {
 
 TEST(FolderLock, removes_what_killed_runs_left) {
   const TemporaryFolder folder;
+  mark_folder(folder.path());
   put(folder / ".a.txt.17_0.partial", "half");
   const FolderLock lock(folder.path());
-  EXPECT_EQ(folder.n_entries(), 0u);
+  EXPECT_EQ(folder.n_entries(), 1u);
 }
 
 }  // namespace

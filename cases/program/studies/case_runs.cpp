@@ -149,6 +149,7 @@ int CaseRuns::do_run(const Wanted& wanted, int threads, Log& log) {
   };
   try {
     make_folder(wanted.folder);
+    mark_folder(wanted.folder);
     keep_case(wanted.variant->file, session_.version, wanted.folder, wanted.folder);
     session_.read_case(wanted.variant->file).run(session);
     return run_went_well;

@@ -32,12 +32,10 @@ std::string read_memory(const ConfigValue& value) {
 
 /// It becomes a line of the script.
 std::string read_partition(const ConfigValue& value) {
-  constexpr std::size_t longest = 250;
   std::string text = value.string();
-  if (text.size() > longest || text.find_first_not_of(std::string(in_words) + ",:@+") != std::string::npos)
-    throw value.error(fmt::format(
-        "this is not a partition, or a list of them, as in \"short,long\": up to {} letters, digits and _ . : @ + -",
-        longest));
+  if (text.find_first_not_of(std::string(in_words) + ",:@+") != std::string::npos)
+    throw value.error(
+        "this is not a partition, or a list of them, as in \"short,long\": letters, digits and _ . : @ + - only");
   return text;
 }
 
