@@ -32,6 +32,25 @@ int with_files_flushed(int status) {
   return status;
 }
 
+volatile std::sig_atomic_t reader_is_gone = 0;
+
+/// As of `pfdm run CASE | head`: the run goes on, only nobody listens. Programs that this one starts end by it, as
+/// usual.
+void outlive_readers() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { reader_is_gone = 1; };
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGPIPE, &action, nullptr);
+}
+
+/// What was said has reached standard output, unless its reader is gone. Returns the status of the program.
+int with_output_flushed(int status) {
+  std::cout.flush();
+  if (std::cout || reader_is_gone != 0) return status;
+  std::cerr << "pfdm: cannot write to standard output: is its disk full?\n";
+  return status == 0 ? 1 : status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -40,6 +59,7 @@ int main(int argc, char** argv) {
               << ", which this processor lacks: build it here (./pfdm does), or with -DPFDM_ARCH=x86-64-v2\n";
     return 1;
   }
+  outlive_readers();
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   const int status = with_files_flushed(pfdm::run_program({argv + 1, argv + argc}, std::cout, std::cerr, terminal));
   for (const int signal : {SIGINT, SIGTERM})
@@ -47,5 +67,5 @@ int main(int argc, char** argv) {
       std::cout.flush();
       pfdm::end_by_signal(signal);
     }
-  return status;
+  return with_output_flushed(status);
 }

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,12 +38,26 @@ inline std::string json_line(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
+/// Beyond what this program writes.
+struct JsonTooLarge : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The text as JSON. Throws as nlohmann's parser does; JsonTooLarge for more than 10,000 keys in an object, which looks
+/// them up one after the other, and more than 100 objects and lists within each other.
+nlohmann::ordered_json parse_json(std::string_view text);
+
+/// What `error` says, without the words by which nlohmann's library calls its kinds.
+std::string json_fault(const nlohmann::ordered_json::exception& error);
+
 /// What `take` makes of the file's content. Throws InputError that names the file for what is no `what`, as in "fit".
 template <class Take>
 auto read_json(const std::filesystem::path& path, std::string_view what, const Take& take) {
   try {
-    return take(nlohmann::ordered_json::parse(read_file(path)));
+    return take(parse_json(read_file(path)));
   } catch (const nlohmann::ordered_json::exception& error) {
+    throw InputError(fmt::format("{}: this is not a {}: {}", path.string(), what, json_fault(error)));
+  } catch (const JsonTooLarge& error) {
     throw InputError(fmt::format("{}: this is not a {}: {}", path.string(), what, error.what()));
   }
 }

@@ -52,6 +52,24 @@ TEST(Messages, OfNamesThatAreTooLongAreShort) {
   EXPECT_LE(outcome.err.size(), 300U);
 }
 
+// Objects of JSON look their keys up one after the other.
+TEST(Messages, OfAFileWithManyKeysComeAtOnce) {
+  const TemporaryCase directory(
+      replaced(bar_case(), "young_modulus = \"30 GPa\"", "young_modulus = { from = \"x.json\", key = \"a_Pa\" }"));
+  std::string json = "{\"a_Pa\": 1e10";
+  for (int i = 0; i < 300000; ++i) json += ",\"k" + std::to_string(i) + "\":0";
+  directory.write("x.json", json + "}");
+  const Outcome outcome = run({"check", directory.path().string()});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("this is not a result file: it has an object of more than 10000 keys"));
+  directory.write("x.json", "{\"a_Pa\": " + std::string(1000000, '1') + "}");
+  const Outcome digits = run({"check", directory.path().string()});
+  EXPECT_EQ(digits.status, 2);
+  EXPECT_THAT(digits.err, HasSubstr("number overflow parsing"));
+  EXPECT_EQ(digits.err.find("json.exception"), std::string::npos);
+  EXPECT_LE(digits.err.size(), 400U);
+}
+
 TEST(Messages, QuoteNoControlCharactersOfACase) {
   const TemporaryCase directory(replaced(bar_case(), "region = \"bar\"", "region = \"b\\u001bar\""));
   const Outcome outcome = run({"check", directory.path().string()});
