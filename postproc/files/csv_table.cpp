@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace pfdm {
@@ -232,6 +233,16 @@ std::string_view without_unit(std::string_view name) {
   return bracketed_end(name) ? trimmed(name.substr(0, name.find_last_of("[("))) : name;
 }
 
+namespace {
+
+std::string first_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 40;
+  if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{} ... {} in all", fmt::join(std::span(names).first(most), ", "), names.size());
+}
+
+}  // namespace
+
 std::size_t find_name(const std::vector<std::string>& names, std::string_view name) {
   const auto name_before_unit = [&](const std::string& of) { return without_unit(of) == name; };
   const auto same_letters = [&](const std::string& of) {
@@ -245,9 +256,9 @@ std::size_t find_name(const std::vector<std::string>& names, std::string_view na
       throw InputError(
           fmt::format("there are {} columns that may be \"{}\" (available: {}); the number of one, from 1, tells them "
                       "apart",
-                      found.size(), name, fmt::join(names, ", ")));
+                      found.size(), name, first_of(names)));
   }
-  throw InputError(fmt::format("there is no column \"{}\" (available: {})", name, fmt::join(names, ", ")));
+  throw InputError(fmt::format("there is no column \"{}\" (available: {})", name, first_of(names)));
 }
 
 void CsvTable::require_numbers(std::size_t column) const {
