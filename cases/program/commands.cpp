@@ -65,9 +65,6 @@ constexpr CommandText other_commands[] = {
      "Without --like it lists the cases to choose from."},
     {"list", "List the cases that ship: name, kind, what a run here has taken, title", "Writes no files."},
     {"help", "Say what a command does, as COMMAND --help, or what a key of case.toml is", "Writes no files."},
-    {"schema", "Print the JSON schema of case.toml, by which editors complete and check it",
-     "With --reference it writes pages of all keys to DIR instead. An editor with taplo (Even Better TOML) takes\n"
-     "the schema from the first line of a case:  #:schema ../case.schema.json"},
     {"completion", "Print a script that completes words in bash or zsh",
      "bash: put it where your shell reads it, as in\n"
      "  pfdm completion bash > ~/.local/share/bash-completion/completions/pfdm\n"
@@ -177,7 +174,8 @@ void Parser::add_other_options() {
   command("help")
       .add_option("COMMAND", line.case_directory, "the command, or a key, as toughness or materials.poisson_ratio")
       ->type_name("");
-  command("schema")
+  command("help").add_flag("--schema", line.schema, "print the JSON schema of case.toml, for editors");
+  command("help")
       .add_option("--reference", line.reference, "write the reference of keys to this folder, a page for each table")
       ->type_name("DIR");
   command("completion").add_option("SHELL", line.shell, "bash or zsh")->required()->type_name("");
@@ -271,6 +269,7 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   CommandLine& line = parser.line;
   line.command = app.get_subcommands().front()->get_name();
   if (line.command != "help") return line;
+  if (line.schema || !line.reference.empty()) return line;
   if (line.case_directory.empty()) return read_command_line({"--help"}, out);
   if (is_command(line.case_directory, app)) return read_command_line({line.case_directory, "--help"}, out);
   line.key = line.case_directory;

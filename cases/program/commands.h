@@ -29,7 +29,8 @@ struct CommandLine {
   std::string new_directory;  ///< of init
   std::string like;           ///< of init: a case
   std::string shell;          ///< of completion
-  std::string reference;      ///< of schema: a folder
+  bool schema = false;        ///< of help
+  std::string reference;      ///< of help: a folder for its pages
   std::string key;            ///< of help: no command, so a key of case.toml
 };
 

@@ -136,13 +136,16 @@ std::vector<KindKeys> keys_of_kinds() {
   return kinds;
 }
 
-void require_all_kinds(std::string_view command) {
+void require_all_kinds() {
   if (case_kinds().size() < std::size(all_kind_names))
-    throw InputError(fmt::format("{}: this program was built for fracture cases alone", command));
+    throw InputError(
+        "this program was built for fracture cases alone; the schema of all kinds is cases/case.schema.json, the "
+        "reference "
+        "cases/reference");
 }
 
 void write_schema(const CommandLine& line, std::ostream& out) {
-  require_all_kinds(line.command);
+  require_all_kinds();
   if (line.reference.empty()) {
     out << key_schema(keys_of_kinds());
     return;
@@ -169,8 +172,7 @@ void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, b
   if (line.command == "test")
     throw InputError("the tests are built and run by the launcher at the root of the checkout: ./pfdm test");
   if (line.command == "init") return do_init(line, out);
-  if (line.command == "help") return help_on(line.key, out);
-  if (line.command == "schema") return write_schema(line, out);
+  if (line.command == "help") return line.key.empty() ? write_schema(line, out) : help_on(line.key, out);
   if (line.command == "completion") {
     out << completion_script(line.shell, command_words());
     return;

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/experiment_case.h"
 
+#include "cases/program/fracture/run_keys.h"
 #include "cases/program/input/csv_columns.h"
 
 #include <fmt/format.h>
@@ -136,7 +137,7 @@ std::vector<SampledCurve> specimen_curves(const ExperimentSettings& experiment) 
 }
 
 std::vector<SetUp> read_set_ups(const ConfigTable& root) {
-  const ConfigTable table = root.table("experiment");
+  const ConfigTable table = root.with_keys(fracture_keys()).table("experiment");
   std::vector<SetUp> set_ups;
   for (const ConfigTable& specimen : table.tables("specimens"))
     set_ups.push_back(read_set_up(Defaults(specimen, table)));

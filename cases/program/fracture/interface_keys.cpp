@@ -70,7 +70,7 @@ std::vector<Key> place_and_law_keys() {
   const KeyType strength = varying(quantity(dimension::stress, range::positive)),
                 toughness = varying(quantity(dimension::toughness, range::positive));
   return {
-      {"name", text("name"), "\"interface_1\" ...", "Name of the interface in files of the results."},
+      {"name", text("plain name"), "\"interface_1\" ...", "Name of the interface in files of the results."},
       {"between", list(text("region"), 2, 2), "or plane",
        "Two regions: the interface is all faces between them; separations are told from the first."},
       {"plane", table(plane_keys), "or between", "Plane whose faces are the interface, also within a region."},

@@ -37,9 +37,11 @@ const Quantity quantities[] = {
     {"length", &MaterialKeys::length, dimension::length, range::positive, "that of [fracture]",
      "Phase-field length ell of this material, the width over which a crack is smeared."},
     {"hydrostatic_strength", &MaterialKeys::hydrostatic_strength, dimension::stress, range::positive,
-     "or compressive_strength", "Strength in hydrostatic tension, of the model of strength."},
+     "required by the model strength, or compressive_strength",
+     "Strength in hydrostatic tension, of the model of strength."},
     {"compressive_strength", &MaterialKeys::compressive_strength, dimension::stress, range::positive,
-     "or hydrostatic_strength", "Strength in uniaxial compression, of the model of strength."},
+     "required by the model strength, or hydrostatic_strength",
+     "Strength in uniaxial compression, of the model of strength."},
     {"density", &MaterialKeys::density, dimension::density, range::positive, "none",
      "Mass density, on which gravity acts; damage takes no weight away."},
 };
@@ -79,6 +81,11 @@ const KeyTable& band_keys() {
 
 Key regions_row() {
   return {"regions", keys::list(keys::text("region")), "", "Names of the mesh's regions that are of this material."};
+}
+
+std::vector<Key> overriding(std::vector<Key> rows) {
+  for (Key& row : rows) row.otherwise = "that of the material";
+  return rows;
 }
 
 std::vector<Key> required(std::vector<Key> rows) {
@@ -141,7 +148,7 @@ const KeyTable& region_keys() {
   static const KeyTable table{
       .name = "regions.NAME",
       .sentence = "What a region has otherwise than its material.",
-      .keys = joined({rows_in_common(),
+      .keys = joined({overriding(rows_in_common()),
                       {{"band", keys::table(band_keys), "none",
                         "Says that the region is a thin band between two others, with corrected toughness."}}})};
   return table;

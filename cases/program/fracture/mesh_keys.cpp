@@ -108,7 +108,7 @@ const KeyTable& layer_keys() {
       .sentence = "Prism layers around particles, in which an interface of finite thickness may break.",
       .keys = {{"count", whole(range::count), "", "Number of prism layers around the particle."},
                {"thickness", quantity(dimension::length, range::positive), "", "Thickness of each prism layer."},
-               {"region", text("name"), "\"interface\"", "Name of the region that the prism layers are."}}};
+               {"region", text("plain name"), "\"interface\"", "Name of the region that the prism layers are."}}};
   return table;
 }
 

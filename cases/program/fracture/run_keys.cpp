@@ -36,7 +36,7 @@ const KeyTable& tip_keys() {
   static const KeyTable table{
       .name = "output.energy_release_rate[]",
       .sentence = "A region around a crack tip in which the energy release rate is computed (J-integral, G-theta).",
-      .keys = {{"name", text("name"), "", "Name of the region, with which its columns begin."},
+      .keys = {{"name", text("plain name"), "", "Name of the region, with which its columns begin."},
                {"point", point(), "", "Crack tip, or its initial position."},
                {"direction", direction(), "", "Direction of crack growth."},
                {"front", direction(), "[0, 0, 1]", "Direction along the crack front, over which G is averaged."},
@@ -84,7 +84,7 @@ const KeyTable& cohesive_plane_keys() {
   using namespace keys;
   static const KeyTable table{.name = "cohesive.planes[]",
                               .sentence = "A plane across which traction and separation are recorded.",
-                              .keys = {{"name", text("name"), "", "Name of the plane in the results."},
+                              .keys = {{"name", text("plain name"), "", "Name of the plane in the results."},
                                        {"point", point(), "", "A point of the plane."},
                                        {"normal", direction(), "", "Normal of the plane."},
                                        {"half_width", quantity(dimension::length, range::positive), "",

@@ -24,7 +24,7 @@ Prescribed read_component(const std::string& key, const ConfigValue& value) {
   const auto component = static_cast<std::size_t>(
       std::ranges::find(component_names, std::string_view(key).substr(key.size() - 2)) - component_names.begin());
   if (key.starts_with("stress")) return {component, true, value.quantity()};
-  const double strain = value.is_string() ? value.quantity() : value.number();
+  const double strain = value.is_string() ? value.quantity() : value.number(range::any);
   if (std::abs(strain) >= 1.0)
     throw value.error(
         fmt::format("a strain has to be between -1 and 1, found {:g}{}", strain,

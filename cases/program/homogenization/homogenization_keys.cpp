@@ -18,6 +18,8 @@ namespace {
 // Below, rounding would be solved for; above, the errors of the averages are no longer those of the mesh.
 constexpr Range solvable{1e-12, 1e-4, false, "between 1e-12 and 1e-4"};
 
+constexpr Range strain_range{-1.0, 1.0, true, "above -1 and below 1"};
+
 std::string_view sentence_of_component(std::string_view key) {
   if (key.starts_with("stress")) return "Mean stress of this component at the point of the path.";
   if (key.starts_with("gamma"))
@@ -35,7 +37,7 @@ const KeyTable& path_keys() {
       rows.keys.push_back({key,
                            key.starts_with("stress")
                                ? keys::quantity(dimension::stress)
-                               : keys::either({keys::number(), keys::quantity(dimension::number)}),
+                               : keys::either({keys::number(strain_range), keys::quantity(dimension::number)}),
                            "free of stress", sentence_of_component(key)});
     return rows;
   }();

@@ -4,9 +4,7 @@
 #include "cases/program/input/key.h"
 #include "physics/law_parameters.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
+#include <algorithm>
 #include <initializer_list>
 #include <span>
 #include <string>
@@ -37,10 +35,14 @@ std::vector<Key> law_keys(const std::string& noun, std::span<const Law> laws, st
   return keys;
 }
 
-/// The name alone, or the table of these rows.
+/// The name alone of a law whose parameters have defaults, or the table of these rows.
 template <class Law>
 KeyType law_type(std::string noun, std::span<const Law> laws, const KeyTable& (*rows)()) {
-  return keys::either({keys::one_of(std::move(noun), laws), keys::table(rows)});
+  std::vector<std::string> names;
+  for (const Law& law : laws)
+    if (std::ranges::none_of(law.parameters, [](const LawParameter& p) { return default_of(p).empty(); }))
+      names.emplace_back(law.name);
+  return keys::either({keys::choice(std::move(noun), std::move(names)), keys::table(rows)});
 }
 
 }  // namespace pfdm

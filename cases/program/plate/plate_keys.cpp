@@ -109,7 +109,7 @@ const KeyTable& response_point_keys() {
   using namespace keys;
   static const KeyTable table{.name = "response.points[]",
                               .sentence = "A place where the frequency response is wanted.",
-                              .keys = {{"name", text("name"), "", "Name of the place in the results."},
+                              .keys = {{"name", text("plain name"), "", "Name of the place in the results."},
                                        {"at", point(), "", "The place; the nearest cell or surface face is taken."}}};
   return table;
 }
@@ -180,7 +180,7 @@ const KeyTable& measured_response_keys() {
   static const KeyTable table{
       .name = "fit.responses[]",
       .sentence = "A measured frequency response.",
-      .keys = joined({{{"name", text("name"), "", "Name of the measured response."}},
+      .keys = joined({{{"name", text("plain name"), "", "Name of the measured response."}},
                       csv_keys(),
                       {{"point", text("name"), "", "Name of one of the response's points, where it was measured."},
                        {"frequency", keys::table(column_keys), "", "Column of the frequency."},
@@ -197,7 +197,7 @@ const KeyTable& measured_rise_keys() {
       .name = "fit.temperatures[]",
       .sentence = "A measured rise of the surface's temperature.",
       .keys = joined(
-          {{{"name", text("name"), "", "Name of the measured temperatures."}},
+          {{{"name", text("plain name"), "", "Name of the measured temperatures."}},
            csv_keys(),
            {{"of", choice("rise of the surface", {"mean", "largest"}), "",
              "Whether the mean or the largest rise of the surface was measured."},

@@ -102,7 +102,23 @@ std::string words_of(const KeyType& type) {
   return "";
 }
 
-std::string default_in_words(const Key& key) { return key.otherwise.empty() ? "required" : key.otherwise; }
+std::string default_in_words(const Key& key) {
+  if (key.otherwise.empty()) return "required";
+  return key.otherwise.starts_with("or ") ? "required, " + key.otherwise : key.otherwise;
+}
+
+std::vector<std::string_view> one_of_which_is_required(const Key& key, const KeyTable& table) {
+  std::vector<std::string_view> group{key.name};
+  std::string_view rest = key.otherwise;
+  while (rest.starts_with("or ")) {
+    rest.remove_prefix(3);
+    const std::string_view name = rest.substr(0, rest.find(' '));
+    if (std::ranges::count(table.keys, name, &Key::name) == 0) return {};
+    group.push_back(name);
+    rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+  }
+  return rest.empty() && group.size() > 1 ? group : std::vector<std::string_view>();
+}
 
 std::string example_line(const Key& key) { return fmt::format("{} = {}", key.name, example_of(key.type)); }
 

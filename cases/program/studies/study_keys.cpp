@@ -95,7 +95,7 @@ const KeyTable& slurm_keys() {
           stored<&S::time>("time", quantity(dimension::time, range::positive), "Time limit of a task on the cluster.",
                            "the cluster's"),
           stored<&S::cpus_per_task>("cpus_per_task", whole(cpus_range), "Number of processors and threads of a run."),
-          {"memory", text("memory"), "the cluster's", "Memory of a task, as in \"4 GB\"."},
+          {"memory", text("amount of memory"), "the cluster's", "Memory of a task, as in \"4 GB\"."},
           stored<&S::at_once>("at_once", whole(tasks_range), "Number of tasks that may run at a time.", "no limit"),
           stored<&S::largest_array>("largest_array", whole(tasks_range),
                                     "Largest number of tasks of one submission (Slurm's MaxArraySize, less 1)."),

@@ -184,7 +184,7 @@ const KeyTable& test_keys() {
   static const KeyTable table{
       .name = "test[]",
       .sentence = "A test on the shaker, simulated or recorded.",
-      .keys = {{"name", text("name"), "", "Name of the test, of its files in the results."},
+      .keys = {{"name", text("plain name"), "", "Name of the test, of its files in the results."},
                {"excitation", keys::table(excitation_keys), "none: the test has a record", "Motion of the base."},
                {"record", keys::table(record_keys), "that which run wrote", "Measured record of the test."},
                {"predicted", flag(), "false", "Whether the test is predicted in place of fitted."},
