@@ -64,7 +64,7 @@ constexpr CommandText other_commands[] = {
      "Writes to DIR: case.toml, the data files that it names, a README.md to be filled in; no results.\n"
      "Without --like it lists the cases to choose from."},
     {"list", "List the cases that ship: name, kind, what a run here has taken, title", "Writes no files."},
-    {"help", "Say what a command does, as COMMAND --help", "Writes no files."},
+    {"help", "Say what a command does, as COMMAND --help, or what a key of case.toml is", "Writes no files."},
     {"completion", "Print a script that completes words in bash or zsh",
      "bash: put it where your shell reads it, as in\n"
      "  pfdm completion bash > ~/.local/share/bash-completion/completions/pfdm\n"
@@ -113,7 +113,7 @@ Parser::Parser() {
   app.set_help_flag("-h,--help", "Print this help and exit");
   app.footer(
       fmt::format("\npfdm COMMAND --help says more of a command. A case is a directory with a case.toml, as\n"
-                  "cases/glass_bead_quick; cases/README.md is the reference of its keys.\n\n{}",
+                  "cases/glass_bead_quick; pfdm help KEY says what a key of it is.\n\n{}",
                   exit_statuses));
   for (const CommandText& text : case_commands) add(text);
   for (const CommandText& text : other_commands) add(text);
@@ -180,7 +180,13 @@ void Parser::add_other_options() {
       .add_option("--like", line.like, "the case to start from: a directory, or the name of a case that ships")
       ->type_name("CASE");
   command("list").add_flag("--laws", line.laws, "list laws, boundary conditions and generators instead");
-  command("help").add_option("COMMAND", line.case_directory, "the command")->type_name("");
+  command("help")
+      .add_option("COMMAND", line.case_directory, "the command, or a key, as toughness or materials.poisson_ratio")
+      ->type_name("");
+  command("help").add_flag("--schema", line.schema, "print the JSON schema of case.toml, for editors");
+  command("help")
+      .add_option("--reference", line.reference, "write the reference of keys to this folder, a page for each table")
+      ->type_name("DIR");
   command("completion").add_option("SHELL", line.shell, "bash or zsh")->required()->type_name("");
 }
 
@@ -202,12 +208,17 @@ std::string meant(const std::string& word, const std::vector<std::string>& words
   return near ? fmt::format("; did you mean \"{}\"?", *near) : "";
 }
 
+bool is_command(const std::string& word, const CLI::App& app) {
+  return std::ranges::count(names_of_commands(app), word) > 0;
+}
+
+std::string words_on_unknown(const std::string& word, const std::vector<std::string>& names) {
+  return fmt::format("unknown command \"{}\"{} (available: {})", word, meant(word, names), fmt::join(names, ", "));
+}
+
 /// CLI11 would only say that a command is missing.
 void require_known_command(const std::string& word, const CLI::App& app) {
-  const std::vector<std::string> names = names_of_commands(app);
-  if (std::ranges::count(names, word) > 0) return;
-  throw InputError(
-      fmt::format("unknown command \"{}\"{} (available: {})", word, meant(word, names), fmt::join(names, ", ")));
+  if (!is_command(word, app)) throw InputError(words_on_unknown(word, names_of_commands(app)));
 }
 
 void require_command(const std::vector<std::string>& arguments, const CLI::App& app) {
@@ -267,9 +278,16 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   CommandLine& line = parser.line;
   line.command = app.get_subcommands().front()->get_name();
   if (line.command != "help") return line;
+  if (line.schema || !line.reference.empty()) return line;
   if (line.case_directory.empty()) return read_command_line({"--help"}, out);
-  require_known_command(line.case_directory, app);
-  return read_command_line({line.case_directory, "--help"}, out);
+  if (is_command(line.case_directory, app)) return read_command_line({line.case_directory, "--help"}, out);
+  line.key = line.case_directory;
+  return line;
+}
+
+std::string unknown_command(const std::string& word) {
+  const Parser parser;
+  return words_on_unknown(word, names_of_commands(parser.app));
 }
 
 std::vector<CommandWords> command_words() {

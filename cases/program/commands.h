@@ -29,10 +29,16 @@ struct CommandLine {
   std::string new_directory;  ///< of init
   std::string like;           ///< of init: a case
   std::string shell;          ///< of completion
+  bool schema = false;        ///< of help
+  std::string reference;      ///< of help: a folder for its pages
+  std::string key;            ///< of help: no command, so a key of case.toml
 };
 
 /// Nothing if help or the version was asked for and written to `out`. Throws InputError that names what was meant.
 std::optional<CommandLine> read_command_line(const std::vector<std::string>& arguments, std::ostream& out);
+
+/// That there is no such command, and what was meant.
+std::string unknown_command(const std::string& word);
 
 /// What may be typed, for completion.
 struct CommandWords {

@@ -73,6 +73,15 @@ std::string way_to(const fs::path& file, const fs::path& folder) {
   return whole(file).lexically_relative(whole(folder)).string();
 }
 
+/// The schema that editors take is named in a comment, from the case on.
+std::string with_schema_from(const std::string& text, const fs::path& old_directory, const fs::path& directory) {
+  constexpr std::string_view mark = "#:schema ";
+  if (!text.starts_with(mark)) return text;
+  const std::size_t end = text.find('\n');
+  const std::string schema = text.substr(mark.size(), end - mark.size());
+  return fmt::format("{}{}{}", mark, way_to(old_directory / schema, directory), text.substr(end));
+}
+
 /// The case of a step, in its new place.
 struct CopiedStep {
   CaseFile old;
@@ -96,7 +105,7 @@ void copy_step(const CopiedStep& step, const std::vector<CopiedStep>& steps) {
   });
   data.copy_to(step.place);
   make_folder(step.place);
-  write_file(step.place / "case.toml", text);
+  write_file(step.place / "case.toml", with_schema_from(text, step.old.directory, step.place));
 }
 
 /// What the steps take from each other stays so, a case that an earlier step writes too; other cases and data are
@@ -138,7 +147,7 @@ void make_case(const fs::path& directory, const fs::path& like, std::ostream& ou
   make_folder(directory);
   data.copy_to(directory);
   write_file(directory / "README.md", readme(name, old_name));
-  write_file(directory / "case.toml", text);
+  write_file(directory / "case.toml", with_schema_from(text, old.directory, directory));
   out << fmt::format("made {} like {}: case.toml, README.md", directory.string(), old_name);
   for (const auto& [from, place] : data.places) out << ", " << place.string();
   out << fmt::format("\nedit case.toml, then: pfdm check {}\n", directory.string());

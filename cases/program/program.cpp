@@ -7,19 +7,25 @@
 #include "cases/program/kinds.h"
 #include "cases/program/listing.h"
 #include "cases/program/new_case.h"
+#include "cases/program/reference/key_help.h"
+#include "cases/program/reference/key_reference.h"
+#include "cases/program/reference/key_schema.h"
 #include "cases/program/session/external_program.h"
 #include "cases/program/session/message_text.h"
 #include "cases/program/session/stop_signal.h"
 #include "cases/program/studies/sweep_on_slurm.h"
+#include "postproc/files/atomic_file.h"
 #include "postproc/files/other_case.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -129,10 +135,49 @@ void do_init(const CommandLine& line, std::ostream& out) {
   make_case(line.new_directory, by_name ? shipped : std::filesystem::path(line.like), out);
 }
 
+std::vector<KindKeys> keys_of_kinds() {
+  std::vector<KindKeys> kinds;
+  for (const CaseKind& kind : case_kinds()) kinds.push_back({kind.name, kind.keys()});
+  return kinds;
+}
+
+void require_all_kinds() {
+  if (case_kinds().size() < std::size(all_kind_names))
+    throw InputError(
+        "this program was built for fracture cases alone; the schema of all kinds is cases/case.schema.json, the "
+        "reference "
+        "cases/reference");
+}
+
+void write_schema(const CommandLine& line, std::ostream& out) {
+  require_all_kinds();
+  if (line.reference.empty()) {
+    out << key_schema(keys_of_kinds());
+    return;
+  }
+  std::filesystem::create_directories(line.reference);
+  for (const auto& [name, text] : key_reference(keys_of_kinds()))
+    write_file(std::filesystem::path(line.reference) / name, text);
+}
+
+void help_on(const std::string& key, std::ostream& out) {
+  const std::vector<KindKeys> kinds = keys_of_kinds();
+  if (const auto text = help_on_key(key, kinds)) {
+    out << *text;
+    return;
+  }
+  const std::vector<std::string> near = keys_like(key, kinds);
+  throw InputError(fmt::format(
+      "{}; nor is it a key of case.toml{}{}", unknown_command(key),
+      near.empty() ? "" : fmt::format(" (keys like it: {})", fmt::join(near, ", ")),
+      kinds.size() < std::size(all_kind_names) ? "; this program knows those of fracture cases alone" : ""));
+}
+
 void do_command(const CommandLine& line, std::ostream& out, std::ostream& err, bool terminal) {
   if (line.command == "test")
     throw InputError("the tests are built and run by the launcher at the root of the checkout: ./pfdm test");
   if (line.command == "init") return do_init(line, out);
+  if (line.command == "help") return line.key.empty() ? write_schema(line, out) : help_on(line.key, out);
   if (line.command == "completion") {
     out << completion_script(line.shell, command_words());
     return;

@@ -32,15 +32,16 @@ set(rooms
     "postproc/browser: physics mesh postproc/files postproc/fields postproc/page"
     "postproc/records: physics postproc/files"
     "cases/program/input: physics postproc/files"
+    "cases/program/reference: physics cases/program/input"
     "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page postproc/browser
      cases/program/input"
     "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/page cases/program/input
      cases/program/session"
     "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
     "cases/program/point: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
-     cases/program/session"
+     cases/program/session cases/program/studies"
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/vibration postproc/page postproc/records
-     cases/program/input cases/program/session"
+     cases/program/input cases/program/session cases/program/studies"
     "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
      postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies"
@@ -48,9 +49,9 @@ set(rooms
      postproc/files postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session
      cases/program/studies cases/program/fracture"
     "cases/program/homogenization: physics mesh solver/momentum solver/fracture solver/homogenization postproc/files
-     postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/fracture"
+     postproc/fields postproc/curves postproc/page cases/program/input cases/program/session cases/program/studies cases/program/fracture"
     "cases/program: physics solver postproc/files postproc/curves postproc/exports
-     cases/program/input cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture
+     cases/program/input cases/program/reference cases/program/session cases/program/studies cases/program/point cases/program/vibration cases/program/fracture
      cases/program/homogenization cases/program/plate cases/program/chain")
 set(complaints "")
 

@@ -2,6 +2,7 @@
 
 #include "cases/program/input/case_file.h"
 #include "cases/program/point/endochronic_case.h"
+#include "cases/program/point/endochronic_case_keys.h"
 #include "postproc/files/csv_table.h"
 #include "tests/cases/endochronic_case.h"
 #include "tests/cases/temporary_case.h"
@@ -110,7 +111,7 @@ constexpr const char* law_with_rate =
     "f = [[1, 1.5], [1.1, 1.7], [1.2, 2]]";
 
 void expect_to_be_read_again(const TemporaryCase& directory) {
-  const auto read = [&] { return read_endochronic_law(open_case(directory.path()).config.root().table("material")); };
+  const auto read = [&] { return read_endochronic_law(open_case(directory.path()).config.root().with_keys(endochronic_case_keys()).table("material")); };
   const EndochronicLaw law = read();
   std::string text = "kind = \"endochronic\"\ntitle = \"again\"\n" + to_toml(law);
   directory.write("case.toml", text);

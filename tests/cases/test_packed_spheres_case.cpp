@@ -111,7 +111,7 @@ const BadInput bad_inputs[] = {
     {"tetrahedra_better_than_regular",
      "volume_fraction = 0.1",
      "volume_fraction = 0.1\nmax_radius_edge_ratio = 0.5",
-     {"max_radius_edge_ratio: 0.5 must be between 1 and 1000"}},
+     {"max_radius_edge_ratio: 0.5 must be between 1.1 and 1000"}},
     {"cells_without_end_inside",
      "volume_fraction = 0.1",
      "volume_fraction = 0.1\nparticle_size_factor = 1e-3",

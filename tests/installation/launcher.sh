@@ -8,6 +8,7 @@ root=$1 folder=$2
 rm -rf "$folder"
 mkdir -p "$folder"/tools "$folder"/checkout/{physics,mesh,solver,postproc,cases/{program,bar,point}}
 cp "$root"/{pfdm,README.md,CMakeLists.txt} "$folder/checkout/"
+cp -r "$root"/cases/reference "$folder/checkout/cases/"
 printf '# a bar\nkind = "fracture"\ntitle = "A bar"\ncsv = "../point/data.csv"\n' >"$folder/checkout/cases/bar/case.toml"
 echo 1 >"$folder/checkout/cases/point/data.csv"
 printf 'kind = "endochronic" # not kind = "fracture"\n' >"$folder/checkout/cases/point/case.toml"
@@ -57,6 +58,10 @@ expect_no_build 0 "./pfdm run CASE [--restart]" --help
 expect_no_build 0 "./pfdm run CASE [--restart]" help
 expect_no_build 0 "meshes, solves, writes the results" help run
 expect_no_build 0 "meshes, solves, writes the results" run --help
+expect_no_build 0 "Fracture toughness, critical energy release rate Gc" help toughness
+expect_no_build 0 "number, above -1 and at most 0.4999" help materials.poisson_ratio
+expect_no_build 0 "(plate)" help cooling.emissivity
+expect_no_build 2 "no command and no key of case.toml has this name" help toughnes
 expect_no_build 0 "bar                         fracture       A bar" list
 expect_no_build 0 "then: ./pfdm check new" init new --like bar
 expect_no_build 2 "a new case goes into a new directory" init new --like bar
@@ -82,6 +87,7 @@ expect "pfdm_fracture list" "pfdm_fracture" list
 expect "pfdm_fracture init new --like bar" "pfdm_fracture" init new --like bar
 expect "pfdm_fracture help run" "pfdm_fracture" help run
 expect "pfdm_fracture --version" "pfdm_fracture" --version
+[[ $(./pfdm help cooling.emissivity) == *"radiation beside convection"* ]] || complain "no help on a key of another kind"
 expect "pfdm_fracture report cases/bar" "pfdm_fracture" report cases/bar
 expect "pfdm run cases/point" "pfdm_fracture pfdm" run cases/point
 expect "pfdm run cases/bar" "pfdm_fracture pfdm" run cases/bar

@@ -19,7 +19,6 @@ const std::string files_of_numbers[] = {"summary.json",     "fit.json",      "fi
                                         "homogenized.json", "cohesive.json", "first_debonding.json"};
 
 ChainFigure read_figure(const ConfigTable& table, const ChainJob& job) {
-  table.with_keys({"says", "file", "key", "unit", "interval"});
   ChainFigure figure{.says = table.string("says"),
                      .file = table.string("file", job.outcome),
                      .key = table.string("key"),
@@ -38,13 +37,10 @@ Verdict read_accepted(const ConfigTable& table, const ChainJob& job) {
   const auto accept = table.find("accept");
   if (!accept) return Verdict::correlated;
   if (job.name != "fit") throw accept->error("only a step that does \"fit\" has a verdict");
-  const std::string verdicts[] = {"sound", "questionable"};
-  return accept->one_of(verdicts, "verdict with which a chain goes on") == "sound" ? Verdict::correlated
-                                                                                   : Verdict::questionable;
+  return accept->choice() == "sound" ? Verdict::correlated : Verdict::questionable;
 }
 
 ChainStep read_step(const ConfigTable& table, const fs::path& directory) {
-  table.with_keys({"name", "case", "does", "accept", "figures"});
   const ConfigValue place = table.at("case");
   const auto does = table.find("does");
   ChainStep step{.name = table.string("name", fs::path(place.string()).lexically_normal().string()),
@@ -64,7 +60,7 @@ ChainStep read_step(const ConfigTable& table, const fs::path& directory) {
 std::span<const ChainJob> chain_jobs() { return jobs; }
 
 ChainCase read_chain_case(const ConfigTable& root, const fs::path& case_directory) {
-  root.with_keys({"kind", "title", "step", "sweep"});
+  root.with_keys(chain_keys());
   if (const auto sweep = root.find("sweep"))
     throw sweep->error("a chain has no sweep: the cases of its steps may have one");
   ChainCase chain{.title = root.line("title"), .steps = {}};

@@ -2,7 +2,7 @@
 // Reads a case of kind "chain": jobs of other cases one after the other, each of which may take numbers and files from
 // the results of those before.
 
-#include "cases/program/input/config.h"
+#include "cases/program/input/key.h"
 #include "cases/program/session/runnable_case.h"
 #include "solver/calibration/calibration_verdict.h"
 
@@ -24,6 +24,9 @@ struct ChainJob {
   std::string_view outcome;  ///< the file of the results that is written last, and that tells of the job
 };
 std::span<const ChainJob> chain_jobs();
+
+/// The rows of the keys of kind "chain".
+const KeyTable& chain_keys();
 
 /// A number of a step's results that the chain's page shows.
 struct ChainFigure {

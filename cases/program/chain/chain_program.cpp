@@ -240,7 +240,8 @@ RunnableCase read_program(const CaseFile& file) {
 CaseKind chain_kind() {
   return {.name = "chain",
           .description = "jobs of other cases one after the other, which take numbers from each other's results",
-          .read = read_program};
+          .read = read_program,
+          .keys = [] { return std::vector<const KeyTable*>{&chain_keys()}; }};
 }
 
 }  // namespace pfdm

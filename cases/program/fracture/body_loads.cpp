@@ -10,8 +10,6 @@
 namespace pfdm {
 namespace {
 
-constexpr Dimension force_per_volume{"force per volume", "N/m^3", "20 kN/m^3"};
-
 ScalarField in_time(const Amount& amount, bool from_start) {
   if (!from_start || !amount.at_full_load) return amount.value;
   return [full = *amount.at_full_load](const Vector&, double) { return full; };
@@ -20,10 +18,10 @@ ScalarField in_time(const Amount& amount, bool from_start) {
 // Of the components xx, yy, zz, yz, xz, xy.
 constexpr std::array<std::array<Index, 2>, 6> places{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
-LoadField<Vector> read_vector(const ConfigValue& value, const Dimension& due, bool from_start) {
+LoadField<Vector> read_vector(const ConfigValue& value, bool from_start) {
   const std::vector<ConfigValue> entries = value.list(3);
   std::array<ScalarField, 3> parts;
-  for (std::size_t i = 0; i < 3; ++i) parts[i] = in_time(read_amount(entries[i], due), from_start);
+  for (std::size_t i = 0; i < 3; ++i) parts[i] = in_time(read_amount(entries[i]), from_start);
   return [parts](const Vector& x, double t) { return Vector(parts[0](x, t), parts[1](x, t), parts[2](x, t)); };
 }
 
@@ -34,26 +32,23 @@ ScalarField read_temperature(const ConfigValue& value, bool from_start) {
   if (value.is_table()) unit = value.table().string("unit", "");
   if (is_unit_of(unit, dimension::temperature) && parse_quantity("0 " + unit, dimension::temperature) != 0.0)
     throw value.error("a change of temperature is a difference: give it in K, as in \"20 K\"");
-  return in_time(read_amount(value, dimension::temperature), from_start);
+  return in_time(read_amount(value), from_start);
 }
 
 }  // namespace
 
 bool apply_from_start(const ConfigTable& root) {
   if (!root.has("loads")) return false;
-  const auto applied = root.table("loads").find("applied");
-  const std::string ways[] = {"with_load", "from_start"};
-  return applied && applied->one_of(ways, "way in which loads are applied") == "from_start";
+  return root.table("loads").choice("applied", "with_load") == "from_start";
 }
 
 BodyLoads read_body_loads(const ConfigTable& root) {
   if (!root.has("loads")) return {};
-  const ConfigTable table = root.table("loads").with_keys({"gravity", "body_force", "temperature_change", "applied"});
+  const ConfigTable table = root.table("loads");
   const bool from_start = apply_from_start(root);
   BodyLoads loads;
-  if (const auto gravity = table.find("gravity"))
-    loads.gravity = read_vector(*gravity, dimension::acceleration, from_start);
-  if (const auto force = table.find("body_force")) loads.force = read_vector(*force, force_per_volume, from_start);
+  if (const auto gravity = table.find("gravity")) loads.gravity = read_vector(*gravity, from_start);
+  if (const auto force = table.find("body_force")) loads.force = read_vector(*force, from_start);
   if (const auto change = table.find("temperature_change")) loads.temperature = read_temperature(*change, from_start);
   return loads;
 }
@@ -64,7 +59,7 @@ std::shared_ptr<const LoadField<Tensor>> read_eigenstrain(const ConfigValue& val
     throw value.error(
         fmt::format("expected three numbers (xx, yy, zz) or six (and yz, xz, xy), found {}", entries.size()));
   std::vector<ScalarField> parts;
-  for (const ConfigValue& entry : entries) parts.push_back(in_time(read_amount(entry, dimension::number), from_start));
+  for (const ConfigValue& entry : entries) parts.push_back(in_time(read_amount(entry), from_start));
   return std::make_shared<const LoadField<Tensor>>([parts](const Vector& x, double t) {
     Tensor strain = Tensor::Zero();
     for (std::size_t k = 0; k < parts.size(); ++k)

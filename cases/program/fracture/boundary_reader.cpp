@@ -1,6 +1,7 @@
 #include "cases/program/fracture/boundary_reader.h"
 
 #include "cases/program/input/amount.h"
+#include "cases/program/input/key.h"
 #include "physics/closed_forms/goodier.h"
 
 #include <fmt/format.h>
@@ -12,10 +13,8 @@ namespace pfdm {
 namespace {
 
 std::function<Vector(const Vector&)> read_goodier(const ConfigTable& settings, const Materials& materials) {
-  settings.with_keys({"field", "inclusion", "matrix", "radius", "stress"});
   const Goodier goodier(materials.elasticity(settings.at("inclusion")), materials.elasticity(settings.at("matrix")),
-                        settings.quantity("radius", dimension::length, range::positive),
-                        settings.quantity("stress", dimension::stress));
+                        settings.quantity("radius"), settings.quantity("stress"));
   return [goodier](const Vector& x) { return goodier.displacement(x); };
 }
 
@@ -51,7 +50,7 @@ std::function<Vector(const Vector&, double)> combined(const Components& componen
 }
 
 void read_displacement_field(const ConfigValue& value, const Materials& materials, BoundaryCondition& condition) {
-  const ConfigTable settings = value.table();
+  const ConfigTable settings = value.table().with_keys(value.type()->as(KeyType::Kind::table)->table());
   const auto field =
       choose(settings.at("field"), displacement_fields(), "displacement field").read(settings, materials);
   condition.displacement_prescribed = {true, true, true};
@@ -62,7 +61,7 @@ void read_displacements(const ConfigValue& value, BoundarySettings& settings, Co
   const auto entries = value.list(3);
   for (std::size_t i = 0; i < 3; ++i) {
     if (is_free(entries[i])) continue;
-    const Amount amount = read_amount(entries[i], dimension::length);
+    const Amount amount = read_amount(entries[i]);
     settings.condition.displacement_prescribed[i] = true;
     settings.displacement_at_full_load[i] = amount.at_full_load;
     components[i] = amount.value;
@@ -75,7 +74,7 @@ void read_tractions(const ConfigValue& value, const BoundarySettings& settings, 
     if (is_free(entries[i])) continue;
     if (settings.condition.displacement_prescribed[i])
       throw entries[i].error("this component's displacement is prescribed as well; write \"free\" in one of the two");
-    components[i] = read_amount(entries[i], dimension::stress).value;
+    components[i] = read_amount(entries[i]).value;
   }
 }
 
@@ -97,7 +96,7 @@ void read_components(const ConfigTable& table, const Materials& materials, Bound
   if (!pressure) return;
   if (std::ranges::all_of(settings.condition.displacement_prescribed, std::identity{}))
     throw pressure->error("all components of the displacement are prescribed, which leaves none for a pressure");
-  settings.condition.pressure = read_amount(*pressure, dimension::stress).value;
+  settings.condition.pressure = read_amount(*pressure).value;
 }
 
 void read_condition(const ConfigTable& table, const Materials& materials, BoundarySettings& settings) {
@@ -131,7 +130,6 @@ void add_patch(std::vector<BoundarySettings>& boundary, const BoundarySettings& 
 std::vector<BoundarySettings> read_boundary(const ConfigTable& root, const Materials& materials) {
   std::vector<BoundarySettings> boundary;
   for (const ConfigTable& table : root.tables("boundary")) {
-    table.with_keys({"patch", "patches", "type", "displacement", "traction", "pressure"});
     const std::vector<ConfigValue> patches = patches_of(table);
     if (patches.empty()) throw table.error("patches is an empty list");
     BoundarySettings settings{.condition = {}, .displacement_at_full_load = {}, .patch = patches.front()};

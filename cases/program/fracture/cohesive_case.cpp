@@ -39,11 +39,10 @@ void add_named(const ConfigValue& entry, std::span<const Band> bands, std::span<
 }
 
 CohesivePlane read_plane(const ConfigTable& table) {
-  table.with_keys({"name", "point", "normal", "half_width"});
   return {.name = read_plain_name(table.at("name"), "a folder"),
           .point = read_point(table.at("point")),
           .normal = read_direction(table.at("normal")),
-          .half_width = table.quantity("half_width", dimension::length, range::positive),
+          .half_width = table.quantity("half_width"),
           .where = table};
 }
 
@@ -54,7 +53,7 @@ CohesiveSettings read_cohesive(const ConfigTable& root, std::span<const Band> ba
   CohesiveSettings settings{
       .bands = two_sided(bands), .planes = {}, .faces = {interfaces.begin(), interfaces.end()}, .axis = axis};
   if (!root.has("cohesive")) return settings;
-  const ConfigTable table = root.table("cohesive").with_keys({"interfaces", "planes"});
+  const ConfigTable table = root.table("cohesive");
   if (const auto named = table.find("interfaces")) {
     settings.bands.clear();
     settings.faces.clear();

@@ -11,22 +11,16 @@
 namespace pfdm {
 namespace {
 
-constexpr Range tip_damages{0.1, 0.999, false, "between 0.1 and 0.999"};
-
 void read_tip(const ConfigTable& table, TipRegion& region) {
-  const std::string ways[] = {"fixed", "foremost"};
-  const auto tip = table.find("tip");
-  region.follows = tip && tip->one_of(ways, "way to find the tip") == "foremost";
+  region.follows = table.choice("tip", "fixed") == "foremost";
   for (const char* key : {"tip_damage", "corridor"})
     if (const auto value = table.find(key); value && !region.follows)
       throw value->error("this requires tip = \"foremost\"; the tip of this region is fixed");
-  region.tip_damage = table.number("tip_damage", tip_damages, region.tip_damage);
-  region.corridor = table.quantity("corridor", dimension::length, range::positive, region.corridor);
+  region.tip_damage = table.number("tip_damage", region.tip_damage);
+  region.corridor = table.quantity("corridor", region.corridor);
 }
 
 TipRegion read_region(const ConfigTable& table) {
-  table.with_keys({"name", "point", "direction", "front", "shape", "inner", "outer", "tip", "tip_damage", "corridor",
-                   "reference_length"});
   TipRegion region;
   region.name = read_plain_name(table.at("name"), "a column");
   region.point = read_point(table.at("point"));
@@ -36,10 +30,10 @@ TipRegion read_region(const ConfigTable& table) {
     throw table.error("the crack front (front, [0, 0, 1] where it is not given) must be perpendicular to direction");
   const auto shape = table.find("shape");
   region.shape = shape ? &choose(*shape, region_shapes(), "shape of a region") : &region_shapes().front();
-  region.inner = table.quantity("inner", dimension::length, range::positive);
-  region.outer = table.quantity("outer", dimension::length, range::positive);
+  region.inner = table.quantity("inner");
+  region.outer = table.quantity("outer");
   if (!(region.outer > region.inner)) throw table.at("outer").error("it must be larger than inner");
-  region.reference_length = table.quantity("reference_length", dimension::length, range::positive, 0.0);
+  region.reference_length = table.quantity("reference_length", 0.0);
   read_tip(table, region);
   return region;
 }

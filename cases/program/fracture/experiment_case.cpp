@@ -1,5 +1,6 @@
 #include "cases/program/fracture/experiment_case.h"
 
+#include "cases/program/fracture/run_keys.h"
 #include "cases/program/input/csv_columns.h"
 
 #include <fmt/format.h>
@@ -12,25 +13,6 @@
 namespace pfdm {
 namespace {
 
-constexpr const char* positive_pole = "positive";
-// Of [experiment], for all specimens, or of one of them.
-constexpr std::string_view preparation_keys[] = {"loops", "jitter", "toe", "offset", "force_offset", "compliance"};
-
-ConfigTable with_keys_and_preparation(const ConfigTable& table, std::vector<std::string_view> keys) {
-  keys.insert(keys.end(), std::begin(preparation_keys), std::end(preparation_keys));
-  return table.with_keys(keys);
-}
-
-ConfigTable experiment_table(const ConfigTable& root) {
-  return with_keys_and_preparation(root.table("experiment"),
-                                   {"stiffness_between", "specimens", "debonding", "energies"});
-}
-
-ConfigTable specimen_table(const ConfigTable& table) {
-  return with_keys_and_preparation(
-      table, {"name", "csv", "separator", "decimal", "thousands", "displacement", "force", "deviation"});
-}
-
 /// Tables that may have a key: the specimen's, and where it does not have it that of all.
 class Defaults {
  public:
@@ -38,9 +20,9 @@ class Defaults {
   std::optional<ConfigValue> find(std::string_view key) const {
     return own_.has(key) ? own_.find(key) : of_all_.find(key);
   }
-  double quantity(std::string_view key, const Dimension& due, const Range& allowed) const {
+  double quantity(std::string_view key) const {
     const auto value = find(key);
-    return value ? value->quantity(due, allowed) : 0.0;
+    return value ? value->quantity() : 0.0;
   }
 
  private:
@@ -59,20 +41,16 @@ Toe read_toe(const ConfigValue& value) {
 }
 
 Preparation read_preparation(const Defaults& keys) {
-  const std::string ways[] = {"envelope"};
-  Preparation preparation{.jitter = keys.quantity("jitter", dimension::length, range::not_negative)};
-  if (const auto loops = keys.find("loops")) {
-    loops->one_of(ways, "treatment of unloading loops");
-    preparation.envelope = true;
-  }
+  Preparation preparation{.jitter = keys.quantity("jitter")};
+  if (const auto loops = keys.find("loops")) preparation.envelope = loops->choice() == "envelope";
   if (const auto toe = keys.find("toe")) preparation.toe = read_toe(*toe);
   return preparation;
 }
 
 SetUp read_set_up(const Defaults& keys) {
-  return {.offset = keys.quantity("offset", dimension::length, range::any),
-          .force_offset = keys.quantity("force_offset", dimension::force, range::any),
-          .compliance = keys.quantity("compliance", dimension::compliance, range::not_negative)};
+  return {.offset = keys.quantity("offset"),
+          .force_offset = keys.quantity("force_offset"),
+          .compliance = keys.quantity("compliance")};
 }
 
 std::string read_name_of_curve(const ConfigTable& table) {
@@ -84,8 +62,7 @@ std::string read_name_of_curve(const ConfigTable& table) {
 /// { column, unit, factor }: times the factor, and without one times `otherwise`.
 std::vector<double> read_values(const ConfigTable& table, const CsvTable& file, const Dimension& due,
                                 double otherwise = 1.0) {
-  table.with_keys({"column", "unit", "factor"});
-  const double factor = table.number("factor", range::any, otherwise);
+  const double factor = table.number("factor", otherwise);
   if (factor == 0.0) throw table.at("factor").error("it must not be zero");
   std::vector<double> values = read_column(table, file, "column", "unit", due);
   for (double& value : values) value *= factor;
@@ -100,7 +77,7 @@ SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path
                      .y = read_values(table.table(quantity), file, due)};
   std::vector<std::vector<double>*> used{&curve.x, &curve.y};
   if (table.has("deviation")) {
-    const double of_quantity = table.table(quantity).number("factor", range::any, 1.0);
+    const double of_quantity = table.table(quantity).number("factor", 1.0);
     curve.deviation = read_values(table.table("deviation"), file, due, std::abs(of_quantity));
     used.push_back(&curve.deviation);
   }
@@ -110,8 +87,8 @@ SampledCurve read_curve_of(const ConfigTable& table, const std::filesystem::path
   return curve;
 }
 
-MeasuredCurve read_specimen(const ConfigTable& own, const ConfigTable& of_all, const std::filesystem::path& directory) {
-  const ConfigTable table = specimen_table(own);
+MeasuredCurve read_specimen(const ConfigTable& table, const ConfigTable& of_all,
+                            const std::filesystem::path& directory) {
   const Defaults keys(table, of_all);
   const SampledCurve recorded = read_curve_of(table, directory, "force", dimension::force);
   if (std::ranges::all_of(recorded.y, [](double force) { return force == 0.0; }))
@@ -122,19 +99,13 @@ MeasuredCurve read_specimen(const ConfigTable& own, const ConfigTable& of_all, c
 }
 
 MeasuredAngle read_angle(const ConfigTable& table, const std::filesystem::path& directory) {
-  table.with_keys(
-      {"name", "csv", "separator", "decimal", "thousands", "displacement", "angle", "deviation", "surface", "pole"});
-  const std::string poles[] = {positive_pole, "negative"};
   const SampledCurve curve = read_curve_of(table, directory, "angle", dimension::angle);
   if (!std::ranges::is_sorted(curve.x))
     throw table.at("displacement").error("the displacements decrease: remove unloading, and sort the rows");
-  return {.curve = curve,
-          .surface = table.string("surface", ""),
-          .at_positive = table.at("pole").one_of(poles, "pole") == positive_pole};
+  return {.curve = curve, .surface = table.string("surface", ""), .at_positive = table.choice("pole") == "positive"};
 }
 
 MeasuredEnergy read_energy(const ConfigTable& table, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "separator", "decimal", "thousands", "displacement", "energy", "deviation", "of"});
   return {.curve = read_curve_of(table, directory, "energy", dimension::energy),
           .kind = &choose(table.at("of"), energy_kinds(), "energy of a run")};
 }
@@ -166,22 +137,22 @@ std::vector<SampledCurve> specimen_curves(const ExperimentSettings& experiment) 
 }
 
 std::vector<SetUp> read_set_ups(const ConfigTable& root) {
-  const ConfigTable table = experiment_table(root);
+  const ConfigTable table = root.with_keys(fracture_keys()).table("experiment");
   std::vector<SetUp> set_ups;
   for (const ConfigTable& specimen : table.tables("specimens"))
-    set_ups.push_back(read_set_up(Defaults(specimen_table(specimen), table)));
+    set_ups.push_back(read_set_up(Defaults(specimen, table)));
   return set_ups;
 }
 
 std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
                                                   const std::filesystem::path& case_directory) {
   if (!root.has("experiment")) return std::nullopt;
-  const ConfigTable table = experiment_table(root);
+  const ConfigTable table = root.table("experiment");
   ExperimentSettings settings{.where = table};
   const ConfigValue range = table.at("stiffness_between");
   const std::vector<ConfigValue> ends = range.list(2);
-  settings.stiffness_from = ends[0].quantity(dimension::length);
-  settings.stiffness_to = ends[1].quantity(dimension::length);
+  settings.stiffness_from = ends[0].quantity();
+  settings.stiffness_to = ends[1].quantity();
   if (!(settings.stiffness_from < settings.stiffness_to))
     throw range.error("the second displacement must be the larger");
   for (const ConfigTable& specimen : table.tables("specimens")) {

@@ -1,6 +1,9 @@
 #include "cases/program/fracture/fracture_case.h"
 
+#include "cases/program/fracture/body_keys.h"
 #include "cases/program/fracture/material_keys.h"
+#include "cases/program/fracture/run_keys.h"
+#include "cases/program/input/key_member.h"
 #include "solver/fracture/toughness_perturbation.h"
 
 #include <fmt/format.h>
@@ -10,13 +13,6 @@
 
 namespace pfdm {
 namespace {
-
-constexpr Range above_zero_below_one{0.0, 1.0, true, "above 0 and below 1"};
-constexpr Range above_zero_to_one{std::numeric_limits<double>::min(), 1.0, false, "above 0 and at most 1"};
-// Broken cells beside sound ones leave double precision no more than this.
-constexpr Range solvable{1e-12, 1.0, false, "between 1e-12 and 1"};
-constexpr Range iterations_range{1.0, 1e9, false, "between 1 and 1e9"};
-constexpr Range count{0.0, 1e9, false, "between 0 and 1e9"};
 
 std::string unsuited_split(const Material& material, const EnergySplit& split) {
   return fmt::format("a material of the law \"{}\" cannot be combined with the energy split \"{}\"; allowed: {}",
@@ -31,8 +27,7 @@ const Law* find_law(const ConfigTable& table, std::string_view key, const Law& o
 }
 
 Irreversibility read_irreversibility(const ConfigValue& value) {
-  const std::string ways[] = {"bounds", "crack_set", "history"};
-  const std::string way = value.one_of(ways, "way of irreversibility");
+  const std::string way = value.choice();
   return way == "history"     ? Irreversibility::history
          : way == "crack_set" ? Irreversibility::crack_set
                               : Irreversibility::bounds;
@@ -42,10 +37,7 @@ Irreversibility read_irreversibility(const ConfigValue& value) {
 const CrackGeometry& read_model(const ConfigTable& table, StrengthChoice& strength) {
   const auto value = table.find("model");
   if (!value) return crack_geometry("AT2");
-  std::vector<std::string> names;
-  for (const CrackGeometry& crack : crack_geometries()) names.emplace_back(crack.name);
-  for (const StrengthLaw& law : strength_laws()) names.emplace_back(law.name);
-  const std::string name = value->one_of(names, "crack geometric function or model of strength");
+  const std::string name = value->choice();
   const auto law = std::ranges::find(strength_laws(), name, &StrengthLaw::name);
   if (law == strength_laws().end()) return crack_geometry(name);
   strength.law = &*law;
@@ -66,16 +58,13 @@ void read_delta(const ConfigTable& table, const FractureModel& model, StrengthCh
   if (!delta) return;
   if (delta->is_table())
     strength.mesh_size =
-        delta->table().with_keys({"mesh_size"}).quantity("mesh_size", dimension::length, range::positive);
+        delta->table().with_keys(delta->type()->as(KeyType::Kind::table)->table()).quantity("mesh_size");
   else
-    strength.delta = delta->number(range::positive);
+    strength.delta = delta->number();
 }
 
 MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
-  const ConfigTable table = root.table("fracture")
-                                .with_keys({"model", "degradation", "softening", "split", "effective_toughness",
-                                            "irreversibility", "length", "stiffness_damage", "residual_stiffness",
-                                            "viscosity", "delta", "perturbation", "perturbation_seed"});
+  const ConfigTable table = root.table("fracture");
   MaterialDefaults defaults;
   model.crack = &read_model(table, defaults.strength);
   const auto degrading = table.find("degradation"), split = table.find("split");
@@ -84,32 +73,26 @@ MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
   if (const auto irreversibility = table.find("irreversibility"))
     model.irreversibility = read_irreversibility(*irreversibility);
   read_delta(table, model, defaults.strength);
-  const std::string damages[] = {"cell", "mean"};
   if (const auto by = table.find("stiffness_damage"))
-    model.stiffness_by =
-        by->one_of(damages, "damage of the stiffness") == "mean" ? StiffnessBy::mean : StiffnessBy::cell;
-  model.residual_stiffness = table.number("residual_stiffness", above_zero_below_one, model.residual_stiffness);
-  if (table.has("viscosity")) model.viscosity = table.quantity("viscosity", dimension::viscosity, range::not_negative);
+    model.stiffness_by = by->choice() == "mean" ? StiffnessBy::mean : StiffnessBy::cell;
+  model.residual_stiffness = table.number("residual_stiffness", model.residual_stiffness);
+  if (table.has("viscosity")) model.viscosity = table.quantity("viscosity");
   defaults.crack = model.crack;
-  const std::string toughnesses[] = {"corrected", "as_given"};
-  const auto effective = table.find("effective_toughness");
-  defaults.corrects_toughness = !effective || effective->one_of(toughnesses, "effective toughness") == "corrected";
-  if (table.has("length")) defaults.ell = table.quantity("length", dimension::length, range::positive);
+  defaults.corrects_toughness = table.choice("effective_toughness", "corrected") == "corrected";
+  if (table.has("length")) defaults.ell = table.quantity("length");
   defaults.degradation = model.degradation;
   if (model.degradation.law().needs_strength)
     defaults.softening = find_law(table, "softening", softening_law("linear"), softening_laws(), "softening law");
   return defaults;
 }
 
-constexpr Range below_half{0.0, 0.5, false, "between 0 and 0.5"};
-
 Perturbation read_perturbation(const ConfigTable& root) {
   if (!root.has("fracture")) return {};
   const ConfigTable table = root.table("fracture");
   if (table.has("perturbation_seed") && !table.has("perturbation"))
     throw table.at("perturbation_seed").error("this belongs to a perturbation, which is not given");
-  return {.part = table.number("perturbation", below_half, 0.0),
-          .seed = static_cast<std::uint64_t>(table.integer("perturbation_seed", range::seed, 1))};
+  return {.part = table.number("perturbation", 0.0),
+          .seed = static_cast<std::uint64_t>(table.integer("perturbation_seed", std::int64_t{1}))};
 }
 
 /// Of bodies in which only interfaces break.
@@ -118,7 +101,7 @@ MaterialDefaults elastic(FractureModel& model) {
   model.degradation = degradation("quadratic");
   model.split = energy_split("none");
   MaterialDefaults defaults;
-  defaults.elastic_with.emplace();
+  defaults.elastic_keys = elastic_material_keys;
   return defaults;
 }
 
@@ -147,8 +130,7 @@ void check_histories(const FractureCase& fracture, const ConfigTable& root) {
   }
 }
 
-void read_time(const ConfigTable& table, const FractureModel& model, LoadingSettings& loading) {
-  loading.duration = table.quantity("duration", dimension::time, range::positive, 0.0);
+void check_time(const ConfigTable& table, const FractureModel& model) {
   if (!(model.viscosity > 0.0)) return;
   if (!table.has("duration"))
     throw table.error(
@@ -164,50 +146,31 @@ LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model
     if (model.viscosity > 0.0) throw root.error("fracture.viscosity needs the table [loading] with a duration");
     return loading;
   }
-  const ConfigTable table =
-      root.table("loading").with_keys({"end", "duration", "initial_increment", "maximum_increment", "minimum_increment",
-                                       "damage_growth", "energy_release", "finest_increment", "maximum_dissipation"});
-  loading.end = table.number("end", range::positive, loading.end);
-  loading.initial_increment = table.number("initial_increment", range::positive, loading.initial_increment);
-  loading.maximum_increment = table.number("maximum_increment", range::positive,
-                                           std::max(loading.maximum_increment, loading.initial_increment));
-  loading.minimum_increment = table.number("minimum_increment", range::positive, loading.minimum_increment);
+  const ConfigTable table = root.table("loading");
+  read_stored(table, loading);
+  if (!table.has("maximum_increment"))
+    loading.maximum_increment = std::max(loading.maximum_increment, loading.initial_increment);
   if (loading.minimum_increment > loading.initial_increment || loading.initial_increment > loading.maximum_increment)
     throw table.error(fmt::format("expected minimum <= initial <= maximum of the increments, found {}, {}, {}",
                                   loading.minimum_increment, loading.initial_increment, loading.maximum_increment));
-  loading.damage_growth = table.number("damage_growth", above_zero_to_one, loading.damage_growth);
-  loading.energy_release = table.number("energy_release", above_zero_to_one, loading.energy_release);
-  loading.finest_increment = table.number("finest_increment", range::positive, loading.finest_increment);
-  if (table.has("maximum_dissipation"))
-    loading.maximum_dissipation = table.quantity("maximum_dissipation", dimension::energy, range::positive);
-  read_time(table, model, loading);
+  check_time(table, model);
   return loading;
 }
 
 StaggeredSettings read_solver(const ConfigTable& root) {
   StaggeredSettings settings;
   if (!root.has("solver")) return settings;
-  const ConfigTable table =
-      root.table("solver").with_keys({"damage_tolerance", "damage_tolerance_l2", "energy_tolerance",
-                                      "equilibrium_tolerance", "maximum_iterations", "linear"});
-  settings.damage_tolerance = table.number("damage_tolerance", above_zero_to_one, settings.damage_tolerance);
-  if (table.has("damage_tolerance_l2"))
-    settings.damage_tolerance_l2 = table.number("damage_tolerance_l2", above_zero_to_one);
-  settings.energy_tolerance = table.number("energy_tolerance", above_zero_to_one, settings.energy_tolerance);
-  settings.equilibrium_tolerance = table.number("equilibrium_tolerance", solvable, settings.equilibrium_tolerance);
-  settings.maximum_iterations =
-      static_cast<Index>(table.integer("maximum_iterations", iterations_range, settings.maximum_iterations));
+  const ConfigTable table = root.table("solver");
+  read_stored(table, settings);
   if (table.has("linear")) settings.linear = &choose(table.at("linear"), linear_solvers(), "linear solver");
   return settings;
 }
 
 void read_curve_patch(const ConfigTable& output, FractureCase& fracture) {
-  const ConfigTable curve = output.table("curve").with_keys({"patch", "component"});
+  const ConfigTable curve = output.table("curve");
   fracture.curve_patch = curve.at("patch");
   fracture.output.curve.patch = curve.string("patch");
-  const std::vector<std::string> components{"x", "y", "z"};
-  const std::string component = curve.at("component").one_of(components, "component");
-  fracture.output.curve.component = component[0] - 'x';
+  fracture.output.curve.component = curve.choice("component")[0] - 'x';
 }
 
 /// Names that the file uses against those that the mesh has; an empty list means that they are not known yet.
@@ -239,7 +202,7 @@ std::optional<double> full_displacement(const FractureCase& fracture) {
 double load_at_displacement(const ConfigValue& entry, const FractureCase& fracture) {
   if (fracture.box)
     throw entry.error("give load parameters, as in 0.78: the points of the path are reached at 1, 2, ...");
-  if (const auto full = full_displacement(fracture)) return entry.quantity(dimension::length) / *full;
+  if (const auto full = full_displacement(fracture)) return entry.quantity() / *full;
   throw entry.error(
       fmt::format("the displacement of patch \"{}\" along the curve's component is not prescribed by a "
                   "plain quantity; give load parameters, as in 0.78",
@@ -269,13 +232,12 @@ std::vector<double> read_frames(const ConfigTable& output, const FractureCase& f
 void read_frames_of(const ConfigTable& output, FractureCase& fracture) {
   fracture.loading.stops = read_frames(output, fracture);
   fracture.output.frames = read_frame_settings(output, fracture.loading, full_displacement(fracture));
-  fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", count, 0));
+  fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", std::int64_t{0}));
   if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
 }
 
 void read_output(const ConfigTable& root, FractureCase& fracture) {
-  const ConfigTable output = root.table("output").with_keys(
-      {"curve", "frames_at", "frames_every", "time_value", "compression", "slices_through", "energy_release_rate"});
+  const ConfigTable output = root.table("output");
   read_curve_patch(output, fracture);
   check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);  // the frames need the curve's patch
   read_frames_of(output, fracture);
@@ -313,8 +275,7 @@ void require_boundary_values(const FractureCase& fracture, const Mesh& mesh, std
 }  // namespace
 
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
-  root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "boundary", "interface",
-                  "loads", "loading", "solver", "output", "cohesive", "experiment", "fit", "sweep"});
+  root.with_keys(fracture_keys());
   FractureCase fracture = read_body(root, case_directory, false);
   fracture.boundary = read_boundary(root, fracture.materials);
   fracture.model.loads = read_body_loads(root);
@@ -346,10 +307,7 @@ FractureCase read_body(const ConfigTable& root, const std::filesystem::path& cas
 void read_box_output(const ConfigTable& root, FractureCase& fracture) {
   check_names(fracture, fracture.mesh.regions, {});
   fracture.output.curve.component = fracture.box->component[0];
-  if (root.has("output"))
-    read_frames_of(
-        root.table("output").with_keys({"frames_at", "frames_every", "time_value", "compression", "slices_through"}),
-        fracture);
+  if (root.has("output")) read_frames_of(root.table("output"), fracture);
   read_columns(root, fracture);
 }
 

@@ -13,6 +13,7 @@
 #include "cases/program/fracture/progress.h"
 #include "cases/program/fracture/recorded_steps.h"
 #include "cases/program/fracture/run_estimate.h"
+#include "cases/program/fracture/run_keys.h"
 #include "cases/program/input/kept_case.h"
 #include "cases/program/session/earlier_results.h"
 #include "cases/program/session/head_line.h"
@@ -425,7 +426,8 @@ CaseKind fracture_kind() {
   return {.name = "fracture",
           .description = "phase-field fracture of a solid under load",
           .read = read_program,
-          .laws = fracture_laws};
+          .laws = fracture_laws,
+          .keys = [] { return std::vector<const KeyTable*>{&fracture_keys()}; }};
 }
 
 }  // namespace pfdm

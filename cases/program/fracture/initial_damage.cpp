@@ -8,8 +8,7 @@ namespace pfdm {
 namespace {
 
 FlatSurface read_disc(const ConfigTable& table) {
-  return disc(read_point(table.at("centre")), read_direction(table.at("normal")),
-              table.quantity("radius", dimension::length, range::positive));
+  return disc(read_point(table.at("centre")), read_direction(table.at("normal")), table.quantity("radius"));
 }
 
 FlatSurface read_points(const ConfigTable& table, const ConfigValue& list) {
@@ -49,17 +48,15 @@ std::vector<bool> initially_damaged(const InitialDamage& initial, const Fracture
 
 std::optional<InitialDamage> read_initial_damage(const ConfigTable& root, const FractureModel& model) {
   if (!root.has("initial")) return std::nullopt;
-  const ConfigTable table = root.table("initial").with_keys({"cracks", "damage", "regions"});
+  const ConfigTable table = root.table("initial");
   if (model.irreversibility == Irreversibility::history)
     throw table.at(table.has("cracks") ? "cracks" : "damage")
         .error(
             "this requires the irreversibility \"bounds\" or \"crack_set\": the driving energy of an initial damage is "
             "not known");
   InitialDamage initial;
-  for (const ConfigTable& crack : table.tables("cracks"))
-    initial.cracks.push_back(read_crack(crack.with_keys({"points", "front", "centre", "normal", "radius"})));
-  if (table.has("damage") || initial.cracks.empty())
-    initial.damage = read_parameter(table.at("damage"), dimension::number, range::fraction);
+  for (const ConfigTable& crack : table.tables("cracks")) initial.cracks.push_back(read_crack(crack));
+  if (table.has("damage") || initial.cracks.empty()) initial.damage = read_parameter(table.at("damage"));
   if (const auto regions = table.find("regions")) {
     initial.regions = regions->list();
     if (initial.regions.empty()) throw regions->error("the list is empty; name a region, or leave the key out");

@@ -12,39 +12,12 @@
 namespace pfdm {
 namespace {
 
-constexpr Range at_least_one{1.0, std::numeric_limits<double>::infinity(), false, "at least 1"};
-
-std::vector<std::string_view> known_keys() {
-  std::vector<std::string_view> keys{"name",
-                                     "between",
-                                     "plane",
-                                     "where",
-                                     "law",
-                                     "table",
-                                     "table_law",
-                                     "strength",
-                                     "toughness",
-                                     "stiffness",
-                                     "mixed_mode",
-                                     "shear_ratio",
-                                     "shear_strength",
-                                     "shear_toughness",
-                                     "exponent",
-                                     "friction",
-                                     "strength_scatter",
-                                     "toughness_scatter"};
-  for (const TractionSeparationLaw& law : interface_laws())
-    for (std::size_t i = law.has_rise() ? 1 : 0; i < law.shape.size(); ++i) keys.push_back(law.shape[i].name);
-  return keys;
-}
-
 std::optional<Scatter> read_scatter(const ConfigTable& table, std::string_view key) {
   const auto value = table.find(key);
   if (!value) return std::nullopt;
-  const ConfigTable scatter = value->table().with_keys({"coefficient", "correlation_length", "seed"});
-  return Scatter{scatter.number("coefficient", range::positive),
-                 RandomField(static_cast<std::uint64_t>(scatter.integer("seed", range::seed)),
-                             scatter.quantity("correlation_length", dimension::length, range::positive))};
+  const ConfigTable scatter = value->table();
+  return Scatter{scatter.number("coefficient"), RandomField(static_cast<std::uint64_t>(scatter.integer("seed")),
+                                                            scatter.quantity("correlation_length"))};
 }
 
 /// One law of a table such as cohesive_law.csv, from the largest separation so far to a larger one: what was unloaded
@@ -84,35 +57,34 @@ void read_law(const ConfigTable& table, const std::filesystem::path& case_direct
   InterfaceLaw& law = settings.law;
   law.law = &choose(table.at("law"), interface_laws(), "law of an interface");
   if (law.law->name == tabulated_law().name) return read_table(table, case_directory, settings, data_files);
-  settings.strength = read_parameter(table.at("strength"), dimension::stress, range::positive);
-  settings.toughness = read_parameter(table.at("toughness"), dimension::toughness, range::positive);
+  settings.strength = read_parameter(table.at("strength"));
+  settings.toughness = read_parameter(table.at("toughness"));
   for (std::size_t i = law.law->has_rise() ? 1 : 0; i < law.law->shape.size(); ++i) {
     const ShapeParameter& p = law.law->shape[i];
-    const std::string words = fmt::format("between {:g} and {:g}", p.lower, p.upper);
-    law.shape.push_back(table.number(p.name, {p.lower, p.upper, false, words}, p.first));
+    law.shape.push_back(table.number(p.name, p.first));
   }
   const auto stiffness = law.law->has_rise() ? table.find("stiffness") : std::nullopt;
   if (stiffness && !(stiffness->is_string() && stiffness->string() == "rigid"))
-    settings.stiffness = stiffness->quantity(dimension::interface_stiffness, range::positive);
+    settings.stiffness = stiffness->quantity();
 }
 
 void read_modes(const ConfigTable& table, InterfaceSettings& settings) {
   InterfaceLaw& law = settings.law;
   const auto mode = table.find("mixed_mode");
   law.mixed_mode = mode ? &choose(*mode, mixed_modes(), "mixed mode") : &mixed_modes().front();
-  law.friction = table.number("friction", range::not_negative, 0.0);
+  law.friction = table.number("friction", 0.0);
   if (!law.mixed_mode->suits(*law.law))
     throw mode->error(
         law.mixed_mode->is_potential
             ? fmt::format("it is the potential of the law \"xu_needleman\"; the law here is \"{}\"", law.law->name)
             : fmt::format("it needs a law with a straight rise; \"{}\" has none", law.law->name));
   if (!law.mixed_mode->has_shear_strength()) {
-    law.shear_ratio = table.number("shear_ratio", range::positive, 1.0);
+    law.shear_ratio = table.number("shear_ratio", 1.0);
     return;
   }
-  settings.shear_strength = read_parameter(table.at("shear_strength"), dimension::stress, range::positive);
-  settings.shear_toughness = read_parameter(table.at("shear_toughness"), dimension::toughness, range::positive);
-  if (law.depends_on_mode()) law.exponent = table.number("exponent", at_least_one, 1.0);
+  settings.shear_strength = read_parameter(table.at("shear_strength"));
+  settings.shear_toughness = read_parameter(table.at("shear_toughness"));
+  if (law.depends_on_mode()) law.exponent = table.number("exponent", 1.0);
 }
 
 void read_place(const ConfigTable& table, InterfaceSettings& settings) {
@@ -127,7 +99,7 @@ void read_place(const ConfigTable& table, InterfaceSettings& settings) {
       throw between->error("say two different regions; faces within a region are those of a plane");
     settings.between = {regions[0], regions[1]};
   } else {
-    const ConfigTable place = plane->table().with_keys({"point", "normal"});
+    const ConfigTable place = plane->table();
     settings.plane = {read_point(place.at("point")), read_direction(place.at("normal")).normalized()};
   }
   if (!within) return;
@@ -200,10 +172,8 @@ std::span<const TractionSeparationLaw> interface_laws() {
 std::vector<InterfaceSettings> read_interfaces(const ConfigTable& root, const std::filesystem::path& case_directory,
                                                std::vector<std::filesystem::path>& data_files) {
   std::vector<InterfaceSettings> interfaces;
-  const std::vector<std::string_view> keys = known_keys();
   for (const ConfigTable& table : root.tables("interface")) {
-    InterfaceSettings settings =
-        read_interface(table.with_keys(keys), interfaces.size() + 1, case_directory, data_files);
+    InterfaceSettings settings = read_interface(table, interfaces.size() + 1, case_directory, data_files);
     for (const InterfaceSettings& other : interfaces)
       if (other.name == settings.name)
         throw table.error(fmt::format("another interface has the name \"{}\" already", settings.name));

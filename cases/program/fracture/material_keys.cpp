@@ -1,6 +1,9 @@
 #include "cases/program/fracture/material_keys.h"
 
+#include "cases/program/fracture/body_keys.h"
 #include "cases/program/fracture/body_loads.h"
+#include "cases/program/fracture/material_laws.h"
+#include "cases/program/input/endochronic_keys.h"
 #include "cases/program/input/heat_units.h"
 #include "cases/program/input/law_reader.h"
 #include "physics/effective_stiffness.h"
@@ -18,31 +21,106 @@ struct Quantity {
   std::string_view key;
   std::optional<Parameter> MaterialKeys::*value;
   const Dimension& due;
-  const Range& allowed = range::positive;
+  const Range& allowed;
+  std::string_view otherwise, sentence;
 };
 const Quantity quantities[] = {
-    {"young_modulus", &MaterialKeys::young_modulus, dimension::stress},
-    {"poisson_ratio", &MaterialKeys::poisson_ratio, dimension::number, range::poisson_ratio},
-    {"toughness", &MaterialKeys::toughness, dimension::toughness},
-    {"strength", &MaterialKeys::strength, dimension::stress},
-    {"length", &MaterialKeys::length, dimension::length},
-    {"hydrostatic_strength", &MaterialKeys::hydrostatic_strength, dimension::stress},
-    {"compressive_strength", &MaterialKeys::compressive_strength, dimension::stress},
-    {"density", &MaterialKeys::density, dimension::density},
+    {"young_modulus", &MaterialKeys::young_modulus, dimension::stress, range::positive, "or elasticity",
+     "Young's modulus E, the elastic stiffness in uniaxial tension."},
+    {"poisson_ratio", &MaterialKeys::poisson_ratio, dimension::number, range::poisson_ratio, "or elasticity",
+     "Poisson's ratio nu, transverse contraction; above 0.47 (nearly incompressible) cells carry a pressure unknown."},
+    {"toughness", &MaterialKeys::toughness, dimension::toughness, range::positive, "none: required where damageable",
+     "Fracture toughness, critical energy release rate Gc per crack area, also called fracture energy."},
+    {"strength", &MaterialKeys::strength, dimension::stress, range::positive,
+     "none: required by rational and by strength",
+     "Tensile strength ft in uniaxial tension, of cohesive phase fields and of the model of strength."},
+    {"length", &MaterialKeys::length, dimension::length, range::positive, "that of [fracture]",
+     "Phase-field length ell of this material, the width over which a crack is smeared."},
+    {"hydrostatic_strength", &MaterialKeys::hydrostatic_strength, dimension::stress, range::positive,
+     "required by the model strength, or compressive_strength",
+     "Strength in hydrostatic tension, of the model of strength."},
+    {"compressive_strength", &MaterialKeys::compressive_strength, dimension::stress, range::positive,
+     "required by the model strength, or hydrostatic_strength",
+     "Strength in uniaxial compression, of the model of strength."},
+    {"density", &MaterialKeys::density, dimension::density, range::positive, "none",
+     "Mass density, on which gravity acts; damage takes no weight away."},
 };
 constexpr std::size_t n_elastic = 2;  // the first of them
-constexpr std::string_view choices[] = {"damageable", "split",       "degradation", "softening",
-                                        "expansion",  "eigenstrain", "elasticity",  "axes"};
+
+std::vector<Key> rows_of(std::span<const Quantity> some) {
+  std::vector<Key> rows;
+  for (const Quantity& q : some)
+    rows.push_back({q.key,
+                    keys::varying(q.due.name == dimension::number.name ? keys::number(q.allowed)
+                                                                       : keys::quantity(q.due, q.allowed)),
+                    std::string(q.otherwise), q.sentence});
+  return rows;
+}
+
+const KeyTable& axes_keys() {
+  using namespace keys;
+  const KeyType along = list(varying(number()), 3, 3);
+  static const KeyTable table{
+      .name = "axes",
+      .sentence = "The axes of an anisotropic material.",
+      .keys = {{"first", along, "", "Direction of the material's axis 1, three numbers or formulas of the place."},
+               {"second", along, "", "Direction of the material's axis 2, as far as it is normal to the first."}}};
+  return table;
+}
+
+const KeyTable& band_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "band",
+      .sentence = "A thin band between two regions, such as an adhesive layer.",
+      .keys = {
+          {"width", quantity(dimension::length, range::positive), "", "Thickness of the band between the two regions."},
+          {"between", list(text("region"), 2, 2), "", "Names of the two regions that the band lies between."}}};
+  return table;
+}
+
+Key regions_row() {
+  return {"regions", keys::list(keys::text("region")), "", "Names of the mesh's regions that are of this material."};
+}
+
+std::vector<Key> overriding(std::vector<Key> rows) {
+  for (Key& row : rows) row.otherwise = "that of the material";
+  return rows;
+}
+
+std::vector<Key> required(std::vector<Key> rows) {
+  for (Key& row : rows) row.otherwise.clear();
+  return rows;
+}
+
+/// Of materials and of regions.
+std::vector<Key> rows_in_common() {
+  using namespace keys;
+  const KeyType expansion = varying(quantity(dimension::per_temperature)), strain = varying(number());
+  return joined(
+      {rows_of(quantities),
+       {{"damageable", flag(), "true", "Whether damage may grow here; false for bodies that only deform."},
+        {"split", split_type(), "that of [fracture]", "Energy split of this material alone."},
+        {"degradation", degradation_type(), "that of [fracture]", "Degradation function of this material alone."},
+        {"softening", one_of("softening law", softening_laws()), "that of [fracture]",
+         "Softening law of this material alone."},
+        {"expansion", either({expansion.parts[0], expansion.parts[1], list(expansion, 3, 3)}), "0",
+         "Coefficient of thermal expansion, one or three along x, y, z or the material's axes."},
+        {"eigenstrain", list(strain, 3, 6), "0",
+         "Strain that makes no stress (misfit, shrinkage, swelling): three components xx, yy, zz or six."},
+        {"elasticity", either({table(orthotropic_keys), table(cubic_keys), table(general_stiffness_keys)}), "isotropic",
+         "Anisotropic elasticity in place of Young's modulus and Poisson's ratio: orthotropic, cubic or general."},
+        {"axes", table(axes_keys), "x, y, z", "Axes of an anisotropic material, uniform or fields, as of fibres."}}});
+}
 
 /// One value, or three along x, y and z.
 std::array<Parameter, 3> read_expansion(const ConfigValue& value) {
-  const auto read = [](const ConfigValue& one) { return read_parameter(one, dimension::per_temperature, range::any); };
   if (!value.is_list()) {
-    const Parameter all = read(value);
+    const Parameter all = read_parameter(value);
     return {all, all, all};
   }
   const std::vector<ConfigValue> entries = value.list(3);
-  return {read(entries[0]), read(entries[1]), read(entries[2])};
+  return {read_parameter(entries[0]), read_parameter(entries[1]), read_parameter(entries[2])};
 }
 
 // In place of Young's modulus and Poisson's ratio, of which the closest ones stand in estimates.
@@ -65,11 +143,67 @@ void override_by(const std::optional<T>& by, std::optional<T>& value) {
 
 }  // namespace
 
-std::vector<std::string_view> keys_with(std::initializer_list<std::string_view> others) {
-  std::vector<std::string_view> keys(others);
-  for (const Quantity& quantity : quantities) keys.push_back(quantity.key);
-  keys.insert(keys.end(), std::begin(choices), std::end(choices));
-  return keys;
+const KeyTable& region_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "regions.NAME",
+      .sentence = "What a region has otherwise than its material.",
+      .keys = joined({overriding(rows_in_common()),
+                      {{"band", keys::table(band_keys), "none",
+                        "Says that the region is a thin band between two others, with corrected toughness."}}})};
+  return table;
+}
+
+const KeyTable& material_keys() {
+  using namespace keys;
+  constexpr std::string_view j2 = "j2_plasticity", powers = "ogden lopez_pamies",
+                             volumetric = "neo_hookean mooney_rivlin ogden lopez_pamies";
+  static const KeyTable table{
+      .name = "materials.NAME",
+      .sentence = "A material: elasticity, fracture, the law of the undamaged material.",
+      .keys = joined(
+          {{regions_row(),
+            {"law", one_of("law of a material", material_laws()), "linear elastic; endochronic if there is a kernel",
+             "Law of the undamaged material: linear elastic, plastic, or hyperelastic at finite strain."}},
+           rows_in_common(),
+           kernel_keys("none"),
+           endochronic_factor_keys("endochronic"),
+           {{"yield_stress", quantity(dimension::stress, range::positive), "",
+             "Yield stress in uniaxial tension (von Mises).", j2},
+            {"isotropic_hardening", quantity(dimension::stress, range::not_negative), "0",
+             "Slope of the yield stress by the equivalent plastic strain.", j2},
+            {"kinematic_hardening", quantity(dimension::stress, range::not_negative), "0",
+             "Slope of the back stress by the equivalent plastic strain.", j2},
+            {"volumetric", choice("volumetric energy", {"quadratic", "logarithmic"}), "\"quadratic\"",
+             "Energy of the volume change of a hyperelastic material.", volumetric},
+            {"second_invariant", number(range::fraction), "",
+             "Share of the shear modulus that goes with the second invariant I2 (Mooney-Rivlin).", "mooney_rivlin"},
+            {"exponents", list(number()), "", "Exponents alpha of the terms of a hyperelastic material.", powers},
+            {"shares", list(number()), "", "Share of the shear modulus of each term; they sum to 1.", powers}}}),
+      .decided_by = "law",
+      .decided_by_reader = true};
+  return table;
+}
+
+const KeyTable& elastic_material_keys() {
+  static const KeyTable table{
+      .name = "materials.NAME, elastic",
+      .sentence = "A material of a body in which only interfaces break.",
+      .keys = keys::joined({{regions_row()}, required(rows_of(std::span(quantities).first(n_elastic)))})};
+  return table;
+}
+
+const KeyTable& composite_material_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "materials.NAME of a composite",
+      .sentence = "A material of a composite whose effective stiffness is computed.",
+      .keys = joined({elastic_material_keys().keys,
+                      {{"density", quantity(dimension::density, range::positive), "none",
+                        "Mass density; the composite's needs that of every material."},
+                       {"loss_factor", number(range::not_negative), "0",
+                        "Loss factor: dissipated energy of a cycle over 2 pi times the largest stored one."}}})};
+  return table;
 }
 
 bool any_varies(const MaterialKeys& keys) {
@@ -83,8 +217,8 @@ bool any_varies(const MaterialKeys& keys) {
 
 MaterialKeys read_keys(const ConfigTable& table, bool loads_from_start) {
   MaterialKeys keys;
-  for (const auto& [key, member, due, allowed] : quantities)
-    if (const auto value = table.find(key)) keys.*member = read_parameter(*value, due, allowed);
+  for (const Quantity& quantity : quantities)
+    if (const auto value = table.find(quantity.key)) keys.*quantity.value = read_parameter(*value);
   if (const auto value = table.find("damageable")) keys.damageable = value->boolean();
   if (const auto value = table.find("split")) keys.split = read_split(*value);
   if (const auto value = table.find("degradation")) keys.degradation = read_degradation(*value);
@@ -96,16 +230,10 @@ MaterialKeys read_keys(const ConfigTable& table, bool loads_from_start) {
   return keys;
 }
 
-std::vector<std::string_view> elastic_keys_with(const std::vector<std::string_view>& others) {
-  std::vector<std::string_view> keys(others);
-  for (const Quantity& quantity : std::span(quantities).first(n_elastic)) keys.push_back(quantity.key);
-  return keys;
-}
-
 MaterialKeys read_elastic_keys(const ConfigTable& table) {
   MaterialKeys keys;
-  for (const auto& [key, member, due, allowed] : std::span(quantities).first(n_elastic))
-    keys.*member = read_parameter(table.at(key), due, allowed);
+  for (const Quantity& quantity : std::span(quantities).first(n_elastic))
+    keys.*quantity.value = read_parameter(table.at(quantity.key));
   keys.damageable = false;
   return keys;
 }

@@ -7,7 +7,6 @@
 #include "solver/fracture/fracture_model.h"
 
 #include <array>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,12 +28,9 @@ struct MaterialKeys {
   std::shared_ptr<const Material> material{};
 };
 
-/// The keys in common, and others.
-std::vector<std::string_view> keys_with(std::initializer_list<std::string_view> others);
 /// All but the material. With `loads_from_start` a plain eigenstrain does not grow with the load.
 MaterialKeys read_keys(const ConfigTable& table, bool loads_from_start);
-/// Those of the elasticity, and others; the material cannot be damaged.
-std::vector<std::string_view> elastic_keys_with(const std::vector<std::string_view>& others);
+/// Those of the elasticity; the material cannot be damaged.
 MaterialKeys read_elastic_keys(const ConfigTable& table);
 /// `base`, where `by` says nothing else.
 MaterialKeys overridden(MaterialKeys base, const MaterialKeys& by);

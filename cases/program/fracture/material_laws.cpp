@@ -9,48 +9,36 @@ namespace pfdm {
 namespace {
 
 IsotropicElasticity read_elasticity(const ConfigTable& material) {
-  return from_young_poisson(material.quantity("young_modulus", dimension::stress, range::positive),
-                            material.number("poisson_ratio", range::poisson_ratio));
+  return from_young_poisson(material.quantity("young_modulus"), material.number("poisson_ratio"));
 }
 
 constexpr MaterialLaw linear_elastic{
     .name = "linear_elastic",
     .description = "isotropic, small strain",
-    .keys = {},
     .read = [](const ConfigTable&) { return std::shared_ptr<const Material>(); },
 };
 
-constexpr std::string_view endochronic_keys[] = {"hardening", "rate", "beta"};
 constexpr MaterialLaw endochronic{
     .name = "endochronic",
     .description = "plasticity without a yield surface (Valanis 1971); kernel, hardening, rate, beta",
-    .keys = endochronic_keys,
     .read = [](const ConfigTable& material) { return make_endochronic_material(read_endochronic_law(material)); },
 };
 
-constexpr std::string_view j2_keys[] = {"yield_stress", "isotropic_hardening", "kinematic_hardening"};
 constexpr MaterialLaw j2_plasticity{
     .name = "j2_plasticity",
     .description = "von Mises plasticity with linear isotropic and kinematic hardening",
-    .keys = j2_keys,
     .read =
         [](const ConfigTable& material) {
-          const auto stress = [&](std::string_view key, double otherwise) {
-            return material.quantity(key, dimension::stress, range::not_negative, otherwise);
-          };
-          return make_j2_plasticity(
-              read_elasticity(material),
-              {.yield_stress = material.quantity("yield_stress", dimension::stress, range::positive),
-               .isotropic_hardening = stress("isotropic_hardening", 0.0),
-               .kinematic_hardening = stress("kinematic_hardening", 0.0)});
+          return make_j2_plasticity(read_elasticity(material),
+                                    {.yield_stress = material.quantity("yield_stress"),
+                                     .isotropic_hardening = material.quantity("isotropic_hardening", 0.0),
+                                     .kinematic_hardening = material.quantity("kinematic_hardening", 0.0)});
         },
 };
 
 HyperelasticParameters read_volumetric(const ConfigTable& material) {
   HyperelasticParameters p{.elasticity = read_elasticity(material)};
-  const std::string forms[] = {"quadratic", "logarithmic"};
-  const auto form = material.find("volumetric");
-  if (form && form->one_of(forms, "volumetric energy") == "logarithmic") p.volumetric = VolumetricForm::logarithmic;
+  if (material.choice("volumetric", "quadratic") == "logarithmic") p.volumetric = VolumetricForm::logarithmic;
   return p;
 }
 
@@ -66,25 +54,19 @@ std::shared_ptr<const Material> make(const ConfigTable& material, std::string_vi
   return material.at("law").in_context([&] { return make_hyperelastic(law, p); });
 }
 
-constexpr std::string_view volumetric_keys[] = {"volumetric"};
-constexpr std::string_view mooney_rivlin_keys[] = {"volumetric", "second_invariant"};
-constexpr std::string_view power_keys[] = {"volumetric", "exponents", "shares"};
-
 constexpr MaterialLaw neo_hookean{
     .name = "neo_hookean",
     .description = "finite strain: mu/2 (I1 - 3) - mu ln J + U(J); volumetric",
-    .keys = volumetric_keys,
     .read = [](const ConfigTable& m) { return make(m, "neo_hookean", read_volumetric(m)); },
 };
 
 constexpr MaterialLaw mooney_rivlin{
     .name = "mooney_rivlin",
     .description = "finite strain: terms in I1 and I2; second_invariant, volumetric",
-    .keys = mooney_rivlin_keys,
     .read =
         [](const ConfigTable& m) {
           HyperelasticParameters p = read_volumetric(m);
-          p.second_invariant = m.number("second_invariant", range::fraction);
+          p.second_invariant = m.number("second_invariant");
           return make(m, "mooney_rivlin", p);
         },
 };
@@ -92,21 +74,18 @@ constexpr MaterialLaw mooney_rivlin{
 constexpr MaterialLaw ogden{
     .name = "ogden",
     .description = "finite strain: powers of the principal stretches (Ogden 1972); exponents, shares, volumetric",
-    .keys = power_keys,
     .read = [](const ConfigTable& m) { return make(m, "ogden", read_powers(m)); },
 };
 
 constexpr MaterialLaw lopez_pamies{
     .name = "lopez_pamies",
     .description = "finite strain: powers of I1 (Lopez-Pamies 2010); exponents, shares, volumetric",
-    .keys = power_keys,
     .read = [](const ConfigTable& m) { return make(m, "lopez_pamies", read_powers(m)); },
 };
 
 constexpr MaterialLaw saint_venant_kirchhoff{
     .name = "saint_venant_kirchhoff",
     .description = "large rotations of small strains: linear in Green's strain",
-    .keys = {},
     .read = [](const ConfigTable& m) { return make(m, "saint_venant_kirchhoff", {.elasticity = read_elasticity(m)}); },
 };
 

@@ -12,8 +12,6 @@ namespace pfdm {
 struct MaterialLaw {
   std::string_view name;
   std::string_view description;
-  std::span<const std::string_view>
-      keys;  ///< of [materials.NAME], besides those that every material has, and the kernel
   /// Null: linear elastic. Reads young_modulus and poisson_ratio too, which must not vary. Throws InputError.
   std::shared_ptr<const Material> (*read)(const ConfigTable& material);
 };

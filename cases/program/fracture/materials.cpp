@@ -1,5 +1,6 @@
 #include "cases/program/fracture/materials.h"
 
+#include "cases/program/fracture/body_keys.h"
 #include "cases/program/fracture/material_keys.h"
 #include "cases/program/fracture/material_laws.h"
 #include "cases/program/input/path_reader.h"
@@ -128,18 +129,17 @@ struct RegionOverride {
 
 std::optional<Band> read_band(const std::string& region, const ConfigTable& table) {
   if (!table.has("band")) return std::nullopt;
-  const ConfigTable band = table.table("band").with_keys({"width", "between"});
+  const ConfigTable band = table.table("band");
   const std::vector<ConfigValue> between = band.at("between").list(2);
   table.in_context([&] { return require_plain_name(region, "a folder"), true; });
-  return Band{
-      region, band.quantity("width", dimension::length, range::positive), {between[0].string(), between[1].string()}};
+  return Band{region, band.quantity("width"), {between[0].string(), between[1].string()}};
 }
 
 std::vector<RegionOverride> read_overrides(const ConfigTable& root, bool loads_from_start) {
   std::vector<RegionOverride> overrides;
   if (!root.has("regions")) return overrides;
   for (const auto& [name, value] : root.table("regions").entries()) {
-    const ConfigTable table = value.table().with_keys(keys_with({"band"}));
+    const ConfigTable table = value.table();
     overrides.push_back({name, value, read_keys(table, loads_from_start), read_band(name, table)});
   }
   return overrides;
@@ -183,15 +183,9 @@ RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& nam
 }
 
 MaterialKeys read_own_keys(const ConfigTable& given, const MaterialDefaults& defaults) {
-  if (defaults.elastic_with) {
-    std::vector<std::string_view> allowed = elastic_keys_with(*defaults.elastic_with);
-    allowed.emplace_back("regions");
-    return read_elastic_keys(given.with_keys(allowed));
-  }
+  if (defaults.elastic_keys != nullptr) return read_elastic_keys(given.with_keys(defaults.elastic_keys()));
   const MaterialLaw& law = law_of_material(given);
-  std::vector<std::string_view> allowed = keys_with({"regions", "law", "kernel"});
-  allowed.insert(allowed.end(), law.keys.begin(), law.keys.end());
-  const ConfigTable table = given.with_keys(allowed);
+  const ConfigTable table = given.with_keys(material_keys(), law.name);
   if (!table.has("elasticity")) table.at("young_modulus"), table.at("poisson_ratio");
   MaterialKeys keys = read_keys(table, defaults.loads_from_start);
   if (keys.stiffness && (table.has("law") || table.has("kernel")))
@@ -294,7 +288,7 @@ const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const 
 Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults) {
   Materials materials;
   std::vector<RegionOverride> overrides;
-  if (!defaults.elastic_with) overrides = read_overrides(root, defaults.loads_from_start);
+  if (defaults.elastic_keys == nullptr) overrides = read_overrides(root, defaults.loads_from_start);
   std::vector<RegionKeys> regions;
   for (const auto& [name, value] : root.table("materials").entries())
     read_material(materials, name, value.table(), defaults, overrides, regions);

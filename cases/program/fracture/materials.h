@@ -57,9 +57,9 @@ struct MaterialDefaults {
   const SofteningLaw* softening = nullptr;  ///< likewise; for degradations that need a strength
   StrengthChoice strength{};
   bool loads_from_start = false;  ///< plain eigenstrains do not grow with the load
-  /// Of cases without damage, laws of materials and overrides by region: materials have their elasticity, and these
-  /// keys, which the caller reads.
-  std::optional<std::vector<std::string_view>> elastic_with{};
+  /// Rows of keys of cases without damage, laws of materials and overrides by region: materials have their elasticity,
+  /// and keys that the caller reads. Null: of all others.
+  const KeyTable& (*elastic_keys)() = nullptr;
 };
 
 /// Reads [materials.*] and, on top of them, [regions.*]. `root` is the whole case file.

@@ -23,22 +23,18 @@
 namespace pfdm {
 namespace {
 
-constexpr Range azimuth_range{std::numeric_limits<double>::min(), 0.25 * std::numbers::pi + 1e-9, false,
-                              "more than 0 and at most 45 degrees"};
-constexpr std::string_view box_keys[] = {"name", "lower", "upper"};
 const std::vector<std::string> box_sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 
-AxisBlock read_block(const ConfigTable& block, std::string_view key, const Dimension& due) {
-  return {.length = block.quantity(key, due, range::positive),
-          .n = static_cast<Index>(block.integer("cells", range::count)),
-          .ratio = block.number("ratio", range::positive, 1.0)};
+AxisBlock read_block(const ConfigTable& block, std::string_view key) {
+  return {.length = block.quantity(key),
+          .n = static_cast<Index>(block.integer("cells")),
+          .ratio = block.number("ratio", 1.0)};
 }
 
 /// [{ length = ..., cells = ..., ratio = ... }, ...], or with another key for the extent.
-std::vector<AxisBlock> read_axis(const ConfigValue& blocks, std::string_view key, const Dimension& due) {
+std::vector<AxisBlock> read_axis(const ConfigValue& blocks, std::string_view key) {
   std::vector<AxisBlock> axis;
-  for (const ConfigValue& entry : blocks.list())
-    axis.push_back(read_block(entry.table().with_keys({key, "cells", "ratio"}), key, due));
+  for (const ConfigValue& entry : blocks.list()) axis.push_back(read_block(entry.table(), key));
   if (axis.empty())
     throw blocks.error(fmt::format("the list is empty; it needs at least one {{ {} = ..., cells = ... }}", key));
   return axis;
@@ -67,20 +63,17 @@ void add_patch(const ConfigTable& table, std::vector<std::string>& patches) {
 
 template <class NamedBox>
 NamedBox read_patch_box(const ConfigTable& table, std::vector<std::string>& patches) {
-  NamedBox box = read_box<NamedBox>(table.with_keys(box_keys));
+  NamedBox box = read_box<NamedBox>(table);
   add_patch(table, patches);
   return box;
 }
 
 MeshRecipe read_box_hexes(const ConfigTable& table, const MeshSurroundings&) {
-  table.with_keys({"cells", "x", "y", "z", "origin", "region", "regions", "slits", "holes", "patches"});
   BoxHexesSettings settings;
   if (const auto origin = table.find("origin")) settings.origin = read_point(*origin);
-  for (std::size_t a = 0; a < 3; ++a)
-    settings.axes[a] = read_axis(table.at(std::string(1, "xyz"[a])), "length", dimension::length);
+  for (std::size_t a = 0; a < 3; ++a) settings.axes[a] = read_axis(table.at(std::string(1, "xyz"[a])), "length");
   settings.base_region = table.string("region", settings.base_region);
-  for (const ConfigTable& region : table.tables("regions"))
-    settings.regions.push_back(read_box<SubRegion>(region.with_keys(box_keys)));
+  for (const ConfigTable& region : table.tables("regions")) settings.regions.push_back(read_box<SubRegion>(region));
   std::vector<std::string> patches = box_sides;
   for (const ConfigTable& slit : table.tables("slits")) settings.slits.push_back(read_patch_box<Slit>(slit, patches));
   for (const ConfigTable& hole : table.tables("holes"))
@@ -96,8 +89,8 @@ MeshRecipe read_box_hexes(const ConfigTable& table, const MeshSurroundings&) {
 std::vector<Shell> read_shells(const ConfigValue& list) {
   std::vector<Shell> shells;
   for (const ConfigValue& entry : list.list()) {
-    const ConfigTable shell = entry.table().with_keys({"length", "cells", "ratio", "region"});
-    shells.push_back({read_block(shell, "length", dimension::length), shell.string("region")});
+    const ConfigTable shell = entry.table();
+    shells.push_back({read_block(shell, "length"), shell.string("region")});
   }
   if (shells.empty())
     throw list.error("the list is empty; it needs at least one { length = ..., cells = ..., region = ... }");
@@ -105,12 +98,10 @@ std::vector<Shell> read_shells(const ConfigValue& list) {
 }
 
 MeshRecipe read_sphere_sector(const ConfigTable& table, const MeshSurroundings&) {
-  table.with_keys({"cells", "azimuth", "inner_radius", "shells", "polar"});
-  const SphereSectorSettings settings{
-      .azimuth = table.quantity("azimuth", dimension::angle, azimuth_range),
-      .inner_radius = table.quantity("inner_radius", dimension::length, range::not_negative, 0.0),
-      .shells = read_shells(table.at("shells")),
-      .polar = read_axis(table.at("polar"), "angle", dimension::angle)};
+  const SphereSectorSettings settings{.azimuth = table.quantity("azimuth"),
+                                      .inner_radius = table.quantity("inner_radius", 0.0),
+                                      .shells = read_shells(table.at("shells")),
+                                      .polar = read_axis(table.at("polar"), "angle")};
   std::vector<std::string> regions;
   for (const Shell& shell : settings.shells) regions.push_back(shell.region);
   std::vector<std::string> patches{"front", "back", "outer"};
@@ -126,7 +117,7 @@ MeshRecipe read_sphere_sector(const ConfigTable& table, const MeshSurroundings&)
 // Two lengths in ascending order; equal ones are those of a line.
 std::array<double, 2> read_extent(const ConfigValue& value) {
   const std::vector<ConfigValue> ends = value.list(2);
-  const std::array<double, 2> extent{ends[0].quantity(dimension::length), ends[1].quantity(dimension::length)};
+  const std::array<double, 2> extent{ends[0].quantity(), ends[1].quantity()};
   if (extent[0] > extent[1]) throw value.error("the first length must not be larger than the second one");
   return extent;
 }
@@ -134,8 +125,7 @@ std::array<double, 2> read_extent(const ConfigValue& value) {
 std::vector<SectorPart> read_parts(const ConfigTable& table, std::string_view key,
                                    std::vector<std::string>* patches = nullptr) {
   std::vector<SectorPart> parts;
-  for (const ConfigTable& entry : table.tables(key)) {
-    const ConfigTable part = entry.with_keys({"name", "radius", "height"});
+  for (const ConfigTable& part : table.tables(key)) {
     const auto radius = read_extent(part.at("radius")), height = read_extent(part.at("height"));
     parts.push_back({part.string("name"), radius[0], radius[1], height[0], height[1]});
     if (patches) add_patch(part, *patches);
@@ -144,15 +134,13 @@ std::vector<SectorPart> read_parts(const ConfigTable& table, std::string_view ke
 }
 
 MeshRecipe read_cylinder_sector(const ConfigTable& table, const MeshSurroundings&) {
-  table.with_keys({"cells", "azimuth", "inner_radius", "radius", "bottom", "height", "upper_sphere", "region",
-                   "regions", "slits", "holes", "patches"});
   CylinderSectorSettings settings;
-  settings.azimuth = table.quantity("azimuth", dimension::angle, azimuth_range);
-  settings.inner_radius = table.quantity("inner_radius", dimension::length, range::not_negative, 0.0);
-  settings.bottom = table.quantity("bottom", dimension::length, range::any, 0.0);
-  settings.radius = read_axis(table.at("radius"), "length", dimension::length);
-  settings.height = read_axis(table.at("height"), "length", dimension::length);
-  settings.upper_sphere = table.quantity("upper_sphere", dimension::length, range::positive, 0.0);
+  settings.azimuth = table.quantity("azimuth");
+  settings.inner_radius = table.quantity("inner_radius", 0.0);
+  settings.bottom = table.quantity("bottom", 0.0);
+  settings.radius = read_axis(table.at("radius"), "length");
+  settings.height = read_axis(table.at("height"), "length");
+  settings.upper_sphere = table.quantity("upper_sphere", 0.0);
   settings.base_region = table.string("region", settings.base_region);
   std::vector<std::string> patches{"front", "back", "outer", "bottom", "top"};
   if (settings.inner_radius > 0.0) patches.emplace_back("inner");
@@ -180,16 +168,14 @@ std::map<Index, std::string> read_numbered_names(const ConfigTable& table, std::
 
 // Of faces in a plane, or between two corners.
 PatchRule read_patch(const ConfigTable& patch, double scale) {
-  patch.with_keys({"name", "axis", "at", "tolerance", "lower", "upper"});
   // A ten-thousandth of the file's unit: more than the rounding of coordinates in single precision.
-  const double tolerance = patch.quantity("tolerance", dimension::length, range::positive, 1e-4 * scale);
+  const double tolerance = patch.quantity("tolerance", 1e-4 * scale);
   if (patch.has("lower") || patch.has("upper")) {
     const auto box = read_box<SurfacePart>(patch);
     return patch_within(box.name, box.lower, box.upper, tolerance);
   }
-  const std::vector<std::string> axes{"x", "y", "z"};
-  const int axis = patch.at("axis").one_of(axes, "axis")[0] - 'x';
-  return plane_patch(patch.string("name"), axis, patch.quantity("at", dimension::length), tolerance);
+  const int axis = patch.choice("axis")[0] - 'x';
+  return plane_patch(patch.string("name"), axis, patch.quantity("at"), tolerance);
 }
 
 ImportSettings read_import(const ConfigTable& table, const std::filesystem::path& case_directory) {
@@ -199,8 +185,8 @@ ImportSettings read_import(const ConfigTable& table, const std::filesystem::path
   settings.scale = unit.in_context([&] { return unit_in_si(unit.string(), dimension::length); });
   settings.region_names = read_numbered_names(table, "region_names");
   settings.face_sets = read_numbered_names(table, "face_sets");
-  settings.merge_tolerance = table.quantity("merge_tolerance", dimension::length, range::not_negative, 0.0);
-  settings.thickness = table.quantity("thickness", dimension::length, range::positive, 0.0);
+  settings.merge_tolerance = table.quantity("merge_tolerance", 0.0);
+  settings.thickness = table.quantity("thickness", 0.0);
   for (const ConfigTable& patch : table.tables("patches"))
     settings.patches.push_back(read_patch(patch, settings.scale));
   return settings;
@@ -215,8 +201,6 @@ MeshRecipe imported(const ImportSettings& settings, Mesh (*import)(const ImportS
 }
 
 MeshRecipe read_vtk(const ConfigTable& table, const MeshSurroundings& around) {
-  table.with_keys({"cells", "file", "length_unit", "region_array", "region_names", "face_array", "face_sets",
-                   "merge_tolerance", "thickness", "patches"});
   ImportSettings settings = read_import(table, around.case_directory);
   settings.region_array = table.string("region_array", "");
   settings.face_array = table.string("face_array", "");
@@ -224,8 +208,6 @@ MeshRecipe read_vtk(const ConfigTable& table, const MeshSurroundings& around) {
 }
 
 MeshRecipe read_gmsh(const ConfigTable& table, const MeshSurroundings& around) {
-  table.with_keys(
-      {"cells", "file", "length_unit", "region_names", "face_sets", "merge_tolerance", "thickness", "patches"});
   return imported(read_import(table, around.case_directory), import_gmsh);
 }
 

@@ -1,5 +1,7 @@
 #include "cases/program/fracture/particles_recipe.h"
 
+#include "cases/program/fracture/mesh_keys.h"
+
 #include "cases/program/fracture/shape_recipe.h"
 #include "cases/program/input/amount.h"
 #include "cases/program/input/path_reader.h"
@@ -17,13 +19,6 @@
 namespace pfdm {
 namespace {
 
-constexpr Range radius_edge_range{1.0, 1e3, false, "between 1 and 1000"};
-constexpr Range one_or_more{1.0, std::numeric_limits<double>::infinity(), false, "at least 1"};
-constexpr Range dihedral_range{0.0, 30.0, false, "between 0 and 30 degrees"};
-constexpr Range sphere_count{1.0, 5000.0, false, "between 1 and 5000"};
-constexpr Range packable{0.0, 0.6, true, "between 0 and 0.6"};
-constexpr Range up_to_one{1e-3, 1.0, false, "between 0.001 and 1"};
-
 struct Layers {
   Index count = 0;
   double thickness = 0.0;  // of each [m]
@@ -31,16 +26,15 @@ struct Layers {
 };
 
 Layers read_layers(const ConfigTable& table) {
-  table.with_keys({"count", "thickness", "region"});
-  return {.count = static_cast<Index>(table.integer("count", range::count)),
-          .thickness = table.quantity("thickness", dimension::length, range::positive),
+  return {.count = static_cast<Index>(table.integer("count")),
+          .thickness = table.quantity("thickness"),
           .region = table.has("region") ? read_plain_name(table.at("region"), "a folder") : "interface"};
 }
 
 /// "20 um", or { ell = 1.0 } in multiples of the length ell.
 double read_size(const ConfigValue& value, std::optional<double> ell) {
-  if (!value.is_table()) return value.quantity(dimension::length, range::positive);
-  const double multiple = value.table().with_keys({"ell"}).number("ell", range::positive);
+  if (!value.is_table()) return value.quantity();
+  const double multiple = value.table().with_keys(size_keys()).number("ell");
   if (!ell) throw value.error("multiples of ell require a length in [fracture], as in length = \"20 um\"");
   return multiple * *ell;
 }
@@ -58,7 +52,7 @@ void read_surface_size(const ConfigTable& table, const MeshSurroundings& around,
                        std::optional<double>& ell) {
   if (table.has("subdivisions") == table.has("surface_size"))
     throw table.error("give either subdivisions, as in 8, or surface_size, as in \"20 um\" or { ell = 1.0 }");
-  particle.subdivision = static_cast<Index>(table.integer("subdivisions", range::count, 0));
+  particle.subdivision = static_cast<Index>(table.integer("subdivisions", std::int64_t{0}));
   read_edge_length(table, around, particle, ell);
 }
 
@@ -69,11 +63,11 @@ void set_layers(const Layers& layers, Particle& particle) {
 }
 
 Particle read_sphere(const ConfigTable& table, const MeshSurroundings& around, std::optional<double>& ell) {
-  table.with_keys({"centre", "diameter", "region", "surface", "subdivisions", "surface_size", "angle", "layers"});
+  table.with_keys(particle_keys(), "sphere");
   Particle particle;
-  particle.radius = 0.5 * table.quantity("diameter", dimension::length, range::positive);
+  particle.radius = 0.5 * table.quantity("diameter");
   read_surface_size(table, around, particle, ell);
-  particle.angle = table.quantity("angle", dimension::angle, range::any, particle.angle);
+  particle.angle = table.quantity("angle", particle.angle);
   return particle;
 }
 
@@ -113,25 +107,6 @@ std::vector<Band> bands_of(const ParticlesInBoxSettings& settings) {
   return bands;
 }
 
-/// Keys of every box of tetrahedra, besides the generator that was asked for.
-constexpr std::string_view box_of_tetrahedra[] = {"cells",
-                                                  "size",
-                                                  "centre",
-                                                  "region",
-                                                  "size_far",
-                                                  "boundary_size",
-                                                  "grading",
-                                                  "particle_size_factor",
-                                                  "max_radius_edge_ratio",
-                                                  "min_dihedral_angle",
-                                                  "layers"};
-
-ConfigTable with_keys_of_box(const ConfigTable& table, std::initializer_list<std::string_view> others) {
-  std::vector<std::string_view> keys(std::begin(box_of_tetrahedra), std::end(box_of_tetrahedra));
-  keys.insert(keys.end(), others.begin(), others.end());
-  return table.with_keys(keys);
-}
-
 ParticlesInBoxSettings read_box_of_tetrahedra(const ConfigTable& table) {
   ParticlesInBoxSettings settings;
   const Vector size = read_point(table.at("size"), range::positive);
@@ -140,13 +115,12 @@ ParticlesInBoxSettings read_box_of_tetrahedra(const ConfigTable& table) {
   settings.lower = centre - 0.5 * size;
   settings.upper = centre + 0.5 * size;
   settings.matrix_region = table.string("region", settings.matrix_region);
-  settings.size_far = table.quantity("size_far", dimension::length, range::positive, settings.size_far);
-  settings.boundary_size = table.quantity("boundary_size", dimension::length, range::positive, settings.boundary_size);
-  settings.grading = table.number("grading", range::not_negative, settings.grading);
-  settings.particle_size_factor = table.number("particle_size_factor", one_or_more, settings.particle_size_factor);
-  settings.max_radius_edge_ratio =
-      table.number("max_radius_edge_ratio", radius_edge_range, settings.max_radius_edge_ratio);
-  settings.min_dihedral_angle = table.number("min_dihedral_angle", dihedral_range, settings.min_dihedral_angle);
+  settings.size_far = table.quantity("size_far", settings.size_far);
+  settings.boundary_size = table.quantity("boundary_size", settings.boundary_size);
+  settings.grading = table.number("grading", settings.grading);
+  settings.particle_size_factor = table.number("particle_size_factor", settings.particle_size_factor);
+  settings.max_radius_edge_ratio = table.number("max_radius_edge_ratio", settings.max_radius_edge_ratio);
+  settings.min_dihedral_angle = table.number("min_dihedral_angle", settings.min_dihedral_angle);
   return settings;
 }
 
@@ -164,32 +138,25 @@ DiameterDistribution read_distribution(const ConfigValue& value) {
   DiameterDistribution distribution;
   if (value.is_list()) {
     distribution.kind = Kind::list;
-    for (const ConfigValue& entry : value.list())
-      distribution.values.push_back(entry.quantity(dimension::length, range::positive));
+    for (const ConfigValue& entry : value.list()) distribution.values.push_back(entry.quantity());
     if (distribution.values.empty()) throw value.error("the list of diameters is empty");
     return distribution;
   }
   if (!value.is_table()) {
-    distribution.mean = value.quantity(dimension::length, range::positive);
+    distribution.mean = value.quantity();
     return distribution;
   }
-  const std::vector<std::string> names{"uniform", "lognormal"};
-  const ConfigTable table = value.table();
-  const bool uniform = table.at("distribution").one_of(names, "distribution of diameters") == "uniform";
-  table.with_keys(
-      uniform ? std::initializer_list<std::string_view>{"distribution", "least", "most"}
-              : std::initializer_list<std::string_view>{"distribution", "mean", "coefficient", "least", "most"});
+  const ConfigTable table = value.table().with_keys(diameter_keys());
+  const bool uniform = table.choice("distribution") == "uniform";
   distribution.kind = uniform ? Kind::uniform : Kind::lognormal;
   if (!uniform) {
-    distribution.mean = table.quantity("mean", dimension::length, range::positive);
-    distribution.coefficient = table.number("coefficient", range::not_negative);
+    distribution.mean = table.quantity("mean");
+    distribution.coefficient = table.number("coefficient");
   }
   const bool bounded = uniform || table.has("least") || table.has("most");
   if (!bounded) return distribution;
-  distribution.least = uniform ? table.quantity("least", dimension::length, range::positive)
-                               : table.quantity("least", dimension::length, range::positive, 0.0);
-  distribution.most = uniform ? table.quantity("most", dimension::length, range::positive)
-                              : table.quantity("most", dimension::length, range::positive, 0.0);
+  distribution.least = uniform ? table.quantity("least") : table.quantity("least", 0.0);
+  distribution.most = uniform ? table.quantity("most") : table.quantity("most", 0.0);
   if (distribution.most > 0.0 && distribution.most < distribution.least)
     throw table.error("the largest diameter (most) is smaller than the smallest (least)");
   return distribution;
@@ -199,9 +166,8 @@ void read_placed_spheres(const ConfigTable& table, PackedSpheresSettings& settin
   for (const std::string_view key : {"diameter", "count", "volume_fraction"})
     if (table.has(key)) throw table.at(key).error("it cannot be combined with [[mesh.spheres]], which says all");
   for (const ConfigTable& sphere : table.tables("spheres")) {
-    sphere.with_keys({"centre", "diameter"});
     settings.centres.push_back(read_point(sphere.at("centre")));
-    settings.diameters.push_back(sphere.quantity("diameter", dimension::length, range::positive));
+    settings.diameters.push_back(sphere.quantity("diameter"));
   }
 }
 
@@ -211,8 +177,8 @@ void read_drawn_spheres(const ConfigTable& table, PackedSpheresSettings& setting
     throw table.error(
         "say which spheres: two of diameter, count and volume_fraction, or all three (the diameters are then only "
         "ratios), or [[mesh.spheres]]");
-  const auto count = static_cast<Index>(table.integer("count", sphere_count, 0));
-  const double fraction = table.number("volume_fraction", packable, 0.0);
+  const auto count = static_cast<Index>(table.integer("count", std::int64_t{0}));
+  const double fraction = table.number("volume_fraction", 0.0);
   const double volume = fraction * (settings.box.upper - settings.box.lower).prod();
   const bool ratios = counted && filled;
   DiameterDistribution distribution{.mean = 1.0};
@@ -240,8 +206,7 @@ Mesh with_shapes(ParticlesInBoxSettings settings, const std::vector<std::optiona
 
 }  // namespace
 
-MeshRecipe read_particles_in_box(const ConfigTable& given, const MeshSurroundings& around) {
-  const ConfigTable table = with_keys_of_box(given, {"particles"});
+MeshRecipe read_particles_in_box(const ConfigTable& table, const MeshSurroundings& around) {
   ParticlesInBoxSettings settings = read_box_of_tetrahedra(table);
   const Layers layers = table.has("layers") ? read_layers(table.table("layers")) : Layers{};
   std::optional<double> ell;
@@ -255,13 +220,10 @@ MeshRecipe read_particles_in_box(const ConfigTable& given, const MeshSurrounding
   return recipe;
 }
 
-MeshRecipe read_packed_spheres(const ConfigTable& given, const MeshSurroundings& around) {
-  const ConfigTable table = with_keys_of_box(
-      given, {"spheres", "diameter", "count", "volume_fraction", "gap", "wall_gap", "seed", "sphere_region", "numbered",
-              "subdivisions", "surface_size", "edges_over_gap", "smallest_surface_size", "shapes"});
+MeshRecipe read_packed_spheres(const ConfigTable& table, const MeshSurroundings& around) {
   PackedSpheresSettings settings;
   settings.box = read_box_of_tetrahedra(table);
-  settings.seed = static_cast<std::uint64_t>(table.integer("seed", range::seed, 1));
+  settings.seed = static_cast<std::uint64_t>(table.integer("seed", std::int64_t{1}));
   settings.like.region = table.string("sphere_region", "particle");
   settings.numbered = table.boolean("numbered", false);
   std::optional<double> ell;
@@ -269,10 +231,10 @@ MeshRecipe read_packed_spheres(const ConfigTable& given, const MeshSurroundings&
   if (table.has("shapes")) read_packed_shapes(table, around.case_directory, settings, files);
   read_surface_size(table, around, settings.like, ell);
   if (table.has("layers")) set_layers(read_layers(table.table("layers")), settings.like);
-  settings.gap = table.quantity("gap", dimension::length, range::positive);
-  settings.wall_gap = table.quantity("wall_gap", dimension::length, range::positive, settings.gap);
-  settings.edges_over_gap = table.number("edges_over_gap", range::not_negative, settings.edges_over_gap);
-  settings.smallest_surface_size = table.number("smallest_surface_size", up_to_one, settings.smallest_surface_size);
+  settings.gap = table.quantity("gap");
+  settings.wall_gap = table.quantity("wall_gap", settings.gap);
+  settings.edges_over_gap = table.number("edges_over_gap", settings.edges_over_gap);
+  settings.smallest_surface_size = table.number("smallest_surface_size", settings.smallest_surface_size);
   if (table.has("spheres"))
     read_placed_spheres(table, settings);
   else

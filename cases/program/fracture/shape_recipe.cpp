@@ -1,5 +1,6 @@
 #include "cases/program/fracture/shape_recipe.h"
 
+#include "cases/program/fracture/mesh_keys.h"
 #include "cases/program/input/amount.h"
 #include "cases/program/input/path_reader.h"
 #include "cases/program/input/units.h"
@@ -18,10 +19,8 @@
 namespace pfdm {
 namespace {
 
-constexpr Range sharp_range{0.0, std::numbers::pi, true, "more than 0 and less than 180 degrees"};
-
 Tensor read_rotation(const ConfigTable& table) {
-  const double angle = table.quantity("angle", dimension::angle, range::any, 0.0);
+  const double angle = table.quantity("angle", 0.0);
   const auto axis = table.find("axis");
   const Vector direction = axis ? read_direction(*axis).normalized() : Vector::UnitZ().eval();
   return Eigen::AngleAxisd(angle, direction).toRotationMatrix();
@@ -35,12 +34,11 @@ double read_scale(const ConfigTable& table, const TriangleSurface& surface) {
         "of the sphere of the same volume");
   if (table.has("length_unit")) {
     const ConfigValue unit = table.at("length_unit");
-    return unit.in_context([&] { return unit_in_si(unit.string(), dimension::length); }) *
-           table.number("scale", range::positive, 1.0);
+    return unit.in_context([&] { return unit_in_si(unit.string(), dimension::length); }) * table.number("scale", 1.0);
   }
   if (table.has("scale"))
     throw table.at("scale").error("it cannot be combined with diameter, which says how large the particle is");
-  const double diameter = table.quantity("diameter", dimension::length, range::positive);
+  const double diameter = table.quantity("diameter");
   return diameter / std::cbrt(6.0 / std::numbers::pi * enclosed_volume(surface));
 }
 
@@ -57,22 +55,20 @@ TriangleSurface read_surface(const ConfigValue& value, const std::filesystem::pa
 }  // namespace
 
 ShapeRecipe read_shape(const ConfigTable& table, const std::filesystem::path& case_directory) {
-  table.with_keys({"surface", "length_unit", "scale", "diameter", "axis", "angle", "sharp_angle", "surface_size",
-                   "centre", "region", "layers"});
+  table.with_keys(particle_keys(), "file");
   ShapeRecipe recipe{.file = read_data_file(table.at("surface"), case_directory)};
   recipe.surface = read_surface(table.at("surface"), recipe.file);
   recipe.scale = read_scale(table, recipe.surface);
   recipe.rotation = read_rotation(table);
-  recipe.sharp_angle = table.quantity("sharp_angle", dimension::angle, sharp_range, recipe.sharp_angle);
+  recipe.sharp_angle = table.quantity("sharp_angle", recipe.sharp_angle);
   table.at("surface_size");  // the one size that there is
   return recipe;
 }
 
 PackedShape read_packed_shape(const ConfigTable& table, const std::filesystem::path& case_directory) {
-  table.with_keys({"surface", "sharp_angle"});
   const std::filesystem::path file = read_data_file(table.at("surface"), case_directory);
   PackedShape shape{.given = {file.string(), read_surface(table.at("surface"), file)}};
-  shape.sharp = table.quantity("sharp_angle", dimension::angle, sharp_range, shape.sharp);
+  shape.sharp = table.quantity("sharp_angle", shape.sharp);
   return shape;
 }
 

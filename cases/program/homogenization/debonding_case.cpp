@@ -1,6 +1,7 @@
 #include "cases/program/homogenization/debonding_case.h"
 
 #include "cases/program/fracture/mean_curve.h"
+#include "cases/program/homogenization/homogenization_keys.h"
 #include "solver/homogenization/mean_path.h"
 
 #include <fmt/format.h>
@@ -19,19 +20,11 @@ struct Prescribed {
   double value;  // of the tensor: [Pa], or strain
 };
 
-std::vector<std::string> component_keys() {
-  std::vector<std::string> keys;
-  for (const char* what : {"strain", "stress"})
-    for (const std::string_view name : component_names) keys.push_back(fmt::format("{}_{}", what, name));
-  for (std::size_t k = 3; k < 6; ++k) keys.push_back(fmt::format("gamma_{}", component_names[k]));
-  return keys;
-}
-
 Prescribed read_component(const std::string& key, const ConfigValue& value) {
   const auto component = static_cast<std::size_t>(
       std::ranges::find(component_names, std::string_view(key).substr(key.size() - 2)) - component_names.begin());
-  if (key.starts_with("stress")) return {component, true, value.quantity(dimension::stress)};
-  const double strain = value.is_string() ? value.quantity(dimension::number) : value.number();
+  if (key.starts_with("stress")) return {component, true, value.quantity()};
+  const double strain = value.is_string() ? value.quantity() : value.number(range::any);
   if (std::abs(strain) >= 1.0)
     throw value.error(
         fmt::format("a strain has to be between -1 and 1, found {:g}{}", strain,
@@ -40,8 +33,7 @@ Prescribed read_component(const std::string& key, const ConfigValue& value) {
 }
 
 std::vector<Prescribed> read_point_of_path(const ConfigValue& value) {
-  const std::vector<std::string> keys = component_keys();
-  const ConfigTable table = value.table().with_keys(std::vector<std::string_view>(keys.begin(), keys.end()));
+  const ConfigTable table = value.table();
   std::vector<Prescribed> point;
   std::set<std::size_t> seen;
   for (const auto& [key, entry] : table.entries()) {
@@ -120,9 +112,8 @@ bool has_mean_path(const ConfigTable& root) {
 }
 
 FractureCase read_debonding_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
-  root.with_keys({"kind", "title", "mesh", "materials", "regions", "fracture", "initial", "interface", "homogenization",
-                  "loading", "solver", "output", "cohesive", "sweep"});
-  const ConfigTable table = root.table("homogenization").with_keys({"boundary"});
+  root.with_keys(debonding_keys());
+  const ConfigTable table = root.table("homogenization");
   const auto boundary = table.find("boundary");
   const Loading& loading = boundary
                                ? choose(*boundary, homogenization_loadings(), "boundary condition of a homogenisation")

@@ -1,13 +1,14 @@
 #include "cases/program/homogenization/homogenization_case.h"
 
+#include "cases/program/fracture/body_keys.h"
+#include "cases/program/homogenization/homogenization_keys.h"
+#include "cases/program/input/key_member.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace pfdm {
 namespace {
-
-// Below, rounding would be solved for; above, the errors of the averages are no longer those of the mesh.
-constexpr Range solvable{1e-12, 1e-4, false, "between 1e-12 and 1e-4"};
 
 // After read_materials(), which says what keys there are.
 std::vector<CompositeMaterial> read_other_keys(const ConfigTable& root) {
@@ -15,8 +16,8 @@ std::vector<CompositeMaterial> read_other_keys(const ConfigTable& root) {
   for (const auto& [name, value] : root.table("materials").entries()) {
     const ConfigTable table = value.table();
     CompositeMaterial material{.name = name, .regions = table.strings("regions"), .density = {}};
-    if (table.has("density")) material.density = table.quantity("density", dimension::density, range::positive);
-    material.loss_factor = table.number("loss_factor", range::not_negative, 0.0);
+    if (table.has("density")) material.density = table.quantity("density");
+    material.loss_factor = table.number("loss_factor", 0.0);
     materials.push_back(std::move(material));
   }
   return materials;
@@ -25,13 +26,13 @@ std::vector<CompositeMaterial> read_other_keys(const ConfigTable& root) {
 HomogenizationSettings read_settings(const ConfigTable& root) {
   HomogenizationSettings settings{.loading = &homogenization_loadings().front()};
   if (root.has("homogenization")) {
-    const ConfigTable table = root.table("homogenization").with_keys({"boundary"});
+    const ConfigTable table = root.table("homogenization");
     if (const auto boundary = table.find("boundary"))
       settings.loading = &choose(*boundary, homogenization_loadings(), "boundary condition of a homogenisation");
   }
   if (root.has("solver")) {
-    const ConfigTable table = root.table("solver").with_keys({"tolerance", "linear"});
-    settings.tolerance = table.number("tolerance", solvable, settings.tolerance);
+    const ConfigTable table = root.table("solver");
+    read_stored(table, settings);
     if (const auto linear = table.find("linear")) settings.linear = &choose(*linear, linear_solvers(), "linear solver");
   }
   return settings;
@@ -40,12 +41,12 @@ HomogenizationSettings read_settings(const ConfigTable& root) {
 }  // namespace
 
 HomogenizationCase read_homogenization_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
-  root.with_keys({"kind", "title", "mesh", "materials", "homogenization", "solver", "sweep"});
+  root.with_keys(composite_keys());
   HomogenizationCase homogenization;
   homogenization.title = root.line("title");
   homogenization.mesh = read_mesh_recipe(root.table("mesh"), {.case_directory = case_directory, .ell = {}});
   MaterialDefaults defaults;
-  defaults.elastic_with = std::vector<std::string_view>{"density", "loss_factor"};
+  defaults.elastic_keys = composite_material_keys;
   homogenization.materials = read_materials(root, defaults);
   homogenization.by_name = read_other_keys(root);
   if (!homogenization.mesh.regions.empty())

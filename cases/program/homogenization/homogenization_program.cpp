@@ -3,6 +3,7 @@
 #include "cases/program/fracture/fracture_program.h"
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/homogenization/debonding_case.h"
+#include "cases/program/homogenization/homogenization_keys.h"
 #include "cases/program/homogenization/homogenization_report.h"
 #include "cases/program/homogenization/homogenized_results.h"
 #include "cases/program/session/report_parts.h"
@@ -177,7 +178,10 @@ CaseKind homogenization_kind() {
       .name = "homogenize",
       .description = "effective linear stiffness of a meshed composite, or its stress-strain curve while it debonds",
       .read = read_program,
-      .laws = laws};
+      .laws = laws,
+      .keys = [] {
+        return std::vector<const KeyTable*>{&composite_keys(), &debonding_keys()};
+      }};
 }
 
 }  // namespace pfdm

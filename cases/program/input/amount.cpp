@@ -1,6 +1,7 @@
 #include "cases/program/input/amount.h"
 
 #include "cases/program/input/expression.h"
+#include "cases/program/input/key.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ struct ExpressionInUnit {
 };
 
 ExpressionInUnit read_expression(const ConfigTable& table, const Dimension& due) {
-  table.with_keys({"expr", "unit"});
+  table.with_keys(expression_keys());
   const ConfigValue text = table.at("expr");
   double factor = 1.0;
   if (has_unit(due) || table.has("unit")) {
@@ -41,7 +42,23 @@ double plain_value(const ConfigValue& value, const Dimension& due, const Range& 
   return has_unit(due) ? value.quantity(due, allowed) : value.number(allowed);
 }
 
+/// What the row says of the plain value.
+const KeyType& plain_type(const ConfigValue& value) {
+  const KeyType* const type = value.type();
+  if (const KeyType* quantity = type->as(KeyType::Kind::quantity)) return *quantity;
+  return *type->as(KeyType::Kind::number);
+}
+
+const Dimension& due_of(const KeyType& type) { return type.due != nullptr ? *type.due : dimension::number; }
+
 }  // namespace
+
+Amount read_amount(const ConfigValue& value) { return read_amount(value, due_of(plain_type(value))); }
+
+Parameter read_parameter(const ConfigValue& value) {
+  const KeyType& type = plain_type(value);
+  return read_parameter(value, due_of(type), type.allowed);
+}
 
 Amount read_amount(const ConfigValue& value, const Dimension& due) {
   if (is_expression(value))

@@ -20,6 +20,7 @@ struct Amount {
 
 /// "800 um", reached linearly at t = 1, or { expr = "0.1*t", unit = "um" }, used as it stands.
 Amount read_amount(const ConfigValue& value, const Dimension& due);
+Amount read_amount(const ConfigValue& value);  ///< of the dimension that the row of its key says
 
 /// A value that may depend on the place: of a material, or at the beginning.
 struct Parameter {
@@ -31,6 +32,7 @@ struct Parameter {
 
 /// "75 MPa" or { expr = "75 + 1e4*x", unit = "MPa" }; of a plain number 0.3 or { expr = "0.3 + 20*x" }.
 Parameter read_parameter(const ConfigValue& value, const Dimension& due, const Range& allowed);
+Parameter read_parameter(const ConfigValue& value);  ///< of the dimension and range that the row of its key says
 
 /// Three numbers that are not all zero.
 Vector read_direction(const ConfigValue& value);

@@ -1,5 +1,6 @@
 #include "cases/program/input/config.h"
 
+#include "cases/program/input/key.h"
 #include "cases/program/input/result_number.h"
 
 #include <fmt/format.h>
@@ -21,7 +22,9 @@ struct ConfigSource {
   struct Opened {
     std::string path;
     std::set<std::string> asked_for;
-    std::set<std::string> allowed;  // all keys, where they were named
+    std::set<std::string> allowed;   // all keys, where they were named
+    std::vector<const Key*> rows{};  // where the table has some
+    const KeyType* entry = nullptr;  // of all keys, where the user chooses their names
     const std::set<std::string>& known() const { return allowed.empty() ? asked_for : allowed; }
   };
   std::map<const TomlTable*, Opened> opened;  // tables that were looked into
@@ -90,6 +93,27 @@ void require_named(const ConfigSource::Opened& table, std::string_view key) {
   if (!table.known().contains(std::string(key)))
     throw std::logic_error(
         fmt::format("{}\"{}\" is asked for and not among the table's keys", table_place(table.path), key));
+}
+
+/// The word that decides which rows a table has; nothing where it is missing or none of those that there are.
+std::optional<std::string> decided_in(const TomlTable& content, const KeyTable& rows) {
+  if (rows.decided_by.empty()) return "";
+  const auto row = std::ranges::find(rows.keys, rows.decided_by, &Key::name);
+  const KeyType* const choice = row->type.as(KeyType::Kind::choice);
+  for (const auto& [key, value] : content) {
+    if (key != rows.decided_by) continue;
+    const auto* text = std::get_if<std::string>(&value.value);
+    return text != nullptr && std::ranges::count(choice->words, *text) > 0 ? std::optional(*text) : std::nullopt;
+  }
+  return rows.decided_otherwise.empty() ? std::nullopt : std::optional(std::string(rows.decided_otherwise));
+}
+
+/// The alternative of a type that is of that kind. What asks for another kind than the row says is a mistake of the
+/// program's.
+const KeyType& due_of(const KeyType* type, KeyType::Kind kind, const std::string& place) {
+  const KeyType* const due = type != nullptr ? type->as(kind) : nullptr;
+  if (due == nullptr) throw std::logic_error(fmt::format("{}: its row says nothing of that kind", place));
+  return *due;
 }
 
 /// Where the paths of a case start.
@@ -194,6 +218,28 @@ double ConfigValue::quantity(const Dimension& due, const Range& allowed) const {
   return value;
 }
 
+std::int64_t ConfigValue::integer() const {
+  return integer(type_ == nullptr ? range::any : due_of(type_, KeyType::Kind::whole, place_).allowed);
+}
+
+double ConfigValue::number() const {
+  return number(type_ == nullptr ? range::any : due_of(type_, KeyType::Kind::number, place_).allowed);
+}
+
+double ConfigValue::quantity() const {
+  const KeyType& due = due_of(type_, KeyType::Kind::quantity, place_);
+  return quantity(*due.due, due.allowed);
+}
+
+double ConfigValue::real() const {
+  return type_ != nullptr && type_->as(KeyType::Kind::quantity) != nullptr ? quantity() : number();
+}
+
+std::string ConfigValue::choice() const {
+  const KeyType& due = due_of(type_, KeyType::Kind::choice, place_);
+  return one_of(due.words, due.noun);
+}
+
 std::string ConfigValue::one_of(std::span<const std::string> allowed, std::string_view what) const {
   std::string value = string();
   if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
@@ -207,14 +253,21 @@ std::vector<ConfigValue> ConfigValue::list(std::optional<std::size_t> n) const {
   if (array == nullptr) throw error(fmt::format("expected a list, found {}", shown(*value_)));
   if (n && array->size() != *n) throw error(fmt::format("expected {} entries, found {}", *n, array->size()));
   std::vector<ConfigValue> result;
+  const KeyType* const type = type_ != nullptr ? type_->as(KeyType::Kind::list) : nullptr;
   for (std::size_t i = 0; i < array->size(); ++i)
-    result.emplace_back(source_, &(*array)[i], fmt::format("{}[{}]", place_, i), path_);
+    result.emplace_back(source_, &(*array)[i], fmt::format("{}[{}]", place_, i), path_,
+                        type != nullptr ? type->parts.data() : nullptr);
   return result;
 }
 
 ConfigTable ConfigValue::table() const {
   if (!is_table()) throw error(fmt::format("expected a table, found {}", shown(*value_)));
-  return ConfigTable(source_, value_, path_);
+  ConfigTable table(source_, value_, path_);
+  if (type_ == nullptr) return table;
+  if (type_->kind == KeyType::Kind::table) return table.with_keys(type_->table());
+  if (type_->kind == KeyType::Kind::names)
+    source_->opened[&std::get<TomlTable>(value_->value)].entry = type_->parts.data();
+  return table;
 }
 
 // ConfigTable
@@ -245,12 +298,37 @@ ConfigTable ConfigTable::with_keys(std::span<const std::string_view> keys) const
   return *this;
 }
 
+ConfigTable ConfigTable::with_keys(const KeyTable& rows, std::optional<std::string_view> decided) const {
+  ConfigSource::Opened& opened = source_->opened[&content()];
+  const bool is_open = !decided && rows.decided_by_reader;  // until the reader says which keys there are
+  const std::optional<std::string> found = decided   ? std::optional(std::string(*decided))
+                                           : is_open ? std::nullopt
+                                                     : decided_in(content(), rows);
+  opened.rows.clear();
+  std::vector<std::string_view> names;
+  for (const Key& key : rows.keys) {
+    if (found && !is_there_with(key, *found)) continue;
+    opened.rows.push_back(&key);
+    names.push_back(key.name);
+  }
+  return found ? with_keys(names) : *this;
+}
+
+std::vector<const Key*> ConfigTable::rows() const { return source_->opened[&content()].rows; }
+
+const KeyType* ConfigTable::type_of(std::string_view key) const {
+  const ConfigSource::Opened& opened = source_->opened[&content()];
+  if (opened.entry != nullptr) return opened.entry;
+  const auto row = std::ranges::find(opened.rows, key, &Key::name);
+  return row == opened.rows.end() ? nullptr : &(*row)->type;
+}
+
 std::optional<ConfigValue> ConfigTable::find(std::string_view key) const {
   ConfigSource::Opened& opened = source_->opened[&content()];
   opened.asked_for.emplace(key);
   require_named(opened, key);
   for (const auto& [name, value] : content())
-    if (name == key) return ConfigValue(source_, &value, place_of_key(path_, key), subtable(path_, key));
+    if (name == key) return ConfigValue(source_, &value, place_of_key(path_, key), subtable(path_, key), type_of(key));
   return std::nullopt;
 }
 
@@ -303,9 +381,37 @@ double ConfigTable::number(std::string_view key, const Range& allowed, double ot
   return value ? value->number(allowed) : otherwise;
 }
 
+std::int64_t ConfigTable::integer(std::string_view key, std::int64_t otherwise) const {
+  const auto value = find(key);
+  return value ? value->integer() : otherwise;
+}
+
+double ConfigTable::number(std::string_view key, double otherwise) const {
+  const auto value = find(key);
+  return value ? value->number() : otherwise;
+}
+
+std::string ConfigTable::choice(std::string_view key, std::string_view otherwise) const {
+  const auto value = find(key);
+  return value ? value->choice() : std::string(otherwise);
+}
+
+ConfigValue ConfigTable::required_quantity(std::string_view key, const Dimension& due) const {
+  return required(key, fmt::format("; expected {}, as in \"{}\"", with_article(due.name), due.example));
+}
+
 double ConfigTable::quantity(std::string_view key, const Dimension& due, const Range& allowed) const {
-  return required(key, fmt::format("; expected {}, as in \"{}\"", with_article(due.name), due.example))
-      .quantity(due, allowed);
+  return required_quantity(key, due).quantity(due, allowed);
+}
+
+double ConfigTable::quantity(std::string_view key) const {
+  return required_quantity(key, *due_of(type_of(key), KeyType::Kind::quantity, place_of_key(path_, key)).due)
+      .quantity();
+}
+
+double ConfigTable::quantity(std::string_view key, double otherwise) const {
+  const auto value = find(key);
+  return value ? value->quantity() : otherwise;
 }
 
 double ConfigTable::quantity(std::string_view key, const Dimension& due, const Range& allowed, double otherwise) const {

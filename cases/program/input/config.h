@@ -1,6 +1,7 @@
 #pragma once
-// A strict reader of case files. Who reads a table names its keys; another one in the file is an error, with the
-// nearest of them, and so is one that nobody asked for in the end. All functions throw InputError of the form
+// A strict reader of case files. A table has rows of keys (key.h), or who reads it names them; another one in the file
+// is an error, with the nearest of them, and so is one that nobody asked for in the end. A table that a row names is
+// checked when it is opened. All functions throw InputError of the form
 //   cases/x/case.toml:12: [mesh] "thicknes" is not known here; did you mean "thickness"? (allowed: ...)
 
 #include "cases/program/input/toml_document.h"
@@ -41,12 +42,17 @@ inline constexpr Range poisson_ratio{-1.0 + std::numeric_limits<double>::epsilon
 
 struct ConfigSource;
 class ConfigTable;
+struct Key;
+struct KeyTable;
+struct KeyType;
 
 /// One value of the file, with its place for messages.
 class ConfigValue {
  public:
-  ConfigValue(std::shared_ptr<ConfigSource> source, const TomlValue* value, std::string place, std::string path)
-      : source_(std::move(source)), value_(value), place_(std::move(place)), path_(std::move(path)) {}
+  /// `type`: what the row of its key says of it (key.h), if there is one.
+  ConfigValue(std::shared_ptr<ConfigSource> source, const TomlValue* value, std::string place, std::string path,
+              const KeyType* type = nullptr)
+      : source_(std::move(source)), value_(value), place_(std::move(place)), path_(std::move(path)), type_(type) {}
 
   bool is_string() const { return std::holds_alternative<std::string>(value_->value); }
   bool is_list() const { return std::holds_alternative<TomlArray>(value_->value); }
@@ -55,9 +61,16 @@ class ConfigValue {
   std::string string() const;
   std::string line() const;  ///< a text without line breaks, for heads of files and tables
   bool boolean() const;
-  std::int64_t integer(const Range& allowed = range::any) const;
-  double number(const Range& allowed = range::any) const;
+  std::int64_t integer(const Range& allowed) const;
+  double number(const Range& allowed) const;
   double quantity(const Dimension& due, const Range& allowed = range::any) const;  ///< [due.si_unit]
+  /// Likewise, of the range and dimension that the key's row says.
+  std::int64_t integer() const;
+  double number() const;
+  double quantity() const;
+  double real() const;         ///< a quantity or a number, whichever the row says
+  std::string choice() const;  ///< one of the words that the row lists
+  const KeyType* type() const { return type_; }
   /// A string that must be one of `allowed`; `what` says of what, as in "patch of the mesh".
   std::string one_of(std::span<const std::string> allowed, std::string_view what) const;
   /// The elements; `n` of them, if it is given.
@@ -86,6 +99,7 @@ class ConfigValue {
   const TomlValue* value_;
   std::string place_;  // as in "[mesh] thickness"
   std::string path_;   // of a table: mesh.layers
+  const KeyType* type_;
 };
 
 /// A table of the file. Getters with a default take it where the key is missing; the others throw then.
@@ -101,6 +115,12 @@ class ConfigTable {
   ConfigTable with_keys(std::initializer_list<std::string_view> keys) const {
     return with_keys(std::span(keys.begin(), keys.size()));
   }
+
+  /// By the rows of keys of a table (key.h), which live as long as the program; `decided`: the value of the key that
+  /// decides which of them there are, if it is not the one that the file has.
+  ConfigTable with_keys(const KeyTable& rows, std::optional<std::string_view> decided = std::nullopt) const;
+  /// Those that the table may have, in their order.
+  std::vector<const Key*> rows() const;
 
   bool has(std::string_view key) const;
   ConfigValue at(std::string_view key) const;
@@ -118,6 +138,15 @@ class ConfigTable {
   double number(std::string_view key, const Range& allowed, double otherwise) const;
   double quantity(std::string_view key, const Dimension& due, const Range& allowed = range::any) const;
   double quantity(std::string_view key, const Dimension& due, const Range& allowed, double otherwise) const;
+  /// Of the range and dimension that the key's row says.
+  std::int64_t integer(std::string_view key) const { return at(key).integer(); }
+  std::int64_t integer(std::string_view key, std::int64_t otherwise) const;
+  double number(std::string_view key) const { return at(key).number(); }
+  double number(std::string_view key, double otherwise) const;
+  double quantity(std::string_view key) const;
+  double quantity(std::string_view key, double otherwise) const;
+  std::string choice(std::string_view key) const { return at(key).choice(); }
+  std::string choice(std::string_view key, std::string_view otherwise) const;
   std::vector<std::string> strings(std::string_view key) const;
   ConfigTable table(std::string_view key) const;
   /// An array of tables, [[key]]; empty if there is none.
@@ -138,6 +167,8 @@ class ConfigTable {
   const TomlTable& content() const { return std::get<TomlTable>(value_->value); }
   InputError missing(std::string_view key, std::string_view what) const;
   ConfigValue required(std::string_view key, std::string_view what) const;
+  ConfigValue required_quantity(std::string_view key, const Dimension& due) const;
+  const KeyType* type_of(std::string_view key) const;
 
   std::shared_ptr<ConfigSource> source_;
   const TomlValue* value_;

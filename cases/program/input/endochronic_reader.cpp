@@ -11,9 +11,7 @@ namespace {
 Kernel read_kernel(const ConfigTable& material) {
   Kernel kernel;
   for (const ConfigTable& term : material.tables("kernel")) {
-    term.with_keys({"C", "alpha"});
-    kernel.push_back(
-        {term.quantity("C", dimension::stress, range::positive), term.number("alpha", range::not_negative)});
+    kernel.push_back({term.quantity("C"), term.number("alpha")});
   }
   if (kernel.empty())
     throw material.error("\"kernel\" needs at least one term, as in kernel = [{ C = \"60 GPa\", alpha = 3000 }]");
@@ -35,20 +33,11 @@ std::vector<double> read_points(const ConfigTable& table) {
 std::vector<double> read_rate_table(const ConfigTable& table) {
   std::vector<double> zeta, rate, f;
   for (const ConfigValue& value : table.at("zeta").list()) zeta.push_back(value.number());
-  for (const ConfigValue& value : table.at("rate").list()) rate.push_back(value.quantity(dimension::rate));
+  for (const ConfigValue& value : table.at("rate").list()) rate.push_back(value.quantity());
   const auto rows = table.at("f").list(rate.size());
   for (const ConfigValue& row : rows)
     for (const ConfigValue& value : row.list(zeta.size())) f.push_back(value.number());
   return rate_table_parameters(std::move(zeta), rate, f);
-}
-
-std::vector<std::string_view> keys_of(const FactorLaw& law) {
-  std::vector<std::string_view> keys = keys_of_law(law.parameters);
-  if (law.of_path_and_rate != nullptr)
-    keys.insert(keys.end(), {"zeta", "rate", "f"});
-  else if (law.tabulated)
-    keys.emplace_back("points");
-  return keys;
 }
 
 Factor read_factor(const ConfigTable& material, std::string_view key, std::span<const FactorLaw> laws,
@@ -56,7 +45,6 @@ Factor read_factor(const ConfigTable& material, std::string_view key, std::span<
   if (!material.has(key)) return make_factor(otherwise, {});
   const ConfigTable table = material.table(key);
   const FactorLaw& law = choose(table.at("law"), laws, what);
-  table.with_keys(keys_of(law));
   std::vector<double> p;
   if (law.tabulated) p = law.of_path_and_rate != nullptr ? read_rate_table(table) : read_points(table);
   for (const LawParameter& due : law.parameters) p.push_back(read_law_parameter(table, due));
@@ -95,13 +83,13 @@ std::string factor_toml(std::string_view key, const Factor& factor) {
 
 EndochronicLaw read_endochronic_law(const ConfigTable& material) {
   EndochronicLaw law;
-  const double E = material.quantity("young_modulus", dimension::stress, range::positive);
-  law.elasticity = from_young_poisson(E, material.number("poisson_ratio", range::poisson_ratio));
+  const double E = material.quantity("young_modulus");
+  law.elasticity = from_young_poisson(E, material.number("poisson_ratio"));
   law.kernel = read_kernel(material);
   law.hardening.with_path =
       read_factor(material, "hardening", hardening_laws(), hardening_law("constant"), "hardening law");
   law.hardening.with_rate = read_factor(material, "rate", rate_factors(), rate_factor("none"), "rate factor");
-  law.beta = material.number("beta", range::fraction, law.beta);
+  law.beta = material.number("beta", law.beta);
   material.in_context([&] {
     check(law);
     return 0;

@@ -1,23 +1,31 @@
 #include "cases/program/input/law_reader.h"
 
+#include "cases/program/input/law_keys.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace pfdm {
 
-double read_law_parameter(const ConfigTable& table, const LawParameter& due) {
-  const Range& allowed = due.may_be_zero ? range::not_negative : range::positive;
-  const bool has_default = !std::isnan(due.otherwise);
-  if (due.unit == "1")
-    return has_default ? table.number(due.name, allowed, due.otherwise) : table.number(due.name, allowed);
-  return table.quantity(due.name, dimension::rate, allowed);
+KeyType type_of(const LawParameter& parameter) {
+  const Range& allowed = parameter.may_be_zero ? range::not_negative : range::positive;
+  return parameter.unit == "1" ? keys::number(allowed) : keys::quantity(dimension::rate, allowed);
 }
 
-std::vector<std::string_view> keys_of_law(std::span<const LawParameter> parameters) {
-  std::vector<std::string_view> keys{"law"};
-  for (const LawParameter& parameter : parameters) keys.push_back(parameter.name);
-  return keys;
+std::string default_of(const LawParameter& parameter) {
+  return std::isnan(parameter.otherwise) ? "" : fmt::format("{}", parameter.otherwise);
+}
+
+std::string_view sentence_of(std::string_view parameter, std::span<const ParameterWords> words) {
+  const auto found = std::ranges::find(words, parameter, &ParameterWords::name);
+  return found == words.end() ? "" : found->sentence;
+}
+
+double read_law_parameter(const ConfigTable& table, const LawParameter& due) {
+  if (due.unit != "1") return table.quantity(due.name);
+  return std::isnan(due.otherwise) ? table.number(due.name) : table.number(due.name, due.otherwise);
 }
 
 LawParameters parameters_by_default(const ConfigValue& value, std::string_view law,

@@ -1,5 +1,8 @@
 #include "cases/program/plate/plate_case.h"
 
+#include "cases/program/input/key_member.h"
+#include "cases/program/plate/plate_keys.h"
+
 #include "cases/program/input/amount.h"
 #include "cases/program/input/heat_units.h"
 #include "cases/program/input/path_reader.h"
@@ -17,11 +20,6 @@ namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr Range loss_range{0.0, 2.0, true, "above 0 and below 2"};
-constexpr Range counts{2.0, 100000.0, false, "between 2 and 100000"};
-constexpr Range mode_count{1.0, 100.0, false, "between 1 and 100"};
-constexpr Range frame_count{1.0, 1000.0, false, "between 1 and 1000"};
 
 constexpr PlateWord support_table[] = {
     {"clamped", "moves with the base in all directions"},
@@ -86,12 +84,10 @@ std::vector<ModulusAt> read_modulus(const ConfigTable& table, const fs::path& di
                                     std::vector<fs::path>& data_files) {
   const auto modulus = table.find("modulus");
   if (!modulus)
-    return {{.frequency = 1.0,
-             .storage = table.quantity("young_modulus", dimension::stress, range::positive),
-             .loss_factor = table.number("loss_factor", loss_range)}};
+    return {{.frequency = 1.0, .storage = table.quantity("young_modulus"), .loss_factor = table.number("loss_factor")}};
   for (const char* other : {"young_modulus", "loss_factor"})
     if (const auto both = table.find(other)) throw both->error("\"modulus\" gives this already");
-  const ConfigTable source = modulus->table().with_keys({"csv", "fit"});
+  const ConfigTable source = modulus->table();
   const bool is_fit = source.has("fit");
   const fs::path file = read_data_file(source.at(is_fit ? "fit" : "csv"), directory);
   data_files.push_back(file);
@@ -101,22 +97,19 @@ std::vector<ModulusAt> read_modulus(const ConfigTable& table, const fs::path& di
 }
 
 PlateMaterial read_material(const ConfigTable& root, const fs::path& directory, std::vector<fs::path>& data_files) {
-  const ConfigTable table = root.table("material")
-                                .with_keys({"density", "poisson_ratio", "young_modulus", "loss_factor", "modulus",
-                                            "conductivity", "specific_heat", "temperature"});
+  const ConfigTable table = root.table("material");
   PlateMaterial material;
-  material.density = table.quantity("density", dimension::density, range::positive);
-  material.poisson_ratio = table.number("poisson_ratio", range::poisson_ratio);
+  material.density = table.quantity("density");
+  material.poisson_ratio = table.number("poisson_ratio");
   material.modulus = read_modulus(table, directory, data_files);
   if (table.has("conductivity") || root.has("heating"))
-    material.heat = {
-        .conductivity = table.quantity("conductivity", dimension::conductivity, range::positive),
-        .capacity = material.density * table.quantity("specific_heat", dimension::specific_heat, range::positive)};
+    material.heat = {.conductivity = table.quantity("conductivity"),
+                     .capacity = material.density * table.quantity("specific_heat")};
   if (const auto temperature = table.find("temperature")) {
-    const ConfigTable slopes = temperature->table().with_keys({"reference", "modulus", "loss_factor"});
-    material.reference = slopes.quantity("reference", dimension::temperature, range::positive);
-    material.modulus_slope = slopes.quantity("modulus", dimension::per_temperature, range::any, 0.0);
-    material.loss_slope = slopes.quantity("loss_factor", dimension::per_temperature, range::any, 0.0);
+    const ConfigTable slopes = temperature->table();
+    material.reference = slopes.quantity("reference");
+    material.modulus_slope = slopes.quantity("modulus", 0.0);
+    material.loss_slope = slopes.quantity("loss_factor", 0.0);
   }
   return material;
 }
@@ -124,7 +117,6 @@ PlateMaterial read_material(const ConfigTable& root, const fs::path& directory, 
 std::vector<BoundaryCondition> read_supports(const ConfigTable& root, const MeshRecipe& mesh, const Vector& direction) {
   std::vector<BoundaryCondition> supports;
   for (const ConfigTable& table : root.tables("support")) {
-    table.with_keys({"patch", "patches", "type"});
     const std::string_view type = choose(table.at("type"), support_types(), "type of support").name;
     require_known(table, mesh.patches);
     for (const std::string& patch : patches_of(table)) {
@@ -141,40 +133,33 @@ std::vector<BoundaryCondition> read_supports(const ConfigTable& root, const Mesh
 }
 
 PlateExcitation read_base(const ConfigTable& root) {
-  const ConfigTable table =
-      root.table("base").with_keys({"motion", "direction", "level", "density", "frequency", "from", "to", "law"});
+  const ConfigTable table = root.table("base");
   PlateExcitation base{.type = std::string(choose(table.at("motion"), base_motions(), "motion of the base").name),
                        .frequency = {}};
-  base.level = base.type == "random" ? table.quantity("density", dimension::acceleration_density, range::positive)
-                                     : table.quantity("level", dimension::acceleration, range::positive);
+  base.level = base.type == "random" ? table.quantity("density") : table.quantity("level");
   if (base.type == "harmonic") {
     if (const auto frequency = table.find("frequency"); frequency && frequency->string() != "resonance")
-      base.frequency = frequency->quantity(dimension::frequency, range::positive);
+      base.frequency = frequency->quantity();
     return base;
   }
-  base.from = table.quantity("from", dimension::frequency, range::positive);
-  base.to = table.quantity("to", dimension::frequency, range::positive);
+  base.from = table.quantity("from");
+  base.to = table.quantity("to");
   if (base.from >= base.to) throw table.at("to").error("the band must end above \"from\"");
-  const std::string laws[] = {"linear", "logarithmic"};
-  if (const auto law = table.find("law")) base.logarithmic = law->one_of(laws, "law of a sweep") == "logarithmic";
+  base.logarithmic = table.choice("law", "linear") == "logarithmic";
   return base;
 }
 
 Vector read_direction(const ConfigTable& root) {
-  const std::string axes[] = {"x", "y", "z"};
-  const auto direction = root.table("base").find("direction");
-  return Vector::Unit(direction ? direction->one_of(axes, "axis")[0] - 'x' : 2);
+  return Vector::Unit(root.table("base").choice("direction", "z")[0] - 'x');
 }
 
 void read_response(const ConfigTable& root, PlateCase& c) {
-  const ConfigTable table = root.table("response").with_keys({"from", "to", "frequencies", "modes", "points"});
-  c.from = table.quantity("from", dimension::frequency, range::positive);
-  c.to = table.quantity("to", dimension::frequency, range::positive);
+  const ConfigTable table = root.table("response");
+  c.from = table.quantity("from");
+  c.to = table.quantity("to");
   if (c.from >= c.to) throw table.at("to").error("the response must end above \"from\"");
-  c.n_frequencies = static_cast<int>(table.integer("frequencies", counts, 200));
-  c.n_modes = static_cast<int>(table.integer("modes", mode_count, 6));
+  read_stored(table, c);
   for (const ConfigTable& point : table.tables("points")) {
-    point.with_keys({"name", "at"});
     const std::string& name = point.at("name").string();
     if (std::ranges::any_of(c.points, [&](const auto& earlier) { return earlier.name == name; }))
       throw point.at("name").error(fmt::format("there is another point \"{}\"", name));
@@ -185,22 +170,17 @@ void read_response(const ConfigTable& root, PlateCase& c) {
 
 DiffusionBoundary read_cooling(const ConfigTable& table, double surroundings) {
   using Kind = DiffusionBoundary::Kind;
-  table.with_keys(
-      {"patch", "patches", "type", "coefficient", "emissivity", "thickness", "conductivity", "temperature"});
   const std::string_view type = choose(table.at("type"), cooling_types(), "type of cooling").name;
-  const auto coefficient = [&] { return table.quantity("coefficient", dimension::heat_transfer, range::positive); };
+  const auto coefficient = [&] { return table.quantity("coefficient"); };
   if (type == "temperature")
-    return {.patch = {},
-            .kind = Kind::value,
-            .value = table.quantity("temperature", dimension::temperature, range::positive) - surroundings};
+    return {.patch = {}, .kind = Kind::value, .value = table.quantity("temperature") - surroundings};
   DiffusionBoundary boundary{.patch = {}, .kind = Kind::exchange};
   boundary.coefficient = coefficient();
   if (type == "convection" && table.has("emissivity"))
-    boundary.coefficient += conductance_of_radiation(table.number("emissivity", range::fraction), surroundings);
+    boundary.coefficient += conductance_of_radiation(table.number("emissivity"), surroundings);
   if (type == "insulation")
-    boundary.coefficient = conductance_of_insulation(
-        table.quantity("thickness", dimension::length, range::positive),
-        table.quantity("conductivity", dimension::conductivity, range::positive), boundary.coefficient);
+    boundary.coefficient =
+        conductance_of_insulation(table.quantity("thickness"), table.quantity("conductivity"), boundary.coefficient);
   return boundary;
 }
 
@@ -209,11 +189,11 @@ std::optional<PlateHeating> read_heating(const ConfigTable& root, const MeshReci
     if (!root.tables("cooling").empty()) throw root.error("[[cooling]] needs [heating]");
     return std::nullopt;
   }
-  const ConfigTable table = root.table("heating").with_keys({"duration", "step", "surroundings", "surface"});
+  const ConfigTable table = root.table("heating");
   PlateHeating heating;
-  heating.duration = table.quantity("duration", dimension::time, range::positive);
-  heating.step = table.quantity("step", dimension::time, range::positive, heating.duration / 240.0);
-  heating.surroundings = table.quantity("surroundings", dimension::temperature, range::positive, 293.15);
+  heating.duration = table.quantity("duration");
+  heating.step = table.quantity("step", heating.duration / 240.0);
+  heating.surroundings = table.quantity("surroundings", 293.15);
   heating.surface =
       mesh.patches.empty() ? table.string("surface") : table.at("surface").one_of(mesh.patches, "patch of the mesh");
   for (const ConfigTable& cooling : root.tables("cooling")) {
@@ -252,8 +232,7 @@ Harmonic PlateMaterial::at(double frequency, double temperature) const {
 }
 
 PlateCase read_plate_case(const ConfigTable& root, const fs::path& case_directory) {
-  const ConfigTable table = root.with_keys({"kind", "title", "mesh", "material", "support", "base", "response",
-                                            "heating", "cooling", "output", "fit", "sweep"});
+  const ConfigTable table = root.with_keys(plate_keys());
   PlateCase c;
   c.title = table.line("title");
   c.mesh = read_mesh_recipe(table.table("mesh"), {.case_directory = case_directory, .ell = {}});
@@ -264,9 +243,7 @@ PlateCase read_plate_case(const ConfigTable& root, const fs::path& case_director
   c.excitation = read_base(table);
   read_response(table, c);
   c.heating = read_heating(table, c.mesh);
-  if (table.has("output"))
-    c.n_frames =
-        static_cast<int>(table.table("output").with_keys({"frames"}).integer("frames", frame_count, c.n_frames));
+  if (table.has("output")) read_stored(table.table("output"), c);
   return c;
 }
 

@@ -12,9 +12,6 @@
 namespace pfdm {
 namespace {
 
-constexpr Range relative_range{0.0, 1.0, true, "above 0 and below 1"};
-constexpr Range starts_range{1.0, 1000.0, false, "between 1 and 1000"};
-
 // Values with which the body's stiffness has a factor at most. Its mesh, density and Poisson's ratio stay.
 void require_same_body(const ConfigTable& fit, const std::vector<CurveFitParameter>& parameters) {
   const auto may_change = [](const std::string& key) {
@@ -34,7 +31,7 @@ void require_same_body(const ConfigTable& fit, const std::vector<CurveFitParamet
 
 std::vector<double> read_values(const ConfigTable& table, const CsvTable& file, std::string_view key,
                                 const Dimension& due) {
-  return read_column(table.table(key).with_keys({"column", "unit"}), file, "column", "unit", due);
+  return read_column(table.table(key), file, "column", "unit", due);
 }
 
 void require_positive(const ConfigValue& where, const std::vector<double>& values) {
@@ -44,13 +41,11 @@ void require_positive(const ConfigValue& where, const std::vector<double>& value
 }
 
 MeasuredResponse read_response(const ConfigTable& table, const PlateCase& c, const std::filesystem::path& directory) {
-  table.with_keys(
-      {"name", "csv", "separator", "decimal", "thousands", "point", "frequency", "magnitude", "phase", "deviation"});
   MeasuredResponse response{.name = read_plain_name(table.at("name"), "a curve"),
                             .frequency = {},
                             .magnitude = {},
                             .phase = {},
-                            .deviation = table.number("deviation", relative_range)};
+                            .deviation = table.number("deviation")};
   std::vector<std::string> names;
   for (const ResponsePoint& point : c.points) names.push_back(point.name);
   const std::string& point = table.at("point").one_of(names, "name of [[response.points]]");
@@ -70,14 +65,12 @@ MeasuredResponse read_response(const ConfigTable& table, const PlateCase& c, con
 }
 
 MeasuredRise read_rise(const ConfigTable& table, const PlateCase& c, const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "separator", "decimal", "thousands", "of", "time", "rise", "deviation"});
   if (!c.heating) throw table.error("temperatures are measured, and the case has no [heating]");
-  const std::string kinds[] = {"mean", "largest"};
   MeasuredRise rise{.name = read_plain_name(table.at("name"), "a curve"),
-                    .is_largest = table.at("of").one_of(kinds, "rise of the surface") == "largest",
+                    .is_largest = table.choice("of") == "largest",
                     .time = {},
                     .rise = {},
-                    .deviation = table.quantity("deviation", dimension::temperature, range::positive)};
+                    .deviation = table.quantity("deviation")};
   const CsvTable file = read_csv_of(table, directory);
   rise.time = read_values(table, file, "time", dimension::time);
   rise.rise = read_values(table, file, "rise", dimension::temperature);
@@ -94,11 +87,11 @@ MeasuredRise read_rise(const ConfigTable& table, const PlateCase& c, const std::
 std::optional<PlateFit> read_plate_fit(const CaseFile& file, const PlateCase& c) {
   const ConfigTable root = file.config.root();
   if (!root.has("fit")) return std::nullopt;
-  const ConfigTable table = root.table("fit").with_keys({"parameters", "responses", "temperatures", "starts", "finer"});
+  const ConfigTable table = root.table("fit");
   PlateFit fit{.parameters = read_fit_parameters(table, file),
                .responses = {},
                .rises = {},
-               .starts = static_cast<int>(table.integer("starts", starts_range, 1)),
+               .starts = static_cast<int>(table.integer("starts", std::int64_t{1})),
                .where = table};
   require_same_body(table, fit.parameters);
   for (const ConfigTable& response : table.tables("responses"))

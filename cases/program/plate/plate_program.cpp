@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/plate/plate_fit.h"
+#include "cases/program/plate/plate_keys.h"
 #include "cases/program/plate/plate_report.h"
 #include "cases/program/plate/plate_run.h"
 #include "cases/program/session/report_parts.h"
@@ -190,7 +191,8 @@ CaseKind plate_kind() {
   return {.name = "plate",
           .description = "viscoelastic plate or other body on a shaker: modes, frequency response, heating",
           .read = read_program,
-          .laws = laws};
+          .laws = laws,
+          .keys = [] { return std::vector<const KeyTable*>{&plate_keys()}; }};
 }
 
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 
 #include "cases/program/input/csv_columns.h"
 #include "cases/program/input/expression.h"
+#include "cases/program/point/endochronic_case_keys.h"
 #include "cases/program/point/endochronic_loading.h"
 
 #include <fmt/format.h>
@@ -78,8 +79,7 @@ void read_control_value(const ConfigValue& value, bool is_stress, const std::vec
     condition.values = {read_component_value(value, is_stress)};
     return;
   }
-  const ConfigTable table = value.table().with_keys(
-      {"expr", "unit", "table", "csv", "column", "time", "time_unit", "separator", "decimal", "thousands"});
+  const ConfigTable table = value.table().with_keys(control_value_keys());
   condition.pace = Pace::follow;
   if (table.has("expr")) return read_expression(table, is_stress, times, condition);
   Polyline line;

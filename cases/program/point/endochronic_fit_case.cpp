@@ -2,6 +2,7 @@
 
 #include "cases/program/input/csv_columns.h"
 #include "cases/program/point/control_values.h"
+#include "cases/program/point/endochronic_case_keys.h"
 #include "cases/program/point/endochronic_loading.h"
 
 #include <fmt/format.h>
@@ -14,10 +15,6 @@
 
 namespace pfdm {
 namespace {
-
-constexpr Range terms_range{1.0, 12.0, false, "between 1 and 12"};
-constexpr Range substeps_range{1.0, 1000.0, false, "between 1 and 1000"};
-constexpr Range starts_range{1.0, 1000.0, false, "between 1 and 1000"};
 
 /// What [strain] or [stress] of an experiment says of a component; shear strains as tensor components.
 struct MeasuredColumn {
@@ -33,8 +30,7 @@ MeasuredColumn read_measured(const std::string& key, const ConfigValue& value, c
     throw value.error(is_stress ? "expected a stress; strains belong in [fit.experiments.strain]"
                                 : "expected a strain; stresses belong in [fit.experiments.stress]");
   const Dimension& due = is_stress ? dimension::stress : dimension::number;
-  const ConfigTable table =
-      with_noise ? value.table().with_keys({"column", "unit", "noise"}) : value.table().with_keys({"column", "unit"});
+  const ConfigTable table = value.table().with_keys(component_column_keys(), with_noise ? "measured" : "followed");
   MeasuredColumn column{.component = component, .values = read_column(table, file, "column", "unit", due)};
   if (with_noise && table.has("noise")) {
     const ConfigValue noise = table.at("noise");
@@ -116,13 +112,9 @@ void leave_out_gaps_of(MaterialExperiment& experiment, const ConfigTable& table)
 
 MaterialExperiment read_experiment(const ConfigTable& table, const EndochronicLaw& law,
                                    const std::filesystem::path& directory) {
-  table.with_keys({"name", "csv", "separator", "decimal", "thousands", "time", "time_unit", "controlled", "strain",
-                   "stress", "predicted"});
   const CsvTable file = read_csv_of(table, directory);
   MaterialExperiment experiment{.name = table.string("name"), .loading = {}, .channels = {}};
-  const std::string kinds[] = {"strain", "stress"};
-  experiment.follows_stress =
-      table.has("controlled") && table.at("controlled").one_of(kinds, "quantity that a test controls") == "stress";
+  experiment.follows_stress = table.choice("controlled", "strain") == "stress";
   const bool stress = experiment.follows_stress;
   experiment.loading =
       read_followed(table.table(stress ? "stress" : "strain"), file, times_or_order(table, file, law), stress);
@@ -156,9 +148,8 @@ FitChoice read_choice(const ConfigTable& fit, const EndochronicLaw& law) {
   const auto list = fit.find("estimate");
   if (!list) return choice;
   choice = {.kernel = false, .hardening = false, .rate = false, .young_modulus = false};
-  const std::string names[] = {"kernel", "hardening", "rate", "young_modulus"};
   for (const ConfigValue& entry : list->list()) {
-    const std::string name = entry.one_of(names, "part of the law that can be estimated");
+    const std::string name = entry.choice();
     choice.kernel |= name == "kernel";
     choice.hardening |= name == "hardening";
     choice.rate |= name == "rate";
@@ -170,15 +161,13 @@ FitChoice read_choice(const ConfigTable& fit, const EndochronicLaw& law) {
 void read_terms(const ConfigTable& fit, EndochronicIdentificationSettings& settings) {
   if (!fit.has("terms")) return;
   const auto terms = fit.at("terms").list(2);
-  settings.least_terms = static_cast<int>(terms[0].integer(terms_range));
-  settings.most_terms = static_cast<int>(terms[1].integer(terms_range));
+  settings.least_terms = static_cast<int>(terms[0].integer());
+  settings.most_terms = static_cast<int>(terms[1].integer());
   if (settings.least_terms > settings.most_terms)
     throw fit.at("terms").error("the first number of terms is larger than the second");
 }
 
-double read_parameter_value(const ConfigValue& value) {
-  return value.is_string() ? value.quantity(dimension::stress, range::positive) : value.number(range::positive);
-}
+double read_parameter_value(const ConfigValue& value) { return value.is_string() ? value.quantity() : value.number(); }
 
 /// [fit.bounds] C_1 = ["1 GPa", "100 GPa"], f_inf = [1, 10] ...
 void read_bounds(const ConfigTable& fit, const EndochronicLaw& law, EndochronicIdentificationSettings& settings) {
@@ -219,17 +208,14 @@ std::string fit_curve_file(const std::string& experiment) {
 
 EndochronicFit read_endochronic_fit(const ConfigTable& fit, const EndochronicLaw& law,
                                     const std::filesystem::path& case_directory) {
-  fit.with_keys(
-      {"method", "estimate", "terms", "starts", "largest_strain_increment", "substeps", "bounds", "experiments"});
   EndochronicFit result;
   result.method = fit.has("method") ? &choose(fit.at("method"), identification_methods(), "method of identification")
                                     : &identification_method("joint");
   EndochronicIdentificationSettings& settings = result.settings;
   settings.choice = read_choice(fit, law);
-  settings.fit.starts = static_cast<int>(fit.integer("starts", starts_range, 1));
-  settings.control.largest_increment =
-      fit.number("largest_strain_increment", range::positive, settings.control.largest_increment);
-  settings.control.substeps = static_cast<int>(fit.integer("substeps", substeps_range, 1));
+  settings.fit.starts = static_cast<int>(fit.integer("starts", std::int64_t{1}));
+  settings.control.largest_increment = fit.number("largest_strain_increment", settings.control.largest_increment);
+  settings.control.substeps = static_cast<int>(fit.integer("substeps", std::int64_t{1}));
   result.divides_steps = !fit.has("substeps");
   read_terms(fit, settings);
   read_bounds(fit, law, settings);

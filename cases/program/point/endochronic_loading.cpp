@@ -2,6 +2,7 @@
 
 #include "cases/program/input/csv_columns.h"
 #include "cases/program/point/control_values.h"
+#include "cases/program/point/endochronic_case_keys.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,16 +13,6 @@
 
 namespace pfdm {
 namespace {
-
-constexpr Range count{1.0, 1e7, false, "at least 1 and at most 10000000"};
-
-std::vector<std::string> component_keys() {
-  std::vector<std::string> keys;
-  for (const char* what : {"stress", "strain"})
-    for (const std::string_view name : component_names) keys.push_back(fmt::format("{}_{}", what, name));
-  for (std::size_t k = 3; k < 6; ++k) keys.push_back(fmt::format("gamma_{}", component_names[k]));
-  return keys;
-}
 
 /// A segment while it is read.
 struct Draft {
@@ -53,8 +44,8 @@ std::vector<double> segment_times(const Draft& draft) {
     if (const auto control = control_table(draft))
       for (const auto& [key, value] : control->entries())
         if (value.is_table() && value.table().has("csv")) return file_times(value.table(), draft.directory);
-  const double duration = draft.table.quantity("duration", dimension::time, range::positive);
-  const auto n = draft.table.integer("increments", count);
+  const double duration = draft.table.quantity("duration");
+  const auto n = draft.table.integer("increments");
   std::vector<double> times;
   for (std::int64_t i = 0; i <= n; ++i) times.push_back(duration * static_cast<double>(i) / static_cast<double>(n));
   return times;
@@ -74,7 +65,6 @@ void read_components(Draft& draft) {
 
 /// { sum = { stress_xx = 1, strain_yy = "100 GPa" }, change = ... }
 void read_linear_condition(Draft& draft, const ConfigTable& table) {
-  table.with_keys({"sum", "change"});
   const auto terms = table.table("sum").entries();
   const bool has_stress = std::ranges::any_of(terms, [](const auto& term) { return term.first.starts_with("stress"); });
   LoadSegment::Condition condition{.condition = {}, .pace = Pace::increment, .values = {}};
@@ -102,10 +92,9 @@ void read_linear_condition(Draft& draft, const ConfigTable& table) {
 /// Pairs that nothing is said about are free of stress.
 void complete(Draft& draft) {
   if (draft.table.has("free")) {
-    const std::vector<std::string> names(component_names.begin(), component_names.end());
     for (const ConfigValue& entry : draft.table.at("free").list()) {
-      const std::string name = entry.one_of(names, "pair of stress and strain");
-      draft.named[static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())] = true;
+      const std::string name = entry.choice();
+      draft.named[static_cast<std::size_t>(std::ranges::find(component_names, name) - component_names.begin())] = true;
     }
   }
   for (std::size_t k = 0; k < 6; ++k) {
@@ -123,7 +112,6 @@ void complete(Draft& draft) {
 
 LoadSegment read_segment(const ConfigTable& table, const EndochronicLaw& law, const std::filesystem::path& directory,
                          std::vector<std::filesystem::path>& files) {
-  table.with_keys({"duration", "increments", "control", "free", "conditions"});
   Draft draft{.table = table, .directory = directory, .files = files, .segment = {}, .conditions = {}};
   draft.segment.times = segment_times(draft);
   read_components(draft);
@@ -145,7 +133,7 @@ ControlledComponent controlled_component(std::string_view name) {
     if (name == fmt::format("strain_{}", component)) return {{Mandel::Zero(), unit}, k, false};
     if (k >= 3 && name == fmt::format("gamma_{}", component)) return {{Mandel::Zero(), 2.0 * unit}, k, false};
   }
-  const auto keys = component_keys();
+  const std::vector<std::string>& keys = point_component_keys();
   const auto meant = nearest(name, keys);
   throw InputError(fmt::format("\"{}\" is not a component of stress or strain{} (available: {})", name,
                                meant ? fmt::format("; did you mean \"{}\"?", *meant) : "", fmt::join(keys, ", ")));
@@ -158,16 +146,14 @@ double read_component_value(const ConfigValue& value, bool is_stress) {
 
 EndochronicLoading read_endochronic_loading(const ConfigTable& loading, const EndochronicLaw& law,
                                             const std::filesystem::path& case_directory) {
-  loading.with_keys({"repeat", "largest_strain_increment", "segments"});
   EndochronicLoading result;
   std::vector<LoadSegment> once;
   for (const ConfigTable& table : loading.tables("segments"))
     once.push_back(read_segment(table, law, case_directory, result.data_files));
   if (once.empty()) throw loading.at("segments").error("at least one [[loading.segments]] is required");
-  const auto repeat = loading.integer("repeat", count, 1);
+  const auto repeat = loading.integer("repeat", std::int64_t{1});
   for (std::int64_t i = 0; i < repeat; ++i) result.segments.insert(result.segments.end(), once.begin(), once.end());
-  result.settings.largest_increment =
-      loading.number("largest_strain_increment", range::positive, result.settings.largest_increment);
+  result.settings.largest_increment = loading.number("largest_strain_increment", result.settings.largest_increment);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "cases/program/point/endochronic_program.h"
 
 #include "cases/program/point/endochronic_case.h"
+#include "cases/program/point/endochronic_case_keys.h"
 #include "cases/program/point/endochronic_comparison.h"
 #include "cases/program/point/endochronic_fit_results.h"
 #include "cases/program/point/endochronic_report.h"
@@ -169,7 +170,8 @@ CaseKind endochronic_kind() {
   return {.name = "endochronic",
           .description = "one material point of endochronic plasticity under mixed control",
           .read = read_program,
-          .laws = laws};
+          .laws = laws,
+          .keys = [] { return std::vector<const KeyTable*>{&endochronic_case_keys()}; }};
 }
 
 }  // namespace pfdm

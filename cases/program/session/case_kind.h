@@ -2,6 +2,7 @@
 // What a kind of case is: how it is read, and the laws, methods and conditions that its case.toml may name.
 
 #include "cases/program/input/case_file.h"
+#include "cases/program/input/key.h"
 #include "cases/program/session/runnable_case.h"
 
 #include <span>
@@ -31,6 +32,8 @@ struct CaseKind {
   /// Throws InputError for whatever is wrong with the file, but for keys that nothing reads.
   RunnableCase (*read)(const CaseFile& file);
   std::vector<LawTable> (*laws)() = nullptr;  ///< may be empty
+  /// The rows of the keys of its files, one table for each way in which they are read.
+  std::vector<const KeyTable*> (*keys)() = nullptr;
 };
 
 }  // namespace pfdm

@@ -1,5 +1,7 @@
 #include "cases/program/studies/curve_fit_case.h"
 
+#include "cases/program/input/key_member.h"
+
 #include "cases/program/studies/finer_case.h"
 
 #include <fmt/format.h>
@@ -11,15 +13,9 @@
 namespace pfdm {
 namespace {
 
-constexpr Range starts_range{1.0, 1000.0, false, "between 1 and 1000"};
-constexpr Range screened_range{0.0, 10000.0, false, "between 0 and 10000"};
-constexpr Range spread_range{0.0, 10.0, true, "above 0 and below 10"};
-constexpr Range iterations_range{1.0, 1000.0, false, "between 1 and 1000"};
-constexpr Range step_range{0.0, 0.5, true, "above 0 and below 0.5"};
-
 void read_prior(const ConfigTable& table, CurveFitParameter& parameter) {
   if (!table.has("prior")) return;
-  const ConfigTable prior = table.table("prior").with_keys({"mean", "deviation"});
+  const ConfigTable prior = table.table("prior");
   const double mean = read_parameter_value(prior.at("mean"), parameter.in_case);
   const double deviation = read_parameter_value(prior.at("deviation"), parameter.in_case);
   if (!(deviation > 0.0)) throw prior.at("deviation").error("a standard deviation must be positive");
@@ -29,7 +25,6 @@ void read_prior(const ConfigTable& table, CurveFitParameter& parameter) {
 }
 
 CurveFitParameter read_parameter(const ConfigTable& table, const CaseFile& file) {
-  table.with_keys({"key", "bounds", "prior"});
   CurveFitParameter parameter{.in_case = read_case_parameter(table.at("key"), file), .in_fit = {}};
   const CaseParameter& in_case = parameter.in_case;
   const ConfigValue bounds = table.at("bounds");
@@ -54,8 +49,7 @@ std::vector<std::size_t> all_of(const std::vector<CurveFitParameter>& parameters
 
 /// How many descents a stage makes and from where, as `table` says, or else as it is.
 void read_starts(const ConfigTable& table, CurveFitStage& stage) {
-  stage.starts = static_cast<int>(table.integer("starts", starts_range, stage.starts));
-  stage.screened = static_cast<int>(table.integer("screened", screened_range, stage.screened));
+  read_stored(table, stage);
   if (stage.screened == 0 || stage.starts <= stage.screened) return;
   throw table.at(table.has("starts") ? "starts" : "screened")
       .error(fmt::format("{} descents cannot be chosen from {} screened points", stage.starts, stage.screened));
@@ -70,7 +64,6 @@ CurveFitStage whole_stage(const ConfigTable& fit, const std::vector<CurveFitPara
 
 CurveFitStage read_stage(const ConfigTable& table, const CurveFitStage& whole,
                          const std::vector<CurveFitParameter>& parameters) {
-  table.with_keys({"name", "parameters", "between", "starts", "screened"});
   CurveFitStage stage = whole;
   stage.name = table.string("name");
   read_starts(table, stage);
@@ -89,25 +82,19 @@ CurveFitStage read_stage(const ConfigTable& table, const CurveFitStage& whole,
   }
   if (const auto between = table.find("between")) {
     const std::vector<ConfigValue> ends = between->list(2);
-    stage.from = ends[0].quantity(dimension::length);
-    stage.to = ends[1].quantity(dimension::length);
+    stage.from = ends[0].quantity();
+    stage.to = ends[1].quantity();
     if (!(stage.from < stage.to)) throw between->error("the second displacement must be the larger");
   }
   return stage;
 }
 
 FitSettings read_settings(const ConfigTable& fit) {
-  FitSettings settings;
-  settings.spread = fit.number("spread", spread_range, 1.0);
-  settings.maximum_iterations = static_cast<int>(fit.integer("maximum_iterations", iterations_range, 30));
-  settings.step = fit.number("step", step_range, 0.02);
-  settings.least_step = fit.number("tolerance", step_range, 1e-4);
-  const std::string kinds[] = {"central", "forward", "shared"};
-  if (const auto differences = fit.find("differences")) {
-    const std::string kind = differences->one_of(kinds, "kind of differences");
-    if (kind == "forward") settings.differences = Differences::forward;
-    if (kind == "shared") settings.differences = Differences::shared;
-  }
+  FitSettings settings{.maximum_iterations = 30, .least_step = 1e-4, .step = 0.02, .spread = 1.0};
+  read_stored(fit, settings);
+  const std::string kind = fit.choice("differences", "central");
+  if (kind == "forward") settings.differences = Differences::forward;
+  if (kind == "shared") settings.differences = Differences::shared;
   settings.tolerance = 1e-8;
   settings.trust_radius = 30.0;
   settings.side_by_side = false;
@@ -148,14 +135,10 @@ std::vector<CurveFitParameter> read_fit_parameters(const ConfigTable& fit, const
 std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
   const ConfigTable root = file.config.root();
   if (!root.has("fit")) return std::nullopt;
-  const ConfigTable fit =
-      root.table("fit").with_keys({"parameters", "stages", "step", "differences", "tolerance", "maximum_iterations",
-                                   "starts", "screened", "spread", "intervals", "finer"});
+  const ConfigTable fit = root.table("fit");
   finer_case(fit, file);  // whether it makes sense
   CurveFitSettings settings{.parameters = {}, .stages = {}, .solver = read_settings(fit), .where = fit};
-  const std::string kinds[] = {"linear", "profile"};
-  if (const auto intervals = fit.find("intervals"))
-    settings.profiles = intervals->one_of(kinds, "kind of intervals") == "profile";
+  settings.profiles = fit.choice("intervals", "linear") == "profile";
   settings.parameters = read_fit_parameters(fit, file);
   const CurveFitStage whole = whole_stage(fit, settings.parameters);
   for (const ConfigTable& table : fit.tables("stages"))

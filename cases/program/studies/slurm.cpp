@@ -1,5 +1,6 @@
 #include "cases/program/studies/slurm.h"
 
+#include "cases/program/input/key_member.h"
 #include "cases/program/session/external_program.h"
 #include "postproc/files/text_file.h"
 
@@ -12,9 +13,6 @@
 
 namespace pfdm {
 namespace {
-
-constexpr Range cpus_range{1.0, 4096.0, false, "between 1 and 4096"};
-constexpr Range tasks_range{1.0, 1e6, false, "between 1 and 1000000"};
 
 constexpr std::string_view in_words = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_.-";
 
@@ -73,14 +71,10 @@ ComputationError objection(const std::string& command, const ProgramEnd& end) {
 }  // namespace
 
 SlurmSettings read_slurm(const ConfigTable& table) {
-  table.with_keys({"partition", "time", "cpus_per_task", "memory", "at_once", "largest_array", "lines"});
   SlurmSettings settings;
   if (table.has("partition")) settings.partition = read_partition(table.at("partition"));
-  if (table.has("time")) settings.time = table.quantity("time", dimension::time, range::positive);
-  settings.cpus_per_task = static_cast<int>(table.integer("cpus_per_task", cpus_range, settings.cpus_per_task));
+  read_stored(table, settings);
   if (table.has("memory")) settings.memory = read_memory(table.at("memory"));
-  settings.at_once = static_cast<int>(table.integer("at_once", tasks_range, settings.at_once));
-  settings.largest_array = static_cast<int>(table.integer("largest_array", tasks_range, settings.largest_array));
   if (table.has("lines")) settings.lines = read_lines(table);
   return settings;
 }

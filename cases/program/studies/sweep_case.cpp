@@ -11,9 +11,6 @@
 namespace pfdm {
 namespace {
 
-constexpr Range count_range{2.0, 1e6, false, "between 2 and 1000000"};
-constexpr Range samples_range{1.0, 1e6, false, "between 1 and 1000000"};
-
 /// Values between two ends, evenly spaced or so in their logarithms.
 struct Interval {
   double lower = 0.0, upper = 0.0;
@@ -29,9 +26,7 @@ Interval read_interval(const ConfigTable& table, const CaseParameter& parameter)
   Interval interval{.lower = read_parameter_value(ends[0], parameter),
                     .upper = read_parameter_value(ends[1], parameter)};
   if (!(interval.lower < interval.upper)) throw between.error("the second value must be the larger");
-  const std::string ways[] = {"linear", "logarithmic"};
-  const auto spacing = table.find("spacing");
-  interval.logarithmic = spacing && spacing->one_of(ways, "spacing") == "logarithmic";
+  interval.logarithmic = table.choice("spacing", "linear") == "logarithmic";
   if (interval.logarithmic && !(interval.lower > 0.0)) throw between.error("logarithmic spacing needs positive values");
   return interval;
 }
@@ -46,7 +41,7 @@ std::vector<double> read_values(const ConfigTable& table, const CaseParameter& p
   }
   if (!table.has("between")) throw table.error("\"values\" is missing, or \"between\" with \"count\"");
   const Interval interval = read_interval(table, parameter);
-  const auto n = table.integer("count", count_range);
+  const auto n = table.integer("count");
   for (std::int64_t i = 0; i < n; ++i)
     values.push_back(interval.at(static_cast<double>(i) / static_cast<double>(n - 1)));
   return values;
@@ -83,8 +78,8 @@ Points side_by_side(const std::vector<std::vector<double>>& values, const Config
 
 Points samples(const std::vector<ConfigTable>& tables, const std::vector<CaseParameter>& parameters,
                const ConfigTable& sweep) {
-  const auto n = static_cast<std::size_t>(sweep.integer("samples", samples_range));
-  const auto seed = static_cast<std::uint64_t>(sweep.integer("seed", range::seed, 1));
+  const auto n = static_cast<std::size_t>(sweep.integer("samples"));
+  const auto seed = static_cast<std::uint64_t>(sweep.integer("seed", std::int64_t{1}));
   Points points = latin_hypercube(n, parameters.size(), seed);
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     const Interval interval = read_interval(tables[j], parameters[j]);
@@ -112,18 +107,17 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t n, std::size_t n_di
 std::optional<SweepSettings> read_sweep(const CaseFile& file) {
   const ConfigTable root = file.config.root();
   if (!root.has("sweep")) return std::nullopt;
-  const ConfigTable sweep = root.table("sweep").with_keys({"method", "samples", "seed", "parameters", "slurm"});
+  const ConfigTable sweep = root.table("sweep");
   SweepSettings settings;
   const std::vector<ConfigTable> tables = sweep.tables("parameters");
   for (const ConfigTable& table : tables) {
-    const ConfigValue key = table.with_keys({"key", "values", "between", "count", "spacing"}).at("key");
+    const ConfigValue key = table.at("key");
     settings.parameters.push_back(read_case_parameter(key, file));
     require_named_once(key, settings.parameters);
   }
   if (sweep.has("slurm")) settings.slurm = read_slurm(sweep.table("slurm"));
   if (tables.empty()) throw sweep.error("at least one [[sweep.parameters]] is required");
-  const std::string methods[] = {"grid", "list", "latin_hypercube"};
-  const std::string method = sweep.at("method").one_of(methods, "method of a sweep");
+  const std::string method = sweep.choice("method");
   if (method == "latin_hypercube") {
     settings.points = samples(tables, settings.parameters, sweep);
     return settings;

@@ -1,5 +1,8 @@
 #include "cases/program/vibration/mass_material_case.h"
 
+#include "cases/program/input/key_member.h"
+#include "cases/program/vibration/mass_material_keys.h"
+
 #include "cases/program/input/csv_marks.h"
 #include "cases/program/input/path_reader.h"
 #include "cases/program/input/units.h"
@@ -15,27 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Range count{0.0, 1e6, false, "between 0 and 1000000"};
-constexpr Range exponent{0.0, 4.0, false, "between 0 and 4"};
-constexpr Range decibel{-20.0, 200.0, false, "between -20 and 200"};
-constexpr Range part{0.0, 0.4, false, "between 0 and 0.4"};
-constexpr Range open_fraction{0.0, 1.0, true, "above 0 and below 1"};
-
-/// Of k_i, i = 1 ...
-constexpr std::array<Dimension, 7> stiffness_dimensions{{{"stiffness", "N/m", "2.8e6 N/m"},
-                                                         {"stiffness of second order", "N/m^2", "1e9 N/m^2"},
-                                                         {"stiffness of third order", "N/m^3", "1e12 N/m^3"},
-                                                         {"stiffness of fourth order", "N/m^4", "1e15 N/m^4"},
-                                                         {"stiffness of fifth order", "N/m^5", "1e19 N/m^5"},
-                                                         {"stiffness of sixth order", "N/m^6", "1e22 N/m^6"},
-                                                         {"stiffness of seventh order", "N/m^7", "1e26 N/m^7"}}};
-constexpr Dimension damping_dimension{"damping coefficient", "N s/m", "70 N s/m"};
-constexpr Dimension rate_dimension{"rate", "s^-1", "400 s^-1"};
-
 Dimension beta_dimension(KernelForcing forcing) {
-  if (forcing == KernelForcing::displacement) return {"kernel weight on z", "N/m/s", "-1e8 N/m/s"};
-  if (forcing == KernelForcing::stiffness) return rate_dimension;
-  return stiffness_dimensions[0];
+  if (forcing == KernelForcing::displacement) return beta_on_displacement();
+  return forcing == KernelForcing::stiffness ? beta_on_stiffness() : stiffness_dimensions()[0];
 }
 
 std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStructure& structure) {
@@ -43,10 +28,8 @@ std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStr
   for (const ConfigTable& term : model.tables("kernel")) {
     if (structure.forcing == KernelForcing::none)
       throw term.error(fmt::format("model \"{}\" has no kernel", structure.name));
-    term.with_keys({"alpha", "alpha_imaginary", "beta", "beta_imaginary"});
     const Dimension beta = beta_dimension(structure.forcing);
-    const std::complex<double> alpha(term.quantity("alpha", rate_dimension, range::positive),
-                                     term.quantity("alpha_imaginary", rate_dimension, range::any, 0.0));
+    const std::complex<double> alpha(term.quantity("alpha"), term.quantity("alpha_imaginary", 0.0));
     kernel.push_back({alpha, {term.quantity("beta", beta), term.quantity("beta_imaginary", beta, range::any, 0.0)}});
     if (!kernel.back().is_pair() && kernel.back().beta.imag() != 0.0)
       throw term.error("a real alpha requires a real beta");
@@ -59,11 +42,9 @@ std::vector<HereditaryTerm> read_kernel(const ConfigTable& model, const ModelStr
 
 void read_sample(const ConfigTable& root, MassMaterialCase& c) {
   if (!root.has("sample")) return;
-  const ConfigTable table = root.table("sample").with_keys(
-      {"length", "area", "name", "composition", "cured", "planned_random", "planned_harmonic"});
+  const ConfigTable table = root.table("sample");
   if (!table.has("length") && !table.has("area")) return;
-  c.sample = SampleSize{.length = table.quantity("length", dimension::length, range::positive),
-                        .area = table.quantity("area", dimension::area, range::positive)};
+  c.sample = SampleSize{.length = table.quantity("length"), .area = table.quantity("area")};
 }
 
 /// A sample that is a bar in tension: k_1 = E A/L, and with a loss factor the damping c = eta (k_1 m)^(1/2), which
@@ -75,23 +56,21 @@ void read_modulus(const ConfigTable& table, MassMaterialCase& c) {
   if (c.has_parameters) throw modulus->error("\"stiffness\" and \"young_modulus\" both give k_1: leave one out");
   if (!c.sample) throw modulus->error("Young's modulus needs the sample's length and area: [sample]");
   if (loss && table.has("damping")) throw loss->error("\"damping\" and \"loss_factor\" both give c: leave one out");
-  c.model.stiffness = {modulus->quantity(dimension::stress, range::positive) * c.sample->area / c.sample->length};
+  c.model.stiffness = {modulus->quantity() * c.sample->area / c.sample->length};
   c.has_parameters = true;
-  if (loss) c.model.damping = loss->number(range::not_negative) * std::sqrt(c.model.stiffness.front() * c.model.mass);
+  if (loss) c.model.damping = loss->number() * std::sqrt(c.model.stiffness.front() * c.model.mass);
 }
 
 void read_model(const ConfigTable& root, MassMaterialCase& c) {
-  const ConfigTable table =
-      root.table("model").with_keys({"structure", "mass", "stiffness", "damping", "young_modulus", "loss_factor",
-                                     "damping_exponent", "reference_velocity", "kernel"});
+  const ConfigTable table = root.table("model");
   const ModelStructure& structure = choose(table.at("structure"), model_structures(), "mass-material model");
   c.structure = structure.name;
-  c.model.mass = table.quantity("mass", dimension::mass, range::positive);
+  c.model.mass = table.quantity("mass");
   c.model.forcing = structure.forcing;
-  c.model.reference_velocity = table.quantity("reference_velocity", dimension::velocity, range::positive, 1.0);
+  c.model.reference_velocity = table.quantity("reference_velocity", 1.0);
   if (const auto lambda = table.find("damping_exponent")) {
     if (!structure.nonlinear_damping) throw lambda->error(fmt::format("model \"{}\" has none", structure.name));
-    c.model.damping_exponent = lambda->number(exponent);
+    c.model.damping_exponent = lambda->number();
   }
   c.has_parameters = table.has("stiffness");
   if (const auto stiffness = table.find("stiffness")) {
@@ -100,43 +79,37 @@ void read_model(const ConfigTable& root, MassMaterialCase& c) {
       throw stiffness->error(fmt::format("model \"{}\" has from 1 to {} stiffness coefficients; {} are given",
                                          structure.name, structure.stiffness_order, list.size()));
     for (std::size_t i = 0; i < list.size(); ++i)
-      c.model.stiffness.push_back(list[i].quantity(stiffness_dimensions[i]));
+      c.model.stiffness.push_back(list[i].quantity(stiffness_dimensions()[i]));
     if (!(c.model.stiffness.front() > 0.0)) throw list.front().error("k_1 must be positive");
   }
-  c.model.damping = table.quantity("damping", damping_dimension, range::any, 0.0);
+  c.model.damping = table.quantity("damping", 0.0);
   read_modulus(table, c);
   c.model.kernel = read_kernel(table, structure);
 }
 
-double level(const ConfigTable& table) { return table.quantity("level", dimension::acceleration, range::positive); }
+double level(const ConfigTable& table) { return table.quantity("level"); }
 
 Excitation read_swept_sine(const ConfigTable& table, const fs::path&, double, std::vector<fs::path>&) {
-  table.with_keys({"type", "level", "from", "to", "duration", "law", "ramp"});
-  const std::string laws[] = {"linear", "logarithmic"};
-  const auto law = table.find("law");
   SweptSine sweep{.amplitude = level(table),
-                  .from = table.quantity("from", dimension::frequency, range::positive),
-                  .to = table.quantity("to", dimension::frequency, range::positive),
-                  .duration = table.quantity("duration", dimension::time, range::positive),
-                  .logarithmic = law && law->one_of(laws, "law of a sweep") == "logarithmic"};
-  sweep.ramp = table.quantity("ramp", dimension::time, range::not_negative, 0.01 * sweep.duration);
+                  .from = table.quantity("from"),
+                  .to = table.quantity("to"),
+                  .duration = table.quantity("duration"),
+                  .logarithmic = table.choice("law", "linear") == "logarithmic"};
+  sweep.ramp = table.quantity("ramp", 0.01 * sweep.duration);
   return swept_sine(sweep);
 }
 
 Excitation read_harmonic(const ConfigTable& table, const fs::path&, double, std::vector<fs::path>&) {
-  table.with_keys({"type", "level", "frequency", "duration", "ramp"});
-  const double duration = table.quantity("duration", dimension::time, range::positive);
-  return harmonic(level(table), table.quantity("frequency", dimension::frequency, range::positive), duration,
-                  table.quantity("ramp", dimension::time, range::not_negative, 0.01 * duration));
+  const double duration = table.quantity("duration");
+  return harmonic(level(table), table.quantity("frequency"), duration, table.quantity("ramp", 0.01 * duration));
 }
 
 Excitation read_random(const ConfigTable& table, const fs::path&, double, std::vector<fs::path>&) {
-  table.with_keys({"type", "density", "from", "to", "duration", "seed"});
-  BandLimitedRandom random{.density = table.quantity("density", dimension::acceleration_density, range::positive),
-                           .low = table.quantity("from", dimension::frequency, range::positive),
-                           .high = table.quantity("to", dimension::frequency, range::positive),
-                           .duration = table.quantity("duration", dimension::time, range::positive)};
-  random.seed = static_cast<std::uint64_t>(table.integer("seed", count, 1));
+  BandLimitedRandom random{.density = table.quantity("density"),
+                           .low = table.quantity("from"),
+                           .high = table.quantity("to"),
+                           .duration = table.quantity("duration")};
+  random.seed = static_cast<std::uint64_t>(table.integer("seed", std::int64_t{1}));
   if (random.low >= random.high)
     throw table.error(
         fmt::format("the band goes from {} to {} Hz; the first must be the lower", random.low, random.high));
@@ -155,20 +128,17 @@ RecordFile read_record_file(const ConfigTable& table, const fs::path& directory,
   record.names_time = table.has("time");
   if (table.has("unit")) record.base_unit = record.relative_unit = table.string("unit");
   if (table.has("time_unit")) record.time_unit = table.string("time_unit");
-  if (table.has("rate")) record.rate = table.quantity("rate", dimension::frequency, range::positive);
+  if (table.has("rate")) record.rate = table.quantity("rate");
   record.marks = read_csv_marks(table);
   return record;
 }
 
 Excitation read_measured(const ConfigTable& table, const fs::path& directory, double rate,
                          std::vector<fs::path>& files) {
-  table.with_keys({"type", "file", "base", "relative", "time", "time_unit", "unit", "rate", "separator", "decimal",
-                   "thousands", "from", "to"});
   const RecordFile source = read_record_file(table, directory, rate, files);
   const SampledChannel channel = table.in_context([&] { return read_channel(source); });
   for (const std::string& note : channel.notes) table.remark(note);
-  return sampled_excitation(channel.values, channel.rate, table.quantity("from", dimension::frequency, range::positive),
-                            table.quantity("to", dimension::frequency, range::positive));
+  return sampled_excitation(channel.values, channel.rate, table.quantity("from"), table.quantity("to"));
 }
 
 constexpr ExcitationType excitations[] = {
@@ -185,7 +155,6 @@ constexpr FitMethod methods[] = {
 };
 
 VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {
-  table.with_keys({"name", "excitation", "record", "predicted", "schedule", "date"});
   VibrationTest test;
   std::string_view motion;
   test.where = table.at("name");
@@ -204,9 +173,7 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
                                      test.band_high, c.rate, 0.38 * c.rate));
   }
   if (table.has("record")) {
-    const ConfigTable record = table.table("record").with_keys(
-        {"file", "base_file", "base", "relative", "acceleration", "time", "time_unit", "unit", "base_unit",
-         "relative_unit", "rate", "separator", "decimal", "thousands", "from", "to"});
+    const ConfigTable record = table.table("record");
     test.record = read_record_file(record, directory, c.rate, c.data_files);
     if (record.has("base_file")) {
       test.record->base_file = read_data_file(record.at("base_file"), directory);
@@ -214,11 +181,9 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
     }
     if (record.has("base_unit")) test.record->base_unit = record.string("base_unit");
     if (record.has("relative_unit")) test.record->relative_unit = record.string("relative_unit");
-    const std::string accelerations[] = {"relative", "absolute"};
-    if (const auto kind = record.find("acceleration"))
-      test.record->absolute = kind->one_of(accelerations, "acceleration of the mass") == "absolute";
-    test.band_low = record.quantity("from", dimension::frequency, range::positive, test.band_low);
-    test.band_high = record.quantity("to", dimension::frequency, range::positive, test.band_high);
+    test.record->absolute = record.choice("acceleration", "relative") == "absolute";
+    test.band_low = record.quantity("from", test.band_low);
+    test.band_high = record.quantity("to", test.band_high);
   }
   if (!test.excitation && !test.record) throw table.error("a test requires an excitation, a record or both");
   if (!(test.band_low > 0.0 && test.band_high >= test.band_low))
@@ -266,10 +231,9 @@ void read_models(const ConfigTable& table, MassMaterialFit& fit) {
 void read_fit(const ConfigTable& root, MassMaterialCase& c) {
   c.fit.structure = c.structure;
   if (!root.has("fit")) return;
-  const ConfigTable table =
-      root.table("fit").with_keys({"method", "structure", "models", "kernel_order", "maximum_kernel_order", "crop",
-                                   "replicates", "confidence", "seed", "repeatability", "ogden_terms"});
+  const ConfigTable table = root.table("fit");
   MassMaterialFit& fit = c.fit;
+  read_stored(table, fit);
   if (const auto method = table.find("method"))
     fit.method = choose(*method, fit_methods(), "method of identification").name;
   if (const auto structure = table.find("structure"))
@@ -279,46 +243,32 @@ void read_fit(const ConfigTable& root, MassMaterialCase& c) {
     fit.kernel_order = static_cast<int>(order->integer(
         fit.method == "ten_step" ? Range{1.0, 20.0, false, "\"auto\" or between 1 and 20"}
                                  : Range{0.0, 6.0, false, "\"auto\" or between 0 and 6 (\"ten_step\": up to 20)"}));
-  fit.maximum_kernel_order = static_cast<int>(
-      table.integer("maximum_kernel_order", Range{0.0, 6.0, false, "between 0 and 6"}, fit.maximum_kernel_order));
-  fit.crop = table.number("crop", part, fit.crop);
-  fit.replicates = static_cast<int>(table.integer("replicates", count, fit.replicates));
-  fit.confidence = table.number("confidence", open_fraction, fit.confidence);
-  fit.seed = static_cast<std::uint64_t>(table.integer("seed", count, 1));
   if (const auto terms = table.find("ogden_terms")) {
-    fit.ogden_terms = static_cast<int>(terms->integer(Range{1.0, 3.0, false, "between 1 and 3"}));
+    fit.ogden_terms = static_cast<int>(terms->integer());
     if (!c.sample) throw terms->error("Ogden's model needs the sample's length and area: [sample]");
   }
-  fit.repeatability = table.boolean("repeatability", false);
   if (fit.repeatability) require_schedule(c, table.at("repeatability"));
 }
 
 void read_analysis(const ConfigTable& root, MassMaterialCase& c) {
   if (!root.has("analysis")) return;
-  constexpr Range samples{16.0, 16777216.0, false, "between 16 and 16777216"};
-  const ConfigTable table =
-      root.table("analysis").with_keys({"segment", "overlap", "spectrogram_segment", "harmonics", "bandwidth"});
-  AnalysisSettings& a = c.analysis;
-  a.segments.length = table.integer("segment", samples, a.segments.length);
-  a.segments.overlap = table.number("overlap", Range{0.0, 0.95, false, "between 0 and 0.95"}, a.segments.overlap);
-  if (table.has("spectrogram_segment")) a.spectrogram_length = table.integer("spectrogram_segment", samples);
-  a.harmonics = static_cast<int>(table.integer("harmonics", Range{1.0, 10.0, false, "between 1 and 10"}, a.harmonics));
-  if (table.has("bandwidth")) a.bandwidth = table.quantity("bandwidth", dimension::frequency, range::positive);
+  const ConfigTable table = root.table("analysis");
+  read_stored(table, c.analysis);
+  read_stored(table, c.analysis.segments);
 }
 
 /// Only what is simulated needs it.
 void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
   if (!root.has("sampling")) return;
-  const ConfigTable table = root.table("sampling").with_keys({"rate", "signal_to_noise_dB", "noise_seed"});
-  c.rate = table.quantity("rate", dimension::frequency, range::positive);
-  if (table.has("signal_to_noise_dB")) c.signal_to_noise = table.number("signal_to_noise_dB", decibel);
-  c.noise_seed = static_cast<std::uint64_t>(table.integer("noise_seed", count, 1));
+  const ConfigTable table = root.table("sampling");
+  c.rate = table.quantity("rate");
+  read_stored(table, c);
 }
 
 }  // namespace
 
 MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path& case_directory) {
-  root.with_keys({"kind", "title", "model", "sample", "sampling", "test", "change", "fit", "analysis", "sweep"});
+  root.with_keys(mass_material_keys());
   MassMaterialCase c;
   c.title = root.line("title");
   read_sample(root, c);

@@ -6,6 +6,7 @@
 #include "cases/program/vibration/mass_material_analysis.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "cases/program/vibration/mass_material_jobs.h"
+#include "cases/program/vibration/mass_material_keys.h"
 #include "cases/program/vibration/mass_material_report.h"
 #include "postproc/curves/figures_summary.h"
 #include "postproc/curves/summary.h"
@@ -257,7 +258,8 @@ CaseKind mass_material_kind() {
   return {.name = "mass_material",
           .description = "mass on a sample on a shaker: simulation and identification",
           .read = read_program,
-          .laws = laws};
+          .laws = laws,
+          .keys = [] { return std::vector<const KeyTable*>{&mass_material_keys()}; }};
 }
 
 }  // namespace pfdm

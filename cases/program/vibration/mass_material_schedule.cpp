@@ -1,5 +1,7 @@
 #include "cases/program/vibration/mass_material_schedule.h"
 
+#include "cases/program/input/key_member.h"
+
 #include "cases/program/input/units.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "solver/vibration/vibration_excitation.h"
@@ -15,10 +17,6 @@
 
 namespace pfdm {
 namespace {
-
-constexpr Range run_number{1.0, 1e6, false, "between 1 and 1000000"};
-constexpr Range relative_slope{-1.0, 1.0, false, "between -1 and 1"};
-constexpr Range relative_scatter{0.0, 0.5, false, "between 0 and 0.5"};
 
 /// Level in g0, age in days, run.
 std::array<double, 3> coordinates_of(const ScheduledRun& s) {
@@ -63,9 +61,8 @@ void add_motion(const MassMaterialCase& c, bool random, int planned, std::vector
 }
 
 ScheduledRun read_run(const ConfigTable& table, double band) {
-  table.with_keys({"level", "age", "run", "fractured"});
-  ScheduledRun run{.age = table.quantity("age", dimension::time, range::not_negative),
-                   .run = static_cast<int>(table.integer("run", run_number, 1)),
+  ScheduledRun run{.age = table.quantity("age"),
+                   .run = static_cast<int>(table.integer("run", std::int64_t{1})),
                    .fractured = table.boolean("fractured", false)};
   const ConfigValue level = table.at("level");
   const bool of_density = level.is_string() && level.in_context([&] {
@@ -95,13 +92,9 @@ std::string read_date(const ConfigValue& value) {
 SampleCard read_sample_card(const ConfigTable& root) {
   SampleCard card;
   if (!root.has("sample")) return card;
-  constexpr Range planned{0.0, 1e6, false, "between 0 and 1000000"};
   const ConfigTable table = root.table("sample");
-  card.name = table.string("name", "");
-  card.composition = table.string("composition", "");
+  read_stored(table, card);
   if (const auto cured = table.find("cured")) card.cured = read_date(*cured);
-  card.planned_random = static_cast<int>(table.integer("planned_random", planned, 0));
-  card.planned_harmonic = static_cast<int>(table.integer("planned_harmonic", planned, 0));
   return card;
 }
 
@@ -129,15 +122,10 @@ std::vector<std::vector<std::string>> schedule_rows(const MassMaterialCase& c) {
 }
 
 std::vector<SampleChange> read_sample_changes(const ConfigTable& root) {
-  const std::string parameters[] = {"stiffness", "damping"};
   std::vector<SampleChange> changes;
   for (const ConfigTable& table : root.tables("change")) {
-    table.with_keys({"of", "per_g0", "per_day", "per_run", "scatter"});
-    changes.push_back({.damping = table.at("of").one_of(parameters, "parameter that changes") == "damping",
-                       .per_g0 = table.number("per_g0", relative_slope, 0.0),
-                       .per_day = table.number("per_day", relative_slope, 0.0),
-                       .per_run = table.number("per_run", relative_slope, 0.0),
-                       .scatter = table.number("scatter", relative_scatter, 0.0)});
+    changes.push_back({.damping = table.choice("of") == "damping"});
+    read_stored(table, changes.back());
   }
   return changes;
 }

@@ -1,0 +1,10 @@
+#pragma once
+// Rows of the keys of kind "plate".
+
+#include "cases/program/input/key.h"
+
+namespace pfdm {
+
+const KeyTable& plate_keys();
+
+}  // namespace pfdm
