@@ -122,26 +122,29 @@ auto HyperelasticMaterial::extended(double change, const auto& f) -> OfVolume {
   return {at.value + (at.slope + 0.5 * at.curvature * by) * by, at.slope + at.curvature * by, at.curvature};
 }
 
-PotentialAt HyperelasticMaterial::potential_with(double Lambda, const Tensor& H) const {
+PotentialAt HyperelasticMaterial::potential_with(double Lambda, const Tensor& H, double change) const {
   const Tensor F = Tensor::Identity() + H, E = green_strain(H);
-  const double change = volume_change(H), J = 1.0 + change;
+  const double det = 1.0 + volume_change(H), J = 1.0 + change;
   const ShearEnergy shear = law_.shear(p_, E);
   const OfVolume f = extended(change, [&](double at) { return of_volume(Lambda, at); });
   const PotentialAt by_J = by_volume(F, f.value, f.slope, f.curvature);
   PotentialAt result = by_gradient(shear.energy, F, shear.stress, shear.stiffness);
   result.energy += by_J.energy;
   result.tangent += by_J.tangent + p0_ * GradientTangent::Identity();
-  if (J < least_volume)
+  if (std::min(J, det) < least_volume) {
     result.stress += p0_ * F + by_J.stress;
-  else  // p0 (F - F^-T) = 2 p0 F^-T E, without its cancellation
-    result.stress += cofactor(F) * ((2.0 * p0_ / J) * E + volumetric(Lambda, change).slope * Tensor::Identity());
+  } else {  // p0 (F - F^-T) = 2 p0 F^-T E, without its cancellation
+    const double by_change = volumetric(Lambda, change).slope + p0_ * (J - det) / (J * det);
+    result.stress += cofactor(F) * ((2.0 * p0_ / det) * E + by_change * Tensor::Identity());
+  }
   return result;
 }
 
 // W(l 1) with l = J^(1/3): its slope by J is P_11/l^2, as dJ = 3 l^2 dl.
 HyperelasticMaterial::OfVolume HyperelasticMaterial::dilation(double Lambda, double change) const {
   const double stretch = std::cbrt(1.0 + change);
-  const PotentialAt at = potential_with(Lambda, Tensor(std::expm1(std::log1p(change) / 3.0) * Tensor::Identity()));
+  const Tensor H = std::expm1(std::log1p(change) / 3.0) * Tensor::Identity();
+  const PotentialAt at = potential_with(Lambda, H, volume_change(H));
   const double p = at.stress(0, 0) / (stretch * stretch);
   const GradientTangent& A = at.tangent;
   const double dP = A(0, 0) + A(0, 4) + A(0, 8);  // of P_11 by the stretch
@@ -149,8 +152,7 @@ HyperelasticMaterial::OfVolume HyperelasticMaterial::dilation(double Lambda, dou
   return {at.energy, p, by_stretch / (3.0 * stretch * stretch)};
 }
 
-PotentialAt HyperelasticMaterial::compression_with(double Lambda, const Tensor& H) const {
-  const double change = volume_change(H);
+PotentialAt HyperelasticMaterial::compression_with(double Lambda, const Tensor& H, double change) const {
   if (change >= 0.0) return {};
   const OfVolume f = extended(change, [&](double at) { return dilation(Lambda, at); });
   return by_volume(Tensor::Identity() + H, f.value, f.slope, f.curvature);

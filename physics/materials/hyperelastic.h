@@ -86,13 +86,22 @@ class HyperelasticMaterial final : public Material {
   std::size_t history_size() const override { return 0; }
 
   /// Of W. Of laws whose shear part is not finite for every F the energy may be infinite or NaN where det F <= 0.
-  PotentialAt potential(const Tensor& H) const { return potential_with(Lambda_, H); }
+  PotentialAt potential(const Tensor& H) const { return potential_with(Lambda_, H, volume_change(H)); }
+  /// The same where the volume is another than det F, J = 1 + `change`: W_s(C) - p0 ln J + U(J), and its derivatives
+  /// with those of J in the direction of cof F. Of cells whose volume is not that of their mean gradient.
+  PotentialAt potential(const Tensor& H, double change) const { return potential_with(Lambda_, H, change); }
   /// Of W_c = W(J^(1/3) 1) where J < 1, zero elsewhere: the part that a split into volumetric (J >= 1) and isochoric
   /// energy keeps from damage.
-  PotentialAt compression(const Tensor& H) const { return compression_with(Lambda_, H); }
+  PotentialAt compression(const Tensor& H) const { return compression_with(Lambda_, H, volume_change(H)); }
   /// The same of W_m, which has no share c of U.
-  PotentialAt moderate_potential(const Tensor& H) const { return potential_with(Lambda_ - pressure_modulus_, H); }
-  PotentialAt moderate_compression(const Tensor& H) const { return compression_with(Lambda_ - pressure_modulus_, H); }
+  PotentialAt moderate_potential(const Tensor& H) const { return moderate_potential(H, volume_change(H)); }
+  PotentialAt moderate_potential(const Tensor& H, double change) const {
+    return potential_with(Lambda_ - pressure_modulus_, H, change);
+  }
+  PotentialAt moderate_compression(const Tensor& H) const { return moderate_compression(H, volume_change(H)); }
+  PotentialAt moderate_compression(const Tensor& H, double change) const {
+    return compression_with(Lambda_ - pressure_modulus_, H, change);
+  }
   /// Of the tangent A at F, which has this lambda at F = 1: mu, or a mean over three directions of laws that stiffen
   /// [Pa].
   double shear_modulus(const Tensor& F, const GradientTangent& A, double lambda) const;
@@ -111,8 +120,8 @@ class HyperelasticMaterial final : public Material {
   struct OfVolume {
     double value = 0.0, slope = 0.0, curvature = 0.0;
   };
-  PotentialAt potential_with(double Lambda, const Tensor& H) const;
-  PotentialAt compression_with(double Lambda, const Tensor& H) const;
+  PotentialAt potential_with(double Lambda, const Tensor& H, double change) const;
+  PotentialAt compression_with(double Lambda, const Tensor& H, double change) const;
   OfVolume volumetric(double Lambda, double change) const;
   OfVolume of_volume(double Lambda, double change) const;
   static OfVolume extended(double change, const auto& f);

@@ -105,7 +105,10 @@ class FiniteCells {
     PotentialAt moderate, network, pressure{}, compression{};
     bool is_compressed = false;
   };
-  Parts parts(Index cell, const Tensor& H) const;
+  Parts parts(Index cell, const Tensor& H, double change) const;
+  Parts parts(Index cell, const Tensor& H) const { return parts(cell, H, volume_change(H)); }
+  Parts parts(Index cell, const CellMechanics& mechanics, const Tensor& H) const;
+  double beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const;
   bool is_plane_stress() const { return !across_.isZero(); }
   FiniteLaw solid_law(Index cell, const Tensor& H, double g, double closure) const;
   FiniteLaw plane_stress_law(Index cell, const Tensor& H, double g) const;

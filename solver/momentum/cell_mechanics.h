@@ -30,6 +30,11 @@ struct CellMechanics {
   /// displacements differ by from those of the mean gradient, 1/2 sum A t.(u_f - u_c - gradient d), and this is H by
   /// least squares [-]; else empty.
   CellField<Tensor> reconstructed_gradient{};
+  /// At finite strain, of nearly incompressible bodies: J - 1 by the volume of the moved cell, of those with a pressure
+  /// [-]; of others by the mean gradient. Else empty.
+  CellField<double> volume_change{};
+  /// Then also: what the pressures of cells do not make of `stress` [Pa]. `energy` is then without their work.
+  CellField<Tensor> moderate_stress{};
   FaceField<Vector> face_displacement{};  ///< [m]; zero on the front and back of plane and axisymmetric meshes
 
   Tensor elastic_strain(Index cell) const {

@@ -62,6 +62,17 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
   if (pressure_.any()) flux_.resize(forces_.size());
   list_forces_of_cells();
   cubic_ = CubicFaces(mesh, unknowns, sides_by_turn());
+  bonded_ = BondedSides(mesh, unknowns, sides_, [&](Index c) { return !cubic_.fits(c); });
+  bonded_gradients_.resize(bonded_.size());
+}
+
+std::vector<MovedFaces::Place> MomentumOperator::places_by_force() const {
+  std::vector<MovedFaces::Place> places;
+  places.reserve(links_.size() + sides_.size());
+  for (const Link& link : links_) places.push_back({.face = link.face, .cell = link.P, .beyond = link.N});
+  for (std::size_t i = 0; i < sides_.size(); ++i)
+    places.push_back({.face = sides_[i].face, .cell = sides_[i].cell, .node = sides_[i].node, .side = i});
+  return places;
 }
 
 std::vector<CubicFaces::Side> MomentumOperator::sides_by_turn() const {
@@ -169,7 +180,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     Side& side = sides_[as_size(i)];
-    const double h = std::abs(side.d.dot(side.n));
+    const double h = std::abs(side.d.dot(side.n)) / stiffer_at(turn_of_side(as_size(i)));
     side.a_n = jump_modulus(side.cell) / h;
     side.a_t = moduli_[side.cell].mu / h;
   });
@@ -188,7 +199,7 @@ void MomentumOperator::set_face_tensors() {
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];
-    side_tensors_[as_size(i)] = capped_acoustic(side.cell, side.n) / std::abs(side.d.dot(side.n));
+    side_tensors_[as_size(i)] = side_acoustic(as_size(i)) / std::abs(side.d.dot(side.n));
   });
 }
 
@@ -203,9 +214,21 @@ void MomentumOperator::reconstruct(const std::vector<Vector>& u) const {
   if (pressure_.any()) pressure_.read(u);
 }
 
+void MomentumOperator::find_bonded_gradients(const std::vector<Vector>& u) const {
+  parallel_for(static_cast<Index>(bonded_.size()), [&](Index k) {
+    const Index c = sides_[bonded_.side(as_size(k))].cell;
+    bonded_gradients_[as_size(k)] = bonded_.gradient(as_size(k), u, gradients_[c]);
+  });
+}
+
 void MomentumOperator::find_gradients(const std::vector<Vector>& u) const {
   reconstruct(u);
-  if (is_finite()) return find_linear_stresses();
+  find_bonded_gradients(u);
+  if (is_finite()) {
+    moved_faces_.move(field(u), corner_moves_);
+    find_area_changes();
+    return find_linear_stresses();
+  }
   const Vector& across = unknowns_.plane_normal;
   parallel_for(sector_stress_.size(),
                [&](Index c) { sector_stress_[c] = across.dot(normal_stress(c, across)) + pressure_.mean(c); });
@@ -214,13 +237,14 @@ void MomentumOperator::find_gradients(const std::vector<Vector>& u) const {
 void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const {
   find_gradients(u);
   const auto n_links = static_cast<Index>(links_.size());
+  const bool has_fluxes = pressure_.any() && !is_finite();
   parallel_for(n_links, [&](Index i) {
     const Link& link = links_[as_size(i)];
     const Vector stress_P = linear_traction(link.P, link.n, link.d_P, turn_P(as_size(i)));
     const Vector stress_N = linear_traction(link.N, link.n, link.d_N, turn_N(as_size(i)));
     const Vector u_P = u[as_size(link.P)] + rise(link.P, link.d_P, turn_P(as_size(i)));
     const Vector jump = u[as_size(link.N)] + rise(link.N, link.d_N, turn_N(as_size(i))) - u_P;
-    if (!flux_.empty()) flux_[as_size(i)] = link_flux(as_size(i), u_P, jump, stress_N - stress_P);
+    if (has_fluxes) flux_[as_size(i)] = link_flux(as_size(i), u_P, jump, stress_N - stress_P);
     if (!moved_.empty()) moved_[as_size(i)] = linear_face_displacement(as_size(i), u_P, jump, stress_N - stress_P);
     forces_[as_size(i)] = link.area * (stress_N + weigh(as_size(i), stress_P - stress_N) + pull(as_size(i), jump));
     if (!jump_turns_.empty()) forces_[as_size(i)] += link.area * turned_jump(as_size(i));
@@ -231,7 +255,7 @@ void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const
         u[as_size(side.node)] - u[as_size(side.cell)] - rise(side.cell, side.d, turn_of_side(as_size(i)));
     const Vector stress = linear_traction(side.cell, side.n, side.d, turn_of_side(as_size(i)));
     forces_[as_size(n_links + i)] = side.area * (stress + hold(as_size(i), gap));
-    if (!flux_.empty()) flux_[as_size(n_links + i)] = side_flux(side, u[as_size(side.node)]);
+    if (has_fluxes) flux_[as_size(n_links + i)] = side_flux(side, u[as_size(side.node)]);
   });
 }
 

@@ -39,6 +39,10 @@
 // Nearly incompressible cells have an additional unknown, a pressure q, which is added to sigma at the face; everywhere
 // else lambda_s replaces lambda (cell_pressure.h).
 //
+// Where all of the displacement is prescribed, the traction of hexahedra and prisms with a pressure has the tangential
+// derivatives of that displacement in place of those of the cell, and twice the a, at small and at finite strain
+// (bonded_sides.h).
+//
 // Eigenstrains eps*, one per cell (thermal expansion, misfit): the stress is C (eps - eps*), and each side of a face
 // has the initial traction -n.C eps*, so that tractions agree across a face also where eps* jumps. Pressures have V (q
 // / (lambda - lambda_s) + tr eps*) = sum u_f.S.
@@ -62,8 +66,8 @@
 // the acoustic tensor N.(dP/dF).N of the neo-Hookean law, with a mean shear modulus of the tangent for the others. It
 // is objective, positive definite for any F, and smooth; its derivative is part of the linearised balance. The factor
 // FiniteLaw::swelling of mu/J^2 is 0 of broken cells, whose law is linear in F. In plane stress F is that within the
-// plane. Pressures add q c to the traction and have V (J(q) - 1) = V (det F - 1) for their equation, F being the mean
-// gradient of the two-sided face displacements.
+// plane. Pressures act on the area vector of the moved face, one for both cells, and V J(q) is the volume of the moved
+// cell (moved_faces.h).
 //
 // Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
 // are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements,
@@ -72,11 +76,13 @@
 #include "physics/gradient_stress.h"
 #include "physics/plane_stress.h"
 #include "solver/linear/block_matrix.h"
+#include "solver/momentum/bonded_sides.h"
 #include "solver/momentum/cell_mechanics.h"
 #include "solver/momentum/cell_pressure.h"
 #include "solver/momentum/cubic_faces.h"
 #include "solver/momentum/finite_law.h"
 #include "solver/momentum/momentum_faces.h"
+#include "solver/momentum/moved_faces.h"
 #include "solver/momentum/pressed_faces.h"
 #include "solver/momentum/strain_law.h"
 #include "solver/momentum/unknowns.h"
@@ -194,6 +200,7 @@ class MomentumOperator {
   using Push = momentum_faces::Push;
   using JumpTurn = momentum_faces::JumpTurn;
   using VolumeRow = momentum_faces::VolumeRow;
+  using BondedLaw = momentum_faces::BondedLaw;
   struct SignedForce {
     Index force;
     double sign;
@@ -213,6 +220,7 @@ class MomentumOperator {
   void add_sides();
   void list_forces_of_cells();
   std::vector<CubicFaces::Side> sides_by_turn() const;
+  std::vector<MovedFaces::Place> places_by_force() const;
   Vector turned_spring(std::size_t k) const;
   void pull_by_springs(const std::vector<Vector>& u, std::vector<Vector>& out) const;
   // Forces of the displacements, of the initial stresses, and of both, into forces_.
@@ -269,14 +277,43 @@ class MomentumOperator {
   Tensor acoustic(Index cell, const Vector& n) const;
   Tensor capped_acoustic(Index cell, const Vector& n) const;
   Push capped_push(Index cell) const;
+  Push side_push(std::size_t side) const;
+  Tensor side_acoustic(std::size_t side) const;
   Tensor jump_tensor(const Link& link, double h_P, double h_N) const;
   double stiffness_difference(const Link& link) const;
   void set_face_tensors();
   void reconstruct(const std::vector<Vector>& u) const;
   void find_gradients(const std::vector<Vector>& u) const;
   // Of finite strain.
-  Vector true_traction(Index cell, const Vector& n, const Vector& d) const;
-  FaceTurn face_turn(Index cell, const Vector& n, const Vector& d, const Push& m, const Vector& y) const;
+  // Of a cell, or of a bonded side: the true and the linearised stress [Pa], the cofactor and what changes it.
+  struct FiniteAt {
+    const Tensor &true_stress, &stress, &cofactor, &cofactor_change;
+    double volume_rate;
+  };
+  FiniteAt finite_at(Index cell, std::size_t turn) const {
+    const Index k = bonded_at(turn);
+    if (k < 0)
+      return {finite_[cell].stress, stresses_[cell], cofactor_[cell], cofactor_change_[cell], volume_rate_[cell]};
+    const BondedLaw& by = bonded_laws_[as_size(k)];
+    return {by.law.stress, by.stress, by.cofactor, by.cofactor_change, by.volume_rate};
+  }
+  // Number of the bonded side that side number `turn` is; -1: none.
+  Index bonded_at(std::size_t turn) const {
+    return turn >= 2 * links_.size() ? bonded_.number(turn - 2 * links_.size()) : -1;
+  }
+  // a over that of sides that are not bonded.
+  double stiffer_at(std::size_t turn) const { return bonded_at(turn) < 0 ? 1.0 : BondedSides::stiffer; }
+  std::size_t force_at(std::size_t turn) const { return turn < 2 * links_.size() ? turn / 2 : turn - links_.size(); }
+  void find_bonded_gradients(const std::vector<Vector>& u) const;
+  MovedFaces::Field field(const std::vector<Vector>& u) const { return {u, gradients_, bonded_gradients_}; }
+  void set_bonded_laws(const FiniteLawAt& law);
+  Vector true_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn) const;
+  FaceTurn face_turn(Index cell, const Vector& n, const Vector& d, std::size_t turn, const Push& m,
+                     const Vector& y) const;
+  void place_moved_faces();
+  bool has_polygon(std::size_t side) const;
+  void find_area_changes() const;
+  CellField<double> swept_changes(const std::vector<Vector>& u_face) const;
   void turn_link(std::size_t i, const std::vector<Vector>& u);
   void turn_jump(std::size_t i, const Vector& jump);
   void turn_side(std::size_t i, const std::vector<Vector>& u);
@@ -285,7 +322,10 @@ class MomentumOperator {
   Vector turned_jump(std::size_t i) const;
   Vector linear_face_displacement(std::size_t i, const Vector& u_P, const Vector& jump,
                                   const Vector& stress_jump) const;
-  Tensor mean_gradient(Index cell, const std::vector<Vector>& u) const;
+  void find_finite_fluxes(const std::vector<Vector>& u) const;
+  double flux_out_of(Index cell) const;
+  std::vector<Vector> moves_of_faces(const std::vector<Vector>& u, const FaceField<Vector>& u_face) const;
+  Vector moved_area(const SignedForce& on) const;
   void balance_finite_pressures(const std::vector<Vector>& u, std::vector<Vector>& out) const;
   void find_initial_volumes(const std::vector<Vector>& u);
   void find_pressure_forces(const CellField<double>& tension) const;
@@ -301,14 +341,19 @@ class MomentumOperator {
   // On side number `turn`, at the distance d from the cell's centre. Within a cell the pressure varies, and the
   // gradient where cells fit a cubic.
   Vector normal_stress(Index cell, const Vector& n, const Vector& d, std::size_t turn) const {
-    Vector stress =
-        cubic_.any() ? normal_stress(cell, gradients_[cell] + cubic_.at(turn).gradient, n) : normal_stress(cell, n);
+    Vector stress = cubic_.any() ? normal_stress(cell, gradient_at(cell, turn) + cubic_.at(turn).gradient, n)
+                                 : normal_stress(cell, gradient_at(cell, turn), n);
     if (pressure_.any()) stress += pressure_.at(cell, d) * n;
     return stress;
   }
+  // That of the cell, or of the surface on which side number `turn` is bonded.
+  const Tensor& gradient_at(Index cell, std::size_t turn) const {
+    const Index k = bonded_at(turn);
+    return k < 0 ? gradients_[cell] : bonded_gradients_[as_size(k)];
+  }
   // What the cell's displacement rises by to the centre of side number `turn`.
   Vector rise(Index cell, const Vector& d, std::size_t turn) const {
-    Vector linear = gradients_[cell] * d;
+    Vector linear = gradient_at(cell, turn) * d;
     if (cubic_.any()) linear += cubic_.at(turn).rise;
     return linear;
   }
@@ -317,8 +362,11 @@ class MomentumOperator {
     if (has_law()) return side_laws_[turn].rows * to_mandel(symmetric_part(gradients_[cell]));
     if (!is_finite()) return normal_stress(cell, n, d, turn);
     const FaceTurn& by = face_turns_[turn];
-    const Vector t = stresses_[cell] * n + by.turn * (cofactor_change_[cell] * n) + by.swell * volume_rate_[cell];
-    return pressure_.any() ? (t + pressure_.at(cell, d) * (cofactor_[cell] * n)).eval() : t;
+    const FiniteAt at = finite_at(cell, turn);
+    const Vector t = at.stress * n + by.turn * (at.cofactor_change * n) + by.swell * at.volume_rate;
+    if (!pressure_.any()) return t;
+    const std::size_t i = force_at(turn);
+    return t + pressure_.at(cell, d) * moved_faces_.area(i) + by.pressure * area_changes_[i];
   }
   static constexpr double moderate_lambda = 1.5;  // lambda_s / mu of undamaged polyhedra, at most
   static CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns);
@@ -380,6 +428,8 @@ class MomentumOperator {
   std::vector<FaceTurn> face_turns_;        // two per link, then one per side
   std::vector<JumpTurn> jump_turns_;        // per link; empty where the jump's stiffness is that of the tractions
   std::vector<VolumeRow> volume_rows_;      // per pressure
+  BondedSides bonded_;                      // of cells with a pressure
+  MovedFaces moved_faces_;                  // likewise, at finite strain
   CellField<double> pressure_at_;           // q there [Pa]; zero without
   CellField<double> initial_sector_;        // of sector_stress_ [Pa]
   CellField<StrainAcross> strain_across_;   // empty but in plane stress
@@ -402,13 +452,17 @@ class MomentumOperator {
   CellField<Vector> sector_area_;
   mutable CellField<double> sector_stress_;
   mutable CellPressure pressure_;
-  mutable std::vector<double> flux_;           // as forces_: u_f.S [m^3]; empty without pressures
-  mutable CellField<Tensor> gradients_;        // work space of apply
-  mutable CellField<Tensor> stresses_;         // likewise, at finite strain: A : H [Pa]
-  mutable CellField<Tensor> cofactor_change_;  // and that of cof F by H,
-  mutable CellField<double> volume_rate_;      // of J
-  mutable std::vector<Vector> moved_;          // with pressures: the linearised displacement of each link [m]
-  mutable std::vector<Vector> forces_;         // per link, then per side: A t outwards from P or from the side's cell
+  mutable std::vector<double> flux_;              // as forces_: u_f.S [m^3]; empty without pressures
+  mutable CellField<Tensor> gradients_;           // work space of apply
+  mutable CellField<Tensor> stresses_;            // likewise, at finite strain: A : H [Pa]
+  mutable CellField<Tensor> cofactor_change_;     // and that of cof F by H,
+  mutable CellField<double> volume_rate_;         // of J
+  mutable std::vector<Vector> moved_;             // with pressures: the linearised displacement of each link [m],
+  mutable std::vector<Vector> corner_moves_;      // of the points of moved_faces_ [m],
+  mutable std::vector<Vector> area_changes_;      // and of its areas, over the undeformed ones
+  mutable std::vector<Tensor> bonded_gradients_;  // of bonded_
+  mutable std::vector<BondedLaw> bonded_laws_;    // likewise, at finite strain
+  mutable std::vector<Vector> forces_;  // per link, then per side: A t outwards from P or from the side's cell
 };
 
 }  // namespace pfdm

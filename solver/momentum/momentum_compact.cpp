@@ -40,8 +40,9 @@ Tensor MomentumOperator::compact_side(std::size_t i) const {
   const Side& side = sides_[i];
   const double h = bounded_height(side.d, side.n);
   if (has_law()) return (side.area / h) * side_laws_[turn_of_side(i)].acoustic;
-  if (!is_isotropic()) return (side.area / h) * capped_acoustic(side.cell, side.n);
-  return (side.area / h) * scaling(jump_modulus(side.cell), moduli_[side.cell].mu, side.n);
+  if (!is_isotropic()) return (side.area / h) * side_acoustic(i);
+  return (stiffer_at(turn_of_side(i)) * side.area / h) *
+         scaling(jump_modulus(side.cell), moduli_[side.cell].mu, side.n);
 }
 
 // What a displacement along r stretches across the sector pulls back.

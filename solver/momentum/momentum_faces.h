@@ -3,6 +3,7 @@
 
 #include "mesh/mesh.h"
 #include "physics/mandel.h"
+#include "solver/momentum/finite_law.h"
 
 namespace pfdm {
 
@@ -54,12 +55,13 @@ struct SideLaw {
   Tensor acoustic;                   // n.C.n [Pa]
   Vector initial = Vector::Zero();   // traction without strain [Pa]
 };
-// What the traction on one side of a face changes by with its c = cof F N: turn dc, through a and the pressure; and
-// the constant part of the linearised traction.
+// What the traction on one side of a face changes by with its c = cof F N: turn dc, through a; and the constant
+// part of the linearised traction.
 struct FaceTurn {
-  Tensor turn;     // [Pa]
-  Vector swell;    // by J [Pa]
-  Vector initial;  // [Pa]
+  Tensor turn;            // [Pa]
+  Vector swell;           // by J [Pa]
+  Vector initial;         // [Pa]
+  double pressure = 0.0;  // on it, which acts on the moved area [Pa]
 };
 // m of a h = mu 1 + m c c^T, and dm/dJ.
 struct Push {
@@ -72,11 +74,18 @@ struct JumpTurn {
   Vector swell_P, swell_N;  // [Pa]
   Vector initial;           // [Pa]
 };
-// Equation of a pressure, J(q) = det F of the mean gradient, linearised.
+// Equation of a pressure, J(q) = volume of the moved cell over the undeformed one, linearised.
 struct VolumeRow {
-  double slope;     // dJ/dq [1/Pa]
-  Tensor cofactor;  // of F
-  double initial;   // its constant part
+  double slope;    // dJ/dq [1/Pa]
+  double initial;  // its constant part
+};
+// A bonded side: the law at the gradient on the surface, linearised, and what displacements change.
+struct BondedLaw {
+  FiniteLaw law;
+  Tensor F, cofactor;  // at which it is linearised
+  Push push;
+  Tensor stress, cofactor_change;  // A : H [Pa], and that of cof F by H,
+  double volume_rate = 0.0;        // of J
 };
 
 }  // namespace momentum_faces

@@ -1,11 +1,12 @@
 // Finite strain in the momentum balance (momentum.h): tractions linearised about the last displacements. With
 // y_P = u_f - u_P - H_P d_P and y_N = u_N + H_N d_N - u_f on the two sides of a face,
 //
-//   t = tau_P + a y_P = tau_N + b y_N,  tau = P(H) N + q c,
+//   t = tau_P + a y_P = tau_N + b y_N,  tau = P(H) N + q s,
 //
-// so that a change of F, in cells whose a and pressure turn with c = cof F N, adds (q I + m ((c.y) I + c y^T)) dc +
-// dm/dJ (c.y) c dJ to tau, m = (lambda + mu phi(J))/h. The balance is linear in the displacements, with these as they
-// were at the last ones; its constant part makes it exact there.
+// s being the area vector of the moved face over the undeformed area, so that a change of F, in cells whose a turns
+// with c = cof F N, adds m ((c.y) I + c y^T) dc + dm/dJ (c.y) c dJ + q ds to tau, m = (lambda + mu phi(J))/h. The
+// balance is linear in the displacements, with these as they were at the last ones; its constant part makes it exact
+// there.
 
 #include "solver/momentum/acoustic_tensor.h"
 #include "solver/momentum/momentum.h"
@@ -25,6 +26,16 @@ Tensor turn_of(double m, const Vector& c, const Vector& y) {
   return m * (c.dot(y) * Tensor::Identity() + c * y.transpose());
 }
 
+// m and dm/dJ of a law at J, times h; and what polyhedra keep of it.
+momentum_faces::Push push_of(const FiniteLaw& law, double J) {
+  const double mu = law.swelling * law.face.mu;
+  return {law.face.lambda + mu * swelling(J), mu * swelling_slope(J)};
+}
+momentum_faces::Push capped(double share, const FiniteLaw& law, const momentum_faces::Push& push) {
+  const double mu = law.swelling * law.face.mu;
+  return {share * (push.stiffness + mu) - mu, share * push.slope};
+}
+
 }  // namespace
 
 void MomentumOperator::set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u,
@@ -37,27 +48,33 @@ void MomentumOperator::set_finite(const FiniteLawAt& law, const CellField<double
     push_ = CellField<Push>(n);
     volume_rate_ = CellField<double>(n, 0.0);
     face_turns_.resize(2 * links_.size() + sides_.size());
-    flux_.clear();
-    if (pressure_.any()) moved_.resize(links_.size());
+    if (pressure_.any()) place_moved_faces();
     for (const Link& link : links_)
       if (jump_share_[link.P] < 1.0 || jump_share_[link.N] < 1.0) jump_turns_.resize(links_.size());
   }
   gradient_.update(g, part);
   cubic_.leave_out();
   pressure_.weigh(g);
+  moved_faces_.weigh(g);
   reconstruct(u);
+  find_bonded_gradients(u);
+  moved_faces_.move(field(u), corner_moves_);
+  moved_faces_.place(corner_moves_);
   parallel_for(mesh_.n_cells(), [&](Index c) {
     finite_[c] = law(c, gradients_[c]);
     F_[c] = Tensor::Identity() + gradients_[c];
     cofactor_[c] = cofactor(F_[c]);
     const double J = F_[c].determinant();
-    const IsotropicElasticity& face = finite_[c].face;
-    const double mu = finite_[c].swelling * face.mu;
-    push_[c] = {face.lambda + mu * swelling(J), mu * swelling_slope(J)};
+    push_[c] = push_of(finite_[c], J);
     pressure_at_[c] = pressure_.mean(c);
   });
+  set_bonded_laws(law);
+  for (std::size_t i = 0; pressure_.any() && i < sides_.size(); ++i)
+    if (!has_polygon(i))
+      moved_faces_.set_area(links_.size() + i, finite_at(sides_[i].cell, turn_of_side(i)).cofactor * sides_[i].n);
   pressed_faces_.linearise(t, u, gradients_, g);
   set_face_tensors();
+  find_area_changes();
   find_linear_stresses();
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) { turn_link(as_size(i), u); });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) { turn_side(as_size(i), u); });
@@ -72,32 +89,91 @@ void MomentumOperator::find_linear_stresses() const {
     cofactor_change_[c] = cofactor_change(F_[c], gradients_[c]);
     volume_rate_[c] = contract(cofactor_[c], gradients_[c]);
     if (sector_area_.size() == 0) return;
-    const Tensor whole = stresses_[c] + pressure_.mean(c) * cofactor_[c] + pressure_at_[c] * cofactor_change_[c];
-    sector_stress_[c] = across.dot(whole * across);
+    sector_stress_[c] = across.dot(stresses_[c] * across);
+    if (pressure_.any())
+      sector_stress_[c] +=
+          pressure_.mean(c) * moved_faces_.section(c) + pressure_at_[c] * moved_faces_.section_change(c, corner_moves_);
+  });
+  parallel_for(static_cast<Index>(bonded_laws_.size()), [&](Index k) {
+    BondedLaw& by = bonded_laws_[as_size(k)];
+    const Tensor& H = bonded_gradients_[as_size(k)];
+    by.stress = from_components(by.law.A * to_components(H));
+    by.cofactor_change = cofactor_change(by.F, H);
+    by.volume_rate = contract(by.cofactor, H);
   });
 }
 
 void MomentumOperator::find_initial_sector_stress() {
   const Vector& across = unknowns_.plane_normal;
   parallel_for(sector_stress_.size(), [&](Index c) {
-    const Tensor true_stress = finite_[c].stress + pressure_at_[c] * cofactor_[c];
-    initial_sector_[c] = across.dot(true_stress * across) - sector_stress_[c];
+    const double pressure = pressure_.any() ? pressure_at_[c] * moved_faces_.section(c) : 0.0;
+    initial_sector_[c] = across.dot(finite_[c].stress * across) + pressure - sector_stress_[c];
   });
 }
 
-Vector MomentumOperator::true_traction(Index cell, const Vector& n, const Vector& d) const {
-  return finite_[cell].stress * n + pressure_.at(cell, d) * (cofactor_[cell] * n);
+// Before the first linearisation.
+void MomentumOperator::place_moved_faces() {
+  flux_.resize(forces_.size());
+  moved_.resize(links_.size());
+  area_changes_.resize(forces_.size());
+  bonded_ = BondedSides(mesh_, unknowns_, sides_, [](Index) { return true; });  // also those of cubic faces
+  bonded_gradients_.resize(bonded_.size());
+  bonded_laws_.resize(bonded_.size());
+  moved_faces_ = MovedFaces(mesh_, unknowns_, places_by_force(), bonded_);
+}
+
+// Whether the pressure acts on the polygon of a side; if not, on cof F N.
+bool MomentumOperator::has_polygon(std::size_t side) const {
+  const Side& of = sides_[side];
+  const CellShape shape = mesh_.shape[of.cell];
+  if (bonded_.number(side) >= 0) return false;
+  const bool joins = second_side_of_node_[as_size(of.node - unknowns_.n_cells)] >= 0;
+  return joins || (shape != CellShape::hexahedron && shape != CellShape::wedge);
+}
+
+void MomentumOperator::find_area_changes() const {
+  parallel_for(static_cast<Index>(area_changes_.size()), [&](Index i) {
+    const std::size_t n_links = links_.size(), k = as_size(i);
+    if (k < n_links || has_polygon(k - n_links)) {
+      area_changes_[k] = moved_faces_.area_change(k, corner_moves_);
+      return;
+    }
+    const Side& side = sides_[k - n_links];
+    const Index b = bonded_.number(k - n_links);
+    area_changes_[k] = (b < 0 ? cofactor_change(F_[side.cell], gradients_[side.cell])
+                              : cofactor_change(bonded_laws_[as_size(b)].F, bonded_gradients_[as_size(b)])) *
+                       side.n;
+  });
+}
+
+void MomentumOperator::set_bonded_laws(const FiniteLawAt& law) {
+  parallel_for(static_cast<Index>(bonded_laws_.size()), [&](Index k) {
+    BondedLaw& by = bonded_laws_[as_size(k)];
+    const Tensor& H = bonded_gradients_[as_size(k)];
+    by.law = law(sides_[bonded_.side(as_size(k))].cell, H);
+    by.F = Tensor::Identity() + H;
+    by.cofactor = cofactor(by.F);
+    by.push = push_of(by.law, by.F.determinant());
+  });
+}
+
+Vector MomentumOperator::true_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn) const {
+  const Vector t = finite_at(cell, turn).true_stress * n;
+  return pressure_.any() ? (t + pressure_.at(cell, d) * moved_faces_.area(force_at(turn))).eval() : t;
 }
 
 // m and dm/dJ are those of the face.
-MomentumOperator::FaceTurn MomentumOperator::face_turn(Index cell, const Vector& n, const Vector& d, const Push& m,
-                                                       const Vector& y) const {
-  const Vector c = cofactor_[cell] * n;
-  FaceTurn turn{.turn = turn_of(m.stiffness, c, y) + pressure_.at(cell, d) * Tensor::Identity(),
-                .swell = m.slope * c.dot(y) * c,
-                .initial = (finite_[cell].stress - stresses_[cell]) * n};
-  turn.initial -= turn.turn * (cofactor_change_[cell] * n) + turn.swell * volume_rate_[cell];
-  return turn;
+MomentumOperator::FaceTurn MomentumOperator::face_turn(Index cell, const Vector& n, const Vector& d, std::size_t turn,
+                                                       const Push& m, const Vector& y) const {
+  const FiniteAt at = finite_at(cell, turn);
+  const Vector c = at.cofactor * n;
+  FaceTurn by{.turn = turn_of(m.stiffness, c, y),
+              .swell = m.slope * c.dot(y) * c,
+              .initial = (at.true_stress - at.stress) * n,
+              .pressure = pressure_.at(cell, d)};
+  by.initial -= by.turn * (at.cofactor_change * n) + by.swell * at.volume_rate;
+  if (pressure_.any()) by.initial -= by.pressure * area_changes_[force_at(turn)];
+  return by;
 }
 
 void MomentumOperator::turn_link(std::size_t i, const std::vector<Vector>& u) {
@@ -105,11 +181,12 @@ void MomentumOperator::turn_link(std::size_t i, const std::vector<Vector>& u) {
   const LinkTensors& by = link_tensors_[i];
   const Vector jump =
       u[as_size(link.N)] + gradients_[link.N] * link.d_N - u[as_size(link.P)] - gradients_[link.P] * link.d_P;
-  const Vector step = true_traction(link.N, link.n, link.d_N) - true_traction(link.P, link.n, link.d_P);
+  const Vector step =
+      true_traction(link.N, link.n, link.d_N, turn_N(i)) - true_traction(link.P, link.n, link.d_P, turn_P(i));
   const Vector y_P = by.weight.transpose() * jump + by.softness * step, y_N = jump - y_P;
   const double h_P = std::abs(link.d_P.dot(link.n)), h_N = std::abs(link.d_N.dot(link.n));
-  face_turns_[turn_P(i)] = face_turn(link.P, link.n, link.d_P, push_[link.P] / h_P, y_P);
-  face_turns_[turn_N(i)] = face_turn(link.N, link.n, link.d_N, push_[link.N] / h_N, y_N);
+  face_turns_[turn_P(i)] = face_turn(link.P, link.n, link.d_P, turn_P(i), push_[link.P] / h_P, y_P);
+  face_turns_[turn_N(i)] = face_turn(link.N, link.n, link.d_N, turn_N(i), push_[link.N] / h_N, y_N);
   if (!jump_turns_.empty()) turn_jump(i, jump);
 }
 
@@ -151,9 +228,10 @@ Vector MomentumOperator::turned_spring(std::size_t k) const {
 
 void MomentumOperator::turn_side(std::size_t i, const std::vector<Vector>& u) {
   const Side& side = sides_[i];
-  const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - gradients_[side.cell] * side.d;
-  const Push m = capped_push(side.cell) / std::abs(side.d.dot(side.n));
-  face_turns_[turn_of_side(i)] = face_turn(side.cell, side.n, side.d, m, gap);
+  const std::size_t turn = turn_of_side(i);
+  const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - rise(side.cell, side.d, turn);
+  const Push m = side_push(i) / std::abs(side.d.dot(side.n));
+  face_turns_[turn] = face_turn(side.cell, side.n, side.d, turn, m, gap);
 }
 
 Tensor MomentumOperator::acoustic(Index cell, const Vector& n) const {
@@ -171,8 +249,25 @@ CellField<double> MomentumOperator::face_stiffness() const {
 
 // Of polyhedra the share of lambda + 2 mu that momentum_jump.cpp keeps, undeformed.
 MomentumOperator::Push MomentumOperator::capped_push(Index cell) const {
-  const double share = jump_share_[cell], mu = finite_[cell].swelling * finite_[cell].face.mu;
-  return {share * (push_[cell].stiffness + mu) - mu, share * push_[cell].slope};
+  return capped(jump_share_[cell], finite_[cell], push_[cell]);
+}
+
+MomentumOperator::Push MomentumOperator::side_push(std::size_t i) const {
+  const Side& side = sides_[i];
+  const Index k = bonded_at(turn_of_side(i));
+  if (k < 0) return capped_push(side.cell);
+  const BondedLaw& by = bonded_laws_[as_size(k)];
+  const Push single = capped(jump_share_[side.cell], by.law, by.push);
+  return {BondedSides::stiffer * single.stiffness, BondedSides::stiffer * single.slope};
+}
+
+// a h
+Tensor MomentumOperator::side_acoustic(std::size_t i) const {
+  const Side& side = sides_[i];
+  const Index k = bonded_at(turn_of_side(i));
+  if (k < 0) return capped_acoustic(side.cell, side.n);
+  const BondedLaw& by = bonded_laws_[as_size(k)];
+  return pushed_forward(BondedSides::stiffer * by.law.face.mu, side_push(i).stiffness, by.cofactor * side.n);
 }
 
 Tensor MomentumOperator::capped_acoustic(Index cell, const Vector& n) const {
@@ -199,48 +294,62 @@ Vector MomentumOperator::linear_face_displacement(std::size_t i, const Vector& u
   return u_P + link_tensors_[i].weight.transpose() * jump + link_tensors_[i].softness * stress_jump;
 }
 
-// Of the faces' displacements, those of links being in moved_.
-Tensor MomentumOperator::mean_gradient(Index cell, const std::vector<Vector>& u) const {
-  Tensor gradient = Tensor::Zero();
-  for (const Index f : mesh_.faces_of_cell(cell)) {
-    const Vector area = (mesh_.owner[f] == cell ? 1.0 : -1.0) * mesh_.face_area[f];
-    const Index node = unknowns_.node_beside(mesh_, cell, f), force = force_of_face_[as_size(f)];
-    const Vector at = node >= 0 ? u[as_size(node)] : force >= 0 ? moved_[as_size(force)] : moved_with(cell, f, u);
-    gradient += (at - u[as_size(cell)]) * area.transpose();
-  }
-  return gradient * closure_[cell].transpose() / mesh_.cell_volume[cell];
+// Of the displacements of faces, those of links being in moved_.
+void MomentumOperator::find_finite_fluxes(const std::vector<Vector>& u) const {
+  parallel_for(static_cast<Index>(flux_.size()), [&](Index i) {
+    const std::size_t k = as_size(i), n_links = links_.size();
+    flux_[k] = moved_faces_.flux(k, corner_moves_, k < n_links ? moved_[k] : u[as_size(sides_[k - n_links].node)],
+                                 area_changes_[k]);
+  });
 }
 
-// V (J(q) - det F), linearised.
+double MomentumOperator::flux_out_of(Index cell) const {
+  double sum = 0.0;
+  for (std::size_t j = cell_offsets_[as_size(cell)]; j < cell_offsets_[as_size(cell) + 1]; ++j)
+    sum += cell_forces_[j].sign * flux_[as_size(cell_forces_[j].force)];
+  return sum;
+}
+
+// V J(q) - the volume of the moved cell, linearised.
 void MomentumOperator::balance_finite_pressures(const std::vector<Vector>& u, std::vector<Vector>& out) const {
   const std::vector<Index>& cells = unknowns_.pressure_cells;
+  if (cells.empty()) return;
+  find_finite_fluxes(u);
   parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
     const Index c = cells[as_size(k)];
-    const VolumeRow& row = volume_rows_[as_size(k)];
-    const double rate = row.slope * pressure_.mean(c) - contract(row.cofactor, mean_gradient(c, u));
-    out[as_size(unknowns_.n_nodes() + k)] = mesh_.cell_volume[c] * rate * Vector::UnitX();
+    const double rate = mesh_.cell_volume[c] * volume_rows_[as_size(k)].slope * pressure_.mean(c) - flux_out_of(c);
+    out[as_size(unknowns_.n_nodes() + k)] = rate * Vector::UnitX();
   });
+}
+
+// J - 1 of the cells with a pressure [-], of faces that have moved by u_face, in the order of the forces.
+CellField<double> MomentumOperator::swept_changes(const std::vector<Vector>& u_face) const {
+  parallel_for(static_cast<Index>(flux_.size()),
+               [&](Index i) { flux_[as_size(i)] = moved_faces_.swept(as_size(i), corner_moves_, u_face[as_size(i)]); });
+  CellField<double> change(as_size(mesh_.n_cells()), 0.0);
+  for (const Index c : unknowns_.pressure_cells) change[c] = flux_out_of(c) / mesh_.cell_volume[c];
+  return change;
 }
 
 void MomentumOperator::find_initial_volumes(const std::vector<Vector>& u) {
   const std::vector<Index>& cells = unknowns_.pressure_cells;
-  const auto n = static_cast<Index>(cells.size());
   volume_rows_.resize(cells.size());
   compute_linear_forces(u);
-  CellField<Tensor> linear(as_size(mesh_.n_cells()));
-  parallel_for(n, [&](Index k) { linear[cells[as_size(k)]] = mean_gradient(cells[as_size(k)], u); });
+  std::vector<Vector> u_face(forces_.size());
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     const Vector jump = face_turns_[turn_N(as_size(i))].initial - face_turns_[turn_P(as_size(i))].initial;
-    moved_[as_size(i)] += link_tensors_[as_size(i)].softness * jump;
+    u_face[as_size(i)] = moved_[as_size(i)] + link_tensors_[as_size(i)].softness * jump;
   });
-  parallel_for(n, [&](Index k) {
+  for (std::size_t i = 0; i < sides_.size(); ++i) u_face[links_.size() + i] = u[as_size(sides_[i].node)];
+  moved_faces_.follow(u_face);
+  const CellField<double> change = swept_changes(u_face);
+  find_finite_fluxes(u);
+  parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
     const Index c = cells[as_size(k)];
-    const Tensor H = mean_gradient(c, u);
     const VolumeAt volume = finite_[c].volume(pressure_at_[c]);
-    VolumeRow& row = volume_rows_[as_size(k)];
-    row.slope = volume.slope;
-    row.cofactor = cofactor(Tensor::Identity() + H);
-    row.initial = volume.change - volume.slope * pressure_at_[c] - volume_change(H) + contract(row.cofactor, linear[c]);
+    const double linear = flux_out_of(c) / mesh_.cell_volume[c];
+    volume_rows_[as_size(k)] = {.slope = volume.slope,
+                                .initial = volume.change - volume.slope * pressure_at_[c] - change[c] + linear};
   });
 }
 
@@ -248,15 +357,14 @@ void MomentumOperator::find_finite_pressure_forces(const CellField<double>& q) c
   const auto n_links = static_cast<Index>(links_.size());
   parallel_for(n_links, [&](Index i) {
     const Link& link = links_[as_size(i)];
-    const Vector on_P = q[link.P] * (cofactor_[link.P] * link.n), on_N = q[link.N] * (cofactor_[link.N] * link.n);
-    forces_[as_size(i)] = link.area * (on_N + weigh(as_size(i), on_P - on_N));
+    const Vector& area = moved_faces_.area(as_size(i));
+    forces_[as_size(i)] = link.area * (q[link.N] * area + weigh(as_size(i), (q[link.P] - q[link.N]) * area));
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     const Side& side = sides_[as_size(i)];
-    forces_[as_size(n_links + i)] = (side.area * q[side.cell]) * (cofactor_[side.cell] * side.n);
+    forces_[as_size(n_links + i)] = (side.area * q[side.cell]) * moved_faces_.area(as_size(n_links + i));
   });
-  const Vector& across = unknowns_.plane_normal;
-  parallel_for(sector_stress_.size(), [&](Index c) { sector_stress_[c] = q[c] * across.dot(cofactor_[c] * across); });
+  parallel_for(sector_stress_.size(), [&](Index c) { sector_stress_[c] = q[c] * moved_faces_.section(c); });
 }
 
 }  // namespace pfdm

@@ -129,15 +129,18 @@ TEST(ShippedCases, BeadInRubberDebondsAsItsReadmeSays) {
   ASSERT_EQ(curve.n_rows(), 16u);
   const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
   EXPECT_NEAR(u[10], 200e-6, 1e-9);
-  EXPECT_NEAR(force[10], 0.3257, 1e-4);
-  EXPECT_NEAR(u[14], 252.0e-6, 0.1e-6);
-  EXPECT_NEAR(force[14], 0.394, 1e-3);
-  EXPECT_NEAR(u[15], 254.0e-6, 0.1e-6);
-  EXPECT_NEAR(force[15], 0.364, 2e-3);
+  EXPECT_NEAR(force[10], 0.3260, 1e-4);
+  EXPECT_NEAR(u[14], 257.5e-6, 0.1e-6);
+  EXPECT_NEAR(force[14], 0.4014, 1e-3);
+  EXPECT_NEAR(u[15], 259.5e-6, 0.1e-6);
+  EXPECT_NEAR(force[15], 0.3705, 2e-3);
+  // Of a parabola through the first three points, what the trapezoid of the first step leaves out (0.6 % of it).
+  const double missed = u[1] * (2.0 * force[1] - force[2]) / 12.0;
   for (std::size_t i = 1; i < 16; ++i) {
     const double kept = curve.column("elastic_energy_J")[i] + curve.column("interface_energy_J")[i] +
                         curve.column("interface_dissipation_J")[i];
-    EXPECT_NEAR(kept / curve.column("external_work_J")[i], i < 15 ? 1.0 : 0.989, 3.5e-3) << "step " << i;
+    const double work = curve.column("external_work_J")[i] + missed;
+    EXPECT_NEAR(kept / work, i < 15 ? 1.0 : 0.984, 3.5e-3) << "step " << i;  // the jump releases 1.3 %
   }
 }
 
@@ -176,20 +179,20 @@ TEST(ShippedCases, DiscOfGlassBreaksInsideAsItsReadmeSays) {
   EXPECT_LT(radius, 3.5e-3);
 }
 
-// As it is shipped, through the jump in which a crack begins, in its 14th step.
+// As it is shipped, through the jump in which a crack begins, in its 15th step.
 TEST(ShippedCases, DiscOfPolyurethaneBreaksInItsMiddlePlaneAsItsReadmeSays) {
-  const ShippedRun shipped("nine_poker_chip_pu", 14);
+  const ShippedRun shipped("nine_poker_chip_pu", 15);
   ASSERT_EQ(shipped.outcome.status, 0) << shipped.outcome.err;
   const CsvTable curve = shipped.curve();
-  ASSERT_EQ(curve.n_rows(), 15u);
+  ASSERT_EQ(curve.n_rows(), 16u);
   const std::vector<double>&u = curve.column("displacement_m"), &force = curve.column("force_z_N");
-  EXPECT_NEAR(force[1] / (0.03713 / 5e-6 * u[1]), 0.988, 2e-3) << "Taylor-Hood elements";
-  EXPECT_NEAR(u[13], 61.25e-6, 1e-9);  // on the model's surface by those elements at 61.2 um
-  EXPECT_NEAR(force[13], 0.4218, 1e-4);
-  EXPECT_LT(curve.column("max_damage")[13], 0.01);
-  EXPECT_NEAR(u[14], 61.75e-6, 1e-9);
-  EXPECT_NEAR(force[14], 0.278, 5e-3);
-  EXPECT_GT(curve.column("max_damage")[14], 0.96);
+  EXPECT_NEAR(force[1] / (0.03713 / 5e-6 * u[1]), 0.995, 2e-3) << "Taylor-Hood elements";
+  EXPECT_NEAR(u[14], 61.125e-6, 1e-9);  // on the model's surface by those elements at 61.2 um
+  EXPECT_NEAR(force[14], 0.4228, 1e-4);
+  EXPECT_LT(curve.column("max_damage")[14], 0.01);
+  EXPECT_NEAR(u[15], 61.625e-6, 1e-9);
+  EXPECT_NEAR(force[15], 0.2796, 5e-3);
+  EXPECT_GT(curve.column("max_damage")[15], 0.96);
 
   const double radius = radius_of_crack(shipped.damage(), 0.7, 0.5, 0.01);
   EXPECT_NEAR(radius, 1.25e-3, 0.15e-3);
