@@ -47,6 +47,7 @@ class LayerLines {
     for (const OppositeFaces& pair : pairs_[as_size(cell)]) n += pair.face[0] >= 0 ? 1 : 0;
     return n;
   }
+  const std::array<Index, 2>& faces(Index cell, int axis) const { return pairs_[as_size(cell)][as_size(axis)].face; }
   const LayerLine& line(Index cell, int axis) const { return lines_[as_size(cell)][as_size(axis)]; }
   double length(Index cell, int axis) const {
     const auto& [f, g] = pairs_[as_size(cell)][as_size(axis)].face;
@@ -131,8 +132,8 @@ class LayerLines {
 
 constexpr double least_error = 0.005, least_slenderness = 3.0;
 
-// see(cell, layers, nu) of the layers across each body that is long enough, at each of its cells, for each direction in
-// which it is.
+// see(cell with its faces, layers, nu) of the layers across each body that is long enough, at each of its cells, for
+// each direction in which it is.
 template <class See>
 void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
   if (unknowns.motion.any() || !unknowns.periodic.empty()) return;
@@ -144,7 +145,8 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
         const double n = layers.times() * layers.n, thickness = layers.times() * layers.length;
         if (across == along || !layers.has_layers()) continue;
         if (length.times() * length.length < least_slenderness * thickness) continue;
-        see(c, BendingLayers{.n = n, .thickness = thickness, .length = lines.length(c, along)},
+        see(BendingCell{.cell = c, .across = lines.faces(c, across), .along = lines.faces(c, along)},
+            BendingLayers{.n = n, .thickness = thickness, .length = lines.length(c, along)},
             unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio());
       }
 }
@@ -159,20 +161,26 @@ Index opposite_face(const Mesh& mesh, Index cell, Index face) {
   return -1;
 }
 
+std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unknowns) {
+  std::vector<BendingCell> cells;
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers&, double) { cells.push_back(in); });
+  return cells;
+}
+
 std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<char> bends(as_size(mesh.n_cells()), 0);
-  over_layers(mesh, unknowns, [&](Index cell, const BendingLayers& at, double nu) {
-    if (std::max(at.excess(nu), at.lack()) > least_error) bends[as_size(cell)] = 1;
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
+    if (std::max(at.excess(nu), at.lack()) > least_error) bends[as_size(in.cell)] = 1;
   });
   return bends;
 }
 
 std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns) {
   std::optional<BendingError> largest;
-  over_layers(mesh, unknowns, [&](Index cell, const BendingLayers& at, double nu) {
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
     const double error = at.excess(nu) - at.lack();
     if (!largest || std::abs(error) > std::abs(largest->error))
-      largest = {.cell = cell, .layers = at, .poisson_ratio = nu, .error = error};
+      largest = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error};
   });
   return largest;
 }

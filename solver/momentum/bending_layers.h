@@ -5,6 +5,7 @@
 #include "mesh/mesh.h"
 #include "solver/momentum/unknowns.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,17 @@ struct BendingLayers {
 
 /// The face of a hexahedron opposite to one of its faces, or a prism's other triangle; else -1.
 Index opposite_face(const Mesh& mesh, Index cell, Index face);
+
+/// A cell of layers that bend: its two faces across which the layers lie one on another, and the two that the length of
+/// the body runs through.
+struct BendingCell {
+  Index cell = 0;
+  std::array<Index, 2> across{-1, -1}, along{-1, -1};
+};
+
+/// All cells of bodies at least three times as long as thick, whatever the error; a cell of a plate is listed for both
+/// directions in which the plate is long. None in boxes that follow a mean strain.
+std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unknowns);
 
 /// Per cell, nonzero for hexahedra in bodies at least three times as long as thick whose layers would bend with an
 /// error of more than half a per cent. None in boxes that follow a mean strain.

@@ -176,7 +176,8 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
     link.c_t = a_t * link.weight_t;
     link.jump_n = jump_stiffness(link.P, link.N, h_P, h_N, link.c_n);
     link.jump_t = slip_stiffness(link.P, link.N, link.c_n, link.c_t);
-    if (has_relaxed_flat_cells_ && !(cubic_.fits(link.P) && cubic_.fits(link.N))) link.jump_t *= bending_part(link);
+    if (has_relaxed_flat_cells_ && !(cubic_.fits(link.P) && cubic_.fits(link.N)) && !layers_.weighs(as_size(i)))
+      link.jump_t *= bending_part(link);
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     Side& side = sides_[as_size(i)];
@@ -211,6 +212,7 @@ void MomentumOperator::reconstruct(const std::vector<Vector>& u) const {
       gradients_[c] += (r.dot(u[as_size(c)]) / r.dot(mesh_.cell_centre[c])) * across * across.transpose();
   });
   if (cubic_.any()) cubic_.read(u, gradients_);
+  if (layers_.any()) layers_.correct(u, gradients_);
   if (pressure_.any()) pressure_.read(u);
 }
 
@@ -246,7 +248,7 @@ void MomentumOperator::compute_linear_forces(const std::vector<Vector>& u) const
     const Vector jump = u[as_size(link.N)] + rise(link.N, link.d_N, turn_N(as_size(i))) - u_P;
     if (has_fluxes) flux_[as_size(i)] = link_flux(as_size(i), u_P, jump, stress_N - stress_P);
     if (!moved_.empty()) moved_[as_size(i)] = linear_face_displacement(as_size(i), u_P, jump, stress_N - stress_P);
-    forces_[as_size(i)] = link.area * (stress_N + weigh(as_size(i), stress_P - stress_N) + pull(as_size(i), jump));
+    forces_[as_size(i)] = link.area * (stress_N + weigh(as_size(i), stress_P - stress_N) + pull_jump(as_size(i), jump));
     if (!jump_turns_.empty()) forces_[as_size(i)] += link.area * turned_jump(as_size(i));
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {

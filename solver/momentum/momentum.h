@@ -81,6 +81,7 @@
 #include "solver/momentum/cell_pressure.h"
 #include "solver/momentum/cubic_faces.h"
 #include "solver/momentum/finite_law.h"
+#include "solver/momentum/layer_gradients.h"
 #include "solver/momentum/momentum_faces.h"
 #include "solver/momentum/moved_faces.h"
 #include "solver/momentum/pressed_faces.h"
@@ -104,8 +105,8 @@ class MomentumOperator {
   /// Where `stress` is given, it replaces the stress of the moduli in every cell.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0,
                   CellField<LinearStress> stress = {});
-  /// For bodies of flat cells that bend, as plates in layers of hexahedra; before set_moduli(). See momentum_jump.cpp.
-  /// Cells with cubic faces need none.
+  /// For bodies of flat cells that bend, as plates; before set_moduli(). Layers of hexahedra without cubic faces then
+  /// have the gradients of layer_gradients.h, other flat cells weaker jump terms (momentum_jump.cpp).
   void relax_flat_cells();
   /// A stress by the strain, linearised about the displacements u; being of first degree, it is exact there. The faces
   /// are found from where they were, or `afresh`.
@@ -339,21 +340,27 @@ class MomentumOperator {
     return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
   }
   // On side number `turn`, at the distance d from the cell's centre. Within a cell the pressure varies, and the
-  // gradient where cells fit a cubic.
+  // gradient where cells fit a cubic or lie in layers that bend.
   Vector normal_stress(Index cell, const Vector& n, const Vector& d, std::size_t turn) const {
-    Vector stress = cubic_.any() ? normal_stress(cell, gradient_at(cell, turn) + cubic_.at(turn).gradient, n)
-                                 : normal_stress(cell, gradient_at(cell, turn), n);
+    Vector stress = varies_within_cells() ? normal_stress(cell, gradient_at(cell, turn), n) : normal_stress(cell, n);
     if (pressure_.any()) stress += pressure_.at(cell, d) * n;
     return stress;
   }
+  bool varies_within_cells() const { return cubic_.any() || layers_.any() || bonded_.size() > 0; }
+  Tensor gradient_at(Index cell, std::size_t turn) const {
+    Tensor gradient = mean_gradient_at(cell, turn);
+    if (cubic_.any()) gradient += cubic_.at(turn).gradient;
+    if (layers_.any()) gradient += layers_.at(turn);
+    return gradient;
+  }
   // That of the cell, or of the surface on which side number `turn` is bonded.
-  const Tensor& gradient_at(Index cell, std::size_t turn) const {
+  const Tensor& mean_gradient_at(Index cell, std::size_t turn) const {
     const Index k = bonded_at(turn);
     return k < 0 ? gradients_[cell] : bonded_gradients_[as_size(k)];
   }
   // What the cell's displacement rises by to the centre of side number `turn`.
   Vector rise(Index cell, const Vector& d, std::size_t turn) const {
-    Vector linear = gradient_at(cell, turn) * d;
+    Vector linear = mean_gradient_at(cell, turn) * d;
     if (cubic_.any()) linear += cubic_.at(turn).rise;
     return linear;
   }
@@ -383,6 +390,9 @@ class MomentumOperator {
   Vector pull(std::size_t i, const Vector& v) const {
     return is_isotropic() ? scale(links_[i].jump_n, links_[i].jump_t, links_[i].n, v) : link_tensors_[i].c * v;
   }
+  Vector pull_jump(std::size_t i, const Vector& v) const {
+    return layers_.any() ? pull(i, layers_.weight(i) * v) : pull(i, v);
+  }
   Vector give(std::size_t i, const Vector& v) const;
   Vector hold(std::size_t i, const Vector& v) const {
     return is_isotropic() ? scale(sides_[i].a_n, sides_[i].a_t, sides_[i].n, v) : side_tensors_[i] * v;
@@ -410,7 +420,8 @@ class MomentumOperator {
   const Mesh& mesh_;
   const Unknowns& unknowns_;
   Gradient gradient_;
-  mutable CubicFaces cubic_;  // its sides are numbered as face_turns_
+  mutable CubicFaces cubic_;       // its sides are numbered as face_turns_
+  mutable LayerGradients layers_;  // likewise; empty unless flat cells are relaxed
   CellField<IsotropicElasticity> moduli_;
   CellField<double> jump_share_;  // lambda_s + 2 mu over lambda + 2 mu, undamaged; 1 except in polyhedra
   CellField<double> liquidity_;   // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is

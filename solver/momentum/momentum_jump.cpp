@@ -67,7 +67,10 @@ double MomentumOperator::slip_stiffness(Index P, Index N, double c_n, double c_t
   return c_t + slip_share * std::min(liquidity_[P], liquidity_[N]) * c_n;
 }
 
-void MomentumOperator::relax_flat_cells() { has_relaxed_flat_cells_ = true; }
+void MomentumOperator::relax_flat_cells() {
+  has_relaxed_flat_cells_ = true;
+  layers_ = LayerGradients(mesh_, unknowns_, sides_by_turn(), links_, cubic_);
+}
 
 // In bending, the shear strain on the faces across a plate and on those along it must agree. With the jump part alpha
 // of the former they differ by alpha h_n^2/4 times the second derivative of the slope, h_n being the distance of the

@@ -31,8 +31,7 @@ StiffnessCoupling::StiffnessCoupling(const MomentumOperator& balance, CellField<
   const auto traction = [&](Index cell, const Vector& n, const Vector& d, const Vector& u_f,
                             std::size_t turn) -> Vector {
     const IsotropicElasticity& p = part[cell];
-    Tensor G = balance.gradients_[cell];
-    if (balance.cubic_.any()) G += balance.cubic_.at(turn).gradient;
+    const Tensor G = balance.gradient_at(cell, turn);
     const double h = d.dot(n);
     return (p.lambda * G.trace()) * n + p.mu * (G * n + G.transpose() * n) +
            MomentumOperator::scale(p.constrained_modulus() / h, p.mu / h, n,
