@@ -255,6 +255,19 @@ void add_decisions(const KeyTable& table, Json& schema) {
     schema["anyOf"].push_back({{"not", {{"required", {table.decided_by}}}}});
 }
 
+/// Which keys one of several tables at a place has, and has to have.
+Json shape_of(const KeyTable& table) {
+  Json schema{{"properties", Json::object()}};
+  for (const Key& key : table.keys) schema["properties"][std::string(key.name)] = Json::object();
+  Json required = Json::array();
+  for (const auto& [name, anything] : schema["properties"].items())
+    if (is_required(name, {&table})) required.push_back(name);
+  if (!required.empty()) schema["required"] = required;
+  schema["additionalProperties"] = false;
+  add_decisions(table, schema);
+  return schema;
+}
+
 /// What is said of a key by one name in several tables.
 Json property_of(std::string_view name, const Tables& tables) {
   Types types;
@@ -282,7 +295,10 @@ Json of_tables(const Tables& tables) {
     }
   if (!required.empty()) schema["required"] = required;
   schema["additionalProperties"] = false;
-  if (tables.size() == 1) add_decisions(*tables.front(), schema);
+  if (tables.size() == 1)
+    add_decisions(*tables.front(), schema);
+  else
+    for (const KeyTable* table : tables) schema["anyOf"].push_back(shape_of(*table));
   return schema;
 }
 
