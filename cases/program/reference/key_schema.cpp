@@ -235,7 +235,7 @@ Json with_decided(const KeyTable& table, const std::vector<std::string_view>& wo
   for (const Key& key : table.keys) {
     if (!is_there(key) || key.name == table.decided_by) continue;
     schema["properties"][std::string(key.name)] = Json::object();
-    if (key.otherwise.empty() && words.size() == 1) required.push_back(key.name);
+    if (key.otherwise.empty() && (words.size() == 1 || key.only.empty())) required.push_back(key.name);
   }
   if (!required.empty()) schema["required"] = required;
   schema["additionalProperties"] = false;
@@ -251,8 +251,23 @@ void add_decisions(const KeyTable& table, Json& schema) {
   const std::vector<std::string>& words = row->type.as(Kind::choice)->words;
   for (const std::string& word : words)
     schema["anyOf"].push_back(with_decided(table, {word}, word == table.decided_otherwise));
-  if (table.decided_by_reader)  // what a missing word stands for is not known here
-    schema["anyOf"].push_back({{"not", {{"required", {table.decided_by}}}}});
+  if (!table.decided_by_reader) return;
+  // What a missing word stands for is not known here.
+  const Json is_missing{{"not", {{"required", {table.decided_by}}}}};
+  schema["anyOf"].push_back({{"allOf", {with_decided(table, {words.begin(), words.end()}, true), is_missing}}});
+}
+
+/// Which keys one of several tables at a place has, and has to have.
+Json shape_of(const KeyTable& table) {
+  Json schema{{"properties", Json::object()}};
+  for (const Key& key : table.keys) schema["properties"][std::string(key.name)] = Json::object();
+  Json required = Json::array();
+  for (const auto& [name, anything] : schema["properties"].items())
+    if (is_required(name, {&table})) required.push_back(name);
+  if (!required.empty()) schema["required"] = required;
+  schema["additionalProperties"] = false;
+  add_decisions(table, schema);
+  return schema;
 }
 
 /// What is said of a key by one name in several tables.
@@ -282,7 +297,10 @@ Json of_tables(const Tables& tables) {
     }
   if (!required.empty()) schema["required"] = required;
   schema["additionalProperties"] = false;
-  if (tables.size() == 1) add_decisions(*tables.front(), schema);
+  if (tables.size() == 1)
+    add_decisions(*tables.front(), schema);
+  else
+    for (const KeyTable* table : tables) schema["anyOf"].push_back(shape_of(*table));
   return schema;
 }
 
