@@ -40,7 +40,7 @@ class LayerGradients::Maker {
   }
 
   void add(const BendingCell& in) {
-    if (beyond(in.cell, in.across[0]).cell < 0 && beyond(in.cell, in.across[1]).cell < 0) return;  // no second layer
+    if (cells_through(in.cell, in.across) < least_layers) return;
     if (made_.cells_.empty() || made_.cells_.back().cell != in.cell) {
       made_.cells_.push_back({in.cell, made_.lines_.size(), 0});
       has_line_.clear();
@@ -158,6 +158,18 @@ class LayerGradients::Maker {
          .side = *side});
   }
 
+  // Those of one have no slope to extrapolate; with two, modes of coarse meshes were far from orthogonal.
+  static constexpr int least_layers = 3;
+  int cells_through(Index cell, const FacePair& faces) const {
+    int n = 1;
+    for (Index face : faces)
+      for (Step next = beyond(cell, face); next.cell >= 0 && next.far >= 0; next = beyond(next.cell, face)) {
+        ++n;
+        face = next.far;
+      }
+    return n;
+  }
+
   // Of all cells of the line [m].
   double length_through(Index cell, const FacePair& faces) const {
     double sum = length(faces[0], faces[1]);
@@ -171,7 +183,7 @@ class LayerGradients::Maker {
 
   // Each cell of the face by half.
   void weigh_jump(const BendingCell& in, Index face) {
-    constexpr double left = 0.025;
+    constexpr double left = 0.04;
     const auto side = side_of(in.cell, face);
     if (!side || *side >= 2 * links_.size()) return;
     const momentum_faces::Link& link = links_[*side / 2];

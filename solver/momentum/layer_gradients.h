@@ -14,9 +14,9 @@
 // 2. On free surfaces across the layers, and on planes of symmetry at the ends of lines, derivatives along the surface
 //    are extrapolated from the centres of the last two cells. (Else Poisson's effect across a plate is that of the
 //    cells' centres: 15 % of the stiffness with four layers at nu = 0.45.)
-// 3. Of the jump at faces across the span the component across the layers has the weight 0.1/(1 - nu) (t/d)^2, t being
-//    the thickness of the layer and d the distance of the cells' centres: 0.15/n^2 of the stiffness is left. The others
-//    keep theirs; so twisting shears the faces beside free edges in full.
+// 3. Of the jump at faces across the span the component across the layers has the weight 0.04/(1 - nu) t h/d^2, t being
+//    the thickness of the layer, h that of all and d the distance of the cells' centres: 0.06/n of the stiffness is
+//    left. The others keep theirs; so twisting shears the faces beside free edges in full.
 //
 // Linear fields remain exact.
 
@@ -32,7 +32,8 @@ namespace pfdm {
 class LayerGradients {
  public:
   LayerGradients() = default;
-  /// Of layers that bend (bending_layers.h) and have no cubic fits. Sides 2 i and 2 i + 1 are those of link number i.
+  /// Of three layers or more that bend (bending_layers.h) and have no cubic fits. Sides 2 i and 2 i + 1 are those of
+  /// link number i.
   LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
                  const std::vector<momentum_faces::Link>& links, const CubicFaces& cubic);
 
