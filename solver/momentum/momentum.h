@@ -119,8 +119,8 @@ class MomentumOperator {
   void set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u, double t,
                   double part = 0.0);
   bool is_finite() const { return finite_.size() > 0; }
-  /// In some cells (cubic_faces.h); at finite strain in none.
-  bool has_cubic_faces() const { return cubic_.any() && !is_finite(); }
+  /// In some cells: cubic_faces.h, at finite strain in none; layer_gradients.h.
+  bool is_of_third_order() const { return (cubic_.any() && !is_finite()) || layers_.any(); }
   const CellField<Tensor>& deformation() const { return F_; }       ///< F by least squares, at which it is linearised
   const CellField<Tensor>& cofactors() const { return cofactor_; }  ///< likewise
   CellField<double> face_stiffness() const;                         ///< a measure of a h at finite strain [Pa]

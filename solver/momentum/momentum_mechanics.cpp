@@ -198,7 +198,7 @@ double MomentumOperator::part_energy(Index cell, const Stress& stress_of, const 
     const Vector area = (mesh_.owner[f] == cell ? 1.0 : -1.0) * mesh_.face_area[f];
     const Vector n = area.normalized(), d = mesh_.face_centre[f] - mesh_.cell_centre[cell];
     const Vector move = seen_from(cell, f, u_face, u) - u[as_size(cell)];
-    const Tensor in_cell = varies_within_cells() ? gradient_at(cell, turn) : G;
+    const Tensor in_cell = varies_within_cells() ? gradient_at(cell, turn) : gradients_[cell];
     const Vector gap = move - rise(cell, d, turn);
     const double h = bounded_height(d, n) / stiffer_at(turn);
     const Tensor at_face = with_strain_across(cell, in_cell + gap * n.transpose() / h);

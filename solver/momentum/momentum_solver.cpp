@@ -250,7 +250,7 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
       .constrain = [&](std::vector<Vector>& x) { operator_.prescribe(t, x); },
       .scale = scale_,
       .restart_length = restart_length(),
-      .stores_doubles = operator_.has_cubic_faces(),
+      .stores_doubles = operator_.is_of_third_order(),
       .good_enough = tolerance.good_enough * reference};
   const auto target = [&](double initial) {
     return std::max(tolerance.floor * reference,
@@ -268,7 +268,7 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
 // iterations with cycles of 40, 82 with 200, in double precision).
 Index MomentumSolver::restart_length() const {
   const Index usual = pressure_compliance_.empty() ? 40 : 80;
-  if (!operator_.has_cubic_faces()) return usual;
+  if (!operator_.is_of_third_order()) return usual;
   constexpr Index longest = 200, most_stored = 1500000;  // pairs of vectors of 24 bytes: 72 MB
   return std::clamp(most_stored / n_nodes(), usual, longest);
 }
