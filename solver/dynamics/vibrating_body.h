@@ -20,9 +20,9 @@
 namespace pfdm {
 
 struct VibrationSettings {
-  double shift = 0.0;           ///< s [rad^2/s^2]; more than 0: the body may float, and is factored whatever its size
+  double shift = 0.0;          ///< s [rad^2/s^2]; more than 0: the body may float, and is factored whatever its size
   Index most_factored = 7000;  ///< cells; meshes one cell thick: prefers_direct() (preconditioner.h)
-  double tolerance = 1e-7;      ///< of the residual of iterative solutions, relative to the force
+  double tolerance = 1e-7;     ///< of the residual of iterative solutions, relative to the force
 };
 
 class VibratingBody {

@@ -111,7 +111,10 @@ constexpr const char* law_with_rate =
     "f = [[1, 1.5], [1.1, 1.7], [1.2, 2]]";
 
 void expect_to_be_read_again(const TemporaryCase& directory) {
-  const auto read = [&] { return read_endochronic_law(open_case(directory.path()).config.root().with_keys(endochronic_case_keys()).table("material")); };
+  const auto read = [&] {
+    return read_endochronic_law(
+        open_case(directory.path()).config.root().with_keys(endochronic_case_keys()).table("material"));
+  };
   const EndochronicLaw law = read();
   std::string text = "kind = \"endochronic\"\ntitle = \"again\"\n" + to_toml(law);
   directory.write("case.toml", text);

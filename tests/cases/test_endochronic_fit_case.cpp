@@ -83,7 +83,8 @@ TEST(EndochronicFitCase, FindsTheLawAndWritesACaseThatRuns) {
   EXPECT_NE(content_of(fit.directory.results() / "fit.log").find("f_inf"), std::string::npos);
 
   const std::filesystem::path fitted = fit.directory.results() / "case.fitted.toml";
-  const EndochronicLaw law = read_endochronic_law(open_case(fitted).config.root().with_keys(endochronic_case_keys()).table("material"));
+  const EndochronicLaw law =
+      read_endochronic_law(open_case(fitted).config.root().with_keys(endochronic_case_keys()).table("material"));
   EXPECT_NEAR(law.kernel[0].alpha, 700.0, 700.0 * 1e-5);
   EXPECT_EQ(run({"check", fitted.string()}).status, 0) << run({"check", fitted.string()}).err;
   EXPECT_EQ(run({"run", fitted.string(), "--output", (fit.directory.path() / "again").string()}).status, 0);

@@ -18,7 +18,7 @@ endif()
 run(${prefix}/bin/pfdm init ${FOLDER}/bar --like bar_at1)
 run(${prefix}/bin/pfdm check ${FOLDER}/bar)
 # A run goes on where nobody reads any more what it says; an answer that cannot be written is no success.
-run(bash -c "set -o pipefail; ${prefix}/bin/pfdm run ${FOLDER}/bar | true")
+run(bash -c "set -o pipefail && ${prefix}/bin/pfdm run ${FOLDER}/bar | true")
 if(NOT EXISTS ${FOLDER}/bar/results/summary.json)
   message(FATAL_ERROR "the run ended with its reader")
 endif()

@@ -147,7 +147,7 @@ std::vector<SetUp> read_set_ups(const ConfigTable& root) {
 std::optional<ExperimentSettings> read_experiment(const ConfigTable& root,
                                                   const std::filesystem::path& case_directory) {
   if (!root.has("experiment")) return std::nullopt;
-  const ConfigTable table = root.table("experiment");
+  const ConfigTable table = root.with_keys(fracture_keys()).table("experiment");
   ExperimentSettings settings{.where = table};
   const ConfigValue range = table.at("stiffness_between");
   const std::vector<ConfigValue> ends = range.list(2);
