@@ -52,7 +52,7 @@ std::vector<std::string> abaqus_with(const std::string& option, const std::strin
   return options;
 }
 
-// What a foreign reader does to a damaged mesh depends on its version, and on what is in memory beyond the file.
+// What a foreign reader does to a damaged file depends on its version, and on what is in memory beyond the file.
 const Refused inputs[] = {
     {"odd_cells_size_short", "check", {}, "m.vtk"},
     {"odd_polyhedron_count_huge", "check", {}, "m.vtu"},
@@ -62,7 +62,7 @@ const Refused inputs[] = {
     {"vtu_segv", "check", {}, "m.vtu"},
     {"vtk_bad_free", "check", {}, "m.vtk"},
     {"h5_4_GB", "analyse", {}, "r.h5: it is damaged: reading it crashes, or takes more than 20 s or 1.1 GB"},
-    {"mat_slow", "analyse", {}, "sample 5 is -1.19e+93 s; a record has less than 1e+09 s"},
+    {"mat_slow", "analyse", {}, "r.mat"},
     {"thin_layer", "check", {}, "TetGen crashes between the surfaces of the mesh"},
     {"stl_nearly_flat", "check", {}, "TetGen crashes between the surfaces of the mesh"},
     {"stl_layers_1e-9_mm", "check", {}, "TetGen crashes between the surfaces of the mesh"},
