@@ -1,6 +1,7 @@
 #include "postproc/page/paper.h"  // drawn by Cairo: the only place that knows it
 
 #include "physics/error.h"
+#include "postproc/files/utf8.h"
 
 #include <cairo-ft.h>
 #include <cairo-pdf.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace pfdm {
 namespace {
@@ -67,26 +69,18 @@ cairo_scaled_font_t* font(bool bold) {
   return (bold ? thick : regular).get();
 }
 
-bool is_utf8(const std::string& text) {
-  cairo_glyph_t* glyphs = nullptr;
-  int n = 0;
-  const cairo_status_t status = cairo_scaled_font_text_to_glyphs(
-      font(false), 0.0, 0.0, text.data(), static_cast<int>(text.size()), &glyphs, &n, nullptr, nullptr, nullptr);
-  cairo_glyph_free(glyphs);
-  return status != CAIRO_STATUS_INVALID_STRING;
-}
-
-/// Cairo refuses anything else: bytes that are none are taken as Latin-1.
+/// Cairo refuses what is no UTF-8: bytes that are none are taken as Latin-1.
 std::string utf8(const std::string& text) {
-  if (is_utf8(text)) return text;
   std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto first = static_cast<unsigned char>(text[i]);
-    std::string character = text.substr(i, first < 0xc0 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4);
-    i += is_utf8(character) ? character.size() : 1;
-    if (!is_utf8(character))
-      character = {static_cast<char>(0xc0 | (first >> 6)), static_cast<char>(0x80 | (first & 0x3f))};
-    result += character;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t length = utf8_length(rest);
+    if (length > 0) {
+      result += rest.substr(0, length);
+    } else {
+      const auto byte = static_cast<unsigned char>(rest.front());
+      result += {static_cast<char>(0xc0 | (byte >> 6)), static_cast<char>(0x80 | (byte & 0x3f))};
+    }
+    rest.remove_prefix(std::max<std::size_t>(1, length));
   }
   return result;
 }

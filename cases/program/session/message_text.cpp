@@ -1,5 +1,7 @@
 #include "cases/program/session/message_text.h"
 
+#include "postproc/files/utf8.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,23 +11,11 @@ namespace {
 
 bool continues(unsigned char byte) { return (byte & 0xC0U) == 0x80U; }
 
-/// Bytes of the character that begins the text; 0 where none does. Overlong forms and surrogates are not told apart.
-std::size_t length_of_character(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  if (first < 0x80U) return 1;
-  if (first < 0xC2U || first > 0xF4U) return 0;
-  const std::size_t length = first < 0xE0U ? 2 : first < 0xF0U ? 3 : 4;
-  if (text.size() < length) return 0;
-  const bool whole =
-      std::ranges::all_of(text.substr(1, length - 1), [](char c) { return continues(static_cast<unsigned char>(c)); });
-  return whole ? length : 0;
-}
-
 std::string with_shown_bytes(std::string_view message) {
   std::string text;
   while (!message.empty()) {
     const auto byte = static_cast<unsigned char>(message.front());
-    const std::size_t length = length_of_character(message);
+    const std::size_t length = utf8_length(message);
     if (byte == '\n' || byte == '\t')
       text += ' ';
     else if (length == 0 || byte < 0x20U || byte == 0x7FU)
