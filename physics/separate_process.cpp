@@ -18,6 +18,7 @@
 #include <fstream>
 #include <new>
 #include <system_error>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -103,8 +104,6 @@ void silence_errors() {
   throw ComputationError("no process can be started: " + std::generic_category().message(errno));
 }
 
-}  // namespace
-
 ProcessLimits limits_of_reading(const std::filesystem::path& file) {
   constexpr double seconds = 20.0, bytes_per_second = 1e6;
   constexpr std::size_t bytes = std::size_t{1} << 30, inflation = 100;
@@ -114,10 +113,7 @@ ProcessLimits limits_of_reading(const std::filesystem::path& file) {
   return {.seconds = seconds + static_cast<double>(size) / bytes_per_second, .bytes = bytes + inflation * size};
 }
 
-std::string words_on_damage(const ProcessLimits& limits) {
-  return fmt::format("it is damaged: reading it crashes, or takes more than {:.0f} s or {:.1f} GB", limits.seconds,
-                     1e-9 * static_cast<double>(limits.bytes));
-}
+}  // namespace
 
 std::optional<std::string> computed_separately(const std::function<std::string()>& compute,
                                                const ProcessLimits& limits) {
@@ -139,6 +135,14 @@ std::optional<std::string> computed_separately(const std::function<std::string()
   if (answer[0] == wrong_input) throw InputError(answer.substr(1));
   if (answer[0] == failure) throw ComputationError(answer.substr(1));
   return answer.substr(1);
+}
+
+std::string read_separately(const std::filesystem::path& file, std::string_view named,
+                            const std::function<std::string()>& read) {
+  const ProcessLimits limits = limits_of_reading(file);
+  if (auto bytes = computed_separately(read, limits)) return std::move(*bytes);
+  throw InputError(fmt::format("{}: it is damaged: reading it crashes, or takes more than {:.0f} s or {:.1f} GB", named,
+                               limits.seconds, 1e-9 * static_cast<double>(limits.bytes)));
 }
 
 }  // namespace pfdm

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace pfdm {
 
@@ -17,18 +18,16 @@ struct ProcessLimits {
   std::size_t bytes = std::numeric_limits<std::size_t>::max() / 2;  ///< of memory, beside what this process has
 };
 
-/// What the reader of a file may use that is not damaged: a time and a memory that grow with the file, and allow for
-/// its compression.
-ProcessLimits limits_of_reading(const std::filesystem::path& file);
-
-/// Why a file could not be read where computed_separately() returns nothing.
-std::string words_on_damage(const ProcessLimits& limits);
-
 /// Bytes that `compute` returns, computed in a forked copy of this process; nothing where that process crashed or
 /// reached a limit. An exception of `compute` is thrown here, as InputError if it was one, else as ComputationError.
 /// `compute` may read everything but start no threads; what it writes to memory is lost. Throws ComputationError where
 /// no process can be started.
 std::optional<std::string> computed_separately(const std::function<std::string()>& compute,
                                                const ProcessLimits& limits = {});
+
+/// Likewise of a file that a foreign library reads, within a time and a memory that grow with the file and allow for
+/// its compression. Throws InputError, `named` and what is wrong, where the reader crashed or reached a limit.
+std::string read_separately(const std::filesystem::path& file, std::string_view named,
+                            const std::function<std::string()>& read);
 
 }  // namespace pfdm

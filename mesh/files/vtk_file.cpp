@@ -166,10 +166,8 @@ MeshFile file_in(const std::string& bytes) {
 // VTK's readers crash on some damaged files.
 MeshFile read_vtk_file(const std::filesystem::path& path) {
   require_file(path);
-  const ProcessLimits limits = limits_of_reading(path);
-  const auto bytes = computed_separately([&] { return bytes_of(read_here(path)); }, limits);
-  if (!bytes) throw InputError(fmt::format("cannot read the mesh {}: {}", path.string(), words_on_damage(limits)));
-  return file_in(*bytes);
+  return file_in(read_separately(path, fmt::format("cannot read the mesh {}", path.string()),
+                                 [&] { return bytes_of(read_here(path)); }));
 }
 
 std::vector<Index> merge_points(std::vector<Vector>& points, double tolerance) {

@@ -1,12 +1,7 @@
 #include "postproc/records/separate_reading.h"
 
-#include "physics/error.h"
 #include "physics/packed_bytes.h"
 #include "physics/separate_process.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
 
 namespace pfdm {
 namespace {
@@ -47,10 +42,7 @@ SignalTable table_in(const std::string& bytes) {
 }  // namespace
 
 SignalTable read_separately(const std::filesystem::path& file, SignalTable (*read)(const std::filesystem::path&)) {
-  const ProcessLimits limits = limits_of_reading(file);
-  const auto bytes = computed_separately([&] { return bytes_of(read(file)); }, limits);
-  if (!bytes) throw InputError(fmt::format("{}: {}", file.string(), words_on_damage(limits)));
-  return table_in(*bytes);
+  return table_in(read_separately(file, file.string(), [&] { return bytes_of(read(file)); }));
 }
 
 }  // namespace pfdm
