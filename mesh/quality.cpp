@@ -58,6 +58,13 @@ void count_cells(const Mesh& mesh, MeshQuality& quality) {
   for (const Patch& patch : mesh.patches) quality.patches.emplace_back(patch.name, patch.n_faces);
 }
 
+double smallest_dihedral_angle(const Mesh& mesh, Index cell, const std::vector<CellEdge>& edges) {
+  double smallest = 180.0;
+  for (const CellEdge& edge : edges)
+    smallest = std::min(smallest, dihedral_angle(mesh, cell, edge.faces[0], edge.faces[1]));
+  return smallest;
+}
+
 void measure_faces(const Mesh& mesh, MeshQuality& quality) {
   std::vector<double> non_orthogonality, skewness, volume_ratio;
   for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
@@ -94,10 +101,9 @@ CellQuality cell_quality(const Mesh& mesh) {
       const double length = (mesh.points[edge.high] - mesh.points[edge.low]).norm();
       shortest = std::min(shortest, length);
       longest = std::max(longest, length);
-      quality.min_dihedral_angle[c] =
-          std::min(quality.min_dihedral_angle[c], dihedral_angle(mesh, c, edge.faces[0], edge.faces[1]));
     }
     quality.aspect_ratio[c] = longest / shortest;
+    quality.min_dihedral_angle[c] = smallest_dihedral_angle(mesh, c, edges);
   }
   return quality;
 }
@@ -119,17 +125,22 @@ MeshQuality mesh_quality(const Mesh& mesh) {
 
 std::optional<std::string> flat_cell_warning(const Mesh& mesh) {
   constexpr double least = 0.5;  // [degrees]
-  const CellField<double> angles = cell_quality(mesh).min_dihedral_angle;
-  const auto worst = std::ranges::min_element(angles.values());
-  if (worst == angles.values().end() || *worst >= least) return std::nullopt;
-  const auto c = static_cast<Index>(worst - angles.values().begin());
+  double smallest = least;
+  Index c = -1;
+  std::vector<CellEdge> edges;
+  for (Index cell = 0; cell < mesh.n_cells(); ++cell) {
+    list_edges(mesh, cell, edges);
+    const double angle = smallest_dihedral_angle(mesh, cell, edges);
+    if (angle < smallest) smallest = angle, c = cell;
+  }
+  if (c < 0) return std::nullopt;
   const Vector& x = mesh.cell_centre[c];
   return fmt::format(
       "cell {} at ({:.4g}, {:.4g}, {:.4g}) m is flat or a needle: two of its faces meet at {:.2g} degrees. Equations "
-      "on "
-      "such cells are hardly solved. Take smaller triangles or cells there (mesh.size_far, surface_size), or surfaces "
+      "on such cells are hardly solved. Take smaller triangles or cells there (mesh.size_far, surface_size), or "
+      "surfaces "
       "and sides that are farther apart; pfdm mesh measures all cells",
-      c, x[0], x[1], x[2], *worst);
+      c, x[0], x[1], x[2], smallest);
 }
 
 }  // namespace pfdm
