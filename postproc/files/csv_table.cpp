@@ -214,6 +214,12 @@ std::vector<std::size_t> columns_that(const std::vector<std::string>& names, con
   return found;
 }
 
+std::string first_of(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 40;
+  if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{} ... {} in all", fmt::join(std::span(names).first(most), ", "), names.size());
+}
+
 }  // namespace
 
 bool CsvTable::has_names() const {
@@ -232,16 +238,6 @@ std::size_t CsvTable::find(std::string_view name) const {
 std::string_view without_unit(std::string_view name) {
   return bracketed_end(name) ? trimmed(name.substr(0, name.find_last_of("[("))) : name;
 }
-
-namespace {
-
-std::string first_of(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 40;
-  if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
-  return fmt::format("{} ... {} in all", fmt::join(std::span(names).first(most), ", "), names.size());
-}
-
-}  // namespace
 
 std::size_t find_name(const std::vector<std::string>& names, std::string_view name) {
   const auto name_before_unit = [&](const std::string& of) { return without_unit(of) == name; };
