@@ -17,14 +17,13 @@ namespace pfdm {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 constexpr int n_rates = 28;
-constexpr double decays[] = {0.01, 0.03, 0.1, 0.3, 0.8};  // of pairs, over their frequency
+constexpr double decay_ratios[] = {0.01, 0.03, 0.1, 0.3, 0.8};  // of pairs, over their frequency
 
 /// Spectra of all records below each other, each record weighted.
 struct Spectral {
@@ -61,8 +60,8 @@ Spectral spectral(const VibrationRecord& r, const MassMaterial& m, const Identif
       .low = 0.9 * r.band_low, .high = std::min((harmonics ? 2.2 : 1.1) * r.band_high, 0.38 * r.rate), .skirt = 0.2};
   const Conditioner condition(r.n(), r.rate, band, settings.crop);
   const VectorXd& omega = condition.omega();
-  std::vector<Index> bins;
-  for (Index k = 0; k < omega.size(); ++k)
+  std::vector<Eigen::Index> bins;
+  for (Eigen::Index k = 0; k < omega.size(); ++k)
     if (band.gain(omega[k] / (2.0 * std::numbers::pi)) == 1.0) bins.push_back(k);
   const auto within = [&](const VectorXd& x) -> VectorXcd { return condition.spectrum(x)(bins); };
   const States states = integrate_states(r);
@@ -72,11 +71,11 @@ Spectral spectral(const VibrationRecord& r, const MassMaterial& m, const Identif
                   .f = within(forcing_of(states, m, shaped)),
                   .plain = {},
                   .q = -settings.mass * within(r.relative + r.base)};
-  const auto n = static_cast<Index>(m.stiffness.size());
+  const auto n = static_cast<Eigen::Index>(m.stiffness.size());
   result.plain.resize(result.q.size(), 1 + n);
   result.plain.col(0) = within(shaped);
   VectorXd power = VectorXd::Ones(r.n());
-  for (Index i = 0; i < n; ++i) {
+  for (Eigen::Index i = 0; i < n; ++i) {
     power.array() *= states.displacement.array();
     result.plain.col(1 + i) = within(power);
   }
@@ -94,12 +93,12 @@ Spectral joined(std::span<const VibrationRecord> records, const MassMaterial& m,
         parts[static_cast<std::size_t>(begin)] = spectral(records[static_cast<std::size_t>(begin)], m, settings);
       },
       1);
-  Index n = 0;
+  Eigen::Index n = 0;
   for (const Spectral& part : parts) n += part.q.size();
   Spectral all{.s = VectorXcd(n), .f = VectorXcd(n), .plain = MatrixXcd(n, parts[0].plain.cols()), .q = VectorXcd(n)};
-  Index at = 0;
+  Eigen::Index at = 0;
   for (const Spectral& part : parts) {
-    const Index size = part.q.size();
+    const Eigen::Index size = part.q.size();
     all.s.segment(at, size) = part.s;
     all.f.segment(at, size) = part.f;
     all.plain.middleRows(at, size) = part.plain;
@@ -142,7 +141,7 @@ VectorXd logarithms(std::span<const Complex> alphas) {
 
 std::vector<Complex> rates_of(const VectorXd& x, std::span<const Complex> like) {
   std::vector<Complex> alphas;
-  Index at = 0;
+  Eigen::Index at = 0;
   for (const Complex alpha : like) {
     const double real = std::exp(x[at++]);
     alphas.emplace_back(real, alpha.imag() != 0.0 ? std::exp(x[at++]) : 0.0);
@@ -176,7 +175,7 @@ std::vector<Complex> candidates(const ExcitedRange& range, TermKind kind) {
       result.emplace_back(rate);
       continue;
     }
-    for (const double decay : decays) result.emplace_back(decay * rate, rate);
+    for (const double decay : decay_ratios) result.emplace_back(decay * rate, rate);
   }
   return result;
 }

@@ -12,7 +12,6 @@ namespace pfdm {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
@@ -21,14 +20,14 @@ constexpr double largest_bias = 0.2;  // of coordinates of size one
 
 /// Frequencies of the transform of a conditioned signal that lie in the compared band.
 struct Bins {
-  Index first = 0;
+  Eigen::Index first = 0;
   VectorXd omega;  // [rad/s]
 };
 
-Bins compared_bins(const VibrationRecord& r, Index n, double rate) {
+Bins compared_bins(const VibrationRecord& r, Eigen::Index n, double rate) {
   const double step = rate / static_cast<double>(n), high = std::min(3.0 * r.band_high, 0.38 * r.rate);
-  const auto first = static_cast<Index>(std::ceil(0.5 * r.band_low / step));
-  const auto last = std::min(static_cast<Index>(std::floor(high / step)), n / 2 - 1);
+  const auto first = static_cast<Eigen::Index>(std::ceil(0.5 * r.band_low / step));
+  const auto last = std::min(static_cast<Eigen::Index>(std::floor(high / step)), n / 2 - 1);
   return {first, 2.0 * std::numbers::pi * step *
                      VectorXd::LinSpaced(last - first + 1, static_cast<double>(first), static_cast<double>(last))};
 }
@@ -36,7 +35,7 @@ Bins compared_bins(const VibrationRecord& r, Index n, double rate) {
 /// Z''/Y''.
 VectorXcd response_of(const MassMaterial& model, const VectorXd& omega, double velocity) {
   VectorXcd H(omega.size());
-  for (Index k = 0; k < omega.size(); ++k) {
+  for (Eigen::Index k = 0; k < omega.size(); ++k) {
     const double inertia = model.mass * omega[k] * omega[k];
     H[k] = inertia / (complex_stiffness(model, omega[k], velocity) - inertia);
   }
@@ -75,10 +74,10 @@ std::optional<VectorXd> base_noise_bias(std::span<const VibrationRecord> records
   constexpr double h = 1e-5;
   const MassMaterial model = coordinates.model(x);
   VectorXd gradient = VectorXd::Zero(x.size());
-  Index at = 0;
+  Eigen::Index at = 0;
   for (const VibrationRecord& r : records) {
     const Conditioner condition = output_condition(r, crop);
-    const Index n = condition.n_samples();
+    const Eigen::Index n = condition.n_samples();
     const VectorXd measured = condition(r.relative);
     const double weight = std::sqrt(static_cast<double>(n)) / measured.norm();
     const VectorXd residual = weighted.segment(at, n) / weight;
@@ -91,7 +90,7 @@ std::optional<VectorXd> base_noise_bias(std::span<const VibrationRecord> records
     // The sum over the samples of the squared response to noise is n times the integral of its density.
     const double scale =
         weight * weight * static_cast<double>(n) * density * (bins.omega[1] - bins.omega[0]) / (2.0 * std::numbers::pi);
-    for (Index j = 0; j < x.size(); ++j) {
+    for (Eigen::Index j = 0; j < x.size(); ++j) {
       const VectorXd step = h * VectorXd::Unit(x.size(), j);
       const VectorXcd slope = (response_of(coordinates.model(x + step), bins.omega, velocity) -
                                response_of(coordinates.model(x - step), bins.omega, velocity)) /

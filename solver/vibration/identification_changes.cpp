@@ -11,9 +11,6 @@
 namespace pfdm {
 namespace {
 
-using Eigen::Index;
-
-constexpr double clearly_less = 1.0 / 3.0;
 constexpr double alike = 0.05;  // of the ratios of parameters
 
 /// The model fitted to one record, if that leaves a third of `misfit`, or of the response, at most.
@@ -21,13 +18,12 @@ std::optional<OutputErrorFit> by_itself(const VibrationRecord& record, double mi
                                         IdentificationSettings settings) {
   settings.replicates = 0;
   OutputErrorFit fit = refine_output(std::span(&record, 1), model, settings);
-  if (fit.record_misfit.empty() || !(fit.record_misfit.front() < clearly_less * std::min(misfit, 1.0)))
-    return std::nullopt;
+  if (fit.record_misfit.empty() || !(fit.record_misfit.front() < std::min(misfit, 1.0) / 3.0)) return std::nullopt;
   return fit;
 }
 
-VibrationRecord quarter_of(const VibrationRecord& r, Index number) {
-  const Index n = r.n() / 4;
+VibrationRecord quarter_of(const VibrationRecord& r, Eigen::Index number) {
+  const Eigen::Index n = r.n() / 4;
   VibrationRecord quarter = r;
   quarter.base = r.base.segment(number * n, n);
   quarter.relative = r.relative.segment(number * n, n);

@@ -8,27 +8,26 @@
 #include <numbers>
 
 namespace pfdm {
-
-using Eigen::Index;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-Conditioner::Conditioner(Index n, double rate, const PassBand& band, double crop) : n_(n), length_(fast_length(n)) {
+Conditioner::Conditioner(Eigen::Index n, double rate, const PassBand& band, double crop)
+    : n_(n), length_(fast_length(n)) {
   const double df = rate / static_cast<double>(length_);
   const double highest = std::min(band.high * (1.0 + band.skirt), 0.5 * rate);
-  reduced_ = std::min(fast_length(static_cast<Index>(std::ceil(2.0 * highest / df)) + 2), length_);
+  reduced_ = std::min(fast_length(static_cast<Eigen::Index>(std::ceil(2.0 * highest / df)) + 2), length_);
   gain_.resize(reduced_ / 2 + 1);
   omega_.resize(gain_.size());
-  for (Index k = 0; k < gain_.size(); ++k) {
+  for (Eigen::Index k = 0; k < gain_.size(); ++k) {
     gain_[k] = band.gain(df * static_cast<double>(k));
     omega_[k] = 2.0 * std::numbers::pi * df * static_cast<double>(k);
   }
   const double ratio = static_cast<double>(reduced_) / static_cast<double>(length_);
   rate_ = rate * ratio;
-  n_reduced_ = std::min(static_cast<Index>(std::floor(static_cast<double>(n - 1) * ratio)) + 1, reduced_);
+  n_reduced_ = std::min(static_cast<Eigen::Index>(std::floor(static_cast<double>(n - 1) * ratio)) + 1, reduced_);
   const double used = static_cast<double>(n) * ratio;
-  first_ = static_cast<Index>(std::ceil(crop * used));
-  n_kept_ = static_cast<Index>(std::floor((1.0 - crop) * used)) - first_;
+  first_ = static_cast<Eigen::Index>(std::ceil(crop * used));
+  n_kept_ = static_cast<Eigen::Index>(std::floor((1.0 - crop) * used)) - first_;
 }
 
 VectorXcd Conditioner::spectrum(const Eigen::Ref<const VectorXd>& signal) const {

@@ -8,8 +8,6 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double most_exponent = 4.0;
@@ -47,12 +45,12 @@ VectorXd ParameterCoordinates::from(const MassMaterial& m) const {
     x.push_back(std::log(std::abs(term.beta.real())));
     x.push_back(inverse_sigmoid((std::log(term.alpha.real()) - log_low_) / (log_high_ - log_low_)));
   }
-  return Eigen::Map<const VectorXd>(x.data(), static_cast<Index>(x.size()));
+  return Eigen::Map<const VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
 MassMaterial ParameterCoordinates::model(const VectorXd& x) const {
   MassMaterial m = terms_;
-  Index at = 0;
+  Eigen::Index at = 0;
   m.stiffness[0] = std::exp(x[at++]);
   for (std::size_t i = 1; i < m.stiffness.size(); ++i)
     m.stiffness[i] = x[at++] * m.stiffness[0] / std::pow(displacement_, i);

@@ -18,8 +18,6 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
@@ -56,24 +54,24 @@ double excess_of_sweep(const Remainder& r, const VibrationRecord& record) {
       r.condition((record.base - tracked_sweep(record.base, record.rate, band, tracking_width)).eval());
   const VectorXd z = amplitudes(r.measured, 1).cwiseAbs2(), y = amplitudes(r.base, 1).cwiseAbs2();
   double gain = 0.0;  // mean of |H|^2 along the sweep
-  for (Index i = 0; i < z.size(); ++i) gain += y[i] > 0.01 * y.maxCoeff() ? z[i] / y[i] : 0.0;
+  for (Eigen::Index i = 0; i < z.size(); ++i) gain += y[i] > 0.01 * y.maxCoeff() ? z[i] / y[i] : 0.0;
   gain /= static_cast<double>(z.size());
   const double by_noise = 3.0 * width * density + width * gain * mean_square(beside) / whole;
   return std::sqrt(inside / by_noise);
 }
 
 /// Transforms of half overlapping segments, a column each.
-MatrixXcd segments_of(const VectorXd& x, Index length) {
+MatrixXcd segments_of(const VectorXd& x, Eigen::Index length) {
   const VectorXd window = hann_window(length);
-  const Index n = 2 * (x.size() / length) - 1;
+  const Eigen::Index n = 2 * (x.size() / length) - 1;
   MatrixXcd result(length / 2 + 1, n);
-  for (Index s = 0; s < n; ++s) result.col(s) = fourier(window.cwiseProduct(x.segment(s * length / 2, length)));
+  for (Eigen::Index s = 0; s < n; ++s) result.col(s) = fourier(window.cwiseProduct(x.segment(s * length / 2, length)));
   return result;
 }
 
 /// Takes off each row of `x` what is proportional to the same row of `by`.
 void take_off(MatrixXcd& x, const MatrixXcd& by) {
-  for (Index k = 0; k < x.rows(); ++k) {
+  for (Eigen::Index k = 0; k < x.rows(); ++k) {
     const double size = by.row(k).squaredNorm();
     if (size > 0.0) x.row(k) -= (x.row(k).conjugate().dot(by.row(k).conjugate()) / size) * by.row(k);
   }
@@ -84,11 +82,11 @@ double excess_of_random(const Remainder& r, const VibrationRecord& record, const
   VibrationRecord motion = record;
   motion.relative = simulated;
   const VectorXd z = integrate_states(motion).displacement;
-  const Index length = std::max<Index>(64, fast_length(r.residual.size() / 40));
+  const Eigen::Index length = std::max<Eigen::Index>(64, fast_length(r.residual.size() / 40));
   // Beside what is excited the base's noise alone drives the mass, which is no error of the model.
   const double bin = r.condition.rate() / static_cast<double>(length);
-  const auto first = static_cast<Index>(std::ceil(record.band_low / bin));
-  const auto n_bins = static_cast<Index>(std::floor(record.band_high / bin)) - first + 1;
+  const auto first = static_cast<Eigen::Index>(std::ceil(record.band_low / bin));
+  const auto n_bins = static_cast<Eigen::Index>(std::floor(record.band_high / bin)) - first + 1;
   const auto in_band = [&](const MatrixXcd& all) -> MatrixXcd { return all.middleRows(first, n_bins); };
   std::vector<MatrixXcd> causes;
   const auto add = [&causes](MatrixXcd segments) {

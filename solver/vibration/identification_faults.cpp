@@ -17,8 +17,6 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -33,11 +31,11 @@ struct Hypothesis {
 
 /// The base later by so many samples, whole ones or not.
 VibrationRecord shifted(VibrationRecord r, double samples) {
-  const Index n = fast_length(r.n() + 64);
+  const Eigen::Index n = fast_length(r.n() + 64);
   VectorXd padded = VectorXd::Zero(n);
   padded.head(r.n()) = r.base;
   Eigen::VectorXcd spectrum = fourier(padded);
-  for (Index k = 0; k < spectrum.size(); ++k)
+  for (Eigen::Index k = 0; k < spectrum.size(); ++k)
     spectrum[k] *= std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(k) * samples / static_cast<double>(n));
   r.base = inverse_fourier(spectrum, n).head(r.n());
   return r;
@@ -135,7 +133,7 @@ double output_misfit(const VibrationRecord& record, const ModelStructure& struct
 /// decaying. None of a motion that something else drives.
 double explained_by_ring_down(const MatrixXd& terms, const VectorXd& equation) {
   constexpr double least = 0.9, decays = 0.95;
-  const Index half = terms.rows() / 2;
+  const Eigen::Index half = terms.rows() / 2;
   const double first = terms.col(0).head(half).norm(), second = terms.col(0).tail(half).norm();
   const double inertia = std::abs(equation[0]) * terms.col(0).norm();
   if (!(inertia > 0.0 && second < decays * first)) return 0.0;
@@ -149,7 +147,7 @@ std::vector<double> explained_by_motion(const VibrationRecord& record) {
   constexpr double least_level = 0.01;
   const auto [motion, base] =
       motion_of(record, {.low = 0.5 * record.band_low, .high = std::min(3.0 * record.band_high, 0.38 * record.rate)});
-  const Index length = record.n() / windows;
+  const Eigen::Index length = record.n() / windows;
   const double base_level = base.norm() / std::sqrt(windows), level = motion.col(0).norm() / std::sqrt(windows);
   const VectorXd equation = scaled_least_squares(motion, base);
   std::vector<double> explained;

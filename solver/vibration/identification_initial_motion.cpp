@@ -13,8 +13,6 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -48,7 +46,7 @@ class BegunResponses {
                                               {start.displacement, start.velocity + h * usual_.velocity}};
     const MatrixXd z = simulate_starts(model_, base_, starts);
     Linear linear{.response = condition_(z.col(0)), .slopes = MatrixXd(measured_.size(), 2)};
-    for (Index i = 0; i < 2; ++i) linear.slopes.col(i) = (condition_(z.col(i + 1)) - linear.response) / h;
+    for (Eigen::Index i = 0; i < 2; ++i) linear.slopes.col(i) = (condition_(z.col(i + 1)) - linear.response) / h;
     return linear;
   }
 
@@ -88,7 +86,7 @@ MatrixXd free_motions(const MassMaterial& model, const VibrationRecord& record, 
 MatrixXd orthonormal(const MatrixXd& A) {
   constexpr double dependent = 1e-9;
   MatrixXd Q(A.rows(), 0);
-  for (Index k = 0; k < A.cols(); ++k) {
+  for (Eigen::Index k = 0; k < A.cols(); ++k) {
     VectorXd column = A.col(k).normalized();
     for (int twice = 0; twice < 2; ++twice) column -= (Q * (Q.transpose() * column)).eval();
     if (!(column.norm() > dependent)) continue;
@@ -124,10 +122,10 @@ std::optional<MassMaterial> ringing_model(const VibrationRecord& record, double 
   if (!(record.base.norm() < quiet * record.relative.norm())) return std::nullopt;
   const VectorXd power = fourier(record.relative).cwiseAbs2();
   const double bin = record.rate / static_cast<double>(record.n());
-  const auto first = static_cast<Index>(std::ceil(record.band_low / bin));
-  const Index n = std::min(static_cast<Index>(record.band_high / bin), power.size() - 1) - first + 1;
+  const auto first = static_cast<Eigen::Index>(std::ceil(record.band_low / bin));
+  const Eigen::Index n = std::min(static_cast<Eigen::Index>(record.band_high / bin), power.size() - 1) - first + 1;
   if (n < 1) return std::nullopt;
-  Index strongest = 0;
+  Eigen::Index strongest = 0;
   power.segment(first, n).maxCoeff(&strongest);
   const double omega = 2.0 * std::numbers::pi * bin * static_cast<double>(first + strongest);
   double least = most_left;

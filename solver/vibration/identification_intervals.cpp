@@ -10,8 +10,6 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -33,7 +31,7 @@ MatrixXd inverse_root_of_rest(const MatrixXd& normal) {
 }
 
 WhiteBlocks white_blocks(const VectorXd& r, const MatrixXd& J, std::span<const ResidualBlock> blocks) {
-  const Index p = J.cols();
+  const Eigen::Index p = J.cols();
   const VectorXd norms = J.colwise().norm().transpose().unaryExpr([](double norm) { return norm > 0.0 ? norm : 1.0; });
   MatrixXd stacked(J.rows() + p, p);
   stacked << J * norms.cwiseInverse().asDiagonal(), no_information * MatrixXd::Identity(p, p);
@@ -56,7 +54,7 @@ WhiteBlocks white_blocks(const VectorXd& r, const MatrixXd& J, std::span<const R
 double degrees_of_freedom(const WhiteBlocks& white, const VectorXd& a) {
   MatrixXd W(a.size(), white.scores.cols());
   VectorXd own(white.scores.cols());
-  for (Index k = 0; k < W.cols(); ++k) {
+  for (Eigen::Index k = 0; k < W.cols(); ++k) {
     const VectorXd b = white.freeing[static_cast<std::size_t>(k)] * a;
     W.col(k) = white.normal[static_cast<std::size_t>(k)] * b;
     own[k] = b.dot(W.col(k));
@@ -79,7 +77,7 @@ ParameterReplicates parameter_replicates(const VectorXd& x, const VectorXd& resi
   const double freedom = std::max(static_cast<double>(residuals.size() - x.size()), 1.0);
   ParameterReplicates result;
   VectorXd wider(x.size());
-  for (Index j = 0; j < x.size(); ++j) {
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
     const VectorXd a = white.back.row(j);
     double known = degrees_of_freedom(white, a);
     if (known == 0.0) {

@@ -9,12 +9,10 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index windows = 40;
+constexpr Eigen::Index windows = 40;
 constexpr int most = 50;  // samples
 // The slow offset of a sample with a quadratic stiffness is lost in integration: a third of the base can stay.
 constexpr double less = 0.7;
@@ -36,11 +34,11 @@ MatrixXd terms_of_motion(const VibrationRecord& r, const PassBand& band, int sti
 
 /// Products of the terms with the base later by `shift` samples, a column for each window.
 MatrixXd products(const MatrixXd& A, const VectorXd& base, int shift) {
-  const Index length = A.rows() / windows;
+  const Eigen::Index length = A.rows() / windows;
   MatrixXd result = MatrixXd::Zero(A.cols(), windows);
-  for (Index w = 0; w < windows; ++w) {
-    const Index begin = std::max<Index>(w * length, -shift);
-    const Index end = std::min((w + 1) * length, base.size() - shift);
+  for (Eigen::Index w = 0; w < windows; ++w) {
+    const Eigen::Index begin = std::max<Eigen::Index>(w * length, -shift);
+    const Eigen::Index end = std::min((w + 1) * length, base.size() - shift);
     if (end > begin)
       result.col(w) = A.middleRows(begin, end - begin).transpose() * base.segment(begin + shift, end - begin);
   }
@@ -48,17 +46,17 @@ MatrixXd products(const MatrixXd& A, const VectorXd& base, int shift) {
 }
 
 /// The longer part, its base shifted if it is the later one.
-VibrationRecord part_of(const VibrationRecord& r, Index from, int shift) {
-  const Index margin = r.n() / windows, n = r.n();
+VibrationRecord part_of(const VibrationRecord& r, Eigen::Index from, int shift) {
+  const Eigen::Index margin = r.n() / windows, n = r.n();
   VibrationRecord part = r;
   if (2 * from > n) {
-    const Index length = from - margin;
+    const Eigen::Index length = from - margin;
     part.base = r.base.head(length);
     part.relative = r.relative.head(length);
     return part;
   }
-  const Index begin = std::max<Index>(from + (from > 0 ? margin : 0), std::max(0, -shift));
-  const Index length = n - begin - std::max(0, shift);
+  const Eigen::Index begin = std::max<Eigen::Index>(from + (from > 0 ? margin : 0), std::max(0, -shift));
+  const Eigen::Index length = n - begin - std::max(0, shift);
   part.base = r.base.segment(begin + shift, length);
   part.relative = r.relative.segment(begin, length);
   return part;
@@ -84,10 +82,10 @@ std::optional<LostSamples> lost_samples(const VibrationRecord& r, int stiffness_
     if (shift == 0) continue;
     const MatrixXd moved = products(A, base, shift);
     VectorXd b = moved.rowwise().sum();
-    for (Index w = 0; w < windows; ++w) {
+    for (Eigen::Index w = 0; w < windows; ++w) {
       if (const double there = left(b); there < least) {
         least = there;
-        const Index first_sample = w * (r.n() / windows);
+        const Eigen::Index first_sample = w * (r.n() / windows);
         found = LostSamples{.time = static_cast<double>(first_sample) / r.rate, .number = shift};
       }
       b += as_recorded.col(w) - moved.col(w);
@@ -95,7 +93,7 @@ std::optional<LostSamples> lost_samples(const VibrationRecord& r, int stiffness_
   }
   if (!found) return std::nullopt;
   found->unexplained = std::sqrt(least / before);
-  found->longer = part_of(r, static_cast<Index>(std::lround(found->time * r.rate)), found->number);
+  found->longer = part_of(r, static_cast<Eigen::Index>(std::lround(found->time * r.rate)), found->number);
   return found;
 }
 

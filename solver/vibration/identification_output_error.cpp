@@ -22,8 +22,6 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -42,11 +40,12 @@ class OutputError {
     if (x.size() == jacobian_at_.size() && x == jacobian_at_) return jacobian_;
     constexpr double h = 1e-6;
     std::vector<MassMaterial> moved;
-    for (Index k = 0; k < x.size(); ++k) moved.push_back(coordinates_.model(x + h * VectorXd::Unit(x.size(), k)));
+    for (Eigen::Index k = 0; k < x.size(); ++k)
+      moved.push_back(coordinates_.model(x + h * VectorXd::Unit(x.size(), k)));
     const MatrixXd y = simulated(moved);
     jacobian_ = (y.colwise() - response(x)) / h;
     // A neighbour with unbounded motion gives no information on this parameter.
-    for (Index k = 0; k < x.size(); ++k)
+    for (Eigen::Index k = 0; k < x.size(); ++k)
       if (!jacobian_.col(k).allFinite()) jacobian_.col(k).setZero();
     jacobian_at_ = x;
     return jacobian_;
@@ -107,7 +106,7 @@ struct Minimum {
   bool converged = false;
 };
 
-constexpr double tolerance = 1e-10;  // of the sum of squares and of the parameters
+constexpr double gain_tolerance = 1e-10;  // of the sum of squares and of the parameters
 
 constexpr double damping = 1e-8;  // of columns of norm one: for directions that the records do not determine
 
@@ -127,7 +126,7 @@ Minimum follow_fixed_jacobian(OutputError& error, VectorXd x, MatrixXd jacobian)
     best.path.push_back({x, 0.5 * r.squaredNorm()});
     const VectorXd step = solve_symmetric(normal, scaled.transpose() * r);
     const double gain = (best.jacobian * step.cwiseQuotient(norms)).norm();
-    if (gain * gain <= tolerance * r.squaredNorm()) {
+    if (gain * gain <= gain_tolerance * r.squaredNorm()) {
       best.converged = true;
       break;
     }
@@ -140,7 +139,7 @@ Minimum follow_fixed_jacobian(OutputError& error, VectorXd x, MatrixXd jacobian)
 }
 
 Minimum minimise_fully(OutputError& error, const VectorXd& x0) {
-  const LeastSquaresResult found = minimise(error.problem(x0), x0, until(tolerance));
+  const LeastSquaresResult found = minimise(error.problem(x0), x0, until(gain_tolerance));
   return {.x = found.x,
           .residuals = error.residuals(found.x),
           .jacobian = error.jacobian(found.x),
@@ -204,10 +203,10 @@ Minimum least_output_error(std::span<const VibrationRecord> records, const Respo
 /// Named values of each replicate, a column each.
 MatrixXd values_of(const ParameterCoordinates& coordinates, const MatrixXd& replicates) {
   MatrixXd values;
-  for (Index i = 0; i < replicates.cols(); ++i) {
+  for (Eigen::Index i = 0; i < replicates.cols(); ++i) {
     const auto named = named_values(coordinates.model(replicates.col(i)));
     if (i == 0) values.resize(std::ssize(named), replicates.cols());
-    for (Index k = 0; k < values.rows(); ++k) values(k, i) = named[static_cast<std::size_t>(k)].value;
+    for (Eigen::Index k = 0; k < values.rows(); ++k) values(k, i) = named[static_cast<std::size_t>(k)].value;
   }
   return values;
 }
@@ -216,12 +215,12 @@ MatrixXd values_of(const ParameterCoordinates& coordinates, const MatrixXd& repl
 void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates, const ParameterReplicates& replicates,
                    double confidence) {
   const MatrixXd widened = values_of(coordinates, replicates.widened);
-  for (Index k = 0; k < widened.rows(); ++k) {
+  for (Eigen::Index k = 0; k < widened.rows(); ++k) {
     VectorXd sorted = widened.row(k);
     std::ranges::sort(sorted);
     Estimate& estimate = fit.estimates[static_cast<std::size_t>(k)];
     const auto at = [&](double part) {
-      return sorted[static_cast<Index>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
+      return sorted[static_cast<Eigen::Index>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
     };
     estimate.lower = at(0.5 - 0.5 * confidence);
     estimate.upper = at(0.5 + 0.5 * confidence);
@@ -229,7 +228,7 @@ void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates,
   const MatrixXd values = values_of(coordinates, replicates.around);
   const MatrixXd centred = values.colwise() - values.rowwise().mean();
   const VectorXd norms = centred.rowwise().norm().cwiseMax(1e-300);
-  for (Index k = 0; k < values.rows(); ++k)
+  for (Eigen::Index k = 0; k < values.rows(); ++k)
     fit.estimates[static_cast<std::size_t>(k)].standard_error =
         norms[k] / std::sqrt(static_cast<double>(values.cols() - 1));
   fit.correlation =
@@ -243,9 +242,9 @@ void sort_terms(MassMaterial& m) {
 
 /// Columns of the coordinates in the order in which the terms' rates rise; none if they already do. The rates may have
 /// passed each other during the search.
-std::optional<std::vector<Index>> rising_order(const MassMaterial& m, Index n_coordinates) {
-  std::vector<Index> first;  // of each term
-  Index n_terms = 0;
+std::optional<std::vector<Eigen::Index>> rising_order(const MassMaterial& m, Eigen::Index n_coordinates) {
+  std::vector<Eigen::Index> first;  // of each term
+  Eigen::Index n_terms = 0;
   for (const HereditaryTerm& term : m.kernel) {
     first.push_back(n_terms);
     n_terms += term.is_pair() ? 4 : 2;
@@ -254,10 +253,10 @@ std::optional<std::vector<Index>> rising_order(const MassMaterial& m, Index n_co
   std::iota(terms.begin(), terms.end(), std::size_t{0});
   std::ranges::stable_sort(terms, {}, [&](std::size_t i) { return m.kernel[i].alpha.real(); });
   if (std::ranges::is_sorted(terms)) return std::nullopt;
-  std::vector<Index> columns(static_cast<std::size_t>(n_coordinates - n_terms));
-  std::iota(columns.begin(), columns.end(), Index{0});
+  std::vector<Eigen::Index> columns(static_cast<std::size_t>(n_coordinates - n_terms));
+  std::iota(columns.begin(), columns.end(), Eigen::Index{0});
   for (const std::size_t i : terms)
-    for (Index k = 0; k < (m.kernel[i].is_pair() ? 4 : 2); ++k)
+    for (Eigen::Index k = 0; k < (m.kernel[i].is_pair() ? 4 : 2); ++k)
       columns.push_back(n_coordinates - n_terms + first[i] + k);
   return columns;
 }

@@ -19,7 +19,6 @@ namespace pfdm {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
@@ -93,16 +92,17 @@ System assemble(std::span<const Prepared> prepared, const Columns& columns) {
       },
       1);
   System s;
-  Index n = 0;
+  Eigen::Index n = 0;
   for (const Prepared& p : prepared) n += p.condition.n_samples();
-  Index first = 0;
+  Eigen::Index first = 0;
   s.q.resize(n);
-  s.A.resize(n, static_cast<Index>(parts.front().first.size()));
+  s.A.resize(n, static_cast<Eigen::Index>(parts.front().first.size()));
   for (std::size_t i = 0; i < prepared.size(); ++i) {
     const Prepared& p = prepared[i];
     const auto& [a, q] = parts[i];
-    const Index m = p.condition.n_samples();
-    for (std::size_t k = 0; k < a.size(); ++k) s.A.col(static_cast<Index>(k)).segment(first, m) = p.weight * a[k];
+    const Eigen::Index m = p.condition.n_samples();
+    for (std::size_t k = 0; k < a.size(); ++k)
+      s.A.col(static_cast<Eigen::Index>(k)).segment(first, m) = p.weight * a[k];
     s.q.segment(first, m) = p.weight * q;
     first += m;
   }
@@ -169,7 +169,7 @@ Regression plain_fit(std::span<const Prepared> prepared, const ModelStructure& s
 }
 
 VectorXcd derivative(const Prepared& p, VectorXcd spectrum) {
-  for (Index k = 0; k < spectrum.size(); ++k) spectrum[k] *= Complex(0.0, p.condition.omega()[k]);
+  for (Eigen::Index k = 0; k < spectrum.size(); ++k) spectrum[k] *= Complex(0.0, p.condition.omega()[k]);
   return spectrum;
 }
 
@@ -189,7 +189,7 @@ Regression third_order_fit(std::span<const Prepared> prepared, const ModelStruct
     return std::pair{std::move(a), p.condition.samples(derivative(p, p.force))};
   });
   const VectorXd x = scaled_least_squares(s.A, s.q);
-  const auto n = static_cast<Index>(structure.stiffness_order);
+  const auto n = static_cast<Eigen::Index>(structure.stiffness_order);
   Regression result{.model = bare_model(structure, lambda, settings), .misfit = relative_misfit(s, x)};
   MassMaterial& m = result.model;
   const double alpha = x[0];
@@ -236,14 +236,14 @@ struct SubsetFit {
   double misfit = std::numeric_limits<double>::infinity();
 };
 
-SubsetFit fit_subset(const Reduced& r, const std::vector<Index>& columns) {
-  MatrixXd A(r.R.rows(), static_cast<Index>(columns.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i) A.col(static_cast<Index>(i)) = r.R.col(columns[i]);
+SubsetFit fit_subset(const Reduced& r, const std::vector<Eigen::Index>& columns) {
+  MatrixXd A(r.R.rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t i = 0; i < columns.size(); ++i) A.col(static_cast<Eigen::Index>(i)) = r.R.col(columns[i]);
   const VectorXd q = r.R.rightCols(1);
   SubsetFit fit;
   fit.x = least_squares(A, q);
   fit.misfit = (A * fit.x - q).norm() / r.total;
-  for (std::size_t i = 0; i < columns.size(); ++i) fit.x[static_cast<Index>(i)] /= r.norms[columns[i]];
+  for (std::size_t i = 0; i < columns.size(); ++i) fit.x[static_cast<Eigen::Index>(i)] /= r.norms[columns[i]];
   return fit;
 }
 
@@ -282,7 +282,7 @@ System candidate_system(std::span<const Prepared> prepared, const ModelStructure
     const VectorXcd& f = forcing_spectrum(p, structure.forcing, shaped);
     for (const double alpha : rates) {
       VectorXcd filtered = f;
-      for (Index k = 0; k < filtered.size(); ++k) filtered[k] /= Complex(alpha, p.condition.omega()[k]);
+      for (Eigen::Index k = 0; k < filtered.size(); ++k) filtered[k] /= Complex(alpha, p.condition.omega()[k]);
       columns.first.push_back(p.condition.samples(filtered));
     }
     return columns;
@@ -292,13 +292,13 @@ System candidate_system(std::span<const Prepared> prepared, const ModelStructure
 /// The best `order` of the candidate rates whose terms all dissipate.
 std::optional<Regression> choose_terms(const Reduced& reduced, const VectorXd& rates, const ModelStructure& structure,
                                        int order, double lambda, const IdentificationSettings& settings) {
-  const Index n_plain = 1 + structure.stiffness_order;
+  const Eigen::Index n_plain = 1 + structure.stiffness_order;
   const double sign = dissipative_sign(structure.forcing);
   SubsetFit best;
   std::vector<int> best_choice;
   for_each_choice(static_cast<int>(rates.size()), order, [&](const std::vector<int>& choice) {
-    std::vector<Index> columns;
-    for (Index i = 0; i < n_plain; ++i) columns.push_back(i);
+    std::vector<Eigen::Index> columns;
+    for (Eigen::Index i = 0; i < n_plain; ++i) columns.push_back(i);
     for (const int i : choice) columns.push_back(n_plain + i);
     const SubsetFit fit = fit_subset(reduced, columns);
     if (fit.misfit >= best.misfit || !(fit.x[1] > 0.0)) return;
@@ -312,7 +312,7 @@ std::optional<Regression> choose_terms(const Reduced& reduced, const VectorXd& r
   result.model.stiffness.assign(best.x.data() + 1, best.x.data() + n_plain);
   const double scale = structure.forcing == KernelForcing::stiffness ? 1.0 / result.model.stiffness.front() : 1.0;
   for (std::size_t i = 0; i < best_choice.size(); ++i)
-    result.model.kernel.push_back({rates[best_choice[i]], scale * best.x[n_plain + static_cast<Index>(i)]});
+    result.model.kernel.push_back({rates[best_choice[i]], scale * best.x[n_plain + static_cast<Eigen::Index>(i)]});
   return result;
 }
 

@@ -12,7 +12,6 @@ namespace pfdm {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::Index;
 using Eigen::VectorXd;
 
 /// Leakage of Hann's window near the resonance: a part of |H| that averaging does not make smaller.
@@ -29,11 +28,11 @@ struct Band {
 Band band_of(const Spectra& s, double low, double high) {
   const Eigen::VectorXcd H = frequency_response(s, ResponseEstimator::h1);
   const VectorXd gamma2 = coherence(s);
-  std::vector<Index> bins;
-  for (Index k = 1; k < s.frequency.size(); ++k)
+  std::vector<Eigen::Index> bins;
+  for (Eigen::Index k = 1; k < s.frequency.size(); ++k)
     if (s.frequency[k] >= low && s.frequency[k] <= high) bins.push_back(k);
   Band band{.omega = 2.0 * std::numbers::pi * s.frequency(bins), .H = H(bins), .weight = VectorXd(std::ssize(bins))};
-  for (Index i = 0; i < band.omega.size(); ++i) {
+  for (Eigen::Index i = 0; i < band.omega.size(); ++i) {
     const double g2 = std::min(gamma2[bins[static_cast<std::size_t>(i)]], 1.0);
     const double variance = (1.0 - g2) / (2.0 * g2 * s.averages) + 0.5 * leakage * leakage;
     band.weight[i] = 1.0 / (std::abs(band.H[i]) * std::sqrt(variance));
@@ -46,7 +45,7 @@ MassMaterial model_of(const VectorXd& x, double mass) {
                  .stiffness = {std::exp(x[0])},
                  .damping = std::exp(x[1]),
                  .forcing = x.size() > 2 ? KernelForcing::velocity : KernelForcing::none};
-  for (Index i = 2; i + 1 < x.size(); i += 2) m.kernel.push_back({std::exp(x[i]), std::exp(x[i + 1])});
+  for (Eigen::Index i = 2; i + 1 < x.size(); i += 2) m.kernel.push_back({std::exp(x[i]), std::exp(x[i + 1])});
   std::ranges::sort(m.kernel, {}, [](const HereditaryTerm& term) { return term.alpha.real(); });
   return m;
 }
@@ -54,7 +53,7 @@ MassMaterial model_of(const VectorXd& x, double mass) {
 VectorXd residuals(const VectorXd& x, const Band& band, double mass) {
   const MassMaterial m = model_of(x, mass);
   VectorXd r(2 * band.omega.size());
-  for (Index i = 0; i < band.omega.size(); ++i) {
+  for (Eigen::Index i = 0; i < band.omega.size(); ++i) {
     const double inertia = mass * band.omega[i] * band.omega[i];
     const Complex H = inertia / (complex_stiffness(m, band.omega[i]) - inertia);
     const Complex off = band.weight[i] * (H - band.H[i]);
@@ -70,7 +69,7 @@ LeastSquaresResult refine(const Band& band, double mass, const VectorXd& start) 
 
 /// Stiffness where |H| is largest, 5 % of critical damping.
 VectorXd plain_start(const Band& band, double mass) {
-  Index peak = 0;
+  Eigen::Index peak = 0;
   band.H.cwiseAbs().maxCoeff(&peak);
   const double omega = band.omega[peak];
   return Eigen::Vector2d(std::log(mass * omega * omega), std::log(0.1 * mass * omega));
@@ -141,12 +140,12 @@ Best best_of_order(const Band& band, double mass, int order) {
 
 }  // namespace
 
-std::optional<Index> segment_length(std::span<const VibrationRecord> records) {
-  constexpr Index least_segments = 16;
+std::optional<Eigen::Index> segment_length(std::span<const VibrationRecord> records) {
+  constexpr Eigen::Index least_segments = 16;
   constexpr double least_frequencies = 100.0;
-  constexpr Index longest = SegmentSettings{}.length;
+  constexpr Eigen::Index longest = SegmentSettings{}.length;
   const double rate = records.front().rate;
-  Index samples = std::numeric_limits<Index>::max();
+  Eigen::Index samples = std::numeric_limits<Eigen::Index>::max();
   double low = 0.0, high = std::numeric_limits<double>::infinity();
   for (const VibrationRecord& r : records) {
     if (r.rate != rate) return std::nullopt;
@@ -154,7 +153,7 @@ std::optional<Index> segment_length(std::span<const VibrationRecord> records) {
     low = std::max(low, r.band_low);
     high = std::min(high, r.band_high);
   }
-  Index length = longest;
+  Eigen::Index length = longest;
   while (length > 1 && samples < least_segments * length) length /= 2;
   const double frequencies = (high - low) * static_cast<double>(length) / rate;
   if (length < longest && !(frequencies >= least_frequencies)) return std::nullopt;

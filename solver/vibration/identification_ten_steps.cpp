@@ -20,7 +20,6 @@ namespace pfdm {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
@@ -73,10 +72,10 @@ Signals prepare(const VibrationRecord& r, const ModelStructure& structure, doubl
 
 /// Roots of x^n + a_1 x^(n-1) + ... + a_n.
 VectorXcd roots(const VectorXd& a) {
-  const Index n = a.size();
+  const Eigen::Index n = a.size();
   MatrixXd companion = MatrixXd::Zero(n, n);
   companion.row(0) = -a.transpose();
-  for (Index i = 1; i < n; ++i) companion(i, i - 1) = 1.0;
+  for (Eigen::Index i = 1; i < n; ++i) companion(i, i - 1) = 1.0;
   return eigenvalues(companion);
 }
 
@@ -89,7 +88,7 @@ MatrixXd stacked(const MatrixXcd& A) {
 /// A19, A20: coefficients of the sampled kernel's transfer function, linear least squares over the band.
 VectorXcd prony_poles(const VectorXcd& G, const VectorXd& angle, int order) {
   MatrixXcd X(G.size(), 2 * order);
-  for (Index k = 0; k < G.size(); ++k)
+  for (Eigen::Index k = 0; k < G.size(); ++k)
     for (int i = 0; i < order; ++i) {
       X(k, i) = -G[k] * std::polar(1.0, -angle[k] * (i + 1));
       X(k, order + i) = std::polar(1.0, -angle[k] * i);
@@ -115,11 +114,11 @@ struct BandResponse {
 
 BandResponse band_response(const Signals& s, const VectorXd& v) {
   SegmentSettings segments;
-  segments.length = std::min<Index>(2048, s.forcing.size());
+  segments.length = std::min<Eigen::Index>(2048, s.forcing.size());
   const Spectra spectra_fv = spectra(s.forcing, v, s.condition.rate(), segments);
   const VectorXcd all = frequency_response(spectra_fv, ResponseEstimator::h1);
-  std::vector<Index> bins;
-  for (Index k = 0; k < all.size(); ++k)
+  std::vector<Eigen::Index> bins;
+  for (Eigen::Index k = 0; k < all.size(); ++k)
     if (spectra_fv.frequency[k] >= s.low && spectra_fv.frequency[k] <= s.high) bins.push_back(k);
   return {spectra_fv.frequency(bins), all(bins)};
 }
@@ -127,8 +126,8 @@ BandResponse band_response(const Signals& s, const VectorXd& v) {
 /// Weights of the terms, linear, in continuous time (the sum over samples would count g(0) in full).
 void weigh(std::vector<HereditaryTerm>& terms, const BandResponse& measured) {
   MatrixXcd basis(measured.G.size(), 2 * std::ssize(terms));
-  for (Index k = 0; k < measured.G.size(); ++k)
-    for (Index i = 0; i < std::ssize(terms); ++i) {
+  for (Eigen::Index k = 0; k < measured.G.size(); ++k)
+    for (Eigen::Index i = 0; i < std::ssize(terms); ++i) {
       const Complex jw(0.0, 2.0 * std::numbers::pi * measured.frequency[k]);
       const HereditaryTerm& term = terms[static_cast<std::size_t>(i)];
       const Complex one = 1.0 / (jw + term.alpha);
@@ -138,7 +137,8 @@ void weigh(std::vector<HereditaryTerm>& terms, const BandResponse& measured) {
     }
   const VectorXd beta = scaled_least_squares(stacked(basis), stacked(measured.G));
   for (std::size_t i = 0; i < terms.size(); ++i)
-    terms[i].beta = {beta[static_cast<Index>(2 * i)], terms[i].is_pair() ? beta[static_cast<Index>(2 * i) + 1] : 0.0};
+    terms[i].beta = {beta[static_cast<Eigen::Index>(2 * i)],
+                     terms[i].is_pair() ? beta[static_cast<Eigen::Index>(2 * i) + 1] : 0.0};
 }
 
 /// Step 7: stable poles only, one of each pair, and their weights. Step 8: those of the most energy are kept.
@@ -172,7 +172,7 @@ std::vector<HereditaryTerm> kept_terms(const std::vector<PronyTerm>& series) {
 
 VectorXd hereditary(const Signals& s, const MassMaterial& model) {
   VectorXcd v = s.f;
-  for (Index k = 0; k < v.size(); ++k) v[k] *= kernel_response(model, s.condition.omega()[k]);
+  for (Eigen::Index k = 0; k < v.size(); ++k) v[k] *= kernel_response(model, s.condition.omega()[k]);
   return s.condition.samples(v);
 }
 
@@ -235,10 +235,10 @@ Regression regress_ten_steps(std::span<const VibrationRecord> records, const Mod
   return ten_steps(records, structure, order, settings, prony_order, maximum_iterations).regression;
 }
 
-VectorXd impulse_response(std::span<const HereditaryTerm> terms, Index n, double rate) {
+VectorXd impulse_response(std::span<const HereditaryTerm> terms, Eigen::Index n, double rate) {
   VectorXd g = VectorXd::Zero(n);
   for (const HereditaryTerm& term : terms)
-    for (Index k = 0; k < n; ++k)
+    for (Eigen::Index k = 0; k < n; ++k)
       g[k] +=
           (term.is_pair() ? 2.0 : 1.0) * (term.beta * std::exp(-term.alpha * (static_cast<double>(k) / rate))).real();
   return g;
@@ -247,7 +247,7 @@ VectorXd impulse_response(std::span<const HereditaryTerm> terms, Index n, double
 VectorXcd frequency_response(std::span<const HereditaryTerm> terms, const VectorXd& frequency) {
   VectorXcd G = VectorXcd::Zero(frequency.size());
   for (const HereditaryTerm& term : terms)
-    for (Index k = 0; k < frequency.size(); ++k) {
+    for (Eigen::Index k = 0; k < frequency.size(); ++k) {
       const Complex jw(0.0, 2.0 * std::numbers::pi * frequency[k]);
       G[k] += term.beta / (jw + term.alpha);
       if (term.is_pair()) G[k] += std::conj(term.beta) / (jw + std::conj(term.alpha));

@@ -16,7 +16,6 @@ namespace pfdm {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -24,13 +23,13 @@ constexpr double least_singular_value = 1e-10;  // of the largest: rounding
 constexpr double allowed_factor = 20.0;         // by which least squares may move a pole's parts
 
 // Columns exp(-alpha t), of a pair 2 Re and -2 Im of it, which the real and imaginary part of beta multiply.
-MatrixXd basis_of(const std::vector<Complex>& alphas, Index n, double rate) {
-  Index columns = 0;
+MatrixXd basis_of(const std::vector<Complex>& alphas, Eigen::Index n, double rate) {
+  Eigen::Index columns = 0;
   for (const Complex alpha : alphas) columns += alpha.imag() != 0.0 ? 2 : 1;
   MatrixXd basis(n, columns);
-  Index column = 0;
+  Eigen::Index column = 0;
   for (const Complex alpha : alphas) {
-    for (Index k = 0; k < n; ++k) {
+    for (Eigen::Index k = 0; k < n; ++k) {
       const Complex decay = std::exp(-alpha * (static_cast<double>(k) / rate));
       basis(k, column) = alpha.imag() != 0.0 ? 2.0 * decay.real() : decay.real();
       if (alpha.imag() != 0.0) basis(k, column + 1) = -2.0 * decay.imag();
@@ -45,7 +44,7 @@ ImpulseFit with_weights(const VectorXd& g, double rate, const std::vector<Comple
   if (alphas.empty()) return fit;
   const MatrixXd basis = basis_of(alphas, g.size(), rate);
   const VectorXd weights = scaled_least_squares(basis, g);
-  Index column = 0;
+  Eigen::Index column = 0;
   for (const Complex alpha : alphas) {
     const bool pair = alpha.imag() != 0.0;
     fit.terms.push_back({alpha, {weights[column], pair ? weights[column + 1] : 0.0}});
@@ -112,14 +111,14 @@ double information(const ImpulseFit& fit, const VectorXd& g) {
 class Pencil {
  public:
   Pencil(const VectorXd& g, double rate, int order) : g_(g), rate_(rate) {
-    const Index n = g.size(), length = n / 3;
+    const Eigen::Index n = g.size(), length = n / 3;
     if (n < std::max(12, 3 * order))
       throw InputError(fmt::format("an impulse response of {} samples is too short; at least {} are required", n,
                                    std::max(12, 3 * order)));
     if (!g.allFinite() || !(g.norm() > 0.0))
       throw InputError("an impulse response needs finite samples that are not all zero");
     MatrixXd hankel(n - length, length + 1);
-    for (Index j = 0; j <= length; ++j) hankel.col(j) = g.segment(j, n - length);
+    for (Eigen::Index j = 0; j <= length; ++j) hankel.col(j) = g.segment(j, n - length);
     svd_.compute(hankel, Eigen::ComputeThinU | Eigen::ComputeThinV);
   }
 
@@ -131,7 +130,7 @@ class Pencil {
   ImpulseFit fit(int order) const {
     if (order == 0) return with_weights(g_, rate_, {}, 0);  // nothing but noise
     const MatrixXd V = svd_.matrixV().leftCols(order);
-    const Index length = V.rows() - 1;
+    const Eigen::Index length = V.rows() - 1;
     const MatrixXd shift = V.topRows(length).colPivHouseholderQr().solve(V.bottomRows(length));
     std::vector<Complex> alphas;
     for (const Complex z : eigenvalues(shift)) {

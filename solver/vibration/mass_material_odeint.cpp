@@ -14,7 +14,6 @@ namespace pfdm {
 namespace {
 
 namespace ode = boost::numeric::odeint;
-using Eigen::Index;
 using Complex = std::complex<double>;
 using State = std::vector<double>;  // z, z', then real and imaginary part of each kernel term's convolution with f
 
@@ -47,7 +46,7 @@ struct Equation {
   }
 };
 
-Motion empty_motion(Index n, double rate) {
+Motion empty_motion(Eigen::Index n, double rate) {
   Motion motion;
   motion.rate = rate;
   for (Eigen::VectorXd* x : {&motion.base, &motion.displacement, &motion.velocity, &motion.acceleration})
@@ -101,10 +100,10 @@ class Marcher {
 }  // namespace
 
 Motion simulate(const MassMaterial& model, const Excitation& excitation, double rate, double tolerance) {
-  const auto n = static_cast<Index>(std::floor(excitation.duration * rate + 1e-9)) + 1;
+  const auto n = static_cast<Eigen::Index>(std::floor(excitation.duration * rate + 1e-9)) + 1;
   Motion motion = empty_motion(n, rate);
   Marcher marcher(model, excitation, rate, tolerance);
-  for (Index i = 0; i < n; ++i) {
+  for (Eigen::Index i = 0; i < n; ++i) {
     const double t = static_cast<double>(i) / rate;
     if (!marcher.advance_to(t)) {
       motion.bounded = false;

@@ -13,8 +13,6 @@
 namespace pfdm {
 namespace {
 
-using Eigen::Index;
-
 /// One kernel state a real term, two a pair.
 struct LaneKernel {
   Lanes rate_real, rate_imaginary, weight_real, weight_imaginary;
@@ -215,9 +213,9 @@ class Stepper {
 };
 
 /// The base accelerations of the lanes, step by step. At the end of a record its last interval is repeated.
-class Drives {
+class LaneDrives {
  public:
-  explicit Drives(std::span<const SimulationRun> runs) {
+  explicit LaneDrives(std::span<const SimulationRun> runs) {
     for (int l = 0; l < n_lanes; ++l) {
       const Eigen::VectorXd& values = runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].base->values;
       at_[static_cast<std::size_t>(l)] = values.data();
@@ -253,19 +251,19 @@ std::vector<Eigen::VectorXd> march(const LaneModel& model, std::span<const Simul
     velocity[l] = start.velocity;
   }
   Stepper<N> stepper(model, displacement, velocity);
-  Drives drives(runs);
+  LaneDrives drives(runs);
   const int substeps = runs.front().base->substeps;
   Lanes h;
   for (int l = 0; l < n_lanes; ++l)
     h[l] = 1.0 / (runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].base->rate * substeps);
   std::vector<Eigen::VectorXd> result;
-  Index n = 0;
+  Eigen::Index n = 0;
   for (const SimulationRun& run : runs) {
     result.emplace_back(Eigen::VectorXd::Constant(run.base->n_samples(), std::numeric_limits<double>::quiet_NaN()));
     n = std::max(n, run.base->n_samples());
   }
   std::array<bool, n_lanes> ran_away{};
-  for (Index i = 0; i < n; ++i) {
+  for (Eigen::Index i = 0; i < n; ++i) {
     const Lanes acceleration = stepper.acceleration(drives.now());
     for (std::size_t l = 0; l < runs.size(); ++l) {
       if (i >= result[l].size()) continue;
@@ -300,8 +298,8 @@ std::vector<Eigen::VectorXd> simulate_lanes(std::span<const SimulationRun> runs)
 /// The responses of runs under one base acceleration, a column each.
 Eigen::MatrixXd columns_of(std::span<const SimulationRun> runs) {
   assert(!runs.empty());
-  Eigen::MatrixXd result(runs.front().base->n_samples(), static_cast<Index>(runs.size()));
-  Index column = 0;
+  Eigen::MatrixXd result(runs.front().base->n_samples(), static_cast<Eigen::Index>(runs.size()));
+  Eigen::Index column = 0;
   for (const auto& group : simulation_groups(runs))
     for (const Eigen::VectorXd& response : simulate_group(group)) result.col(column++) = response;
   return result;

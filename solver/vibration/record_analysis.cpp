@@ -11,8 +11,6 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::VectorXd;
 
 double rms(const VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
@@ -23,7 +21,7 @@ TestLevel level_of(const VibrationRecord& r, const Spectra& s) {
                   .peak_base = r.base.lpNorm<Eigen::Infinity>(),
                   .peak_relative = r.relative.lpNorm<Eigen::Infinity>()};
   double n = 0.0;
-  for (Index i = 0; i < s.frequency.size(); ++i) {
+  for (Eigen::Index i = 0; i < s.frequency.size(); ++i) {
     if (s.frequency[i] < r.band_low || s.frequency[i] > r.band_high) continue;
     level.base_density += s.Sxx[i];
     n += 1.0;
@@ -32,18 +30,18 @@ TestLevel level_of(const VibrationRecord& r, const Spectra& s) {
   return level;
 }
 
-SegmentSettings fitting(SegmentSettings segments, Index n) {
+SegmentSettings fitting(SegmentSettings segments, Eigen::Index n) {
   segments.length = std::min(segments.length, n);
   return segments;
 }
 
 /// Of a phase in samples: its slope over +-half, exact where the frequency moves linearly.
-VectorXd frequency_of(const VectorXd& phase, double rate, Index half) {
-  const Index n = phase.size();
+VectorXd frequency_of(const VectorXd& phase, double rate, Eigen::Index half) {
+  const Eigen::Index n = phase.size();
   VectorXd f(n);
-  for (Index i = 0; i < n; ++i) {
-    const Index reach = std::max<Index>(1, std::min({half, i, n - 1 - i}));
-    const Index from = std::max<Index>(0, i - reach), to = std::min<Index>(n - 1, i + reach);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index reach = std::max<Eigen::Index>(1, std::min({half, i, n - 1 - i}));
+    const Eigen::Index from = std::max<Eigen::Index>(0, i - reach), to = std::min<Eigen::Index>(n - 1, i + reach);
     f[i] = (phase[to] - phase[from]) * rate / (2.0 * std::numbers::pi * static_cast<double>(to - from));
   }
   return f;
@@ -58,11 +56,11 @@ double TrackedResponse::median_base() const {
   return *middle;
 }
 
-Index TrackedResponse::at_resonance() const {
+Eigen::Index TrackedResponse::at_resonance() const {
   const double least = 0.5 * median_base();  // beside the ramps
-  Index best = 0;
+  Eigen::Index best = 0;
   double largest = 0.0;
-  for (Index i = 0; i < base.size(); ++i)
+  for (Eigen::Index i = 0; i < base.size(); ++i)
     if (base[i] > least && harmonics(i, 0) / base[i] > largest) {
       largest = harmonics(i, 0) / base[i];
       best = i;
@@ -72,24 +70,24 @@ Index TrackedResponse::at_resonance() const {
 
 double tracker_bandwidth(const VibrationRecord& record) { return std::min(4.0, 0.4 * record.band_low); }
 
-Index tracker_stride(double rate) { return std::max<Index>(1, static_cast<Index>(rate / 40.0)); }
+Eigen::Index tracker_stride(double rate) { return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(rate / 40.0)); }
 
-Index spectrogram_segments(const VibrationRecord& r, bool swept) {
+Eigen::Index spectrogram_segments(const VibrationRecord& r, bool swept) {
   double length = static_cast<double>(r.n()) / 16.0;
   if (swept && r.band_high > r.band_low) length = r.rate * std::sqrt(r.duration() / (r.band_high - r.band_low));
   const auto power = std::bit_floor(static_cast<unsigned>(std::max(length, 1.0)));
-  return std::min<Index>(std::clamp<Index>(power, 256, swept ? 16384 : 4096), r.n());
+  return std::min<Eigen::Index>(std::clamp<Eigen::Index>(power, 256, swept ? 16384 : 4096), r.n());
 }
 
 TrackedResponse tracked_response(const VibrationRecord& r, int n_harmonics, double bandwidth) {
   const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
   const VectorXd phase = driving_phase(r.base, r.rate, band);
-  const VectorXd f = frequency_of(phase, r.rate, static_cast<Index>(0.5 * r.rate / bandwidth));
+  const VectorXd f = frequency_of(phase, r.rate, static_cast<Eigen::Index>(0.5 * r.rate / bandwidth));
   const Eigen::MatrixXd relative = harmonics(r.relative, r.rate, phase, n_harmonics, bandwidth).cwiseAbs();
   const VectorXd base = harmonics(r.base, r.rate, phase, 1, bandwidth).cwiseAbs();
   const VectorXd hull = envelope(r.relative);
-  const Index stride = tracker_stride(r.rate), n = (r.n() - 1) / stride + 1;
-  const auto kept = Eigen::seqN(Index{0}, n, stride);
+  const Eigen::Index stride = tracker_stride(r.rate), n = (r.n() - 1) / stride + 1;
+  const auto kept = Eigen::seqN(Eigen::Index{0}, n, stride);
   return {.time = VectorXd::LinSpaced(n, 0.0, static_cast<double>((n - 1) * stride)) / r.rate,
           .frequency = f(kept),
           .base = base(kept),

@@ -14,8 +14,6 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -29,8 +27,8 @@ struct Column {
 std::vector<Column> columns_of(std::span<const ScheduledRun> schedule) {
   std::vector<Column> columns;
   const auto add = [&](std::string name, std::string what, const auto& get) {
-    VectorXd values(static_cast<Index>(schedule.size()));
-    for (std::size_t i = 0; i < schedule.size(); ++i) values[static_cast<Index>(i)] = get(schedule[i]);
+    VectorXd values(static_cast<Eigen::Index>(schedule.size()));
+    for (std::size_t i = 0; i < schedule.size(); ++i) values[static_cast<Eigen::Index>(i)] = get(schedule[i]);
     const double largest = values.lpNorm<Eigen::Infinity>();
     values.array() -= values.mean();
     if (values.lpNorm<Eigen::Infinity>() > 1e-9 * largest)
@@ -44,8 +42,8 @@ std::vector<Column> columns_of(std::span<const ScheduledRun> schedule) {
 
 /// A column of ones, then those of what varied.
 MatrixXd design(const std::vector<Column>& columns, std::size_t n) {
-  MatrixXd A = MatrixXd::Ones(static_cast<Index>(n), static_cast<Index>(columns.size()) + 1);
-  for (std::size_t k = 0; k < columns.size(); ++k) A.col(static_cast<Index>(k) + 1) = columns[k].values;
+  MatrixXd A = MatrixXd::Ones(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(columns.size()) + 1);
+  for (std::size_t k = 0; k < columns.size(); ++k) A.col(static_cast<Eigen::Index>(k) + 1) = columns[k].values;
   return A;
 }
 
@@ -84,7 +82,7 @@ Repeatability repeatability(std::span<const ScheduledRun> schedule, std::span<co
   assert(schedule.size() == values.size() && !values.empty());
   const std::vector<Column> columns = columns_of(schedule);
   const MatrixXd A = design(columns, values.size());
-  const auto y = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+  const auto y = Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   const VectorXd x = least_squares(A, y);
   Repeatability result;
   result.mean = x[0];
@@ -96,7 +94,7 @@ Repeatability repeatability(std::span<const ScheduledRun> schedule, std::span<co
   const VectorXd variance =
       (svd.V * svd.values.cwiseInverse().asDiagonal()).rowwise().squaredNorm();  // diag (A^T A)^-1
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    const Index i = static_cast<Index>(k) + 1;
+    const Eigen::Index i = static_cast<Eigen::Index>(k) + 1;
     const double half = result.residual_freedom > 0
                             ? student_95(result.residual_freedom) * result.residual_deviation * std::sqrt(variance[i])
                             : none;

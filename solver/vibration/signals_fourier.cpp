@@ -10,8 +10,6 @@
 namespace pfdm {
 namespace {
 
-using Eigen::Index;
-
 // FFTW's planner keeps global state; only the execution of a plan is free of it.
 std::mutex planner;
 
@@ -47,7 +45,7 @@ Eigen::VectorXcd fourier(const Eigen::Ref<const Eigen::VectorXd>& x) {
   return out;
 }
 
-Eigen::VectorXd inverse_fourier(const Eigen::VectorXcd& spectrum, Index n) {
+Eigen::VectorXd inverse_fourier(const Eigen::VectorXcd& spectrum, Eigen::Index n) {
   assert(spectrum.size() == n / 2 + 1);
   Eigen::VectorXcd in = spectrum;  // the transform destroys its input
   Eigen::VectorXd out(n);
@@ -56,10 +54,10 @@ Eigen::VectorXd inverse_fourier(const Eigen::VectorXcd& spectrum, Index n) {
   return out / static_cast<double>(n);
 }
 
-Index fast_length(Index n) {
-  for (Index length = std::max<Index>(n, 1);; ++length) {
-    Index rest = length;
-    for (const Index prime : {2, 3, 5})
+Eigen::Index fast_length(Eigen::Index n) {
+  for (Eigen::Index length = std::max<Eigen::Index>(n, 1);; ++length) {
+    Eigen::Index rest = length;
+    for (const Eigen::Index prime : {2, 3, 5})
       while (rest % prime == 0) rest /= prime;
     if (rest == 1) return length;
   }

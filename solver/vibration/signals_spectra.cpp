@@ -11,26 +11,24 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 struct Segments {
-  Index length = 0;
-  Index step = 0;
-  Index count = 0;
+  Eigen::Index length = 0;
+  Eigen::Index step = 0;
+  Eigen::Index count = 0;
   VectorXd window{};
   bool remove_mean = true;
 
-  VectorXcd transform(const VectorXd& x, Index i) const {
+  VectorXcd transform(const VectorXd& x, Eigen::Index i) const {
     VectorXd part = x.segment(i * step, length);
     if (remove_mean) part.array() -= part.mean();
     return fourier(part.cwiseProduct(window));
   }
 };
 
-Segments cut(Index n, const SegmentSettings& settings) {
+Segments cut(Eigen::Index n, const SegmentSettings& settings) {
   if (settings.length < 2)
     throw InputError(fmt::format("segments of {} samples are too short; at least 2 are required", settings.length));
   if (!(settings.overlap >= 0.0 && settings.overlap < 1.0))
@@ -40,7 +38,7 @@ Segments cut(Index n, const SegmentSettings& settings) {
   Segments s;
   s.length = settings.length;
   s.remove_mean = settings.remove_mean;
-  const auto shared = static_cast<Index>(static_cast<double>(s.length) * settings.overlap + 1e-9);
+  const auto shared = static_cast<Eigen::Index>(static_cast<double>(s.length) * settings.overlap + 1e-9);
   s.step = s.length - shared;
   s.count = (n - s.length) / s.step + 1;
   s.window = hann_window(s.length);
@@ -55,8 +53,8 @@ VectorXd density_scale(const Segments& s, double rate) {
   return scale;
 }
 
-VectorXd frequencies(Index length, double rate) {
-  const Index last = length / 2;
+VectorXd frequencies(Eigen::Index length, double rate) {
+  const Eigen::Index last = length / 2;
   return VectorXd::LinSpaced(last + 1, 0.0, static_cast<double>(last)) * (rate / static_cast<double>(length));
 }
 
@@ -65,8 +63,8 @@ double independent_averages(const Segments& s) {
   const double power = s.window.squaredNorm();
   const auto n = static_cast<double>(s.count);
   double sum = 1.0;
-  for (Index k = 1; k < s.count && k * s.step < s.length; ++k) {
-    const Index common = s.length - k * s.step;
+  for (Eigen::Index k = 1; k < s.count && k * s.step < s.length; ++k) {
+    const Eigen::Index common = s.length - k * s.step;
     const double rho = s.window.head(common).dot(s.window.tail(common)) / power;
     sum += 2.0 * (1.0 - static_cast<double>(k) / n) * rho * rho;
   }
@@ -75,9 +73,9 @@ double independent_averages(const Segments& s) {
 
 }  // namespace
 
-VectorXd hann_window(Index n) {
+VectorXd hann_window(Eigen::Index n) {
   VectorXd w(n);
-  for (Index i = 0; i < n; ++i)
+  for (Eigen::Index i = 0; i < n; ++i)
     w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n));
   return w;
 }
@@ -86,14 +84,14 @@ Spectra spectra(const VectorXd& x, const VectorXd& y, double rate, const Segment
   if (x.size() != y.size())
     throw InputError(fmt::format("the signals have {} and {} samples; they must be equally long", x.size(), y.size()));
   const Segments s = cut(x.size(), settings);
-  const Index bins = s.length / 2 + 1;
+  const Eigen::Index bins = s.length / 2 + 1;
   Spectra result{.frequency = frequencies(s.length, rate),
                  .Sxx = VectorXd::Zero(bins),
                  .Syy = VectorXd::Zero(bins),
                  .Sxy = VectorXcd::Zero(bins),
                  .segments = s.count,
                  .averages = independent_averages(s)};
-  for (Index i = 0; i < s.count; ++i) {
+  for (Eigen::Index i = 0; i < s.count; ++i) {
     const VectorXcd X = s.transform(x, i);
     const VectorXcd Y = s.transform(y, i);
     result.Sxx += X.cwiseAbs2();
@@ -110,7 +108,7 @@ Spectra spectra(const VectorXd& x, const VectorXd& y, double rate, const Segment
 VectorXd spectral_density(const VectorXd& x, double rate, const SegmentSettings& settings) {
   const Segments s = cut(x.size(), settings);
   VectorXd sum = VectorXd::Zero(s.length / 2 + 1);
-  for (Index i = 0; i < s.count; ++i) sum += s.transform(x, i).cwiseAbs2();
+  for (Eigen::Index i = 0; i < s.count; ++i) sum += s.transform(x, i).cwiseAbs2();
   return sum.cwiseProduct(density_scale(s, rate)) / static_cast<double>(s.count);
 }
 
@@ -156,7 +154,7 @@ Spectrogram spectrogram(const VectorXd& x, double rate, const SegmentSettings& s
   Spectrogram result{.time = VectorXd(s.count),
                      .frequency = frequencies(s.length, rate),
                      .density = Eigen::MatrixXd(s.length / 2 + 1, s.count)};
-  for (Index i = 0; i < s.count; ++i) {
+  for (Eigen::Index i = 0; i < s.count; ++i) {
     result.time[i] = (static_cast<double>(i * s.step) + 0.5 * static_cast<double>(s.length)) / rate;
     result.density.col(i) = s.transform(x, i).cwiseAbs2().cwiseProduct(scale);
   }

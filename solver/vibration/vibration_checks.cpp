@@ -11,8 +11,6 @@
 
 namespace pfdm {
 namespace {
-
-using Eigen::Index;
 using Eigen::VectorXd;
 using Faults = std::vector<RecordFault>;
 
@@ -20,7 +18,7 @@ constexpr double least_periods = 20.0;      // of the lowest frequency, in a rec
 constexpr double highest_of_rate = 0.3907;  // of the band; analysers sample at 2.56 times the band
 
 double quantile(VectorXd values, double part) {
-  const auto at = static_cast<Index>(part * static_cast<double>(values.size() - 1));
+  const auto at = static_cast<Eigen::Index>(part * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[at];
 }
@@ -53,14 +51,14 @@ void check_time(const RawRecord& r, Faults& faults) {
   const VectorXd& t = *r.time;
   const VectorXd dt = t.tail(t.size() - 1) - t.head(t.size() - 1);
   const double step = median(dt);
-  for (Index i = 0; i < dt.size(); ++i) {
+  for (Eigen::Index i = 0; i < dt.size(); ++i) {
     if (dt[i] > 0.0) continue;
     faults.push_back(
         {"time_runs_backwards",
          fmt::format("time does not increase: from {:.10g} s to {:.10g} s at sample {}", t[i], t[i + 1], i + 1)});
     return;
   }
-  for (Index i = 0; i < dt.size(); ++i) {
+  for (Eigen::Index i = 0; i < dt.size(); ++i) {
     if (dt[i] <= 1.5 * step) continue;
     faults.push_back({"gap", fmt::format("{:.3g} s are missing after {:.10g} s", dt[i] - step, t[i])});
     return;
@@ -69,7 +67,8 @@ void check_time(const RawRecord& r, Faults& faults) {
   const auto n = static_cast<double>(t.size() - 1);
   const double even = (t[t.size() - 1] - t[0]) / n;
   double stray = 0.0;
-  for (Index i = 0; i < t.size(); ++i) stray = std::max(stray, std::abs(t[i] - t[0] - even * static_cast<double>(i)));
+  for (Eigen::Index i = 0; i < t.size(); ++i)
+    stray = std::max(stray, std::abs(t[i] - t[0] - even * static_cast<double>(i)));
   if (stray > 0.1 * even)
     faults.push_back({"uneven_sampling",
                       fmt::format("samples are up to {:.2g} of the sampling interval off an even grid", stray / even)});
@@ -96,7 +95,7 @@ bool is_constant(const VectorXd& x) {
 /// The last quarter of the motion is half as strong as the first, or less.
 bool dies_away(const VectorXd& x) {
   const VectorXd motion = x.array() - x.mean();
-  const Index quarter = x.size() / 4;
+  const Eigen::Index quarter = x.size() / 4;
   return 2.0 * motion.tail(quarter).norm() < motion.head(quarter).norm();
 }
 
@@ -132,9 +131,9 @@ void check_dead(const RawRecord& r, Faults& faults) {
 /// Several successive samples at the same extreme value: an analogue-digital converter at the end of its range.
 void check_clipped(const char* channel, const VectorXd& x, Faults& faults) {
   for (const double extreme : {x.maxCoeff(), x.minCoeff()}) {
-    Index runs = 0;
-    Index length = 0;
-    for (Index i = 0; i < x.size(); ++i) {
+    Eigen::Index runs = 0;
+    Eigen::Index length = 0;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
       length = x[i] == extreme ? length + 1 : 0;
       runs += length == 3;
     }
@@ -153,7 +152,7 @@ double smallest_step(const VectorXd& x) {
   std::ranges::sort(sorted);
   const double rounding = 1e-9 * (sorted[sorted.size() - 1] - sorted[0]);
   double step = 0.0;
-  for (Index i = 1; i < sorted.size(); ++i) {
+  for (Eigen::Index i = 1; i < sorted.size(); ++i) {
     const double up = sorted[i] - sorted[i - 1];
     if (up > rounding && (step == 0.0 || up < step)) step = up;
   }
@@ -173,10 +172,10 @@ bool check_quantised(const char* channel, const VectorXd& x, Faults& faults) {
 
 /// Stretches that stay at one value amid the motion, of at least eight samples, and a thirtieth of a period.
 void check_dropouts(const char* channel, const VectorXd& x, double rate, double band_high, Faults& faults) {
-  const Index least = std::max<Index>(8, static_cast<Index>(std::ceil(rate / (30.0 * band_high))));
+  const Eigen::Index least = std::max<Eigen::Index>(8, static_cast<Eigen::Index>(std::ceil(rate / (30.0 * band_high))));
   const double most = x.maxCoeff(), lowest = x.minCoeff();
-  Index stretches = 0, samples = 0, first = 0;
-  for (Index begin = 0, end = 0; begin < x.size(); begin = end) {
+  Eigen::Index stretches = 0, samples = 0, first = 0;
+  for (Eigen::Index begin = 0, end = 0; begin < x.size(); begin = end) {
     for (end = begin + 1; end < x.size() && x[end] == x[begin];) ++end;
     const bool at_an_end = begin == 0 || end == x.size();
     const bool is_extreme = x[begin] == most || x[begin] == lowest;
@@ -203,13 +202,14 @@ void check_drift(const char* channel, const VectorXd& x, double rate, double ban
 
 /// Single samples far off the line between their neighbours.
 void check_spikes(const char* channel, const VectorXd& x, Faults& faults) {
-  const Index n = x.size() - 2;
+  const Eigen::Index n = x.size() - 2;
   const VectorXd off = (x.segment(1, n) - 0.5 * (x.head(n) + x.tail(n))).cwiseAbs();
   const double usual = median(off);
-  Index where = 0;
+  Eigen::Index where = 0;
   const double largest = off.maxCoeff(&where);
   // A sweep's own curvature grows with frequency and through resonance; a spike is beyond its neighbours too.
-  const double nearby = std::max(off[std::max<Index>(where - 3, 0)], off[std::min<Index>(where + 3, n - 1)]);
+  const double nearby =
+      std::max(off[std::max<Eigen::Index>(where - 3, 0)], off[std::min<Eigen::Index>(where + 3, n - 1)]);
   if (usual > 0.0 && largest > 30.0 * usual && largest > 5.0 * nearby)
     faults.push_back({"spikes", fmt::format("{} has a spike at sample {}", channel, where + 1), false});
 }
@@ -229,7 +229,7 @@ void check_band(const RawRecord& r, double rate, Faults& faults) {
 double power_quantile(const VectorXd& power, double bin, double part) {
   const double all = power.sum();
   double sum = 0.0;
-  for (Index k = 0; k < power.size(); ++k)
+  for (Eigen::Index k = 0; k < power.size(); ++k)
     if ((sum += power[k]) >= part * all) return static_cast<double>(k) * bin;
   return static_cast<double>(power.size() - 1) * bin;
 }

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 const std::string elasticity =
@@ -76,4 +76,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

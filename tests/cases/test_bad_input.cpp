@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 class BadCase : public testing::TestWithParam<BadInput> {};
@@ -450,4 +450,4 @@ TEST(BadInput, ResultsThatAnotherRunIsWriting) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

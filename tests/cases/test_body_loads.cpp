@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double modulus = 30e9 * 0.8 / (1.2 * 0.6);  // of a bar held at its sides [Pa]
@@ -136,4 +136,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

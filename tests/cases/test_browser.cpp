@@ -14,7 +14,7 @@
 #include <array>
 #include <cstdio>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -156,4 +156,4 @@ TEST(Browser, ShowsTheBodyAndLinksItWithTheCurve) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

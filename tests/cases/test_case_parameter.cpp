@@ -10,7 +10,7 @@
 #include <atomic>
 #include <csignal>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr const char* text = R"(# größe: a comment in UTF-8
@@ -88,4 +88,4 @@ TEST(SideBySide, TellsOfJobsThatDieOrThrow) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -211,4 +211,4 @@ TEST_F(Chain, IsCopiedWithoutTheCasesThatItsStepsWrite) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

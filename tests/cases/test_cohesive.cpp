@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -449,4 +449,4 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

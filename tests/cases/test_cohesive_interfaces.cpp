@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -148,4 +148,4 @@ TEST(CohesiveInterfaces, AConfinedBandIsWeakerInShear) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ TEST(Init, ListsTheCasesToChooseFrom) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

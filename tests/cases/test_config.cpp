@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr const char* example = R"(title = "an example"
@@ -152,4 +152,4 @@ TEST(Config, RefusesKeysOfTooManyParts) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -18,7 +18,7 @@
 #include <random>
 #include <set>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -644,4 +644,4 @@ TEST(CurveFit, RefusesWhatCannotBeFitted) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -11,7 +11,7 @@
 
 #include <map>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -229,4 +229,4 @@ TEST(Results, GoToAnotherFolderWhereTheirOwnCannotBeMade) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -104,4 +104,4 @@ TEST(EndOfRun, RepeatsTheWarnings) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

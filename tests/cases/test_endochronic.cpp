@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 TEST(EndochronicCase, RunsAndWritesItsResults) {
@@ -238,4 +238,4 @@ INSTANTIATE_TEST_SUITE_P(EndochronicProgram, BadEndochronicCase, testing::Values
                          [](const auto& row) { return std::string(row.param.name); });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 std::string cyclic_case(const std::string& kernel, const std::string& f_inf) {
@@ -325,4 +325,4 @@ INSTANTIATE_TEST_SUITE_P(EndochronicProgram, BadFitCase, testing::ValuesIn(bad_f
                          [](const auto& row) { return std::string(row.param.name); });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 TEST(Expression, IsAFunctionOfPlaceAndLoad) {
@@ -51,4 +51,4 @@ TEST(Expression, MayBeCalledFromSeveralThreads) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

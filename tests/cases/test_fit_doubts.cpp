@@ -12,7 +12,7 @@
 #include <cmath>
 #include <random>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -265,4 +265,4 @@ TEST_F(ChainOfAFit, ChecksSayWhatMayBeDoneAgain) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double deviation = 2.0;  // of the force [N]
@@ -117,4 +117,4 @@ TEST(FitIntervals, OfAnotherKindAreRefused) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

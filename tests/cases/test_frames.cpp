@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -165,4 +165,4 @@ TEST(GmshCase, NamesAFileThatIsNone) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -229,4 +229,4 @@ INSTANTIATE_TEST_SUITE_P(All, BadHomogenization, testing::ValuesIn(bad_inputs),
                          [](const auto& input) { return input.param.name; });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

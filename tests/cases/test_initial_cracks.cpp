@@ -10,7 +10,7 @@
 
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::AllOf;
@@ -162,4 +162,4 @@ TEST(DeadLoads, ThatTearTheBodyApartEndTheRun) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

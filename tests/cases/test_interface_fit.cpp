@@ -14,7 +14,7 @@
 #include <random>
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -180,4 +180,4 @@ TEST(InterfaceExport, RefusesWhatIsNotOneLaw) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

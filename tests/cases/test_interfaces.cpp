@@ -13,7 +13,7 @@
 #include <cmath>
 #include <functional>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 CsvTable curve_of(const TemporaryCase& directory) { return read_csv(directory.results() / "force_displacement.csv"); }
@@ -277,4 +277,4 @@ INSTANTIATE_TEST_SUITE_P(All, BadInterface, testing::ValuesIn(bad_inputs),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

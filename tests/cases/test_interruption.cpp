@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -142,4 +142,4 @@ INSTANTIATE_TEST_SUITE_P(Program, Interruption, testing::Values(std::pair("INT",
                          [](const auto& row) { return std::string(row.param.first); });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

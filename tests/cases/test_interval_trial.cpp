@@ -8,7 +8,7 @@
 
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 /// The trial is above a = 1.03, whose lower bound is near. y = a + b x at x = 0, 1, 2, 3, not all on a line; no answer
@@ -80,4 +80,4 @@ TEST(IntervalTrial, SaysThatThereIsNoAnswer) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

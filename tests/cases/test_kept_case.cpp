@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -125,4 +125,4 @@ excitation = { type = "random", density = "0.001 g0^2/Hz", from = "10 Hz", to = 
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -17,7 +17,7 @@
 #include <set>
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -192,4 +192,4 @@ TEST(KeyReference, OfTheRepositoryIsThatOfTheRows) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -14,7 +14,7 @@
 #include <cstdio>
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -659,4 +659,4 @@ TEST(BadMassMaterial, ModelThatDoesNotCarry) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -187,4 +187,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& input) { return input.param.name; });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -143,4 +143,4 @@ INSTANTIATE_TEST_SUITE_P(All, BadSpheres, testing::ValuesIn(bad_inputs),
                          [](const auto& input) { return input.param.name; });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

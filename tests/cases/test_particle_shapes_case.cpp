@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::AllOf;
@@ -103,4 +103,4 @@ TEST(ParticleShapesCase, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

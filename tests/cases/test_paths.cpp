@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ TEST(Slurm, TakesNoCommandForAPartition) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using nlohmann::json;
@@ -298,4 +298,4 @@ TEST(Plate, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -12,7 +12,7 @@
 #include <complex>
 #include <random>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using nlohmann::json;
@@ -242,4 +242,4 @@ TEST(PlateFit, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

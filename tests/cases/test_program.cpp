@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -421,4 +421,4 @@ TEST(Program, HelpsAndTellsItsVersion) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr ProgressFigures figures{.load = 0.31234,
@@ -99,4 +99,4 @@ TEST(TimeLeft, IsUnknownWhereTheLoadFallsBack) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -373,4 +373,4 @@ TEST(Report, RefusesResultsOfAnotherCase) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

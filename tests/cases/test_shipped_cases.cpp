@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 TEST(ShippedCases, CanBeRead) {
@@ -290,4 +290,4 @@ TEST(ShippedCases, DiscOfRubberReachesItsStrengthOnTheAxis) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

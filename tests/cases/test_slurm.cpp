@@ -12,7 +12,7 @@
 
 #include <cstdlib>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ TEST(Slurm, TaskRefusesARunThatIsNoLongerTheSame) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <set>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -198,4 +198,4 @@ INSTANTIATE_TEST_SUITE_P(Inputs, BadSweep, testing::ValuesIn(bad_sweeps),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::ContainsRegex;
@@ -53,4 +53,4 @@ TEST(Unconverged, OffersWhatTheCaseAllows) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

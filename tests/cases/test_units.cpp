@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 std::string message_of(std::string_view text, const Dimension& due) {
@@ -70,4 +70,4 @@ TEST(Units, GivesTheFactorOfAUnit) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 std::string message_of(const CaseFile& file) {
@@ -86,4 +86,4 @@ TEST(UnknownKeys, GetTheWholeListOfTheirTable) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double length = 20e-3, section = 1e-6;      // [m], [m^2]
@@ -64,4 +64,4 @@ TEST(InitialDamage, OfAPlaneIsACrack) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

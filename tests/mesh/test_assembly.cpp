@@ -7,7 +7,7 @@
 #include "mesh_checks.h"
 #include "physics/error.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -177,4 +177,4 @@ TEST(ReverseCuthillMckee, ChainInRandomOrderGetsBandwidthOne) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

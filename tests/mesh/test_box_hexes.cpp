@@ -4,7 +4,7 @@
 #include "mesh_checks.h"
 #include "physics/error.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -194,4 +194,4 @@ TEST(BoxHexes, BadInputIsRefused) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 #include "mesh_checks.h"
 #include "physics/error.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -113,4 +113,4 @@ TEST(CylinderSector, RefusesWhatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

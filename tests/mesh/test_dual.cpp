@@ -9,7 +9,7 @@
 #include "mesh_checks.h"
 #include "physics/error.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -180,4 +180,4 @@ TEST(Dual, RefusesHexahedra) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

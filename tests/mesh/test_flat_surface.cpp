@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -116,4 +116,4 @@ TEST(FlatSurface, ThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -11,7 +11,7 @@
 #include "mesh_checks.h"
 #include "physics/error.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::AllOf;
@@ -223,4 +223,4 @@ TEST_F(ImportGmsh, TrianglesOnAQuadrilateralAreRefused) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

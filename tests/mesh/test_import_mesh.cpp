@@ -9,7 +9,7 @@
 #include "physics/error.h"
 #include "vtu_text.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::AllOf;
@@ -291,4 +291,4 @@ TEST_F(ImportVtk, UnreadableFilesAreNamedInOneMessageAndVtkStaysSilent) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

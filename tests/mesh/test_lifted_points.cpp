@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // The unit cube, its twelve triangles joined to an inner point.
@@ -55,4 +55,4 @@ TEST(LiftedPoints, AreThoseNextToAnotherAlone) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // The segments follow one another without gaps, through faces that their cells share.
@@ -60,4 +60,4 @@ TEST(LineWalk, CrossesTetrahedraAndPrisms) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -13,7 +13,7 @@
 #include "mesh_checks.h"
 #include "physics/error.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -195,4 +195,4 @@ TEST(PackedShapes, SayWhereThereIsNoRoom) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

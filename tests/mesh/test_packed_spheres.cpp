@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::AllOf;
@@ -213,4 +213,4 @@ TEST(PackedSpheres, WithLayersAreWholeToo) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

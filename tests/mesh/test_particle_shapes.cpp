@@ -18,7 +18,7 @@
 #include "mesh_checks.h"
 #include "physics/error.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -271,4 +271,4 @@ TEST(ParticlesInBox, RejectsAShapeThatLeavesTheBoxOrHoldsAnother) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -4,7 +4,7 @@
 #include "mesh/quality.h"
 #include "mesh_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -108,4 +108,4 @@ TEST(Quality, SummaryCountsAndDescribes) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -12,7 +12,7 @@
 #include "mesh/generators/sphere_sector.h"
 #include "mesh_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 std::uint64_t checksum(const Mesh& mesh) {
@@ -76,4 +76,4 @@ TEST(MeshBits, AreTheSameOnEveryProcessor) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 #include "mesh_checks.h"
 #include "physics/error.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -67,4 +67,4 @@ TEST(SphereSector, RefusesWhatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -9,7 +9,7 @@
 #include "mesh_checks.h"
 #include "physics/error.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -115,4 +115,4 @@ TEST(SurfaceChecks, NameWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -8,7 +8,7 @@
 
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double E = 75e6, Gc = 10.0, ell = 20e-6;
@@ -167,4 +167,4 @@ TEST(Bars, DiscreteToughnessIsTheMinimumOverARowOfCells) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <memory>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double mu = 0.52e6, Lambda = 85.77e6, ts = 0.3e6, hs = 1e6, Gc = 41.0;
@@ -85,4 +85,4 @@ TEST(BiotStress, RefusesAStrengthAboveTheLargestStress) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

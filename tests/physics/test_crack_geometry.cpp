@@ -6,7 +6,7 @@
 #include "physics/error.h"
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // int_0^b f(d) dd by the midpoint rule in t, d = b sin^2 t, which takes roots at either end out of the integrand.
@@ -61,4 +61,4 @@ TEST(CrackGeometry, UnknownNamesAreAnsweredWithThoseThereAre) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

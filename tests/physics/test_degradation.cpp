@@ -7,7 +7,7 @@
 #include "physics/error.h"
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double E = 30e9, Gf = 120.0, ft = 3e6, ell = 10e-3;
@@ -69,4 +69,4 @@ TEST(Degradation, UnknownNamesAreAnsweredWithThoseThereAre) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

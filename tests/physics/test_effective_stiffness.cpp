@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 const IsotropicElasticity matrix = from_young_poisson(75e6, 0.44), glass = from_young_poisson(70e9, 0.3);
@@ -67,4 +67,4 @@ TEST(EffectiveStiffness, AsymmetryIsThatOfTheSkewPart) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

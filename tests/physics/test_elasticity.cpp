@@ -5,7 +5,7 @@
 #include "physics/error.h"
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -50,4 +50,4 @@ TEST(Elasticity, RefusesWhatNoMaterialHas) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -2,7 +2,7 @@
 #include "tests/physics/endochronic_laws.h"
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 TEST(Endochronic, EveryStepFromEveryStateIsSolved) {
@@ -210,4 +210,4 @@ TEST(Endochronic, RefusesLawsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

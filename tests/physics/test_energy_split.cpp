@@ -2,7 +2,7 @@
 #include "physics/error.h"
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // Every split, with an example of its parameters.
@@ -391,4 +391,4 @@ TEST(EnergySplit, UnknownNamesAreAnsweredWithThoseThereAre) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

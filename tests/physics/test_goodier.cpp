@@ -4,7 +4,7 @@
 
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 const IsotropicElasticity glass = from_young_poisson(70e9, 0.3);
@@ -84,4 +84,4 @@ TEST(Goodier, EqualMaterialsFeelNoSphere) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -1,7 +1,7 @@
 #include "physics/hardening.h"
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 /// f at zeta = 0.5, 2, 3.5 (columns) for rates of 0.1, 10 and 100 /s.
@@ -113,4 +113,4 @@ TEST(Hardening, UnknownNamesAreAnsweredWithThoseThereAre) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

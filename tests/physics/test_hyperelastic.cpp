@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Made = std::shared_ptr<const HyperelasticMaterial>;
@@ -243,4 +243,4 @@ TEST(Hyperelastic, WrongParametersAreRefused) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr InterfaceStrength glued{
@@ -396,4 +396,4 @@ TEST(TabulatedLaw, IsItsPoints) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

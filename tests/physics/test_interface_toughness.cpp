@@ -9,7 +9,7 @@
 
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double ell = 20e-6, undamageable = std::numeric_limits<double>::infinity();
@@ -93,4 +93,4 @@ TEST(InterfaceToughness, CorrectionIsThePublishedOne) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

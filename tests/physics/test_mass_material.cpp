@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Complex = std::complex<double>;
@@ -150,4 +150,4 @@ TEST(MassMaterial, NamesWhatThereIsWhereThereIsNoSuchModel) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 const IsotropicElasticity steel = from_young_poisson(210e9, 0.3);
@@ -173,4 +173,4 @@ TEST(J2Plasticity, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // mu = 2, alpha = 2 is the neo-Hookean material: S = mu (l - 1/l^2); with -2 as well that of Mooney and Rivlin.
@@ -27,4 +27,4 @@ TEST(Ogden, HasThriceTheShearModulusForYoungs) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 #include "physics/energy_split.h"
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double E = 20e9;
@@ -71,4 +71,4 @@ TEST(PlaneStress, TheStrainAcrossLeavesNoStressThere) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // Mean over many fields of products of values at two places.
@@ -32,4 +32,4 @@ TEST(RandomField, IsThatOfItsSeed) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -18,7 +18,7 @@
 #include "physics/error.h"
 #include "physics/packed_bytes.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 TEST(SeparateProcess, ReturnsItsBytes) {
@@ -88,4 +88,4 @@ TEST(PackedBytes, ComeOutAsTheyWentIn) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

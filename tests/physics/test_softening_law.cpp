@@ -6,7 +6,7 @@
 
 #include "tests/physics/physics_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 TEST(SofteningLaw, FallsFromOneAndReleasesItsToughness) {
@@ -52,4 +52,4 @@ TEST(SofteningLaw, UnknownNamesAreAnsweredWithThoseThereAre) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double E = 70e9, nu = 0.22, Gc = 10.0, ts = 40e6, hs = 27.8e6, sqrt3 = std::numbers::sqrt3;
@@ -113,4 +113,4 @@ TEST(StrengthModel, UnknownNamesAreAnsweredWithThoseThereAre) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

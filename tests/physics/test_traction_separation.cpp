@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double strength = 3e6, energy = 120.0;  // [Pa], [J/m^2]
@@ -61,4 +61,4 @@ INSTANTIATE_TEST_SUITE_P(Laws, TractionSeparation, testing::ValuesIn(traction_se
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

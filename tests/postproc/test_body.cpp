@@ -20,7 +20,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -215,4 +215,4 @@ TEST(ChosenSteps, AreDenseWhereMuchHappens) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -127,4 +127,4 @@ TEST(BrowserPage, WritesUnitsAsPrintHasThem) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

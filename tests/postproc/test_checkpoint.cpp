@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -121,4 +121,4 @@ TEST(Checkpoint, says_what_is_wrong) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

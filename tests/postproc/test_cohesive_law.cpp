@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 ColumnSample sample(double traction, double separation, double damage) {
@@ -90,4 +90,4 @@ TEST(CohesiveLaw, tells_unloading_from_a_jump) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

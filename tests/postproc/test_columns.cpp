@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 // A slender cone, two cells wide, around a sphere of radius 1 m: bead, band of 13 % of the radius, matrix.
@@ -88,4 +88,4 @@ TEST(Columns, take_the_traction_of_a_plane_on_it) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using testing::HasSubstr;
@@ -109,4 +109,4 @@ TEST(CorrelatedFit, OfTwoPointsIsNeverSound) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <fstream>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using testing::ElementsAre;
@@ -222,4 +222,4 @@ TEST(SignalTable, CsvMayBeOfASpreadsheet) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 std::string complaint(const std::string& text) {
@@ -82,4 +82,4 @@ TEST(CsvTable, says_what_is_wrong_and_where) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

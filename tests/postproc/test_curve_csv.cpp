@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::ElementsAre;
@@ -120,4 +120,4 @@ TEST(CurveCsv, a_row_is_seen_from_one_patch_and_direction) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

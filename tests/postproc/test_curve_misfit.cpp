@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 SampledCurve curve(std::vector<double> x, std::vector<double> y, std::vector<double> deviation = {}) {
@@ -94,4 +94,4 @@ TEST(DrivenCurve, DropsWhereTheComputedOneFallsBack) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -15,7 +15,7 @@
 #include <functional>
 #include <numbers>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using testing::HasSubstr;
@@ -340,4 +340,4 @@ TEST(ExportedModes, OfXuAndNeedlemansPotentialAreItsTwoModes) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

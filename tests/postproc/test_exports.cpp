@@ -15,7 +15,7 @@
 #include <regex>
 #include <sstream>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using testing::HasSubstr;
@@ -453,4 +453,4 @@ TEST(Exports, NameFormatsAndUnits) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 constexpr double toughness = 50.0;
@@ -118,4 +118,4 @@ TEST(FaceColumns, AreMarkedInTheRecord) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -74,4 +74,4 @@ TEST(FieldSlice, SaysWhatIsWrongWithAFrame) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

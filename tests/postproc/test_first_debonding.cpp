@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 const Vector axis = Vector::UnitZ();
@@ -120,4 +120,4 @@ TEST(FirstDebonding, IsKeptForARestart) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <set>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -119,4 +119,4 @@ TEST(FitJson, RefusesAnotherFormat) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -6,7 +6,7 @@
 
 #include <thread>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using Seconds = FlushBudget::Duration;
@@ -59,4 +59,4 @@ TEST(Flush, ServesSeveralThreads) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <functional>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 constexpr double strength = 10e6, toughness = 400.0;  // [Pa], [J/m^2]
@@ -117,4 +117,4 @@ TEST(GivenLaws, LeaveNoRoomForAnAngleOrAnEnergy) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using testing::DoubleNear;
@@ -188,4 +188,4 @@ TEST(MeasuredCurve, MissedOriginsAreFoundAndOthersAreNot) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

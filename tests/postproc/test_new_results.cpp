@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,4 +55,4 @@ TEST(NewResults, go_where_they_belong_where_nothing_is) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -18,7 +18,7 @@
 #include <map>
 #include <memory>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::Contains;
@@ -176,4 +176,4 @@ TEST(PdfPaper, TellsWhatItIsAndNotWhen) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

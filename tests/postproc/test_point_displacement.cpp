@@ -20,7 +20,7 @@
 #include <cmath>
 #include <set>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 const Tensor some_gradient = (Tensor() << 0.1, 0.02, -0.03, 0.04, -0.2, 0.05, 0.07, -0.01, 0.3).finished();
@@ -253,4 +253,4 @@ TEST(PointDisplacement, of_broken_cells_alone_has_no_spikes) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

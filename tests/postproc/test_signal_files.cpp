@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -280,7 +280,7 @@ TEST(Wav, WhatIsCutIsRefusedWhateverComesBeforeTheSamples) {
     return message_of<InputError>([&] { read_signals(folder / "bad.wav"); });
   };
   std::string list = "LIST" + std::string("\xdc\x09\0\0INFO", 8);  // 2524 bytes: 4 and 63 entries of 40
-  for (int i = 0; i < 63; ++i) list += std::string("ICMT\x20\0\0\0", 8) + std::string(31, 'x') + '\0';
+  for (int i = 0; i < 63; ++i) list.append("ICMT\x20\0\0\0", 8).append(31, 'x').append(1, '\0');
   std::string cut = with_chunk(list);
   const std::size_t samples = cut.find("data") + 8;
   put(folder / "whole.wav", cut);
@@ -311,4 +311,4 @@ TEST(Wav, OfAStreamIsReadToItsEnd) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

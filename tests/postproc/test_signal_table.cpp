@@ -9,7 +9,7 @@
 #include <cmath>
 #include <memory>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -143,4 +143,4 @@ TEST(SignalTable, ReadsMatricesAndStructuresOfMatlabFiles) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 const Vector x = Vector::UnitX(), y = Vector::UnitY(), z = Vector::UnitZ();
@@ -107,4 +107,4 @@ TEST(DamagedArea, refuses_a_plane_without_direction) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 std::filesystem::path table_in(const std::string& name) {
@@ -51,4 +51,4 @@ TEST(StepTable, RefusesWhatIsNoSuchTable) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

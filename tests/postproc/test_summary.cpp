@@ -15,7 +15,7 @@
 #include <fstream>
 #include <vector>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 // Linear up to 6 N at 3 um, then broken; 25 % of the work goes astray in step 1, 0 at the peak, 10 % at the end.
@@ -195,4 +195,4 @@ TEST(Summary, comes_back) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

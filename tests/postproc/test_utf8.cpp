@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 TEST(Utf8, KnowsCharactersOfEachLength) {
@@ -22,4 +22,4 @@ TEST(Utf8, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

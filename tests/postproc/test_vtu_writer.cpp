@@ -23,7 +23,7 @@
 #include <array>
 #include <cmath>
 
-namespace pfdm::test {
+namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -311,4 +311,4 @@ TEST(Frame, has_the_names_of_the_interface) {
 }
 
 }  // namespace
-}  // namespace pfdm::test
+}  // namespace pfdm::test::this_file

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <string>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -78,4 +78,4 @@ TEST(Messages, QuoteNoControlCharactersOfACase) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

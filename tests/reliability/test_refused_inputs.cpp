@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST(NeedleCells, AreWarnedOf) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 nlohmann::json summary_of(const std::string& beam) {
@@ -46,4 +46,4 @@ TEST(ReportedBeams, CohesiveDoubleCantileversOfSquareCells) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -66,4 +66,4 @@ TEST(ReportedCracks, BreakAUniformBarThatIsPerturbed) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -104,4 +104,4 @@ TEST(ReportedCurves, NeedNoTimesForALawWithoutRates) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

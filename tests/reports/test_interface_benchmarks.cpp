@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // Forces of linear elements with cohesive lines, the same law and contact; on meshes of 0.02 and 0.01 mm 17.965 and
@@ -35,4 +35,4 @@ TEST(ReportedInterfaces, OfTwoInclusionsDebondBySmithAndFerrantesLaw) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::AllOf;
@@ -52,4 +52,4 @@ TEST(ReportedMeshes, RepeatThePointsOfEachFace) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

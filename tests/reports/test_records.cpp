@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::AllOf;
@@ -114,4 +114,4 @@ TEST(ReportedRecords, MayBeginInMotion) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

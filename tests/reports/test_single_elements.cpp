@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // E A u/L: uniaxial, as all that is held is at the centres of faces, or lies in planes of symmetry.
@@ -19,4 +19,4 @@ TEST(ReportedSingleElements, AreHeldBySymmetryAndByDisplacements) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -9,7 +9,7 @@
 #include <map>
 #include <sstream>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // The last row of a table, by its columns.
@@ -58,4 +58,4 @@ TEST(ReportedCracks, SayWhyThereIsNoStressIntensity) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

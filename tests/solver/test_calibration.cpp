@@ -13,7 +13,7 @@
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/parallel.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using testing::Contains;
@@ -433,4 +433,4 @@ TEST(Calibration, NonNegativeLeastSquares) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using testing::ElementsAre;
@@ -149,4 +149,4 @@ TEST(Verdict, FailsWhereThereIsNoFit) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -12,7 +12,7 @@
 #include "solver/momentum/stiffness_coupling.h"
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Kind = BoundaryCondition::Kind;
@@ -169,4 +169,4 @@ TEST(CoupledNewton, ConvergesInAFewIterationsToTheSolutionOfTheAlternation) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -7,7 +7,7 @@
 
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double Gc = 10.0, ell = 20e-6;
@@ -398,4 +398,4 @@ TEST(DamageEquation, RelaxingLeavesHomogeneousDamageAlone) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

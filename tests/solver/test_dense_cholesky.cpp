@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // Diagonally dominant, n x n.
@@ -60,4 +60,4 @@ TEST(OrderedDot, AddsAllProducts) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -10,7 +10,7 @@
 #include "tests/physics/physics_checks.h"
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Kind = DiffusionBoundary::Kind;
@@ -145,4 +145,4 @@ TEST(Diffusion, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

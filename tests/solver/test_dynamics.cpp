@@ -8,7 +8,7 @@
 #include "tests/physics/physics_checks.h"
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 ElasticBody body_of(const Mesh& mesh, double nu, std::vector<BoundaryCondition> boundary) {
@@ -137,4 +137,4 @@ TEST(Dynamics, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 /// Off by up to a factor of two everywhere.
@@ -328,4 +328,4 @@ TEST(EndochronicFit, RateJumpsRelaxationAndCreepAtOnce) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -7,7 +7,7 @@
 #include "physics/error.h"
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // Nodes on the boundary and between zones, as the momentum balance has them.
@@ -175,4 +175,4 @@ TEST(Gradient, DoesNotRememberEarlierDamage) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -11,7 +11,7 @@
 #include "tests/physics/physics_checks.h"
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Kind = DiffusionBoundary::Kind;
@@ -224,4 +224,4 @@ TEST(HeatedBody, Conductances) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -12,7 +12,7 @@
 
 #include <string>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Eigen::Index;
@@ -219,4 +219,4 @@ TEST(Regression, PowersAreFilteredLikeTheRest) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Eigen::Index;
@@ -148,4 +148,4 @@ TEST(IdentificationIntervals, OfAParameterThatNothingKnowsAreWide) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Eigen::Index;
@@ -98,4 +98,4 @@ TEST(LostSamples, AreCountedAndPlaced) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

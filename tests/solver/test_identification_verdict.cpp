@@ -13,7 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using testing::HasSubstr;
@@ -363,4 +363,4 @@ INSTANTIATE_TEST_SUITE_P(Under, FaultyRecord, testing::Bool(),
                          [](const auto& row) { return row.param ? "random_motion" : "a_sweep"; });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Eigen::VectorXd;
@@ -64,4 +64,4 @@ TEST(ImpulseResponse, OfNothingOrTooLittleIsRefused) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Eigen::MatrixXd;
@@ -86,4 +86,4 @@ TEST(DenseAlgebra, ScalesColumnsByDividing) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Complex = std::complex<double>;
@@ -197,4 +197,4 @@ TEST(Noise, HasItsLevel) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -8,7 +8,7 @@
 #include "tests/physics/endochronic_laws.h"
 #include "tests/solver/loadings.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Conditions = std::array<ControlCondition, 6>;
@@ -220,4 +220,4 @@ TEST(EndochronicControl, EndsWhereTheLawCannotFollowAStress) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

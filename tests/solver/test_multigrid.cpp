@@ -11,7 +11,7 @@
 #include "solver/momentum/momentum.h"
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 Tensor random_positive(RandomNumbers& random) {
@@ -318,4 +318,4 @@ TEST_F(Multigrids, TooFewIterationsAreNotCalledConverged) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double length = 0.0762, area = 4.56e-3;  // the report's cylinder
@@ -64,4 +64,4 @@ TEST(OgdenFit, KeepsToStableMaterialsAndSaysHowFarOffTheyAre) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -6,7 +6,7 @@
 #include "solver/parallel.h"
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Parallel = WithThreads;
@@ -99,4 +99,4 @@ TEST_F(Parallel, AtLeastOneThread) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -10,7 +10,7 @@
 #include "solver/momentum/momentum_solver.h"
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 BoundaryCondition pulled(const std::string& patch) {
@@ -167,4 +167,4 @@ TEST_F(LinearSolvers, MeshesOneCellThickAreSolvedDirectly) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -7,7 +7,7 @@
 #include "physics/error.h"
 #include "solver/calibration/calibration_statistics.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 const std::vector<double> bod_time{1, 2, 3, 4, 5, 7}, bod_demand{8.3, 10.3, 19.0, 16.0, 15.6, 19.8};
@@ -147,4 +147,4 @@ TEST(ProfileIntervals, SayWhereTheModelDoesNotConverge) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

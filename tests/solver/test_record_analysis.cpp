@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Eigen::Index;
@@ -90,4 +90,4 @@ TEST(RecordAnalysis, CutsSegmentsToTheRecordAndRefusesOthers) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Damage = CellField<double>;
@@ -224,4 +224,4 @@ TEST(Relaxation, StandsStillAtAFixedPoint) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double g0 = 9.80665;
@@ -94,4 +94,4 @@ TEST(Repeatability, GivesNoIntervalsWithoutDegreesOfFreedom) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -49,4 +49,4 @@ TEST(ResidualStiffness, HoldsDeadLoadsOnlyWhereAllIsLost) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

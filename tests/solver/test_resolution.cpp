@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 TEST(Resolution, KnowsTheEnergyBeyondADistance) {
@@ -125,4 +125,4 @@ TEST(Resolution, RemarksOnceOnDirectionsAndNamesWhatTheModelAllows) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Eigen::Index;
@@ -218,4 +218,4 @@ TEST(Interpolation, IsThatOfABandLimitedSignal) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

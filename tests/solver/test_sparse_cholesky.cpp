@@ -10,7 +10,7 @@
 
 #include "tests/solver/solver_checks.h"
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 // Rows in a chain with random couplings to a few others, each held by `held`.
@@ -141,4 +141,4 @@ TEST(SparseCholesky, IsTheSameFromManyThreadsAtOnce) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

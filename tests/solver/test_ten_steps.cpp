@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <complex>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Complex = std::complex<double>;
@@ -112,4 +112,4 @@ TEST(OutputError, TermsAreInTheOrderOfTheirRatesAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
@@ -82,4 +82,4 @@ TEST(Unconverged, NamesCellsWhereTheLinearSolverIsStuck) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

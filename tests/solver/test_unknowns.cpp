@@ -9,7 +9,7 @@
 
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Kind = BoundaryCondition::Kind;
@@ -243,4 +243,4 @@ TEST(Unknowns, PlanePatchesOfTwoDirectionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

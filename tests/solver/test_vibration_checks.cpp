@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 using Eigen::Index;
@@ -156,4 +156,4 @@ INSTANTIATE_TEST_SUITE_P(VibrationChecks, BadRecord, testing::ValuesIn(spoilt),
                          [](const auto& row) { return std::string(row.param.fault); });
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

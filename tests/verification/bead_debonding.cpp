@@ -13,7 +13,7 @@
 #include <limits>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double um = 1e-6, MPa = 1e6, degree = std::numbers::pi / 180.0, toughness = 10.0;
@@ -111,4 +111,4 @@ TEST(BeadDebonding, FromACapFallsWithTheRadius) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double mm = 1e-3, E = 70e9, span = 25.0 * mm, height = 1.5 * mm, width = 1.0 * mm;
@@ -186,4 +186,4 @@ TEST(Bending, ConvergesToTheCubicFieldOfACantilever) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

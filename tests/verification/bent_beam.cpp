@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double mm = 1e-3, ell = 0.12 * mm;
@@ -85,4 +85,4 @@ TEST(BentBeam, BreaksPartOfTheWayInOneJump) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

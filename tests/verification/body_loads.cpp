@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double E = 20e9, rho = 2400.0, g = 9.81, L = 10.0;
@@ -274,4 +274,4 @@ TEST(BodyLoads, HangingBarBreaksWithItsWeight) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

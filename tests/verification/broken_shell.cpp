@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 // Concentric layers from the centre outwards; the last one is infinite.
@@ -227,4 +227,4 @@ TEST(BrokenShellOfPrisms, SlipsWithinAndLoadsTheSphereAsInTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

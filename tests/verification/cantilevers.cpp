@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double mm = 1e-3, E = 126e9, nu = 0.3, thickness = 1.0 * mm;
@@ -79,4 +79,4 @@ TEST(Cantilevers, ReleaseWhatTheirComplianceSaysAndOpenAsTheCorrectedBeam) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

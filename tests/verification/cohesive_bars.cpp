@@ -3,7 +3,7 @@
 
 #include "tests/verification/bar.h"
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 struct LawError {
@@ -63,4 +63,4 @@ TEST_P(CohesiveBarsInPlaneStress, HaveTheStrengthOfTheLaw) {
 INSTANTIATE_TEST_SUITE_P(Splits, CohesiveBarsInPlaneStress, ::testing::Values("none", "rankine"));
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

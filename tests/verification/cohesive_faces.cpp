@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 struct Point {
@@ -344,4 +344,4 @@ INSTANTIATE_TEST_SUITE_P(Rules, MixedPath,
                          [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -20,7 +20,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 struct CorrectedBeam {
@@ -328,4 +328,4 @@ TEST(BeamsWithCohesiveFaces, BendUnderALeverHalfShearedAsTheCorrectedBeam) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 const IsotropicElasticity rubber = from_young_poisson(2e6, 0.3);
@@ -402,4 +402,4 @@ TEST(FiniteFaces, GoOnFromAState) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 Mesh long_blocks(double length) {
@@ -134,4 +134,4 @@ INSTANTIATE_TEST_SUITE_P(Splits, DamageableBlocks, testing::Values("none", "spec
                          [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

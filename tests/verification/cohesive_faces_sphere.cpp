@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 // A bead in a shell of matrix, pulled outwards: separation and load of the closed form for a linear law, rigid at
@@ -208,4 +208,4 @@ TEST(SphereWithCohesiveFaces, OpensMoreExactlyInAFinerCube) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

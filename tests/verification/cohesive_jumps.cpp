@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 // As the shipped beads, of radius 1: M Gc/ft^2 = 0.66 of the radius.
@@ -91,4 +91,4 @@ TEST(CohesiveJumps, OfACoatedBeadTakeFewIterationsThoughItTurnsFreely) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double Gc = 10.0, ft = 2e6, ell = 2e-6;   // [J/m^2], [Pa], [m]
@@ -251,4 +251,4 @@ TEST(CohesiveSphere, SnapsFromTheClosedFormsRadiusOn) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <map>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double mm = 1e-3, thickness = 100.0 * mm, E = 20e9, Gc = 130.0, ft = 2.5e6, ell = 15.0 * mm;
@@ -83,4 +83,4 @@ TEST(CornerCrack, BreaksAsTheMeasuredPanel) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double Gc = 1.0;
@@ -286,4 +286,4 @@ TEST(MeanDamage, IsRefusedWhereItHasNoEnergy) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

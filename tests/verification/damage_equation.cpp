@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double Gc = 1.0, ell = 0.3, psi = 0.5;
@@ -198,4 +198,4 @@ TEST(DamageEquationVerification, SecondOrderOnPrismLayers) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 struct Outcome {
@@ -59,4 +59,4 @@ TEST(DamageTolerances, OfTheNormL2Suffices) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -3,7 +3,7 @@
 
 #include "tests/verification/bar_profiles.h"
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 // ---- Strength
@@ -279,4 +279,4 @@ TEST(DamagedBars, At2LawFromEndToEnd) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

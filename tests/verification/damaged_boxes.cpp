@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double E = 2e9, nu = 0.3, Gc = 100.0;
@@ -154,4 +154,4 @@ TEST(CrackedBinder, IsThatOfDisplacedPatches) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

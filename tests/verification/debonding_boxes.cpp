@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr std::size_t zz = 2;
@@ -358,4 +358,4 @@ TEST(MeanPaths, AreRefusedWithForcesOnTheSides) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <random>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 const IsotropicElasticity sylgard = from_young_poisson(75e6, 0.44);
@@ -170,4 +170,4 @@ INSTANTIATE_TEST_SUITE_P(Front, Splits, ::testing::Values("none", "volumetric_de
                          [](const auto& which) { return std::string(which.param); });
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

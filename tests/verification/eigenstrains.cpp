@@ -16,7 +16,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 const IsotropicElasticity glass = from_young_poisson(70e9, 0.2), epoxy = from_young_poisson(3e9, 0.35),
@@ -398,4 +398,4 @@ TEST(Eigenstrains, ShrinkingBarBreaksAsAPulledOne) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

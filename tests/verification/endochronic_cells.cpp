@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 EndochronicLaw soft_metal(bool looks_at_rate = false) {
@@ -333,4 +333,4 @@ TEST(EndochronicCells, WorkIsStoredOrHeat) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace pfdm {
+namespace pfdm::this_file {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -359,4 +359,4 @@ TEST(EndochronicPaths, OneTermIsArmstrongFrederickWithoutYieldSurface) {
 }
 
 }  // namespace
-}  // namespace pfdm
+}  // namespace pfdm::this_file

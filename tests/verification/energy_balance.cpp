@@ -4,7 +4,7 @@
 #include "tests/verification/bar.h"
 #include "tests/verification/bead.h"
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 void expect_balance(const std::string& label, double coarse, double fine, double most, double factor) {
@@ -56,4 +56,4 @@ TEST(EnergyBalance, BeadBeforeItDebonds) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

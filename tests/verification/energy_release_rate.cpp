@@ -13,7 +13,7 @@
 #include <complex>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double E = 210e9, nu = 0.3, G_exact = 2700.0;
@@ -295,4 +295,4 @@ TEST(EnergyReleaseRate, FollowsTheForemostDamage) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

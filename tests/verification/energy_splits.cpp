@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 const IsotropicElasticity steel = from_young_poisson(210e9, 0.3);
@@ -317,4 +317,4 @@ TEST(EnergySplits, TheFullTensorOperatorContainsTheIsotropicOne) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

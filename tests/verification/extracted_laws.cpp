@@ -6,7 +6,7 @@
 #include "postproc/cohesive/cohesive_law.h"
 #include "tests/verification/bar_profiles.h"
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 class Extraction {
@@ -171,4 +171,4 @@ TEST(ExtractedFromProfiles, At2) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <ctime>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double half_width = 2.5, elongation = 0.8 * 2.0 * half_width;
@@ -164,4 +164,4 @@ TEST(FiniteBead, DebondsOnTheWayTo80Percent) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double nu = 0.4999, mu = 0.5e6;
@@ -174,4 +174,4 @@ TEST(FiniteClosedForms, LongMooneyRivlinWall) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <string>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double half = 1e-3, stretch = 1.4;
@@ -106,4 +106,4 @@ TEST(FiniteEnergyRelease, IsNoneInAUniformDeformationOfWarpedCells) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

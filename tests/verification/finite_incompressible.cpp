@@ -11,7 +11,7 @@
 #include <ctime>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 // x = X + (a sin pi Y, b sin pi Z, e sin pi X): J - 1 = A B E, the product of the three slopes. e goes with 1/lambda,
@@ -173,4 +173,4 @@ TEST(FiniteIncompressible, CooksMembrane) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

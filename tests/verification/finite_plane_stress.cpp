@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 const IsotropicElasticity rubber = from_young_poisson(1.5e6, 0.49);
@@ -308,4 +308,4 @@ TEST(FinitePlaneStress, TheLinearisedBalanceOfDamagedCellsIsTheDerivative) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

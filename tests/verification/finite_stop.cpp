@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 // What is said of a cube of 1 m that is pressed on its top; empty if it bears that.
@@ -45,4 +45,4 @@ TEST(FiniteStop, SpeaksOfTractionsOnlyWhereThereAreAny) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

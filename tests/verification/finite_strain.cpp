@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 std::shared_ptr<const Material> neo_hookean(const IsotropicElasticity& elasticity) {
@@ -393,4 +393,4 @@ TEST(FiniteStrain, RotationsChangeNoEnergy) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

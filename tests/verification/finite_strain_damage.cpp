@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 const IsotropicElasticity rubber = from_young_poisson(1.5e6, 0.45);
@@ -280,4 +280,4 @@ TEST(FiniteStrainDamage, WorkOfABreakingBarIsAccountedFor) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -10,7 +10,7 @@
 #include <functional>
 #include <optional>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 // Polyurethane of Kamarei, Zeng, Dolbow, Lopez-Pamies, CMAME 448 (2026) 118449.
@@ -224,4 +224,4 @@ TEST(FiniteStrength, ABarBreaksAtItsStrength) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double nu = 0.4999, mu = 0.5e6;
@@ -208,4 +208,4 @@ TEST(FollowerPressure, IsATractionAtSmallStrain) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

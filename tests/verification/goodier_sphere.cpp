@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double half_width = 4.0;  // [R]
@@ -214,4 +214,4 @@ TEST_F(Polyhedra, DoNotLock) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -15,7 +15,7 @@
 #include <array>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr const char* all_loadings[] = {"uniform traction", "periodic", "uniform displacement"};
@@ -269,4 +269,4 @@ TEST(Homogenization, RefusesWhatIsNoBox) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 TEST(IncompressibleBinder, Debonds) {
@@ -35,4 +35,4 @@ TEST(IncompressibleBinder, Debonds) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

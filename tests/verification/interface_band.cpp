@@ -9,7 +9,7 @@
 
 #include <limits>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double ell = 20e-6, band_Gc = 100.0, matrix_Gc = 1000.0;
@@ -73,4 +73,4 @@ TEST_P(InterfaceBand, DissipatesItsApparentToughness) {
 INSTANTIATE_TEST_SUITE_P(Laws, InterfaceBand, ::testing::Values("AT1", "AT2"));
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 enum class Load { tension, shear };
@@ -227,4 +227,4 @@ TEST_P(BrokenLayer, OfGradedStiffnessTransmitsTheSeriesStress) {
 INSTANTIATE_TEST_SUITE_P(Laminate, BrokenLayer, loads_and_cells, [](const auto& test) { return name_of(test.param); });
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

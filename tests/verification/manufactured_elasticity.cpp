@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 struct Wave {
@@ -178,4 +178,4 @@ TEST(ManufacturedElasticity, TakesAtMostTwiceTheIterationsOf03At044) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double mm = 1e-3;
@@ -167,4 +167,4 @@ TEST(NotchedPlates, BreakWithEverySplit) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

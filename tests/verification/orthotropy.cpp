@@ -18,7 +18,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double GPa = 1e9;
@@ -223,4 +223,4 @@ TEST(Orthotropy, ConstantsWithoutAPositiveEnergyAreRefused) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

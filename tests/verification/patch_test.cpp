@@ -12,7 +12,7 @@
 #include <cmath>
 #include <map>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 const Tensor general_slope = (Tensor() << 1.0, 0.3, -0.2, 0.1, -0.7, 0.4, 0.25, -0.15, 0.6).finished() * 1e-3;
@@ -267,4 +267,4 @@ INSTANTIATE_TEST_SUITE_P(OneCellThick, PlaneStrain, on_thin_meshes, thin_name);
 INSTANTIATE_TEST_SUITE_P(OneCellThick, PlaneStress, on_thin_meshes, thin_name);
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

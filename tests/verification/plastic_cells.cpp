@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 const IsotropicElasticity steel = from_young_poisson(210e9, 0.3);
@@ -138,4 +138,4 @@ TEST(PlasticCells, AThickWalledSphereIsHills) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double radius = 12e-3, height = 3e-3, mu = 1e6, nu = 0.4995, azimuth = std::numbers::pi / 36.0;
@@ -199,4 +199,4 @@ TEST(RubberBlocks, AffineMapsAreExactOnEveryKindOfCell) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

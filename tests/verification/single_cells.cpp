@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double side = 1e-3, Gc = 100.0, ell = 5e-3, k = 1e-6;
@@ -158,4 +158,4 @@ TEST(Columns, OneCellWideResistTorsion) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

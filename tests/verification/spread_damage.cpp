@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double E = 30e9, Gc = 100.0, ell = 2e-3, h = ell / 4.0;
@@ -101,4 +101,4 @@ TEST(ToughnessPerturbation, IsSmallAndOfItsSeed) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

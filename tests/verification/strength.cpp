@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 // Soda-lime glass of Kamarei, Zeng, Dolbow, Lopez-Pamies, CMAME 448 (2026) 118449.
@@ -196,4 +196,4 @@ TEST(Strength, ALongCrackDissipatesItsToughness) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double mm = 1e-3, Gc = 2700.0, ell = 0.04 * mm, h = ell / 2, thickness = 1.0 * mm;
@@ -84,4 +84,4 @@ TEST(SurfingCrack, FollowsTheFieldAndDissipatesItsToughness) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

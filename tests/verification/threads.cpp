@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 struct Outcome {
@@ -69,4 +69,4 @@ TEST(Threads, ChangeNothing) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 using Complex = std::complex<double>;
@@ -374,4 +374,4 @@ TEST(VibratingBodies, PowerOfAPlateIsItsHeat) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pfdm::verification {
+namespace pfdm::verification::this_file {
 namespace {
 
 constexpr double E = 30e9, Gc = 100.0, ell = 5e-3, side = 10e-3;
@@ -112,4 +112,4 @@ TEST(ViscousDamage, IsRefusedWithoutTimeAndWithAPrescribedDissipation) {
 }
 
 }  // namespace
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::this_file

@@ -19,7 +19,6 @@ namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
-using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double g0_squared = standard_gravity * standard_gravity;
@@ -61,7 +60,7 @@ double highest_shown(const VibrationRecord& r, int harmonics, bool swept) {
 void write_spectrogram(const fs::path& path, const VibrationRecord& r, const Spectrogram& s, double highest) {
   SignalTable table{.remark = head_of(r, "density of the relative acceleration over time; columns: frequencies in Hz;"),
                     .columns = {{"time", "s", s.time}}};
-  for (Index k = 0; k < s.frequency.size() && s.frequency[k] <= highest; ++k)
+  for (Eigen::Index k = 0; k < s.frequency.size() && s.frequency[k] <= highest; ++k)
     table.columns.push_back({fmt::format("{:.10g}", s.frequency[k]), "m^2/s^4/Hz", s.density.row(k)});
   write_signals_csv(path, table);
 }
@@ -72,7 +71,7 @@ void write_harmonics(const fs::path& path, const VibrationRecord& r, const Track
           head_of(r, fmt::format("amplitudes that move with the driving frequency, within {:g} Hz,", t.bandwidth)),
       .columns = {
           {"time", "s", t.time}, {"driving_frequency", "Hz", t.frequency}, {"base_amplitude", "m/s^2", t.base}}};
-  for (Index h = 0; h < t.harmonics.cols(); ++h)
+  for (Eigen::Index h = 0; h < t.harmonics.cols(); ++h)
     table.columns.push_back({fmt::format("harmonic_{}", h + 1), "m/s^2", t.harmonics.col(h)});
   write_signals_csv(path, table);
 }
@@ -88,7 +87,8 @@ std::vector<ModelMisfit> write_envelopes(const fs::path& path, const VibrationRe
     misfits.push_back({model.name, prediction_misfit(model.parameters, r, crop)});
     const VectorXd response = predicted_response(model.parameters, r);
     const VectorXd hull = response.allFinite() ? envelope(response) : response;
-    table.columns.push_back({model.name, "m/s^2", hull(Eigen::seqN(Index{0}, t.time.size(), tracker_stride(r.rate)))});
+    table.columns.push_back(
+        {model.name, "m/s^2", hull(Eigen::seqN(Eigen::Index{0}, t.time.size(), tracker_stride(r.rate)))});
   }
   write_signals_csv(path, table);
   return misfits;
@@ -115,12 +115,12 @@ AnalysedRecord summary_of(const VibrationTest& test, const VibrationRecord& r, c
                    .resolution = r.rate / static_cast<double>(a.segments.length),
                    .misfits = {}};
   if (a.tracked) {
-    const Index at = a.tracked->at_resonance();
+    const Eigen::Index at = a.tracked->at_resonance();
     s.sine_amplitude = a.tracked->median_base();
     s.resonance = {a.tracked->frequency[at], a.tracked->harmonics(at, 0) / a.tracked->base[at]};
     return s;
   }
-  for (Index i = 0; i < a.spectra.frequency.size(); ++i)
+  for (Eigen::Index i = 0; i < a.spectra.frequency.size(); ++i)
     if (const double f = a.spectra.frequency[i], H = std::abs(a.H1[i]);
         f >= r.band_low && f <= r.band_high && a.coherence[i] > 0.5 && H > s.resonance.response)
       s.resonance = {f, H};

@@ -12,7 +12,7 @@ namespace {
 constexpr Range count{0.0, 1e6, false, "between 0 and 1000000"};
 constexpr Range exponent{0.0, 4.0, false, "between 0 and 4"};
 constexpr Range decibel{-20.0, 200.0, false, "between -20 and 200"};
-constexpr Range part{0.0, 0.4, false, "between 0 and 0.4"};
+constexpr Range less_than_half{0.0, 0.4, false, "between 0 and 0.4"};
 constexpr Range open_fraction{0.0, 1.0, true, "above 0 and below 1"};
 constexpr Range samples{16.0, 16777216.0, false, "between 16 and 16777216"};
 constexpr Range run_number{1.0, 1e6, false, "between 1 and 1000000"};
@@ -226,7 +226,7 @@ const KeyTable& identification_keys() {
            "Number of kernel terms, or auto: by BIC."},
           stored<&F::maximum_kernel_order>("maximum_kernel_order", whole(up_to_six),
                                            "Largest number of kernel terms that auto tries."),
-          stored<&F::crop>("crop", number(part), "Fraction of each record that is left out at either end."),
+          stored<&F::crop>("crop", number(less_than_half), "Fraction of each record that is left out at either end."),
           stored<&F::replicates>("replicates", whole(count), "Number of bootstrap replicates for the intervals."),
           stored<&F::confidence>("confidence", number(open_fraction), "Confidence level of the intervals."),
           stored<&F::seed>("seed", whole(count), "Seed of the bootstrap."),

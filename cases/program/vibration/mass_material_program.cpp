@@ -23,7 +23,6 @@ namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
-using Eigen::Index;
 using Eigen::VectorXd;
 
 /// What a run needs beyond what a fit does.
@@ -113,7 +112,9 @@ std::string remark(const MassMaterialProgram& program, const VibrationTest& test
                      c.structure, c.signal_to_noise ? fmt::format(", noise at -{:g} dB", *c.signal_to_noise) : "");
 }
 
-VectorXd sample_times(Index n, double rate) { return VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) / rate; }
+VectorXd sample_times(Eigen::Index n, double rate) {
+  return VectorXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) / rate;
+}
 
 void write_record(const fs::path& path, const std::string& remark, const SimulatedTest& test) {
   write_signals_csv(path, {.remark = remark,
@@ -140,7 +141,7 @@ void write_harmonics(const fs::path& path, const std::string& remark, const Vibr
 /// Densities, H1 from base to relative acceleration with its bounds, coherence; segments of 8192, half overlapping.
 void write_spectra(const fs::path& path, const std::string& remark, const VibrationRecord& r) {
   SegmentSettings segments;
-  segments.length = std::min<Index>(segments.length, r.n());
+  segments.length = std::min<Eigen::Index>(segments.length, r.n());
   const Spectra s = spectra(r.base, r.relative, r.rate, segments);
   const Eigen::VectorXcd H = frequency_response(s, ResponseEstimator::h1);
   const Bounds bounds = response_bounds(s);

@@ -16,7 +16,6 @@ namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
-using Eigen::Index;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
@@ -27,7 +26,7 @@ struct Kernels {
   std::vector<HereditaryTerm> series;
   std::vector<HereditaryTerm> kept;
   std::vector<HereditaryTerm> pencil;
-  Index n_samples = 0;  // of the impulse responses
+  Eigen::Index n_samples = 0;  // of the impulse responses
 };
 
 /// v [N] over what drives it: z' [m/s], or z [m].
@@ -53,8 +52,10 @@ Kernels kernels_of(const TenSteps& steps, double rate) {
     if (term.kept) k.kept.push_back(term.term);
   }
   const int poles = n_poles(k.kept);
-  k.n_samples = std::max({static_cast<Index>(std::lround(ten_step_duration * rate)), Index{12}, Index{6} * poles});
-  const Index stride = std::max(Index{1}, k.n_samples / 1000);  // the pencil's time grows with their number cubed
+  k.n_samples = std::max(
+      {static_cast<Eigen::Index>(std::lround(ten_step_duration * rate)), Eigen::Index{12}, Eigen::Index{6} * poles});
+  const Eigen::Index stride =
+      std::max(Eigen::Index{1}, k.n_samples / 1000);  // the pencil's time grows with their number cubed
   const double thinned = rate / static_cast<double>(stride);
   const VectorXd g = impulse_response(k.series, k.n_samples / stride, thinned);
   if (poles > 0 && g.allFinite() && g.norm() > 0.0) k.pencil = matrix_pencil(g, thinned, poles).terms;
@@ -62,10 +63,10 @@ Kernels kernels_of(const TenSteps& steps, double rate) {
 }
 
 void write_iterations(const fs::path& path, const TenSteps& steps) {
-  const auto n = static_cast<Index>(steps.iterations.size());
+  const auto n = static_cast<Eigen::Index>(steps.iterations.size());
   const auto column = [&](auto value) {
     VectorXd values(n);
-    for (Index i = 0; i < n; ++i) values[i] = value(steps.iterations[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < n; ++i) values[i] = value(steps.iterations[static_cast<std::size_t>(i)]);
     return values;
   };
   SignalTable table{.remark = fmt::format("{}: {}", remark, steps.settled ? "settled" : "not settled"),
@@ -80,10 +81,10 @@ void write_iterations(const fs::path& path, const TenSteps& steps) {
 
 void write_series(const fs::path& path, const TenSteps& steps) {
   const Units units = units_of(steps.regression.model.forcing);
-  const auto n = static_cast<Index>(steps.series.size());
+  const auto n = static_cast<Eigen::Index>(steps.series.size());
   const auto column = [&](auto value) {
     VectorXd values(n);
-    for (Index i = 0; i < n; ++i) values[i] = value(steps.series[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < n; ++i) values[i] = value(steps.series[static_cast<std::size_t>(i)]);
     return values;
   };
   write_signals_csv(

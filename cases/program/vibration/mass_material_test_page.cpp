@@ -18,7 +18,6 @@ namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
-using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double g0_squared = standard_gravity * standard_gravity;
@@ -121,7 +120,7 @@ Chart envelope_chart(const TestStory& s, bool near_resonance) {
   const double ramp = 0.5 * t.median_base();
   const auto add = [&](std::string label, const VectorXd& hull, int colour) {
     Series series{.label = std::move(label), .x = {}, .y = {}, .colour = colour};
-    for (Index i = 0; i < t.time.size(); ++i) {
+    for (Eigen::Index i = 0; i < t.time.size(); ++i) {
       if (t.base[i] < ramp || t.frequency[i] < least.value_or(0.0) || t.frequency[i] > most.value_or(1e300)) continue;
       series.x.push_back(t.frequency[i]);
       series.y.push_back(hull[i] / standard_gravity);
@@ -133,8 +132,8 @@ Chart envelope_chart(const TestStory& s, bool near_resonance) {
   for (const NamedModel& model : s.models) {
     const VectorXd response = predicted_response(model.parameters, s.record);
     if (!response.allFinite()) continue;
-    add(readable(model.name), envelope(response)(Eigen::seqN(Index{0}, t.time.size(), tracker_stride(s.record.rate))),
-        colour++);
+    add(readable(model.name),
+        envelope(response)(Eigen::seqN(Eigen::Index{0}, t.time.size(), tracker_stride(s.record.rate))), colour++);
   }
   return chart;
 }
