@@ -143,6 +143,10 @@ void Parser::add_case_options() {
       .add_option("--max-steps", line.max_steps, "stop after N load steps; --restart continues from there")
       ->check(CLI::Range(1, 1000000000).description(""))
       ->type_name("N");
+  command("run")
+      .add_option("--curve-to", line.curve_to,
+                  "also write each row of force_displacement.csv here, as to a script's pipe, when its step is done")
+      ->type_name("FILE");
   command("fit").add_flag("--strict", line.strict, "end with status 1 if the verdict on the fit is not \"sound\"");
   command("sweep").add_flag("--slurm", line.slurm, "submit the missing runs to Slurm, or collect them");
   command("sweep")

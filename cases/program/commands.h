@@ -23,7 +23,8 @@ struct CommandLine {
   bool quiet = false;
   bool laws = false;
   bool slurm = false;
-  bool strict = false;  ///< of fit
+  bool strict = false;   ///< of fit
+  std::string curve_to;  ///< of run: a file, as a script's pipe
   std::optional<std::string> prepared{};
   ExportWords exports{};      ///< of cohesive
   std::string new_directory;  ///< of init

@@ -107,6 +107,7 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
                   .log = log,
                   .strict = line.strict,
                   .slurm = line.slurm,
+                  .curve_to = line.curve_to,
                   .exports = line.exports};
   if (line.prepared)
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");
@@ -114,6 +115,8 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
   const RunnableCase runnable = read_case(file);
   for (const std::string& remark : file.config.remarks()) log.say(remark);
   if (session.results.empty()) session.results = own_results(file);
+  if (!line.curve_to.empty() && !runnable.goes_on)
+    throw InputError("--curve-to: only runs of kind \"fracture\" and \"homogenize\" have a curve that grows");
   try {
     do_job(job_of(line, runnable), session, way_on(line, runnable));
   } catch (const OtherCase& error) {

@@ -16,16 +16,6 @@ constexpr std::span<const EnergyEntry> energies{energy_entries};
 constexpr auto first_energies = energies.first(3), later_energies = energies.subspan(3);
 constexpr std::size_t n_before = 6, n_between = 3;  // columns that are no energies
 
-// Shortest digits that give the same number back.
-std::string to_line(const CurveRow& r) {
-  std::string line =
-      fmt::format("{},{},{},{},{},{}", r.step, r.load, r.displacement, r.force.x(), r.force.y(), r.force.z());
-  for (const EnergyEntry& entry : first_energies) line += fmt::format(",{}", r.energy.*entry.value);
-  line += fmt::format(",{},{},{}", r.max_damage, r.damaged_volume, r.staggered_iterations);
-  for (const EnergyEntry& entry : later_energies) line += fmt::format(",{}", r.energy.*entry.value);
-  return line + "\n";
-}
-
 const std::vector<std::string>& column_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all{"step", "load", "displacement_m", "force_x_N", "force_y_N", "force_z_N"};
@@ -55,6 +45,15 @@ CurveRow row_of(const std::vector<double>& v) {
 }  // namespace
 
 std::string curve_header() { return fmt::format("{}", fmt::join(column_names(), ",")); }
+
+std::string curve_line(const CurveRow& r) {
+  std::string line =
+      fmt::format("{},{},{},{},{},{}", r.step, r.load, r.displacement, r.force.x(), r.force.y(), r.force.z());
+  for (const EnergyEntry& entry : first_energies) line += fmt::format(",{}", r.energy.*entry.value);
+  line += fmt::format(",{},{},{}", r.max_damage, r.damaged_volume, r.staggered_iterations);
+  for (const EnergyEntry& entry : later_energies) line += fmt::format(",{}", r.energy.*entry.value);
+  return line + "\n";
+}
 
 CurveRow curve_row(const StepReport& report, Index patch, int component) {
   CurveRow row = curve_row(report);
@@ -96,7 +95,7 @@ CurveFile::CurveFile(std::filesystem::path path, Index last_step) : path_(std::m
 
 void CurveFile::write() const {
   std::string content = curve_header() + "\n";
-  for (const CurveRow& row : rows_) content += to_line(row);
+  for (const CurveRow& row : rows_) content += curve_line(row);
   write_file(path_, content);
 }
 

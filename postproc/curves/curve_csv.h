@@ -24,6 +24,8 @@ struct CurveRow {
 
 inline constexpr const char* curve_file = "force_displacement.csv";
 std::string curve_header();
+/// The row as a line of the file, with its line break: the shortest digits that give the same numbers back.
+std::string curve_line(const CurveRow& row);
 
 /// What a step is without a patch: no force, no displacement.
 CurveRow curve_row(const StepReport& report);

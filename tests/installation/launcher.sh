@@ -91,6 +91,11 @@ expect "pfdm_fracture --version" "pfdm_fracture" --version
 expect "pfdm_fracture report cases/bar" "pfdm_fracture" report cases/bar
 expect "pfdm run cases/point" "pfdm_fracture pfdm" run cases/point
 expect "pfdm run cases/bar" "pfdm_fracture pfdm" run cases/bar
+tool python3 <<'EOF'
+#!/bin/sh
+[ "$1" = -c ] || echo "python3 $* with ${PFDM_PROGRAM##*/} and ${PYTHONPATH##*/cases/}"
+EOF
+expect "python3 script.py 3 with pfdm and python" "pfdm_fracture pfdm" python script.py 3
 sleep 0.01
 touch physics/law.cpp
 expect "pfdm list" "pfdm_fracture pfdm" list

@@ -33,6 +33,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 namespace pfdm {
@@ -192,8 +193,9 @@ struct RunningCase {
   FractureRun& run;
   FractureResults& results;
   CoarseCells coarse;
-  FractureState state;   ///< the last one that was reached
-  bool goes_on = false;  ///< from a state that is in the results already
+  std::ofstream followed;  ///< by a script
+  FractureState state;     ///< the last one that was reached
+  bool goes_on = false;    ///< from a state that is in the results already
 };
 
 void record(RunningCase& c, const FractureState& now, const StepReport& report) {
@@ -202,6 +204,7 @@ void record(RunningCase& c, const FractureState& now, const StepReport& report) 
   for (const std::string& warning : c.coarse.look(now.damage)) c.session.log.warn(warning);
   for (const std::string& warning : c.results.step_done(now, report, [&] { return c.run.output(now); }))
     c.session.log.warn(warning);
+  if (c.followed.is_open()) c.followed << curve_line(c.results.last_row()) << std::flush;
   c.state = now;
   c.times.results += watch.seconds();
 }
@@ -310,6 +313,15 @@ void prepare(const FractureProgram& program, Session& session) {
   if (session.meshes) find_mesh(program, *session.meshes, session.log);
 }
 
+/// Rows of the curve for a script, which may stop reading them at any time.
+std::ofstream curve_for_script(const std::filesystem::path& file) {
+  if (file.empty()) return {};
+  std::ofstream rows(file);
+  if (!rows) throw InputError(fmt::format("--curve-to {}: this file cannot be written", file.string()));
+  rows << curve_header() << std::endl;
+  return rows;
+}
+
 void run_case(FractureProgram program, Session& session) {
   if (session.figures_only) {
     program.fracture.output.figures_only = true;
@@ -343,8 +355,15 @@ void run_case(FractureProgram program, Session& session) {
   else if (results.wait())
     say_what_is_replaced(session, program.file, program.hash, true);
   if (!session.figures_only) keep_case(program.file, session.version, session.results, results.folder());
-  RunningCase running{
-      program, session, times, run, results, CoarseCells(mesh, run.model()), last ? *last : initial, last.has_value()};
+  RunningCase running{program,
+                      session,
+                      times,
+                      run,
+                      results,
+                      CoarseCells(mesh, run.model()),
+                      curve_for_script(session.curve_to),
+                      last ? *last : initial,
+                      last.has_value()};
   solve(running);
 }
 

@@ -12,7 +12,13 @@ install(
   DESTINATION ${shared}/cases
   COMPONENT program
   PATTERN program EXCLUDE
+  PATTERN python EXCLUDE
   PATTERN results EXCLUDE)
+install(
+  DIRECTORY cases/python/pfdm
+  DESTINATION lib/python3/dist-packages
+  COMPONENT program
+  PATTERN __pycache__ EXCLUDE)
 file(GLOB scripts ${PROJECT_SOURCE_DIR}/postproc/plots/*.py)
 install(PROGRAMS ${scripts} DESTINATION ${shared}/postproc COMPONENT program)
 install(FILES README.md LICENSE CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
@@ -72,7 +78,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME pfdm)
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS fonts-liberation) # the reports'
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3-matplotlib)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib, python3-numpy, python3-pandas")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpfdm-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}: libraries and headers")
 # The libraries that the launcher installs.

@@ -1,0 +1,22 @@
+"""Cases, runs, fits and studies of pfdm, the phase-field fracture solver on cell-centred finite volumes.
+
+    import pfdm
+
+    case = pfdm.Case("cases/glass_bead_quick")
+    case["regions.interface.toughness"] = "300 J/m^2"
+    run = case.run(output="tough")
+    run.curve.plot(x="displacement_m", y="force_z_N")
+
+A case is computed by the program `pfdm` in a process of its own: results are the same to the last bit as those of the
+command line, several runs go side by side, and neither Ctrl-C nor a failing run harms the script. Quantities that go in
+are texts with units, as in case.toml ("300 J/m^2"), or quantities of pint; what comes out is in SI units.
+"""
+
+from .case import Case, Check
+from .errors import ComputationError, Error, InputError, MissingResult
+from .results import Fit, Frame, Results, open  # noqa: A004
+from .study import sweep
+from .vtu import Grid
+
+__all__ = ["Case", "Check", "ComputationError", "Error", "Fit", "Frame", "Grid", "InputError", "MissingResult",
+           "Results", "open", "sweep"]

@@ -1,0 +1,159 @@
+"""A case directory, with other values than its file has."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from .errors import InputError
+from .program import Step, call, folder_of
+from .results import Fit, Results
+from .toml_text import leaves_of, toml_piece, value_at
+
+
+@dataclass(frozen=True)
+class Check:
+    """What `pfdm check` says of a case that can be run.
+
+    Attributes:
+        text: all it says, a line each.
+        warnings: what it doubts, each with the key to change.
+    """
+
+    text: list[str]
+    warnings: list[str] = field(default_factory=list)
+
+
+class Case:
+    """A case directory with values that replace those of its file; the file itself stays as it is.
+
+    A value has its place as in case.toml: "materials.glass.poisson_ratio", "boundary[1].displacement[2]". Quantities
+    with a dimension are texts with their unit ("300 J/m^2") or quantities of pint; numbers of NumPy, lists and dicts
+    become the TOML that they stand for. Whether a value is allowed is told by check(), run() and fit().
+
+    Args:
+        where: the case directory, or a .toml file in it.
+        values: values to begin with, by key.
+
+    Raises:
+        InputError: there is no such case, or its file is no TOML.
+    """
+
+    def __init__(self, where: str | Path, values: Mapping[str, Any] | None = None) -> None:
+        path = Path(where)
+        self.file: Path = path / "case.toml" if path.is_dir() else path
+        try:
+            with self.file.open("rb") as text:
+                self._table = tomllib.load(text)
+        except OSError as error:
+            raise InputError(f"{self.file}: there is no such case: {error.strerror}") from None
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise InputError(f"{self.file}: {error}") from None
+        self._where = path
+        self.values: dict[str, Any] = dict(values or {})
+
+    @property
+    def folder(self) -> Path:
+        """The case directory."""
+        return folder_of(self._where)
+
+    @property
+    def kind(self) -> str:
+        """Kind of the case, as "fracture" or "mass_material"."""
+        return str(self._table.get("kind", ""))
+
+    @property
+    def title(self) -> str:
+        return str(self._table.get("title", ""))
+
+    def __getitem__(self, key: str) -> Any:
+        """The value of a key: as it was set here, else as it is in the file. Raises KeyError if neither has it."""
+        return self.values[key] if key in self.values else value_at(self._table, key)
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        toml_piece(value)  # raises TypeError
+        self.values[key] = value
+
+    def __delitem__(self, key: str) -> None:
+        """The key has the value of the file again."""
+        del self.values[key]
+
+    def __contains__(self, key: object) -> bool:
+        try:
+            self[str(key)]
+        except KeyError:
+            return False
+        return True
+
+    def __iter__(self) -> Iterator[str]:
+        return iter({**leaves_of(self._table), **self.values})
+
+    def __repr__(self) -> str:
+        changed = f" with {len(self.values)} other values" if self.values else ""
+        return f"<pfdm.Case {self.file}: {self.title}{changed}>"
+
+    def with_values(self, values: Mapping[str, Any]) -> Case:
+        """A copy of this case with further values."""
+        return Case(self._where, {**self.values, **values})
+
+    def words(self, job: str, output: str | Path | None = None, threads: int | None = None) -> list[str]:
+        """The words after `pfdm` that do a job on this case, as for a cluster's script."""
+        words = [job, str(self._where)]
+        for key, value in self.values.items():
+            words += ["--set", f"{key}={toml_piece(value)}"]
+        if output is not None:
+            words += ["--output", str(output)]
+        return words + (["--threads", str(threads)] if threads is not None else [])
+
+    def check(self) -> Check:
+        """What would be run: cells, unknowns, memory, steps, and what is doubtful. Solves nothing, writes nothing.
+
+        Raises:
+            InputError: what is wrong, with file, line and key.
+        """
+        lines = call(self.words("check")).splitlines()
+        warnings = [line.removeprefix("warning: ") for line in lines if line.startswith("warning: ")]
+        return Check(text=lines, warnings=warnings)
+
+    def run(self, output: str | Path | None = None, *, threads: int | None = None, restart: bool = False,
+            max_steps: int | None = None, on_step: Callable[[Step], object] | None = None) -> Results:
+        """Runs the case; earlier results in the same directory are replaced once the new run has something.
+
+        Args:
+            output: directory of the results; None: CASE/results.
+            threads: number of threads; None: all cores.
+            restart: goes on from the last complete step of an earlier run.
+            max_steps: ends after so many load steps of this run.
+            on_step: called after each load step of a case of kind "fracture" with a dict of the columns of
+                force_displacement.csv ("step", "load", "displacement_m" [m], "force_x_N" [N], ...). If it returns
+                False the run ends there, with what it has; what it raises ends the run too and is raised here.
+
+        Raises:
+            InputError, ComputationError: as for the command line. After Ctrl-C the run has ended in order, and
+            restart=True goes on.
+        """
+        words = self.words("run", output, threads)
+        words += ["--restart"] if restart else []
+        words += ["--max-steps", str(max_steps)] if max_steps is not None else []
+        call(words, on_step)
+        return self.results(output)
+
+    def fit(self, output: str | Path | None = None, *, threads: int | None = None) -> Fit:
+        """Estimates the values that the case names in [fit]; a fit that was interrupted goes on.
+
+        Raises InputError and ComputationError. A fit that is not sound raises nothing: see Fit.verdict.
+        """
+        call(self.words("fit", output, threads))
+        return self.results(output).fit
+
+    def report(self, output: str | Path | None = None) -> Path:
+        """Draws the page of the results and returns the path of report/index.html."""
+        call(self.words("report", output))
+        return self.results(output).folder / "report" / "index.html"
+
+    def results(self, output: str | Path | None = None) -> Results:
+        """What is in the results directory (None: CASE/results)."""
+        return Results(self.folder / "results" if output is None else output)

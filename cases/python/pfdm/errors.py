@@ -1,0 +1,38 @@
+"""What goes wrong, as exceptions."""
+
+from __future__ import annotations
+
+import re
+
+
+class Error(Exception):
+    """Base of what this module raises. str(error) is the message of the program."""
+
+
+class InputError(Error):
+    """A case, a key or a file that is wrong (exit status 2 of the program).
+
+    Attributes:
+        file: path of the file that the message names, or None.
+        line: number of the line in it, from 1, or None.
+        key: the key of case.toml in question, as "materials.glass.poisson_ratio", or None.
+    """
+
+    def __init__(self, message: str) -> None:
+        super().__init__(message)
+        place = re.match(r"(?P<file>[^:\n]+?)(?: with --set)?(?::(?P<line>\d+))?: ", message)
+        self.file: str | None = place["file"] if place and not message.startswith("--") else None
+        self.line: int | None = int(place["line"]) if place and place["line"] else None
+        within = re.search(r"\[(?P<table>[\w.\[\]-]+)\] (?:\"(?P<unknown>[^\"]+)\"|(?P<key>[\w.\[\]-]+):)", message)
+        of_set = re.match(r"--set (?P<key>[^:=\s]+)", message)
+        self.key: str | None = of_set["key"] if of_set else None
+        if within:
+            self.key = f"{within['table']}.{within['unknown'] or within['key']}"
+
+
+class ComputationError(Error):
+    """A computation that failed: no convergence, no memory, a full disk (exit status 1 of the program)."""
+
+
+class MissingResult(Error):
+    """A result that is not there (yet), with the command that makes it."""

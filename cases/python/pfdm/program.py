@@ -1,0 +1,102 @@
+"""The program `pfdm` as a child process."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import IO
+
+from .errors import ComputationError, Error, InputError
+
+Step = dict[str, float]
+
+_running: dict[int, subprocess.Popen[bytes]] = {}  # by the thread that waits
+
+
+def program() -> str:
+    """Path of the program: the environment's PFDM_PROGRAM, or `pfdm` on the PATH. Raises Error if there is none."""
+    found = os.environ.get("PFDM_PROGRAM") or shutil.which("pfdm")
+    if not found:
+        raise Error("the program pfdm was not found: start the script by ./pfdm python SCRIPT, install the package, or "
+                    "set PFDM_PROGRAM to the path of the program")
+    return found
+
+
+def _message(stderr: str) -> str:
+    """What the program says at last, without its name."""
+    lines = [line.removeprefix("pfdm: ") for line in stderr.splitlines() if not line.startswith("pfdm: warning: ")]
+    return "\n".join(line for line in lines if line) or "the program said nothing"
+
+
+def _follow(rows: IO[str], on_step: Callable[[Step], object]) -> bool:
+    """Calls `on_step` with each row of the curve; True if it has asked for the end by returning False."""
+    names = rows.readline().strip().split(",")
+    for line in rows:
+        step = {name: float(value) for name, value in zip(names, line.split(","), strict=True)}
+        if on_step(step) is False:
+            return True
+    return False
+
+
+def call(words: list[str], on_step: Callable[[Step], object] | None = None) -> str:
+    """Runs `pfdm WORDS...` and returns what it printed.
+
+    `on_step` is called, in the caller's thread, with each row of the curve of a run; if it returns False the run ends
+    after its present iteration, as by Ctrl-C. What it raises ends the run likewise, and is raised here.
+
+    Raises InputError for status 2, ComputationError for status 1, KeyboardInterrupt for Ctrl-C once the program has
+    ended in order.
+    """
+    with tempfile.TemporaryFile("w+", errors="replace") as out, tempfile.TemporaryFile("w+", errors="replace") as err:
+        reading, writing = os.pipe() if on_step else (-1, -1)
+        if on_step:
+            words = [*words, "--curve-to", f"/dev/fd/{writing}"]
+        # A session of its own: Ctrl-C in a terminal comes to the script alone, which passes it on.
+        process = subprocess.Popen([program(), *words], stdin=subprocess.DEVNULL, stdout=out, stderr=err,
+                                   pass_fds=(writing,) if on_step else (), start_new_session=True)
+        _running[threading.get_ident()] = process
+        stopped = False
+        try:
+            if on_step:
+                os.close(writing)
+                with os.fdopen(reading) as rows:
+                    stopped = _follow(rows, on_step)
+                    if stopped:
+                        process.send_signal(signal.SIGINT)
+            status = process.wait()
+        except BaseException:
+            process.send_signal(signal.SIGINT)
+            process.wait()
+            raise
+        finally:
+            del _running[threading.get_ident()]
+        out.seek(0)
+        err.seek(0)
+        said, complaint = out.read(), err.read()
+    if status == 2:
+        raise InputError(_message(complaint))
+    if status == 0 or (stopped and status in (130, -signal.SIGINT)):
+        return said
+    if status < 0 or status > 128:
+        raise ComputationError(f"the program was ended by signal {status - 128 if status > 128 else -status}: "
+                               f"{_message(complaint)}")
+    raise ComputationError(_message(complaint))
+
+
+def interrupt(threads: Iterable[int]) -> None:
+    """Asks the programs that these threads wait for to end in order, as Ctrl-C does."""
+    for thread in threads:
+        if process := _running.get(thread):
+            process.send_signal(signal.SIGINT)
+
+
+def folder_of(where: str | Path) -> Path:
+    """The directory of a case, given as such or as the .toml file in it."""
+    path = Path(where)
+    return path if path.is_dir() else path.parent

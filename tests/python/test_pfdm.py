@@ -1,0 +1,228 @@
+"""Tests of the module pfdm: what scripts see of cases, runs, fits and studies is what the command line makes."""
+
+import csv
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+try:
+    import numpy
+    import pandas
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+import pfdm
+
+shipped = pathlib.Path(__file__).parents[2] / "cases"
+toughness = "materials.concrete.toughness"
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def bar(self, **values):
+        """The shipped bar, coarser."""
+        coarse = {"mesh.x[0].cells": 21, "fracture.length": "12 mm", "loading.maximum_increment": 0.1}
+        return pfdm.Case(shipped / "bar_at2", {**coarse, **values})
+
+
+class Cases(Folder):
+    def test_values_are_those_of_the_file_until_they_are_set(self):
+        case = pfdm.Case(shipped / "bar_at2")
+        self.assertEqual(case[toughness], "100 J/m^2")
+        self.assertEqual(case["boundary[1].displacement[0]"], "0.1 mm")
+        self.assertIn("boundary[1].patch", list(case))
+        other = case.with_values({toughness: "120 J/m^2"})
+        self.assertEqual((case[toughness], other[toughness]), ("100 J/m^2", "120 J/m^2"))
+        del other[toughness]
+        self.assertEqual(other[toughness], "100 J/m^2")
+        with self.assertRaises(KeyError):
+            case["materials.steel.toughness"]
+        with self.assertRaises(TypeError):
+            case[toughness] = object()
+
+    def test_numbers_of_numpy_lists_and_tables_become_toml(self):
+        from pfdm.toml_text import toml_piece
+
+        self.assertEqual(toml_piece(numpy.float64(0.25)), "0.25")
+        self.assertEqual(toml_piece(numpy.array([1, 2])), "[1, 2]")
+        self.assertEqual(toml_piece({"expr": 'x "t"', "unit": "um"}), '{ expr = "x \\"t\\"", unit = "um" }')
+        self.assertEqual(toml_piece([True, "20 um", 3]), '[true, "20 um", 3]')
+
+    def test_quantities_of_pint_are_taken_with_their_unit(self):
+        class Units(str):
+            def __format__(self, spec):
+                return self if spec == "~C" else "wrong"
+
+        class Quantity:  # as pint has it
+            magnitude, units = 300.0, Units("J/m**2")
+
+        case = self.bar(**{toughness: Quantity()})
+        self.assertIn("the input is valid", case.check().text)
+
+    def test_check_tells_what_would_run_and_what_is_doubtful(self):
+        check = self.bar(**{"fracture.length": "0.5 mm"}).check()
+        self.assertIn("cells 42", check.text)
+        self.assertTrue(any("no crack would be resolved" in warning for warning in check.warnings), check.warnings)
+        self.assertFalse(self.bar().check().warnings)
+
+    def test_errors_have_file_line_and_key(self):
+        for key, value, named in [(toughness, "3 N", toughness), (toughness, 3.0, toughness),
+                                  ("materials.concrete.poisson_ratio", 0.7, "materials.concrete.poisson_ratio"),
+                                  ("materials.concrete.toughnes", "3 J/m^2", "materials.concrete.toughnes")]:
+            with self.assertRaises(pfdm.InputError) as caught:
+                self.bar(**{key: value}).check()
+            self.assertEqual(caught.exception.key, named)
+            self.assertEqual(caught.exception.file, str(shipped / "bar_at2/case.toml"))
+            self.assertGreater(caught.exception.line, 10)
+        with self.assertRaises(pfdm.InputError) as caught:
+            self.bar(**{"boundary[7].patch": "xmin"}).check()
+        self.assertEqual(caught.exception.key, "boundary[7].patch")
+        with self.assertRaises(pfdm.InputError):
+            pfdm.Case(self.folder)
+
+
+class Runs(Folder):
+    def test_are_those_of_the_command_line_to_the_last_bit(self):
+        case = self.bar(**{toughness: "120 J/m^2"})
+        run = case.run(self.folder / "script", threads=1)
+        subprocess.run([os.environ["PFDM_PROGRAM"], *case.words("run", self.folder / "line", 1)], check=True,
+                       stdout=subprocess.DEVNULL)
+        files = [self.folder / name / "force_displacement.csv" for name in ("script", "line")]
+        self.assertEqual(files[0].read_bytes(), files[1].read_bytes())
+        rows = list(csv.DictReader(files[1].read_text().splitlines()))
+        self.assertEqual(list(run.curve["force_x_N"]), [float(row["force_x_N"]) for row in rows])
+        self.assertEqual(run.curve.attrs["units"]["force_x_N"], "N")
+        self.assertEqual(run.curve.attrs["units"]["damaged_volume_m3"], "m^3")
+        self.assertEqual(run.status, "complete")
+        self.assertEqual(run.summary["cells"], 42)
+
+    def test_tell_each_step_as_it_is_done(self):
+        seen = []
+        run = self.bar().run(self.folder / "r", on_step=seen.append)
+        self.assertEqual(pandas.DataFrame(seen)["displacement_m"].tolist(), run.curve["displacement_m"].tolist())
+
+    def test_of_kinds_without_load_steps_cannot_be_followed(self):
+        with self.assertRaisesRegex(pfdm.InputError, "have a curve that grows"):
+            pfdm.Case(shipped / "endochronic_uniaxial").run(self.folder / "r", on_step=print)
+
+    def test_end_in_order_where_the_script_says_so(self):
+        run = self.bar().run(self.folder / "r", on_step=lambda step: step["step"] < 3)
+        self.assertIn("interrupted", run.status)
+        self.assertLess(run.summary["steps"], 10)
+        whole = self.bar().run(self.folder / "r", restart=True)
+        unbroken = self.bar().run(self.folder / "unbroken")
+        pandas.testing.assert_frame_equal(whole.curve, unbroken.curve, check_exact=True)
+
+    def test_pass_on_what_a_callback_raises(self):
+        def fails(step):
+            raise ZeroDivisionError(step["step"])
+
+        with self.assertRaises(ZeroDivisionError):
+            self.bar().run(self.folder / "r", on_step=fails)
+
+    def test_end_in_order_by_ctrl_c(self):
+        with self.assertRaises(KeyboardInterrupt):
+            self.bar().run(self.folder / "r", on_step=lambda step: os.kill(os.getpid(), signal.SIGINT))
+        self.assertIn("interrupted", pfdm.open(self.folder / "r").status)
+
+    def test_go_side_by_side_in_threads(self):
+        runs = {}
+
+        def make(name):
+            runs[name] = self.bar().run(self.folder / name, threads=1)
+
+        threads = [threading.Thread(target=make, args=(name,)) for name in ("a", "b")]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        pandas.testing.assert_frame_equal(runs["a"].curve, runs["b"].curve, check_exact=True)
+
+    def test_that_fail_raise_with_the_programs_words(self):
+        with self.assertRaisesRegex(pfdm.ComputationError, "converge"):
+            self.bar(**{"solver.maximum_iterations": 2, "loading.minimum_increment": 0.01}).run(self.folder / "r")
+
+    def test_have_fields_as_arrays(self):
+        run = self.bar().run(self.folder / "r")
+        frame = run.frames[-1]
+        self.assertEqual(frame.damage.shape, (42,))
+        self.assertEqual(frame.stress.shape, (42, 6))
+        self.assertAlmostEqual(float(frame.damage.max()), run.summary["max_damage"], delta=1e-6)
+        self.assertEqual(frame.grid.units["stress"], "Pa")
+        self.assertAlmostEqual(float(run.mesh.cell_data["volume"].sum()), 1e-7, delta=1e-20)
+        weak = run.mesh.regions()["weak"]
+        centres = frame.grid.cell_centres[run.mesh.cell_data["material"] == weak]
+        numpy.testing.assert_allclose(centres[:, 0], 0.05, atol=1e-9)
+        self.assertFalse(frame.damage.flags.owndata)
+        with self.assertRaisesRegex(AttributeError, "damage, "):
+            frame.nothing
+
+    def test_have_the_cells_that_meshio_reads(self):
+        try:
+            import meshio
+        except ImportError:
+            self.skipTest("without meshio")
+        run = self.bar().run(self.folder / "r")
+        mesh = run.frames[-1].grid.to_meshio()
+        again = meshio.read(run.frames[-1].path)
+        numpy.testing.assert_array_equal(mesh.cells[0].data, again.cells[0].data)
+        numpy.testing.assert_array_equal(mesh.cell_data["damage"][0], again.cell_data["damage"][0])
+
+
+class ResultsThatAreNotThere(Folder):
+    def test_name_the_command_that_makes_them(self):
+        results = pfdm.open(self.folder)
+        for get, command in [(lambda: results.summary, "pfdm run"), (lambda: results.fit, "pfdm fit"),
+                             (lambda: results.frames, "pfdm run"), (lambda: results.law, "cohesive_law.csv")]:
+            with self.assertRaisesRegex(pfdm.MissingResult, command):
+                get()
+        with self.assertRaises(pfdm.MissingResult):
+            pfdm.open(self.folder / "nowhere")
+        (self.folder / "mesh.vtu").write_text("<VTKFile/>")
+        with self.assertRaisesRegex(ValueError, "mesh.vtu"):
+            results.mesh
+
+
+class Studies(Folder):
+    def test_of_all_combinations_find_what_is_there_already(self):
+        values = {toughness: ["50 J/m^2", "100 J/m^2"], "fracture.length": ["12 mm", "16 mm"]}
+        table = pfdm.sweep(self.bar(), values, self.folder / "study", processes=2)
+        self.assertEqual(list(table[toughness]), ["50 J/m^2"] * 2 + ["100 J/m^2"] * 2)
+        # AT2: the strength goes with the square root of Gc over ell.
+        self.assertAlmostEqual(table["peak_force_N"][2] / table["peak_force_N"][0], 2**0.5, delta=0.05)
+        before = [r.folder.joinpath("summary.json").stat().st_mtime_ns for r in table["results"]]
+        pfdm.sweep(self.bar(), values, self.folder / "study", processes=2)
+        self.assertEqual([r.folder.joinpath("summary.json").stat().st_mtime_ns for r in table["results"]], before)
+        other = pfdm.sweep(self.bar(), {toughness: ["60 J/m^2"]}, self.folder / "study")
+        self.assertLess(table["peak_force_N"][0], other["peak_force_N"][0])
+
+    def test_tell_which_runs_failed(self):
+        case = self.bar(**{"loading.minimum_increment": 0.01})
+        table = pfdm.sweep(case, {"solver.maximum_iterations": [2, 5000]}, self.folder / "study")
+        self.assertTrue(table["status"][0].startswith("failed: "))
+        self.assertEqual(table["status"][1], "complete")
+
+
+class Fits(Folder):
+    def test_have_estimates_with_intervals_and_a_case(self):
+        case = pfdm.Case(shipped / "endochronic_calibration")
+        fit = case.fit(self.folder / "fit")
+        self.assertIn(fit.verdict, ("sound", "questionable"))
+        content = fit.content["parameters"]
+        self.assertEqual(list(fit.estimates["estimate"]), [p["estimate"] for p in content])
+        self.assertEqual(list(fit.correlation.columns), [p["name"] for p in content])
+        self.assertEqual(fit.case.kind, case.kind)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
