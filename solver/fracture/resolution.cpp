@@ -71,7 +71,8 @@ double front_length(const FractureModel& model, const RegionModel& region) {
 struct Sizes {
   double thickness = 0.0, ell = 1.0;  // [m]
   double width = 0.0, front = 0.0;    // [m]
-  Index n_cells = 0, n_too_thick = 0, n_fine = 0;
+  double shortest = 0.0;              // edge in the plane of the cell where that is the shortest for ell [m]
+  Index n_cells = 0, n_too_thick = 0, n_fine = 0, n_too_long = 0;
 };
 std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model) {
   std::vector<Sizes> sizes(model.regions.size());
@@ -82,6 +83,10 @@ std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model)
     if (const double h = thickness(mesh, c); h / region.ell > of_region.thickness / of_region.ell)
       of_region.thickness = h, of_region.ell = region.ell;
     of_region.n_too_thick += is_too_thick(thickness(mesh, c), region.ell) ? 1 : 0;
+    if (const double in_plane = width_in_plane(mesh, c); in_plane > (1.0 + rounding) * region.ell) {
+      of_region.shortest = of_region.n_too_long == 0 ? in_plane : std::min(of_region.shortest, in_plane);
+      ++of_region.n_too_long;
+    }
     const double along = width(mesh, c), front = front_length(model, region);
     of_region.width += along;
     of_region.front += front;
@@ -105,6 +110,15 @@ void add_words_on_thickness(const std::string& region, const Sizes& sizes, Resol
         fmt::format("{}: a crack is resolved in {} of {} cells (at most ell/{:g}); the run warns if it "
                     "enters others",
                     sizes_words, sizes.n_cells - sizes.n_too_thick, sizes.n_cells, cells_in_ell));
+}
+
+// Of a mesh one cell thick.
+void add_words_on_length(const std::string& region, const Sizes& sizes, ResolutionWords& words) {
+  if (sizes.n_cells == 0 || sizes.n_too_long < sizes.n_cells || sizes.n_too_thick == sizes.n_cells) return;
+  words.remarks.push_back(fmt::format(
+      "region \"{}\": cells are {:.3g} m long or longer in their plane, ell is {:.3g} m: cracks are resolved "
+      "along that length, not across it; the run warns of those",
+      region, sizes.shortest, sizes.ell));
 }
 
 void add_words_on_strength(const std::string& name, const RegionModel& region, ResolutionWords& words) {
@@ -160,6 +174,8 @@ ResolutionWords resolution_words(const Mesh& mesh, const FractureModel& model, s
   const std::vector<Sizes> sizes = sizes_by_region(mesh, model);
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
     add_words_on_thickness(mesh.region_names[r], sizes[r], words);
+    if (std::ranges::count(bands, mesh.region_names[r], &Band::region) == 0)
+      add_words_on_length(mesh.region_names[r], sizes[r], words);
     add_words_on_strength(mesh.region_names[r], model.regions[r], words);
   }
   for (const Band& band : bands) {
@@ -193,7 +209,39 @@ std::vector<std::string> CoarseCells::look(const CellField<double>& damage) {
         "with ell = {:.3g} m (at most ell/{:g}): smaller cells there in [mesh], or a larger length in [fracture]",
         mesh_.region_names[r], thickness(mesh_, c), x.x(), x.y(), x.z(), model_.in_cell(mesh_, c).ell, cells_in_ell));
   }
+  look_at_neighbours(damage, warnings);
   return warnings;
+}
+
+void CoarseCells::look_at_neighbours(const CellField<double>& damage, std::vector<std::string>& warnings) {
+  constexpr double largest_drop = 0.6;
+  const auto drop_at = [&](Index f) { return std::abs(damage[mesh_.owner[f]] - damage[mesh_.neighbour[f]]); };
+  const auto spacing = [&](Index f) {
+    return (mesh_.cell_centre[mesh_.owner[f]] - mesh_.cell_centre[mesh_.neighbour[f]]).norm();
+  };
+  // Steps of a crack from row to row are steeper across the rows.
+  const auto is_steepest = [&](Index f, Index cell) {
+    return std::ranges::none_of(mesh_.faces_of_cell(cell), [&](Index g) {
+      return mesh_.is_interior(g) && drop_at(g) * spacing(f) > 1.5 * drop_at(f) * spacing(g);
+    });
+  };
+  for (Index f = 0; f < mesh_.n_interior_faces(); ++f) {
+    if (!(drop_at(f) > largest_drop)) continue;
+    const Index one = mesh_.owner[f], other = mesh_.neighbour[f];
+    const RegionModel &here = model_.in_cell(mesh_, one), &there = model_.in_cell(mesh_, other);
+    const double ell = std::min(here.ell, there.ell);
+    const auto r = as_size(mesh_.region[damage[one] > damage[other] ? one : other]);
+    if (told_[r] || !here.damageable || !there.damageable || !(spacing(f) > largest_drop * ell)) continue;
+    if (!is_steepest(f, one) || !is_steepest(f, other)) continue;
+    told_[r] = true;
+    const Vector x = mesh_.face_centre[f].unaryExpr([](double v) { return std::abs(v) < 1e-15 ? 0.0 : v; });
+    warnings.push_back(fmt::format(
+        "region \"{}\": the damage changes by {:.2f} from a cell to the next, {:.3g} m apart at ({:.3g}, {:.3g}, "
+        "{:.3g}) m "
+        "with ell = {:.3g} m: the crack is not resolved (at most ell/{:g}: smaller cells there in [mesh], or a larger "
+        "length in [fracture])",
+        mesh_.region_names[r], drop_at(f), spacing(f), x.x(), x.y(), x.z(), ell, cells_in_ell));
+  }
 }
 
 std::string direction_remark(const Mesh& mesh, const FractureModel& model) {

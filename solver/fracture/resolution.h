@@ -17,7 +17,9 @@ struct ResolutionWords {
   /// zone of a law with softening, or that is too narrow for its crack's profile. A crack there would not dissipate its
   /// toughness, or its front would not be resolved.
   std::vector<std::string> warnings;
-  std::vector<std::string> remarks;  ///< of each region some of whose cells are too thick: cracks may stay out of them
+  /// Of each region some of whose cells are too thick, as cracks may stay out of them; and of each in a mesh one cell
+  /// thick whose cells are all longer than ell in its plane.
+  std::vector<std::string> remarks;
 };
 
 /// `corrects_toughness`: whether the toughness of the bands allows for what of a crack's profile lies beyond them; one
@@ -28,14 +30,18 @@ ResolutionWords resolution_words(const Mesh& mesh, const FractureModel& model, s
 /// The part of a crack's surface energy that lies farther than `distance` from its middle, over ell; of a broken bar.
 double energy_beyond(const CrackGeometry& crack, double distance);
 
-/// Cells in which a crack would not be resolved, of regions of which others are fine enough.
+/// Cells in which a crack is not resolved, of regions of which others are fine enough.
 class CoarseCells {
  public:
   CoarseCells(const Mesh& mesh, const FractureModel& model);
-  /// A warning for each region in which a crack (d > 0.5) has now entered such cells; each region is named once.
+  /// A warning for each region in which a crack (d > 0.5) has now entered cells that are too thick, or in which the
+  /// damage of neighbours more than 0.6 ell apart differs by more than 0.6, where it changes most: profiles are no
+  /// steeper than 1/ell. Each region is named once.
   std::vector<std::string> look(const CellField<double>& damage);
 
  private:
+  void look_at_neighbours(const CellField<double>& damage, std::vector<std::string>& warnings);
+
   const Mesh& mesh_;
   const FractureModel& model_;
   std::vector<Index> cells_;

@@ -50,6 +50,36 @@ TEST(Resolution, TellsOfACrackThatEntersCoarseCells) {
   EXPECT_TRUE(coarse.look(damage).empty());  // said once
 }
 
+/// Cells thin in y and 0.5 m long along x; ell is 0.3 m. Their thickness alone does not tell of a crack across x.
+TEST(Resolution, TellsOfACrackAcrossLongCells) {
+  BoxHexesSettings box;
+  box.axes = {{{{1.5, 3, 1.0}}, {{0.2, 2, 1.0}}, {{0.1, 1, 1.0}}}};
+  const Mesh mesh = make_box_hexes(box);
+  FractureModel model;
+  model.crack = &crack_geometry("AT2");
+  model.regions.resize(1);
+  model.regions[0].ell = 0.3;
+  const ResolutionWords words = resolution_words(mesh, model, {}, true);
+  EXPECT_TRUE(words.warnings.empty());
+  ASSERT_EQ(words.remarks.size(), 1u);
+  EXPECT_NE(words.remarks[0].find("cells are 0.5 m long or longer in their plane, ell is 0.3 m"), std::string::npos);
+  CellField<double> damage(as_size(mesh.n_cells()), 0.0);
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (mesh.cell_centre[c].x() < 0.5) damage[c] = 0.55;  // no steeper than 1/ell
+  CoarseCells coarse(mesh, model);
+  EXPECT_TRUE(coarse.look(damage).empty());
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (mesh.cell_centre[c].x() < 0.5) damage[c] = 0.95;
+  const std::vector<std::string> warnings = coarse.look(damage);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("the damage changes by 0.95 from a cell to the next, 0.5 m apart"), std::string::npos)
+      << warnings[0];
+  EXPECT_TRUE(coarse.look(damage).empty());  // said once
+  CoarseCells beside_glass(mesh, model);
+  model.regions[0].damageable = false;
+  EXPECT_TRUE(beside_glass.look(damage).empty());
+}
+
 /// A plane band one cell wide in z, 0.2 m thick in y, of columns whose lengths along x are given; ell is 0.1 m.
 struct PlaneBand {
   Mesh mesh;
