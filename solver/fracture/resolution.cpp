@@ -222,7 +222,7 @@ std::string direction_remark(const Mesh& mesh, const FractureModel& model) {
   }
   if (names.empty()) return {};
   const std::string where = fmt::format("region{} {}", names.size() > 1 ? "s" : "", fmt::join(names, ", "));
-  const std::string other = "smaller cells, or prisms of irregular triangles (9, 27, 37 degrees; [mesh])";
+  const std::string other = "smaller cells, or prisms of irregular triangles (within 3 degrees; [mesh])";
   if (model.stiffness_by == StiffnessBy::mean)
     return fmt::format(
         "{}: cracks at small angles to the rows of hexahedra keep to them also with fracture.stiffness_damage = "
