@@ -49,7 +49,7 @@ class CoarseCells {
 };
 
 /// What the rows of cells do to directions and surface energy of cracks, in regions of hexahedra in which they may
-/// choose a direction (tests/verification/README.md has the measurements); empty: there is no such region.
+/// choose a direction, and what to change (tests/verification/README.md has the measurements); empty: none.
 std::string direction_remark(const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm
