@@ -23,17 +23,28 @@ std::string reason(const FractureModel& model) {
     return std::ranges::any_of(model.boundary, [&](const BoundaryCondition& on) { return on.kind == kind; });
   };
   if (has(BoundaryCondition::Kind::axisymmetric)) return "a body about an axis";
-  const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) { return is_front_or_back(on); });
-  return is_plane ? "" : "a body in space";
+  return "";
+}
+
+// In space, where lines of cells do not serve.
+std::string reason_in_space(const FractureModel& model, const Unknowns& unknowns) {
+  if (elastic_body(model).loads.eigenstrain) return "in space with eigenstrains";
+  return unknowns.pressure_cells.empty() ? "in space with fewer than three cells of one material across"
+                                         : "in space with a pressure, nu above 0.47, or fewer than three cells across";
 }
 
 }  // namespace
 
-bool bends_by_one_ring(const FractureModel& model) { return !reason(model).empty(); }
-
 std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel& model) {
-  if (!bends_by_one_ring(model)) return std::nullopt;
-  const auto worst = largest_bending_error(mesh, place_unknowns(mesh, elastic_body(model)));
+  const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) { return is_front_or_back(on); });
+  std::string why = reason(model);
+  if (why.empty() && is_plane) return std::nullopt;
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
+  const LinesInSpace lines(mesh, unknowns);
+  const bool has_lines = why.empty();
+  const auto worst =
+      largest_bending_error(mesh, unknowns, [&](const BendingCell& in) { return !has_lines || !lines.cover(in); });
+  if (has_lines) why = reason_in_space(model, unknowns);
   if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
   const BendingLayers& at = worst->layers;
   const double nu = worst->poisson_ratio;
@@ -43,7 +54,7 @@ std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel
       "%: {} "
       "layers of cells up to {:.2g} m long ([mesh])",
       mesh.region_names[as_size(mesh.region[worst->cell])], at.n, at.n == 1.0 ? "" : "s", at.length, at.thickness,
-      100.0 * std::abs(worst->error), worst->error > 0.0 ? "high" : "low", at.excess(nu), at.lack(), reason(model),
+      100.0 * std::abs(worst->error), worst->error > 0.0 ? "high" : "low", at.excess(nu), at.lack(), why,
       100.0 * bearable, layers_for_it, at.thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))));
 }
 

@@ -167,6 +167,40 @@ std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unkno
   return cells;
 }
 
+// Up to an interior face that carries a node.
+Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {
+  Index n = 1;
+  for (Index face : faces)
+    for (Index at = cell; mesh.is_interior(face) && unknowns.node_beside(mesh, at, face) < 0; ++n) {
+      at = mesh.across(face, at);
+      face = opposite_face(mesh, at, face);
+      if (face < 0 || at == cell) break;
+    }
+  return n;
+}
+
+LinesInSpace::LinesInSpace(const Mesh& mesh, const Unknowns& unknowns)
+    : mesh_(mesh), unknowns_(unknowns), has_pressure_(as_size(mesh.n_cells()), 0) {
+  for (const Index c : unknowns.pressure_cells) has_pressure_[as_size(c)] = 1;
+}
+
+// Fewer have no slopes to extrapolate.
+bool LinesInSpace::cover(const BendingCell& in) const {
+  constexpr Index least_layers = 3;
+  return unknowns_.plane_normal.isZero() && !unknowns_.loads.eigenstrain && has_pressure_[as_size(in.cell)] == 0 &&
+         cells_through(mesh_, unknowns_, in.cell, in.across) >= least_layers;
+}
+
+std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns) {
+  std::vector<BendingCell> cells;
+  if (!unknowns.plane_normal.isZero()) return cells;
+  const LinesInSpace lines(mesh, unknowns);
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
+    if (std::max(at.excess(nu), at.lack()) > least_error && lines.cover(in)) cells.push_back(in);
+  });
+  return cells;
+}
+
 std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<char> bends(as_size(mesh.n_cells()), 0);
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
@@ -175,11 +209,12 @@ std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
   return bends;
 }
 
-std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns) {
+std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns,
+                                                  const std::function<bool(const BendingCell&)>& counts) {
   std::optional<BendingError> largest;
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
     const double error = at.excess(nu) - at.lack();
-    if (!largest || std::abs(error) > std::abs(largest->error))
+    if ((!largest || std::abs(error) > std::abs(largest->error)) && (!counts || counts(in)))
       largest = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error};
   });
   return largest;

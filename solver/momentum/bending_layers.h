@@ -6,6 +6,7 @@
 #include "solver/momentum/unknowns.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,26 @@ struct BendingCell {
 /// directions in which the plate is long. None in boxes that follow a mean strain.
 std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unknowns);
 
+/// Cells of one elastic zone in the line of a cell through two opposite faces, split faces being ends.
+Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces);
+
+/// Whether layers that bend have gradients along lines of cells (layer_gradients.h): in space, with at least three
+/// cells of one zone across, without pressures and eigenstrains.
+class LinesInSpace {
+ public:
+  LinesInSpace(const Mesh& mesh, const Unknowns& unknowns);
+  bool cover(const BendingCell& in) const;
+
+ private:
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+  std::vector<char> has_pressure_;
+};
+
+/// Those of cells_of_layers() that LinesInSpace cover and that gradients of one ring would bend with an error of more
+/// than half a per cent.
+std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns);
+
 /// Per cell, nonzero for hexahedra in bodies at least three times as long as thick whose layers would bend with an
 /// error of more than half a per cent. None in boxes that follow a mean strain.
 std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns);
@@ -49,8 +70,9 @@ struct BendingError {
   double error = 0.0;  ///< bending stiffness over the exact one, less 1
 };
 
-/// Where hexahedra in bodies at least three times as long as thick would bend with the largest error; empty without
-/// such bodies. None in boxes that follow a mean strain.
-std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns);
+/// Where hexahedra in bodies at least three times as long as thick, of those that count if it is given, would bend with
+/// the largest error; empty without such bodies. None in boxes that follow a mean strain.
+std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns,
+                                                  const std::function<bool(const BendingCell&)>& counts = {});
 
 }  // namespace pfdm

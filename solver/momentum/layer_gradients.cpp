@@ -35,14 +35,17 @@ class LayerGradients::Maker {
       : mesh_(mesh), unknowns_(unknowns), links_(links), made_(made), sides_of_(as_size(mesh.n_cells())) {
     for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[as_size(sides[k].cell)].emplace_back(sides[k].face, k);
     made.changes_.assign(sides.size(), Tensor::Zero());
-    made.weights_.assign(links.size(), Tensor::Identity());
+    made.sound_weights_.assign(links.size(), Tensor::Identity());
+    made.counting_ = CellField<double>(as_size(mesh.n_cells()), 1.0);
+    made.is_covered_ = CellField<char>(as_size(mesh.n_cells()), 0);
+    for (const momentum_faces::Link& link : links) made.cells_of_link_.push_back({link.P, link.N});
     made.is_weighed_.assign(links.size(), 0);
   }
 
   void add(const BendingCell& in) {
-    if (cells_through(in.cell, in.across) < least_layers) return;
     if (made_.cells_.empty() || made_.cells_.back().cell != in.cell) {
-      made_.cells_.push_back({in.cell, made_.lines_.size(), 0});
+      made_.cells_.push_back({.cell = in.cell, .first_line = made_.lines_.size(), .end_line = 0});
+      made_.is_covered_[in.cell] = 1;
       has_line_.clear();
       has_surface_.clear();
     }
@@ -50,7 +53,7 @@ class LayerGradients::Maker {
     add_line(in.cell, in.along);
     made_.cells_.back().end_line = made_.lines_.size();
     for (const Index face : in.across)
-      if (is_free(face)) add_surface(in.cell, face);
+      if (is_free(face) || is_split(face)) add_surface(in.cell, face);
     for (const Index face : in.along) {
       if (is_mirror(face)) add_surface(in.cell, face);
       weigh_jump(in, face);
@@ -81,6 +84,7 @@ class LayerGradients::Maker {
     return unknowns_.free_directions[as_size(node - unknowns_.n_cells)];
   }
   bool is_free(Index face) const { return !free_part(face).isZero(); }
+  bool is_split(Index face) const { return unknowns_.neighbour_node.size() > 0 && unknowns_.neighbour_node[face] >= 0; }
   bool is_mirror(Index face) const { return is_free(face) && !free_part(face).isIdentity(); }
 
   struct Place {
@@ -158,18 +162,6 @@ class LayerGradients::Maker {
          .side = *side});
   }
 
-  // Those of one have no slope to extrapolate; with two, modes of coarse meshes were far from orthogonal.
-  static constexpr int least_layers = 3;
-  int cells_through(Index cell, const FacePair& faces) const {
-    int n = 1;
-    for (Index face : faces)
-      for (Step next = beyond(cell, face); next.cell >= 0 && next.far >= 0; next = beyond(next.cell, face)) {
-        ++n;
-        face = next.far;
-      }
-    return n;
-  }
-
   // Of all cells of the line [m].
   double length_through(Index cell, const FacePair& faces) const {
     double sum = length(faces[0], faces[1]);
@@ -193,7 +185,7 @@ class LayerGradients::Maker {
     const double weight = std::min(1.0, left / (1.0 - nu) * layer * all / (distance * distance));
     const Vector line = mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]];
     const Vector within = (line - line.dot(link.n) * link.n).normalized();
-    made_.weights_[*side / 2] -= 0.5 * (1.0 - weight) * within * within.transpose();
+    made_.sound_weights_[*side / 2] -= 0.5 * (1.0 - weight) * within * within.transpose();
     made_.is_weighed_[*side / 2] = 1;
   }
 
@@ -206,15 +198,47 @@ class LayerGradients::Maker {
 };
 
 LayerGradients::LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
-                               const std::vector<momentum_faces::Link>& links, const CubicFaces& cubic) {
+                               const std::vector<momentum_faces::Link>& links, const std::vector<BendingCell>& cells)
+    : counts_(!cells.empty()) {
+  if (cells.empty()) return;
   Maker maker(mesh, unknowns, sides, links, *this);
-  for (const BendingCell& in : cells_of_layers(mesh, unknowns))
-    if (!cubic.fits(in.cell)) maker.add(in);
+  for (const BendingCell& in : cells) maker.add(in);
+  weights_ = sound_weights_;
+}
+
+// The least stiffness factor over the greatest one on the lines of a cell.
+double LayerGradients::least_factor_ratio(const Cell& in, const CellField<double>& g) const {
+  double least = g[in.cell], most = least;
+  for (std::size_t k = lines_[in.first_line].first_slope; k < lines_[in.end_line - 1].end_slope; ++k)
+    for (const std::size_t at : {slopes_[k].from, slopes_[k].to})
+      if (at < as_size(g.size())) {
+        least = std::min(least, g[static_cast<Index>(at)]);
+        most = std::max(most, g[static_cast<Index>(at)]);
+      }
+  return least / most;
+}
+
+void LayerGradients::weigh(const CellField<double>& g) {
+  constexpr double steepness = 4.0;
+  counts_ = !cells_.empty();
+  parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
+    Cell& in = cells_[as_size(i)];
+    if (in.first_line == in.end_line) return;
+    in.weight = std::max(0.0, 1.0 - steepness * (1.0 - least_factor_ratio(in, g)));
+    counting_[in.cell] = in.weight;
+  });
+  parallel_for(static_cast<Index>(weights_.size()), [&](Index i) {
+    const auto& [P, N] = cells_of_link_[as_size(i)];
+    if (is_weighed_[as_size(i)] == 0) return;
+    const double counts = std::min(counting_[P], counting_[N]);
+    weights_[as_size(i)] = counts * sound_weights_[as_size(i)] + (1.0 - counts) * Tensor::Identity();
+  });
 }
 
 void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gradients) {
   parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
     const Cell& in = cells_[as_size(i)];
+    if (in.weight == 0.0) return;
     Tensor& G = gradients[in.cell];
     const Tensor of_one_ring = G;
     for (std::size_t l = in.first_line; l < in.end_line; ++l) {
@@ -223,12 +247,13 @@ void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gr
       for (std::size_t k = line.first_slope; k < line.end_slope; ++k)
         change +=
             slopes_[k].weight_over_length * (u[slopes_[k].to] - u[slopes_[k].from] - of_one_ring * slopes_[k].step);
-      G += change * line.along.transpose();
+      G += in.weight * change * line.along.transpose();
     }
   });
   parallel_for(static_cast<Index>(surfaces_.size()), [&](Index i) {
     const Surface& at = surfaces_[as_size(i)];
-    const Tensor more = at.ratio * (gradients[at.cell] - gradients[at.next]);
+    const double counts = std::min(counting_[at.cell], counting_[at.next]);
+    const Tensor more = counts * at.ratio * (gradients[at.cell] - gradients[at.next]);
     changes_[at.side] = more - more * at.n * at.n.transpose();
   });
 }

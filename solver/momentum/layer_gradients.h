@@ -1,6 +1,6 @@
 #pragma once
-// Gradients of vibrating plates and beams in layers of hexahedra, of third order along the lines of cells through
-// opposite faces.
+// Gradients of bodies in layers of hexahedra that bend, vibrating ones and others in space, of third order along the
+// lines of cells through opposite faces.
 //
 // With the gradients of one ring (momentum.h) n layers leave out the bending within each of them, (3 - 2/n)/n^2 of the
 // stiffness, less in torsion; the jump term of the faces across the span adds 1.5 (1 - nu) (h_x/h)^2 in cells of length
@@ -18,7 +18,10 @@
 //    the thickness of the layer, h that of all and d the distance of the cells' centres: 0.06/n of the stiffness is
 //    left. The others keep theirs; so twisting shears the faces beside free edges in full.
 //
-// Linear fields remain exact.
+// Linear fields remain exact. Split faces are free surfaces whose node moves.
+//
+// Damage: the lines of a cell count as much as the stiffness factors of the cells on them agree, none if one has less
+// than three quarters of another's; a jump counts as that of one ring does by the lesser of both cells.
 
 #include "mesh/mesh.h"
 #include "solver/momentum/bending_layers.h"
@@ -32,12 +35,17 @@ namespace pfdm {
 class LayerGradients {
  public:
   LayerGradients() = default;
-  /// Of three layers or more that bend (bending_layers.h) and have no cubic fits. Sides 2 i and 2 i + 1 are those of
-  /// link number i.
+  /// Of these cells, those of one after the other (bending_layers.h). Sides 2 i and 2 i + 1 are those of link number i.
   LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
-                 const std::vector<momentum_faces::Link>& links, const CubicFaces& cubic);
+                 const std::vector<momentum_faces::Link>& links, const std::vector<BendingCell>& cells);
 
-  bool any() const { return !cells_.empty(); }
+  bool any() const { return counts_; }
+  /// Whether a cell has lines, whatever they count.
+  bool cover(Index cell) const { return any() && is_covered_[cell] != 0; }
+  /// How much the lines of each cell count, by the stiffness factors g.
+  void weigh(const CellField<double>& g);
+  /// None counts: at finite strain, for laws by strain, and for materials with a history.
+  void leave_out() { counts_ = false; }
   /// Whether the jump at a link has a weight of its own.
   bool weighs(std::size_t link) const { return any() && is_weighed_[link] != 0; }
   /// Turns the gradients of one ring of the displacements u into those along the lines, and finds what differs at
@@ -63,6 +71,7 @@ class LayerGradients {
   struct Cell {
     Index cell;
     std::size_t first_line, end_line;
+    double weight = 1.0;
   };
   struct Surface {
     Index cell, next;
@@ -73,12 +82,18 @@ class LayerGradients {
 
   class Maker;
 
+  double least_factor_ratio(const Cell& in, const CellField<double>& g) const;
+
   std::vector<Cell> cells_;
   std::vector<Line> lines_;
   std::vector<Slope> slopes_;
   std::vector<Surface> surfaces_;
-  std::vector<Tensor> changes_;  // per side [-]
-  std::vector<Tensor> weights_;  // per link [-]
+  std::vector<Tensor> changes_;                  // per side [-]
+  std::vector<Tensor> sound_weights_, weights_;  // per link [-]
+  std::vector<std::array<Index, 2>> cells_of_link_;
+  CellField<double> counting_;  // weight of each cell's lines, 1 where it has none
+  CellField<char> is_covered_;
+  bool counts_ = false;
   std::vector<char> is_weighed_;
 };
 

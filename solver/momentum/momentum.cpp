@@ -62,6 +62,7 @@ MomentumOperator::MomentumOperator(const Mesh& mesh, const Unknowns& unknowns)
   if (pressure_.any()) flux_.resize(forces_.size());
   list_forces_of_cells();
   cubic_ = CubicFaces(mesh, unknowns, sides_by_turn());
+  layers_ = LayerGradients(mesh, unknowns, sides_by_turn(), links_, cells_with_lines(mesh, unknowns));
   bonded_ = BondedSides(mesh, unknowns, sides_, [&](Index c) { return !cubic_.fits(c); });
   bonded_gradients_.resize(bonded_.size());
 }
@@ -163,7 +164,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
   find_initial_stress();
   if (has_linear_stress()) condense(linear_stress_);
   gradient_.update(g, part);
-  has_linear_stress() ? cubic_.leave_out() : cubic_.weigh(g);
+  has_linear_stress() ? leave_out_third_order() : weigh_third_order(g);
   parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
     Link& link = links_[as_size(i)];
     const IsotropicElasticity &P = moduli_[link.P], &N = moduli_[link.N];
@@ -176,8 +177,7 @@ void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, 
     link.c_t = a_t * link.weight_t;
     link.jump_n = jump_stiffness(link.P, link.N, h_P, h_N, link.c_n);
     link.jump_t = slip_stiffness(link.P, link.N, link.c_n, link.c_t);
-    if (has_relaxed_flat_cells_ && !(cubic_.fits(link.P) && cubic_.fits(link.N)) && !layers_.weighs(as_size(i)))
-      link.jump_t *= bending_part(link);
+    if (has_relaxed_flat_cells_ && !is_of_third_order(as_size(i))) link.jump_t *= bending_part(link);
   });
   parallel_for(static_cast<Index>(sides_.size()), [&](Index i) {
     Side& side = sides_[as_size(i)];

@@ -10,7 +10,8 @@
 // boundary carry u_f itself: each side has t_c = sigma_c n + a_c (u_f - u_c - G_c d_c).
 //
 // Where few layers of hexahedra bend at small strain, sigma_P is that of the mean gradient over the face of a cubic
-// fit, and G_P d_P the rise of that fit (cubic_faces.h), on interface and boundary faces too.
+// fit, and G_P d_P the rise of that fit (cubic_faces.h), on interface and boundary faces too. In space G is that along
+// lines of cells, and J has the weight W (layer_gradients.h); t_P is then that of a gap of b (a+b)^-1 W J.
 //
 // Axisymmetric meshes (a sector one cell wide): the gradient also has the hoop strain u_r / r, and the two faces of the
 // sector act on the cell with the hoop stress sigma_phi: -2 sin(half the angle) A sigma_phi along r.
@@ -383,6 +384,18 @@ class MomentumOperator {
   double jump_stiffness(Index P, Index N, double h_P, double h_N, double full) const;
   double slip_stiffness(Index P, Index N, double c_n, double c_t) const;
   double bending_part(const Link& link) const;
+  void leave_out_third_order() {
+    cubic_.leave_out();
+    layers_.leave_out();
+  }
+  void weigh_third_order(const CellField<double>& g) {
+    cubic_.weigh(g);
+    layers_.weigh(g);
+  }
+  bool is_of_third_order(std::size_t link) const {
+    const auto& [P, N] = std::pair(links_[link].P, links_[link].N);
+    return (cubic_.fits(P) && cubic_.fits(N)) || (layers_.cover(P) && layers_.cover(N)) || layers_.weighs(link);
+  }
   // The weight of P's side, c and (a + b)^-1 of link i, and a of side i, times v.
   Vector weigh(std::size_t i, const Vector& v) const {
     return is_isotropic() ? scale(links_[i].weight_n, links_[i].weight_t, links_[i].n, v) : link_tensors_[i].weight * v;
@@ -415,13 +428,14 @@ class MomentumOperator {
   template <class Stress>
   double part_energy(Index cell, const Stress& stress_of, const Tensor& strain, const FaceField<Vector>& u_face,
                      const std::vector<Vector>& u) const;
+  Vector gap(Index cell, const Vector& d, std::size_t turn, const Vector& move, const std::vector<Vector>& u) const;
   Vector seen_from(Index cell, Index face, const FaceField<Vector>& u_face, const std::vector<Vector>& u) const;
 
   const Mesh& mesh_;
   const Unknowns& unknowns_;
   Gradient gradient_;
   mutable CubicFaces cubic_;       // its sides are numbered as face_turns_
-  mutable LayerGradients layers_;  // likewise; empty unless flat cells are relaxed
+  mutable LayerGradients layers_;  // likewise
   CellField<IsotropicElasticity> moduli_;
   CellField<double> jump_share_;  // lambda_s + 2 mu over lambda + 2 mu, undamaged; 1 except in polyhedra
   CellField<double> liquidity_;   // 0 to 1: how closed (without shear stiffness) the crack of a polyhedron is

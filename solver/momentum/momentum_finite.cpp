@@ -53,7 +53,7 @@ void MomentumOperator::set_finite(const FiniteLawAt& law, const CellField<double
       if (jump_share_[link.P] < 1.0 || jump_share_[link.N] < 1.0) jump_turns_.resize(links_.size());
   }
   gradient_.update(g, part);
-  cubic_.leave_out();
+  leave_out_third_order();
   pressure_.weigh(g);
   moved_faces_.weigh(g);
   reconstruct(u);

@@ -69,7 +69,13 @@ double MomentumOperator::slip_stiffness(Index P, Index N, double c_n, double c_t
 
 void MomentumOperator::relax_flat_cells() {
   has_relaxed_flat_cells_ = true;
-  layers_ = LayerGradients(mesh_, unknowns_, sides_by_turn(), links_, cubic_);
+  // With two layers, modes of coarse meshes were far from orthogonal.
+  constexpr Index least_layers = 3;
+  std::vector<BendingCell> cells = cells_of_layers(mesh_, unknowns_);
+  std::erase_if(cells, [&](const BendingCell& in) {
+    return cubic_.fits(in.cell) || cells_through(mesh_, unknowns_, in.cell, in.across) < least_layers;
+  });
+  layers_ = LayerGradients(mesh_, unknowns_, sides_by_turn(), links_, cells);
 }
 
 // In bending, the shear strain on the faces across a plate and on those along it must agree. With the jump part alpha

@@ -29,7 +29,7 @@ Tensor stretched(const Tensor& G, const Vector& y, const Vector& n, double h) {
 void MomentumOperator::set_law(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u, bool afresh,
                                double part) {
   law_ = std::move(law);
-  cubic_.leave_out();
+  leave_out_third_order();
   gradient_.update(g, part);
   reconstruct(u);
   const auto n = as_size(mesh_.n_cells());

@@ -184,6 +184,20 @@ Vector MomentumOperator::moved_with(Index cell, Index face, const std::vector<Ve
   return u[as_size(cell)] - n.dot(u[as_size(cell)]) * n;
 }
 
+// What the displacement of a side's face, less that of the cell, is beyond the cell's own rise; without that part of
+// the jump which has no weight (layer_gradients.h).
+Vector MomentumOperator::gap(Index cell, const Vector& d, std::size_t turn, const Vector& move,
+                             const std::vector<Vector>& u) const {
+  const Vector gap = move - rise(cell, d, turn);
+  if (turn >= 2 * links_.size() || !layers_.weighs(turn / 2)) return gap;
+  const std::size_t i = turn / 2;
+  const Link& link = links_[i];
+  const Vector jump =
+      u[as_size(link.N)] + rise(link.N, link.d_N, turn_N(i)) - u[as_size(link.P)] - rise(link.P, link.d_P, turn_P(i));
+  const Vector without = jump - layers_.weight(i) * jump, towards_N = weigh(i, without);
+  return gap - (turn == turn_P(i) ? towards_N : Vector(towards_N - without));
+}
+
 // The energy of the mean strain and of what the strains of the faces differ from it; without eigenstrains, of which
 // the cell has one.
 template <class Stress>
@@ -199,9 +213,8 @@ double MomentumOperator::part_energy(Index cell, const Stress& stress_of, const 
     const Vector n = area.normalized(), d = mesh_.face_centre[f] - mesh_.cell_centre[cell];
     const Vector move = seen_from(cell, f, u_face, u) - u[as_size(cell)];
     const Tensor in_cell = varies_within_cells() ? gradient_at(cell, turn) : gradients_[cell];
-    const Vector gap = move - rise(cell, d, turn);
     const double h = bounded_height(d, n) / stiffer_at(turn);
-    const Tensor at_face = with_strain_across(cell, in_cell + gap * n.transpose() / h);
+    const Tensor at_face = with_strain_across(cell, in_cell + gap(cell, d, turn, move, u) * n.transpose() / h);
     const Tensor change = stress_of.at_face(without_eigenstrain(cell, symmetric_part(at_face))) - mean_stress;
     const Vector elastic_move = has_eigenstrain() ? (move - to_tensor(eigenstrain_[cell]) * d).eval() : move;
     varying += 0.5 * elastic_move.dot(change * area);

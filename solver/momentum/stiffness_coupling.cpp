@@ -35,7 +35,7 @@ StiffnessCoupling::StiffnessCoupling(const MomentumOperator& balance, CellField<
     const double h = d.dot(n);
     return (p.lambda * G.trace()) * n + p.mu * (G * n + G.transpose() * n) +
            MomentumOperator::scale(p.constrained_modulus() / h, p.mu / h, n,
-                                   u_f - u[as_size(cell)] - balance.rise(cell, d, turn));
+                                   balance.gap(cell, d, turn, u_f - u[as_size(cell)], u));
   };
   parallel_for(static_cast<Index>(tau_P_.size()), [&](Index i) {
     const auto& link = balance.links_[as_size(i)];
