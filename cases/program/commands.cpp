@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include "physics/machine_limits.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -101,7 +103,7 @@ struct Parser {
 };
 
 Parser::Parser() {
-  line.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  line.threads = machine_limits().processors;
   app.require_subcommand(1);
   const std::shared_ptr<CLI::FormatterBase> formatter = app.get_formatter();  // the commands take it over
   formatter->label("SUBCOMMAND", "COMMAND");
@@ -126,7 +128,7 @@ void Parser::add_case_options() {
   for (const CommandText& text : case_commands) {
     CLI::App& of = command(text.name);
     of.add_option("CASE", line.case_directory, "the case directory, or a .toml file in it")->required()->type_name("");
-    of.add_option("--threads", line.threads, "number of threads (default: all cores)")
+    of.add_option("--threads", line.threads, "number of threads (default: all cores that a control group leaves)")
         ->check(CLI::Range(1, most_threads()).description(""))
         ->type_name("N");
     of.add_option("--set", line.set, "another value for a key of the case; may be repeated")

@@ -94,6 +94,13 @@ void do_job(const std::function<void(Session&)>& job, Session& session, const st
   }
 }
 
+/// Parts of the program that know no file speak of interfaces and patches: the case is named before what they say.
+std::string with_place(const std::string& message, const CaseFile& file) {
+  const bool names_one = message.find('/') < message.find(": ") || message.starts_with("--");
+  if (names_one || message.find(".toml") != std::string::npos) return message;
+  return fmt::format("{}: {}", (file.directory / (file.stem + ".toml")).string(), message);
+}
+
 void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool terminal) {
   set_threads(line.threads);
   Log log(out, err, terminal, line.quiet);
@@ -112,17 +119,19 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
   if (line.prepared)
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");
   const CaseFile file = with_overrides(open_case_or_name_nearest(line.case_directory), line.set);
-  const RunnableCase runnable = read_case(file);
-  for (const std::string& remark : file.config.remarks()) log.say(remark);
-  if (session.results.empty()) session.results = own_results(file);
-  if (!line.curve_to.empty() && !runnable.goes_on)
-    throw InputError("--curve-to: only runs of kind \"fracture\" and \"homogenize\" have a curve that grows");
   try {
+    const RunnableCase runnable = read_case(file);
+    for (const std::string& remark : file.config.remarks()) log.say(remark);
+    if (session.results.empty()) session.results = own_results(file);
+    if (!line.curve_to.empty() && !runnable.goes_on)
+      throw InputError("--curve-to: only runs of kind \"fracture\" and \"homogenize\" have a curve that grows");
     do_job(job_of(line, runnable), session, way_on(line, runnable));
+    say_next(line, runnable, log);
   } catch (const OtherCase& error) {
     throw InputError(error.what() + words_on_changes(file, session.results));
+  } catch (const InputError& error) {
+    throw InputError(with_place(error.what(), file));
   }
-  say_next(line, runnable, log);
 }
 
 void do_init(const CommandLine& line, std::ostream& out) {

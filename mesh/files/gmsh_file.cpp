@@ -159,11 +159,10 @@ class GmshReader {
   const ElementType& type_of(int gmsh, std::uint64_t element) const {
     const auto* const found = std::ranges::find(element_types, gmsh, &ElementType::gmsh);
     if (found == std::end(element_types))
-      throw in_.error(
-          fmt::format("the element {} is of Gmsh's type {}; supported are points (15), lines (1), triangles (2), "
-                      "quadrilaterals (3), tetrahedra (4), hexahedra (5), prisms (6) and pyramids (7), none of second "
-                      "or higher order (Mesh.ElementOrder = 1)",
-                      element, gmsh));
+      throw in_.error(fmt::format(
+          "the element {} is of Gmsh's type {}; supported are types 1 to 7 and 15: points, lines, triangles, "
+          "quadrilaterals and cells of first order (Mesh.ElementOrder = 1)",
+          element, gmsh));
     return *found;
   }
 

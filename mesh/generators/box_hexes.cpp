@@ -9,11 +9,14 @@
 
 #include "mesh/patch_rules.h"
 #include "physics/error.h"
+#include "physics/machine_limits.h"
 
 namespace pfdm {
 namespace {
 
 using Position = std::array<Index, 3>;  // of a node in the grid
+
+constexpr double bytes_of_a_cell = 5.7e3;  // of a run, by its three faces; what `check` says
 
 class BoxGrid {
  public:
@@ -26,6 +29,7 @@ class BoxGrid {
     }
     if (cells * 24.0 > std::numeric_limits<Index>::max())
       throw InputError(fmt::format("the box would have about {:.3g} cells, too many to number", cells));
+    require_memory(bytes_of_a_cell * cells, fmt::format("the box of about {:.3g} cells", cells));
   }
 
   Index n_cells(std::size_t axis) const { return static_cast<Index>(nodes_[axis].size()) - 1; }

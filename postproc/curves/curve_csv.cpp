@@ -1,6 +1,5 @@
 #include "postproc/curves/curve_csv.h"
 
-#include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 
 #include <fmt/format.h>
@@ -40,6 +39,19 @@ CurveRow row_of(const std::vector<double>& v) {
   for (std::size_t i = 0; i < first_energies.size(); ++i) row.energy.*first_energies[i].value = v[n_before + i];
   for (std::size_t i = 0; i < later_energies.size(); ++i) row.energy.*later_energies[i].value = v[later + i];
   return row;
+}
+
+std::string lines_of(std::span<const CurveRow> rows) {
+  std::string lines;
+  for (const CurveRow& row : rows) lines += curve_line(row);
+  return lines;
+}
+
+std::vector<CurveRow> rows_up_to(Index last_step, const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return {};
+  std::vector<CurveRow> rows = read_curve(path);
+  std::erase_if(rows, [=](const CurveRow& row) { return row.step > last_step; });
+  return rows;
 }
 
 }  // namespace
@@ -85,18 +97,18 @@ std::vector<CurveRow> read_curve(const std::filesystem::path& path) {
   return rows;
 }
 
-CurveFile::CurveFile(std::filesystem::path path) : path_(std::move(path)) { write(); }
+CurveFile::CurveFile(std::filesystem::path path, std::vector<CurveRow> rows)
+    : rows_(std::move(rows)), file_(std::move(path), text()), n_written_(rows_.size()) {}
 
-CurveFile::CurveFile(std::filesystem::path path, Index last_step) : path_(std::move(path)) {
-  if (std::filesystem::exists(path_)) rows_ = read_curve(path_);
-  std::erase_if(rows_, [=](const CurveRow& row) { return row.step > last_step; });
-  write();
-}
+CurveFile::CurveFile(std::filesystem::path path) : CurveFile(std::move(path), std::vector<CurveRow>()) {}
 
-void CurveFile::write() const {
-  std::string content = curve_header() + "\n";
-  for (const CurveRow& row : rows_) content += curve_line(row);
-  write_file(path_, content);
+CurveFile::CurveFile(std::filesystem::path path, Index last_step) : CurveFile(path, rows_up_to(last_step, path)) {}
+
+std::string CurveFile::text() const { return curve_header() + "\n" + lines_of(rows_); }
+
+void CurveFile::write() {
+  file_.append(lines_of(std::span(rows_).subspan(n_written_)), [this] { return text(); });
+  n_written_ = rows_.size();
 }
 
 }  // namespace pfdm

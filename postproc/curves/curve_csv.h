@@ -1,6 +1,7 @@
 #pragma once
 // The force-displacement curve: rows of numbers, as a file that other tools rely on, and back.
 
+#include "postproc/files/growing_file.h"
 #include "solver/fracture/state.h"
 
 #include <filesystem>
@@ -36,7 +37,7 @@ CurveRow curve_row(const StepReport& report, Index patch, int component);
 /// that names file and line for anything else that is not a row.
 std::vector<CurveRow> read_curve(const std::filesystem::path& path);
 
-/// A curve that is on the disk, whole, after each write().
+/// A curve whose file has all its rows after each write().
 class CurveFile {
  public:
   /// Starts a curve without rows. Throws ComputationError if the file cannot be written, as write() does.
@@ -47,12 +48,16 @@ class CurveFile {
 
   /// The file has the row after write().
   void add(const CurveRow& row) { rows_.push_back(row); }
-  void write() const;
+  void write();
   const std::vector<CurveRow>& rows() const { return rows_; }
 
  private:
-  std::filesystem::path path_;
+  CurveFile(std::filesystem::path path, std::vector<CurveRow> rows);
+  std::string text() const;
+
   std::vector<CurveRow> rows_;
+  GrowingFile file_;
+  std::size_t n_written_ = 0;  // rows that the file has
 };
 
 }  // namespace pfdm

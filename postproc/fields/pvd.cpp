@@ -1,7 +1,6 @@
 #include "postproc/fields/pvd.h"
 
 #include "physics/error.h"
-#include "postproc/files/atomic_file.h"
 #include "postproc/files/text_file.h"
 
 #include <fmt/format.h>
@@ -31,18 +30,33 @@ std::optional<Frame> parse_row(std::string_view line) {
   return Frame{*time, std::string(line.substr(file, line.size() - row_end.size() - file))};
 }
 
+std::string row_of(const Frame& frame) {
+  return fmt::format("{}{}{}{}{}\n", row_start, frame.time, row_middle, frame.file, row_end);
+}
+
+/// Whether this is the beginning of a row over a foot that has still its last byte: see GrowingFile.
+bool is_begun(std::string_view rest) { return rest.size() > foot.size() && rest[foot.size() - 1] == '\n'; }
+
+std::vector<Frame> frames_that(const std::function<bool(const Frame&)>& keeps, const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return {};
+  std::vector<Frame> frames = read_pvd(path);
+  std::erase_if(frames, std::not_fn(keeps));
+  return frames;
+}
+
 }  // namespace
 
 std::vector<Frame> read_pvd(const std::filesystem::path& path) {
   const std::string content = read_file(path);
   std::string_view rest = content;
-  if (!rest.starts_with(head) || !rest.ends_with(foot))
-    throw InputError(fmt::format("{} is not a list of frames that this program wrote", path.string()));
-  rest = rest.substr(head.size(), rest.size() - head.size() - foot.size());
+  const InputError no_list(fmt::format("{} is not a list of frames that this program wrote", path.string()));
+  if (!rest.starts_with(head)) throw no_list;
+  rest.remove_prefix(head.size());
   std::vector<Frame> frames;
-  while (!rest.empty()) {
+  while (rest != foot && !is_begun(rest)) {
     const std::string_view line = rest.substr(0, rest.find('\n'));
     const auto frame = parse_row(line);
+    if (!frame && !rest.ends_with(foot)) throw no_list;
     if (!frame) throw InputError(fmt::format("{}: \"{}\" is not a frame", path.string(), line));
     frames.push_back(*frame);
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));
@@ -50,25 +64,20 @@ std::vector<Frame> read_pvd(const std::filesystem::path& path) {
   return frames;
 }
 
-PvdSeries::PvdSeries(std::filesystem::path path) : path_(std::move(path)) { write(); }
+PvdSeries::PvdSeries(std::filesystem::path path) : file_(std::move(path), head, foot) {}
 
 PvdSeries::PvdSeries(std::filesystem::path path, const std::function<bool(const Frame&)>& keeps)
-    : path_(std::move(path)) {
-  if (std::filesystem::exists(path_)) frames_ = read_pvd(path_);
-  std::erase_if(frames_, std::not_fn(keeps));
-  write();
-}
+    : frames_(frames_that(keeps, path)), file_(std::move(path), text(), foot) {}
 
 void PvdSeries::add(double time, const std::string& file) {
   frames_.push_back({time, file});
-  write();
+  file_.append(row_of(frames_.back()), [this] { return text(); });
 }
 
-void PvdSeries::write() const {
+std::string PvdSeries::text() const {
   std::string content(head);
-  for (const Frame& frame : frames_)
-    content += fmt::format("{}{}{}{}{}\n", row_start, frame.time, row_middle, frame.file, row_end);
-  write_file(path_, content + std::string(foot));
+  for (const Frame& frame : frames_) content += row_of(frame);
+  return content;
 }
 
 }  // namespace pfdm

@@ -1,6 +1,8 @@
 #pragma once
 // fields.pvd: the list of frames, in order of time, that ParaView opens as one animation.
 
+#include "postproc/files/growing_file.h"
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -14,10 +16,11 @@ struct Frame {
   friend bool operator==(const Frame&, const Frame&) = default;
 };
 
-/// Throws InputError if the file cannot be read or is not one of ours.
+/// What a killed run has begun to add to the list is left out. Throws InputError if the file cannot be read or is not
+/// one of ours.
 std::vector<Frame> read_pvd(const std::filesystem::path& path);
 
-/// A list of frames that is on the disk, whole, after each change.
+/// A list of frames whose file has all of them after each change.
 class PvdSeries {
  public:
   /// Starts a list without frames. Throws ComputationError if the file cannot be written, as add() does.
@@ -30,10 +33,10 @@ class PvdSeries {
   const std::vector<Frame>& frames() const { return frames_; }
 
  private:
-  void write() const;
+  std::string text() const;
 
-  std::filesystem::path path_;
   std::vector<Frame> frames_;
+  GrowingFile file_;
 };
 
 }  // namespace pfdm

@@ -1,6 +1,7 @@
 #include "postproc/files/atomic_file.h"
 
 #include "physics/error.h"
+#include "postproc/files/descriptor.h"
 #include "postproc/files/flush.h"
 #include "postproc/files/text_file.h"
 
@@ -21,30 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view partial = ".partial";
 
-[[noreturn]] void fail(const fs::path& path, int reason) {
-  throw ComputationError(fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(reason)));
-}
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-
-  int get() const { return fd_; }
-  // Network file systems may report a full disk only here.
-  void close(const fs::path& shown) {
-    const int closed = ::close(std::exchange(fd_, -1));
-    if (closed != 0) fail(shown, errno);
-  }
-
- private:
-  int fd_;
-};
-
 // Leaves no temporary file behind, whatever happens.
 struct TemporaryFile {
   fs::path path;  // empty once it has been renamed: the name may be another's by then
@@ -64,17 +41,21 @@ TemporaryFile temporary_beside(const fs::path& path) {
     const fs::path temporary = path.parent_path() / name;
     const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (fd >= 0) return {temporary, Descriptor(fd)};
-    if (errno != EEXIST) fail(path, errno);
+    if (errno != EEXIST) throw_cannot_write(path, errno);
   }
 }
 
 void rename_into_place(TemporaryFile& temporary, const fs::path& path) {
-  if (::rename(temporary.path.c_str(), path.c_str()) != 0) fail(path, errno);
+  if (::rename(temporary.path.c_str(), path.c_str()) != 0) throw_cannot_write(path, errno);
   temporary.path.clear();
   flush_when_due(path);
 }
 
 }  // namespace
+
+void throw_cannot_write(const fs::path& path, int reason) {
+  throw ComputationError(fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(reason)));
+}
 
 void write_file(const fs::path& path, std::string_view content) {
   TemporaryFile temporary = temporary_beside(path);
@@ -91,7 +72,7 @@ void replace_file(const fs::path& path, const std::function<void(const fs::path&
 
 void move_file(const fs::path& from, const fs::path& to) {
   if (::rename(from.c_str(), to.c_str()) == 0) return flush_when_due(to);
-  if (errno != EXDEV) fail(to, errno);
+  if (errno != EXDEV) throw_cannot_write(to, errno);
   write_file(to, read_file(from));
   ::unlink(from.c_str());
 }
@@ -116,7 +97,7 @@ void write_all(int descriptor, std::string_view content, const fs::path& path) {
   while (!content.empty()) {
     const ssize_t n = ::write(descriptor, content.data(), content.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(path, errno);
+    if (n < 0) throw_cannot_write(path, errno);
     content.remove_prefix(static_cast<std::size_t>(n));
   }
 }

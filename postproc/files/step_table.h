@@ -1,7 +1,8 @@
 #pragma once
-// A CSV file with a row of numbers for each load step, which is on the disk, whole, after each.
+// A CSV file with a row of numbers for each load step, which the file has after each.
 
 #include "physics/tensor.h"
+#include "postproc/files/growing_file.h"
 
 #include <filesystem>
 #include <optional>
@@ -20,16 +21,17 @@ class StepTable {
   /// One number for each column; those that are not finite are written as nan. Without `now` the file has the row after
   /// write(), or the next one.
   void append(std::vector<double> row, bool now = true);
-  void write() const;
+  void write();
   const std::vector<std::vector<double>>& rows() const { return rows_; }
   const std::vector<std::string>& names() const { return names_; }
 
  private:
-  void read(Index last_step);
+  std::string text() const;
 
-  std::filesystem::path path_;
   std::vector<std::string> names_;
   std::vector<std::vector<double>> rows_;
+  GrowingFile file_;
+  std::size_t n_written_ = 0;  // rows that the file has
 };
 
 }  // namespace pfdm

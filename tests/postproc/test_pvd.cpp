@@ -75,5 +75,30 @@ TEST(Pvd, names_the_file_that_is_not_a_list_of_frames) {
   EXPECT_THAT(message_of<InputError>([&] { read_pvd(folder / "none.pvd"); }), HasSubstr("No such file"));
 }
 
+/// The file after its first `n` bytes have been written of those that add a frame: what lies beyond the foot, then over
+/// it.
+std::string begun(const std::string& before, const std::string& after, std::size_t n) {
+  constexpr std::size_t foot = std::string_view("</Collection>\n</VTKFile>\n").size();
+  const std::size_t beyond = after.size() - before.size();
+  if (n <= beyond) return before + after.substr(before.size(), n);
+  std::string content = before + after.substr(before.size());
+  return content.replace(before.size() - foot, n - beyond, after.substr(before.size() - foot, n - beyond));
+}
+
+TEST(Pvd, a_frame_that_a_killed_run_has_begun_to_add_is_left_out) {
+  const TemporaryFolder folder;
+  PvdSeries series(folder / "fields.pvd");
+  series.add(first.time, first.file);
+  const std::string before = content_of(folder / "fields.pvd");
+  series.add(second.time, second.file);
+  const std::string after = content_of(folder / "fields.pvd");
+  for (std::size_t n = 0; begun(before, after, n) != after; ++n) {
+    put(folder / "begun.pvd", begun(before, after, n));
+    ASSERT_THAT(read_pvd(folder / "begun.pvd"), ElementsAre(first)) << n;
+  }
+  PvdSeries(folder / "begun.pvd", [](const Frame&) { return true; }).add(second.time, second.file);
+  EXPECT_EQ(content_of(folder / "begun.pvd"), after);
+}
+
 }  // namespace
 }  // namespace pfdm::test::this_file

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 namespace pfdm::this_file {
@@ -35,6 +36,25 @@ TEST(MessageText, KeepsTheEndsOfWhatIsLong) {
   for (int i = 0; i < 1000; ++i) many += "word ";
   EXPECT_LT(message_text(many).size(), 2000U);
   EXPECT_THAT(message_text(many), HasSubstr("(5000 bytes)"));
+}
+
+TEST(MessageText, LeavesOutTheEndOfALongList) {
+  const std::string place = "/home/somebody/case.toml:3:",
+                    before = place + " [mesh] \"colour\" is not known here (allowed: ";
+  std::string keys = "key_0";
+  for (int i = 1; i < 10; ++i) keys += ", key_" + std::to_string(i);
+  EXPECT_EQ(message_text(before + keys + ")"), before + keys + ")");
+  for (int i = 10; i < 60; ++i) keys += ", key_" + std::to_string(i);
+  const std::string text = message_text(before + keys + ")");
+  EXPECT_LE(text.size(), 290 + place.size());
+  EXPECT_GE(text.size(), 250 + place.size());
+  EXPECT_THAT(text, testing::StartsWith(before + keys.substr(0, 150)));
+  EXPECT_THAT(text, testing::EndsWith(" more)"));
+}
+
+TEST(MessageText, QuotesLongWordsTwiceInShort) {
+  const std::string word(500, 'y');
+  EXPECT_LE(message_text("/home/case.toml:3: \"" + word + "\": the unit \"" + word + "\" is not known").size(), 290U);
 }
 
 TEST(MessageText, CutsNoCharacter) {
@@ -68,6 +88,13 @@ TEST(Messages, OfAFileWithManyKeysComeAtOnce) {
   EXPECT_THAT(digits.err, HasSubstr("number overflow parsing"));
   EXPECT_EQ(digits.err.find("json.exception"), std::string::npos);
   EXPECT_LE(digits.err.size(), 400U);
+}
+
+TEST(Messages, NameTheCaseWhereNoLineIsKnown) {
+  const std::filesystem::path glued = std::filesystem::path(PFDM_INPUTS_DIR) / "../../../cases/cohesive_dcb";
+  const Outcome outcome = run({"check", glued.string(), "--set", "materials.composite.young_modulus=1e-290 GPa"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("case.toml: interface \"glue\": "));
 }
 
 TEST(Messages, QuoteNoControlCharactersOfACase) {

@@ -1,6 +1,7 @@
 #include "cases/program/fracture/fracture_results.h"
 
 #include "cases/program/fracture/mean_curve.h"
+#include "cases/program/session/earlier_results.h"
 #include "cases/program/session/report_parts.h"
 #include "mesh/quality.h"
 #include "postproc/cohesive/cohesive_results.h"
@@ -40,6 +41,11 @@ constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of thos
 std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", frames_folder, step); }
 
 std::string interfaces_frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", interfaces_folder, step); }
+
+bool is_frame(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with("step_") && name.ends_with(".vtu");
+}
 
 /// What other commands, and the end of the run, made of the steps that are there.
 void remove_what_was_made_of_them(const fs::path& directory) {
@@ -146,10 +152,8 @@ void remove_earlier_run(const fs::path& directory) {
     fs::remove(directory / file, ignored);
   remove_columns(directory / columns_folder);
   for (const char* folder : {frames_folder, interfaces_folder})
-    for (const auto& entry : fs::directory_iterator(directory / folder, ignored)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with("step_") && name.ends_with(".vtu")) fs::remove(entry.path(), ignored);
-    }
+    for (const auto& entry : fs::directory_iterator(directory / folder, ignored))
+      if (is_frame(entry.path())) fs::remove(entry.path(), ignored);
 }
 
 std::vector<CurveRow> read_curve_record(const fs::path& results, const std::string& case_hash) {
@@ -183,12 +187,12 @@ std::vector<StoredStep> stored_steps(const fs::path& results) { return steps_of(
 std::vector<StoredStep> stored_interfaces(const fs::path& results) { return steps_of(results, interfaces_file); }
 
 FractureResults::Files::Files(const fs::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
-                              std::optional<Index> last_step)
+                              std::optional<Index> last_step, std::optional<Index> last_frame)
     : curve(last_step ? CurveFile(folder / curve_file, *last_step) : CurveFile(folder / curve_file)),
-      frames(series_of(folder / frames_file, frame_file, last_step)) {
+      frames(series_of(folder / frames_file, frame_file, last_frame)) {
   if (!fracture.interfaces.empty()) {
     make_folder(folder / interfaces_folder);
-    interfaces.emplace(series_of(folder / interfaces_file, interfaces_frame_file, last_step));
+    interfaces.emplace(series_of(folder / interfaces_file, interfaces_frame_file, last_frame));
   }
   if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
   if (const auto& tips = fracture.output.tips; !tips.empty())
@@ -215,7 +219,14 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
   make_folder(folder() / frames_folder);
   remove_leftovers(folder() / frames_folder);
   if (fs::exists(folder() / interfaces_folder)) remove_leftovers(folder() / interfaces_folder);
-  files_.emplace(folder(), fracture, columns, last ? std::optional(last->step) : std::nullopt);
+  std::optional<Index> last_step, last_frame;
+  if (last) {
+    last_step = last->step;
+    const bool failed = status_of_earlier(directory_) != "complete";  // a frame of its end is not one that is due
+    last_frame = failed && !frame_is_due(*last) ? last->step - 1 : last->step;
+    remove_frames_beyond(*last_frame);
+  }
+  files_.emplace(folder(), fracture, columns, last_step, last_frame);
   warned_of_tip_.assign(fracture.output.tips.size(), false);
   if (!last) return;
   last_step_ = last->step;
@@ -264,6 +275,18 @@ CurveRow FractureResults::row_of(const StepReport& report) const {
                       : curve_row_of_box(report, model_.motion.size, fracture_.box->component);
 }
 
+/// What a run that failed, or was killed, wrote beyond its checkpoint.
+void FractureResults::remove_frames_beyond(Index last_frame) const {
+  std::error_code ignored;
+  std::vector<fs::path> beyond;
+  for (const std::string& last : {frame_file(last_frame), interfaces_frame_file(last_frame)}) {
+    const fs::path file = folder() / last;
+    for (const auto& entry : fs::directory_iterator(file.parent_path(), ignored))
+      if (is_frame(entry.path()) && entry.path().filename() > file.filename()) beyond.push_back(entry.path());
+  }
+  for (const fs::path& file : beyond) fs::remove(file, ignored);
+}
+
 void FractureResults::write_state(const FractureState& state) {
   write_checkpoint(folder() / checkpoint_file, state, case_hash_);
   since_written_ = {};
@@ -274,7 +297,7 @@ void FractureResults::write_state(const FractureState& state) {
 void FractureResults::take_place(const FractureState& state) {
   if (!place_.wait()) return;
   place_.take_place([this] { remove_earlier_run(directory_); }, checkpoint_file);
-  files_.emplace(folder(), fracture_, sets_, state.step);
+  files_.emplace(folder(), fracture_, sets_, state.step, state.step);
 }
 
 void FractureResults::add_energy_release(const FractureState& state, const OutputFields& output,

@@ -97,7 +97,7 @@ class FractureResults {
   /// The files that grow with the steps.
   struct Files {
     Files(const std::filesystem::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
-          std::optional<Index> last_step);
+          std::optional<Index> last_step, std::optional<Index> last_frame);
     CurveFile curve;
     PvdSeries frames;
     std::optional<ColumnFiles> columns;
@@ -108,6 +108,7 @@ class FractureResults {
 
   bool frame_is_due(const FractureState& state) const;
   bool may_wait() const;
+  void remove_frames_beyond(Index last_frame) const;
   void write_state(const FractureState& state);
   void take_place(const FractureState& state);
   void write_frame(Index step, double load, const OutputFields& output);

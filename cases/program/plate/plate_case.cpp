@@ -200,6 +200,8 @@ std::optional<PlateHeating> read_heating(const ConfigTable& root, const MeshReci
     DiffusionBoundary boundary = read_cooling(cooling, heating.surroundings);
     require_known(cooling, mesh.patches);
     for (const std::string& patch : patches_of(cooling)) {
+      if (std::ranges::find(heating.boundary, patch, &DiffusionBoundary::patch) != heating.boundary.end())
+        throw cooling.error(fmt::format("patch \"{}\" is cooled twice", patch));
       boundary.patch = patch;
       heating.boundary.push_back(boundary);
     }

@@ -7,7 +7,9 @@
 namespace pfdm {
 
 /// The message on one line, without control characters and without bytes that are no UTF-8 (as \x1b). Words that are
-/// longer than 120 bytes, paths than 250, keep their ends and tell how long they are; so does a message above 2000.
+/// longer than 120 bytes, paths than 250, keep their ends and tell how long they are; so does a message above 2000. Of
+/// a message that has more than 290 bytes beside the folders of files that it names by their whole paths, words have
+/// 45, and the end of a list of what is allowed is left out, as far as is needed.
 std::string message_text(std::string_view message);
 
 }  // namespace pfdm
