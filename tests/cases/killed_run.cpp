@@ -4,6 +4,7 @@
 #include "tests/cases/temporary_case.h"
 
 #include <fcntl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,23 +17,32 @@ namespace {
 
 int changes_left = -1;  // negative: as many as it likes
 
-void count_change(const char* path) {
-  if (changes_left < 0 || ::access(path, F_OK) != 0) return;
-  if (changes_left-- == 0) ::raise(SIGKILL);
+void count_change() {
+  if (changes_left >= 0 && changes_left-- == 0) ::raise(SIGKILL);
+}
+
+void count_change_of(const char* path) {
+  if (changes_left >= 0 && ::access(path, F_OK) == 0) count_change();
 }
 
 }  // namespace
 
 // These stand before the C library's own, for all of the executable.
 extern "C" int rename(const char* from, const char* to) noexcept {
-  count_change(from);
+  count_change_of(from);
   return ::renameat(AT_FDCWD, from, AT_FDCWD, to);
 }
 
 extern "C" int remove(const char* path) noexcept {
-  count_change(path);
+  count_change_of(path);
   if (::unlinkat(AT_FDCWD, path, 0) == 0) return 0;
   return errno == EISDIR ? ::unlinkat(AT_FDCWD, path, AT_REMOVEDIR) : -1;
+}
+
+extern "C" ssize_t pwrite(int file, const void* from, std::size_t n, off_t place) noexcept {
+  if (changes_left == 0) ::syscall(SYS_pwrite64, file, from, n / 2, place);  // killed in the middle of it
+  count_change();
+  return ::syscall(SYS_pwrite64, file, from, n, place);
 }
 
 namespace pfdm {

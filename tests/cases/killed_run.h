@@ -6,8 +6,8 @@
 
 namespace pfdm {
 
-/// Runs the program; when it has renamed or removed `changes` files it is killed before the next. Whether it was
-/// killed, that is, did not end before.
+/// Runs the program; when it has renamed, removed or extended `changes` files it is killed before the next, or when
+/// half of that extension is written. Whether it was killed, that is, did not end before.
 bool run_killed_after(int changes, const std::vector<std::string>& arguments);
 
 }  // namespace pfdm

@@ -45,3 +45,7 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${FOLDER}/consumer
     -DCMAKE_CXX_COMPILER=${CXX})
 run(${CMAKE_COMMAND} --build ${FOLDER}/consumer)
 run(${FOLDER}/consumer/bar)
+run(${FOLDER}/consumer/toughnesses ${prefix}/share/pfdm/cases/bar_at2)
+if(NOT output MATCHES "did you mean \"length\"")
+  message(FATAL_ERROR "a wrong key is not refused:\n${output}")
+endif()

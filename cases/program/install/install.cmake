@@ -42,6 +42,9 @@ endforeach()
 foreach(room files fields curves point vibration cohesive exports page browser records)
   list(APPEND libraries postproc_${room})
 endforeach()
+foreach(room input session studies fracture)
+  list(APPEND libraries program_${room})
+endforeach()
 foreach(library IN LISTS libraries)
   set_target_properties(pfdm_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS pfdm_${library} EXPORT pfdm ARCHIVE COMPONENT development)
@@ -53,6 +56,12 @@ install(
   FILES_MATCHING
   PATTERN "*.h"
   PATTERN script EXCLUDE)
+install(
+  DIRECTORY cases/program/input cases/program/session cases/program/studies cases/program/fracture
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfdm/cases/program
+  COMPONENT development
+  FILES_MATCHING
+  PATTERN "*.h")
 install(
   EXPORT pfdm
   FILE pfdmTargets.cmake
