@@ -19,6 +19,7 @@ constexpr double cells_in_ell = 2.0;  // at least: the discrete toughness is the
 constexpr double widest_in_ell = 1.25;
 constexpr double fine_share = 0.2;  // of a band's cells, if where its crack grows is meshed more finely than elsewhere
 constexpr double rounding = 1e-9;   // of sizes that come from coordinates
+constexpr double largest_drop = 0.6;  // of damage to the next cell: profiles are no steeper than 1/ell
 constexpr double long_tail = 2.0;  // half-width over ell at which a profile without end has fallen to 2 % of its energy
 
 // Extent of a cell across its largest face: of a prism layer its thickness, of a brick its shortest edge, of a
@@ -213,8 +214,21 @@ std::vector<std::string> CoarseCells::look(const CellField<double>& damage) {
   return warnings;
 }
 
+// Whether the cells beyond this face of a hexahedron, away from which damage falls, make a crack of one or two cells,
+// in contrast to the broken side of a crack's front. A boundary is taken for a mirror.
+bool CoarseCells::is_narrow(Index cell, Index face, const CellField<double>& damage) const {
+  for (int cells = 0; cells < 2; ++cells) {
+    face = opposite_face(mesh_, cell, face);
+    if (face < 0) return false;
+    if (!mesh_.is_interior(face)) return true;
+    const Index next = mesh_.across(face, cell);
+    if (damage[cell] - damage[next] > largest_drop) return true;
+    cell = next;
+  }
+  return false;
+}
+
 void CoarseCells::look_at_neighbours(const CellField<double>& damage, std::vector<std::string>& warnings) {
-  constexpr double largest_drop = 0.6;
   const auto drop_at = [&](Index f) { return std::abs(damage[mesh_.owner[f]] - damage[mesh_.neighbour[f]]); };
   const auto spacing = [&](Index f) {
     return (mesh_.cell_centre[mesh_.owner[f]] - mesh_.cell_centre[mesh_.neighbour[f]]).norm();
@@ -233,6 +247,8 @@ void CoarseCells::look_at_neighbours(const CellField<double>& damage, std::vecto
     const auto r = as_size(mesh_.region[damage[one] > damage[other] ? one : other]);
     if (told_[r] || !here.damageable || !there.damageable || !(spacing(f) > largest_drop * ell)) continue;
     if (!is_steepest(f, one) || !is_steepest(f, other)) continue;
+    if (!(spacing(f) > widest_in_ell * ell) && !is_narrow(damage[one] > damage[other] ? one : other, f, damage))
+      continue;
     told_[r] = true;
     const Vector x = mesh_.face_centre[f].unaryExpr([](double v) { return std::abs(v) < 1e-15 ? 0.0 : v; });
     warnings.push_back(fmt::format(

@@ -35,11 +35,13 @@ class CoarseCells {
  public:
   CoarseCells(const Mesh& mesh, const FractureModel& model);
   /// A warning for each region in which a crack (d > 0.5) has now entered cells that are too thick, or in which the
-  /// damage of neighbours more than 0.6 ell apart differs by more than 0.6, where it changes most: profiles are no
-  /// steeper than 1/ell. Each region is named once.
+  /// damage of neighbours differs by more than 0.6, where it changes most: profiles are no steeper than 1/ell.
+  /// Neighbours are 0.6 ell apart at least in a crack of one or two hexahedra, 1.25 ell elsewhere, as at fronts that
+  /// run along bands. Each region is named once.
   std::vector<std::string> look(const CellField<double>& damage);
 
  private:
+  bool is_narrow(Index cell, Index face, const CellField<double>& damage) const;
   void look_at_neighbours(const CellField<double>& damage, std::vector<std::string>& warnings);
 
   const Mesh& mesh_;
