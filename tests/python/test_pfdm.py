@@ -117,8 +117,8 @@ class Runs(Folder):
 
     def test_end_in_order_where_the_script_says_so(self):
         run = self.bar().run(self.folder / "r", on_step=lambda step: step["step"] < 3)
+        self.assertIn(run.summary["steps"], (3, 4))  # the run waits for the script
         self.assertIn("interrupted", run.status)
-        self.assertLess(run.summary["steps"], 10)
         whole = self.bar().run(self.folder / "r", restart=True)
         unbroken = self.bar().run(self.folder / "unbroken")
         pandas.testing.assert_frame_equal(whole.curve, unbroken.curve, check_exact=True)

@@ -16,6 +16,7 @@
 #include "cases/program/fracture/run_keys.h"
 #include "cases/program/input/kept_case.h"
 #include "cases/program/session/earlier_results.h"
+#include "cases/program/session/followed_rows.h"
 #include "cases/program/session/head_line.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/stop_signal.h"
@@ -33,7 +34,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 namespace pfdm {
@@ -193,9 +193,9 @@ struct RunningCase {
   FractureRun& run;
   FractureResults& results;
   CoarseCells coarse;
-  std::ofstream followed;  ///< by a script
-  FractureState state;     ///< the last one that was reached
-  bool goes_on = false;    ///< from a state that is in the results already
+  FollowedRows followed;  ///< by a script
+  FractureState state;    ///< the last one that was reached
+  bool goes_on = false;   ///< from a state that is in the results already
 };
 
 void record(RunningCase& c, const FractureState& now, const StepReport& report) {
@@ -204,9 +204,9 @@ void record(RunningCase& c, const FractureState& now, const StepReport& report) 
   for (const std::string& warning : c.coarse.look(now.damage)) c.session.log.warn(warning);
   for (const std::string& warning : c.results.step_done(now, report, [&] { return c.run.output(now); }))
     c.session.log.warn(warning);
-  if (c.followed.is_open()) c.followed << curve_line(c.results.last_row()) << std::flush;
   c.state = now;
   c.times.results += watch.seconds();
+  if (c.followed.are_wanted()) c.followed.write(curve_line(c.results.last_row()));
 }
 
 /// Why the run ends after this step; empty if it continues.
@@ -313,15 +313,6 @@ void prepare(const FractureProgram& program, Session& session) {
   if (session.meshes) find_mesh(program, *session.meshes, session.log);
 }
 
-/// Rows of the curve for a script, which may stop reading them at any time.
-std::ofstream curve_for_script(const std::filesystem::path& file) {
-  if (file.empty()) return {};
-  std::ofstream rows(file);
-  if (!rows) throw InputError(fmt::format("--curve-to {}: this file cannot be written", file.string()));
-  rows << curve_header() << std::endl;
-  return rows;
-}
-
 void run_case(FractureProgram program, Session& session) {
   if (session.figures_only) {
     program.fracture.output.figures_only = true;
@@ -361,9 +352,10 @@ void run_case(FractureProgram program, Session& session) {
                       run,
                       results,
                       CoarseCells(mesh, run.model()),
-                      curve_for_script(session.curve_to),
+                      session.curve_to.empty() ? FollowedRows() : FollowedRows(session.curve_to),
                       last ? *last : initial,
                       last.has_value()};
+  if (running.followed.are_wanted()) running.followed.write(curve_header() + "\n");
   solve(running);
 }
 

@@ -128,7 +128,8 @@ class Case:
             restart: goes on from the last complete step of an earlier run.
             max_steps: ends after so many load steps of this run.
             on_step: called after each load step of a case of kind "fracture" with a dict of the columns of
-                force_displacement.csv ("step", "load", "displacement_m" [m], "force_x_N" [N], ...). If it returns
+                force_displacement.csv ("step", "load", "displacement_m" [m], "force_x_N" [N], ...); the run is no more
+                than a step ahead. If it returns
                 False the run ends there, with what it has; what it raises ends the run too and is raised here.
 
         Raises:
