@@ -216,12 +216,14 @@ class Studies(Folder):
 class Fits(Folder):
     def test_have_estimates_with_intervals_and_a_case(self):
         case = pfdm.Case(shipped / "endochronic_calibration")
-        fit = case.fit(self.folder / "fit")
+        fit = case.fit(self.folder / "results")
         self.assertIn(fit.verdict, ("sound", "questionable"))
         content = fit.content["parameters"]
         self.assertEqual(list(fit.estimates["estimate"]), [p["estimate"] for p in content])
         self.assertEqual(list(fit.correlation.columns), [p["name"] for p in content])
-        self.assertEqual(fit.case.kind, case.kind)
+        run = fit.case.run()
+        self.assertEqual((run.folder, run.status), (self.folder / "results/fitted", "complete"))
+        self.assertEqual(pfdm.Case(run.folder).results().folder, run.folder)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import InputError
-from .program import Step, call, folder_of
+from .program import Step, call
 from .results import Fit, Results
 from .toml_text import leaves_of, toml_piece, value_at
 
@@ -58,7 +58,18 @@ class Case:
     @property
     def folder(self) -> Path:
         """The case directory."""
-        return folder_of(self._where)
+        return self.file.parent
+
+    @property
+    def own_results(self) -> Path:
+        """Where results go that are given no other directory: CASE/results; of a fitted case in results/ a directory
+        beside it by its name; of a case that a run has kept that run's (kept_case.h of the program)."""
+        is_usual = self.file.name == "case.toml"
+        if is_usual and (self.folder / "run.log").exists() and self.file.read_text().startswith("# Kept by pfdm "):
+            return self.folder
+        if not is_usual and self.folder.resolve().name == "results":
+            return self.folder / self.file.stem.removeprefix("case.")
+        return self.folder / "results"
 
     @property
     def kind(self) -> str:
@@ -123,7 +134,7 @@ class Case:
         """Runs the case; earlier results in the same directory are replaced once the new run has something.
 
         Args:
-            output: directory of the results; None: CASE/results.
+            output: directory of the results; None: own_results.
             threads: number of threads; None: all cores.
             restart: goes on from the last complete step of an earlier run.
             max_steps: ends after so many load steps of this run.
@@ -156,5 +167,5 @@ class Case:
         return self.results(output).folder / "report" / "index.html"
 
     def results(self, output: str | Path | None = None) -> Results:
-        """What is in the results directory (None: CASE/results)."""
-        return Results(self.folder / "results" if output is None else output)
+        """What is in the results directory (None: own_results)."""
+        return Results(self.own_results if output is None else output)

@@ -9,7 +9,6 @@ import subprocess
 import tempfile
 import threading
 from collections.abc import Callable, Iterable
-from pathlib import Path
 from typing import IO
 
 from .errors import ComputationError, Error, InputError
@@ -94,9 +93,3 @@ def interrupt(threads: Iterable[int]) -> None:
     for thread in threads:
         if process := _running.get(thread):
             process.send_signal(signal.SIGINT)
-
-
-def folder_of(where: str | Path) -> Path:
-    """The directory of a case, given as such or as the .toml file in it."""
-    path = Path(where)
-    return path if path.is_dir() else path.parent
