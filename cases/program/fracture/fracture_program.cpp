@@ -206,7 +206,7 @@ void record(RunningCase& c, const FractureState& now, const StepReport& report) 
     c.session.log.warn(warning);
   c.state = now;
   c.times.results += watch.seconds();
-  if (c.followed.are_wanted()) c.followed.write(curve_line(c.results.last_row()));
+  c.followed.write(curve_line(c.results.last_row()));
 }
 
 /// Why the run ends after this step; empty if it continues.
@@ -352,10 +352,10 @@ void run_case(FractureProgram program, Session& session) {
                       run,
                       results,
                       CoarseCells(mesh, run.model()),
-                      session.curve_to.empty() ? FollowedRows() : FollowedRows(session.curve_to),
+                      FollowedRows(session.curve_to),
                       last ? *last : initial,
                       last.has_value()};
-  if (running.followed.are_wanted()) running.followed.write(curve_header() + "\n");
+  running.followed.write(curve_header() + "\n");
   solve(running);
 }
 

@@ -29,8 +29,9 @@ bool is_read(int file) {
 
 }  // namespace
 
-FollowedRows::FollowedRows(const std::filesystem::path& file)
-    : file_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+FollowedRows::FollowedRows(const std::filesystem::path& file) {
+  if (file.empty()) return;
+  file_.emplace(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (!file_->is_open()) throw InputError(fmt::format("--curve-to {}: this file cannot be written", file.string()));
 }
 

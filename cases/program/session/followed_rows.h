@@ -11,12 +11,10 @@ namespace pfdm {
 
 class FollowedRows {
  public:
-  /// Nobody follows.
-  FollowedRows() = default;
-  /// Opens a file, which is written anew, or a pipe. Throws InputError if that cannot be.
+  /// Opens a file, which is written anew, or a pipe; nobody follows if the path is empty. Throws InputError if that
+  /// cannot be.
   explicit FollowedRows(const std::filesystem::path& file);
 
-  bool are_wanted() const { return file_.has_value(); }
   /// Writes lines. Of a pipe it waits until its reader has taken them, so that the run is no more than a step ahead of
   /// the script. Rows end where the reader is gone. Throws Interrupted if a signal comes meanwhile.
   void write(std::string_view lines);
