@@ -48,12 +48,16 @@ double width_in_plane(const Mesh& mesh, Index cell) {
 }
 
 // Edge of a cell along its largest face, if that is a regular triangle or a square.
-double width(const Mesh& mesh, Index cell) {
-  if (const double in_plane = width_in_plane(mesh, cell); in_plane > 0.0) return in_plane;
+double width_of_largest_face(const Mesh& mesh, Index cell) {
   const auto area = [&](Index f) { return mesh.face_area[f].norm(); };
   const Index largest = std::ranges::max(mesh.faces_of_cell(cell), {}, area);
   const bool is_triangle = mesh.points_of_face(largest).size() == 3;
   return std::sqrt(area(largest) * (is_triangle ? 4.0 / std::numbers::sqrt3 : 1.0));
+}
+
+// A place as it is shown.
+Vector without_rounding(const Vector& x) {
+  return x.unaryExpr([](double v) { return std::abs(v) < 1e-15 ? 0.0 : v; });
 }
 
 bool is_too_thick(double h, double ell) { return h > (1.0 + rounding) * ell / cells_in_ell; }
@@ -84,11 +88,13 @@ std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model)
     if (const double h = thickness(mesh, c); h / region.ell > of_region.thickness / of_region.ell)
       of_region.thickness = h, of_region.ell = region.ell;
     of_region.n_too_thick += is_too_thick(thickness(mesh, c), region.ell) ? 1 : 0;
-    if (const double in_plane = width_in_plane(mesh, c); in_plane > (1.0 + rounding) * region.ell) {
+    const double in_plane = width_in_plane(mesh, c);
+    if (in_plane > (1.0 + rounding) * region.ell) {
       of_region.shortest = of_region.n_too_long == 0 ? in_plane : std::min(of_region.shortest, in_plane);
       ++of_region.n_too_long;
     }
-    const double along = width(mesh, c), front = front_length(model, region);
+    const double along = in_plane > 0.0 ? in_plane : width_of_largest_face(mesh, c),
+                 front = front_length(model, region);
     of_region.width += along;
     of_region.front += front;
     of_region.n_fine += along <= (1.0 + rounding) * front ? 1 : 0;
@@ -204,7 +210,7 @@ std::vector<std::string> CoarseCells::look(const CellField<double>& damage) {
     const auto r = as_size(mesh_.region[c]);
     if (told_[r] || !(damage[c] > cracked)) continue;
     told_[r] = true;
-    const Vector x = mesh_.cell_centre[c].unaryExpr([](double v) { return std::abs(v) < 1e-15 ? 0.0 : v; });
+    const Vector x = without_rounding(mesh_.cell_centre[c]);
     warnings.push_back(fmt::format(
         "region \"{}\": a crack has entered cells that do not resolve it, {:.3g} m thick at ({:.3g}, {:.3g}, {:.3g}) m "
         "with ell = {:.3g} m (at most ell/{:g}): smaller cells there in [mesh], or a larger length in [fracture]",
@@ -250,7 +256,7 @@ void CoarseCells::look_at_neighbours(const CellField<double>& damage, std::vecto
     if (!(spacing(f) > widest_in_ell * ell) && !is_narrow(damage[one] > damage[other] ? one : other, f, damage))
       continue;
     told_[r] = true;
-    const Vector x = mesh_.face_centre[f].unaryExpr([](double v) { return std::abs(v) < 1e-15 ? 0.0 : v; });
+    const Vector x = without_rounding(mesh_.face_centre[f]);
     warnings.push_back(fmt::format(
         "region \"{}\": the damage changes by {:.2f} from a cell to the next, {:.3g} m apart at ({:.3g}, {:.3g}, "
         "{:.3g}) m "

@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace pfdm::this_file {
 namespace {
@@ -22,15 +25,25 @@ TEST(Resolution, KnowsTheEnergyBeyondADistance) {
   EXPECT_EQ(energy_beyond(crack_geometry("AT1"), 2.5), 0.0);
 }
 
+struct Box {
+  Mesh mesh;
+  FractureModel model;
+};
+
+/// By AT2 with ell = 0.3 m.
+Box box_that_may_crack(std::array<std::vector<AxisBlock>, 3> axes) {
+  BoxHexesSettings settings;
+  settings.axes = std::move(axes);
+  Box box{.mesh = make_box_hexes(settings), .model = {}};
+  box.model.crack = &crack_geometry("AT2");
+  box.model.regions.resize(1);
+  box.model.regions[0].ell = 0.3;
+  return box;
+}
+
 /// Rows of cells along x, 0.1, 0.1 and 0.5 m thick, 1 m across; ell is 0.3 m.
 TEST(Resolution, TellsOfACrackThatEntersCoarseCells) {
-  BoxHexesSettings box;
-  box.axes = {{{{0.2, 2, 1.0}, {0.5, 1, 1.0}}, {{1.0, 1, 1.0}}, {{1.0, 1, 1.0}}}};
-  const Mesh mesh = make_box_hexes(box);
-  FractureModel model;
-  model.crack = &crack_geometry("AT2");
-  model.regions.resize(1);
-  model.regions[0].ell = 0.3;
+  const auto [mesh, model] = box_that_may_crack({{{{0.2, 2, 1.0}, {0.5, 1, 1.0}}, {{1.0, 1, 1.0}}, {{1.0, 1, 1.0}}}});
   const ResolutionWords words = resolution_words(mesh, model, {}, true);
   EXPECT_TRUE(words.warnings.empty());
   ASSERT_EQ(words.remarks.size(), 1u);
@@ -52,13 +65,7 @@ TEST(Resolution, TellsOfACrackThatEntersCoarseCells) {
 
 /// Cells thin in y and 0.5 m long along x; ell is 0.3 m. Their thickness alone does not tell of a crack across x.
 TEST(Resolution, TellsOfACrackAcrossLongCells) {
-  BoxHexesSettings box;
-  box.axes = {{{{1.5, 3, 1.0}}, {{0.2, 2, 1.0}}, {{0.1, 1, 1.0}}}};
-  const Mesh mesh = make_box_hexes(box);
-  FractureModel model;
-  model.crack = &crack_geometry("AT2");
-  model.regions.resize(1);
-  model.regions[0].ell = 0.3;
+  auto [mesh, model] = box_that_may_crack({{{{1.5, 3, 1.0}}, {{0.2, 2, 1.0}}, {{0.1, 1, 1.0}}}});
   const ResolutionWords words = resolution_words(mesh, model, {}, true);
   EXPECT_TRUE(words.warnings.empty());
   ASSERT_EQ(words.remarks.size(), 1u);
