@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include "physics/machine_limits.h"
+#include "physics/system/machine_limits.h"
 
 #include <CLI/CLI.hpp>
 

@@ -9,7 +9,7 @@
 
 #include "mesh/patch_rules.h"
 #include "physics/error.h"
-#include "physics/machine_limits.h"
+#include "physics/system/machine_limits.h"
 
 namespace pfdm {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "mesh/generators/lifted_points.h"
 #include "physics/error.h"
-#include "physics/packed_bytes.h"
-#include "physics/separate_process.h"
+#include "physics/system/packed_bytes.h"
+#include "physics/system/separate_process.h"
 
 namespace pfdm {
 namespace {

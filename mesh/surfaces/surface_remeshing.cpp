@@ -11,9 +11,9 @@
 #include "mesh/surfaces/cgal_surface.h"
 #include "mesh/surfaces/sphere_refinement.h"
 #include "physics/error.h"
-#include "physics/packed_bytes.h"
 #include "physics/portable_math.h"
-#include "physics/separate_process.h"
+#include "physics/system/packed_bytes.h"
+#include "physics/system/separate_process.h"
 
 namespace pfdm {
 namespace {

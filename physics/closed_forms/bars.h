@@ -3,7 +3,7 @@
 // quadratic degradation (Pham, Marigo, C. R. Mecanique 338 (2010) 191, for AT1; the same integral gives AT2), and with
 // the rational one of cohesive cracks.
 
-#include "physics/softening_law.h"
+#include "physics/damage/softening_law.h"
 
 namespace pfdm {
 

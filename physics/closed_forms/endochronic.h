@@ -3,7 +3,7 @@
 // add up. Total strain is the plastic strain plus stress over modulus. From the solution of ds = 2 C d eps_p - alpha s
 // dz with |d eps_p| = sqrt(3/2) |d eps_p_xx| in tension and |d gamma_p| / sqrt(2) in shear.
 
-#include "physics/endochronic.h"
+#include "physics/point/endochronic.h"
 
 namespace pfdm {
 

@@ -2,7 +2,7 @@
 // A sphere bonded in an infinite matrix under remote uniaxial tension along z (Goodier, J. Appl. Mech. 1 (1933) 39;
 // Eshelby, Proc. R. Soc. A 241 (1957) 376). The centre is the origin.
 
-#include "physics/elasticity.h"
+#include "physics/elasticity/elasticity.h"
 
 namespace pfdm {
 

@@ -1,7 +1,7 @@
 #include "physics/materials/biot_stress.h"
 
+#include "physics/elasticity/principal.h"
 #include "physics/error.h"
-#include "physics/principal.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
-// The endochronic law (physics/endochronic.h) as a material of the field solver.
+// The endochronic law (physics/point/endochronic.h) as a material of the field solver.
 
-#include "physics/endochronic.h"
 #include "physics/materials/material.h"
+#include "physics/point/endochronic.h"
 
 #include <memory>
 

@@ -1,7 +1,7 @@
 // The shear parts of the hyperelastic laws (hyperelastic.h).
 
+#include "physics/elasticity/principal.h"
 #include "physics/materials/hyperelastic.h"
-#include "physics/principal.h"
 #include "physics/registry.h"
 
 #include <cmath>

@@ -6,8 +6,8 @@
 //
 // A history is a list of numbers whose meaning is the law's own; the solver copies and stores it.
 
-#include "physics/energy_split.h"
-#include "physics/gradient_stress.h"
+#include "physics/damage/energy_split.h"
+#include "physics/elasticity/gradient_stress.h"
 
 #include <algorithm>
 #include <span>

@@ -2,7 +2,7 @@
 // Materials of small strain whose elastic strain is eps - eps_inelastic: a law says how its inelastic strain and the
 // energy that it locks up evolve; stresses by Mandel vectors.
 
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 #include "physics/materials/material.h"
 
 namespace pfdm {

@@ -1,8 +1,8 @@
 #include "postproc/cohesive/columns.h"
 
 #include "mesh/disjoint_sets.h"
+#include "physics/elasticity/plane_stress.h"
 #include "physics/error.h"
-#include "physics/plane_stress.h"
 #include "postproc/cohesive/face_columns.h"
 #include "postproc/fields/slice.h"
 #include "solver/parallel.h"

@@ -2,7 +2,7 @@
 // The law of a cohesive interface, which its case gives, as other codes take it: nothing is extracted, and no run is
 // needed.
 
-#include "physics/interface_law.h"
+#include "physics/interfaces/interface_law.h"
 #include "postproc/exports/exported_law.h"
 
 #include <string>

@@ -18,7 +18,7 @@
 // near field of a discrete crack is that of a tip some tenths of a cell ahead, so that the integrals about the given
 // tip also collect the next terms of the body's field, to the first power of the cells' size. G does not.
 
-#include "physics/interface_crack.h"
+#include "physics/interfaces/interface_crack.h"
 #include "solver/fracture/fracture_model.h"
 #include "solver/fracture/state.h"
 
@@ -71,8 +71,8 @@ struct EnergyRelease {
 
 EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, const TipRegion& region);
 
-/// At the region's reference length; see physics/interface_crack.h. A crack in a plane of symmetry, with half of the
-/// body beside it, has that of the whole body. All NaN where G is, and where there are none.
+/// At the region's reference length; see physics/interfaces/interface_crack.h. A crack in a plane of symmetry, with
+/// half of the body beside it, has that of the whole body. All NaN where G is, and where there are none.
 struct StressIntensity {
   double K1 = 0.0, K2 = 0.0;  ///< [Pa m^1/2]
   double phase_angle = 0.0;   ///< atan2(K2, K1) [radian]

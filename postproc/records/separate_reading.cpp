@@ -1,7 +1,7 @@
 #include "postproc/records/separate_reading.h"
 
-#include "physics/packed_bytes.h"
-#include "physics/separate_process.h"
+#include "physics/system/packed_bytes.h"
+#include "physics/system/separate_process.h"
 
 namespace pfdm {
 namespace {

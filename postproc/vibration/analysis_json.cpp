@@ -1,6 +1,6 @@
 #include "postproc/vibration/analysis_json.h"
 
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/json.h"
 

@@ -1,7 +1,7 @@
 #include "solver/fracture/cohesive_faces.h"
 
+#include "physics/elasticity/gradient_stress.h"
 #include "physics/error.h"
-#include "physics/gradient_stress.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>

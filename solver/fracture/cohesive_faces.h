@@ -1,6 +1,6 @@
 #pragma once
 // Cohesive interfaces without thickness: interior faces of the mesh whose sides are independent (unknowns.h), joined by
-// a law of their separation (physics/interface_law.h). Equilibrium: cohesive_newton.h.
+// a law of their separation (physics/interfaces/interface_law.h). Equilibrium: cohesive_newton.h.
 //
 // An interface that is rigid at first has the stiffness of the cells beside it, C^-1 = (h_P/M_P + h_N/M_N)^-1, times
 // 1000: it gives by a thousandth of what they do, and stiffens in compression likewise.

@@ -2,7 +2,7 @@
 
 #include "solver/fracture/held_interfaces.h"
 
-#include "physics/anisotropy.h"
+#include "physics/elasticity/anisotropy.h"
 #include "physics/error.h"
 
 #include <fmt/format.h>

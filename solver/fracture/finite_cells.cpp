@@ -1,8 +1,8 @@
 #include "solver/fracture/finite_cells.h"
 
+#include "physics/elasticity/plane_stress.h"
 #include "physics/error.h"
 #include "physics/materials/biot_stress.h"
-#include "physics/plane_stress.h"
 
 #include <Eigen/Eigenvalues>
 

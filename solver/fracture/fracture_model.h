@@ -2,12 +2,12 @@
 // The input of a fracture run besides its mesh: materials by region, boundary conditions, settings.
 
 #include "mesh/mesh.h"
-#include "physics/crack_geometry.h"
-#include "physics/degradation.h"
-#include "physics/energy_split.h"
-#include "physics/interface_law.h"
+#include "physics/damage/crack_geometry.h"
+#include "physics/damage/degradation.h"
+#include "physics/damage/energy_split.h"
+#include "physics/interfaces/interface_law.h"
 #include "physics/materials/material.h"
-#include "physics/strength_model.h"
+#include "physics/materials/strength_model.h"
 #include "solver/momentum/boundary_condition.h"
 #include "solver/momentum/preconditioner.h"
 #include "solver/momentum/unknowns.h"

@@ -11,7 +11,7 @@
 // would depend on T, which changes with the direction of the increment, and the iteration would not converge.
 
 #include "mesh/mesh.h"
-#include "physics/linear_stress.h"
+#include "physics/elasticity/linear_stress.h"
 #include "solver/fracture/fracture_model.h"
 #include "solver/fracture/state.h"
 

@@ -2,7 +2,7 @@
 // The state of a fracture run is a value: it can be copied, written, and restarted from.
 
 #include "mesh/fields.h"
-#include "physics/interface_law.h"
+#include "physics/interfaces/interface_law.h"
 #include "solver/fracture/cell_histories.h"
 #include "solver/fracture/energy_account.h"
 #include "solver/momentum/box_means.h"

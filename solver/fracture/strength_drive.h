@@ -1,5 +1,6 @@
 #pragma once
-// The external driving force of cells with a strength model (physics/strength_model.h), and the energy that it takes.
+// The external driving force of cells with a strength model (physics/materials/strength_model.h), and the energy that
+// it takes.
 //
 // Where damage evolves the elastic energy that it releases is -g'(d) psi_plus dd. The surface energy takes of it what
 // the damage equation says; the rest, -(g(d) c + g'(d) (psi_plus - psi_open)) dd, is dissipated besides. In tension it

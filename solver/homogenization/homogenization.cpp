@@ -1,6 +1,6 @@
 #include "solver/homogenization/homogenization.h"
 
-#include "physics/effective_stiffness.h"
+#include "physics/elasticity/effective_stiffness.h"
 #include "physics/error.h"
 #include "physics/registry.h"
 #include "solver/homogenization/box_sides.h"

@@ -11,7 +11,7 @@
 // Physics 272 (1987) 193; Hazanov, Huet, J. Mech. Phys. Solids 42 (1994) 1995).
 
 #include "mesh/mesh.h"
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 #include "solver/momentum/preconditioner.h"
 #include "solver/momentum/unknowns.h"
 

@@ -3,7 +3,7 @@
 // its mean strain, whose other components are unknowns of the momentum balance (solver/momentum/unknowns.h). For bodies
 // that are not linear: composites that debond.
 
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 #include "solver/homogenization/homogenization.h"
 
 #include <array>

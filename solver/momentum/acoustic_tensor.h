@@ -1,7 +1,7 @@
 #pragma once
 // Normal stiffness of a material as the faces of cells see it.
 
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 
 namespace pfdm {
 

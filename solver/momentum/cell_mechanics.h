@@ -2,7 +2,7 @@
 // What the momentum balance says of cells for given displacements.
 
 #include "mesh/fields.h"
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 
 namespace pfdm {
 

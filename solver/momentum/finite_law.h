@@ -1,7 +1,7 @@
 #pragma once
 // The law of a cell at finite strain, linearised, as the momentum balance takes it.
 
-#include "physics/gradient_stress.h"
+#include "physics/elasticity/gradient_stress.h"
 #include "physics/materials/hyperelastic.h"
 
 #include <functional>

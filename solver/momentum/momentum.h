@@ -71,11 +71,11 @@
 // cell (moved_faces.h).
 //
 // Plane stress: the stiffness is condensed to zero stress across the plate; in all of the above, C, lambda and sigma_0
-// are those of physics/plane_stress.h. The strain across the plate is added to that of the displacements,
+// are those of physics/elasticity/plane_stress.h. The strain across the plate is added to that of the displacements,
 // at finite strain by the laws of the cells.
 
-#include "physics/gradient_stress.h"
-#include "physics/plane_stress.h"
+#include "physics/elasticity/gradient_stress.h"
+#include "physics/elasticity/plane_stress.h"
 #include "solver/linear/block_matrix.h"
 #include "solver/momentum/bonded_sides.h"
 #include "solver/momentum/cell_mechanics.h"

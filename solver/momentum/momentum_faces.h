@@ -2,7 +2,7 @@
 // The faces of the momentum balance and what it stores of them; see momentum.h.
 
 #include "mesh/mesh.h"
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 #include "solver/momentum/finite_law.h"
 
 namespace pfdm {

@@ -2,7 +2,7 @@
 // A stress that is a function of the strain of first degree, as the momentum balance takes it: energy splits without
 // isotropic secant moduli.
 
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 
 #include <functional>
 

@@ -6,8 +6,8 @@
 // Components of the mean strain of a box may be unknowns too: the last ones, each in the first component of a vector.
 
 #include "mesh/mesh.h"
-#include "physics/elasticity.h"
-#include "physics/mandel.h"
+#include "physics/elasticity/elasticity.h"
+#include "physics/elasticity/mandel.h"
 #include "solver/momentum/boundary_condition.h"
 #include "solver/momentum/spin_holds.h"
 

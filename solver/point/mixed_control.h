@@ -3,7 +3,7 @@
 // prescribe six of their twelve components. Solved for the strain increment by Newton's method with the law's
 // consistent tangent; where that fails the increment is halved.
 
-#include "physics/endochronic.h"
+#include "physics/point/endochronic.h"
 
 #include <array>
 #include <functional>

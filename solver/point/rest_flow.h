@@ -3,7 +3,7 @@
 // Where the law depends on the rate and the stress is higher than it bears at rest, they have another, on which the
 // plastic strain goes on: the one that rates lead to as they fall to zero.
 
-#include "physics/endochronic.h"
+#include "physics/point/endochronic.h"
 
 #include <optional>
 

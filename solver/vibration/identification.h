@@ -10,7 +10,7 @@
 //                      one, all records at once
 //   identify           the whole: separable start, output error, order of the kernel by BIC, intervals by bootstrap
 
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 #include "solver/calibration/calibration.h"
 #include "solver/vibration/vibration_record.h"
 

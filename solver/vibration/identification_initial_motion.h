@@ -1,7 +1,7 @@
 #pragma once
 // The motion with which a record begins, of mass and base that were not at rest before its first sample.
 
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 #include "solver/vibration/vibration_record.h"
 
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 // What a fit of the output compares: the conditioned responses of the recorded tests, measured and simulated from the
 // recorded base acceleration, all records one below the other.
 
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 #include "solver/vibration/identification_conditioning.h"
 #include "solver/vibration/identification_intervals.h"
 #include "solver/vibration/vibration_excitation.h"

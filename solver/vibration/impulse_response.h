@@ -4,7 +4,7 @@
 // and from there by least squares over the poles alone, as the weights are linear (Golub, Pereyra, SIAM J. Numer. Anal.
 // 10 (1973) 413); under white noise that is the likeliest sum.
 
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 
 #include <Eigen/Core>
 

@@ -3,7 +3,7 @@
 // simulate() steps with error control and is what a run does; simulate_batch() takes fixed steps, for several
 // neighbouring models at once, and is what an identification calls thousands of times.
 
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 #include "solver/vibration/vibration_excitation.h"
 #include "solver/vibration/vibration_record.h"
 

@@ -2,7 +2,7 @@
 // Ogden's model from the stiffness polynomial of a sample: the terms whose force on a bar in uniaxial stress is nearest
 // to k(z).
 
-#include "physics/ogden.h"
+#include "physics/point/ogden.h"
 
 #include <span>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "solver/vibration/repeatability.h"
 
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/linear/dense_algebra.h"
 

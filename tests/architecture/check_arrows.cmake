@@ -3,9 +3,17 @@
 # cmake -DROOT=<checkout> -P check_arrows.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Each room, and the rooms that it may use: they stand above it. Files belong to the innermost room around them.
+# Each room, and the rooms that it may use: they stand above it. Files belong to the innermost room around them. Whoever
+# may use physics from another folder may use all of its rooms.
 set(rooms
     "physics"
+    "physics/system: physics"
+    "physics/elasticity: physics"
+    "physics/damage: physics physics/elasticity"
+    "physics/interfaces: physics physics/elasticity physics/damage"
+    "physics/point: physics physics/elasticity"
+    "physics/materials: physics physics/elasticity physics/damage physics/point"
+    "physics/closed_forms: physics physics/elasticity physics/damage physics/point"
     "mesh: physics"
     "mesh/surfaces: physics mesh"
     "mesh/packing: physics mesh"
@@ -55,6 +63,10 @@ set(rooms
      cases/program/homogenization cases/program/plate cases/program/chain")
 set(complaints "")
 
+set(physics_rooms ${rooms})
+list(FILTER physics_rooms INCLUDE REGEX "^physics/")
+list(TRANSFORM physics_rooms REPLACE ":.*" "")
+
 set(names "")
 foreach(row IN LISTS rooms)
   string(REGEX MATCHALL "[a-z/_]+" words "${row}")
@@ -66,6 +78,9 @@ foreach(row IN LISTS rooms)
   endforeach()
   list(APPEND names ${room})
   set(used_by_${room} ${room} ${words})
+  if(NOT room MATCHES "^physics")
+    list(APPEND used_by_${room} ${physics_rooms})
+  endif()
 endforeach()
 
 # The innermost room of a path; empty for what is in none, as headers of libraries.

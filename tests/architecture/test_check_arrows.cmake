@@ -30,6 +30,7 @@ expect(library_in_quotes_of_a_folder none solver/a.cpp "#include <suitesparse/ch
 expect(forward_link none solver/linear/CMakeLists.txt "target_link_libraries(pfdm_solver_linear PUBLIC pfdm_mesh pfdm_options)\n")
 expect(room_above none solver/fracture/a.h "#include \"solver/momentum/b.h\"\n#include \"solver/parallel.h\"\n")
 expect(folder_of_rooms none solver/CMakeLists.txt "target_link_libraries(pfdm_solver INTERFACE pfdm_solver_fracture)\n")
+expect(room_of_physics none solver/linear/a.h "#include \"physics/materials/b.h\"\n")
 expect(comment none mesh/CMakeLists.txt "# pfdm_solver builds on this\n")
 
 expect(back_include "physics/a.cpp includes mesh/mesh.h: physics must not know mesh"
@@ -44,6 +45,8 @@ expect(back_link "mesh/CMakeLists.txt links pfdm_solver: mesh must not know it"
        mesh/CMakeLists.txt "target_link_libraries(pfdm_mesh PUBLIC pfdm_physics\n  pfdm_solver)\n")
 expect(room_below "solver/momentum/a.h includes solver/fracture/b.h: solver/momentum must not know solver/fracture"
        solver/momentum/a.h "#include \"solver/fracture/b.h\"\n")
+expect(law_below "physics/elasticity/a.h includes physics/damage/b.h: physics/elasticity must not know physics/damage"
+       physics/elasticity/a.h "#include \"physics/damage/b.h\"\n")
 expect(room_beside "solver/fracture/a.h includes solver/calibration/b.h: solver/fracture must not know solver/calibration"
        solver/fracture/a.h "#include \"solver/calibration/b.h\"\n")
 expect(link_to_room_beside "solver/fracture/CMakeLists.txt links pfdm_solver_vibration: solver/fracture must not know it"

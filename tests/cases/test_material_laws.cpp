@@ -1,6 +1,6 @@
 // Laws of materials, splits and degradations with parameters in a case of kind "fracture".
 
-#include "physics/degradation.h"
+#include "physics/damage/degradation.h"
 #include "postproc/files/csv_table.h"
 #include "tests/cases/temporary_case.h"
 

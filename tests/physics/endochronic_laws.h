@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "physics/endochronic.h"
+#include "physics/point/endochronic.h"
 
 namespace pfdm {
 

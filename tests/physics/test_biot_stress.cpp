@@ -3,7 +3,7 @@
 
 #include "physics/error.h"
 #include "physics/materials/biot_stress.h"
-#include "physics/strength_model.h"
+#include "physics/materials/strength_model.h"
 #include "tests/physics/physics_checks.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "physics/crack_geometry.h"
+#include "physics/damage/crack_geometry.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "physics/degradation.h"
+#include "physics/damage/degradation.h"
 
 #include <cmath>
 #include <functional>

@@ -1,6 +1,6 @@
 // Moduli and bounds of composites against the forms in which they were first given, for two phases.
 
-#include "physics/effective_stiffness.h"
+#include "physics/elasticity/effective_stiffness.h"
 
 #include <gtest/gtest.h>
 

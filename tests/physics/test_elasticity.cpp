@@ -1,4 +1,4 @@
-#include "physics/elasticity.h"
+#include "physics/elasticity/elasticity.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "physics/energy_split.h"
+#include "physics/damage/energy_split.h"
 #include "physics/error.h"
 #include "tests/physics/physics_checks.h"
 

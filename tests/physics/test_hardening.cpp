@@ -1,4 +1,4 @@
-#include "physics/hardening.h"
+#include "physics/point/hardening.h"
 #include "tests/physics/physics_checks.h"
 
 namespace pfdm::this_file {

@@ -1,4 +1,4 @@
-#include "physics/interface_law.h"
+#include "physics/interfaces/interface_law.h"
 
 #include "physics/error.h"
 #include "physics/registry.h"

@@ -1,6 +1,6 @@
 // The apparent toughness against its closed forms (literature.md 4.1) and against a minimum found on a grid.
 
-#include "physics/interface_toughness.h"
+#include "physics/interfaces/interface_toughness.h"
 
 #include <algorithm>
 #include <cmath>

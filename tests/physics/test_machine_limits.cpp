@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "physics/machine_limits.h"
+#include "physics/system/machine_limits.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

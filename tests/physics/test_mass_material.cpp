@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "physics/ogden.h"
+#include "physics/point/ogden.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Static condensation across a plate: no stress across it, and the stress and energy within it.
 
-#include "physics/plane_stress.h"
+#include "physics/elasticity/plane_stress.h"
 
-#include "physics/energy_split.h"
+#include "physics/damage/energy_split.h"
 #include "tests/physics/physics_checks.h"
 
 namespace pfdm::this_file {

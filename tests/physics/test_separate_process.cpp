@@ -1,6 +1,6 @@
 // A foreign library's crash ends a process of its own.
 
-#include "physics/separate_process.h"
+#include "physics/system/separate_process.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Core>
@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "physics/error.h"
-#include "physics/packed_bytes.h"
+#include "physics/system/packed_bytes.h"
 
 namespace pfdm::this_file {
 namespace {

@@ -1,6 +1,6 @@
 // The laws against their names' definitions, the coefficients against the published ones.
 
-#include "physics/softening_law.h"
+#include "physics/damage/softening_law.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 #include "physics/error.h"
-#include "physics/strength_model.h"
+#include "physics/materials/strength_model.h"
 #include "tests/physics/physics_checks.h"
 
 #include <cmath>

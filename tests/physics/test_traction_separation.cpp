@@ -1,4 +1,4 @@
-#include "physics/traction_separation.h"
+#include "physics/interfaces/traction_separation.h"
 
 #include <gtest/gtest.h>
 

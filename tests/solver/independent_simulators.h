@@ -2,7 +2,7 @@
 // Records and curves from simulators that share nothing with the program's: classical Runge-Kutta steps for a mass on a
 // sample, and explicit Euler steps of small size for metals under cyclic tension. All of it is synthetic.
 
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 #include "solver/point/endochronic_fit.h"
 #include "solver/vibration/vibration_record.h"
 

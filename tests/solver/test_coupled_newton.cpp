@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/crack_geometry.h"
+#include "physics/damage/crack_geometry.h"
 #include "solver/fracture/fracture_run.h"
 #include "solver/momentum/stiffness_coupling.h"
 #include "tests/solver/solver_checks.h"

@@ -3,7 +3,7 @@
 
 #include "mesh/generators/sphere_sector.h"
 #include "physics/closed_forms/goodier.h"
-#include "physics/interface_toughness.h"
+#include "physics/interfaces/interface_toughness.h"
 #include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"
 

@@ -11,7 +11,7 @@
 #include "solver/fracture/fracture_run.h"
 #include "tests/verification/support.h"
 
-#include "physics/softening_law.h"
+#include "physics/damage/softening_law.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // Shtrikman's bound, Walpole, J. Mech. Phys. Solids 14 (1966) 151).
 
 #include "mesh/generators/packed_spheres.h"
-#include "physics/effective_stiffness.h"
+#include "physics/elasticity/effective_stiffness.h"
 #include "tests/verification/box_paths.h"
 #include "tests/verification/cohesive_blocks.h"
 

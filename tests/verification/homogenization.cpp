@@ -4,7 +4,7 @@
 
 #include "solver/homogenization/homogenization.h"
 #include "mesh/generators/packed_spheres.h"
-#include "physics/effective_stiffness.h"
+#include "physics/elasticity/effective_stiffness.h"
 #include "physics/error.h"
 #include "tests/verification/support.h"
 

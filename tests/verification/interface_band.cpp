@@ -1,7 +1,7 @@
 // A bar of three materials, tough or undamageable | band | tough, that breaks in the band: what it dissipates against
-// the apparent toughness of physics/interface_toughness.h (literature.md 4.1).
+// the apparent toughness of physics/interfaces/interface_toughness.h (literature.md 4.1).
 
-#include "physics/interface_toughness.h"
+#include "physics/interfaces/interface_toughness.h"
 #include "solver/fracture/damage_equation.h"
 #include "tests/verification/support.h"
 

@@ -2,7 +2,7 @@
 // The displacement around the tip of a crack along -x (Williams, J. Appl. Mech. 24 (1957) 109), plane strain:
 //   u = (K_I/2 mu) sqrt(r/2 pi) (kappa - cos f) (cos f/2, sin f/2),  kappa = 3 - 4 nu, in mode I.
 
-#include "physics/elasticity.h"
+#include "physics/elasticity/elasticity.h"
 #include "physics/tensor.h"
 
 #include <cmath>

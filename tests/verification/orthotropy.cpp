@@ -4,7 +4,7 @@
 // inner pressure (art. 64: sigma_r of powers r^(k-1) and r^(-k-1), k^2 = E_theta/E_r in plane stress); a bar that
 // breaks as an isotropic one of the same modulus; isotropic constants against the isotropic program.
 
-#include "physics/anisotropy.h"
+#include "physics/elasticity/anisotropy.h"
 #include "physics/error.h"
 #include "tests/verification/bar.h"
 #include "tests/verification/support.h"

@@ -1,5 +1,5 @@
-// The strength model (physics/strength_model.h) in the damage equation: one cell under 200 directions of stress, its
-// energy account, and a long crack, which has to dissipate Gc.
+// The strength model (physics/materials/strength_model.h) in the damage equation: one cell under 200 directions of
+// stress, its energy account, and a long crack, which has to dissipate Gc.
 
 #include "postproc/fields/energy_release_rate.h"
 #include "tests/verification/near_field.h"

@@ -2,7 +2,7 @@
 
 #include "cases/program/fracture/body_keys.h"
 #include "cases/program/input/amount.h"
-#include "physics/anisotropy.h"
+#include "physics/elasticity/anisotropy.h"
 
 #include <fmt/format.h>
 

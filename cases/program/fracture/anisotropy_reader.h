@@ -2,7 +2,7 @@
 // Elasticity that depends on the direction, as a material gives it, and the axes along which it is.
 
 #include "cases/program/input/config.h"
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 
 #include <functional>
 

@@ -2,11 +2,11 @@
 
 #include "cases/program/fracture/boundary_reader.h"
 #include "cases/program/input/law_keys.h"
-#include "physics/crack_geometry.h"
-#include "physics/degradation.h"
-#include "physics/energy_split.h"
-#include "physics/softening_law.h"
-#include "physics/strength_model.h"
+#include "physics/damage/crack_geometry.h"
+#include "physics/damage/degradation.h"
+#include "physics/damage/energy_split.h"
+#include "physics/damage/softening_law.h"
+#include "physics/materials/strength_model.h"
 
 namespace pfdm {
 namespace {

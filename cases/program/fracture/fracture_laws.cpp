@@ -5,12 +5,12 @@
 #include "cases/program/fracture/interface_reader.h"
 #include "cases/program/fracture/material_laws.h"
 #include "cases/program/fracture/mesh_recipe.h"
-#include "physics/crack_geometry.h"
-#include "physics/degradation.h"
-#include "physics/energy_split.h"
-#include "physics/softening_law.h"
-#include "physics/strength_model.h"
-#include "physics/traction_separation.h"
+#include "physics/damage/crack_geometry.h"
+#include "physics/damage/degradation.h"
+#include "physics/damage/energy_split.h"
+#include "physics/damage/softening_law.h"
+#include "physics/interfaces/traction_separation.h"
+#include "physics/materials/strength_model.h"
 #include "postproc/fields/energy_release_rate.h"
 
 namespace pfdm {

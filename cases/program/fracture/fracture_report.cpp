@@ -9,7 +9,7 @@
 #include "cases/program/fracture/mean_curve.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/angle.h"
-#include "physics/traction_separation.h"
+#include "physics/interfaces/traction_separation.h"
 #include "postproc/cohesive/cohesive_results.h"
 
 #include <fmt/format.h>

@@ -42,8 +42,8 @@ InterfaceStrength everywhere(const InterfaceSettings& interface) {
   return at;
 }
 
-/// lambda and S lambda (physics/interface_law.h) of a face that is open; nothing of a closed one, where contact acts
-/// besides.
+/// lambda and S lambda (physics/interfaces/interface_law.h) of a face that is open; nothing of a closed one, where
+/// contact acts besides.
 std::optional<FaceState> state_of(const InterfaceLaw& law, const ColumnSample& sample) {
   const double opening = sample.separation[0], slip = sample.separation.tail<2>().norm();
   if (!(opening > 0.0)) return std::nullopt;

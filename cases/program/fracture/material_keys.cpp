@@ -6,7 +6,7 @@
 #include "cases/program/input/endochronic_keys.h"
 #include "cases/program/input/heat_units.h"
 #include "cases/program/input/law_reader.h"
-#include "physics/effective_stiffness.h"
+#include "physics/elasticity/effective_stiffness.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "cases/program/fracture/anisotropy_reader.h"
 #include "cases/program/input/amount.h"
-#include "physics/degradation.h"
+#include "physics/damage/degradation.h"
 #include "solver/fracture/fracture_model.h"
 
 #include <array>

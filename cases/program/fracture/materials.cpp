@@ -4,8 +4,8 @@
 #include "cases/program/fracture/material_keys.h"
 #include "cases/program/fracture/material_laws.h"
 #include "cases/program/input/path_reader.h"
-#include "physics/anisotropy.h"
-#include "physics/interface_toughness.h"
+#include "physics/elasticity/anisotropy.h"
+#include "physics/interfaces/interface_toughness.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

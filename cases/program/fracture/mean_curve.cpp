@@ -1,6 +1,6 @@
 #include "cases/program/fracture/mean_curve.h"
 
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 #include "postproc/files/csv_table.h"
 
 #include <fmt/format.h>

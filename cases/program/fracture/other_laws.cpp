@@ -1,7 +1,7 @@
 #include "cases/program/fracture/other_laws.h"
 
 #include "cases/program/fracture/interface_reader.h"
-#include "physics/softening_law.h"
+#include "physics/damage/softening_law.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "cases/program/fracture/materials.h"
 #include "cases/program/fracture/mesh_recipe.h"
-#include "physics/effective_stiffness.h"
+#include "physics/elasticity/effective_stiffness.h"
 #include "solver/homogenization/homogenization.h"
 
 #include <filesystem>

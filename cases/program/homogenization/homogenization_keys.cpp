@@ -6,7 +6,7 @@
 #include "cases/program/homogenization/homogenization_case.h"
 #include "cases/program/input/key_member.h"
 #include "cases/program/studies/study_keys.h"
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 #include "solver/homogenization/homogenization.h"
 #include "solver/momentum/preconditioner.h"
 

@@ -22,7 +22,7 @@ struct LossFactors {
 /// What follows from a homogenisation.
 struct EffectiveMaterial {
   IsotropicElasticity isotropic;                               ///< closest
-  double anisotropy = 0.0;                                     ///< physics/effective_stiffness.h
+  double anisotropy = 0.0;                                     ///< physics/elasticity/effective_stiffness.h
   double universal_anisotropy = 0.0;                           ///< likewise
   std::vector<double> fraction;                                ///< of the box's volume, by material
   std::vector<double> energy_share;                            ///< of the energy of all six unit strains, by material

@@ -1,7 +1,7 @@
 #include "cases/program/input/endochronic_keys.h"
 
 #include "cases/program/input/law_keys.h"
-#include "physics/hardening.h"
+#include "physics/point/hardening.h"
 
 namespace pfdm {
 namespace {

@@ -2,7 +2,7 @@
 // [material] of a case of kind "endochronic", read and written.
 
 #include "cases/program/input/config.h"
-#include "physics/endochronic.h"
+#include "physics/point/endochronic.h"
 
 namespace pfdm {
 

@@ -3,7 +3,7 @@
 #include "cases/program/input/csv_keys.h"
 #include "cases/program/input/endochronic_keys.h"
 #include "cases/program/studies/study_keys.h"
-#include "physics/mandel.h"
+#include "physics/elasticity/mandel.h"
 #include "solver/point/endochronic_identification.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "cases/program/input/config.h"
 #include "cases/program/vibration/mass_material_schedule.h"
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 #include "postproc/files/csv_table.h"
 #include "solver/vibration/record_analysis.h"
 #include "solver/vibration/vibration_excitation.h"

@@ -3,7 +3,7 @@
 // changes over it.
 
 #include "cases/program/input/config.h"
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 #include "solver/vibration/repeatability.h"
 
 #include <string>

@@ -1,6 +1,6 @@
 #include "cases/program/vibration/vibration_charts.h"
 
-#include "physics/mass_material.h"
+#include "physics/point/mass_material.h"
 
 #include <fmt/format.h>
 

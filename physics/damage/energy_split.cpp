@@ -1,0 +1,249 @@
+#include "physics/damage/energy_split.h"
+
+#include "physics/registry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+double largest_principal_value(const Tensor& a) {
+  return Eigen::SelfAdjointEigenSolver<Tensor>().computeDirect(a, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
+IsotropicElasticity degrade_all(const IsotropicElasticity& c, double g, double, const LawParameters&) {
+  return {g * c.lambda, g * c.mu};
+}
+
+double never_closed(const Tensor&) { return 0.0; }
+double closed_in_compression(const Tensor& eps) { return eps.trace() < 0.0 ? 1.0 : 0.0; }
+
+constexpr SplitLaw none{
+    .name = "none",
+    .description = "the whole elastic energy is degraded, also in compression: cracks do not close",
+    .variational = true,
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters&) {
+          return SplitEnergy{energy_density(c, eps), 0.0};
+        },
+    .closure = never_closed,
+    .secant = degrade_all,
+};
+
+// Amor, Marigo, Maurini, J. Mech. Phys. Solids 57 (2009) 1209, eqs. 25-26: compression of the volume is kept.
+constexpr SplitLaw volumetric_deviatoric{
+    .name = "volumetric_deviatoric",
+    .description = "shear and expansion are degraded, compression is not (Amor 2009)",
+    .variational = true,
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters&) {
+          const double trace = eps.trace();
+          const double expansion = std::max(trace, 0.0);
+          const double compression = std::min(trace, 0.0);
+          const Tensor shear = deviator(eps);
+          const double K = c.bulk_modulus();
+          return SplitEnergy{0.5 * K * expansion * expansion + c.mu * contract(shear, shear),
+                             0.5 * K * compression * compression};
+        },
+    .closure = closed_in_compression,
+    .secant =
+        [](const IsotropicElasticity& c, double g, double closure, const LawParameters&) {
+          const double K = (g + closure * (1.0 - g)) * c.bulk_modulus();
+          return IsotropicElasticity{K - 2.0 * g * c.mu / 3.0, g * c.mu};
+        },
+};
+
+// Ambati, Gerasimov, De Lorenzis, Comput. Mech. 55 (2015) 383, with the energy of Amor et al. in place of the
+// spectral one and without their condition that closes cracks.
+constexpr SplitLaw hybrid{
+    .name = "hybrid",
+    .description =
+        "driven as by volumetric_deviatoric, the whole stiffness is degraded: cracks do not close (Ambati 2015; not "
+        "variational)",
+    .variational = false,
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters& p) {
+          return SplitEnergy{volumetric_deviatoric.energy(c, eps, p).psi_plus, 0.0};
+        },
+    .closure = never_closed,
+    .secant = degrade_all,
+};
+
+// Vicentini, Zolesi, Carrara, Maurini, De Lorenzis, Int. J. Fract. 247 (2024) 291: compression of the volume is kept
+// and lowers the energy that drives damage, so that the ratio of compressive to tensile strength is a parameter.
+constexpr LawParameter star_convex_parameters[] = {{"gamma", "1", true}};
+constexpr SplitLaw star_convex{
+    .name = "star_convex",
+    .description =
+        "as volumetric_deviatoric; compression lowers the driving energy by gamma K/2 <-tr eps>^2 "
+        "(Vicentini 2024)",
+    .variational = true,
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters& p) {
+          const double expansion = std::max(eps.trace(), 0.0), compression = std::min(eps.trace(), 0.0);
+          const Tensor shear = deviator(eps);
+          const double half_K = 0.5 * c.bulk_modulus(), pressed = half_K * compression * compression;
+          return SplitEnergy{half_K * expansion * expansion + c.mu * contract(shear, shear) - p[0] * pressed,
+                             (1.0 + p[0]) * pressed};
+        },
+    .closure = closed_in_compression,
+    .secant =
+        [](const IsotropicElasticity& c, double g, double closure, const LawParameters& p) {
+          const double K = (g + closure * (1.0 - g) * (1.0 + p[0])) * c.bulk_modulus();
+          return IsotropicElasticity{K - 2.0 * g * c.mu / 3.0, g * c.mu};
+        },
+    .parameters = star_convex_parameters,
+};
+
+// Wu, J. Mech. Phys. Solids 103 (2017) 72, eq. 2.44: the largest effective principal stress drives, all stiffness is
+// degraded. Not variational: the energies do not balance where the stress is not uniaxial.
+constexpr SplitLaw rankine{
+    .name = "rankine",
+    .description =
+        "<sigma_1>^2/(2E) drives damage, the whole stiffness is degraded: cracks do not close (PF-CZM; not "
+        "variational)",
+    .variational = false,
+    .energy =
+        [](const IsotropicElasticity& c, const Tensor& eps, const LawParameters&) {
+          const double tension = std::max(largest_principal_value(stress(c, eps)), 0.0);
+          return SplitEnergy{0.5 * tension * tension / c.young_modulus(), 0.0};
+        },
+    .closure = never_closed,
+    .secant = degrade_all,
+};
+
+// Splits that say what is kept: psi_minus = 1/2 kept stress : eps, as for any energy of second degree.
+template <PrincipalStress (*kept)(const IsotropicElasticity&, const Vector&, const LawParameters&)>
+SplitEnergy energy_less_kept(const IsotropicElasticity& c, const Tensor& eps, const LawParameters& p) {
+  const Vector principal = principal_axes(eps).value;
+  const double psi_minus = 0.5 * kept(c, principal, p).stress.dot(principal);
+  return {std::max(energy_density(c, eps) - psi_minus, 0.0), psi_minus};
+}
+
+// Miehe, Hofacker, Welschinger, CMAME 199 (2010) 2765, eqs. 19-23: lambda/2 <-tr eps>^2 + mu sum <-eps_i>^2 is kept.
+PrincipalStress kept_by_spectral(const IsotropicElasticity& c, const Vector& eps, const LawParameters&) {
+  PrincipalStress kept;
+  if (eps.sum() < 0.0) kept.slope.setConstant(c.lambda);
+  for (Index i = 0; i < 3; ++i)
+    if (eps[i] < 0.0) kept.slope(i, i) += 2.0 * c.mu;
+  kept.stress = kept.slope * eps;
+  return kept;
+}
+
+constexpr SplitLaw spectral{
+    .name = "spectral",
+    .description = "positive principal strains and expansion are degraded (Miehe 2010)",
+    .variational = true,
+    .energy = energy_less_kept<kept_by_spectral>,
+    .kept = kept_by_spectral,
+};
+
+// Del Piero, Meccanica 24 (1989) 150; Freddi, Royer-Carfagni, J. Mech. Phys. Solids 58 (2010) 1154, sec. 3.3: what a
+// material without tensile strength stores. Crack strains open freely in the principal directions whose stress would be
+// tensile; from the smallest strain upwards none, one, two or all three directions stay under compression.
+PrincipalStress kept_by_no_tension(const IsotropicElasticity& c, const Vector& eps, const LawParameters&) {
+  const double E = c.young_modulus(), nu = c.poisson_ratio();
+  PrincipalStress kept;
+  if (eps[0] >= 0.0) return kept;
+  if (eps[1] + nu * eps[0] >= 0.0) {
+    kept.slope(0, 0) = E;
+  } else if ((1.0 - nu) * eps[2] + nu * (eps[0] + eps[1]) >= 0.0) {
+    kept.slope.topLeftCorner<2, 2>() << 1.0, nu, nu, 1.0;
+    kept.slope *= E / (1.0 - nu * nu);
+  } else {
+    kept.slope = Tensor::Constant(c.lambda) + 2.0 * c.mu * Tensor::Identity();
+  }
+  kept.stress = kept.slope * eps;
+  return kept;
+}
+
+constexpr SplitLaw no_tension{
+    .name = "no_tension",
+    .description = "what a no-tension material (masonry) carries is kept (Del Piero 1989, Freddi 2010)",
+    .variational = true,
+    .energy = energy_less_kept<kept_by_no_tension>,
+    .kept = kept_by_no_tension,
+};
+
+// De Lorenzis, Maurini, Int. J. Fract. 237 (2022) 61: what a material keeps whose crack strains satisfy tr eta >= 6 B
+// sqrt(J2(eta)), as of a frictional material without cohesion: its stress, nearest in the norm of the energy, with
+// sqrt(J2) + B I1 <= 0. With AT1 and the cohesive model the strength surface between the two cones is
+// sqrt(J2) + B I1 = constant.
+PrincipalStress kept_by_drucker_prager(const IsotropicElasticity& c, const Vector& eps, const LawParameters& p) {
+  const double B = p[0], K = c.bulk_modulus(), trace = eps.sum();
+  const Vector shear = eps.array() - trace / 3.0;
+  const double size = std::sqrt(0.5 * shear.squaredNorm());  // sqrt(J2) of the strain
+  PrincipalStress kept;
+  if (trace >= 6.0 * B * size) return kept;
+  if (2.0 * c.mu * size <= -3.0 * B * K * trace) {
+    kept.slope = Tensor::Constant(c.lambda) + 2.0 * c.mu * Tensor::Identity();
+  } else {  // pressure times (-1, ..., -1) + 3 B shear/size
+    const double stiffness = 1.0 / (1.0 / K + 9.0 * B * B / c.mu);
+    const double pressure = stiffness * (6.0 * B * size - trace);
+    const Vector along = 3.0 * B / size * shear - Vector::Ones();
+    const Tensor deviatoric = Tensor::Identity() - Tensor::Constant(1.0 / 3.0);
+    kept.slope = stiffness * along * along.transpose() +
+                 3.0 * B * pressure / size * (deviatoric - shear * shear.transpose() / (2.0 * size * size));
+  }
+  kept.stress = kept.slope * eps;
+  return kept;
+}
+
+constexpr LawParameter drucker_prager_parameters[] = {{"B", "1", true}};
+constexpr SplitLaw drucker_prager{
+    .name = "drucker_prager",
+    .description =
+        "what a frictional material without cohesion carries is kept: sqrt(J2) + B I1 <= 0 (De Lorenzis 2022)",
+    .variational = true,
+    .energy = energy_less_kept<kept_by_drucker_prager>,
+    .kept = kept_by_drucker_prager,
+    .parameters = drucker_prager_parameters,
+};
+
+constexpr SplitLaw all_splits[] = {none,       volumetric_deviatoric, star_convex, spectral,
+                                   no_tension, drucker_prager,        rankine,     hybrid};
+
+}  // namespace
+
+MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps) {
+  if (split.has_secant()) return stiffness_matrix(split.secant(c, g, split.closure(eps)));
+  if (g == 1.0) return stiffness_matrix(c);
+  const PrincipalAxes axes = principal_axes(eps);
+  return g * stiffness_matrix(c) + (1.0 - g) * tangent(axes, split.kept(c, axes.value));
+}
+
+Tensor degradable_stress(const EnergySplit& split, const IsotropicElasticity& c, const Tensor& eps) {
+  if (split.has_secant()) {
+    const double closure = split.closure(eps);
+    return stress(split.secant(c, 1.0, closure), eps) - stress(split.secant(c, 0.0, closure), eps);
+  }
+  const PrincipalAxes axes = principal_axes(eps);
+  const Vector kept = split.kept(c, axes.value).stress;
+  return stress(c, eps) - axes.direction * kept.asDiagonal() * axes.direction.transpose();
+}
+
+Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps) {
+  return to_tensor(degraded_tangent(split, c, g, eps) * to_mandel(eps));
+}
+
+std::span<const SplitLaw> energy_splits() { return all_splits; }
+
+std::string splits_with_secant() {
+  std::vector<std::string_view> names;
+  for (const SplitLaw& law : all_splits)
+    if (law.secant != nullptr) names.push_back(law.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+const SplitLaw& split_law(std::string_view name) { return find_by_name(energy_splits(), name, "energy split"); }
+
+EnergySplit energy_split(std::string_view name) {
+  const SplitLaw& law = split_law(name);
+  for (const LawParameter& parameter : law.parameters)
+    if (std::isnan(parameter.otherwise))
+      throw InputError(fmt::format("the energy split \"{}\" needs its parameter {}", name, parameter.name));
+  return EnergySplit(law);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,36 @@
+#pragma once
+// Linear elasticity that depends on the direction: stiffness matrices by engineering constants, along axes of their
+// own.
+
+#include "physics/elasticity/mandel.h"
+
+#include <array>
+
+namespace pfdm {
+
+/// Of the axes 1, 2, 3: moduli [Pa], nu12 the contraction along 2 under a stress along 1, shear moduli [Pa].
+struct OrthotropicConstants {
+  double E1, E2, E3, nu12, nu13, nu23, G12, G13, G23;
+};
+
+/// Stiffness [Pa] along its axes. Throws InputError where the energy is not positive for every strain.
+MandelMatrix orthotropic_stiffness(const OrthotropicConstants& c);
+
+/// Of a cubic crystal, by its constants [Pa]. Throws likewise.
+MandelMatrix cubic_stiffness(double C11, double C12, double C44);
+
+/// Of the 21 constants C_IJ [Pa] of Voigt's notation, rows of the upper triangle, in the order xx, yy, zz, yz, xz, xy:
+/// sigma = C (eps_xx ... 2 eps_xy). Throws likewise.
+MandelMatrix general_stiffness(const std::array<double, 21>& voigt);
+
+/// The right-handed axes, as columns, of which the first two lie along `first` and, as far as it is normal to that,
+/// `second`. Throws InputError where these are parallel or zero.
+Tensor axes_along(const Vector& first, const Vector& second);
+
+/// The stiffness in the frame in which its axes are the columns of `axes`.
+MandelMatrix turned(const MandelMatrix& C, const Tensor& axes);
+
+/// Whether strains within the plane normal to n, and across it, make no shear stress across it.
+bool is_symmetric_about(const MandelMatrix& C, const Vector& n);
+
+}  // namespace pfdm
