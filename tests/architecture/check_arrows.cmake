@@ -53,6 +53,7 @@ set(rooms
     "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
      postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies"
+    "cases/cpp: physics mesh mesh/generators solver/fracture cases/program/fracture"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics solver/calibration
      postproc/files postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session
      cases/program/studies cases/program/fracture"

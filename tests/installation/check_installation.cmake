@@ -1,4 +1,4 @@
-# BUILD: a finished build; FOLDER: where to install and to build the consumer; CXX: its compiler.
+# BUILD: a finished build; FOLDER: where to install and to build the examples in cases/cpp; CXX: its compiler.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -41,11 +41,12 @@ if(depends MATCHES "cmake|ccache|libgtest-dev")
 endif()
 
 set(ENV{CMAKE_PREFIX_PATH} ${prefix})
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B ${FOLDER}/consumer -DCMAKE_BUILD_TYPE=Release
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/../../cases/cpp -B ${FOLDER}/cpp -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${CXX})
-run(${CMAKE_COMMAND} --build ${FOLDER}/consumer)
-run(${FOLDER}/consumer/bar)
-run(${FOLDER}/consumer/toughnesses ${prefix}/share/pfdm/cases/bar_at2)
+run(${CMAKE_COMMAND} --build ${FOLDER}/cpp)
+run(${FOLDER}/cpp/1_bar)
+run(${FOLDER}/cpp/3_creep)
+run(${FOLDER}/cpp/2_toughnesses ${prefix}/share/pfdm/cases/bar_at2)
 if(NOT output MATCHES "did you mean \"length\"")
   message(FATAL_ERROR "a wrong key is not refused:\n${output}")
 endif()

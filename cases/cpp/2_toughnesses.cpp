@@ -1,7 +1,17 @@
-// The strength of the shipped AT2 bar over its toughness, by a program of one's own that reads the case: it must be
-// sqrt(27 E Gc / (256 ell)).
+// 2. A sweep over a case that is read from its folder: how the strength of a bar grows with its toughness.
 //
-//   toughnesses .../cases/bar_at2
+// Problem: the shipped case bar_at2, a bar of concrete (E = 30 GPa) whose cross section breaks within 5 mm; its
+// toughness is set to 60, 80 and 100 J/m^2.
+//
+//          ____________________________
+//   held  |             ::             | -> u_x            the middle is 1 % weaker
+//         +----------------------------+---> x
+//
+// Result: the strength sqrt(27 E Gc / (256 ell)) of an AT2 bar (Pham et al., JMPS 59 (2011) 1163); the program ends
+// with 1 unless each is met within 1 %, and unless a key that does not exist is refused.
+//
+//   cmake -S cases/cpp -B build/cpp -DCMAKE_PREFIX_PATH=DIR && cmake --build build/cpp
+//   build/cpp/2_toughnesses cases/bar_at2
 
 #include "cases/program/fracture/opened_case.h"
 #include "physics/error.h"
