@@ -32,6 +32,7 @@ struct MaterialResponse {
 /// Energies per volume [J/m^3].
 struct MaterialEnergy {
   double driving = 0.0;               ///< psi_plus: what drives damage
+  double idle = 0.0;                  ///< stored and degraded, but without part in driving: heat where damage frees it
   double locked = 0.0;                ///< stored besides the elastic energy, as by hardening
   double dissipated = 0.0;            ///< as heat, since the virgin state
   Tensor inelastic = Tensor::Zero();  ///< the part of H that is not elastic [-]; zero at finite strain
@@ -59,6 +60,8 @@ class Material {
   virtual bool is_finite_strain() const { return false; }
   /// Whether the response depends on the duration of a step, which must then be positive.
   virtual bool depends_on_rate() const { return false; }
+  /// Whether the mean stress relaxes at a volume that is held.
+  virtual bool relaxes_in_volume() const { return false; }
 
   virtual std::size_t history_size() const = 0;
   virtual void start(std::span<double> history) const { std::ranges::fill(history, 0.0); }  ///< the virgin state

@@ -19,7 +19,7 @@ class SmallStrainMaterial : public Material {
   Tensor stress(const Tensor& H, std::span<const double> history) const final;
   /// The energy that is locked up drives damage too, and no split keeps it: shear makes it. A split that is not
   /// variational has a driving energy of its own.
-  MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const final;
+  MaterialEnergy energy(const Tensor& H, std::span<const double> history, const EnergySplit& split) const override;
 
  protected:
   struct Step {

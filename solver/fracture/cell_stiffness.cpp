@@ -199,9 +199,10 @@ double CellStiffness::plastic_dissipation(const FractureState& from, const Fract
   if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     if (!materials_.has(c)) return 0.0;
-    const double g = 0.5 * (factor(c, from.damage[c]) + factor(c, to.damage[c]));
-    return g * mesh_.cell_volume[c] *
-           (materials_.energy(c, to.histories).dissipated - materials_.energy(c, from.histories).dissipated);
+    const double g_from = factor(c, from.damage[c]), g_to = factor(c, to.damage[c]);
+    const MaterialEnergy before = materials_.energy(c, from.histories), after = materials_.energy(c, to.histories);
+    const double flow = 0.5 * (g_from + g_to) * (after.dissipated - before.dissipated);
+    return mesh_.cell_volume[c] * (flow + 0.5 * (g_from - g_to) * (before.idle + after.idle));
   });
 }
 

@@ -159,6 +159,18 @@ void require_history(const FractureModel& m, const Material& law, const LoadingS
                     law.name()));
 }
 
+// What a split keeps in closed cracks is elastic.
+void require_open_volume(const FractureModel& m, const RegionModel& region) {
+  const EnergySplit& split = m.split_of(region);
+  if (!region.damageable || !region.material->relaxes_in_volume() || !split.has_secant()) return;
+  if (split.secant(region.elasticity, 0.5, 1.0) == split.secant(region.elasticity, 0.5, 0.0)) return;
+  throw InputError(fmt::format(
+      "a damageable material of the law \"{}\" whose volume relaxes (bulk_branches) cannot be combined with "
+      "the energy split \"{}\", which keeps the bulk modulus of closed cracks; leave out bulk_branches, or "
+      "choose the split \"none\"",
+      region.material->name(), split.name()));
+}
+
 constexpr double close_to_zero = 1e-9;  // of a vector's part, relative
 
 void require_body_force(const Mesh& mesh, const Unknowns& unknowns, const LoadingSettings& loading) {
@@ -277,7 +289,10 @@ void require_combination(const Mesh& mesh, const FractureModel& model, const Unk
   if (model.viscosity > 0.0 && !(loading.duration > 0.0))
     throw InputError("viscosity (fracture.viscosity) requires loading.duration, the time in which t grows by 1");
   for (const RegionModel& region : model.regions)
-    if (region.material && !model.is_finite_strain()) require_history(model, *region.material, loading);
+    if (region.material && !model.is_finite_strain()) {
+      require_history(model, *region.material, loading);
+      require_open_volume(model, region);
+    }
   if (model.is_finite_strain()) require_finite(mesh, model, unknowns, loading);
   if (model.has_strength()) require_strength(model);
   if (model.stiffness_by == StiffnessBy::mean) require_mean_damage(mesh, model);

@@ -71,6 +71,60 @@ TEST(MaterialLaws, AnUndamageableBarOfRubberStretchesAsItsLawSays) {
   EXPECT_TRUE(shown);
 }
 
+// Plane strain, held sideways, with the strain rate e': (K + 4 mu/3) e + 4/3 sum mu_i tau_i e' (1 - exp(-t/tau_i)).
+TEST(MaterialLaws, AViscoelasticBarAnswersByItsBranches) {
+  const std::string prony =
+      "law = \"prony\"\nshear_branches = [{ modulus = \"10 GPa\", time = \"0.1 s\" }, { modulus = \"4 GPa\", time = "
+      "\"3 "
+      "s\" }]\ndamageable = false\n";
+  const CsvTable curve = curve_of(replaced(with_material(prony), "[loading]\n", "[loading]\nduration = \"1 s\"\n"));
+  const auto &force = curve.column("force_x_N"), &u = curve.column("displacement_m"), &load = curve.column("load");
+  const double E = 30e9, nu = 0.2, K = E / (3.0 - 6.0 * nu), mu = E / (2.0 + 2.0 * nu);
+  for (std::size_t i = 1; i < u.size(); ++i) {
+    const double e = u[i] / 20e-3, t = load[i];
+    const double viscous = 10e9 * 0.1 * -std::expm1(-t / 0.1) + 4e9 * 3.0 * -std::expm1(-t / 3.0);
+    const double stress = (K + 4.0 / 3.0 * mu) * e + 4.0 / 3.0 * viscous * e / t;
+    EXPECT_NEAR(force[i], stress * 1e-6, 1e-6 * stress * 1e-6) << i;
+  }
+  EXPECT_GT(curve.column("plastic_dissipation_J").back(), 0.0);
+}
+
+TEST(MaterialLaws, ViscoelasticityRefusesWhatItCannotBe) {
+  const std::string branch = "[{ modulus = \"10 GPa\", time = \"0.1 s\" }]\n",
+                    timed = "[loading]\nduration = \"1 s\"\n";
+  const auto refused = [&](const std::string& keys, const std::string& loading, const char* split,
+                           const char* message) {
+    SCOPED_TRACE(message);
+    std::string text = replaced(with_material("law = \"prony\"\n" + keys), "[loading]\n", loading);
+    const TemporaryCase directory(replaced(text, "\"none\"", "\"" + std::string(split) + "\""));
+    const Outcome outcome = run({"check", directory.path().string()});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+  };
+  refused("", timed, "none", "needs shear_branches or bulk_branches");
+  refused("shear_branches = " + branch, "[loading]\n", "none", "duration = \"1 s\" in [loading]");
+  refused("bulk_branches = " + branch, timed, "volumetric_deviatoric", "keeps the bulk modulus of closed cracks");
+  refused("shear_branches = " + branch, timed, "spectral", "cannot be combined with the energy split");
+  refused("shear_branches = [{ modulus = \"10 GPa\", time = \"-1 s\" }]\n", timed, "none", "time");
+  refused("shear_branches = [{ modulus = \"10 GPa\" }]\n", timed, "none", "time");
+  refused("yield_stress = \"2 MPa\"\nshear_branches = " + branch, timed, "none", "yield_stress");
+}
+
+// Cells with a history have no pressure: what they are too stiff by is said.
+TEST(MaterialLaws, NearlyIncompressibleHistoriesAreWarnedOf) {
+  const std::string prony = "law = \"prony\"\nshear_branches = [{ modulus = \"10 GPa\", time = \"0.1 s\" }]\n";
+  const std::string timed = replaced(with_material(prony), "[loading]\n", "[loading]\nduration = \"1 s\"\n");
+  const auto said = [](const std::string& text) {
+    const TemporaryCase directory(text);
+    const Outcome outcome = run({"check", directory.path().string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err + outcome.out;
+  };
+  EXPECT_THAT(said(timed), ::testing::Not(HasSubstr("nearly incompressible")));
+  EXPECT_THAT(said(replaced(timed, "poisson_ratio = 0.2", "poisson_ratio = 0.495")),
+              HasSubstr("law \"prony\" cells have no pressure unknown"));
+}
+
 struct Refused {
   const char *keys, *split, *message;
 };

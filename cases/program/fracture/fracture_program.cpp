@@ -28,6 +28,7 @@
 #include "postproc/files/other_case.h"
 #include "solver/fracture/bending_words.h"
 #include "solver/fracture/fracture_run.h"
+#include "solver/fracture/locking_words.h"
 #include "solver/fracture/resolution.h"
 
 #include <fmt/format.h>
@@ -120,6 +121,7 @@ void check(const FractureProgram& program, Session& session) {
   warn_of_interfaces(run, log);
   if (const std::string remark = direction_remark(mesh, run.model()); !remark.empty()) log.say(remark);
   if (const auto warning = bending_warning(mesh, run.model())) log.warn(*warning);
+  if (const auto warning = locking_warning(mesh, run.model())) log.warn(*warning);
   const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
   log.say(fmt::format("{}: {}", program.name, program.fracture.title));
   if (program.fracture.box) log.say(program.fracture.box->words);
@@ -327,6 +329,7 @@ void run_case(FractureProgram program, Session& session) {
   warn_of_interfaces(run, session.log);
   if (!session.figures_only)
     if (const auto words = bending_warning(mesh, run.model())) session.log.say(*words);
+  if (const auto words = locking_warning(mesh, run.model()); words && !session.figures_only) session.log.warn(*words);
   const FractureState initial = run.initial_state();
   const std::vector<ColumnSet> surfaces = column_sets(program.fracture.cohesive, mesh, run.model());
   const std::vector<ColumnSet> none, &columns = session.figures_only ? none : surfaces;

@@ -79,6 +79,18 @@ const KeyTable& band_keys() {
   return table;
 }
 
+const KeyTable& branch_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "shear_branches[], bulk_branches[]",
+      .sentence = "A branch of a viscoelastic material: spring and dashpot in series.",
+      .keys = {{"modulus", quantity(dimension::stress, range::positive), "",
+                "Modulus of the branch's spring, in shear or in bulk."},
+               {"time", quantity(dimension::time, range::positive), "",
+                "Relaxation time tau of the branch, the dashpot's viscosity over the modulus."}}};
+  return table;
+}
+
 Key regions_row() {
   return {"regions", keys::list(keys::text("region")), "", "Names of the mesh's regions that are of this material."};
 }
@@ -174,6 +186,13 @@ const KeyTable& material_keys() {
              "Slope of the yield stress by the equivalent plastic strain.", j2},
             {"kinematic_hardening", quantity(dimension::stress, range::not_negative), "0",
              "Slope of the back stress by the equivalent plastic strain.", j2},
+            {"shear_branches", tables(branch_keys), "none",
+             "Prony series of the shear modulus beside the relaxed one of young_modulus and poisson_ratio.", "prony"},
+            {"bulk_branches", tables(branch_keys), "none", "Prony series of the bulk modulus beside the relaxed one.",
+             "prony"},
+            {"driven_by", choice("driving energy", {"equilibrium", "stored"}), "\"equilibrium\"",
+             "Energy that drives damage: of the relaxed elasticity, or all that is stored, also in the branches.",
+             "prony"},
             {"volumetric", choice("volumetric energy", {"quadratic", "logarithmic"}), "\"quadratic\"",
              "Energy of the volume change of a hyperelastic material.", volumetric},
             {"second_invariant", number(range::fraction), "",

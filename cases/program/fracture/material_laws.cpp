@@ -4,6 +4,7 @@
 #include "physics/materials/endochronic_material.h"
 #include "physics/materials/hyperelastic.h"
 #include "physics/materials/j2_plasticity.h"
+#include "physics/materials/prony.h"
 
 namespace pfdm {
 namespace {
@@ -33,6 +34,28 @@ constexpr MaterialLaw j2_plasticity{
                                     {.yield_stress = material.quantity("yield_stress"),
                                      .isotropic_hardening = material.quantity("isotropic_hardening", 0.0),
                                      .kinematic_hardening = material.quantity("kinematic_hardening", 0.0)});
+        },
+};
+
+std::vector<PronyBranch> read_branches(const ConfigTable& material, const char* key) {
+  std::vector<PronyBranch> branches;
+  if (!material.has(key)) return branches;
+  for (const ConfigTable& branch : material.tables(key))
+    branches.push_back({branch.quantity("modulus"), branch.quantity("time")});
+  return branches;
+}
+
+constexpr MaterialLaw prony{
+    .name = "prony",
+    .description = "linear viscoelasticity, a generalised Maxwell body; shear_branches, bulk_branches, driven_by",
+    .read =
+        [](const ConfigTable& material) {
+          return make_prony({.relaxed = read_elasticity(material),
+                             .shear = read_branches(material, "shear_branches"),
+                             .bulk = read_branches(material, "bulk_branches"),
+                             .drive = material.choice("driven_by", "equilibrium") == "stored"
+                                          ? PronyDrive::stored
+                                          : PronyDrive::equilibrium});
         },
 };
 
@@ -89,8 +112,9 @@ constexpr MaterialLaw saint_venant_kirchhoff{
     .read = [](const ConfigTable& m) { return make(m, "saint_venant_kirchhoff", {.elasticity = read_elasticity(m)}); },
 };
 
-constexpr MaterialLaw all_material_laws[] = {linear_elastic, endochronic, j2_plasticity, neo_hookean,
-                                             mooney_rivlin,  ogden,       lopez_pamies,  saint_venant_kirchhoff};
+constexpr MaterialLaw all_material_laws[] = {linear_elastic, endochronic,  j2_plasticity,
+                                             prony,          neo_hookean,  mooney_rivlin,
+                                             ogden,          lopez_pamies, saint_venant_kirchhoff};
 
 }  // namespace
 

@@ -90,6 +90,7 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, cons
   RegionModel model;
   model.elasticity = from_young_poisson(keys.young_modulus->at(x), keys.poisson_ratio->at(x));
   model.material = keys.material;
+  if (model.material && !model.material->is_finite_strain()) model.elasticity = model.material->elasticity();
   model.split = keys.split.value_or(EnergySplit());
   model.density = value_at(keys.density, x).value_or(0.0);
   turn(keys, table, x, model);
