@@ -23,6 +23,32 @@ InputError zero_deviation(const SampledCurve& curve, std::size_t row) {
                                 curve.name, curve.x[row]));
 }
 
+/// Mean of a curve over [middle - reach, middle + reach]; the value in the middle where reach is zero.
+double mean_about(const SampledCurve& curve, double middle, double reach) {
+  const double from = middle - reach, to = middle + reach;
+  if (!(to > from)) return curve.at(middle);
+  double x = from, y = curve.at(from), area = 0.0;
+  const auto add = [&](double next_x, double next_y) {
+    area += 0.5 * (y + next_y) * (next_x - x);
+    x = next_x;
+    y = next_y;
+  };
+  const auto first = std::ranges::upper_bound(curve.x, from) - curve.x.begin();
+  for (auto i = static_cast<std::size_t>(first); i < curve.x.size() && curve.x[i] < to; ++i)
+    add(curve.x[i], curve.y[i]);
+  add(to, curve.at(to));
+  return area / (to - from);
+}
+
+/// Half the way from the point before to the one after, of the same specimen.
+double spacing_at(const MeasuredPoints& measured, std::size_t i) {
+  const auto& points = measured.points;
+  const std::size_t before = i > 0 && points[i - 1].specimen == points[i].specimen ? i - 1 : i,
+                    after = i + 1 < points.size() && points[i + 1].specimen == points[i].specimen ? i + 1 : i;
+  if (after == before) return 0.0;
+  return std::abs(points[after].x - points[before].x) / static_cast<double>(after - before);
+}
+
 /// The points of all curves whose specimen and row are `wanted`; `from` and `to` for the message.
 template <class Wanted>
 MeasuredPoints points_of(const std::vector<const SampledCurve*>& curves, const Wanted& wanted, double from, double to) {
@@ -89,6 +115,19 @@ std::optional<std::vector<double>> residuals_of(const ModelCurves& models, const
     const double slack = rounding * (model.x.back() - model.x.front());
     if (point.x < model.x.front() - slack || point.x > model.x.back() + slack) return std::nullopt;
     residuals.push_back((model.at(point.x) - point.y) / measured.scale(point));
+  }
+  return residuals;
+}
+
+std::optional<std::vector<double>> averaged_residuals_of(const ModelCurves& models, const MeasuredPoints& measured) {
+  auto residuals = residuals_of(models, measured);
+  if (!residuals) return std::nullopt;
+  for (std::size_t i = 0; i < residuals->size(); ++i) {
+    const auto& point = measured.points[i];
+    const SampledCurve& model = model_of(models, point);
+    const double room = std::min(point.x - model.x.front(), model.x.back() - point.x);
+    const double reach = std::min(spacing_at(measured, i), room);
+    if (reach > 0.0) (*residuals)[i] = (mean_about(model, point.x, reach) - point.y) / measured.scale(point);
   }
   return residuals;
 }

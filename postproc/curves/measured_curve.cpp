@@ -221,4 +221,42 @@ std::string missed_origin_text(const MissedOrigin& missed, const std::string& sp
       specimen, missed.measured, missed.error, missed.computed);
 }
 
+std::optional<Slack> slack_at_start(const SampledCurve& measured) {
+  constexpr double unloaded = 0.02, rise_from = 0.05, rise_to = 0.4, significant = 4.0;
+  const auto peak = static_cast<std::size_t>(std::ranges::max_element(measured.y) - measured.y.begin());
+  const double largest = measured.y.empty() ? 0.0 : measured.y[peak];
+  std::vector<double> x, y;  // of the rise
+  Slack slack{.from = rise_from * largest, .to = rise_to * largest};
+  std::size_t first = 0;
+  while (first < peak && measured.x[first] < 0.0) ++first;
+  for (std::size_t i = first; i < peak && measured.y[i] <= slack.to; ++i) {
+    if (measured.y[i] < slack.from) continue;
+    x.push_back(measured.x[i]);
+    y.push_back(measured.y[i]);
+  }
+  const auto line = straight_line(x, y, 0.0);
+  if (!line) return std::nullopt;
+  slack.origin = line->zero;
+  slack.error = line->zero_error;
+  for (std::size_t i = first; i < peak && measured.x[i] < slack.origin; ++i, ++slack.n_rows) {
+    if (std::abs(measured.y[i]) > unloaded * largest) return std::nullopt;
+    slack.until = measured.x[i];
+  }
+  const double length = slack.origin - measured.x[first];
+  const bool is_slack = slack.n_rows >= 3 && length > significant * slack.error &&
+                        length > noticeable_origin * (measured.x[peak] - measured.x[first]);
+  return is_slack ? std::optional(slack) : std::nullopt;
+}
+
+std::optional<std::string> doubt_of_origin(const SampledCurve& measured, const SampledCurve& computed, double from,
+                                           double to) {
+  if (const auto slack = slack_at_start(measured))
+    return fmt::format(
+        "{} begins with slack: {} rows up to {:.3g} m are at zero force, and the rise after them meets it at {:.4g} m "
+        "(standard error {:.2g}); toe = [\"{:.3g} N\", \"{:.3g} N\"] of [experiment] makes that the origin",
+        measured.name, slack->n_rows, slack->until, slack->origin, slack->error, slack->from, slack->to);
+  const auto missed = missed_origin(measured, computed, from, to);
+  return missed ? std::optional(missed_origin_text(*missed, measured.name)) : std::nullopt;
+}
+
 }  // namespace pfdm

@@ -45,6 +45,9 @@ struct FitProblem {
   std::vector<FitParameter> parameters;
   Residuals residuals;
   ResidualJacobian jacobian = {};  ///< by differences if there is none
+  /// Residuals whose differences are taken in place of those of `residuals`, which are ragged: of a curve that jumps,
+  /// its means over the spacing of the data.
+  Residuals averaged = {};
   /// Told the points at which `residuals` will be asked for next, so that a model can compute them side by side.
   std::function<void(const std::vector<std::vector<double>>& points)> prepare = {};
   /// The residuals are divided by the standard deviation of their noise. Otherwise that is estimated from their rms.

@@ -61,8 +61,12 @@ std::pair<double, double> ScaledModel::bounds(std::size_t j) const {
 }
 
 std::optional<std::vector<double>> ScaledModel::residuals(const Eigen::VectorXd& u) const {
+  return evaluated(problem_.residuals, u);
+}
+
+std::optional<std::vector<double>> ScaledModel::evaluated(const Residuals& model, const Eigen::VectorXd& u) const {
   ++evaluations_;
-  auto r = problem_.residuals(natural(u));
+  auto r = model(natural(u));
   if (!r) return std::nullopt;
   for (const double value : *r)
     if (!std::isfinite(value)) return std::nullopt;
@@ -84,7 +88,8 @@ double ScaledModel::cost(const Eigen::VectorXd& u) const {
 }
 
 std::optional<Eigen::MatrixXd> ScaledModel::jacobian(const Eigen::VectorXd& u) const {
-  return problem_.jacobian ? given_jacobian(u) : differences(u);
+  if (problem_.jacobian) return given_jacobian(u);
+  return differences(problem_.averaged ? problem_.averaged : problem_.residuals, u);
 }
 
 std::optional<Eigen::MatrixXd> ScaledModel::given_jacobian(const Eigen::VectorXd& u) const {
@@ -120,12 +125,12 @@ std::optional<Eigen::VectorXd> ScaledModel::moved(const Eigen::VectorXd& u, std:
 }
 
 /// Central where both sides can be evaluated, else to the side that can.
-std::optional<Eigen::VectorXd> ScaledModel::difference(const Eigen::VectorXd& u, const std::vector<double>& here,
-                                                       std::size_t j) const {
+std::optional<Eigen::VectorXd> ScaledModel::difference(const Residuals& model, const Eigen::VectorXd& u,
+                                                       const std::vector<double>& here, std::size_t j) const {
   const double h = step_of(u[static_cast<Eigen::Index>(j)]);
   const auto side = [&](double sign) {
     const auto there = moved(u, j, sign);
-    return there ? residuals(*there) : std::nullopt;
+    return there ? evaluated(model, *there) : std::nullopt;
   };
   const auto above = side(1.0);
   const auto below = above && settings_.differences == Differences::forward ? std::nullopt : side(-1.0);
@@ -149,7 +154,7 @@ Eigen::VectorXd ScaledModel::centre_of_differences(const Eigen::VectorXd& u) con
   return centre;
 }
 
-std::optional<Eigen::MatrixXd> ScaledModel::differences(const Eigen::VectorXd& where) const {
+std::optional<Eigen::MatrixXd> ScaledModel::differences(const Residuals& model, const Eigen::VectorXd& where) const {
   const Eigen::VectorXd u = centre_of_differences(where);
   std::vector<Eigen::VectorXd> points{u};
   for (std::size_t j = 0; j < n_parameters(); ++j) {
@@ -159,13 +164,13 @@ std::optional<Eigen::MatrixXd> ScaledModel::differences(const Eigen::VectorXd& w
       if (point) points.push_back(*point);
   }
   prepare(points);
-  const auto here = residuals(u);
+  const auto here = evaluated(model, u);
   if (!here) return std::nullopt;
   std::vector<std::optional<Eigen::VectorXd>> columns(n_parameters());
   const auto n = static_cast<Index>(n_parameters());
   const auto body = [&](Index begin, Index end) {
     for (Index j = begin; j < end; ++j)
-      columns[static_cast<std::size_t>(j)] = difference(u, *here, static_cast<std::size_t>(j));
+      columns[static_cast<std::size_t>(j)] = difference(model, u, *here, static_cast<std::size_t>(j));
   };
   if (settings_.side_by_side)
     parallel_chunks(n, body, 1);

@@ -45,12 +45,13 @@ class ScaledModel {
 
  private:
   std::optional<Eigen::MatrixXd> given_jacobian(const Eigen::VectorXd& u) const;
-  std::optional<Eigen::MatrixXd> differences(const Eigen::VectorXd& u) const;
+  std::optional<std::vector<double>> evaluated(const Residuals& model, const Eigen::VectorXd& u) const;
+  std::optional<Eigen::MatrixXd> differences(const Residuals& model, const Eigen::VectorXd& u) const;
   /// Where parameter j is moved by `sign` steps; nothing beyond its bounds.
   std::optional<Eigen::VectorXd> moved(const Eigen::VectorXd& u, std::size_t j, double sign) const;
   double step_of(double u) const { return settings_.step * std::max(1.0, std::abs(u)); }
-  std::optional<Eigen::VectorXd> difference(const Eigen::VectorXd& u, const std::vector<double>& here,
-                                            std::size_t j) const;
+  std::optional<Eigen::VectorXd> difference(const Residuals& model, const Eigen::VectorXd& u,
+                                            const std::vector<double>& here, std::size_t j) const;
   double scaled(std::size_t j, double parameter) const;
 
   const FitProblem& problem_;

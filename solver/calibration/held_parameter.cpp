@@ -39,6 +39,8 @@ FitProblem with_held(const FitProblem& problem, std::size_t k, double value, con
   for (std::size_t j = 0; j < others.size(); ++j)
     held.parameters[j].start = std::clamp(others[j], held.parameters[j].lower, held.parameters[j].upper);
   held.residuals = [&problem, all](std::span<const double> rest) { return problem.residuals(all(rest)); };
+  if (problem.averaged)
+    held.averaged = [&problem, all](std::span<const double> rest) { return problem.averaged(all(rest)); };
   if (problem.jacobian)
     held.jacobian = [&problem, all, k](std::span<const double> rest) -> std::optional<Eigen::MatrixXd> {
       const auto J = problem.jacobian(all(rest));

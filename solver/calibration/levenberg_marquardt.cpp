@@ -72,11 +72,21 @@ class Recorder : public ceres::IterationCallback {
     }
     // Before the first successful step Ceres 2.2 leaves the norm at zero.
     const bool was_tried = summary.iteration > 0 && summary.step_is_valid && summary.step_norm > 0.0;
-    return was_tried && summary.step_norm < settings_.least_step ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                                 : ceres::SOLVER_CONTINUE;
+    if (is_hopeless(summary.iteration)) result_.message = "at its pace it would not come down to what is due";
+    const bool is_over = !result_.message.empty() || (was_tried && summary.step_norm < settings_.least_step);
+    return is_over ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
+  bool is_hopeless(int iteration) const {
+    constexpr std::size_t last = 4;
+    constexpr double faster = 3.0;
+    const std::vector<LeastSquaresPoint>& path = result_.path;
+    if (!std::isfinite(settings_.due_cost) || path.size() <= last) return false;
+    const double cost = path.back().cost, pace = (path[path.size() - 1 - last].cost - cost) / last;
+    return cost - faster * pace * (settings_.maximum_iterations - iteration) > settings_.due_cost;
+  }
+
   const LeastSquaresSettings& settings_;
   LeastSquaresResult& result_;
 };
@@ -140,9 +150,10 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, const VectorXd& 
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_problem, &summary);
   result.converged = summary.termination_type == ceres::CONVERGENCE || summary.termination_type == ceres::USER_SUCCESS;
-  result.message = summary.termination_type == ceres::USER_SUCCESS
-                       ? fmt::format("the last step was shorter than {:g}", settings.least_step)
-                       : summary.message;
+  if (result.message.empty())
+    result.message = summary.termination_type == ceres::USER_SUCCESS
+                         ? fmt::format("the last step was shorter than {:g}", settings.least_step)
+                         : summary.message;
   if (summary.IsSolutionUsable()) result.cost = summary.final_cost;
   return result;
 }

@@ -33,6 +33,9 @@ struct LeastSquaresSettings {
   double least_step = 0.0;        ///< a shorter step ends the search
   double trust_radius = 1e4;      ///< of the first step
   double robust_scale = 0.0;      ///< residuals well above count less (Huber); 0: least squares
+  /// A search ends that would not come down to this cost in the iterations that are left, though each took several
+  /// times as much from it as the last ones.
+  double due_cost = std::numeric_limits<double>::infinity();
   std::function<void(const LeastSquaresPoint&)> iterated = {};  ///< at the start and after every step that was taken
 };
 

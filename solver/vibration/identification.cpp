@@ -31,11 +31,12 @@ double mean_misfit(const OutputErrorFit& fit) {
   return sum / static_cast<double>(fit.record_misfit.size());
 }
 
-/// None if no bounded solution was found.
+/// None if no bounded solution was found. `rival`: a fit that it would have to surpass.
 std::optional<Trial> tried(std::span<const VibrationRecord> records, Regression start,
-                           const IdentificationSettings& settings) {
+                           const IdentificationSettings& settings, const std::optional<Trial>& rival = std::nullopt) {
   Trial trial{.start = std::move(start), .fit = {}, .result = {}};
-  trial.fit = approach_output(records, trial.start.model, settings);
+  trial.fit =
+      approach_output(records, trial.start.model, settings, rival ? std::optional(rival->fit.bic) : std::nullopt);
   if (trial.fit.record_misfit.empty()) return std::nullopt;
   const auto& kernel = trial.fit.model.kernel;
   trial.result = {.kernel_order = static_cast<int>(kernel.size()),
@@ -97,7 +98,7 @@ std::optional<Trial> pair_trial(std::span<const VibrationRecord> records, MassMa
   for (int terms = 1; terms <= settings.maximum_kernel_order; ++terms) {
     const auto start = with_added_term(records, best ? best->fit.model : plain,
                                        terms == 1 ? TermKind::pair : TermKind::real, settings);
-    auto trial = start ? tried(records, {.model = *start, .misfit = 0.0}, settings) : std::nullopt;
+    auto trial = start ? tried(records, {.model = start->model, .misfit = 0.0}, settings, best) : std::nullopt;
     if (!trial) break;
     orders.push_back(trial->result);
     if (best && trial->fit.bic >= best->fit.bic) break;
@@ -106,9 +107,20 @@ std::optional<Trial> pair_trial(std::span<const VibrationRecord> records, MassMa
   return best;
 }
 
-/// Real terms by the output error of each order. Where one of them leaves more than noise a pair is tried before two:
-/// it has as many parameters. One that needs more terms beside it is compared with real terms alone, which a pair whose
-/// imaginary part vanishes can imitate.
+/// Whether a pair meets the equation of motion better than two real terms, which have as many parameters.
+bool pair_is_nearer(std::span<const VibrationRecord> records, MassMaterial plain, KernelForcing forcing,
+                    const IdentificationSettings& settings) {
+  plain.kernel.clear();
+  plain.forcing = forcing;
+  const auto pair = with_added_term(records, plain, TermKind::pair, settings),
+             one = with_added_term(records, plain, TermKind::real, settings),
+             two = one ? with_added_term(records, one->model, TermKind::real, settings) : std::nullopt;
+  return pair && (!two || pair->left < two->left);
+}
+
+/// Real terms by the output error of each order. Where one of them leaves more than noise a pair is tried before two if
+/// the equation of motion is for it, else after all of them if they still leave more than noise. One that needs more
+/// terms beside it is compared with real terms alone, which a pair whose imaginary part vanishes can imitate.
 std::optional<Trial> output_trial(std::span<const VibrationRecord> records, const ModelStructure& structure,
                                   std::vector<OrderTrial>& orders, const IdentificationSettings& settings) {
   const StartOfOrder start_of = start_of_order(records, structure, settings);
@@ -121,12 +133,12 @@ std::optional<Trial> output_trial(std::span<const VibrationRecord> records, cons
     return pair && pair->fit.bic < best->fit.bic ? std::move(pair) : std::nullopt;
   };
   for (const int order : orders_to_try(structure, settings)) {
-    if (order == 2) {
+    if (order == 2 && pairs && best && pair_is_nearer(records, best->fit.model, structure.forcing, settings)) {
       with_pair = better_pair();
       if (with_pair && with_pair->fit.model.kernel.size() == 1) return with_pair;
     }
     auto start = start_of(order);
-    auto trial = start ? tried(records, std::move(*start), settings) : std::nullopt;
+    auto trial = start ? tried(records, std::move(*start), settings, best) : std::nullopt;
     if (!trial) continue;
     orders.push_back(trial->result);
     if (best && trial->fit.bic >= best->fit.bic) break;  // one more term is not worth its two parameters

@@ -86,9 +86,10 @@ struct OutputErrorFit {
 OutputErrorFit refine_output(std::span<const VibrationRecord> records, const MassMaterial& start,
                              const IdentificationSettings& settings, bool is_near = false);
 
-/// Roughly, to compare models: as few samples and iterations as that takes, no intervals.
+/// Roughly, to compare models: as few samples and iterations as that takes, no intervals. `rival`: an information that
+/// is to be surpassed; a search that would not at its pace ends early.
 OutputErrorFit approach_output(std::span<const VibrationRecord> records, const MassMaterial& start,
-                               const IdentificationSettings& settings);
+                               const IdentificationSettings& settings, std::optional<double> rival = std::nullopt);
 
 struct OrderTrial {
   int kernel_order = 0;  ///< number of terms, a pair counting one

@@ -199,8 +199,8 @@ MassMaterial model_of(const EquationFit& fit, std::span<const Complex> alphas, M
 
 }  // namespace
 
-std::optional<MassMaterial> with_added_term(std::span<const VibrationRecord> records, const MassMaterial& model,
-                                            TermKind kind, const IdentificationSettings& settings) {
+std::optional<AddedTerm> with_added_term(std::span<const VibrationRecord> records, const MassMaterial& model,
+                                         TermKind kind, const IdentificationSettings& settings) {
   const Spectral data = joined(records, model, settings);
   std::vector<Complex> alphas, best;
   for (const HereditaryTerm& term : model.kernel) alphas.push_back(term.alpha);
@@ -216,7 +216,8 @@ std::optional<MassMaterial> with_added_term(std::span<const VibrationRecord> rec
   if (best.empty()) return std::nullopt;
   best = refined_rates(data, best);
   const EquationFit fit = fit_equation(data, best);
-  return fit.x[1] > 0.0 ? std::optional(model_of(fit, best, model)) : std::nullopt;
+  if (!(fit.x[1] > 0.0)) return std::nullopt;
+  return AddedTerm{.model = model_of(fit, best, model), .left = fit.left.norm()};
 }
 
 }  // namespace pfdm

@@ -151,27 +151,31 @@ Minimum minimise_fully(OutputError& error, const VectorXd& x0) {
 /// way. `start` if that does not bring all records nearer.
 VectorXd approached_by_one(const VibrationRecord& strongest, double crop, OutputError& all,
                            const ParameterCoordinates& coordinates, const MassMaterial& start, const VectorXd& x0,
-                           int& evaluations) {
+                           int most_iterations, int& evaluations) {
   constexpr double roughly = 1e-4;
   const Responses one(std::span(&strongest, 1), crop, start);
   const Drives drives = one.reduced_drives(start);
   OutputError error(one, coordinates, drives, evaluations);
-  const VectorXd x = minimise(error.problem(x0), x0, until(roughly)).x;
+  LeastSquaresSettings settings = until(roughly);
+  settings.maximum_iterations = most_iterations;
+  const VectorXd x = minimise(error.problem(x0), x0, settings).x;
   const double before = all.residuals(x0).squaredNorm(), after = all.residuals(x).squaredNorm();
   return after < before ? x : x0;
 }
 
 /// With as few samples as the compared band needs.
 Minimum approach(std::span<const VibrationRecord> records, OutputError& coarse, const ParameterCoordinates& coordinates,
-                 const MassMaterial& start, bool is_near, double crop, int most_iterations, int& evaluations) {
+                 const MassMaterial& start, bool is_near, double crop, int most_iterations, int& evaluations,
+                 double due_cost = std::numeric_limits<double>::infinity()) {
   constexpr double near = 1e-6;
   VectorXd x0 = bounded_start(coarse, coordinates, start);
   const auto strength = [](const VibrationRecord& r) { return r.relative.squaredNorm() / static_cast<double>(r.n()); };
   if (records.size() > 1 && !is_near)
     x0 = approached_by_one(*std::ranges::max_element(records, {}, strength), crop, coarse, coordinates, start, x0,
-                           evaluations);
+                           most_iterations, evaluations);
   LeastSquaresSettings settings = until(near);
   settings.maximum_iterations = most_iterations;
+  settings.due_cost = due_cost;
   LeastSquaresResult found = minimise(coarse.problem(x0), x0, settings);
   return {.x = found.x,
           .residuals = coarse.residuals(found.x),
@@ -296,10 +300,16 @@ OutputErrorFit fit_at(const Minimum& found, const Responses& responses, const Pa
   return fit;
 }
 
+/// Half the sum of squares at which a fit of n residuals and k parameters has this information.
+double cost_of(double bic, Eigen::Index n_residuals, Eigen::Index n_parameters) {
+  const double n = static_cast<double>(n_residuals), k = static_cast<double>(n_parameters);
+  return 0.5 * n * std::exp((bic - k * std::log(n)) / n);
+}
+
 }  // namespace
 
 OutputErrorFit approach_output(std::span<const VibrationRecord> records, const MassMaterial& start,
-                               const IdentificationSettings& settings) {
+                               const IdentificationSettings& settings, std::optional<double> rival) {
   constexpr int most_iterations = 25;
   MassMaterial sorted = start;
   sort_terms(sorted);
@@ -309,7 +319,9 @@ OutputErrorFit approach_output(std::span<const VibrationRecord> records, const M
   int evaluations = 0;
   OutputError coarse(responses, coordinates, reduced, evaluations);
   const Minimum found =
-      approach(records, coarse, coordinates, sorted, false, settings.crop, most_iterations, evaluations);
+      approach(records, coarse, coordinates, sorted, false, settings.crop, most_iterations, evaluations,
+               rival ? cost_of(*rival, responses.size(), coordinates.from(sorted).size())
+                     : std::numeric_limits<double>::infinity());
   return fit_at(found, responses, coordinates, evaluations);
 }
 

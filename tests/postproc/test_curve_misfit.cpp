@@ -35,6 +35,35 @@ TEST(CurveMisfit, WeighsByTheRmsWhereTheNoiseIsNotKnown) {
   EXPECT_DOUBLE_EQ(residuals_of(curve({0, 1}, {4, 4}), points)->front(), 1.0 / std::sqrt(12.5));
 }
 
+// Where a curve falls at once, its derivatives depend on where the points lie; those of its means add up to the fall
+// over the spacing, wherever it is.
+TEST(CurveMisfit, MeansFollowAJumpBetweenPoints) {
+  const SampledCurve data = curve({0, 1, 2, 3, 4, 5, 6, 7, 8}, {0, 0, 0, 0, 0, 0, 0, 0, 0});
+  MeasuredPoints points = points_between({data}, 0.0, 8.0);
+  points.rms = 1.0;
+  const auto jump_at = [](double x) { return ModelCurves{curve({0, x - 0.005, x + 0.005, 8}, {4, 4, 0, 0})}; };
+  const auto change = [&](auto residuals, double x) {
+    constexpr double h = 0.1;
+    const auto ahead = residuals(jump_at(x + h), points).value(), behind = residuals(jump_at(x - h), points).value();
+    double sum = 0.0;
+    for (std::size_t i = 0; i < ahead.size(); ++i) sum += (ahead[i] - behind[i]) / (2.0 * h);
+    return sum;
+  };
+  const auto plain = [](const ModelCurves& m, const MeasuredPoints& p) { return residuals_of(m, p); };
+  EXPECT_EQ(change(plain, 4.5), 0.0);   // between two points
+  EXPECT_EQ(change(plain, 4.0), 20.0);  // over one
+  for (const double x : {3.6, 4.0, 4.3, 4.5, 4.9}) EXPECT_NEAR(change(averaged_residuals_of, x), 4.0, 1e-9) << x;
+}
+
+TEST(CurveMisfit, MeansOfAStraightCurveAreItsValues) {
+  const SampledCurve data = curve({0, 1, 2, 4, 8}, {1, 0, 3, 1, 2}), other = curve({1, 1, 3}, {0, 1, 2});
+  const MeasuredPoints points = points_between({data, other}, 0.0, 8.0);
+  const ModelCurves line{curve({0, 2.5, 8}, {1, 6, 17})};
+  const auto values = residuals_of(line, points).value(), means = averaged_residuals_of(line, points).value();
+  for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(means[i], values[i], 1e-12) << i;
+  EXPECT_FALSE(averaged_residuals_of(ModelCurves{curve({0, 1.8}, {0, 1})}, points));
+}
+
 TEST(CurveMisfit, RefusesWhatHasNoWeight) {
   EXPECT_THROW(points_between({curve({0, 1}, {0, 1}, {0, 1})}, 0, 1), InputError);
   EXPECT_THROW(points_between({curve({0, 1}, {0, 1})}, 2, 3), InputError);

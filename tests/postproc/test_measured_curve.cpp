@@ -111,6 +111,41 @@ TEST(MeasuredCurve, ToeIsCompensatedByTheStraightPart) {
               HasSubstr("toe: 0 rows lie between"));
 }
 
+/// `length` of displacement at zero force, then 5 per displacement up to 10, then softer; with noise of the force.
+SampledCurve curve_with_slack(double length, double noise, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal(0.0, noise);
+  SampledCurve recorded{.name = "one", .x = {}, .y = {}};
+  for (int i = 0; i <= 100; ++i) {
+    const double u = 0.05 * i, straight = 5.0 * std::max(0.0, u - length);
+    recorded.x.push_back(u);
+    recorded.y.push_back(std::min(straight, 10.0 + 0.1 * (straight - 10.0)) + normal(engine));
+  }
+  return recorded;
+}
+
+TEST(MeasuredCurve, SlackIsFoundAndItsLength) {
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    const auto slack = slack_at_start(curve_with_slack(1.02, 0.03, seed));
+    ASSERT_TRUE(slack);
+    EXPECT_EQ(slack->n_rows, 21u);
+    EXPECT_DOUBLE_EQ(slack->until, 1.0);
+    EXPECT_NEAR(slack->origin, 1.02, 3.0 * slack->error);
+    EXPECT_LT(slack->error, 0.02);
+    const SampledCurve with_toe =
+        prepared(curve_with_slack(1.02, 0.03, seed), {.toe = Toe{.from = slack->from, .to = slack->to}}, {}).curve;
+    EXPECT_FALSE(slack_at_start(with_toe));
+    EXPECT_FALSE(slack_at_start(prepared(curve_with_slack(1.02, 0.03, seed), {}, {.offset = 1.02}).of_specimen()));
+    EXPECT_FALSE(slack_at_start(curve_with_slack(0.0, 0.03, seed)));
+    EXPECT_FALSE(slack_at_start(curve_with_slack(0.02, 0.03, seed)));  // no row in it but the first
+  }
+  EXPECT_FALSE(slack_at_start(curve_with_toe()));
+  const auto doubt = doubt_of_origin(curve_with_slack(1.02, 0.0, 1), curve({0, 5}, {0, 25}), 0.0, 5.0);
+  ASSERT_TRUE(doubt);
+  EXPECT_THAT(*doubt, HasSubstr("one begins with slack: 21 rows up to 1 m are at zero force"));
+  EXPECT_THAT(*doubt, HasSubstr("meets it at 1.02 m"));
+}
+
 // A soft machine on a bar that softens: u = F/5 + 0.3 F + 0.2 before the peak.
 TEST(MeasuredCurve, SetUpIsTakenOffAndPutOn) {
   const SampledCurve specimen = curve({0, 1, 2, 3, 4}, {0, 5, 10, 6, 1});

@@ -432,5 +432,31 @@ TEST(Calibration, NonNegativeLeastSquares) {
   }
 }
 
+// Data with noise about a step of height 4 at 5.3, which a model that jumps between the points cannot be moved by.
+TEST(Calibration, DifferencesOfAveragedResidualsFindWhereAModelJumps) {
+  std::mt19937 engine(4);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  std::vector<double> data;
+  for (int i = 0; i < 12; ++i) data.push_back((i < 5.3 ? 4.0 : 0.0) + noise(engine));
+  FitProblem problem{.parameters = {{.name = "p", .unit = "1", .first = 4.45, .lower = 1.0, .upper = 10.0}},
+                     .residuals = [&](std::span<const double> p) -> std::optional<std::vector<double>> {
+                       std::vector<double> r;
+                       for (int i = 0; i < 12; ++i) r.push_back((i < p[0] ? 4.0 : 0.0) - data[std::size_t(i)]);
+                       return r;
+                     },
+                     .noise_is_known = true};
+  const FitSettings settings{.step = 0.02};
+  EXPECT_THAT(fit(problem, settings).warnings, Contains(HasSubstr("no influence on the residuals")));
+  problem.averaged = [&](std::span<const double> p) -> std::optional<std::vector<double>> {
+    std::vector<double> r;
+    for (int i = 0; i < 12; ++i) r.push_back(2.0 * std::clamp(p[0] - i + 1.0, 0.0, 2.0) - data[std::size_t(i)]);
+    return r;
+  };
+  const FitResult found = fit(problem, settings);
+  EXPECT_GT(found.estimates[0].value, 5.0);
+  EXPECT_LT(found.estimates[0].value, 6.0);
+  EXPECT_NEAR(found.estimates[0].standard_error, std::sqrt(0.5) / 2.0, 1e-3);  // 2 of two points
+}
+
 }  // namespace
 }  // namespace pfdm::this_file

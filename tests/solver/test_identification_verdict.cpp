@@ -121,6 +121,18 @@ TEST(IdentificationVerdict, TwoRealTermsAreNotTakenForAPair) {
   EXPECT_THAT(found.fit.doubts, IsEmpty());
 }
 
+// One real term leaves more than noise, two do not: trials of pairs, which took most of the simulations, are left out.
+TEST(IdentificationVerdict, NoPairIsTriedWhereTwoRealTermsLeaveNoise) {
+  VibrationRecord record = sweep_record(truth("7"), 20.0, 6.0);
+  independent::add_white_noise(record, 40.0, 1);
+  const IdentificationSettings settings{.mass = 1.12, .reference_velocity = 0.3, .kernel_order = {}, .replicates = 0};
+  const Identification found = identify(std::span(&record, 1), model_structure("7"), settings);
+  ASSERT_EQ(found.fit.model.kernel.size(), 2u);
+  for (const OrderTrial& trial : found.orders) EXPECT_FALSE(trial.pair);
+  const RecordEvidence evidence = record_evidence(found.fit.model, record, settings.crop);
+  EXPECT_THAT(doubts_of(std::span(&evidence, 1)), IsEmpty());
+}
+
 // Real terms alone are no fit to such a record, and it says so.
 TEST(IdentificationVerdict, RealTermsInPlaceOfAPairAreDoubted) {
   VibrationRecord record = independent::record_of(sample_of(truth_with_pair(1, false)), sweep);

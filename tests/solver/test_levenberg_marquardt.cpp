@@ -64,6 +64,20 @@ TEST(LevenbergMarquardt, StaysWithinBounds) {
   EXPECT_EQ(side_of_bound(found.x[1], problem.bounds[1]), 0);
 }
 
+// exp(-x) and 1 leave 1/2 at best, which each step comes nearer to by as much in x.
+TEST(LevenbergMarquardt, EndsWhereItWouldNotComeDownToWhatIsDue) {
+  const LeastSquaresProblem problem{
+      .residuals = [](const VectorXd& x) -> std::optional<VectorXd> { return Vector2d(std::exp(-x[0]), 1.0); },
+      .jacobian = [](const VectorXd& x) -> std::optional<MatrixXd> { return Vector2d(-std::exp(-x[0]), 0.0); }};
+  const auto end_with = [&](double due) {
+    return minimise(problem, VectorXd::Zero(1), {.maximum_iterations = 20, .due_cost = due});
+  };
+  const LeastSquaresResult alone = minimise(problem, VectorXd::Zero(1), {.maximum_iterations = 20});
+  EXPECT_LT(end_with(0.4).path.size() + 2, alone.path.size());
+  EXPECT_LT(end_with(0.4).cost, 0.502);
+  EXPECT_EQ(end_with(0.50001).path.size(), alone.path.size());
+}
+
 // ln x has no value for the first step's end.
 TEST(LevenbergMarquardt, StepsBackFromWhereThereAreNoResiduals) {
   LeastSquaresProblem problem{.residuals = [](const VectorXd& x) -> std::optional<VectorXd> {

@@ -79,9 +79,9 @@ void say(const EnergyComparison& energy, Log& log) {
 void say_preparation(const ExperimentSettings& experiment, const SampledCurve& model, Log& log) {
   for (const MeasuredCurve& specimen : experiment.specimens) {
     for (const std::string& done : specimen.treatment()) log.say(fmt::format("{}: {}", specimen.curve.name, done));
-    const auto missed =
-        missed_origin(specimen.of_specimen(), model, experiment.stiffness_from, experiment.stiffness_to);
-    if (missed) log.warn(missed_origin_text(*missed, specimen.curve.name));
+    const auto doubt =
+        doubt_of_origin(specimen.of_specimen(), model, experiment.stiffness_from, experiment.stiffness_to);
+    if (doubt) log.warn(*doubt);
   }
 }
 

@@ -137,11 +137,16 @@ FitProblem CurveFit::problem_of(const CurveFitStage& stage, const MeasuredPoints
     problem.parameters.push_back(p);
   }
   problem.noise_is_known = points.noise_is_known;
-  problem.residuals = [this, &stage, &points, &model, until](std::span<const double> values) {
-    const std::vector<double> all = with_stage(stage, values);
-    const auto curve = model.respond(all, until);
-    return curve ? residuals_of(as_recorded_by_all(*curve, all), points) : std::nullopt;
+  const auto residuals_by = [this, &stage, &points, &model, until](auto compared) {
+    return [=, this, &stage, &points, &model](std::span<const double> values) {
+      const std::vector<double> all = with_stage(stage, values);
+      const auto curve = model.respond(all, until);
+      return curve ? compared(as_recorded_by_all(*curve, all), points) : std::nullopt;
+    };
   };
+  problem.residuals = residuals_by(
+      [](const ModelCurves& curves, const MeasuredPoints& measured) { return residuals_of(curves, measured); });
+  problem.averaged = residuals_by(averaged_residuals_of);
   problem.prepare = [this, &stage, &model, until](const std::vector<std::vector<double>>& all) {
     std::vector<std::vector<double>> full;
     full.reserve(all.size());

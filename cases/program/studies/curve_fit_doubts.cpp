@@ -104,8 +104,8 @@ std::vector<std::string> CurveFit::missed_origins(const SampledCurve& fitted) co
   for (std::size_t s = 0; s < job_.specimens.size(); ++s) {
     MeasuredCurve specimen = job_.specimens[s];
     specimen.set_up = set_ups[s];
-    const auto missed = missed_origin(specimen.of_specimen(), fitted, job_.straight_from, job_.straight_to);
-    if (missed) reasons.push_back(missed_origin_text(*missed, specimen.curve.name));
+    auto doubt = doubt_of_origin(specimen.of_specimen(), fitted, job_.straight_from, job_.straight_to);
+    if (doubt) reasons.push_back(std::move(*doubt));
   }
   return reasons;
 }
