@@ -4,6 +4,35 @@
 
 namespace pfdm {
 
+BoundaryLoads::BoundaryLoads(const FaceSkeleton& skeleton)
+    : skeleton_(skeleton), pressed_faces_(skeleton.mesh, skeleton.unknowns) {
+  const Mesh& mesh = skeleton.mesh;
+  for (const PatchCondition& on : skeleton.unknowns.conditions) {
+    if (on.condition.kind != BoundaryCondition::Kind::elastic_foundation) continue;
+    const Patch& patch = mesh.patches[as_size(on.patch)];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Tensor K = on.condition.foundation(mesh.face_centre[f]).tensor(mesh.face_area[f].normalized());
+      supports_.push_back({skeleton.unknowns.node_of_face[f], mesh.face_area[f].norm() * K});
+    }
+  }
+}
+
+void BoundaryLoads::add_response(const std::vector<Vector>& u, const CellField<Tensor>& gradients,
+                                 std::vector<Vector>& out) const {
+  for (const Support& at : supports_) out[as_size(at.node)] += at.stiffness * u[as_size(at.node)];
+  pressed_faces_.add_turn(u, gradients, out);
+}
+
+void BoundaryLoads::add_to(BlockTriplets& matrix) const {
+  for (const Support& at : supports_) matrix.diagonal[as_size(at.node)] += at.stiffness;
+}
+
+double BoundaryLoads::stored(const std::vector<Vector>& u) const {
+  double energy = 0.0;
+  for (const Support& at : supports_) energy += 0.5 * u[as_size(at.node)].dot(at.stiffness * u[as_size(at.node)]);
+  return energy;
+}
+
 void BoundaryLoads::add_tractions(double t, std::vector<Vector>& load) const {
   const Mesh& mesh = skeleton_.mesh;
   const Unknowns& unknowns = skeleton_.unknowns;

@@ -67,6 +67,7 @@ BlockTriplets MomentumOperator::compact_matrix() const {
   add_links(*skeleton_, *tractions_, matrix);
   add_sides(*skeleton_, *tractions_, matrix);
   springs_.add_to(matrix);
+  loads_.add_to(matrix);
   add_sector(*skeleton_, *tractions_, matrix);
   if (!unknowns.plane_normal.isZero()) decouple(unknowns.plane_normal, matrix);
   return matrix;

@@ -71,7 +71,7 @@ void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& 
   std::vector<Vector> of_springs = springs_.forces(u);
   tractions_->turn_springs(sweep, springs_.all(), of_springs);
   springs_.pull(of_springs, out);
-  loads_.add_turn(u, sweep.gradients, out);
+  loads_.add_response(u, sweep.gradients, out);
   tractions_->balance_pressures(u, sweep, out);
 }
 

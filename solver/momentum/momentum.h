@@ -106,6 +106,8 @@ class MomentumOperator {
   std::vector<Vector> traction_forces(double t) const { return loads_.forces(t); }
   /// The same with those from initial stresses, [N].
   std::vector<Vector> load_vector(double t) const;
+  /// Energy in elastic foundations, which is none of the body's [J].
+  double foundation_energy(const std::vector<Vector>& u) const { return loads_.stored(u); }
   /// Writes the prescribed components of the boundary nodes at the load parameter t.
   void prescribe(double t, std::vector<Vector>& u) const { loads_.prescribe(t, u); }
   /// Removes the component across the plane of a plane mesh.
