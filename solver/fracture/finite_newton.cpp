@@ -70,9 +70,9 @@ struct LineSearch {
 
 bool inverts(const MomentumOperator& balance) {
   constexpr double least_volume = 0.1, damaged = 0.5;
-  return parallel_sum(balance.finite()->deformation().size(), [&](Index c) {
-           return !balance.finite()->is_softer(c, damaged) &&
-                          balance.finite()->deformation()[c].determinant() < least_volume
+  return parallel_sum(balance.finite()->states().deformation().size(), [&](Index c) {
+           return !balance.finite()->states().is_softer(c, damaged) &&
+                          balance.finite()->states().deformation()[c].determinant() < least_volume
                       ? 1.0
                       : 0.0;
          }) > 0.0;

@@ -44,6 +44,23 @@ void add_work_of_moments(const Mesh& mesh, const std::vector<Index>& of_cells, C
   });
 }
 
+// In the order of the forces.
+std::vector<Vector> moves_of_faces(const FaceSkeleton& skeleton, const std::vector<Vector>& u,
+                                   const FaceField<Vector>& u_face) {
+  std::vector<Vector> moves;
+  for (const momentum_faces::Link& link : skeleton.links) moves.push_back(u_face[link.face]);
+  for (const momentum_faces::Side& side : skeleton.sides) moves.push_back(u[as_size(side.node)]);
+  return moves;
+}
+
+CellMechanics unknown_mechanics(std::size_t n_cells, std::size_t n_parts) {
+  return {.strain = CellField<Tensor>(n_cells),
+          .gradient = CellField<Tensor>(n_cells),
+          .stress = CellField<Tensor>(n_cells),
+          .energy = CellField<double>(n_cells),
+          .part_energy = CellField<double>(n_parts, 0.0)};
+}
+
 }  // namespace
 
 CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
@@ -53,15 +70,10 @@ CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
   find(u, s);
   FaceField<Vector> u_face = face_displacements(u, s);
   const FaceMoves moves{.skeleton = skeleton_, .sweep = s, .u = u, .u_face = u_face};
-  const auto n = as_size(skeleton_.mesh.n_cells());
-  CellMechanics result{.strain = CellField<Tensor>(n),
-                       .gradient = CellField<Tensor>(n),
-                       .stress = CellField<Tensor>(n),
-                       .energy = CellField<double>(n),
-                       .part_energy = CellField<double>(as_size(part.size()), 0.0)};
-  if (has_pressures()) {
-    result.volume_change = swept_changes(moves_of_faces(u, u_face), s);
-    result.moderate_stress = CellField<Tensor>(n);
+  CellMechanics result = unknown_mechanics(as_size(skeleton_.mesh.n_cells()), as_size(part.size()));
+  if (pressure_.any()) {
+    result.volume_change = pressure_.swept_changes(moves_of_faces(skeleton_, u, u_face), s);
+    result.moderate_stress = CellField<Tensor>(as_size(skeleton_.mesh.n_cells()));
   }
   parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
     const double volume = skeleton_.mesh.cell_volume[c];
@@ -69,9 +81,9 @@ CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
     double by_pressure = 0.0;
     const auto press = [&](const FaceSkeleton::SignedForce* on, const Vector& area, const Vector& arm,
                            const Vector& move) {
-      if (!has_pressures()) return;
+      if (!pressure_.any()) return;
       const Vector on_face =
-          s.pressure.mean(c) * (on != nullptr ? moved_area(*on) : Vector(moved_faces_.section(c) * area));
+          s.pressure.mean(c) * (on != nullptr ? pressure_.moved_area(*on) : Vector(pressure_.section(c) * area));
       pressed += on_face * arm.transpose();
       by_pressure += 0.5 * on_face.dot(move);
     };
@@ -81,11 +93,11 @@ CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
     result.gradient[c] = gradient;
     result.strain[c] = symmetric_part(gradient);
     result.stress[c] = sums.moment * closure / volume;
-    if (has_pressures()) result.moderate_stress[c] = (sums.moment - pressed) * closure / volume;
+    if (pressure_.any()) result.moderate_stress[c] = (sums.moment - pressed) * closure / volume;
     result.energy[c] = sums.work - by_pressure - 0.5 * contract(sums.moment - pressed, gradient);
   });
   result.reconstructed_gradient = s.gradients;
-  if (has_pressures()) add_work_of_moments(skeleton_.mesh, skeleton_.unknowns.pressure_cells, result);
+  if (pressure_.any()) add_work_of_moments(skeleton_.mesh, skeleton_.unknowns.pressure_cells, result);
   result.face_displacement = std::move(u_face);
   return result;
 }

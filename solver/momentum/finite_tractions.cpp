@@ -1,6 +1,5 @@
 #include "solver/momentum/finite_tractions.h"
 
-#include "solver/momentum/polyhedral_jump.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -16,78 +15,49 @@ using momentum_faces::SplitFace;
 FiniteTractions::FiniteTractions(const FaceSkeleton& skeleton, CellReconstruction& cells)
     : FaceTractions(skeleton),
       cells_(cells),
-      laws_(as_size(skeleton.mesh.n_cells())),
-      F_(as_size(skeleton.mesh.n_cells())),
-      cofactor_(as_size(skeleton.mesh.n_cells())),
-      push_(as_size(skeleton.mesh.n_cells())),
-      initial_sector_(as_size(skeleton.mesh.n_cells()), 0.0),
-      jump_share_(jump_shares(skeleton.mesh, skeleton.unknowns)),
+      states_(skeleton),
+      pressure_(skeleton, cells.pressure(), states_),
+      initial_sector_(as_size(skeleton.sector_area.size()), 0.0),
       face_turns_(skeleton.n_turns()),
       link_tensors_(skeleton.links.size()),
-      side_tensors_(skeleton.sides.size()),
-      pressure_at_(as_size(skeleton.mesh.n_cells()), 0.0),
-      bonded_(skeleton.mesh, skeleton.unknowns, skeleton.sides, [](Index) { return true; }),
-      bonded_states_(bonded_.size()),
-      moved_faces_(skeleton.mesh, skeleton.unknowns, skeleton.places_by_force(), bonded_) {
-  const auto is_capped = [&](const Link& link) { return jump_share_[link.P] < 1.0 || jump_share_[link.N] < 1.0; };
+      side_tensors_(skeleton.sides.size()) {
+  const auto is_capped = [&](const Link& link) { return states_.is_capped(link); };
   if (std::ranges::any_of(skeleton.links, is_capped)) jump_turns_.resize(skeleton.links.size());
 }
 
 std::unique_ptr<Sweep> FiniteTractions::new_sweep() const {
   auto s = std::make_unique<FiniteSweep>(skeleton_);
-  s->pressure = cells_.pressure().field();
-  s->bonded.resize(bonded_.size());
-  s->changes = CellField<Change>(as_size(skeleton_.mesh.n_cells()));
-  s->bonded_changes.resize(bonded_.size());
-  if (!has_pressures()) return s;
-  s->moved.resize(skeleton_.links.size());
-  s->area_changes.resize(skeleton_.n_forces());
-  s->flux.resize(skeleton_.n_forces());
+  pressure_.prepare(*s);
+  s->changes.of_cell = CellField<Change>(as_size(skeleton_.mesh.n_cells()));
+  s->changes.of_bonded.resize(states_.bonded().size());
   return s;
 }
 
 void FiniteTractions::reconstruct(const std::vector<Vector>& u, FiniteSweep& s) const {
   cells_.find_gradients(u, s.gradients);
-  if (has_pressures()) cells_.pressure().read(u, s.pressure);
-  parallel_for(static_cast<Index>(bonded_.size()), [&](Index k) {
-    const Index c = skeleton_.sides[bonded_.side(as_size(k))].cell;
-    s.bonded[as_size(k)] = bonded_.gradient(as_size(k), u, s.gradients[c]);
-  });
-  moved_faces_.move({u, s.gradients, s.bonded}, s.corner_moves);
-}
-
-FiniteTractions::Change FiniteTractions::change_of(const FiniteLaw& law, const Tensor& F, const Tensor& cofactor,
-                                                   const Tensor& H) const {
-  return {.stress = from_components(law.A * to_components(H)),
-          .cofactor = cofactor_change(F, H),
-          .volume = contract(cofactor, H)};
+  pressure_.read(u, s.gradients, s);
 }
 
 void FiniteTractions::find_changes(FiniteSweep& s) const {
-  find_area_changes(s);
+  pressure_.find_area_changes(s.gradients, s);
+  states_.find_changes(s.gradients, s.bonded, s.changes);
   const Vector& across = skeleton_.unknowns.plane_normal;
-  parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
-    s.changes[c] = change_of(laws_[c], F_[c], cofactor_[c], s.gradients[c]);
-    if (s.sector_stress.size() == 0) return;
-    s.sector_stress[c] = across.dot(s.changes[c].stress * across);
-    if (has_pressures())
-      s.sector_stress[c] += s.pressure.mean(c) * moved_faces_.section(c) +
-                            pressure_at_[c] * moved_faces_.section_change(c, s.corner_moves);
-  });
-  parallel_for(static_cast<Index>(bonded_states_.size()), [&](Index k) {
-    const State& at = bonded_states_[as_size(k)];
-    s.bonded_changes[as_size(k)] = change_of(at.law, at.F, at.cofactor, s.bonded[as_size(k)]);
+  parallel_for(s.sector_stress.size(), [&](Index c) {
+    s.sector_stress[c] = across.dot(s.changes.of_cell[c].stress * across);
+    if (pressure_.any())
+      s.sector_stress[c] +=
+          s.pressure.mean(c) * pressure_.section(c) + pressure_.linearised_at(c) * pressure_.section_change(c, s);
   });
 }
 
 Vector FiniteTractions::linear_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
                                         const FiniteSweep& s) const {
   const FaceTurn& by = face_turns_[turn];
-  const Change& at = change_at(cell, turn, s);
+  const Change& at = states_.change_at(cell, turn, s.changes);
   const Vector t = at.stress * n + by.turn * (at.cofactor * n) + by.swell * at.volume;
-  if (!has_pressures()) return t;
+  if (!pressure_.any()) return t;
   const std::size_t i = skeleton_.force_at(turn);
-  return t + s.pressure.at(cell, d) * moved_faces_.area(i) + by.pressure * s.area_changes[i];
+  return t + s.pressure.at(cell, d) * pressure_.area(i) + by.pressure * s.area_changes[i];
 }
 
 void FiniteTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) const {
@@ -150,7 +120,7 @@ Vector FiniteTractions::link_displacement(std::size_t i, const std::vector<Vecto
 Vector FiniteTractions::turned_jump(std::size_t i, const FiniteSweep& s) const {
   const Link& link = skeleton_.links[i];
   const JumpTurn& turn = jump_turns_[i];
-  const Change &P = s.changes[link.P], &N = s.changes[link.N];
+  const Change &P = s.changes.of_cell[link.P], &N = s.changes.of_cell[link.N];
   return turn.P * (P.cofactor * link.n) + turn.swell_P * P.volume + turn.N * (N.cofactor * link.n) +
          turn.swell_N * N.volume;
 }
@@ -161,25 +131,45 @@ void FiniteTractions::turn_springs(const Sweep& sweep, const std::vector<FaceSpr
   parallel_for(static_cast<Index>(springs.size()), [&](Index k) {
     const SplitFace& face = skeleton_.split_faces[as_size(k)];
     const FaceSpring& spring = springs[as_size(k)];
-    const Vector turned =
-        spring.turn_P * (s.changes[face.P].cofactor * face.n) + spring.turn_N * (s.changes[face.N].cofactor * face.n);
+    const Vector turned = spring.turn_P * (s.changes.of_cell[face.P].cofactor * face.n) +
+                          spring.turn_N * (s.changes.of_cell[face.N].cofactor * face.n);
     forces[as_size(k)] += face.area * turned;
   });
 }
 
 Tensor FiniteTractions::compact_link(std::size_t i) const {
   const Link& link = skeleton_.links[i];
-  return link.area * jump_tensor(link, bounded_height(link.d_P, link.n), bounded_height(link.d_N, link.n));
+  return link.area * states_.jump_tensor(link, bounded_height(link.d_P, link.n), bounded_height(link.d_N, link.n));
 }
 
 Tensor FiniteTractions::compact_side(std::size_t i) const {
   const Side& side = skeleton_.sides[i];
-  return (side.area / bounded_height(side.d, side.n)) * side_acoustic(i);
+  return (side.area / bounded_height(side.d, side.n)) * states_.side_acoustic(i);
 }
 
 double FiniteTractions::hoop_modulus(Index cell) const {
   const Vector& across = skeleton_.unknowns.plane_normal;
-  return across.dot(acoustic(cell, across) * across);
+  return across.dot(states_.acoustic(cell, across) * across);
+}
+
+FiniteTractions::PressureRow FiniteTractions::pressure_row(std::size_t k) const {
+  const Index c = skeleton_.unknowns.pressure_cells[k];
+  return {.slope = pressure_.slope(k), .modulus = states_.law(c).face.constrained_modulus()};
+}
+
+void FiniteTractions::find_pressure_forces(const CellField<double>& q, Sweep& s) const {
+  const auto n_links = static_cast<Index>(skeleton_.links.size());
+  parallel_for(n_links, [&](Index index) {
+    const std::size_t i = as_size(index);
+    const Link& link = skeleton_.links[i];
+    const Vector& area = pressure_.area(i);
+    s.force[i] = link.area * (q[link.N] * area + link_tensors_[i].weight * ((q[link.P] - q[link.N]) * area));
+  });
+  parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
+    const Side& side = skeleton_.sides[as_size(i)];
+    s.force[as_size(n_links + i)] = (side.area * q[side.cell]) * pressure_.area(as_size(n_links + i));
+  });
+  parallel_for(s.sector_stress.size(), [&](Index c) { s.sector_stress[c] = q[c] * pressure_.section(c); });
 }
 
 }  // namespace pfdm

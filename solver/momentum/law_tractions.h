@@ -12,6 +12,7 @@
 // The balance is linear in the displacements, with a = (n.C.n)/h of the tangents C at these strains; it is exact where
 // it was linearised. There are no pressures and no faces of third order.
 
+#include "physics/elasticity/linear_stress.h"
 #include "solver/momentum/small_tractions.h"
 #include "solver/momentum/strain_law.h"
 

@@ -55,7 +55,7 @@ CellField<double> MomentumOperator::set_finite(const FiniteLawAt& law, const Cel
   const auto lease = sweep();
   finite_->set(law, g, u, part, *lease);
   loads_.follow(t, u, lease->gradients, g);
-  return finite_->face_stiffness();
+  return finite_->states().face_stiffness();
 }
 
 bool MomentumOperator::set_eigenstrain(std::optional<double> t) {

@@ -34,7 +34,7 @@ bool StalePreconditioner::renew(const CellField<double>& measure) {
 bool StalePreconditioner::renew(const CellField<double>& measure, const FiniteTractions& tractions) {
   if (state_ != State::missing && !struggled_ && !has_changed(measure) && !has_deformed(tractions)) return false;
   measure_ = measure;
-  deformation_ = tractions.deformation();
+  deformation_ = tractions.states().deformation();
   state_ = State::due;
   return true;
 }
@@ -62,9 +62,9 @@ bool StalePreconditioner::has_moved(const CellField<IsotropicElasticity>& moduli
 // Broken cells may do as they like: their stiffness counts.
 bool StalePreconditioner::has_deformed(const FiniteTractions& tractions) const {
   constexpr double much = 0.5, soft = 0.05;
-  const CellField<Tensor>& F = tractions.deformation();
+  const CellField<Tensor>& F = tractions.states().deformation();
   return parallel_max(F.size(), [&](Index c) {
-           return tractions.is_softer(c, soft) ? 0.0 : (F[c] - deformation_[c]).norm();
+           return tractions.states().is_softer(c, soft) ? 0.0 : (F[c] - deformation_[c]).norm();
          }) > much;
 }
 
