@@ -2,6 +2,7 @@
 
 #include "physics/elasticity/gradient_stress.h"
 #include "physics/error.h"
+#include "solver/momentum/finite_tractions.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
@@ -109,21 +110,23 @@ double CohesiveFaces::bond(Index face) const {
 }
 
 Vector CohesiveFaces::normal(const Face& face, const MomentumOperator& balance) const {
-  if (!balance.is_finite()) return face.n;
-  const Vector c_P = balance.cofactors()[face.P] * face.n, c_N = balance.cofactors()[face.N] * face.n;
+  if (balance.finite() == nullptr) return face.n;
+  const Vector c_P = balance.finite()->states().cofactors()[face.P] * face.n,
+               c_N = balance.finite()->states().cofactors()[face.N] * face.n;
   return (c_P.normalized() + c_N.normalized()).normalized();
 }
 
 // The law is isotropic: if its normal alone turns by w, its traction changes by w x T - K (w x delta).
 void CohesiveFaces::turn(const Face& face, const MomentumOperator& balance, const Vector& separation,
                          const InterfaceResponse& at, FaceSpring& spring) const {
-  const Vector c_P = balance.cofactors()[face.P] * face.n, c_N = balance.cofactors()[face.N] * face.n;
+  const Vector c_P = balance.finite()->states().cofactors()[face.P] * face.n,
+               c_N = balance.finite()->states().cofactors()[face.N] * face.n;
   const Vector sum = c_P.normalized() + c_N.normalized(), n = sum.normalized();
   const Tensor by_sum = (across(n, at.traction) - at.tangent * across(n, separation)) * by_length(sum);
   spring.turn_P = by_sum * by_length(c_P);
   spring.turn_N = by_sum * by_length(c_N);
   const auto change = [&](Index cell) {
-    const Tensor& F = balance.deformation()[cell];
+    const Tensor& F = balance.finite()->states().deformation()[cell];
     return (cofactor_change(F, F - Tensor::Identity()) * face.n).eval();
   };
   spring.offset -= spring.turn_P * change(face.P) + spring.turn_N * change(face.N);
@@ -141,7 +144,7 @@ void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<In
     springs[k] = {.stiffness = stiffness,
                   .offset = response.traction - stiffness * separation,
                   .secant = way == Way::tangent ? response.secant : stiffness};
-    if (way == Way::tangent && momentum.balance().is_finite())
+    if (way == Way::tangent && momentum.balance().finite() != nullptr)
       turn(faces_[k], momentum.balance(), separation, response, springs[k]);
   });
   momentum.set_springs(std::move(springs), bond_);

@@ -1,5 +1,6 @@
 #include "solver/fracture/finite_newton.h"
 
+#include "solver/momentum/finite_tractions.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -69,8 +70,11 @@ struct LineSearch {
 
 bool inverts(const MomentumOperator& balance) {
   constexpr double least_volume = 0.1, damaged = 0.5;
-  return parallel_sum(balance.deformation().size(), [&](Index c) {
-           return !balance.is_softer(c, damaged) && balance.deformation()[c].determinant() < least_volume ? 1.0 : 0.0;
+  return parallel_sum(balance.finite()->states().deformation().size(), [&](Index c) {
+           return !balance.finite()->states().is_softer(c, damaged) &&
+                          balance.finite()->states().deformation()[c].determinant() < least_volume
+                      ? 1.0
+                      : 0.0;
          }) > 0.0;
 }
 

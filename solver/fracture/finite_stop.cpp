@@ -1,5 +1,7 @@
 #include "solver/fracture/finite_stop.h"
 
+#include "solver/momentum/finite_tractions.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -20,13 +22,13 @@ std::string most_distorted(const Mesh& mesh, const MomentumOperator& balance, co
   Index worst = -1;
   double most = 0.0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const Vector stretches = principal_stretches(balance.deformation()[c]);
+    const Vector stretches = principal_stretches(balance.finite()->states().deformation()[c]);
     const double ratio = stretches[0] / std::max(stretches[2], 1e-300);
     if (damage[c] > broken || ratio <= most) continue;
     most = ratio, worst = c;
   }
   if (worst < 0) return fmt::format("The damage of all cells is above {}", broken);
-  const Tensor& F = balance.deformation()[worst];
+  const Tensor& F = balance.finite()->states().deformation()[worst];
   const Vector stretches = principal_stretches(F), &x = mesh.cell_centre[worst];
   return fmt::format(
       "The cell at ({:.4g}, {:.4g}, {:.4g}) m in region \"{}\" is distorted most: J = {:.3g}, principal stretches "

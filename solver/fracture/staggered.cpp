@@ -250,7 +250,8 @@ CoupledNewton::Moved Staggered::Loop::advance(CellField<double>& answer) {
   if (newton) {
     const auto lap = s.clock_.lap("coupled_newton");
     const std::vector<Vector> load = s.momentum_.balance().load_vector(state.load);
-    double energy = energies.stored + s.damage_.fracture_energy(state.damage);
+    double energy = energies.stored + s.momentum_.balance().foundation_energy(state.displacement) +
+                    s.damage_.fracture_energy(state.damage);
     for (std::size_t i = 0; i < load.size(); ++i) energy -= load[i].dot(state.displacement[i]);
     moved = newton->move({energy, lower}, state, answer);
     report.krylov_iterations += newton->krylov_iterations();

@@ -9,6 +9,14 @@
 
 namespace pfdm {
 
+/// Springs between a surface and the ground, per reference area.
+struct FoundationStiffness {
+  double across = 0.0, along = 0.0;  ///< k_n, along the normal, and k_t, along the surface [N/m^3]
+
+  /// K of the traction t = -K u on a surface with the unit normal n [N/m^3].
+  Tensor tensor(const Vector& n) const { return along * Tensor::Identity() + (across - along) * n * n.transpose(); }
+};
+
 struct BoundaryCondition {
   enum class Kind {
     components,    ///< each Cartesian component is a displacement or a traction
@@ -17,6 +25,8 @@ struct BoundaryCondition {
     plane_stress,  ///< the same with no stress across it in place of no strain
     axisymmetric,  ///< front or back of a sector about the axis z, one cell wide: the cells stretch by u_r / r across
                    ///< it
+    elastic_foundation,  ///< traction t = -(k_n u.n n + k_t (u - u.n n)) (Robin; Winkler's bedding), n the normal of
+                         ///< the undeformed surface also at finite strain
   };
   std::string patch;
   Kind kind = Kind::components;
@@ -27,6 +37,8 @@ struct BoundaryCondition {
   /// Components: pressure [Pa] that pushes against the face, in the directions in which it is free, beside the
   /// traction; at finite strain on the current area (a follower load). Empty means none.
   std::function<double(const Vector& x, double t)> pressure{};
+  /// Elastic foundation: its stiffness at x [m].
+  std::function<FoundationStiffness(const Vector& x)> foundation{};
 };
 
 /// Faces of such patches carry no unknown.

@@ -47,8 +47,6 @@ CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
   if (!any()) return;
   const auto n = as_size(mesh.n_cells());
   modulus_ = CellField<double>(n, 0.0);
-  q_ = CellField<double>(n, 0.0);
-  slope_ = CellField<Vector>(n, Vector::Zero());
   counts_ = CellField<double>(n, 1.0);
   warp_ = warps(mesh);
 }
@@ -79,13 +77,19 @@ double CellPressure::likeness(Index cell, const CellField<double>& g) const {
   return least;
 }
 
-void CellPressure::read(const std::vector<Vector>& u) {
+PressureField CellPressure::field() const {
+  const std::size_t n = any() ? as_size(mesh_.n_cells()) : 0;
+  return {.q = CellField<double>(n, 0.0), .slope = CellField<Vector>(n, Vector::Zero())};
+}
+
+void CellPressure::read(const std::vector<Vector>& u, PressureField& pressures) const {
   const std::vector<Index>& cells = unknowns_.pressure_cells;
   const auto first = as_size(unknowns_.n_nodes());
-  parallel_for(static_cast<Index>(cells.size()), [&](Index k) { q_[cells[as_size(k)]] = u[first + as_size(k)][0]; });
+  parallel_for(static_cast<Index>(cells.size()),
+               [&](Index k) { pressures.q[cells[as_size(k)]] = u[first + as_size(k)][0]; });
   parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
     const Index c = cells[as_size(k)];
-    slope_[c] = counts_[c] * gradient_.of(q_.data(), c);
+    pressures.slope[c] = counts_[c] * gradient_.of(pressures.q.data(), c);
   });
 }
 

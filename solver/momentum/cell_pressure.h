@@ -7,11 +7,11 @@
 //   V q / (lambda - lambda_s) = sum over faces of u_f.S,
 //
 // with u_f the two-sided displacement of the face, at which the tractions of both its cells, q included, agree
-// (momentum.h). The dependence of u_f on the difference of the two q suppresses oscillations, as the pressure-weighted
-// interpolation of Rhie and Chow (AIAA J. 21 (1983) 1525) does in collocated schemes for fluids: q is extrapolated to
-// the face by its least-squares gradient, so that only rough pressures are damped. Between cells of different damage q
-// may jump: there its gradient has a smaller weight. The fluxes u_f.S of two neighbours cancel on their common face;
-// a warped face requires an additional term, the flux of the gradient through its triangles.
+// (isotropic_tractions.h). The dependence of u_f on the difference of the two q suppresses oscillations, as the
+// pressure-weighted interpolation of Rhie and Chow (AIAA J. 21 (1983) 1525) does in collocated schemes for fluids: q is
+// extrapolated to the face by its least-squares gradient, so that only rough pressures are damped. Between cells of
+// different damage q may jump: there its gradient has a smaller weight. The fluxes u_f.S of two neighbours cancel on
+// their common face; a warped face requires an additional term, the flux of the gradient through its triangles.
 
 #include "solver/momentum/unknowns.h"
 #include "solver/scalar/gradient.h"
@@ -19,6 +19,16 @@
 #include <vector>
 
 namespace pfdm {
+
+/// The pressures of the cells for given unknowns, and their slopes.
+struct PressureField {
+  CellField<double> q;      ///< [Pa], positive in tension; zero in cells that have none; empty without any
+  CellField<Vector> slope;  ///< of q, times its weight [Pa/m]; likewise
+
+  /// q at the distance d from the cell's centre [Pa].
+  double at(Index cell, const Vector& d) const { return q.size() > 0 ? q[cell] + slope[cell].dot(d) : 0.0; }
+  double mean(Index cell) const { return q.size() > 0 ? q[cell] : 0.0; }
+};
 
 class CellPressure {
  public:
@@ -34,12 +44,11 @@ class CellPressure {
   void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
   /// The part of it that does not concern the moduli: at finite strain, whose laws know their own.
   void weigh(const CellField<double>& g);
-  /// The pressures among the unknowns, and their gradients.
-  void read(const std::vector<Vector>& u);
+  /// Pressures that are zero, for read().
+  PressureField field() const;
+  /// Those among the unknowns u, and their gradients.
+  void read(const std::vector<Vector>& u, PressureField& pressures) const;
 
-  /// q [Pa], positive in tension, at the distance d from the cell's centre; zero in cells that have none.
-  double at(Index cell, const Vector& d) const { return any() ? q_[cell] + slope_[cell].dot(d) : 0.0; }
-  double mean(Index cell) const { return any() ? q_[cell] : 0.0; }
   /// lambda - lambda_s [Pa]; zero in cells that have none.
   double modulus(Index cell) const { return any() ? modulus_[cell] : 0.0; }
   /// Flux through a face's triangles beyond u_f.S at the displacement gradient G [m^3].
@@ -54,8 +63,6 @@ class CellPressure {
   const Unknowns& unknowns_;
   Gradient gradient_;
   CellField<double> modulus_;  // [Pa]; empty, as all fields below, without pressures
-  CellField<double> q_;        // [Pa]
-  CellField<Vector> slope_;    // of q, times its weight [Pa/m]
   CellField<double> counts_;   // weight of its gradient: 1 among cells of equal damage, to 0
   FaceField<Tensor> warp_;     // sum over its triangles of S_t (x) (x_t - x_f) [m^3]; empty where all faces are plane
 };

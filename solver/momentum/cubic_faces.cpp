@@ -1,6 +1,7 @@
 #include "solver/momentum/cubic_faces.h"
 
 #include "solver/momentum/bending_layers.h"
+#include "solver/momentum/cubic_fit.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -11,60 +12,7 @@
 namespace pfdm {
 namespace {
 
-constexpr int n_monomials = 19;
-// In the order in which they are fitted: what samples do not tell from those
-// before is left out.
-constexpr std::array<std::array<int, 3>, n_monomials> powers{{{1, 0, 0},
-                                                              {0, 1, 0},
-                                                              {0, 0, 1},
-                                                              {2, 0, 0},
-                                                              {0, 2, 0},
-                                                              {0, 0, 2},
-                                                              {1, 1, 0},
-                                                              {1, 0, 1},
-                                                              {0, 1, 1},
-                                                              {3, 0, 0},
-                                                              {0, 3, 0},
-                                                              {0, 0, 3},
-                                                              {2, 1, 0},
-                                                              {2, 0, 1},
-                                                              {1, 2, 0},
-                                                              {0, 2, 1},
-                                                              {1, 0, 2},
-                                                              {0, 1, 2},
-                                                              {1, 1, 1}}};
-using Row = Eigen::Matrix<double, 1, n_monomials>;
-using Wanted = std::array<bool, n_monomials>;
-
-int degree(int k) {
-  const auto& p = powers[as_size(k)];
-  return p[0] + p[1] + p[2];
-}
-
-double power(double x, int n) { return n == 0 ? 1.0 : (n == 1 ? x : (n == 2 ? x * x : x * x * x)); }
-
-Row monomials(const Vector& x) {
-  Row row;
-  for (int k = 0; k < n_monomials; ++k) {
-    const auto& p = powers[as_size(k)];
-    row[k] = power(x[0], p[0]) * power(x[1], p[1]) * power(x[2], p[2]);
-  }
-  return row;
-}
-
-// By the coordinate number a.
-Row derivative(const Vector& x, int a) {
-  Row row;
-  for (int k = 0; k < n_monomials; ++k) {
-    double value = 1.0;
-    for (int b = 0; b < 3; ++b) {
-      const int p = powers[as_size(k)][as_size(b)];
-      value *= b != a ? power(x[b], p) : (p == 0 ? 0.0 : p * power(x[b], p - 1));
-    }
-    row[k] = value;
-  }
-  return row;
-}
+using namespace cubic;
 
 // Points and weights of a rule for quadratics over a face: the middles of the
 // edges of its triangles.
@@ -204,62 +152,6 @@ Wanted wanted_monomials(const Mesh& mesh, const Unknowns& unknowns, Index cell, 
   return wanted;
 }
 
-// Polynomial of least squares: its coefficients are solution * (u_j - u_c).
-class CubicFit {
- public:
-  /// Of samples at these places, in units of the cell's edges, in the monomials
-  /// that are wanted.
-  CubicFit(const std::vector<Vector>& places, const Wanted& wanted)
-      : solution_(Eigen::MatrixXd::Zero(n_monomials, static_cast<Eigen::Index>(places.size()))) {
-    const Eigen::Index m = solution_.cols();
-    Eigen::MatrixXd A(m, n_monomials);
-    Eigen::VectorXd weight(m);
-    for (Eigen::Index j = 0; j < m; ++j) {
-      const Vector& place = places[static_cast<std::size_t>(j)];
-      weight[j] = std::pow(place.norm(), -3.0);
-      A.row(j) = weight[j] * monomials(place);
-    }
-    orthogonalise(A, wanted);
-    Eigen::MatrixXd X = Q_.leftCols(n_).transpose() * weight.asDiagonal();
-    R_.topLeftCorner(n_, n_).triangularView<Eigen::Upper>().solveInPlace(X);
-    for (Eigen::Index i = 0; i < n_; ++i) solution_.row(kept_[static_cast<std::size_t>(i)]) = X.row(i);
-  }
-
-  /// Whether the samples tell all linear fields.
-  bool is_sound() const { return is_sound_; }
-  Eigen::RowVectorXd operator()(const Row& functional) const { return functional * solution_; }
-
- private:
-  // A column that is almost a combination of those before is left out.
-  void orthogonalise(const Eigen::MatrixXd& A, const Wanted& wanted) {
-    constexpr double least_share = 1e-3, rounding = 1e-6;
-    Q_.resize(A.rows(), n_monomials);
-    R_ = Eigen::MatrixXd::Zero(n_monomials, n_monomials);
-    for (int k = 0; k < n_monomials; ++k) {
-      if (!wanted[as_size(k)]) continue;
-      Eigen::VectorXd column = A.col(k), along = Eigen::VectorXd::Zero(n_);
-      for (int pass = 0; pass < 2; ++pass) {
-        const Eigen::VectorXd more = Q_.leftCols(n_).transpose() * column;
-        column -= Q_.leftCols(n_) * more;
-        along += more;
-      }
-      if (column.norm() <= std::max(rounding, least_share * A.col(k).norm())) {
-        is_sound_ = is_sound_ && degree(k) > 1;
-        continue;
-      }
-      R_.col(n_).head(n_) = along;
-      R_(n_, n_) = column.norm();
-      Q_.col(n_++) = column.normalized();
-      kept_.push_back(k);
-    }
-  }
-
-  Eigen::MatrixXd solution_, Q_, R_;
-  std::vector<int> kept_;
-  Eigen::Index n_ = 0;
-  bool is_sound_ = true;
-};
-
 // The fit of a cell, its samples, and what takes distances to units of its
 // edges.
 struct LocalFit {
@@ -304,7 +196,6 @@ CubicFaces::CubicFaces(const Mesh& mesh, const Unknowns& unknowns, const std::ve
   if (std::none_of(bends.begin(), bends.end(), [](char b) { return b != 0; })) return;
   std::vector<std::vector<std::size_t>> of_cell(as_size(mesh.n_cells()));
   for (std::size_t k = 0; k < sides.size(); ++k) of_cell[as_size(sides[k].cell)].push_back(k);
-  changes_.resize(sides.size());
   has_fit_ = CellField<char>(as_size(mesh.n_cells()), 0);
   FitSurroundings around(mesh, unknowns);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
@@ -345,14 +236,15 @@ void CubicFaces::leave_out() {
   for (Cell& fit : cells_) fit.weight = 0.0;
 }
 
-void CubicFaces::read(const std::vector<Vector>& u, const CellField<Tensor>& gradients) {
+void CubicFaces::read(const std::vector<Vector>& u, const CellField<Tensor>& gradients,
+                      std::vector<Change>& changes) const {
   parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
     const Cell& fit = cells_[as_size(i)];
     const Vector& here = u[as_size(fit.cell)];
     const Tensor& G = gradients[fit.cell];
     const Coefficient* by = &coefficients_[fit.first_coefficient];
     for (std::size_t k = fit.first_side; k < fit.first_side + fit.n_sides; ++k) {
-      Change& change = changes_[side_numbers_[k]];
+      Change& change = changes[side_numbers_[k]];
       if (fit.weight == 0.0) {
         change = {};
         continue;

@@ -46,10 +46,9 @@ class CubicFaces {
   /// No fit counts: at finite strain, for laws by strain (splits without secant moduli), and for materials with a
   /// history, whose stress no gradient alone gives.
   void leave_out();
-  /// Of the displacements u and their gradients in the cells.
-  void read(const std::vector<Vector>& u, const CellField<Tensor>& gradients);
-  /// Of a side, by its number.
-  const Change& at(std::size_t side) const { return changes_[side]; }
+  /// Finds the changes, by the number of the side, of the displacements u and their gradients in the cells. Sides of
+  /// cells without fits are left alone.
+  void read(const std::vector<Vector>& u, const CellField<Tensor>& gradients, std::vector<Change>& changes) const;
 
  private:
   struct Cell {
@@ -69,7 +68,6 @@ class CubicFaces {
   std::vector<std::size_t> side_numbers_;
   std::vector<Vector> to_face_;            // per entry of side_numbers_: x_f - x_c [m]
   std::vector<Coefficient> coefficients_;  // of each cell: side by side, sample by sample
-  std::vector<Change> changes_;
   Index n_cells_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace pfdm {
 struct FiniteLaw {
   Tensor stress = Tensor::Zero();               ///< P at the gradient H, without that of a pressure [Pa]
   GradientTangent A = GradientTangent::Zero();  ///< dP/dH there [Pa]
-  /// Of the faces (momentum.h).
+  /// Of the faces (finite_tractions.h).
   IsotropicElasticity face;
   double swelling = 1.0;  ///< factor of mu/J^2 in their stiffness: 0 of a law that is linear in F
   /// Of cells with a pressure: J by the pressure q, with the fractions of its modulus that are left where q > 0 and

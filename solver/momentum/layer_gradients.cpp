@@ -34,7 +34,6 @@ class LayerGradients::Maker {
         const std::vector<momentum_faces::Link>& links, LayerGradients& made)
       : mesh_(mesh), unknowns_(unknowns), links_(links), made_(made), sides_of_(as_size(mesh.n_cells())) {
     for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[as_size(sides[k].cell)].emplace_back(sides[k].face, k);
-    made.changes_.assign(sides.size(), Tensor::Zero());
     made.sound_weights_.assign(links.size(), Tensor::Identity());
     made.counting_ = CellField<double>(as_size(mesh.n_cells()), 1.0);
     made.is_covered_ = CellField<char>(as_size(mesh.n_cells()), 0);
@@ -235,7 +234,8 @@ void LayerGradients::weigh(const CellField<double>& g) {
   });
 }
 
-void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gradients) {
+void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gradients,
+                             std::vector<Tensor>& changes) const {
   parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
     const Cell& in = cells_[as_size(i)];
     if (in.weight == 0.0) return;
@@ -254,7 +254,7 @@ void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gr
     const Surface& at = surfaces_[as_size(i)];
     const double counts = std::min(counting_[at.cell], counting_[at.next]);
     const Tensor more = counts * at.ratio * (gradients[at.cell] - gradients[at.next]);
-    changes_[at.side] = more - more * at.n * at.n.transpose();
+    changes[at.side] = more - more * at.n * at.n.transpose();
   });
 }
 

@@ -40,6 +40,8 @@ class LayerGradients {
                  const std::vector<momentum_faces::Link>& links, const std::vector<BendingCell>& cells);
 
   bool any() const { return counts_; }
+  /// Whether some cells have lines, whatever they count.
+  bool has_lines() const { return !cells_.empty(); }
   /// Whether a cell has lines, whatever they count.
   bool cover(Index cell) const { return any() && is_covered_[cell] != 0; }
   /// How much the lines of each cell count, by the stiffness factors g.
@@ -48,11 +50,9 @@ class LayerGradients {
   void leave_out() { counts_ = false; }
   /// Whether the jump at a link has a weight of its own.
   bool weighs(std::size_t link) const { return any() && is_weighed_[link] != 0; }
-  /// Turns the gradients of one ring of the displacements u into those along the lines, and finds what differs at
-  /// surfaces.
-  void correct(const std::vector<Vector>& u, CellField<Tensor>& gradients);
-  /// What the gradient at a side differs by from that of the cell.
-  const Tensor& at(std::size_t side) const { return changes_[side]; }
+  /// Turns the gradients of one ring of the displacements u into those along the lines, and finds by what the gradient
+  /// at a side, by its number, differs from that of the cell; sides that are no surfaces are left alone.
+  void correct(const std::vector<Vector>& u, CellField<Tensor>& gradients, std::vector<Tensor>& changes) const;
   /// The weights of the components of the jump at a link.
   const Tensor& weight(std::size_t link) const { return weights_[link]; }
 
@@ -88,7 +88,6 @@ class LayerGradients {
   std::vector<Line> lines_;
   std::vector<Slope> slopes_;
   std::vector<Surface> surfaces_;
-  std::vector<Tensor> changes_;                  // per side [-]
   std::vector<Tensor> sound_weights_, weights_;  // per link [-]
   std::vector<std::array<Index, 2>> cells_of_link_;
   CellField<double> counting_;  // weight of each cell's lines, 1 where it has none

@@ -14,8 +14,6 @@ namespace {
 
 // Relative change of g up to which the weights of the gradients are kept.
 constexpr double bearable_lag = 0.01;
-// Factor by which a cell's stiffness may change before the preconditioner is rebuilt.
-constexpr double bearable_ratio = 2.0;
 
 // Composites that fill a box have stiff inclusions, and may be held at points only; interfaces cut particles off.
 const LinearSolver& solver_for(const Unknowns& unknowns, const LinearSolver* linear) {
@@ -55,71 +53,23 @@ MomentumSolver::MomentumSolver(MomentumSolver&&) noexcept = default;
 
 void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
                                 CellField<LinearStress> stress) {
-  if (starts_afresh_ && !(moduli == built_moduli_)) is_built_ = false;
+  const bool afresh = stale_.begin(!stale_.was_built_for(moduli));
   if (stress.size() > 0) reference_load_.reset();
-  operator_.set_moduli(moduli, g, gradient_lag(), std::move(stress));
-  if (renew_preconditioner(g, struggled_ && has_moved(moduli))) built_moduli_ = moduli;
+  operator_.set_moduli(moduli, g, afresh ? 0.0 : bearable_lag, std::move(stress));
+  // With split faces it waits for their springs.
+  if (stale_.renew(g, moduli) && unknowns_.split_faces.empty()) build_preconditioner();
 }
 
 void MomentumSolver::set_law(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u) {
-  if (starts_afresh_) is_built_ = false;
-  const bool afresh = !is_built_;
-  operator_.set_law(std::move(law), g, u, afresh, gradient_lag());
-  const CellField<double> measure = operator_.side_stiffness();
-  if (is_built_ && !has_changed(measure)) return;
-  built_measure_ = measure;
-  built_moduli_ = {};
-  is_built_ = is_due_ = true;
+  const bool afresh = stale_.begin(true);
+  stale_.renew(operator_.set_law(std::move(law), g, u, afresh, afresh ? 0.0 : bearable_lag));
 }
 
 void MomentumSolver::set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u,
                                 double t) {
-  if (starts_afresh_) is_built_ = false;
-  operator_.set_finite(law, g, u, t, gradient_lag());
-  const CellField<double> measure = operator_.face_stiffness();
-  if (is_built_ && !struggled_ && !has_changed(measure) && !has_deformed()) return;
-  built_measure_ = measure;
-  built_deformation_ = operator_.deformation();
-  is_built_ = is_due_ = true;
-}
-
-// Turned or stretched by a good part. Broken cells may do as they like: their stiffness counts.
-bool MomentumSolver::has_deformed() const {
-  constexpr double much = 0.5, soft = 0.05;
-  const CellField<Tensor>& F = operator_.deformation();
-  return parallel_max(F.size(), [&](Index c) {
-           return operator_.is_softer(c, soft) ? 0.0 : (F[c] - built_deformation_[c]).norm();
-         }) > much;
-}
-
-double MomentumSolver::gradient_lag() {
-  const bool exact = std::exchange(starts_afresh_, false) || !is_built_;
-  return exact ? 0.0 : bearable_lag;
-}
-
-// Where cracks have closed or opened the stiffness changes at the same g.
-bool MomentumSolver::has_moved(const CellField<IsotropicElasticity>& moduli) const {
-  const CellField<IsotropicElasticity>& built = built_moduli_;
-  if (built.size() == 0) return true;
-  return parallel_max(moduli.size(), [&](Index c) {
-           const double now = moduli[c].lambda + 2.0 * moduli[c].mu, then = built[c].lambda + 2.0 * built[c].mu;
-           return std::max(now / then, then / now);
-         }) > bearable_ratio;
-}
-
-bool MomentumSolver::has_changed(const CellField<double>& measure) const {
-  const CellField<double>& built = built_measure_;
-  return parallel_max(measure.size(), [&](Index c) { return std::max(measure[c] / built[c], built[c] / measure[c]); }) >
-         bearable_ratio;
-}
-
-// Returns whether it will be rebuilt.
-bool MomentumSolver::renew_preconditioner(const CellField<double>& measure, bool must_be) {
-  if (is_built_ && !has_changed(measure) && !must_be) return false;
-  built_measure_ = measure;
-  is_built_ = is_due_ = true;
-  if (unknowns_.split_faces.empty()) build_preconditioner();  // the others wait for their springs
-  return true;
+  const double lag = stale_.begin(true) ? 0.0 : bearable_lag;
+  const CellField<double> measure = operator_.set_finite(law, g, u, t, lag);
+  stale_.renew(measure, *operator_.finite());
 }
 
 void MomentumSolver::set_springs(std::vector<FaceSpring> springs, const std::vector<double>& bond) {
@@ -128,14 +78,7 @@ void MomentumSolver::set_springs(std::vector<FaceSpring> springs, const std::vec
   for (std::size_t k = 0; k < springs.size(); ++k)
     measure[k] = 1.0 / (1.0 / (springs[k].secant.trace() / 3.0 + least * bond[k]) + 1.0 / bond[k]);
   operator_.set_springs(std::move(springs));
-  const auto moved = [&](std::size_t k) {
-    return std::max(measure[k] / built_springs_[k], built_springs_[k] / measure[k]) > bearable_ratio;
-  };
-  bool keeps = built_springs_.size() == measure.size();
-  for (std::size_t k = 0; keeps && k < measure.size(); ++k) keeps = !moved(k);
-  if (keeps) return;
-  built_springs_ = std::move(measure);
-  is_due_ = true;
+  stale_.renew_springs(std::move(measure));
 }
 
 void MomentumSolver::build_preconditioner() {
@@ -151,7 +94,7 @@ void MomentumSolver::build_preconditioner() {
   preconditioner_->build(compact, operator_);
   if (strain_modes_) strain_modes_->build(operator_);
   operator_.set_springs(std::move(springs));
-  is_due_ = false;
+  stale_.was_built();
   reference_load_.reset();
   ++n_preconditioners_;
 }
@@ -185,7 +128,7 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
   operator_.prescribe(t, prescribed);
   operator_.apply(prescribed, image);
   std::vector<Vector> given = load;
-  if (operator_.is_finite()) {  // the linearised law's constant part belongs to the displacements of now
+  if (operator_.finite() != nullptr) {  // the linearised law's constant part belongs to the displacements of now
     given = operator_.traction_forces(t);
     add_body_force(given);
   }
@@ -199,8 +142,8 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
 
 double MomentumSolver::residual(double t, const std::vector<Vector>& u) {
   // Residuals are compared between linearisations.
-  const bool keeps_scale = (operator_.is_finite() || operator_.has_law()) && !scale_.empty();
-  if (is_due_ && !keeps_scale) build_preconditioner();
+  const bool keeps_scale = operator_.is_linearised() && !scale_.empty();
+  if (is_due() && !keeps_scale) build_preconditioner();
   std::vector<Vector> rest = load_vector(t), image(u.size());
   const double reference = reference_norm(t, rest);
   if (reference == 0.0) return 0.0;
@@ -234,7 +177,7 @@ std::vector<Vector> MomentumSolver::unbalanced_forces(double t, const std::vecto
 }
 
 Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vector<Vector>& u) {
-  if (is_due_) build_preconditioner();
+  if (is_due()) build_preconditioner();
   std::vector<Vector> load = load_vector(t);
   const double reference = reference_norm(t, load);
   operator_.add_spring_offsets(load);
@@ -257,7 +200,7 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
                     std::min(tolerance.ceiling * reference, tolerance.reduction * initial));
   };
   const KrylovResult result = solve_fgmres(problem, load, u, target, tolerance.most_iterations);
-  struggled_ = !result.converged;
+  stale_.was_used(result.converged);
   return {.converged = result.converged,
           .iterations = result.iterations,
           .initial_residual = result.initial_residual / reference,

@@ -8,6 +8,7 @@
 #include "solver/linear/fgmres.h"
 #include "solver/momentum/momentum.h"
 #include "solver/momentum/preconditioner.h"
+#include "solver/momentum/stale_preconditioner.h"
 
 #include <optional>
 
@@ -52,11 +53,7 @@ class MomentumSolver {
   void set_springs(std::vector<FaceSpring> springs, const std::vector<double>& bond);
   /// Makes the next set_moduli rebuild everything that could differ, so that the results do not depend on earlier
   /// states.
-  void start_afresh() {
-    starts_afresh_ = true;
-    struggled_ = false;
-    built_springs_.clear();
-  }
+  void start_afresh() { stale_.start_afresh(); }
 
   /// Writes the prescribed values at t into u and solves to a residual of
   /// max(floor, min(ceiling, reduction x initial)).
@@ -85,12 +82,8 @@ class MomentumSolver {
 
  private:
   void build_preconditioner();
-  bool has_moved(const CellField<IsotropicElasticity>& moduli) const;
-  bool has_changed(const CellField<double>& measure) const;
-  bool has_deformed() const;
+  bool is_due() const { return stale_.state() == StalePreconditioner::State::due; }
   void add_body_force(std::vector<Vector>& load) const;
-  bool renew_preconditioner(const CellField<double>& measure, bool must_be);
-  double gradient_lag();
   Index restart_length() const;
   std::vector<Vector> load_vector(double t) const;
   double reference_norm(double t, const std::vector<Vector>& load);
@@ -100,15 +93,8 @@ class MomentumSolver {
   std::vector<Vector> body_force_;  // on the cells [N]; may be empty
   std::unique_ptr<Preconditioner> preconditioner_;
   std::unique_ptr<FreeStrainModes> strain_modes_;  // null without free strains
-  bool is_built_ = false;                          // the preconditioner, or it will be by the next solve:
-  bool is_due_ = false;
-  CellField<double> built_measure_;              // of the cells' stiffness: any measure, but always the same
-  CellField<IsotropicElasticity> built_moduli_;  // empty for a general stiffness
-  CellField<Tensor> built_deformation_;          // F; empty at small strain
-  bool starts_afresh_ = false;
-  bool struggled_ = false;  // the last solve did not converge
-  std::vector<double> scale_;
-  std::vector<double> built_springs_;        // measure of the split faces' stiffness
+  StalePreconditioner stale_;
+  std::vector<double> scale_;                // per unknown
   std::vector<double> pressure_compliance_;  // per pressure [m^3/Pa]
   std::vector<Vector> rest_;                 // residual without the forces of the pressures; work space
   std::optional<double> reference_load_;     // load parameter that reference_ belongs to

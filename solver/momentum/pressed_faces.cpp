@@ -87,6 +87,7 @@ Vector PressedFaces::turn(const Face& at, const std::vector<Vector>& moves) cons
 
 void PressedFaces::linearise(double t, const std::vector<Vector>& u, const CellField<Tensor>& gradients,
                              const CellField<double>& g) {
+  follows_ = true;
   for (Point& point : points_) weigh(point, g);
   const std::vector<Vector> moved = moves(u, gradients);
   for (std::size_t i = 0; i < points_.size(); ++i)
@@ -102,7 +103,7 @@ void PressedFaces::linearise(double t, const std::vector<Vector>& u, const CellF
 
 void PressedFaces::add_turn(const std::vector<Vector>& u, const CellField<Tensor>& gradients,
                             std::vector<Vector>& out) const {
-  if (faces_.empty()) return;
+  if (faces_.empty() || !follows_) return;
   const std::vector<Vector> moved = moves(u, gradients);
   parallel_for(static_cast<Index>(faces_.size()), [&](Index i) {
     const Face& at = faces_[as_size(i)];

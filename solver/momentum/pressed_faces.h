@@ -66,6 +66,7 @@ class PressedFaces {
   const Unknowns* unknowns_;
   std::vector<Point> points_;
   std::vector<Face> faces_;
+  bool follows_ = false;  // they have been linearised
 };
 
 }  // namespace pfdm

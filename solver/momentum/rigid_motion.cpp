@@ -125,6 +125,22 @@ void resist(Part& part, const Vector& x, const Tensor& prescribed) {
   part.form += motion.transpose() * prescribed * motion;
 }
 
+// In the directions in which they are stiff.
+void resist_by_foundations(const Mesh& mesh, const Unknowns& unknowns, const Placement& placed,
+                           std::vector<Part>& parts) {
+  for (const PatchCondition& on : unknowns.conditions) {
+    if (on.condition.kind != BoundaryCondition::Kind::elastic_foundation) continue;
+    const Patch& patch = mesh.patches[as_size(on.patch)];
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
+      const Index c = mesh.owner[f], part = placed.part[c];
+      if (part < 0) continue;
+      const FoundationStiffness k = on.condition.foundation(mesh.face_centre[f]);
+      const FoundationStiffness held{.across = k.across > 0.0 ? 1.0 : 0.0, .along = k.along > 0.0 ? 1.0 : 0.0};
+      resist(parts[as_size(part)], mesh.face_centre[f] + placed.shift[c], held.tensor(mesh.face_area[f].normalized()));
+    }
+  }
+}
+
 // Two places of the part move alike.
 void resist_apart(Part& part, const Vector& x, const Vector& image) {
   const Motion motion = motion_at(part, x) - motion_at(part, image);
@@ -193,6 +209,7 @@ void require_held(const Mesh& mesh, const Unknowns& unknowns, const CellField<do
     const Index face = unknowns.face_of_node[k], part = placed.part[mesh.owner[face]];
     if (part >= 0) resist(parts[as_size(part)], place(face), Tensor::Identity() - unknowns.free_directions[k]);
   }
+  resist_by_foundations(mesh, unknowns, placed, parts);
   resist_spins(unknowns, placed.part, parts);
   for (Index face = mesh.n_interior_faces(); face < mesh.n_faces(); ++face) {
     const Index image = partner[as_size(face)], part = placed.part[mesh.owner[face]];
@@ -206,9 +223,10 @@ void require_held(const Mesh& mesh, const Unknowns& unknowns, const CellField<do
   for (Part& part : parts) {
     resist_out_of_plane(unknowns, part.form);
     if (const std::string motion = free_motion(part); !motion.empty())
-      throw InputError(fmt::format(
-          "{}: {}; prescribe displacements (or symmetry) so that all three translations and rotations are held",
-          describe(mesh, part, parts.size(), damage.size() > 0), motion));
+      throw InputError(
+          fmt::format("{}: {}; prescribe displacements (or symmetry, or an elastic foundation) so that all three "
+                      "translations and rotations are held",
+                      describe(mesh, part, parts.size(), damage.size() > 0), motion));
   }
 }
 

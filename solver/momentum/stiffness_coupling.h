@@ -1,7 +1,7 @@
 #pragma once
 // The derivative of the momentum balance by the stiffness factors g of the cells, and that of the cells' energies by
 // the displacement. With tau the traction that the part of a cell's stiffness which g multiplies has on a face, at the
-// face displacement u_f at which both sides agree (momentum.h),
+// face displacement u_f at which both sides agree (isotropic_tractions.h),
 //
 //   dt = b (a+b)^-1 tau_P dg_P + a (a+b)^-1 tau_N dg_N,
 //   d(V psi_c) = sum A tau.(du_f - du_c),  du_f = (that of du) - (a+b)^-1 (tau_P dg_P - tau_N dg_N):
@@ -9,6 +9,7 @@
 // the two are each other's transpose up to what the operator itself is not symmetric by. The weights of the
 // least-squares gradients, which also depend on g, are taken as constant.
 
+#include "solver/momentum/isotropic_tractions.h"
 #include "solver/momentum/momentum.h"
 
 namespace pfdm {
@@ -30,7 +31,11 @@ class StiffnessCoupling {
   void apply(const CellField<double>& dg, std::vector<Vector>& force) const;
 
  private:
+  void find_tractions(const CellField<IsotropicElasticity>& part, const std::vector<Vector>& u);
+
   const MomentumOperator& balance_;
+  const FaceSkeleton& skeleton_;
+  const IsotropicTractions& tractions_;
   std::vector<Vector> tau_P_, tau_N_;    // per link, along its normal, times the area [N]
   std::vector<Vector> tau_;              // per side, outwards, likewise
   std::vector<double> gain_P_, gain_N_;  // per link: change of the energies of its cells [J]

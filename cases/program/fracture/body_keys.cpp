@@ -14,6 +14,7 @@ namespace {
 constexpr Range above_zero_below_one{0.0, 1.0, true, "above 0 and below 1"};
 constexpr Range below_half{0.0, 0.5, false, "between 0 and 0.5"};
 constexpr Dimension force_per_volume{"force per volume", "N/m^3", "20 kN/m^3"};
+constexpr Dimension foundation_stiffness{"stiffness per area", "N/m^3", "50 MN/m^3"};
 
 constexpr ParameterWords split_words[] = {
     {"gamma", "How much compression lowers the driving energy, by gamma K/2 tr(eps)^2; sets the compressive strength."},
@@ -153,19 +154,30 @@ const KeyTable& boundary_keys() {
   static const KeyTable table{
       .name = "boundary[]",
       .sentence = "A condition on patches of the mesh; patches that no entry names are free.",
-      .keys = {
-          {"patch", text("patch"), "or patches", "Name of the patch of the mesh that the condition is for."},
-          {"patches", list(text("patch"), 1), "or patch",
-           "Names of the patches of the mesh that the condition is for."},
-          {"type", one_of("type of boundary condition", boundary_types()), "\"components\"",
-           "Type of the boundary condition: components, symmetry, plane strain, plane stress, axisymmetric, free."},
-          {"displacement", either({components(dimension::length), keys::table(goodier_keys)}), "free",
-           "Prescribed displacement along x, y, z, each a length, a formula or free; or a field."},
-          {"traction", components(dimension::stress), "free",
-           "Prescribed traction along x, y, z per reference area, where the displacement is free (dead load)."},
-          {"pressure", varying(quantity(dimension::stress)), "none",
-           "Pressure that pushes against the patch, negative for suction; follows the body at finite strain."},
-      }};
+      .keys =
+          {
+              {"patch", text("patch"), "or patches", "Name of the patch of the mesh that the condition is for."},
+              {"patches", list(text("patch"), 1), "or patch",
+               "Names of the patches of the mesh that the condition is for."},
+              {"type", one_of("type of boundary condition", boundary_types()), "\"components\"",
+               "Type of the boundary condition: components, symmetry, plane strain, plane stress, axisymmetric, "
+               "elastic "
+               "foundation, free."},
+              {"displacement", either({components(dimension::length), keys::table(goodier_keys)}), "free",
+               "Prescribed displacement along x, y, z, each a length, a formula or free; or a field."},
+              {"traction", components(dimension::stress), "free",
+               "Prescribed traction along x, y, z per reference area, where the displacement is free (dead load)."},
+              {"pressure", varying(quantity(dimension::stress)), "none",
+               "Pressure that pushes against the patch, negative for suction; follows the body at finite strain."},
+              {"normal_stiffness", varying(quantity(foundation_stiffness, range::not_negative)), "0",
+               "Stiffness k_n of an elastic foundation along the undeformed normal, traction per displacement.",
+               "elastic_foundation"},
+              {"tangential_stiffness", varying(quantity(foundation_stiffness, range::not_negative)), "0",
+               "Stiffness k_t of an elastic foundation along the undeformed surface, traction per displacement.",
+               "elastic_foundation"},
+          },
+      .decided_by = "type",
+      .decided_otherwise = "components"};
   return table;
 }
 

@@ -33,6 +33,8 @@ constexpr BoundaryType type_table[] = {
     {"plane", "front or back of a mesh one cell thick: plane strain", Kind::plane},
     {"plane_stress", "front or back of a mesh one cell thick: no stress across it", Kind::plane_stress},
     {"axisymmetric", "front or back of a sector about the axis z, one cell wide", Kind::axisymmetric},
+    {"elastic_foundation", "springs to the ground (Winkler); normal_stiffness, tangential_stiffness",
+     Kind::elastic_foundation},
     {"free", "no traction", Kind::components},
 };
 
@@ -99,6 +101,19 @@ void read_components(const ConfigTable& table, const Materials& materials, Bound
   settings.condition.pressure = read_amount(*pressure).value;
 }
 
+void read_foundation(const ConfigTable& table, BoundaryCondition& condition) {
+  const auto stiffness = [&](const char* key) -> Parameter {
+    const auto value = table.find(key);
+    return value ? read_parameter(*value) : Parameter{.at = [](const Vector&) { return 0.0; }};
+  };
+  const Parameter across = stiffness("normal_stiffness"), along = stiffness("tangential_stiffness");
+  if (!across.varies && !along.varies && across.at(Vector::Zero()) == 0.0 && along.at(Vector::Zero()) == 0.0)
+    throw table.error("an elastic foundation has a normal_stiffness or a tangential_stiffness above 0, or both");
+  condition.foundation = [across = across.at, along = along.at](const Vector& x) {
+    return FoundationStiffness{.across = across(x), .along = along(x)};
+  };
+}
+
 void read_condition(const ConfigTable& table, const Materials& materials, BoundarySettings& settings) {
   const auto type_value = table.find("type");
   const BoundaryType& type =
@@ -108,6 +123,7 @@ void read_condition(const ConfigTable& table, const Materials& materials, Bounda
   for (const char* key : {"displacement", "traction", "pressure"})
     if (const auto value = table.find(key))
       throw value->error(fmt::format("a patch of type \"{}\" takes no prescribed value", type.name));
+  if (type.kind == Kind::elastic_foundation) read_foundation(table, settings.condition);
 }
 
 std::vector<ConfigValue> patches_of(const ConfigTable& table) {

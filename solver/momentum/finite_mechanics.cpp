@@ -1,0 +1,105 @@
+// Strain, stress and energy of the cells at finite strain (finite_tractions.h). The energy of a cell is that of its
+// mean gradient and half the work of what tractions and face displacements differ by from those; with a pressure this
+// is without the pressure's work.
+
+#include "solver/momentum/cell_sums.h"
+#include "solver/momentum/finite_tractions.h"
+#include "solver/parallel.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+Tensor skew_part(const Tensor& A) { return 0.5 * (A - A.transpose()); }
+
+// R of F = R U, where no stretch is below 1e-3.
+Tensor rotation_of(const Tensor& F) {
+  constexpr double least = 1e-3;
+  const Eigen::SelfAdjointEigenSolver<Tensor> C(F.transpose() * F);
+  Vector inverse;
+  for (Index i = 0; i < 3; ++i) inverse[i] = 1.0 / std::max(std::sqrt(std::max(C.eigenvalues()[i], 0.0)), least);
+  return F * C.eigenvectors() * inverse.asDiagonal() * C.eigenvectors().transpose();
+}
+
+// The tractions of a cell have a moment about its centre; those of all cells together are in balance with the loads.
+// In the sheared cells along a bonded surface it does 1 % of the work. At the rotation R of a cell, beyond the rotation
+// R_0 of the whole body: 1/2 V skew(P R^T) : skew(R R_0^T).
+void add_work_of_moments(const Mesh& mesh, const std::vector<Index>& of_cells, CellMechanics& cells) {
+  Tensor whole = Tensor::Zero();
+  double volume = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    whole += mesh.cell_volume[c] * (Tensor::Identity() + cells.gradient[c]);
+    volume += mesh.cell_volume[c];
+  }
+  const Tensor R_0 = rotation_of(whole / volume);
+  parallel_for(static_cast<Index>(of_cells.size()), [&](Index k) {
+    const Index c = of_cells[as_size(k)];
+    const Tensor R = rotation_of(Tensor::Identity() + cells.gradient[c]);
+    const Tensor moment = skew_part(cells.moderate_stress[c] * R.transpose());
+    cells.energy[c] += 0.5 * mesh.cell_volume[c] * contract(moment, skew_part(R * R_0.transpose()));
+  });
+}
+
+// In the order of the forces.
+std::vector<Vector> moves_of_faces(const FaceSkeleton& skeleton, const std::vector<Vector>& u,
+                                   const FaceField<Vector>& u_face) {
+  std::vector<Vector> moves;
+  for (const momentum_faces::Link& link : skeleton.links) moves.push_back(u_face[link.face]);
+  for (const momentum_faces::Side& side : skeleton.sides) moves.push_back(u[as_size(side.node)]);
+  return moves;
+}
+
+CellMechanics unknown_mechanics(std::size_t n_cells, std::size_t n_parts) {
+  return {.strain = CellField<Tensor>(n_cells),
+          .gradient = CellField<Tensor>(n_cells),
+          .stress = CellField<Tensor>(n_cells),
+          .energy = CellField<double>(n_cells),
+          .part_energy = CellField<double>(n_parts, 0.0)};
+}
+
+}  // namespace
+
+CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
+                                         const CellField<IsotropicElasticity>& part) const {
+  const auto lease = sweep();
+  FiniteSweep& s = of(*lease);
+  find(u, s);
+  FaceField<Vector> u_face = face_displacements(u, s);
+  const FaceMoves moves{.skeleton = skeleton_, .sweep = s, .u = u, .u_face = u_face};
+  CellMechanics result = unknown_mechanics(as_size(skeleton_.mesh.n_cells()), as_size(part.size()));
+  if (pressure_.any()) {
+    result.volume_change = pressure_.swept_changes(moves_of_faces(skeleton_, u, u_face), s);
+    result.moderate_stress = CellField<Tensor>(as_size(skeleton_.mesh.n_cells()));
+  }
+  parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
+    const double volume = skeleton_.mesh.cell_volume[c];
+    Tensor pressed = Tensor::Zero();
+    double by_pressure = 0.0;
+    const auto press = [&](const FaceSkeleton::SignedForce* on, const Vector& area, const Vector& arm,
+                           const Vector& move) {
+      if (!pressure_.any()) return;
+      const Vector on_face =
+          s.pressure.mean(c) * (on != nullptr ? pressure_.moved_area(*on) : Vector(pressure_.section(c) * area));
+      pressed += on_face * arm.transpose();
+      by_pressure += 0.5 * on_face.dot(move);
+    };
+    const CellSums sums = sum_over_faces(c, moves, press);
+    const Tensor& closure = skeleton_.closure[c];
+    const Tensor gradient = sums.gradient * closure.transpose() / volume;
+    result.gradient[c] = gradient;
+    result.strain[c] = symmetric_part(gradient);
+    result.stress[c] = sums.moment * closure / volume;
+    if (pressure_.any()) result.moderate_stress[c] = (sums.moment - pressed) * closure / volume;
+    result.energy[c] = sums.work - by_pressure - 0.5 * contract(sums.moment - pressed, gradient);
+  });
+  result.reconstructed_gradient = s.gradients;
+  if (pressure_.any()) add_work_of_moments(skeleton_.mesh, skeleton_.unknowns.pressure_cells, result);
+  result.face_displacement = std::move(u_face);
+  return result;
+}
+
+}  // namespace pfdm

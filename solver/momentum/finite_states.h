@@ -1,0 +1,109 @@
+#pragma once
+// Cells at finite strain where their laws are linearised, and on bonded sides the laws at the gradient on the surface;
+// the stiffness of their faces,
+//
+//   a h = mu I + m c c^T,  m = lambda + mu phi(J),  c = cof F N,
+//
+// phi = FiniteLaw::swelling / J^2. With the shares of lambda + 2 mu of polyhedral_jump.h it is "capped": m of
+// undeformed polyhedra is that of lambda_s.
+
+#include "physics/elasticity/gradient_stress.h"
+#include "solver/momentum/bonded_sides.h"
+#include "solver/momentum/face_skeleton.h"
+#include "solver/momentum/finite_law.h"
+
+namespace pfdm {
+
+class FiniteStates {
+ public:
+  /// m of a face, over its distance from the cell's centre or times one, and dm/dJ.
+  struct Push {
+    double stiffness = 0.0, slope = 0.0;  ///< [Pa]
+    Push operator/(double h) const { return {stiffness / h, slope / h}; }
+  };
+  /// What a gradient H changes a cell by, or a bonded side.
+  struct Change {
+    Tensor stress = Tensor::Zero();    ///< A : H [Pa]
+    Tensor cofactor = Tensor::Zero();  ///< of cof F [-]
+    double volume = 0.0;               ///< of J [-]
+  };
+  /// Changes of all cells and of all bonded sides.
+  struct Changes {
+    CellField<Change> of_cell;
+    std::vector<Change> of_bonded;
+  };
+
+  /// For use while the skeleton exists.
+  explicit FiniteStates(const FaceSkeleton& skeleton);
+
+  /// About these gradients of the cells and of bonded sides.
+  void linearise(const FiniteLawAt& law, const CellField<Tensor>& gradients, const std::vector<Tensor>& bonded);
+  /// The changes by these gradients.
+  void find_changes(const CellField<Tensor>& gradients, const std::vector<Tensor>& bonded, Changes& changes) const;
+
+  const BondedSides& bonded() const { return bonded_; }
+  /// Number of the bonded side that side number `turn` is; -1: none.
+  Index bonded_at(std::size_t turn) const {
+    return skeleton_.is_side(turn) ? bonded_.number(turn - 2 * skeleton_.links.size()) : -1;
+  }
+  const FiniteLaw& law(Index cell) const { return laws_[cell]; }
+  const CellField<Tensor>& deformation() const { return F_; }
+  const CellField<Tensor>& cofactors() const { return cofactor_; }
+  const Tensor& deformation_on(Index bonded) const { return bonded_states_[as_size(bonded)].F; }
+  /// As side number `turn` sees them: of the cell, or of the surface on which it is bonded.
+  const Tensor& stress_at(Index cell, std::size_t turn) const {
+    const Index k = bonded_at(turn);
+    return k < 0 ? laws_[cell].stress : bonded_states_[as_size(k)].law.stress;
+  }
+  const Tensor& cofactor_at(Index cell, std::size_t turn) const {
+    const Index k = bonded_at(turn);
+    return k < 0 ? cofactor_[cell] : bonded_states_[as_size(k)].cofactor;
+  }
+  const Change& change_at(Index cell, std::size_t turn, const Changes& changes) const {
+    const Index k = bonded_at(turn);
+    return k < 0 ? changes.of_cell[cell] : changes.of_bonded[as_size(k)];
+  }
+
+  /// m and dm/dJ times h.
+  const Push& push(Index cell) const { return push_[cell]; }
+  Push capped_push(Index cell) const { return capped(jump_share_[cell], laws_[cell], push_[cell]); }
+  Push side_push(std::size_t side) const;
+  /// a h [Pa].
+  Tensor acoustic(Index cell, const Vector& n) const;
+  Tensor capped_acoustic(Index cell, const Vector& n) const;
+  Tensor side_acoustic(std::size_t side) const;
+  /// c [Pa/m]: the stiffness of both sides in series; between polyhedra that of the capped ones, blended back to the
+  /// full one where the stiffness of the cells differs.
+  Tensor jump_tensor(const momentum_faces::Link& link, double h_P, double h_N) const;
+  /// theta: 0 between cells of equal stiffness, to 1.
+  double stiffness_difference(const momentum_faces::Link& link) const;
+  /// Whether the jump of a link has a stiffness other than that of the tractions.
+  bool is_capped(const momentum_faces::Link& link) const {
+    return jump_share_[link.P] < 1.0 || jump_share_[link.N] < 1.0;
+  }
+  CellField<double> face_stiffness() const;  ///< a measure of a h [Pa]
+  /// Whether a cell has lost all but this share of its stiffness.
+  bool is_softer(Index cell, double share) const {
+    const Unknowns& unknowns = skeleton_.unknowns;
+    return laws_[cell].face.mu < share * unknowns.sound[as_size(unknowns.zone[cell])].mu;
+  }
+
+ private:
+  struct BondedState {
+    FiniteLaw law;
+    Tensor F, cofactor;
+    Push push;
+  };
+  static Push push_of(const FiniteLaw& law, double J);
+  static Push capped(double share, const FiniteLaw& law, const Push& push);
+
+  const FaceSkeleton& skeleton_;
+  CellField<FiniteLaw> laws_;
+  CellField<Tensor> F_, cofactor_;
+  CellField<Push> push_;
+  CellField<double> jump_share_;
+  BondedSides bonded_;  // also of cells with cubic faces, which count at small strain alone
+  std::vector<BondedState> bonded_states_;
+};
+
+}  // namespace pfdm
