@@ -42,7 +42,7 @@ Tensor CellStiffness::cauchy_stress(Index cell, const CellMechanics& mechanics, 
 }
 
 Tensor CellStiffness::thinned_gradient(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  return finite_.thinned(cell, mechanics.gradient[cell], factor(cell, state.damage[cell]));
+  return finite_.thinned(cell, mechanics, factor(cell, state.damage[cell]));
 }
 
 void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
@@ -50,7 +50,11 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
   const CellField<double> g = factors(state);
   momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt);
   if (finite_.any()) {
-    const auto law = [&](Index c, const Tensor& H) { return finite_.law(c, H, g[c], state.closure[c]); };
+    const CellField<Mandel>& free = momentum.balance().eigenstrain();
+    const auto law = [&](Index c, const Tensor& H) {
+      return finite_.law(c, H, g[c], state.closure[c],
+                         free.size() > 0 ? FreeDeformation(to_tensor(free[c])) : FreeDeformation());
+    };
     momentum.set_finite(law, g, state.displacement, state.load);
   } else if (is_isotropic_) {
     CellField<IsotropicElasticity> moduli(n);
@@ -135,7 +139,9 @@ double CellStiffness::integrate(const CellMechanics& mechanics, const FractureSt
   if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     if (!materials_.has(c)) return 0.0;
-    const double wrong = materials_.advance(c, mechanics.reconstructed_strain[c], start.histories, state.histories);
+    Tensor strain = mechanics.reconstructed_strain[c];
+    if (mechanics.eigenstrain.size() > 0) strain -= to_tensor(mechanics.eigenstrain[c]);
+    const double wrong = materials_.advance(c, strain, start.histories, state.histories);
     return factor(c, state.damage[c]) * wrong * mesh_.cell_volume[c];
   });
 }
@@ -195,6 +201,16 @@ double CellStiffness::residual_energy(Index cell, double psi_plus, const Fractur
   return model_.residual_stiffness * lost * psi_plus * mesh_.cell_volume[cell];
 }
 
+CellField<Mandel> CellStiffness::eigenstrain_moments(const CellMechanics& mechanics, const FractureState& state,
+                                                     const Vector& plane_normal) const {
+  if (!finite_.any()) return mechanics.traction_moment;
+  CellField<Mandel> moments(as_size(mechanics.eigenstrain.size()));
+  parallel_for(moments.size(), [&](Index c) {
+    moments[c] = to_mandel(finite_.eigenstrain_moment(c, mechanics, factor(c, state.damage[c]), plane_normal));
+  });
+  return moments;
+}
+
 double CellStiffness::plastic_dissipation(const FractureState& from, const FractureState& to) const {
   if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
@@ -207,7 +223,7 @@ double CellStiffness::plastic_dissipation(const FractureState& from, const Fract
 
 double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {
   if (finite_.any()) {
-    parallel_for(mesh_.n_cells(), [&](Index c) { state.closure[c] = finite_.closure(c, mechanics.gradient[c]); });
+    parallel_for(mesh_.n_cells(), [&](Index c) { state.closure[c] = finite_.closure(c, mechanics); });
     return 0.0;
   }
   return parallel_sum(mesh_.n_cells(), [&](Index c) {

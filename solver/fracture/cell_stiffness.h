@@ -57,6 +57,9 @@ class CellStiffness {
   /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]
   /// (residual_stiffness.h).
   double residual_energy(Index cell, double psi_plus, const FractureState& state) const;
+  /// By which eigenstrains do work, minus these times their growth [J]; empty without eigenstrains.
+  CellField<Mandel> eigenstrain_moments(const CellMechanics& mechanics, const FractureState& state,
+                                        const Vector& plane_normal) const;
   /// Energy dissipated by the materials [J] from one state to the other.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   /// Of the undamaged material [Pa], on which strength depends: at finite strain Biot's.

@@ -133,6 +133,10 @@ class MomentumOperator {
   /// The eigenstrains of the body at the load parameter t, or none; before set_moduli() and set_law(). Returns whether
   /// they have changed.
   bool set_eigenstrain(std::optional<double> t);
+  const CellField<Mandel>& eigenstrain() const { return eigenstrain_; }  ///< of now [-]; empty: none
+  /// Twice the energy that the eigenstrains of now would store in the undamaged body if nothing moved, at finite strain
+  /// by its elasticity at small strain [J].
+  double energy_if_held() const;
 
   const std::vector<FaceSpring>& springs() const { return springs_; }
   /// In the order of the split faces.

@@ -111,6 +111,20 @@ bool MomentumOperator::set_eigenstrain(std::optional<double> t) {
   return true;
 }
 
+// In a uniform body the forces of eigenstrains cancel. Pressures are zero then.
+double MomentumOperator::energy_if_held() const {
+  if (is_finite())
+    return parallel_sum(eigenstrain_.size(), [&](Index c) {
+      IsotropicElasticity sound = unknowns_.sound[as_size(unknowns_.zone[c])];
+      sound.lambda = std::min(sound.lambda, CellPressure::moderate_lambda * sound.mu);
+      return 2.0 * mesh_.cell_volume[c] * energy_density(sound, to_tensor(eigenstrain_[c]));
+    });
+  const CellMechanics held =
+      mechanics(std::vector<Vector>(as_size(unknowns_.n_unknowns()), Vector::Zero()), Wanted::without_gradient);
+  return parallel_sum(held.eigenstrain.size(),
+                      [&](Index c) { return std::abs(held.traction_moment[c].dot(held.eigenstrain[c])); });
+}
+
 // In plane stress that of isotropic cells is condensed with their moduli.
 void MomentumOperator::find_initial_stress() {
   if (!has_eigenstrain()) return;
@@ -247,7 +261,7 @@ CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted w
   FaceField<Vector> u_face = face_displacements(u);
   const auto n = as_size(mesh_.n_cells());
   CellMechanics result{.strain = CellField<Tensor>(n),
-                       .eigenstrain = has_eigenstrain() ? eigenstrain_ : CellField<Mandel>(),
+                       .eigenstrain = eigenstrain_,
                        .traction_moment = CellField<Mandel>(has_eigenstrain() ? n : 0),
                        .gradient = CellField<Tensor>(with_gradient ? n : 0),
                        .stress = CellField<Tensor>(n),
