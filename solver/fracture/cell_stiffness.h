@@ -10,6 +10,8 @@
 #include "solver/fracture/state.h"
 #include "solver/momentum/momentum_solver.h"
 
+#include <memory>
+
 namespace pfdm {
 
 class CellStiffness {
@@ -81,7 +83,10 @@ class CellStiffness {
   CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
                                      const CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
-  const MandelMatrix* stiffness(Index cell) const;  // of elasticity that depends on the direction; else null
+  // Where the elasticity depends on the direction; else null.
+  const AnisotropicElasticity* anisotropy(Index cell) const {
+    return anisotropy_.size() > 0 ? anisotropy_[cell].get() : nullptr;
+  }
   const EnergySplit& split(Index cell) const;
   StrainLaw law(const CellField<double>& g, const CellField<double>& closure) const;
   bool has_degradable_part(Index cell) const;
@@ -92,10 +97,11 @@ class CellStiffness {
   const FractureModel& model_;
   MaterialCells materials_;
   FiniteCells finite_;
-  CellField<double> seen_;    // may be empty
-  bool is_isotropic_;         // every cell has isotropic secant moduli
-  CellField<float> closing_;  // per cell: last change of the closure, and
-  CellField<Index> turns_;    // number of its reversals within the step
+  CellField<std::shared_ptr<const AnisotropicElasticity>> anisotropy_;  // null: isotropic; empty: all of them
+  CellField<double> seen_;                                              // may be empty
+  bool is_isotropic_;                                                   // every cell has isotropic secant moduli
+  CellField<float> closing_;                                            // per cell: last change of the closure, and
+  CellField<Index> turns_;                                              // number of its reversals within the step
 };
 
 }  // namespace pfdm

@@ -213,8 +213,6 @@ void require_eigenstrain(const Mesh& mesh, const FractureModel& m, const Unknown
   }
 }
 
-// Damage degrades the whole energy of such cells: splits by principal strains or by the change of volume are those of
-// isotropic elasticity.
 void require_anisotropy(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns) {
   for (std::size_t r = 0; r < m.regions.size(); ++r) {
     const RegionModel& region = m.regions[r];
@@ -225,8 +223,9 @@ void require_anisotropy(const Mesh& mesh, const FractureModel& m, const Unknowns
     };
     if (region.material) refuse(fmt::format("the law \"{}\"", region.material->name()));
     if (!region.damageable) continue;
-    if (m.split_of(region).name() != "none")
-      refuse(fmt::format("the energy split \"{}\"; allowed: none", m.split_of(region).name()));
+    if (!m.split_of(region).suits_anisotropy())
+      refuse(fmt::format("the energy split \"{}\", which is one of isotropic elasticity; allowed: {}",
+                         m.split_of(region).name(), splits_for_anisotropy()));
     if (region.strength.is_chosen()) refuse("a model of strength");
     if (m.degradation_of(region).law().needs_strength)
       refuse(fmt::format("the degradation \"{}\", whose strength is that of one modulus",

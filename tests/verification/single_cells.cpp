@@ -105,7 +105,7 @@ TEST_P(SingleCell, FollowsTheLawOfAPoint) {
 
 INSTANTIATE_TEST_SUITE_P(Splits, SingleCell,
                          ::testing::Values("none", "volumetric_deviatoric", "star_convex", "spectral", "no_tension",
-                                           "drucker_prager", "rankine", "hybrid"),
+                                           "orthogonal", "drucker_prager", "rankine", "hybrid"),
                          [](const auto& which) { return std::string(which.param); });
 
 // Columns one cell wide: the cells may turn about their line without moving the centre of a face.
