@@ -16,6 +16,8 @@ IsotropicElasticity degrade_all(const IsotropicElasticity& c, double g, double, 
   return {g * c.lambda, g * c.mu};
 }
 
+MandelMatrix keep_nothing(const AnisotropicElasticity&, const Tensor&) { return MandelMatrix::Zero(); }
+
 double never_closed(const Tensor&) { return 0.0; }
 double closed_in_compression(const Tensor& eps) { return eps.trace() < 0.0 ? 1.0 : 0.0; }
 
@@ -29,7 +31,17 @@ constexpr SplitLaw none{
         },
     .closure = never_closed,
     .secant = degrade_all,
+    .kept_of = keep_nothing,
 };
+
+// Compression of the volume is kept where elasticity depends on the direction: of stresses -p I, which crack strains
+// that take no volume away leave, the nearest in the norm of the energy, p = -K tr(eps) with the bulk modulus K = 1/(I
+// : C^-1 : I) (as Ziaei-Rad, Mollaali, Nagel, Kolditz, Yoshioka, J. Mech. Phys. Solids 171 (2023) 105143, by the
+// projection of Freddi, Royer-Carfagni 2010).
+MandelMatrix keep_pressure(const AnisotropicElasticity& c, const Tensor& eps) {
+  if (eps.trace() >= 0.0) return MandelMatrix::Zero();
+  return c.bulk_modulus * mandel_identity() * mandel_identity().transpose();
+}
 
 // Amor, Marigo, Maurini, J. Mech. Phys. Solids 57 (2009) 1209, eqs. 25-26: compression of the volume is kept.
 constexpr SplitLaw volumetric_deviatoric{
@@ -52,6 +64,7 @@ constexpr SplitLaw volumetric_deviatoric{
           const double K = (g + closure * (1.0 - g)) * c.bulk_modulus();
           return IsotropicElasticity{K - 2.0 * g * c.mu / 3.0, g * c.mu};
         },
+    .kept_of = keep_pressure,
 };
 
 // Ambati, Gerasimov, De Lorenzis, Comput. Mech. 55 (2015) 383, with the energy of Amor et al. in place of the
@@ -166,6 +179,42 @@ constexpr SplitLaw no_tension{
     .kept = kept_by_no_tension,
 };
 
+// Nguyen, Yvonnet, Waldmann, He, Int. J. Numer. Meth. Engng 121 (2020) 4717; He, Int. J. Solids Struct. 295 (2024)
+// 112818: the strain is taken to C^(1/2) eps, whose square is twice the energy, and its negative principal values are
+// kept, psi_minus = 1/2 sum <-e_i>^2. The two parts of the strain are orthogonal in the norm of the energy. Isotropic:
+// e = (3 K)^(1/2) of the volume + (2 mu)^(1/2) of the deviator, with the axes of the strain.
+PrincipalStress kept_by_orthogonal(const IsotropicElasticity& c, const Vector& eps, const LawParameters&) {
+  const double shear = std::sqrt(2.0 * c.mu), beyond = (std::sqrt(3.0 * c.bulk_modulus()) - shear) / 3.0;
+  PrincipalStress kept;
+  for (Index i = 0; i < 3; ++i) {
+    const Vector by_eps = shear * Vector::Unit(i) + beyond * Vector::Ones();
+    if (by_eps.dot(eps) < 0.0) kept.slope += by_eps * by_eps.transpose();
+  }
+  kept.stress = kept.slope * eps;
+  return kept;
+}
+
+MandelMatrix keep_orthogonal(const AnisotropicElasticity& c, const Tensor& eps) {
+  const PrincipalAxes axes = principal_axes(to_tensor(c.root * to_mandel(eps)));
+  PrincipalStress negative;
+  for (Index i = 0; i < 3; ++i)
+    if (axes.value[i] < 0.0) negative.slope(i, i) = 1.0;
+  negative.stress = negative.slope * axes.value;
+  return c.root * tangent(axes, negative) * c.root;
+}
+
+constexpr SplitLaw orthogonal{
+    .name = "orthogonal",
+    .description =
+        "positive principal values of C^(1/2) eps are degraded, orthogonal to the rest in the norm of the energy, also "
+        "of "
+        "elasticity that depends on the direction (Nguyen 2020)",
+    .variational = true,
+    .energy = energy_less_kept<kept_by_orthogonal>,
+    .kept = kept_by_orthogonal,
+    .kept_of = keep_orthogonal,
+};
+
 // De Lorenzis, Maurini, Int. J. Fract. 237 (2022) 61: what a material keeps whose crack strains satisfy tr eta >= 6 B
 // sqrt(J2(eta)), as of a frictional material without cohesion: its stress, nearest in the norm of the energy, with
 // sqrt(J2) + B I1 <= 0. With AT1 and the cohesive model the strength surface between the two cones is
@@ -201,8 +250,15 @@ constexpr SplitLaw drucker_prager{
     .parameters = drucker_prager_parameters,
 };
 
-constexpr SplitLaw all_splits[] = {none,       volumetric_deviatoric, star_convex, spectral,
-                                   no_tension, drucker_prager,        rankine,     hybrid};
+constexpr SplitLaw all_splits[] = {none,       volumetric_deviatoric, star_convex, spectral, no_tension,
+                                   orthogonal, drucker_prager,        rankine,     hybrid};
+
+std::string names_where(bool (*suits)(const SplitLaw&)) {
+  std::vector<std::string_view> names;
+  for (const SplitLaw& law : all_splits)
+    if (suits(law)) names.push_back(law.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 }  // namespace
 
@@ -227,13 +283,30 @@ Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, d
   return to_tensor(degraded_tangent(split, c, g, eps) * to_mandel(eps));
 }
 
+// What is kept of the sound material belongs to it.
+MandelMatrix degraded_tangent(const EnergySplit& split, const AnisotropicElasticity& c, double g, const Tensor& eps) {
+  if (g == 1.0) return c.stiffness;
+  return g * c.stiffness + (1.0 - g) * split.law().kept_of(c, eps);
+}
+
+Tensor degradable_stress(const EnergySplit& split, const AnisotropicElasticity& c, const Tensor& eps) {
+  return to_tensor((c.stiffness - split.law().kept_of(c, eps)) * to_mandel(eps));
+}
+
+SplitEnergy energy(const EnergySplit& split, const AnisotropicElasticity& c, const Tensor& eps) {
+  const Mandel strain = to_mandel(eps);
+  const double psi_minus = 0.5 * strain.dot(split.law().kept_of(c, eps) * strain);
+  return {std::max(0.5 * strain.dot(c.stiffness * strain) - psi_minus, 0.0), psi_minus};
+}
+
 std::span<const SplitLaw> energy_splits() { return all_splits; }
 
 std::string splits_with_secant() {
-  std::vector<std::string_view> names;
-  for (const SplitLaw& law : all_splits)
-    if (law.secant != nullptr) names.push_back(law.name);
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names_where([](const SplitLaw& law) { return law.secant != nullptr; });
+}
+
+std::string splits_for_anisotropy() {
+  return names_where([](const SplitLaw& law) { return law.kept_of != nullptr; });
 }
 
 const SplitLaw& split_law(std::string_view name) { return find_by_name(energy_splits(), name, "energy split"); }

@@ -5,7 +5,12 @@
 // Energies are of second degree in the strain, so the stress g dpsi_plus/deps + dpsi_minus/deps is the tangent times
 // the strain. Some splits have isotropic secant moduli besides: with them sigma = stress(secant, eps). The others say
 // what compression keeps, in principal strains.
+//
+// Where the elasticity depends on the direction a split says what it keeps by the whole stiffness. It keeps the nearest
+// stress, in the norm of the energy, of those that it may keep, or a part that is orthogonal to the rest: psi_plus and
+// psi_minus add up to the energy, and isotropic constants give the isotropic split.
 
+#include "physics/elasticity/anisotropy.h"
 #include "physics/elasticity/elasticity.h"
 #include "physics/elasticity/principal.h"
 #include "physics/law_parameters.h"
@@ -36,6 +41,9 @@ struct SplitLaw {
   /// dpsi_minus/deps in the principal directions of the strain, by its principal values in ascending order, and its
   /// slope. Null with isotropic secant moduli.
   PrincipalStress (*kept)(const IsotropicElasticity&, const Vector& principal_strain, const LawParameters& p) = nullptr;
+  /// d2psi_minus/deps2 [Pa] of an elasticity that depends on the direction, at the strain eps or in its direction.
+  /// Null: the split is one of isotropic elasticity.
+  MandelMatrix (*kept_of)(const AnisotropicElasticity&, const Tensor& eps) = nullptr;
   std::span<const LawParameter> parameters{};
 };
 
@@ -51,6 +59,8 @@ class EnergySplit {
   std::string_view name() const { return law_->name; }
   bool is_variational() const { return law_->variational; }
   bool has_secant() const { return law_->secant != nullptr; }  ///< isotropic secant moduli
+  /// Whether elasticity may depend on the direction.
+  bool suits_anisotropy() const { return law_->kept_of != nullptr; }
 
   SplitEnergy energy(const IsotropicElasticity& c, const Tensor& eps) const { return law_->energy(c, eps, p_); }
   double closure(const Tensor& eps) const { return law_->closure(eps); }
@@ -74,9 +84,16 @@ MandelMatrix degraded_tangent(const EnergySplit& split, const IsotropicElasticit
 Tensor degradable_stress(const EnergySplit& split, const IsotropicElasticity& c, const Tensor& eps);
 Tensor degraded_stress(const EnergySplit& split, const IsotropicElasticity& c, double g, const Tensor& eps);
 
+/// The same of an elasticity that depends on the direction, for which the split must be.
+MandelMatrix degraded_tangent(const EnergySplit& split, const AnisotropicElasticity& c, double g, const Tensor& eps);
+Tensor degradable_stress(const EnergySplit& split, const AnisotropicElasticity& c, const Tensor& eps);
+SplitEnergy energy(const EnergySplit& split, const AnisotropicElasticity& c, const Tensor& eps);
+
 std::span<const SplitLaw> energy_splits();
 /// The names of those with isotropic secant moduli, for messages: "none, volumetric_deviatoric ...".
 std::string splits_with_secant();
+/// Of those for which elasticity may depend on the direction.
+std::string splits_for_anisotropy();
 /// Throws InputError naming those there are.
 const SplitLaw& split_law(std::string_view name);
 /// With the default values of its parameters. Throws InputError naming those there are, or if it has a parameter

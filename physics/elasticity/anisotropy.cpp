@@ -16,7 +16,44 @@ bool is_positive(const MandelMatrix& A) {
   return A.allFinite() && eigenvalues[0] > share * eigenvalues[5];
 }
 
+// One rotation of Jacobi's method: makes A(p, q) zero; the eigenvectors are the columns of V. Sums in a fixed order.
+void rotate(int p, int q, MandelMatrix& A, MandelMatrix& V) {
+  if (A(p, q) == 0.0) return;
+  const double theta = (A(q, q) - A(p, p)) / (2.0 * A(p, q));
+  const double t = (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+  const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
+  const auto turn = [&](double& a, double& b) {
+    const double first = a;
+    a = c * first - s * b;
+    b = s * first + c * b;
+  };
+  for (int k = 0; k < n_components; ++k) turn(A(k, p), A(k, q));
+  for (int k = 0; k < n_components; ++k) turn(A(p, k), A(q, k));
+  for (int k = 0; k < n_components; ++k) turn(V(k, p), V(k, q));
+}
+
+// Of a symmetric, positive matrix.
+MandelMatrix square_root(MandelMatrix A) {
+  constexpr int sweeps = 12;  // it converges quadratically; six do for rounding
+  MandelMatrix V = MandelMatrix::Identity(), root = MandelMatrix::Zero();
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (int p = 0; p < n_components; ++p)
+      for (int q = p + 1; q < n_components; ++q) rotate(p, q, A, V);
+  for (int k = 0; k < n_components; ++k)
+    for (int j = 0; j < n_components; ++j)
+      for (int i = 0; i < n_components; ++i) root(i, j) += std::sqrt(A(k, k)) * (V(i, k) * V(j, k));
+  return root;
+}
+
 }  // namespace
+
+AnisotropicElasticity anisotropic_elasticity(const MandelMatrix& C) {
+  const MandelMatrix S = C.inverse();
+  double compliance = 0.0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) compliance += S(i, j);
+  return {C, square_root(C), 1.0 / compliance};
+}
 
 MandelMatrix orthotropic_stiffness(const OrthotropicConstants& c) {
   MandelMatrix S = MandelMatrix::Zero();

@@ -30,6 +30,15 @@ Tensor axes_along(const Vector& first, const Vector& second);
 /// The stiffness in the frame in which its axes are the columns of `axes`.
 MandelMatrix turned(const MandelMatrix& C, const Tensor& axes);
 
+/// An elasticity that depends on the direction with what energy splits take from it.
+struct AnisotropicElasticity {
+  MandelMatrix stiffness;   ///< C [Pa]
+  MandelMatrix root;        ///< C^(1/2), symmetric and positive [Pa^(1/2)]
+  double bulk_modulus = 0;  ///< pressure over the volume that it takes away, 1/(I : C^-1 : I) [Pa]
+};
+/// Of a C with a positive energy.
+AnisotropicElasticity anisotropic_elasticity(const MandelMatrix& C);
+
 /// Whether strains within the plane normal to n, and across it, make no shear stress across it.
 bool is_symmetric_about(const MandelMatrix& C, const Vector& n);
 

@@ -4,10 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace pfdm {
 CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model)
-    : mesh_(mesh), model_(model), materials_(mesh, model), finite_(mesh, model), is_isotropic_(model.is_isotropic()) {}
+    : mesh_(mesh), model_(model), materials_(mesh, model), finite_(mesh, model), is_isotropic_(model.is_isotropic()) {
+  if (!model.is_anisotropic()) return;
+  std::map<const MandelMatrix*, std::shared_ptr<const AnisotropicElasticity>> known;
+  anisotropy_ = CellField<std::shared_ptr<const AnisotropicElasticity>>(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const MandelMatrix* C = model.in_cell(mesh, c).stiffness.get();
+    if (C == nullptr) continue;
+    if (!known.contains(C)) known[C] = std::make_shared<const AnisotropicElasticity>(anisotropic_elasticity(*C));
+    anisotropy_[c] = known[C];
+  }
+}
 
 void CellStiffness::start_step(double duration) {
   materials_.start_step(duration);
@@ -19,8 +30,6 @@ void CellStiffness::start_step(double duration) {
 const IsotropicElasticity& CellStiffness::elasticity(Index cell) const {
   return model_.in_cell(mesh_, cell).elasticity;
 }
-
-const MandelMatrix* CellStiffness::stiffness(Index cell) const { return model_.in_cell(mesh_, cell).stiffness.get(); }
 
 const EnergySplit& CellStiffness::split(Index cell) const { return model_.split_of(model_.in_cell(mesh_, cell)); }
 
@@ -42,7 +51,7 @@ Tensor CellStiffness::cauchy_stress(Index cell, const CellMechanics& mechanics, 
 }
 
 Tensor CellStiffness::thinned_gradient(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
-  return finite_.thinned(cell, mechanics.gradient[cell], factor(cell, state.damage[cell]));
+  return finite_.thinned(cell, mechanics, factor(cell, state.damage[cell]));
 }
 
 void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
@@ -50,7 +59,11 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
   const CellField<double> g = factors(state);
   momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt);
   if (finite_.any()) {
-    const auto law = [&](Index c, const Tensor& H) { return finite_.law(c, H, g[c], state.closure[c]); };
+    const CellField<Mandel>& free = momentum.balance().eigenstrain();
+    const auto law = [&](Index c, const Tensor& H) {
+      return finite_.law(c, H, g[c], state.closure[c],
+                         free.size() > 0 ? FreeDeformation(to_tensor(free[c])) : FreeDeformation());
+    };
     momentum.set_finite(law, g, state.displacement, state.load);
   } else if (is_isotropic_) {
     CellField<IsotropicElasticity> moduli(n);
@@ -77,7 +90,7 @@ bool CellStiffness::depends_on_strain() const {
   constexpr double g = 0.5;
   for (Index c = 0; c < mesh_.n_cells(); ++c)
     if (model_.in_cell(mesh_, c).damageable &&
-        (!has_degradable_part(c) || !split(c).has_secant() || stiffness(c) != nullptr ||
+        (!has_degradable_part(c) || !split(c).has_secant() || anisotropy(c) != nullptr ||
          split(c).secant(elasticity(c), g, 0.0) != split(c).secant(elasticity(c), g, 1.0)))
       return true;
   return false;
@@ -87,7 +100,7 @@ bool CellStiffness::depends_on_strain() const {
 CellField<IsotropicElasticity> CellStiffness::degradable_part(const FractureState& state) const {
   CellField<IsotropicElasticity> part(as_size(mesh_.n_cells()), {});
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    if (!has_degradable_part(c) || !split(c).has_secant() || stiffness(c) != nullptr) return;
+    if (!has_degradable_part(c) || !split(c).has_secant() || anisotropy(c) != nullptr) return;
     const EnergySplit& law = split(c);
     const IsotropicElasticity whole = law.secant(elasticity(c), 1.0, state.closure[c]);
     const IsotropicElasticity kept = law.secant(elasticity(c), 0.0, state.closure[c]);
@@ -105,13 +118,14 @@ StrainLaw CellStiffness::law(const CellField<double>& g, const CellField<double>
   return {.tangent =
               [this, at](Index c, const Tensor& strain) {
                 const EnergySplit& by = split(c);
-                if (const MandelMatrix* C = stiffness(c)) return MandelMatrix(at->g[c] * *C);
+                if (const AnisotropicElasticity* given = anisotropy(c))
+                  return degraded_tangent(by, *given, at->g[c], strain);
                 return by.has_secant() ? stiffness_matrix(by.secant(elasticity(c), at->g[c], at->closure[c]))
                                        : degraded_tangent(by, elasticity(c), at->g[c], strain);
               },
           .degradable = [this](Index c, const Tensor& strain) -> Tensor {
             if (!has_degradable_part(c)) return Tensor::Zero();
-            if (const MandelMatrix* C = stiffness(c)) return to_tensor(*C * to_mandel(strain));
+            if (const AnisotropicElasticity* given = anisotropy(c)) return degradable_stress(split(c), *given, strain);
             if (split(c).has_secant()) return Tensor::Zero();
             return degradable_stress(split(c), elasticity(c), strain);
           }};
@@ -135,7 +149,9 @@ double CellStiffness::integrate(const CellMechanics& mechanics, const FractureSt
   if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     if (!materials_.has(c)) return 0.0;
-    const double wrong = materials_.advance(c, mechanics.reconstructed_strain[c], start.histories, state.histories);
+    Tensor strain = mechanics.reconstructed_strain[c];
+    if (mechanics.eigenstrain.size() > 0) strain -= to_tensor(mechanics.eigenstrain[c]);
+    const double wrong = materials_.advance(c, strain, start.histories, state.histories);
     return factor(c, state.damage[c]) * wrong * mesh_.cell_volume[c];
   });
 }
@@ -143,9 +159,9 @@ double CellStiffness::integrate(const CellMechanics& mechanics, const FractureSt
 double CellStiffness::driving_energy(Index cell, const CellMechanics& mechanics, const FractureState& state) const {
   if (finite_.any()) return driving_energy(cell, finite_energies(cell, mechanics, state), state.damage[cell]).value;
   if (materials_.has(cell)) return materials_.energy(cell, state.histories).driving;
-  if (const MandelMatrix* C = stiffness(cell); C != nullptr && !has_degradable_part(cell)) {
+  if (const AnisotropicElasticity* given = anisotropy(cell); given != nullptr && !has_degradable_part(cell)) {
     const Mandel strain = to_mandel(mechanics.elastic_strain(cell));
-    return 0.5 * strain.dot(*C * strain);
+    return 0.5 * strain.dot(given->stiffness * strain);
   }
   return has_degradable_part(cell) ? mechanics.part_energy[cell]
                                    : split(cell).energy(elasticity(cell), mechanics.elastic_strain(cell)).psi_plus;
@@ -195,6 +211,16 @@ double CellStiffness::residual_energy(Index cell, double psi_plus, const Fractur
   return model_.residual_stiffness * lost * psi_plus * mesh_.cell_volume[cell];
 }
 
+CellField<Mandel> CellStiffness::eigenstrain_moments(const CellMechanics& mechanics, const FractureState& state,
+                                                     const Vector& plane_normal) const {
+  if (!finite_.any()) return mechanics.traction_moment;
+  CellField<Mandel> moments(as_size(mechanics.eigenstrain.size()));
+  parallel_for(moments.size(), [&](Index c) {
+    moments[c] = to_mandel(finite_.eigenstrain_moment(c, mechanics, factor(c, state.damage[c]), plane_normal));
+  });
+  return moments;
+}
+
 double CellStiffness::plastic_dissipation(const FractureState& from, const FractureState& to) const {
   if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
@@ -208,11 +234,11 @@ double CellStiffness::plastic_dissipation(const FractureState& from, const Fract
 
 double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {
   if (finite_.any()) {
-    parallel_for(mesh_.n_cells(), [&](Index c) { state.closure[c] = finite_.closure(c, mechanics.gradient[c]); });
+    parallel_for(mesh_.n_cells(), [&](Index c) { state.closure[c] = finite_.closure(c, mechanics); });
     return 0.0;
   }
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    return split(c).has_secant() && stiffness(c) == nullptr
+    return split(c).has_secant() && anisotropy(c) == nullptr
                ? follow_with_closure(c, closing_strain(c, mechanics, state), state)
                : 0.0;
   });

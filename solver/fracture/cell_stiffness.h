@@ -10,6 +10,8 @@
 #include "solver/fracture/state.h"
 #include "solver/momentum/momentum_solver.h"
 
+#include <memory>
+
 namespace pfdm {
 
 class CellStiffness {
@@ -57,6 +59,9 @@ class CellStiffness {
   /// The part of what a cell stores [J] that the residual stiffness alone has, at this driving energy [J/m^3]
   /// (residual_stiffness.h).
   double residual_energy(Index cell, double psi_plus, const FractureState& state) const;
+  /// By which eigenstrains do work, minus these times their growth [J]; empty without eigenstrains.
+  CellField<Mandel> eigenstrain_moments(const CellMechanics& mechanics, const FractureState& state,
+                                        const Vector& plane_normal) const;
   /// Energy dissipated by the materials [J] from one state to the other.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   /// Of the undamaged material [Pa], on which strength depends: at finite strain Biot's.
@@ -78,7 +83,10 @@ class CellStiffness {
   CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
                                      const CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
-  const MandelMatrix* stiffness(Index cell) const;  // of elasticity that depends on the direction; else null
+  // Where the elasticity depends on the direction; else null.
+  const AnisotropicElasticity* anisotropy(Index cell) const {
+    return anisotropy_.size() > 0 ? anisotropy_[cell].get() : nullptr;
+  }
   const EnergySplit& split(Index cell) const;
   StrainLaw law(const CellField<double>& g, const CellField<double>& closure) const;
   bool has_degradable_part(Index cell) const;
@@ -89,10 +97,11 @@ class CellStiffness {
   const FractureModel& model_;
   MaterialCells materials_;
   FiniteCells finite_;
-  CellField<double> seen_;    // may be empty
-  bool is_isotropic_;         // every cell has isotropic secant moduli
-  CellField<float> closing_;  // per cell: last change of the closure, and
-  CellField<Index> turns_;    // number of its reversals within the step
+  CellField<std::shared_ptr<const AnisotropicElasticity>> anisotropy_;  // null: isotropic; empty: all of them
+  CellField<double> seen_;                                              // may be empty
+  bool is_isotropic_;                                                   // every cell has isotropic secant moduli
+  CellField<float> closing_;                                            // per cell: last change of the closure, and
+  CellField<Index> turns_;                                              // number of its reversals within the step
 };
 
 }  // namespace pfdm

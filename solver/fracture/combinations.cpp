@@ -190,21 +190,32 @@ void require_body_force(const Mesh& mesh, const Unknowns& unknowns, const Loadin
   }
 }
 
+// F* = 1 + eps* of finite strain may not turn cells inside out, nor shrink them so far that they count as turned
+// (finite_newton.h).
+void require_free_deformation(const Mesh& mesh, const Unknowns& unknowns, const LoadingSettings& loading) {
+  constexpr double least_stretch = 0.5;
+  constexpr int parts = 8;  // of the load: eigenstrains may be any function of it
+  for (int k = 1; k <= parts; ++k) {
+    const double load = loading.end * k / parts;
+    for (Index c = 0; c < mesh.n_cells(); ++c) {
+      const Tensor strain = to_tensor(unknowns.loads.eigenstrain(mesh, c, load));
+      const double least = 1.0 + principal_axes(strain).value[0];
+      if (!(least >= least_stretch))
+        throw InputError(fmt::format(
+            "the eigenstrain at {} shrinks the free body to {:.3g} of its length at the load {:.3g}; at finite strain "
+            "at least {:g} is required",
+            shown(mesh.cell_centre[c]), least, load, least_stretch));
+    }
+  }
+}
+
 void require_eigenstrain(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns,
                          const LoadingSettings& loading) {
-  if (m.is_finite_strain())
-    throw InputError(
-        "materials of finite strain cannot be combined with eigenstrains (eigenstrain, or expansion with [loads] "
-        "temperature_change)");
+  if (m.is_finite_strain()) require_free_deformation(mesh, unknowns, loading);
   if (controls_dissipation(loading))
     throw InputError(
         "dissipation control (loading.maximum_dissipation) cannot be combined with eigenstrains (eigenstrain, or "
         "expansion with [loads] temperature_change)");
-  for (std::size_t r = 0; r < m.regions.size(); ++r)
-    if (m.regions[r].material && (m.regions[r].eigenstrain || !m.regions[r].expansion.isZero()))
-      throw InputError(fmt::format(
-          "region \"{}\": a material of the law \"{}\" cannot be combined with eigenstrains (eigenstrain, expansion)",
-          mesh.region_names[r], m.regions[r].material->name()));
   const Vector& across = unknowns.plane_normal;
   for (Index c = 0; c < mesh.n_cells() && !across.isZero(); ++c) {
     const Vector strain = to_tensor(unknowns.loads.eigenstrain(mesh, c, loading.end)) * across;
@@ -214,8 +225,6 @@ void require_eigenstrain(const Mesh& mesh, const FractureModel& m, const Unknown
   }
 }
 
-// Damage degrades the whole energy of such cells: splits by principal strains or by the change of volume are those of
-// isotropic elasticity.
 void require_anisotropy(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns) {
   for (std::size_t r = 0; r < m.regions.size(); ++r) {
     const RegionModel& region = m.regions[r];
@@ -226,8 +235,9 @@ void require_anisotropy(const Mesh& mesh, const FractureModel& m, const Unknowns
     };
     if (region.material) refuse(fmt::format("the law \"{}\"", region.material->name()));
     if (!region.damageable) continue;
-    if (m.split_of(region).name() != "none")
-      refuse(fmt::format("the energy split \"{}\"; allowed: none", m.split_of(region).name()));
+    if (!m.split_of(region).suits_anisotropy())
+      refuse(fmt::format("the energy split \"{}\", which is one of isotropic elasticity; allowed: {}",
+                         m.split_of(region).name(), splits_for_anisotropy()));
     if (region.strength.is_chosen()) refuse("a model of strength");
     if (m.degradation_of(region).law().needs_strength)
       refuse(fmt::format("the degradation \"{}\", whose strength is that of one modulus",

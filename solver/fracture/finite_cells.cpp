@@ -64,9 +64,12 @@ const FiniteSplit& finite_split(std::string_view name) {
 
 FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {
   if (!model.is_finite_strain()) return;
+  using Kind = BoundaryCondition::Kind;
   for (const BoundaryCondition& on : model.boundary)
-    if (on.kind == BoundaryCondition::Kind::plane_stress)
-      across_ = mesh.face_area[mesh.patch(on.patch).first_face].normalized();
+    if (on.kind == Kind::plane || on.kind == Kind::plane_stress) {
+      plane_normal_ = mesh.face_area[mesh.patch(on.patch).first_face].normalized();
+      if (on.kind == Kind::plane_stress) across_ = plane_normal_;
+    }
   const auto n = as_size(mesh.n_cells());
   material_ = CellField<const HyperelasticMaterial*>(n, nullptr);
   split_ = CellField<const FiniteSplit*>(n, all_splits);
@@ -131,7 +134,8 @@ FiniteCells::Parts FiniteCells::parts(Index cell, const Tensor& H, double change
 
 FiniteCells::Parts FiniteCells::parts(Index cell, const CellMechanics& mechanics, const Tensor& H) const {
   const bool is_swept = mechanics.volume_change.size() > 0 && has_pressure(cell);
-  return parts(cell, H, is_swept ? mechanics.volume_change[cell] : volume_change(H));
+  if (!is_swept) return parts(cell, H, volume_change(H));
+  return parts(cell, H, free_deformation(cell, mechanics).elastic_change(mechanics.volume_change[cell]));
 }
 
 PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const Shares& by, double g) const {
@@ -141,8 +145,30 @@ PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const Shares& by, 
   return sum(1.0, relaxed, 1.0, sum(1.0 - g, at.compression, 1.0 - by.pressure.value, at.pressure));
 }
 
-FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure) const {
-  return is_plane_stress() ? plane_stress_law(cell, H, g) : solid_law(cell, H, g, closure);
+FreeDeformation FiniteCells::free_deformation(Index cell, const CellMechanics& mechanics) {
+  const CellField<Mandel>& eigenstrain = mechanics.eigenstrain;
+  return eigenstrain.size() > 0 ? FreeDeformation(to_tensor(eigenstrain[cell])) : FreeDeformation();
+}
+
+// F_e - 1; of a plate within its plane.
+Tensor FiniteCells::elastic(const Tensor& H, const FreeDeformation& free) const {
+  const Tensor elastic = free.elastic(H);
+  return is_plane_stress() ? (elastic - across_.dot(elastic * across_) * across_ * across_.transpose()).eval()
+                           : elastic;
+}
+
+// Of the faces, J*/J^2 replaces 1/J_e^2 (FiniteLaw::swelling), and lambda/J* lambda.
+FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure, const FreeDeformation& free) const {
+  const Tensor F_e = elastic(H, free);
+  FiniteLaw law = is_plane_stress() ? plane_stress_law(cell, F_e, g) : solid_law(cell, F_e, g, closure);
+  const double mean = free.inverse().squaredNorm() / 3.0;  // of m.m
+  law.stress = free.stress(law.stress);
+  law.A = free.tangent(law.A);
+  law.face.mu *= free.volume() * mean;
+  law.face.lambda /= free.volume();
+  law.swelling /= mean;
+  law.free_change = free.change();
+  return law;
 }
 
 FiniteLaw FiniteCells::solid_law(Index cell, const Tensor& H, double g, double closure) const {
@@ -209,30 +235,48 @@ Tensor FiniteCells::thinned(Index cell, const Tensor& H, double g) const {
   return H + strain * nn;
 }
 
-double FiniteCells::closure(Index cell, const Tensor& H) const {
-  return !keeps_compression(cell) ? 0.0 : std::clamp(-volume_change(H) / closing_range, 0.0, 1.0);
+Tensor FiniteCells::thinned_elastic(Index cell, const CellMechanics& mechanics, double g) const {
+  return thinned(cell, elastic(mechanics.gradient[cell], free_deformation(cell, mechanics)), g);
 }
 
-// Half the work of what the tractions' stress is beyond that of the mean gradient, of cells with a pressure [J/m^3]:
-// 1/2 (P - P(H)):(F - R), R being the rotation in F. In bonded layers that are a few cells thick it is 1 to 5 % of the
-// energy. Of undamageable regions: among the cells along a crack it would drive damage, and cracks grew at forces that
-// were 6 % lower.
+Tensor FiniteCells::thinned(Index cell, const CellMechanics& mechanics, double g) const {
+  if (!is_plane_stress()) return mechanics.gradient[cell];
+  return free_deformation(cell, mechanics).total(thinned_elastic(cell, mechanics, g));
+}
+
+double FiniteCells::closure(Index cell, const CellMechanics& mechanics) const {
+  if (!keeps_compression(cell)) return 0.0;
+  const Tensor F_e = elastic(mechanics.gradient[cell], free_deformation(cell, mechanics));
+  return std::clamp(-volume_change(F_e) / closing_range, 0.0, 1.0);
+}
+
+// Half the work of what the tractions' stress is beyond that of the mean gradient, of cells with a pressure, and of all
+// cells of a body with eigenstrains, whose stress may vary much within thin cells around what does not fit [J/m^3]:
+// 1/2 (P - P(H)):(F_e - R) F*, R being the rotation in F_e. In bonded layers that are a few cells thick it is 1 to 5 %
+// of the energy. Of undamageable regions: among the cells along a crack it would drive damage, and cracks grew at
+// forces that were 6 % lower.
 double FiniteCells::beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const {
-  if (mechanics.moderate_stress.size() == 0 || !has_pressure(cell)) return 0.0;
+  const bool is_pressed = mechanics.moderate_stress.size() > 0 && has_pressure(cell);
+  if (!is_pressed && mechanics.eigenstrain.size() == 0) return 0.0;
   if (model_.in_cell(mesh_, cell).damageable) return 0.0;
   Parts moderate = at;
   moderate.pressure = {};
-  const Tensor excess = mechanics.moderate_stress[cell] - damaged(cell, moderate, shares(cell, g), g).stress;
-  const Tensor& H = mechanics.gradient[cell];
-  return 0.5 * contract(excess, stretch_part(Tensor::Identity() + H));
+  const Tensor& P = is_pressed ? mechanics.moderate_stress[cell] : mechanics.stress[cell];
+  const FreeDeformation free = free_deformation(cell, mechanics);
+  const Tensor elastic_stress = damaged(cell, moderate, shares(cell, g), g).stress;
+  Tensor excess = P - free.stress(elastic_stress);
+  excess -= plane_normal_.dot(excess * plane_normal_) * plane_normal_ * plane_normal_.transpose();  // no faces there
+  const Tensor F_e = Tensor::Identity() + elastic(mechanics.gradient[cell], free);
+  return 0.5 * contract(excess, stretch_part(F_e) * free.stretch());
 }
 
 FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics, double g) const {
-  const Parts at = parts(cell, mechanics, thinned(cell, mechanics.gradient[cell], g));
-  return {.moderate = at.moderate.energy,
-          .network = at.network.energy,
-          .pressure = at.pressure.energy,
-          .compression = at.compression.energy,
+  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
+  const double volume = free_deformation(cell, mechanics).volume();
+  return {.moderate = volume * at.moderate.energy,
+          .network = volume * at.network.energy,
+          .pressure = volume * at.pressure.energy,
+          .compression = volume * at.compression.energy,
           .is_compressed = at.is_compressed,
           .faces = mechanics.energy[cell] / mesh_.cell_volume[cell] + beside_mean(cell, mechanics, at, g),
           .of = g};
@@ -264,7 +308,7 @@ DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, doub
 }
 
 Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {
-  const Tensor H = thinned(cell, mechanics.gradient[cell], g);
+  const Tensor H = thinned_elastic(cell, mechanics, g);
   const Parts at = parts(cell, mechanics, H);
   const Shares by = shares(cell, g);
   const PotentialAt whole = sum(by.moderate.value / g, at.moderate, by.network.value / g, at.network);
@@ -282,15 +326,33 @@ Tensor FiniteCells::true_deformation(Index cell, const Tensor& H, double g) cons
   return thin + std::max(sound - contract(nn, thin), 0.0) * nn;
 }
 
+// First Piola-Kirchhoff.
+Tensor FiniteCells::traction_stress(Index cell, const CellMechanics& mechanics, double g,
+                                    const Vector& plane_normal) const {
+  const Tensor& P = mechanics.stress[cell];
+  if (plane_normal.isZero()) return P;
+  const Tensor across = plane_normal * plane_normal.transpose();
+  const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
+  const Tensor of_law = free_deformation(cell, mechanics).stress(damaged(cell, at, shares(cell, g), g).stress);
+  return P + across * (of_law - P) * across;
+}
+
+// What the faces add to the energy is not one of F*.
+Tensor FiniteCells::eigenstrain_moment(Index cell, const CellMechanics& mechanics, double g,
+                                       const Vector& plane_normal) const {
+  FiniteEnergies mean = energies(cell, mechanics, g);
+  mean.faces = 0.0;
+  const Tensor P = traction_stress(cell, mechanics, g, plane_normal);
+  const double energy = stored_energy(cell, mean, g) / mesh_.cell_volume[cell];
+  const Tensor slope = free_deformation(cell, mechanics).energy_slope(energy, P, thinned(cell, mechanics, g));
+  return -mesh_.cell_volume[cell] * symmetric_part(slope);
+}
+
 Tensor FiniteCells::cauchy_stress(Index cell, const CellMechanics& mechanics, double g,
                                   const Vector& plane_normal) const {
-  Tensor P = mechanics.stress[cell];
-  if (!plane_normal.isZero()) {
-    const Tensor across = plane_normal * plane_normal.transpose();
-    const Parts at = parts(cell, mechanics, thinned(cell, mechanics.gradient[cell], g));
-    P += across * (damaged(cell, at, shares(cell, g), g).stress - P) * across;
-  }
-  const Tensor F = true_deformation(cell, mechanics.gradient[cell], g);
+  const Tensor P = traction_stress(cell, mechanics, g, plane_normal);
+  const FreeDeformation free = free_deformation(cell, mechanics);
+  const Tensor F = true_deformation(cell, elastic(mechanics.gradient[cell], free), g) * free.stretch();
   return symmetric_part(P * F.transpose() / F.determinant());
 }
 

@@ -29,8 +29,13 @@
 //
 // Plane stress: F has the stretch across the plate at which the damaged cell has no stress across it, and the tangent
 // is condensed accordingly. No pressure is needed.
+//
+// Cells that expand, swell or shrink (eigenstrains): F above is the elastic part F_e of F = F_e F*, and energies are J*
+// times those of F_e per reference volume (physics/materials/free_deformation.h). A cell's pressure acts as without, on
+// the volume J* J_e(q). With m = F*^-T N the acoustic tensor of the faces is J* (mu m.m + ...), by the mean of m.m.
 
 #include "mesh/mesh.h"
+#include "physics/materials/free_deformation.h"
 #include "physics/materials/hyperelastic.h"
 #include "solver/fracture/driving_law.h"
 #include "solver/fracture/fracture_model.h"
@@ -65,11 +70,11 @@ class FiniteCells {
 
   bool any() const { return material_.size() > 0; }
   bool has_pressure(Index cell) const { return material_[cell]->pressure_modulus() > 0.0; }
-  /// At the displacement gradient H and the stiffness factor g. The faces are as stiff as `closure` says: 1 where J < 1
-  /// and the split keeps the bulk modulus, 0 where J > 1.
-  FiniteLaw law(Index cell, const Tensor& H, double g, double closure) const;
-  /// The closure at the volume J, which changes over a range of J: the stiffness of the faces may not jump.
-  double closure(Index cell, const Tensor& H) const;
+  /// At the displacement gradient H and the stiffness factor g. The faces are as stiff as `closure` says: 1 where J_e <
+  /// 1 and the split keeps the bulk modulus, 0 where J_e > 1.
+  FiniteLaw law(Index cell, const Tensor& H, double g, double closure, const FreeDeformation& free = {}) const;
+  /// The closure at the volume J_e, which changes over a range of J_e: the stiffness of the faces may not jump.
+  double closure(Index cell, const CellMechanics& mechanics) const;
 
   /// By its mean gradient and what the tractions of its faces add (momentum.h); g: with which these were found.
   FiniteEnergies energies(Index cell, const CellMechanics& mechanics, double g) const;
@@ -78,12 +83,16 @@ class FiniteCells {
   /// Its derivative by g, per volume, and that one's [J/m^3].
   DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double g) const;
 
-  /// The gradient H with the stretch across a plate at which it has no stress across it; else H.
-  Tensor thinned(Index cell, const Tensor& H, double g) const;
+  /// The mean gradient H with the stretch across a plate at which it has no stress across it; else H.
+  Tensor thinned(Index cell, const CellMechanics& mechanics, double g) const;
 
   /// Biot stress [Pa] of the undamaged material at the mean gradient; pressures that damage has relaxed count as they
   /// are.
   Tensor undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const;
+
+  /// The derivative of what a cell stores by F* at constant displacements, V dW/dF* [J], with its sign changed, by the
+  /// tractions as far as they are known: eigenstrains that grow by d eps* supply minus this times d eps*.
+  Tensor eigenstrain_moment(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
 
   /// Cauchy stress [Pa] from the first Piola-Kirchhoff stress of the tractions, with that across a plane mesh.
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
@@ -100,7 +109,8 @@ class FiniteCells {
     OfFactor moderate, network, pressure;
   };
   Shares shares(Index cell, double g) const;
-  // Undamaged, at some H: W_m, the network's, c U, and where the split asks for it W_c of W_m and whether J < 1.
+  // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, and where the split asks for it W_c of W_m and whether J
+  // < 1.
   struct Parts {
     PotentialAt moderate, network, pressure{}, compression{};
     bool is_compressed = false;
@@ -110,9 +120,14 @@ class FiniteCells {
   Parts parts(Index cell, const CellMechanics& mechanics, const Tensor& H) const;
   double beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const;
   bool is_plane_stress() const { return !across_.isZero(); }
+  static FreeDeformation free_deformation(Index cell, const CellMechanics& mechanics);
+  Tensor elastic(const Tensor& H, const FreeDeformation& free) const;
+  Tensor thinned_elastic(Index cell, const CellMechanics& mechanics, double g) const;
   FiniteLaw solid_law(Index cell, const Tensor& H, double g, double closure) const;
   FiniteLaw plane_stress_law(Index cell, const Tensor& H, double g) const;
+  Tensor thinned(Index cell, const Tensor& H, double g) const;
   Tensor true_deformation(Index cell, const Tensor& H, double g) const;
+  Tensor traction_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
   bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
   // What the split keeps of a cell's parts or energies is not degraded.
   bool keeps(Index cell, const auto& at) const { return at.is_compressed && keeps_compression(cell); }
@@ -123,6 +138,7 @@ class FiniteCells {
   CellField<const HyperelasticMaterial*> material_;  // empty at small strain
   CellField<const FiniteSplit*> split_;              // likewise
   Vector across_ = Vector::Zero();                   // normal of a plate in plane stress
+  Vector plane_normal_ = Vector::Zero();             // of a plane mesh
 };
 
 }  // namespace pfdm

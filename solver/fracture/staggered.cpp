@@ -318,14 +318,14 @@ Staggered::FreeStrained Staggered::free_strained(const FractureState& state) {
   degrade(state);
   CellMechanics mechanics =
       momentum_.balance().mechanics(state.displacement, MomentumOperator::Wanted::without_gradient);
-  return {std::move(mechanics.traction_moment), std::move(mechanics.eigenstrain)};
+  return {stiffness_.eigenstrain_moments(mechanics, state, unknowns_.plane_normal), std::move(mechanics.eigenstrain)};
 }
 
 double Staggered::eigenstrain_work(const FreeStrained& from, const FreeStrained& to) const {
   return parallel_sum(to.eigenstrain.size(), [&](Index c) {
-    if (from.eigenstrain.size() == 0) return -0.5 * to.traction_moment[c].dot(to.eigenstrain[c]);
+    if (from.eigenstrain.size() == 0) return -0.5 * to.moment[c].dot(to.eigenstrain[c]);
     const Mandel grown = to.eigenstrain[c] - from.eigenstrain[c];
-    return -0.5 * (from.traction_moment[c] + to.traction_moment[c]).dot(grown);
+    return -0.5 * (from.moment[c] + to.moment[c]).dot(grown);
   });
 }
 

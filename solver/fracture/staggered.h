@@ -111,10 +111,10 @@ class Staggered {
   ResidualShare residual_share(const FractureState& state, const Energies& energies);
   /// Of a strength model, at the equilibrium of this state; empty without.
   StrengthDrive strength_drive_of(const FractureState& state);
-  /// What the work of eigenstrains is made of, by cell (CellMechanics).
+  /// What the work of eigenstrains is made of, by cell.
   struct FreeStrained {
-    CellField<Mandel> traction_moment;  // [J]; empty without eigenstrains
-    CellField<Mandel> eigenstrain;      // [-]; empty: none
+    CellField<Mandel> moment;       // CellStiffness::eigenstrain_moments [J]
+    CellField<Mandel> eigenstrain;  // [-]; empty: none
   };
   FreeStrained free_strained(const FractureState& state);
   /// Energy that eigenstrains supply from one state to the other [J].

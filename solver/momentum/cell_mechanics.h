@@ -8,9 +8,10 @@ namespace pfdm {
 
 /// Strain, stress and energy of the cells for a given displacement.
 struct CellMechanics {
-  CellField<Tensor> strain;         ///< from the two-sided face displacements (Green-Gauss) [-]
-  CellField<Mandel> eigenstrain{};  ///< the part of it that makes no stress [-]; empty: none
-  /// With eigenstrains: sum A t (x) (x_f - x_c), with the stress across a plane mesh, [J]; else empty.
+  CellField<Tensor> strain;  ///< from the two-sided face displacements (Green-Gauss) [-]
+  /// The part of it that makes no stress; at finite strain F* - 1 of the free deformation [-]; empty: none.
+  CellField<Mandel> eigenstrain{};
+  /// With eigenstrains at small strain: sum A t (x) (x_f - x_c), with the stress across a plane mesh, [J]; else empty.
   CellField<Mandel> traction_moment{};
   CellField<Tensor> gradient;  ///< of the displacement, du_i/dx_j, likewise [-]; empty if not wanted
   CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]

@@ -18,8 +18,13 @@ struct FiniteLaw {
   /// where q < 0.
   const HyperelasticMaterial* pressure = nullptr;
   double open = 1.0, closed = 1.0;
+  double free_change = 0.0;  ///< of their volume, J* - 1 of the free deformation F*
 
-  VolumeAt volume(double q) const { return pressure->volume(q, q > 0.0 ? open : closed); }
+  VolumeAt volume(double q) const {
+    const VolumeAt elastic = pressure->volume(q, q > 0.0 ? open : closed);
+    const double free = 1.0 + free_change;
+    return {free_change + free * elastic.change, free * elastic.slope};
+  }
 };
 
 /// Of a cell, at its displacement gradient H.

@@ -1,11 +1,13 @@
 #include "solver/momentum/momentum.h"
 
+#include "solver/momentum/cell_pressure.h"
 #include "solver/momentum/finite_tractions.h"
 #include "solver/momentum/history_tractions.h"
 #include "solver/momentum/law_tractions.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <typeinfo>
 
 namespace pfdm {
@@ -62,6 +64,22 @@ bool MomentumOperator::set_eigenstrain(std::optional<double> t) {
   return eigenstrain_->set(skeleton_->mesh, skeleton_->unknowns.loads, t);
 }
 
+// In a uniform body the forces of eigenstrains cancel. Pressures are zero then.
+double MomentumOperator::energy_if_held() const {
+  const Mesh& mesh = skeleton_->mesh;
+  const Unknowns& unknowns = skeleton_->unknowns;
+  if (finite_ != nullptr)
+    return parallel_sum(eigenstrain().size(), [&](Index c) {
+      IsotropicElasticity sound = unknowns.sound[as_size(unknowns.zone[c])];
+      sound.lambda = std::min(sound.lambda, CellPressure::moderate_lambda * sound.mu);
+      return 2.0 * mesh.cell_volume[c] * energy_density(sound, to_tensor(eigenstrain()[c]));
+    });
+  const CellMechanics held =
+      mechanics(std::vector<Vector>(as_size(unknowns.n_unknowns()), Vector::Zero()), Wanted::without_gradient);
+  return parallel_sum(held.eigenstrain.size(),
+                      [&](Index c) { return std::abs(held.traction_moment[c].dot(held.eigenstrain[c])); });
+}
+
 void MomentumOperator::relax_flat_cells() { cells_->relax_flat_cells(); }
 
 void MomentumOperator::apply(const std::vector<Vector>& u, std::vector<Vector>& out, Sweep& sweep) const {
@@ -81,6 +99,13 @@ std::vector<Vector> MomentumOperator::load_vector(double t) const {
   take_away_constant_forces(load);
   loads_.add_initial_turn(load);
   return load;
+}
+
+CellMechanics MomentumOperator::mechanics(const std::vector<Vector>& u, Wanted wanted,
+                                          const CellField<IsotropicElasticity>& part) const {
+  CellMechanics result = tractions_->mechanics(u, wanted == Wanted::all, part);
+  if (finite_ != nullptr) result.eigenstrain = eigenstrain();
+  return result;
 }
 
 void MomentumOperator::take_away_constant_forces(std::vector<Vector>& load) const {

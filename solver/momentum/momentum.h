@@ -65,6 +65,10 @@ class MomentumOperator {
   /// The eigenstrains of the body at the load parameter t, or none; before set_moduli() and set_law(). Returns whether
   /// they have changed.
   bool set_eigenstrain(std::optional<double> t);
+  const CellField<Mandel>& eigenstrain() const { return eigenstrain_->all(); }  ///< of now [-]; empty: none
+  /// Twice the energy that the eigenstrains of now would store in the undamaged body if nothing moved, at finite strain
+  /// by its elasticity at small strain [J].
+  double energy_if_held() const;
   /// For bodies of flat cells that bend (CellReconstruction::relax_flat_cells); before set_moduli().
   void relax_flat_cells();
 
@@ -126,9 +130,7 @@ class MomentumOperator {
   enum class Wanted { all, without_gradient };
   /// `part`: of the stiffness of each cell, whose energy is wanted.
   CellMechanics mechanics(const std::vector<Vector>& u, Wanted wanted = Wanted::all,
-                          const CellField<IsotropicElasticity>& part = {}) const {
-    return tractions_->mechanics(u, wanted == Wanted::all, part);
-  }
+                          const CellField<IsotropicElasticity>& part = {}) const;
   std::vector<Vector> boundary_forces(const std::vector<Vector>& u) const;  ///< per boundary face [N]
   /// Traction [Pa] on each interior face that carries a node, on its owner.
   std::vector<std::pair<Index, Vector>> interface_tractions(const std::vector<Vector>& u) const;

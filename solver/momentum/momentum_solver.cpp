@@ -21,15 +21,6 @@ const LinearSolver& solver_for(const Unknowns& unknowns, const LinearSolver* lin
   return unknowns.motion.any() || !unknowns.split_faces.empty() ? with_rigid_modes(plain) : plain;
 }
 
-// Twice the energy [J] that the eigenstrains of now would store if nothing moved: in a uniform body their forces
-// cancel.
-double energy_if_held(const MomentumOperator& balance, std::size_t n_unknowns) {
-  const CellMechanics held =
-      balance.mechanics(std::vector<Vector>(n_unknowns, Vector::Zero()), MomentumOperator::Wanted::without_gradient);
-  return parallel_sum(held.eigenstrain.size(),
-                      [&](Index c) { return std::abs(held.traction_moment[c].dot(held.eigenstrain[c])); });
-}
-
 // Secants, as the compact matrix has them: these are never negative.
 std::vector<FaceSpring> by_secants(std::vector<FaceSpring> springs) {
   for (FaceSpring& spring : springs) {
@@ -135,8 +126,7 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
   for (std::size_t i = 0; i < load.size(); ++i) image[i] = given[i] - image[i];
   reference_load_ = t;
   reference_ = scaled_norm(image, scale_);
-  if (unknowns_.loads.eigenstrain)
-    reference_ = std::hypot(reference_, std::sqrt(energy_if_held(operator_, load.size())));
+  if (unknowns_.loads.eigenstrain) reference_ = std::hypot(reference_, std::sqrt(operator_.energy_if_held()));
   return reference_;
 }
 

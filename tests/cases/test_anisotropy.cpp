@@ -68,11 +68,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "G23 = \"2 GPa\" }\n",
                  "G23 = \"2 GPa\" }\naxes = { first = [1, 0, 1], second = [0, 1, 0] }\n",
                  {"is not symmetric about the plane of a mesh one cell thick"}},
-        BadInput{"split",
-                 "split = \"none\"",
-                 "split = \"spectral\"",
-                 {"region \"bar\": elasticity that depends on the direction cannot be combined with the energy split "
-                  "\"spectral\"; allowed: none"}}),
+        BadInput{
+            "split",
+            "split = \"none\"",
+            "split = \"spectral\"",
+            {"region \"bar\": elasticity that depends on the direction cannot be combined with the energy split "
+             "\"spectral\", which is one of isotropic elasticity; allowed: none, volumetric_deviatoric, orthogonal"}}),
     [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

@@ -180,6 +180,26 @@ TEST(EnergySplit, DoesNotDependOnTheAxes) {
   });
 }
 
+// Of strains whose C^(1/2) eps has these principal values half the sum of the squares of the positive ones is degraded;
+// without Poisson's effect that is the spectral split.
+TEST(EnergySplit, OrthogonalSplitsTheSquareRootOfTheEnergy) {
+  const EnergySplit split = energy_split("orthogonal");
+  const Tensor R = RandomTensors().rotation();
+  const Vector root(3.0, -1.0, -4.0);  // Pa^(1/2)
+  const double mean = root.mean() / std::sqrt(3.0 * glass.bulk_modulus());
+  const Vector strain = Vector::Constant(mean) + (root - Vector::Constant(root.mean())) / std::sqrt(2.0 * glass.mu);
+  const SplitEnergy energy = split.energy(glass, R * strain.asDiagonal() * R.transpose());
+  EXPECT_NEAR(energy.psi_plus, 4.5, 1e-12);
+  EXPECT_NEAR(energy.psi_minus, 8.5, 1e-12);
+  const IsotropicElasticity cork = from_young_poisson(1e9, 0.0);
+  RandomTensors random;
+  for (int i = 0; i < 10; ++i) {
+    const Tensor eps = random.symmetric(1e-3);
+    EXPECT_NEAR(split.energy(cork, eps).psi_plus, energy_split("spectral").energy(cork, eps).psi_plus,
+                1e-12 * 1e9 * 1e-6);
+  }
+}
+
 TEST(EnergySplit, VolumetricDeviatoricKeepsCompressionAlone) {
   const EnergySplit split = energy_split("volumetric_deviatoric");
   const Tensor compression = -1e-3 * Tensor::Identity();

@@ -32,6 +32,38 @@ LoadingSettings in_steps(Index n) {
 
 constexpr StaggeredSettings tight{.damage_tolerance = 1e-9, .energy_tolerance = 1e-12, .equilibrium_tolerance = 1e-11};
 
+// Heated between walls past yield and cooled again: the law sees the strain less that of heating.
+TEST(PlasticCells, ABarThatIsHeatedBetweenWallsYieldsAndIsPulledWhenCold) {
+  constexpr double h = 5e9, alpha = 12e-6, hot = 190.0;
+  const double E = steel.young_modulus(), E_t = E * h / (E + h), first_yield = Y / E;
+  const auto temperature = [](double t) { return t <= 0.5 ? 2.0 * hot * t : 2.0 * hot * (1.0 - t); };
+  const auto due = [&](double t) {  // no strain is left but that of heating
+    const auto loading = [&](double e) { return e < first_yield ? E * e : Y + E_t * (e - first_yield); };
+    const double now = alpha * temperature(t);
+    return t <= 0.5 ? -loading(now) : -loading(alpha * hot) + E * (alpha * hot - now);
+  };
+  const Mesh mesh =
+      make_box_hexes({.axes = {{{{1.0, 3, 1.0}}, {{1.0, 2, 1.0}}, {{1.0, 2, 1.0}}}}, .regions = {}, .slits = {}});
+  FractureModel model =
+      plastic_model({.yield_stress = Y, .isotropic_hardening = h},
+                    {symmetry_on("xmin"), symmetry_on("xmax"), symmetry_on("ymin"), symmetry_on("zmin")});
+  model.regions[0].expansion = alpha * Tensor::Identity();
+  model.loads.temperature = [&](const Vector&, double t) { return temperature(t); };
+  FractureRun run(mesh, model, tight, in_steps(40));
+  const auto patch = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+  double worst = 0.0;
+  StepReport last;
+  run_to_end(run, [&](const FractureState&, const StepReport& report) {
+    if (report.step == 0) return;
+    EXPECT_NEAR(report.reaction[patch].x(), due(report.load), 1e-7 * Y) << report.load;
+    worst = std::max(worst, std::abs(left_over({}, report.energy)) / (Y * first_yield));
+    last = report;
+  });
+  report_row("heated past yield", {{"account over Y^2/E", worst}, {"heat", last.energy.plastic_dissipation}});
+  EXPECT_GT(last.energy.plastic_dissipation, 0.1 * Y * first_yield);
+  EXPECT_LT(worst, 0.01);
+}
+
 // Pulled to 1 %, back to zero and on to 2 %, free on the sides: stress by the tangent modulus E h/(E + h), h = K.
 TEST(PlasticCells, ABarUnloadsElasticallyAndYieldsWhereItLeftOff) {
   constexpr double h = 5e9;

@@ -28,9 +28,16 @@ Tensor local_stress(const EnergySplit& split, const std::string& model, const Te
   return degraded_stress(split, material, (1.0 - k) * (1.0 - d) * (1.0 - d) + k, eps);
 }
 
-// The strain along x at which nothing acts there, by bisection.
+// The least strain along x at which nothing acts there: a bracket from below, then bisection. With `orthogonal` damage
+// under compression leaves several, and a broken cell is pushed aside by many times its shortening.
 Tensor relaxed(const EnergySplit& split, const std::string& model, Tensor eps) {
-  double low = -std::abs(eps(1, 1)), high = -low;
+  const double step = 0.01 * std::abs(eps(1, 1));
+  double low = -100.0 * step, high = low;
+  eps(0, 0) = low;
+  for (int i = 0; i < 10000 && local_stress(split, model, eps)(0, 0) < 0.0; ++i) {
+    low = high;
+    eps(0, 0) = high = low + step;
+  }
   for (int i = 0; i < 200; ++i) {
     eps(0, 0) = 0.5 * (low + high);
     (local_stress(split, model, eps)(0, 0) < 0.0 ? low : high) = eps(0, 0);
@@ -105,7 +112,7 @@ TEST_P(SingleCell, FollowsTheLawOfAPoint) {
 
 INSTANTIATE_TEST_SUITE_P(Splits, SingleCell,
                          ::testing::Values("none", "volumetric_deviatoric", "star_convex", "spectral", "no_tension",
-                                           "drucker_prager", "rankine", "hybrid"),
+                                           "orthogonal", "drucker_prager", "rankine", "hybrid"),
                          [](const auto& which) { return std::string(which.param); });
 
 // Columns one cell wide: the cells may turn about their line without moving the centre of a face.

@@ -1,0 +1,277 @@
+// Eigenstrains at finite strain: F = F_e F*, F* = 1 + eps*, with energies J* W(F_e). Closed forms: a free body, which
+// has no stress; a body that is held everywhere, F_e = F*^-1; a plate between rollers; a sphere that swells in a shell;
+// small eigenstrains, which are those of the small-strain program.
+
+#include "tests/verification/finite.h"
+
+#include "mesh/generators/sphere_sector.h"
+#include "physics/error.h"
+#include "solver/fracture/combinations.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pfdm::verification::this_file {
+namespace {
+
+const IsotropicElasticity soft = from_young_poisson(1e6, 0.3), rubber = from_young_poisson(1e6, 0.4999),
+                          stiffer = from_young_poisson(3e6, 0.3);
+const Tensor one = Tensor::Identity();
+
+std::shared_ptr<const Material> neo_hookean(const IsotropicElasticity& c) {
+  return make_hyperelastic("neo_hookean", {.elasticity = c});
+}
+
+std::shared_ptr<const LoadField<Tensor>> given(const Tensor& strain) {
+  return std::make_shared<const LoadField<Tensor>>([strain](const Vector&, double t) -> Tensor { return t * strain; });
+}
+
+FractureModel swollen(const Mesh& mesh, const std::shared_ptr<const Material>& material, const Tensor& strain,
+                      std::vector<BoundaryCondition> boundary) {
+  FractureModel model = finite_body(mesh, material, std::move(boundary));
+  for (RegionModel& region : model.regions) region.eigenstrain = given(strain);
+  return model;
+}
+
+struct Swollen {
+  Drawn drawn;
+  OutputFields fields;
+};
+
+Swollen swell(const Mesh& mesh, const FractureModel& model, Index steps, double tolerance = 1e-12) {
+  FractureRun run(mesh, model, {.equilibrium_tolerance = tolerance},
+                  {.initial_increment = 1.0 / double(steps), .maximum_increment = 1.0 / double(steps), .stops = {}});
+  Swollen result;
+  result.drawn.state =
+      run_to_end(run, [&](const FractureState&, const StepReport& report) { result.drawn.report = report; });
+  result.fields = run.output(result.drawn.state);
+  return result;
+}
+
+double largest(const CellField<Tensor>& field, const Tensor& than = Tensor::Zero()) {
+  double most = 0.0;
+  for (const Tensor& value : field) most = std::max(most, (value - than).norm());
+  return most;
+}
+
+// Over the shear modulus, and of F beyond F*.
+void expect_free(const std::string& name, const Mesh& mesh, const FractureModel& model, const Tensor& strain) {
+  const Swollen free = swell(mesh, model, 2);
+  const double stress = largest(free.fields.stress) / model.regions[0].elasticity.mu;
+  const double F = largest(free.fields.deformation_gradient, one + strain);
+  report_row(name, {{"stress over mu", stress}, {"F", F}, {"energy", free.drawn.report.energy.elastic}});
+  EXPECT_LT(stress, 1e-10 * (1.0 + model.regions[0].elasticity.lambda / (10.0 * soft.lambda))) << name;
+  EXPECT_LT(F, 1e-10) << name;
+  EXPECT_LT(free.drawn.report.energy.elastic, 1e-15 * model.regions[0].elasticity.mu) << name;
+  EXPECT_LT(std::abs(free.drawn.report.energy.eigenstrain_work), 1e-12 * model.regions[0].elasticity.mu) << name;
+}
+
+const std::vector<BoundaryCondition> corner{symmetry_on("xmin"), symmetry_on("ymin"), symmetry_on("zmin")};
+const Tensor uneven = Vector(0.2, -0.15, 0.3).asDiagonal(), even = 0.25 * Tensor::Identity();
+
+Mesh cube() { return sphere_in_cube(1, 2, 2.0, 0.6); }
+
+// Three stretches; a shell of a sphere, of equal ones; a sheet that swells across.
+TEST(FreeDeformations, LeaveAFreeBodyWithoutStress) {
+  const Mesh tetrahedra = cube(), polyhedra = barycentric_dual(tetrahedra);
+  const auto ogden = make_hyperelastic("ogden", {.elasticity = soft, .shares = {1.2, -0.2}, .exponents = {1.3, -2.0}});
+  expect_free("tetrahedra and prisms", tetrahedra, swollen(tetrahedra, ogden, uneven, corner), uneven);
+  expect_free("polyhedra", polyhedra, swollen(polyhedra, neo_hookean(soft), uneven, corner), uneven);
+  expect_free("rubber", tetrahedra, swollen(tetrahedra, neo_hookean(rubber), uneven, corner), uneven);
+  const Mesh shell = make_sphere_sector({.azimuth = 0.1,
+                                         .inner_radius = 0.5,
+                                         .shells = {{{0.5, 4, 1.0}, "body"}},
+                                         .polar = {{std::numbers::pi / 2.0, 8, 1.0}}});
+  for (const IsotropicElasticity& c : {soft, rubber})
+    expect_free(c == soft ? "shell" : "shell of rubber", shell,
+                swollen(shell, neo_hookean(c), even,
+                        {axisymmetric_on("front"), axisymmetric_on("back"), symmetry_on("equator")}),
+                even);
+  const Mesh sheet = mapped_box({4, 3, 1}, [](const Vector& x) -> Vector { return x; });
+  expect_free("sheet", sheet,
+              swollen(sheet, neo_hookean(soft), uneven,
+                      {symmetry_on("xmin"), symmetry_on("ymin"), plane_stress_on("zmin"), plane_stress_on("zmax")}),
+              uneven);
+}
+
+// Held everywhere: F_e = F*^-1, stress J* P_e F*^-T; all that is stored comes from the eigenstrains.
+TEST(FreeDeformations, OfABodyThatIsHeld) {
+  const Mesh mesh = cube();
+  const Tensor strain = (Tensor() << 0.12, 0.05, 0.0, 0.05, -0.04, 0.03, 0.0, 0.03, 0.08).finished();
+  for (const IsotropicElasticity& c : {soft, from_young_poisson(1e6, 0.49)}) {
+    const Tensor eps = c == soft ? strain : (0.2 * strain).eval();
+    const auto material = neo_hookean(c);
+    const auto none = [](const Vector&) -> Vector { return Vector::Zero(); };
+    FractureModel model = swollen(mesh, material, eps, displacement_on_all(mesh, none));
+    const Tensor F_e = (one + eps).inverse();
+    const double J_e = F_e.determinant();
+    // Of the neo-Hookean law by hand; the current volume is the reference's.
+    const Tensor stress = c.mu / J_e * (F_e * F_e.transpose() - one) + c.lambda * (J_e - 1.0) * one;
+    const double density =
+        (0.5 * c.mu * (F_e.squaredNorm() - 3.0) - c.mu * std::log(J_e) + 0.5 * c.lambda * (J_e - 1.0) * (J_e - 1.0)) /
+        J_e;
+    std::vector<double> account;
+    for (const Index steps : {5, 10}) {
+      const Swollen held = swell(mesh, model, steps, c == soft ? 1e-12 : 1e-9);
+      const double stored = held.drawn.report.energy.elastic;
+      EXPECT_LT(largest(held.fields.stress, stress), 1e-10 * stress.norm());
+      EXPECT_NEAR(stored, 64.0 * density, 1e-10 * 64.0 * density);
+      account.push_back(held.drawn.report.energy.eigenstrain_work / stored - 1.0);
+    }
+    report_row(fmt::format("nu {}", c.poisson_ratio()), {{"work, 5 steps", account[0]}, {"10 steps", account[1]}});
+    EXPECT_LT(std::abs(account[1]), 2e-3);
+    EXPECT_LT(std::abs(account[1]), 0.3 * std::abs(account[0]));  // the trapezoid
+  }
+}
+
+// A block that shrinks, held everywhere, AT2: psi = J* W(F*^-1) drives, d = 2 psi ell/(Gc + 2 psi ell).
+TEST(FreeDeformations, OfABodyThatIsHeldDriveDamage) {
+  const Mesh mesh = mapped_box({3, 2, 2}, [](const Vector& x) -> Vector { return x; });
+  constexpr double s = 0.85, Gc = 3e5, ell = 1.0;
+  FractureModel model = swollen(mesh, neo_hookean(soft), (s - 1.0) * one,
+                                displacement_on_all(mesh, [](const Vector&) -> Vector { return Vector::Zero(); }));
+  model.regions[0].damageable = true;
+  model.regions[0].Gc = Gc, model.regions[0].ell = ell;
+  model.residual_stiffness = 1e-9;
+  const double l = 1.0 / s, J_e = l * l * l;
+  const double psi =
+      s * s * s *
+      (1.5 * soft.mu * (l * l - 1.0) - soft.mu * std::log(J_e) + 0.5 * soft.lambda * (J_e - 1.0) * (J_e - 1.0));
+  const double d = 2.0 * psi * ell / (Gc + 2.0 * psi * ell), g = (1.0 - d) * (1.0 - d);
+  const Swollen held = swell(mesh, model, 10, 1e-10);
+  double wrong = 0.0;
+  for (const double found : held.drawn.state.damage) wrong = std::max(wrong, std::abs(found - d));
+  const EnergyAccount& energy = held.drawn.report.energy;
+  const double account = left_over({}, energy) / supplied(energy);
+  report_row("shrunk by 15 %",
+             {{"d", d}, {"error", wrong}, {"stored", energy.elastic / (g * psi) - 1.0}, {"account", account}});
+  EXPECT_GT(d, 0.2);
+  EXPECT_LT(wrong, 2e-4);  // the tolerance of the damage is 1e-4
+  EXPECT_NEAR(energy.elastic, g * psi, 1e-3 * psi);
+  EXPECT_LT(std::abs(account), 5e-3);
+}
+
+// A plate in plane strain that is free within its plane: P_yy = 0 and no strain across it; F_e by hand.
+TEST(FreeDeformations, OfAPlateThatIsHeldAcross) {
+  const Mesh mesh = mapped_box({4, 3, 1}, [](const Vector& x) -> Vector { return x; });
+  constexpr double s = 1.2, k = 1.0 / s;  // the elastic stretch across
+  const auto lateral = [&](double l) {    // stress of the neo-Hookean law along a free direction, over l
+    return soft.mu * (l - 1.0 / l) + soft.lambda * (l * l * k - 1.0) * l * k;
+  };
+  double low = 0.9, high = 1.3;
+  for (int n = 0; n < 100; ++n) (lateral(0.5 * (low + high)) < 0.0 ? low : high) = 0.5 * (low + high);
+  const double J_e = low * low * k, stress = (soft.mu * (k * k - 1.0)) / J_e + soft.lambda * (J_e - 1.0);
+  const FractureModel model = swollen(mesh, neo_hookean(soft), (s - 1.0) * one,
+                                      {symmetry_on("xmin"), symmetry_on("ymin"), plane_on("zmin"), plane_on("zmax")});
+  const Swollen free = swell(mesh, model, 20);
+  const Tensor exact = stress * Vector::UnitZ() * Vector::UnitZ().transpose();
+  const EnergyAccount& energy = free.drawn.report.energy;
+  report_row("plate", {{"stress", largest(free.fields.stress, exact) / -stress},
+                       {"account", left_over({}, energy) / energy.elastic}});
+  EXPECT_LT(largest(free.fields.stress, exact), -1e-10 * stress);
+  EXPECT_LT(largest(free.fields.deformation_gradient, Vector(s * low, s * low, 1.0).asDiagonal()), 1e-10);
+  EXPECT_LT(std::abs(left_over({}, energy)), 1e-3 * energy.elastic);
+}
+
+// A sphere of radius 1 that swells by 20 % in a shell of radius 2. The shell by its equation of equilibrium, dP_r/dR +
+// 2 (P_r - P_t)/R = 0 with lambda_r = r', lambda_t = r/R, integrated by SciPy's solve_ivp with a relative error of
+// 1e-12: radius of the interface, radial stress P_r in the sphere, outer radius.
+struct Shell {
+  double nu, inner, stress, outer;
+};
+constexpr Shell shells[] = {{0.3, 1.174950497721913, -216635.14465669144, 2.0707127055956263},
+                            {0.4999, 1.1765112953802415, -203638.650967967, 2.0510701642671645}};
+
+TEST(FreeDeformations, SphereThatSwellsInAShell) {
+  for (const Shell& exact : shells) {
+    std::vector<double> errors;
+    for (const Index n : {1, 2}) {
+      const Mesh mesh = make_sphere_sector({.azimuth = 0.1 / double(n),
+                                            .inner_radius = 0.2,
+                                            .shells = {{{0.8, 6 * n, 1.0}, "core"}, {{1.0, 8 * n, 2.0}, "shell"}},
+                                            .polar = {{std::numbers::pi / 2.0, 10 * n, 1.0}}});
+      FractureModel model = finite_body(mesh, neo_hookean(stiffer),
+                                        {axisymmetric_on("front"), axisymmetric_on("back"), symmetry_on("equator"),
+                                         moved("inner", {true, true, true}, [&](const Vector& x, double t) -> Vector {
+                                           return t * (exact.inner - 1.0) * x;
+                                         })});
+      model.regions[1].elasticity = from_young_poisson(1e6, exact.nu);
+      model.regions[1].material = neo_hookean(model.regions[1].elasticity);
+      model.regions[0].eigenstrain = given(0.2 * one);
+      const Swollen found = swell(mesh, model, 4, 1e-9);
+      const double cauchy = exact.stress / (exact.inner * exact.inner);
+      const double wrong = relative_stress_error(
+          mesh, found.fields.stress, [&](const Vector&) -> Tensor { return cauchy * one; },
+          [&](Index c) { return mesh.region[c] == 0; });
+      const auto outer = static_cast<std::size_t>(&mesh.patch("outer") - mesh.patches.data());
+      double height = 0.0, area = 0.0;
+      for (Index f = 0; f < mesh.patches[outer].n_faces; ++f) {
+        const Index face = mesh.patches[outer].first_face + f;
+        height += mesh.face_area[face].norm() * mesh.face_centre[face].z();
+        area += mesh.face_area[face].norm();
+      }
+      const double grown = found.drawn.report.patch_displacement[outer].z() / (height / area);
+      const double radius = grown / (0.5 * exact.outer - 1.0) - 1.0;
+      errors.push_back(wrong);
+      const EnergyAccount& energy = found.drawn.report.energy;
+      const double account = left_over({}, energy) / energy.elastic;
+      report_row(fmt::format("{} cells, nu {}", mesh.n_cells(), exact.nu),
+                 {{"stress in the sphere", wrong}, {"growth outside", radius}, {"account", account}});
+      EXPECT_LT(std::abs(radius), n == 1 ? 0.03 : 0.005);
+    }
+    EXPECT_LT(errors[1], 0.02);
+    EXPECT_LT(errors[1], 0.6 * errors[0]);
+  }
+}
+
+// A bead of another expansion, a misfit of 1e-7, against the small-strain program. What the account lacks is the work
+// of the tractions' moments about the centres of coarse cells, which vanishes with the size of cells.
+TEST(FreeDeformations, SmallOnesAreThoseOfTheSmallStrainProgram) {
+  std::vector<double> accounts;
+  for (const Mesh& mesh : {cube(), sphere_in_cube(2, 3, 2.0, 0.6)}) {
+    FractureModel finite = finite_body(mesh, neo_hookean(soft), corner), small = finite;
+    for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
+      const bool is_bead = mesh.region_names[r] == "bead";
+      const Tensor strain = 1e-7 * (is_bead ? uneven : Tensor(0.2 * one));
+      for (FractureModel* model : {&finite, &small}) {
+        model->regions[r].elasticity = is_bead ? stiffer : soft;
+        model->regions[r].eigenstrain = given(strain);
+      }
+      finite.regions[r].material = neo_hookean(finite.regions[r].elasticity);
+      small.regions[r].material = nullptr;
+    }
+    const Swollen a = swell(mesh, finite, 1), b = swell(mesh, small, 1);
+    double difference = 0.0;
+    for (Index c = 0; c < mesh.n_cells(); ++c)
+      difference = std::max(difference, (a.fields.stress[c] - b.fields.stress[c]).norm());
+    difference /= largest(b.fields.stress);
+    const double work = a.drawn.report.energy.eigenstrain_work / b.drawn.report.energy.eigenstrain_work - 1.0;
+    accounts.push_back(std::abs(left_over({}, a.drawn.report.energy) / a.drawn.report.energy.elastic));
+    report_row(fmt::format("misfit of 1e-7, {} cells", mesh.n_cells()),
+               {{"stress", difference}, {"work", work}, {"account", accounts.back()}});
+    EXPECT_LT(difference, 1e-5);
+    EXPECT_LT(std::abs(work), 1e-5);
+  }
+  EXPECT_LT(accounts[1], 0.1);
+  EXPECT_LT(accounts[1], 0.3 * accounts[0]);
+}
+
+TEST(FreeDeformations, ThatTurnCellsInsideOutAreRefused) {
+  const Mesh mesh = mapped_box({1, 1, 1}, [](const Vector& x) -> Vector { return x; });
+  const FractureModel model = swollen(mesh, neo_hookean(soft), -0.6 * one, corner);
+  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
+  try {
+    require_combination(mesh, model, unknowns, {.stops = {}});
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("shrinks the free body to 0.475 of its length at the load 0.875"));
+  }
+}
+
+}  // namespace
+}  // namespace pfdm::verification::this_file
