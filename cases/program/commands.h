@@ -15,8 +15,9 @@ namespace pfdm {
 struct CommandLine {
   std::string command;
   std::string case_directory;
-  std::string output;            ///< directory; empty: the case's own
-  std::vector<std::string> set;  ///< KEY=VALUE
+  std::vector<std::string> cases{};  ///< of report: one or several
+  std::string output;                ///< directory; empty: the case's own
+  std::vector<std::string> set;      ///< KEY=VALUE
   int threads = 1;
   std::optional<Index> max_steps{};
   bool restart = false;

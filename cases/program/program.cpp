@@ -13,6 +13,7 @@
 #include "cases/program/session/external_program.h"
 #include "cases/program/session/message_text.h"
 #include "cases/program/session/stop_signal.h"
+#include "cases/program/studies/comparison_page.h"
 #include "cases/program/studies/sweep_on_slurm.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/other_case.h"
@@ -101,6 +102,13 @@ std::string with_place(const std::string& message, const CaseFile& file) {
   return fmt::format("{}: {}", (file.directory / (file.stem + ".toml")).string(), message);
 }
 
+void do_comparison(const CommandLine& line, Session& session) {
+  if (!line.set.empty()) throw InputError("--set is for one case: runs that are set side by side are as they ran");
+  if (session.results.empty()) session.results = "comparison";
+  const StopSignals signals(said_at_once(""));
+  report_compared(line.cases, session);
+}
+
 void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool terminal) {
   set_threads(line.threads);
   Log log(out, err, terminal, line.quiet);
@@ -116,6 +124,7 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
                   .slurm = line.slurm,
                   .curve_to = line.curve_to,
                   .exports = line.exports};
+  if (line.cases.size() > 1) return do_comparison(line, session);
   if (line.prepared)
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");
   const CaseFile file = with_overrides(open_case_or_name_nearest(line.case_directory), line.set);

@@ -385,9 +385,9 @@ void fit(const FractureProgram& program, Session& session) {
             session);
 }
 
-void report(const FractureProgram& program, Session& session) {
-  write_report(fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
-               session, fracture_extras(program.fracture, program.file, program.hash, session.results));
+CasePage page_of(const FractureProgram& program, const Session& session) {
+  return {.report = fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
+          .extras = fracture_extras(program.fracture, program.file, program.hash, session.results)};
 }
 
 /// The case that the program holds, once it is read; what needs [experiment] and [fit] is left out.
@@ -404,7 +404,7 @@ RunnableCase runnable(const std::shared_ptr<FractureProgram>& program) {
           .mesh = [program](Session& session) { mesh_only(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
           .cohesive = [program](Session& session) { cohesive(*program, session); },
-          .report = [program](Session& session) { report(*program, session); },
+          .page = [program](const Session& session) { return page_of(*program, session); },
           .prepare = [program](Session& session) { prepare(*program, session); },
           .data_files = data_files,
           .goes_on = true};

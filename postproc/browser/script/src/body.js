@@ -48,7 +48,7 @@ function quantile_range(blocks, scale) {
 }
 
 export class Body {
-  constructor(data, steps, on_frame) {
+  constructor(data, steps, on_frame, title = "The body") {
     this.data = data;
     this.steps = steps;
     this.on_frame = on_frame;
@@ -61,18 +61,29 @@ export class Body {
     this.note = element("div", { class: "note" });
     this.read = element("div", { class: "read" });
     this.state = element("p", { class: "state", "aria-live": "polite" });
-    this.section = element("section", { id: "body" }, element("h2", {}, "The body"), this.holder);
+    this.section = element("section", { class: "body" }, element("h2", {}, title), this.holder);
   }
 
   async start() {
+    await this.load();
+    const { steps, state, scale, choices } = this.show();
+    this.section.append(steps, state, scale, ...choices);
+  }
+
+  async load() {
     Object.assign(this, await unpacked(this.data));
     this.prepare();
+  }
+
+  /** Draws what was loaded; returns its controls. */
+  show() {
     this.scene = new Scene(this.holder);
     this.holder.append(this.note, this.read);
-    this.section.append(...controls_of(this));
+    const controls = controls_of(this);
     this.repaint();
     this.home();
     listen(this);
+    return controls;
   }
 
   prepare() {
@@ -174,6 +185,26 @@ export class Body {
       borders: of_ends(this.soup.borders),
     });
     this.tell();
+    for (const other of this.followers ?? []) other.follow(this);
+  }
+
+  /** Shows what another body shows, as far as this one has it. */
+  follow(lead) {
+    const same = this.quantities.find((quantity) => quantity.name === lead.quantity.name);
+    if (same) {
+      this.quantity = same;
+      same.map = lead.quantity.map;
+    }
+    for (const choice of ["warp", "hide_broken", "mesh_lines"]) this[choice] = lead[choice];
+    const { axis, at, flipped } = lead.cut;
+    const part = axis < 0 ? 0 : (at - lead.lower[axis]) / (lead.size[axis] || 1);
+    if (!this.is_flat && this.data.cuts !== "none")
+      this.cut = { axis, at: axis < 0 ? 0 : this.lower[axis] + part * this.size[axis], flipped };
+    this.data.regions.forEach((name, r) => {
+      const theirs = lead.data.regions.indexOf(name);
+      if (theirs >= 0) this.regions[r] = lead.regions[theirs];
+    });
+    this.draw();
   }
 
   /** A coordinate of a vertex, moved. */
