@@ -152,6 +152,9 @@ void Parser::add_case_options() {
           ->type_name("DIR");
   }
   command("run").add_flag("--restart", line.restart, "continue from the last complete step");
+  command("run").add_flag("--live", line.live,
+                          "keep report/index.html in the results up to date while a fracture run goes on; the page "
+                          "loads itself again");
   command("run")
       .add_option("--max-steps", line.max_steps, "stop after N load steps; --restart continues from there")
       ->check(CLI::Range(1, 1000000000).description(""))

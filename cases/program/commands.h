@@ -25,6 +25,7 @@ struct CommandLine {
   bool laws = false;
   bool slurm = false;
   bool strict = false;   ///< of fit
+  bool live = false;     ///< of run
   std::string curve_to;  ///< of run: a file, as a script's pipe
   std::optional<std::string> prepared{};
   ExportWords exports{};      ///< of cohesive

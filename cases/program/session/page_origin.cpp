@@ -85,7 +85,9 @@ std::string command_of(const fs::path& results) {
   const fs::path file = case_of(results);
   if (file.empty()) return {};
   const bool is_default = results.filename() == "results" && fs::exists(results.parent_path() / "case.toml");
-  const char* job = fs::exists(results / summary_file) || !fs::exists(results / "fit.json") ? "run" : "fit";
+  const char* job = "run";
+  if (!fs::exists(results / summary_file) && fs::exists(results / "fit.json")) job = "fit";
+  if (!fs::exists(results / summary_file) && fs::exists(results / "sweep.csv")) job = "sweep";
   return fmt::format("./pfdm {} {}", job, shell_word((is_default ? results.parent_path() : file).string()));
 }
 

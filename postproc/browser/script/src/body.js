@@ -1,9 +1,10 @@
 // The body: what is shown of it, and how.
 import { Cells, surface_of } from "./cells.js";
-import { colour_maps, diverging } from "./colours.js";
+import { colour_maps } from "./colours.js";
 import { controls_of, listen } from "./controls.js";
 import { integers, octets, quantised } from "./bytes.js";
 import { colour_of, element, save, shown } from "./elements.js";
+import { quantities_of } from "./quantities.js";
 import { Scene } from "./scene.js";
 
 const broken = 0.95;
@@ -34,17 +35,6 @@ async function unpacked(body) {
 function round_down(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   return [5, 2, 1].find((k) => k * power <= value * (1 + 1e-9)) * power;
-}
-
-function quantile_range(blocks, scale) {
-  const sample = [];
-  const every = Math.max(1, Math.floor((blocks.length * blocks[0].length) / 60000));
-  let k = 0;
-  for (const block of blocks)
-    for (; k < block.length || ((k -= block.length), false); k += every) sample.push(block[k]);
-  sample.sort((a, b) => a - b);
-  const at = (q) => scale * sample[Math.min(sample.length - 1, Math.floor(q * sample.length))];
-  return [at(0.002), at(0.998)];
 }
 
 export class Body {
@@ -104,33 +94,7 @@ export class Body {
     this.regions = data.regions.map(() => true);
     this.hide_broken = true;
     this.mesh_lines = false;
-    const displacement = {
-      name: "displacement",
-      unit: data.displacement_unit.name,
-      factor: data.displacement_unit.factor,
-      at_points: (f, i) => Math.hypot(...this.moves.map((axis) => axis[f][i])),
-      range: [0, most * data.displacement_unit.factor],
-    };
-    const component = {
-      name: `displacement ${"xyz"[data.component]}`,
-      unit: displacement.unit,
-      factor: displacement.factor,
-      at_points: (f, i) => this.moves[data.component][f][i],
-      range: [data.displacement[data.component].from, data.displacement[data.component].to].map(
-        (v) => v * displacement.factor,
-      ),
-    };
-    this.quantities = data.fields.map((field, k) => ({
-      ...field,
-      at_cells: this.fields[k],
-      range: field.name === "damage" ? [0, 1] : quantile_range(this.fields[k], field.factor),
-    }));
-    this.quantities.push(displacement, component);
-    for (const q of this.quantities) {
-      q.map = q.range[0] < 0 && q.range[1] > 0 ? diverging : q.name === "damage" ? "light to dark" : "viridis";
-      if (q.map === diverging) q.range = [-1, 1].map((s) => s * Math.max(-q.range[0], q.range[1]));
-      if (!(q.range[0] < q.range[1])) q.range = [q.range[0], q.range[0] + (Math.abs(q.range[0]) || 1)];
-    }
+    this.quantities = quantities_of(data, this.moves, this.fields, most);
     const has_damage =
       this.quantities[0].name === "damage" && this.fields[0].some((block) => block.some((v) => v > 0.05));
     this.quantity = this.quantities[has_damage ? 0 : Math.min(1, this.quantities.length - 1)];
