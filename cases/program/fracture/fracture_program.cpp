@@ -273,14 +273,14 @@ void repeat_warnings(Log& log) {
   for (const std::string& warning : log.warnings()) log.say(fmt::format("  - {}", warning));
 }
 
-/// "(curve: force_displacement.csv; ParaView: fields.pvd; laws by angle, all steps: run.log)", of what there is.
+/// "See force_displacement.csv (curve), fields.pvd (ParaView), run.log (all steps).", of what there is.
 std::string where_to_look(const std::filesystem::path& results) {
   std::string files;
   for (const auto& [what, file] : {std::pair("curve", curve_file), std::pair("ParaView", "fields.pvd"),
                                    std::pair("laws", "cohesive.json"), std::pair("all steps", "run.log")})
     if (std::filesystem::exists(results / file))
-      files += fmt::format("{}{}: {}", files.empty() ? "" : "; ", what, file);
-  return files.empty() ? "" : fmt::format(" ({})", files);
+      files += fmt::format("{}{} ({})", files.empty() ? "See " : ", ", file, what);
+  return files + ".";
 }
 
 /// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said at last.
@@ -291,6 +291,7 @@ std::string finish(RunningCase& c, const std::string& status) {
   std::vector<std::string> told =
       as_sentences(what_happened(c.program.fracture, c.program.file, summary, c.results.folder()));
   for (const std::string& sentence : told) c.session.log.say("  " + sentence);
+  if (!c.results.wait()) c.session.log.say("  " + where_to_look(c.results.folder()));
   repeat_warnings(c.session.log);
   std::string ending = fmt::format("{} at step {}, load {:.6g}, after {}", status, c.state.step, c.state.load,
                                    duration_words(c.times.whole.seconds()));
@@ -298,7 +299,7 @@ std::string finish(RunningCase& c, const std::string& status) {
     told.insert(told.begin(), fmt::format("The run has ended: {}.", ending));
     c.live->end(std::move(told), c.results.rows());
   }
-  return fmt::format("{}; results in {}{}", ending, c.session.results.string(), where_to_look(c.results.folder()));
+  return fmt::format("{}; results in {}", ending, c.session.results.string());
 }
 
 std::string earlier_results_stay(const RunningCase& c) {
