@@ -58,7 +58,11 @@ constexpr CommandText case_commands[] = {
     {"report", "Draw pictures and plots of the results on one page",
      "Writes to CASE/results/report: report.pdf, report.png and index.html, a page that a browser opens without\n"
      "network; after analyse a folder NAME with these of each test; of a sweep its figures against the values. CASE\n"
-     "may be the folder of results too, as that of a run of a sweep."},
+     "may be the folder of results too, as that of a run of a sweep.\n"
+     "Of several cases or folders of results, pfdm report A B C, one page sets the runs side by side: curves over "
+     "each\n"
+     "other, figures and keys that differ in tables, bodies in step. It goes to comparison/index.html here, or to\n"
+     "index.html in the folder that --output names, which must be empty or hold an earlier comparison."},
 };
 
 constexpr CommandText other_commands[] = {
@@ -127,7 +131,14 @@ Parser::Parser() {
 void Parser::add_case_options() {
   for (const CommandText& text : case_commands) {
     CLI::App& of = command(text.name);
-    of.add_option("CASE", line.case_directory, "the case directory, or a .toml file in it")->required()->type_name("");
+    if (of.get_name() == "report")
+      of.add_option("CASE", line.cases, "the case directory, or a .toml file in it; several are set side by side")
+          ->required()
+          ->type_name("");
+    else
+      of.add_option("CASE", line.case_directory, "the case directory, or a .toml file in it")
+          ->required()
+          ->type_name("");
     of.add_option("--threads", line.threads, "number of threads (default: all cores that a control group leaves)")
         ->check(CLI::Range(1, most_threads()).description(""))
         ->type_name("N");
@@ -136,11 +147,14 @@ void Parser::add_case_options() {
         ->allow_extra_args(false);
     of.add_flag("--quiet", line.quiet, "say nothing but warnings and errors");
     if (of.get_name() != "check")
-      of.add_option("--output", line.output, "results directory (default: CASE/results)")
+      of.add_option("-o,--output", line.output, "results directory (default: CASE/results)")
           ->check(not_empty())
           ->type_name("DIR");
   }
   command("run").add_flag("--restart", line.restart, "continue from the last complete step");
+  command("run").add_flag("--live", line.live,
+                          "keep report/index.html in the results up to date while a fracture run goes on; the page "
+                          "loads itself again");
   command("run")
       .add_option("--max-steps", line.max_steps, "stop after N load steps; --restart continues from there")
       ->check(CLI::Range(1, 1000000000).description(""))
@@ -283,6 +297,7 @@ std::optional<CommandLine> read_command_line(const std::vector<std::string>& arg
   }
   CommandLine& line = parser.line;
   line.command = app.get_subcommands().front()->get_name();
+  if (line.cases.size() == 1) line.case_directory = line.cases.front();
   if (line.command != "help") return line;
   if (line.schema || !line.reference.empty()) return line;
   if (line.case_directory.empty()) return read_command_line({"--help"}, out);

@@ -15,8 +15,9 @@ namespace pfdm {
 struct CommandLine {
   std::string command;
   std::string case_directory;
-  std::string output;            ///< directory; empty: the case's own
-  std::vector<std::string> set;  ///< KEY=VALUE
+  std::vector<std::string> cases{};  ///< of report: one or several
+  std::string output;                ///< directory; empty: the case's own
+  std::vector<std::string> set;      ///< KEY=VALUE
   int threads = 1;
   std::optional<Index> max_steps{};
   bool restart = false;
@@ -24,6 +25,7 @@ struct CommandLine {
   bool laws = false;
   bool slurm = false;
   bool strict = false;   ///< of fit
+  bool live = false;     ///< of run
   std::string curve_to;  ///< of run: a file, as a script's pipe
   std::optional<std::string> prepared{};
   ExportWords exports{};      ///< of cohesive

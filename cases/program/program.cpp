@@ -13,6 +13,7 @@
 #include "cases/program/session/external_program.h"
 #include "cases/program/session/message_text.h"
 #include "cases/program/session/stop_signal.h"
+#include "cases/program/studies/comparison_page.h"
 #include "cases/program/studies/sweep_on_slurm.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/other_case.h"
@@ -54,12 +55,21 @@ std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
                      options_of(line));
 }
 
+/// A command on the same case and results, as the user would give it.
+std::string command_on_same(const CommandLine& line, std::string_view command) {
+  const char* launcher = std::getenv("PFDM_LAUNCHER");  // that the user has called
+  return fmt::format("{} {} {}{}", launcher != nullptr ? launcher : "pfdm", command, line.case_directory,
+                     options_of(line));
+}
+
+LiveCommands live_commands(const CommandLine& line) {
+  return {.command = command_on_same(line, "run"), .report = command_on_same(line, "report")};
+}
+
 /// The command that looks at what a run, or a sweep, has made.
 void say_next(const CommandLine& line, const RunnableCase& runnable, Log& log) {
-  const char* launcher = std::getenv("PFDM_LAUNCHER");  // that the user has called
   if ((line.command == "run" || (line.command == "sweep" && !line.slurm)) && runnable.report)
-    log.say(fmt::format("next: {} report {}{}", launcher != nullptr ? launcher : "pfdm", line.case_directory,
-                        options_of(line)));
+    log.say("next: " + command_on_same(line, "report"));
 }
 
 const std::function<void(Session&)>& job_of(const CommandLine& line, const RunnableCase& runnable) {
@@ -101,6 +111,13 @@ std::string with_place(const std::string& message, const CaseFile& file) {
   return fmt::format("{}: {}", (file.directory / (file.stem + ".toml")).string(), message);
 }
 
+void do_comparison(const CommandLine& line, Session& session) {
+  if (!line.set.empty()) throw InputError("--set is for one case: runs that are set side by side are as they ran");
+  if (session.results.empty()) session.results = "comparison";
+  const StopSignals signals(said_at_once(""));
+  report_compared(line.cases, session);
+}
+
 void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool terminal) {
   set_threads(line.threads);
   Log log(out, err, terminal, line.quiet);
@@ -116,6 +133,7 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
                   .slurm = line.slurm,
                   .curve_to = line.curve_to,
                   .exports = line.exports};
+  if (line.cases.size() > 1) return do_comparison(line, session);
   if (line.prepared)
     return do_job([&](Session& s) { make_prepared_run(line.case_directory, *line.prepared, s); }, session, "");
   const CaseFile file = with_overrides(open_case_or_name_nearest(line.case_directory), line.set);
@@ -125,6 +143,9 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
     if (session.results.empty()) session.results = own_results(file);
     if (!line.curve_to.empty() && !runnable.goes_on)
       throw InputError("--curve-to: only runs of kind \"fracture\" and \"homogenize\" have a curve that grows");
+    if (line.live && !runnable.goes_on)
+      throw InputError("--live: only runs of kind \"fracture\" and \"homogenize\" have a page while they go on");
+    if (line.live) session.live = live_commands(line);
     do_job(job_of(line, runnable), session, way_on(line, runnable));
     say_next(line, runnable, log);
   } catch (const OtherCase& error) {

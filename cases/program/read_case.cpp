@@ -1,4 +1,5 @@
 #include "cases/program/kinds.h"
+#include "cases/program/session/report_parts.h"
 #include "cases/program/studies/sweep.h"
 #include "cases/program/studies/sweep_report.h"
 
@@ -38,6 +39,8 @@ RunnableCase read_case(const CaseFile& file) {
         "this program was built for fracture cases alone; the launcher, ./pfdm, builds the one for all kinds");
   const CaseKind& kind = choose(file.config.root().at("kind"), case_kinds(), "kind of case");
   RunnableCase runnable = kind.read(file);
+  if (!runnable.report && runnable.page)
+    runnable.report = [page = runnable.page](Session& session) { write_report(page(session), session); };
   if (const auto settings = read_sweep(file))
     add_sweep(file, *settings, runnable);
   else

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 namespace pfdm {
 namespace {
@@ -17,7 +18,8 @@ using Json = nlohmann::ordered_json;
 /// Puts parts beside and says where they are.
 class Packer {
  public:
-  explicit Packer(std::vector<PagePart>& parts) : parts_(parts) {}
+  /// `n_before`: parts that the page has already.
+  Packer(std::vector<PagePart>& parts, std::size_t n_before) : parts_(parts), n_before_(n_before) {}
 
   Json add(const std::vector<std::vector<double>>& blocks) {
     const Quantised numbers = quantised(blocks);
@@ -30,10 +32,11 @@ class Packer {
 
  private:
   std::string keep(std::string base64) {
-    parts_.push_back({.id = fmt::format("part-{}", parts_.size()), .base64 = std::move(base64)});
+    parts_.push_back({.id = fmt::format("part-{}", n_before_ + parts_.size()), .base64 = std::move(base64)});
     return parts_.back().id;
   }
   std::vector<PagePart>& parts_;
+  std::size_t n_before_;
 };
 
 std::vector<double> component(const std::vector<Vector>& vectors, Eigen::Index axis) {
@@ -70,10 +73,11 @@ void keep_only(std::vector<T>& frames, const std::vector<std::size_t>& kept) {
 }
 
 /// So many of the frames, evenly.
-void thin_out(Body& body, std::size_t count) {
+void thin_out(Body& body, std::vector<Index>& numbers, std::size_t count) {
   std::vector<std::size_t> kept;
   for (std::size_t k = 0; k < count; ++k) kept.push_back(k * (body.steps.size() - 1) / (count - 1));
   keep_only(body.steps, kept);
+  keep_only(numbers, kept);
   keep_only(body.displacement, kept);
   for (BodyField& field : body.fields) keep_only(field.frames, kept);
 }
@@ -84,8 +88,8 @@ std::size_t size_of(const std::vector<PagePart>& parts) {
   return size;
 }
 
-Json whole_json(const Body& body, std::vector<PagePart>& parts) {
-  Packer packer(parts);
+Json whole_json(const Body& body, std::vector<PagePart>& parts, std::size_t n_before) {
+  Packer packer(parts, n_before);
   Json points = Json::array(), displacement = Json::array(), fields = Json::array();
   double most_moved = 0.0, longest = 0.0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -120,17 +124,20 @@ Json whole_json(const Body& body, std::vector<PagePart>& parts) {
 
 }  // namespace
 
-Json body_json(Body body, std::vector<PagePart>& parts, std::size_t most_bytes) {
+Json body_json(Body body, std::vector<PagePart>& parts, std::size_t most_bytes, std::vector<Index>* kept) {
   const std::size_t room = most_bytes > 0 ? most_bytes : body.is_surface.empty() ? room_of_whole : room_of_part;
+  std::vector<Index> numbers(body.steps.size());
+  std::iota(numbers.begin(), numbers.end(), Index{0});
   while (true) {
     std::vector<PagePart> own;
-    Json json = whole_json(body, own);
+    Json json = whole_json(body, own, parts.size());
     const std::size_t n = body.steps.size(), size = size_of(own);
     if (size <= room || n <= 2) {
+      if (kept != nullptr) *kept = std::move(numbers);
       parts.insert(parts.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
       return json;
     }
-    thin_out(body, std::clamp<std::size_t>(n * room / size, 2, n - 1));
+    thin_out(body, numbers, std::clamp<std::size_t>(n * room / size, 2, n - 1));
   }
 }
 

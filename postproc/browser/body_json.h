@@ -16,7 +16,8 @@ struct PagePart {
 };
 
 /// Appends to `parts`, at most so many bytes where fewer frames can bring that about: the first and the last always
-/// stay. `most_bytes` 0: as much room as a whole body has, or a part of one.
-nlohmann::ordered_json body_json(Body body, std::vector<PagePart>& parts, std::size_t most_bytes = 0);
+/// stay. `most_bytes` 0: as much room as a whole body has, or a part of one. `kept`: which frames are left.
+nlohmann::ordered_json body_json(Body body, std::vector<PagePart>& parts, std::size_t most_bytes = 0,
+                                 std::vector<Index>* kept = nullptr);
 
 }  // namespace pfdm

@@ -115,12 +115,61 @@ Json json_of(const HeadFigure& figure) {
   return {{"label", figure.label}, {"value", figure.value}, {"note", figure.note}};
 }
 
+Json json_of(const PageBlock& block) {
+  return std::visit([](const auto& one) { return json_of(one); }, block);
+}
+
 Json blocks_of(const ReportPage& page) {
   Json blocks = Json::array();
   for (const PageRow& row : page.rows)
-    for (const PageBlock& block : row.blocks)
-      blocks.push_back(std::visit([](const auto& one) { return json_of(one); }, block));
+    for (const PageBlock& block : row.blocks) blocks.push_back(json_of(block));
   return blocks;
+}
+
+Json json_of(const RunSet& runs) {
+  Json columns = Json::array(), curves = Json::array();
+  for (const RunColumn& column : runs.columns)
+    columns.push_back({{"words", column.words},
+                       {"unit", column.unit},
+                       {"is_key", column.is_key},
+                       {"values", numbers(column.values)}});
+  for (const Series& curve : runs.curves)
+    curves.push_back(curve.x.empty() ? Json(nullptr) : Json{{"x", numbers(curve.x)}, {"y", numbers(curve.y)}});
+  Json json{{"labels", runs.labels}, {"notes", runs.notes}, {"columns", columns}, {"curves", curves}};
+  json["curve"] = runs.curves.empty() ? Json(nullptr) : Json{{"x", runs.x_title}, {"y", runs.y_title}};
+  return json;
+}
+
+/// Of several bodies each has its share of a page that is larger than that of one.
+Json json_of(const std::vector<NamedBody>& bodies, std::vector<PagePart>& parts) {
+  constexpr std::size_t room = 7000000;  // [byte]
+  Json list = Json::array();
+  for (const NamedBody& one : bodies) {
+    std::vector<Index> kept;
+    Json body = body_json(one.body, parts, room / bodies.size(), &kept);
+    Json at = Json::array();
+    for (const Index frame : kept) at.push_back(number(one.at[as_size(frame)]));
+    list.push_back({{"name", one.name}, {"steps", one.steps}, {"at", std::move(at)}, {"body", std::move(body)}});
+  }
+  return list;
+}
+
+/// What only some pages have.
+void add_rare(Json& json, const BrowserPage& page, std::vector<PagePart>& parts) {
+  if (!page.first.empty()) {
+    json["first"] = Json::array();
+    for (const PageBlock& block : page.first) json["first"].push_back(json_of(block));
+  }
+  if (!page.bodies.empty()) {
+    json["bodies"] = json_of(page.bodies, parts);
+    json["bodies_axis"] = {{"words", page.bodies_axis.words}, {"unit", page.bodies_axis.unit}};
+  }
+  if (page.runs) json["runs"] = json_of(*page.runs);
+  if (page.live)
+    json["live"] = {{"words", page.live->words},
+                    {"share", number(page.live->share)},
+                    {"every", number(page.live->every)},
+                    {"made", page.live->made}};
 }
 
 Json json_of(const BrowserPage& page, std::vector<PagePart>& parts) {
@@ -131,6 +180,7 @@ Json json_of(const BrowserPage& page, std::vector<PagePart>& parts) {
             {"command", page.command},       {"case_text", page.case_text},      {"steps", page.steps},
             {"beside", page.beside},         {"blocks", blocks_of(page.report)}};
   json["body"] = page.body ? body_json(*page.body, parts) : Json(nullptr);
+  add_rare(json, page, parts);
   return json;
 }
 

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -15,7 +17,38 @@ struct Prefix {
 constexpr std::array<Prefix, 8> prefixes{
     {{-4, "p"}, {-3, "n"}, {-2, "µ"}, {-1, "m"}, {0, ""}, {1, "k"}, {2, "M"}, {3, "G"}}};
 
+/// "mm²" as prefix, base and power, in every way that it can be read.
+struct ReadUnit {
+  int thousands;  // of the prefix
+  std::string_view base;
+  int power;
+};
+std::vector<ReadUnit> readings(std::string_view unit) {
+  int power = 1;
+  for (const auto& [sign, raised] : {std::pair("²", 2), std::pair("³", 3)})
+    if (unit.ends_with(sign)) {
+      unit.remove_suffix(std::string_view(sign).size());
+      power = raised;
+      break;
+    }
+  std::vector<ReadUnit> found;
+  for (const Prefix& prefix : prefixes)
+    if (unit.starts_with(prefix.sign) && unit.size() > prefix.sign.size())
+      found.push_back({prefix.power, unit.substr(prefix.sign.size()), power});
+  return found;
+}
+
 }  // namespace
+
+std::optional<double> factor_between(std::string_view a, std::string_view b) {
+  if (a == b) return 1.0;
+  if (a.find('/') != std::string_view::npos) return std::nullopt;
+  for (const ReadUnit& one : readings(a))
+    for (const ReadUnit& other : readings(b))
+      if (one.base == other.base && one.power == other.power)
+        return std::pow(1e3, (one.thousands - other.thousands) * one.power);
+  return std::nullopt;
+}
 
 DisplayUnit display_unit(double largest, std::string_view si_unit) {
   const std::size_t hat = si_unit.find('^');

@@ -43,7 +43,7 @@ set(rooms
     "cases/program/reference: physics cases/program/input"
     "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page postproc/browser
      cases/program/input"
-    "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/page cases/program/input
+    "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser cases/program/input
      cases/program/session"
     "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
     "cases/program/point: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input

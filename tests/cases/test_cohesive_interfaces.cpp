@@ -30,7 +30,7 @@ TEST(CohesiveInterfaces, RecordsCohesiveInterfaces) {
   const TemporaryCase glued(glued_blocks(linear_glue + "name = \"glue\"\n"));
   const Outcome first = run({"run", glued.path().string()});
   ASSERT_EQ(first.status, 0) << first.err;
-  EXPECT_NE(first.out.find("cohesive interface \"glue\", 4 places, debonded area 1e-06 m^2"), std::string::npos)
+  EXPECT_NE(first.out.find("cohesive interface \"glue\", 4 places, debonded area 1 mm^2"), std::string::npos)
       << first.out;
   const CsvTable law = read_csv(glued.results() / "cohesive_law.csv");
   for (std::size_t i = 1; i < law.n_rows(); ++i) {

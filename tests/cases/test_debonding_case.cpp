@@ -109,7 +109,7 @@ TEST(DebondingCase, TellsStrainAndStressOfTheFirstDebonding) {
   EXPECT_NEAR(summary["first_debonding_stress_zz_Pa"], stress_at(0.175), 1e-6 * ft);
   EXPECT_FALSE(summary.contains("first_debonding_force_N"));
   EXPECT_THAT(outcome.out,
-              HasSubstr("first debonding of \"bond\" between strain_zz = 0.175 and 0.2, where the mean stress "
+              HasSubstr("First debonding of \"bond\" between strain_zz = 0.175 and 0.2, where the mean stress "
                         "zz goes from "));
 }
 

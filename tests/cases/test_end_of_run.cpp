@@ -33,12 +33,12 @@ TEST(EndOfRun, TellsTheFirstDebondingOfAnInterface) {
   EXPECT_NEAR(summary["first_debonding_force_after_N"].get<double>(), 1.0 / 12.0, 1e-3);
   EXPECT_TRUE(summary["first_debonding_angle_deg"].is_null());  // a plane
   EXPECT_EQ(summary["instruction_set"], instruction_set());
-  EXPECT_THAT(outcome.out, HasSubstr("first debonding of \"glue\" between 0.084 and 0.096 mm, where the force goes "
+  EXPECT_THAT(outcome.out, HasSubstr("First debonding of \"glue\" between 0.084 and 0.096 mm, where the force goes "
                                      "from 333.3 to 83.33 mN"));
-  EXPECT_THAT(outcome.out, HasSubstr("greatest force 1.833 N at 0.012 mm; 0 N at the end, 0.12 mm"));
+  EXPECT_THAT(outcome.out, HasSubstr("Greatest force 1.833 N at 0.012 mm; 0 N at the end, 0.12 mm."));
   EXPECT_THAT(outcome.out, HasSubstr("next: pfdm report " + glued.path().string()));
   EXPECT_THAT(outcome.out, HasSubstr("; 1 thread\n"));
-  EXPECT_THAT(content_of(glued.results() / "run.log"), HasSubstr("first debonding of \"glue\""));
+  EXPECT_THAT(content_of(glued.results() / "run.log"), HasSubstr("First debonding of \"glue\""));
 }
 
 TEST(EndOfRun, KnowsTheFirstDebondingAfterARestart) {
@@ -57,7 +57,7 @@ TEST(EndOfRun, SaysThatAllHolds) {
   const TemporaryCase glued(replaced(glued_blocks(linear_glue), "0.12 mm", "0.05 mm"));
   const Outcome outcome = run({"run", glued.path().string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("no debonding: every surface holds"));
+  EXPECT_THAT(outcome.out, HasSubstr("No debonding: every surface holds"));
 }
 
 // The runs of a sweep record no columns, and know the first debonding all the same.
@@ -89,7 +89,7 @@ TEST(EndOfRun, TellsTheFirstDebondingOfColumns) {
   EXPECT_EQ(curve.column("force_x_N")[row], summary["first_debonding_force_N"].get<double>());
   EXPECT_LT(curve.column("max_damage")[row], 0.95);
   EXPECT_GT(curve.column("max_damage")[row + 1], 0.95);
-  EXPECT_THAT(outcome.out, HasSubstr("first debonding of \"crack\" between "));
+  EXPECT_THAT(outcome.out, HasSubstr("First debonding of \"crack\" between "));
 }
 
 // All cells are thicker than ell/2, which is warned of when the run begins.

@@ -214,15 +214,15 @@ void run_case(const ChainProgram& program, Session& session) {
   }
   record.status = "complete";
   write_chain(session.results, record);
-  write_report(chain_page(record, program.chain.title), session, {});
+  write_report({.report = chain_page(record, program.chain.title)}, session);
   log.say(fmt::format("complete after {:.1f} s; results in {}", watch.seconds(), session.results.string()));
 }
 
-void report(const ChainProgram& program, Session& session) {
+CasePage page_of(const ChainProgram& program, const Session& session) {
   const ChainRecord record = read_chain(session.results);
   if (record.steps.empty())
     throw InputError(fmt::format("{}: there are no results; pfdm run makes them", session.results.string()));
-  write_report(chain_page(record, program.chain.title), session, {});
+  return {.report = chain_page(record, program.chain.title)};
 }
 
 RunnableCase read_program(const CaseFile& file) {
@@ -231,7 +231,7 @@ RunnableCase read_program(const CaseFile& file) {
   return {.title = program->chain.title,
           .check = [program](Session& session) { check(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
-          .report = [program](Session& session) { report(*program, session); },
+          .page = [program](const Session& session) { return page_of(*program, session); },
           .goes_on = true};
 }
 

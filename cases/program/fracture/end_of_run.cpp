@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -185,12 +186,6 @@ std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface) {
                                         law->at("traced").get<bool>() ? "" : ", not seen down to zero traction")};
 }
 
-/// "74 s", "12 min"
-std::string duration_words(double seconds) {
-  if (seconds < 10.0) return fmt::format("{:.2g} s", seconds);
-  return seconds < 600.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
-}
-
 }  // namespace
 
 CurveUnits read_curve_units(const CaseFile& file, const CurveSettings& curve) {
@@ -200,12 +195,14 @@ CurveUnits read_curve_units(const CaseFile& file, const CurveSettings& curve) {
 }
 
 std::string shown_in(const CaseUnit& unit, double si) {
-  if (unit.si_unit == "1") return fmt::format("{:.4g}", si);
-  if (!unit.name.empty()) return fmt::format("{:.4g} {}", si / unit.in_si, unit.name);
+  if (unit.si_unit == "1") return shown(si);
+  if (!unit.name.empty()) return fmt::format("{} {}", shown(si / unit.in_si), unit.name);
   const DisplayUnit chosen = display_unit(si, unit.si_unit);
-  const std::string name =
-      chosen.name.starts_with("µ") ? "u" + chosen.name.substr(std::string("µ").size()) : chosen.name;
-  return fmt::format("{:.4g} {}", chosen.factor * si, name);
+  std::string name = chosen.name;
+  for (const auto& [sign, plain] : {std::pair("µ", "u"), std::pair("²", "^2"), std::pair("³", "^3")})
+    if (const std::size_t at = name.find(sign); at != std::string::npos)
+      name.replace(at, std::string_view(sign).size(), plain);
+  return fmt::format("{} {}", shown(chosen.factor * si), name);
 }
 
 std::string first_debonding_words(const RunSummary& summary, const FractureCase& fracture, const CurveUnits& units) {
@@ -253,6 +250,20 @@ std::vector<std::string> what_happened(const FractureCase& fracture, const CaseF
     lines.emplace_back("no debonding: every surface holds");
   for (std::string& line : lines_of_laws(results)) lines.push_back(std::move(line));
   return lines;
+}
+
+std::vector<std::string> as_sentences(std::vector<std::string> lines) {
+  std::ranges::stable_partition(lines, [](const std::string& line) { return line.starts_with("first debonding"); });
+  for (std::string& line : lines) {
+    line.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(line.front())));
+    line += ".";
+  }
+  return lines;
+}
+
+std::string duration_words(double seconds) {
+  if (seconds < 10.0) return fmt::format("{:.2g} s", seconds);
+  return seconds < 600.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
 }
 
 std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUnits& units, const RunSummary& summary,

@@ -40,6 +40,12 @@ std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& sum
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const std::filesystem::path& results);
 
+/// Lines as sentences, the first debonding first.
+std::vector<std::string> as_sentences(std::vector<std::string> lines);
+
+/// "74 s", "12 min"
+std::string duration_words(double seconds);
+
 /// The same figures, each for itself: first debonding, greatest force, laws, the run.
 std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUnits& units, const RunSummary& summary,
                                     const std::filesystem::path& results);

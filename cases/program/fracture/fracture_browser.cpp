@@ -117,13 +117,8 @@ BrowserExtras fracture_extras(const FractureCase& fracture, const CaseFile& file
   const std::vector<CurveRow> curve = read_curve_record(results, hash);
   if (auto summary = find_summary(results)) {
     summary->figures = headlines(curve, fracture.output.curve.component);
-    for (std::string& line : what_happened(fracture, file, *summary, results)) {
-      line = in_print(std::move(line));
-      line.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(line.front())));
-      extras.headline.push_back(line + ".");
-    }
-    std::ranges::stable_partition(extras.headline,
-                                  [](const std::string& line) { return line.starts_with("First debonding"); });
+    for (std::string& sentence : as_sentences(what_happened(fracture, file, *summary, results)))
+      extras.headline.push_back(in_print(std::move(sentence)));
     extras.figures = run_figures(fracture, units, *summary, results);
   }
   extras.steps = words_of_steps(fracture, units, curve);

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/fracture_cohesive.h"
 
+#include "cases/program/fracture/end_of_run.h"
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/fracture/interface_chart.h"
 #include "cases/program/fracture/law_source.h"
@@ -19,17 +20,19 @@
 namespace pfdm {
 namespace {
 
+const CaseUnit metres{.si_unit = "m"}, pascals{.si_unit = "Pa"};
+
 std::string outcome_of(const CohesiveResult& result) {
   const CohesiveFigures& f = result.figures;
   if (f.jump) {
     const auto separation = [&](std::size_t step) { return result.law.states[step].separation[0]; };
-    return fmt::format(
-        "unstable at step {}: the law from {:.4g} to {:.4g} m is unknown; int T ddelta at least {:.4g} J/m^2", *f.jump,
-        separation(*f.jump - 1), separation(*f.jump), f.energy_at_least);
+    return fmt::format("unstable at step {}: the law from {} to {} is unknown; int T ddelta at least {:.4g} J/m^2",
+                       *f.jump, shown_in(metres, separation(*f.jump - 1)), shown_in(metres, separation(*f.jump)),
+                       f.energy_at_least);
   }
   if (!f.is_traced())
-    return fmt::format("{} {:.4g} Pa at the end; int T ddelta so far at least {:.4g} J/m^2",
-                       f.unloaded ? "unloaded to" : "carries", f.final_traction, f.energy_at_least);
+    return fmt::format("{} {} at the end; int T ddelta so far at least {:.4g} J/m^2",
+                       f.unloaded ? "unloaded to" : "carries", shown_in(pascals, f.final_traction), f.energy_at_least);
   const double work = f.normal_energy + f.tangential_energy;
   const std::string energy =
       std::isfinite(work)
@@ -44,7 +47,8 @@ std::string extent_of(const ColumnRecord& record) {
   const std::size_t n = record.places.size(), sound = n_never_damaged(record);
   if (sound == n) return fmt::format("{} places: never damaged (d at most {:g}), no law", n, sound_damage);
   const std::string left_out = sound > 0 ? fmt::format(" ({} never damaged, left out)", sound) : "";
-  return fmt::format("{} places{}, debonded area {:.4g} m^2", n, left_out, debonding_of(record).back().area);
+  return fmt::format("{} places{}, debonded area {}", n, left_out,
+                     shown_in({.si_unit = "m^2"}, debonding_of(record).back().area));
 }
 
 /// The strength in shear of a record's band over that in opening: (mu/M)^(1/2) where its energy drives the damage.
@@ -62,14 +66,15 @@ std::optional<double> shear_ratio_of(const FractureCase& fracture, const ColumnR
   return std::sqrt(region.elasticity.mu / region.elasticity.constrained_modulus());
 }
 
-void say_law(const CohesiveResult& result, SurfaceKind kind, Log& log) {
+std::string words_of_law(const CohesiveResult& result, SurfaceKind kind) {
   const CohesiveFigures& f = result.figures;
   const std::string where = kind == SurfaceKind::plane ? std::string("  mean")
                                                        : fmt::format("  {:3.0f} to {:3.0f} degrees",
                                                                      result.law.from / degree, result.law.to / degree);
-  if (!(f.strength > 0.0)) return log.say(where + ": always in compression");
-  log.say(fmt::format("{}: largest normal traction {:.4g} Pa at {:.4g} m, {}; surface energy {:.4g} J/m^2", where,
-                      f.strength, f.critical_separation, outcome_of(result), f.surface_energy));
+  if (!(f.strength > 0.0)) return where + ": always in compression";
+  return fmt::format("{}: largest normal traction {} at {}, {}; surface energy {:.4g} J/m^2", where,
+                     shown_in(pascals, f.strength), shown_in(metres, f.critical_separation), outcome_of(result),
+                     f.surface_energy);
 }
 
 constexpr Dimension stiffness_per_area{"stiffness per area", "Pa/m", "1e14 Pa/m"};
@@ -111,10 +116,10 @@ Export read_export(const ExportWords& words) {
 void write_law(const Export& wanted, const ExportedLaw& law, Session& session) {
   const auto files = write_exports(session.results, wanted.formats, law, wanted.units);
   session.log.say(fmt::format(
-      "exported law of \"{}\": strength {:.4g} Pa, GI {:.6g} J/m^2, stiffness {:.4g} Pa/m; tables of {} and {} points, "
+      "exported law of \"{}\": strength {}, GI {:.6g} J/m^2, stiffness {:.4g} Pa/m; tables of {} and {} points, "
       "within {:.2g} and {:.2g} % of the strength",
-      law.surface, law.strength.value, law.energy.value, law.stiffness.value, law.curve.size(), law.damage.size(),
-      100.0 * law.curve_error, 100.0 * law.damage_error));
+      law.surface, shown_in(pascals, law.strength.value), law.energy.value, law.stiffness.value, law.curve.size(),
+      law.damage.size(), 100.0 * law.curve_error, 100.0 * law.damage_error));
   for (const auto& file : files) session.log.say(fmt::format("written to {}", file.string()));
 }
 
@@ -166,7 +171,7 @@ GivenLaw law_of_case(const InterfaceSettings& interface, const std::string& name
 }  // namespace
 
 void write_cohesive_laws(const FractureCase& fracture, const CaseFile& file, const std::string& name,
-                         const std::string& hash, Session& session) {
+                         const std::string& hash, Session& session, bool in_run) {
   std::optional<Export> wanted;  // what is wrong with it is said before anything is written
   if (!session.exports.formats.empty()) {
     wanted = read_export(session.exports);
@@ -203,7 +208,10 @@ void write_cohesive_laws(const FractureCase& fracture, const CaseFile& file, con
     session.log.say(fmt::format("{} \"{}\", {}", record.is_cohesive ? "cohesive interface" : "cohesive law of",
                                 record.name, extent_of(record)));
     if (record.is_cohesive) continue;
-    for (const CohesiveResult& result : report.results[r]) say_law(result, record.kind, session.log);
+    for (const CohesiveResult& result : report.results[r]) {
+      const std::string line = words_of_law(result, record.kind);
+      in_run ? session.log.record(line) : session.log.say(line);
+    }
   }
   session.log.say(fmt::format("written to {}", (session.results / "cohesive.json").string()));
   if (wanted) write_law(*wanted, law_to_export(report, wanted->choice), session);

@@ -9,10 +9,11 @@
 
 namespace pfdm {
 
-/// Reads the columns and the curve in session.results, writes the laws beside them and says their figures. Where the
+/// Reads the columns and the curve in session.results, writes the laws beside them and says their figures; at the end
+/// of a run (`in_run`) these go to its log alone. Where the
 /// law of an [[interface]] is to be exported it is taken from the case, without results; `file` is its. Throws
 /// InputError where there is no record.
 void write_cohesive_laws(const FractureCase& fracture, const CaseFile& file, const std::string& name,
-                         const std::string& hash, Session& session);
+                         const std::string& hash, Session& session, bool in_run = false);
 
 }  // namespace pfdm

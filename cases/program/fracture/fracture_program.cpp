@@ -9,6 +9,7 @@
 #include "cases/program/fracture/fracture_laws.h"
 #include "cases/program/fracture/fracture_report.h"
 #include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/live_page.h"
 #include "cases/program/fracture/other_laws.h"
 #include "cases/program/fracture/progress.h"
 #include "cases/program/fracture/recorded_steps.h"
@@ -183,8 +184,8 @@ RunSummary summary_of(const FractureProgram& program, const Session& session, co
   return summary;
 }
 
-void cohesive(const FractureProgram& program, Session& session) {
-  write_cohesive_laws(program.fracture, program.file, program.name, program.hash, session);
+void cohesive(const FractureProgram& program, Session& session, bool in_run = false) {
+  write_cohesive_laws(program.fracture, program.file, program.name, program.hash, session, in_run);
 }
 
 /// A run that steps.
@@ -198,7 +199,24 @@ struct RunningCase {
   FollowedRows followed;  ///< by a script
   FractureState state;    ///< the last one that was reached
   bool goes_on = false;   ///< from a state that is in the results already
+  std::optional<LivePages> live{};
 };
+
+ProgressUnits progress_units(const FractureProgram& program) {
+  return {.units = read_curve_units(program.file, program.fracture.output.curve),
+          .is_box = program.fracture.box.has_value()};
+}
+
+/// What is known of the first debonding, for the line of progress.
+std::string debonded(const RunningCase& c) {
+  const auto& first = c.results.first_debonding();
+  return first ? debonded_words(*first, c.program.fracture.cohesive.axis) : std::string();
+}
+
+/// A page, if one is due and earlier results do not stand where it belongs.
+void look_at_page(RunningCase& c, const RunProgress& progress) {
+  if (c.live && !c.results.wait()) c.live->look(progress.figures(), c.results.rows());
+}
 
 void record(RunningCase& c, const FractureState& now, const StepReport& report) {
   const Stopwatch watch;
@@ -222,16 +240,18 @@ std::string reason_to_end(const RunningCase& c, Index first_step) {
 
 /// Steps until the end of the load, --max-steps or failure; returns what became of it.
 std::string advance(RunningCase& c) {
-  RunProgress progress(c.session.log, c.state.load, c.program.fracture.loading.end);
+  RunProgress progress(c.session.log, c.state.load, c.program.fracture.loading.end, progress_units(c.program));
   const LooksForStop looks;
   const auto iterated = [&](const IterationReport& iteration) {
     progress.iterated(iteration);
+    look_at_page(c, progress);
     stop_if_asked();
   };
   const auto recorded = [&](const FractureState& now, const StepReport& report) {
     record(c, now, report);
     const CurveRow& row = c.results.last_row();
-    progress.step_done(report, row.displacement, row.force[c.program.fracture.output.curve.component]);
+    progress.step_done(report, row.displacement, row.force[c.program.fracture.output.curve.component], debonded(c));
+    look_at_page(c, progress);
   };
   const Index first_step = c.state.step;
   FractureState next = c.state;
@@ -255,16 +275,33 @@ void repeat_warnings(Log& log) {
   for (const std::string& warning : log.warnings()) log.say(fmt::format("  - {}", warning));
 }
 
+/// "See force_displacement.csv (curve), fields.pvd (ParaView), run.log (all steps).", of what there is.
+std::string where_to_look(const std::filesystem::path& results) {
+  std::string files;
+  for (const auto& [what, file] : {std::pair("curve", curve_file), std::pair("ParaView", "fields.pvd"),
+                                   std::pair("laws", "cohesive.json"), std::pair("all steps", "run.log")})
+    if (std::filesystem::exists(results / file))
+      files += fmt::format("{}{} ({})", files.empty() ? "See " : ", ", file, what);
+  return files + ".";
+}
+
 /// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said at last.
 std::string finish(RunningCase& c, const std::string& status) {
   RunSummary summary = summary_of(c.program, c.session, c.run, c.times);
   summary.status = status;
   summary = c.results.write_summary(summary);
-  for (const std::string& line : what_happened(c.program.fracture, c.program.file, summary, c.results.folder()))
-    c.session.log.say("  " + line);
+  std::vector<std::string> told =
+      as_sentences(what_happened(c.program.fracture, c.program.file, summary, c.results.folder()));
+  for (const std::string& sentence : told) c.session.log.say("  " + sentence);
+  if (!c.results.wait()) c.session.log.say("  " + where_to_look(c.results.folder()));
   repeat_warnings(c.session.log);
-  return fmt::format("{} at step {}, load {:.6g}, after {:.1f} s; results in {}", status, c.state.step, c.state.load,
-                     c.times.whole.seconds(), c.session.results.string());
+  std::string ending = fmt::format("{} at step {}, load {:.6g}, after {}", status, c.state.step, c.state.load,
+                                   duration_words(c.times.whole.seconds()));
+  if (c.live && !c.results.wait()) {
+    told.insert(told.begin(), fmt::format("The run has ended: {}.", ending));
+    c.live->end(std::move(told), c.results.rows());
+  }
+  return fmt::format("{}; results in {}", ending, c.session.results.string());
 }
 
 std::string earlier_results_stay(const RunningCase& c) {
@@ -294,7 +331,7 @@ void solve(RunningCase& c) {
   try {
     const std::string status = advance(c);
     c.results.write_what_waits(c.state);
-    if (c.results.records_columns()) cohesive(c.program, c.session);
+    if (c.results.records_columns()) cohesive(c.program, c.session, true);
     c.session.log.say(finish(c, status));
   } catch (const Interrupted& wish) {
     const std::string told = finish_interrupted(c, wish.what());
@@ -358,6 +395,14 @@ void run_case(FractureProgram program, Session& session) {
                       FollowedRows(session.curve_to),
                       last ? *last : initial,
                       last.has_value()};
+  if (session.live)
+    running.live.emplace(LiveCase{.fracture = program.fracture,
+                                  .experiment = program.experiment,
+                                  .file = program.file,
+                                  .title = fmt::format("{}: {}", program.name, program.fracture.title),
+                                  .command = session.live->command,
+                                  .report = session.live->report},
+                         session);
   running.followed.write(curve_header() + "\n");
   solve(running);
 }
@@ -388,9 +433,9 @@ void fit(const FractureProgram& program, Session& session) {
             session);
 }
 
-void report(const FractureProgram& program, Session& session) {
-  write_report(fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
-               session, fracture_extras(program.fracture, program.file, program.hash, session.results));
+CasePage page_of(const FractureProgram& program, const Session& session) {
+  return {.report = fracture_page(program.fracture, program.experiment, program.name, program.hash, session.results),
+          .extras = fracture_extras(program.fracture, program.file, program.hash, session.results)};
 }
 
 /// The case that the program holds, once it is read; what needs [experiment] and [fit] is left out.
@@ -407,7 +452,7 @@ RunnableCase runnable(const std::shared_ptr<FractureProgram>& program) {
           .mesh = [program](Session& session) { mesh_only(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
           .cohesive = [program](Session& session) { cohesive(*program, session); },
-          .report = [program](Session& session) { report(*program, session); },
+          .page = [program](const Session& session) { return page_of(*program, session); },
           .prepare = [program](Session& session) { prepare(*program, session); },
           .data_files = data_files,
           .goes_on = true};

@@ -380,4 +380,22 @@ ReportPage fracture_page(const FractureCase& fracture, const std::optional<Exper
   return page;
 }
 
+ReportPage running_page(const FractureCase& fracture, const std::optional<ExperimentSettings>& experiment,
+                        const std::string& title, std::vector<CurveRow> curve) {
+  const FractureStory story{.fracture = fracture,
+                            .experiment = experiment,
+                            .curve = std::move(curve),
+                            .summary = std::nullopt,
+                            .records = {}};
+  ReportPage page{.title = title, .subtitle = "curves of the run, without its fields", .rows = {}};
+  std::vector<PageBlock> blocks;
+  if (!fracture.box) blocks.emplace_back(force_chart(story));
+  blocks.emplace_back(energy_chart(story));
+  blocks.emplace_back(iterations_chart(story));
+  if (!fracture.box) blocks.emplace_back(figures_table(story));
+  blocks.emplace_back(material_table(fracture));
+  page.rows = in_pairs(std::move(blocks));
+  return page;
+}
+
 }  // namespace pfdm

@@ -91,7 +91,9 @@ class FractureResults {
   /// Fills in what the curve and the last damage tell; returns the whole.
   RunSummary write_summary(RunSummary summary) const;
 
-  const CurveRow& last_row() const { return files_->curve.rows().back(); }
+  const std::vector<CurveRow>& rows() const { return files_->curve.rows(); }
+  const CurveRow& last_row() const { return rows().back(); }
+  const std::optional<FirstDebonding>& first_debonding() const { return debonding_; }
 
  private:
   /// The files that grow with the steps.

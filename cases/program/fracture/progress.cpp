@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace pfdm {
@@ -51,62 +52,97 @@ std::optional<double> TimeLeft::seconds(double elapsed) const {
   return iterations * elapsed / (before_ + now_);
 }
 
+std::optional<double> TimeLeft::steps() const {
+  if (steps_ == 0.0 || !(furthest_ > start_)) return std::nullopt;
+  return steps_ * std::max(0.0, end_ - furthest_) / (furthest_ - start_);
+}
+
+namespace {
+
+/// A piece of the line, and what stands before it.
+struct LinePart {
+  std::string text, before;
+  int importance;
+};
+
+std::vector<LinePart> line_parts(const ProgressFigures& figures) {
+  std::string steps = fmt::format("{} step{}", figures.steps, figures.steps == 1 ? "" : "s");
+  if (figures.about_steps > 0) steps = fmt::format("{} of about {} steps", figures.steps, figures.about_steps);
+  std::vector<LinePart> parts{{figures.reached, "", 5}};
+  if (!figures.event.empty()) parts.push_back({figures.event, ", ", 2});
+  parts.push_back({std::move(steps), "; ", 3});
+  if (figures.iteration > 0) parts.push_back({fmt::format("iteration {}", figures.iteration), ", ", 1});
+  parts.push_back({words_for(figures.seconds_left), "; ", 4});
+  return parts;
+}
+
+std::string whole_line(const std::vector<LinePart>& parts) {
+  std::string all;
+  for (const LinePart& part : parts) all += (all.empty() ? "" : part.before) + part.text;
+  return all;
+}
+
+}  // namespace
+
+std::string progress_words(const ProgressFigures& figures) { return whole_line(line_parts(figures)); }
+
 std::string progress_line(const ProgressFigures& figures, int columns) {
-  struct Part {
-    std::string text;
-    int importance;
-  };
-  std::vector<Part> parts{{fmt::format("load {:.4g}/{:.4g}", figures.load, figures.end), 4},
-                          {fmt::format("damaged {:.3g} m^3", figures.damaged_volume), 1},
-                          {fmt::format("step {} iteration {}", figures.step, figures.iteration), 2},
-                          {words_for(figures.seconds_left), 3}};
-  const auto text = [&] {
-    std::string all;
-    for (const Part& part : parts) all += (all.empty() ? "" : ", ") + part.text;
-    return all;
-  };
+  std::vector<LinePart> parts = line_parts(figures);
   constexpr int brackets = 3;
-  const auto room_for_bar = [&] { return columns - brackets - static_cast<int>(text().size()); };
-  while (parts.size() > 1 && columns < static_cast<int>(text().size()))
-    parts.erase(std::ranges::min_element(parts, {}, &Part::importance));
-  if (parts.size() == 4 && room_for_bar() < narrowest_bar) parts.erase(parts.begin() + 1);
+  const auto room_for_bar = [&] { return columns - brackets - static_cast<int>(whole_line(parts).size()); };
+  while (parts.size() > 1 && columns < static_cast<int>(whole_line(parts).size()))
+    parts.erase(std::ranges::min_element(parts, {}, &LinePart::importance));
   const int width = std::min(widest_bar, room_for_bar());
-  const std::string line = (width >= narrowest_bar ? bar(figures.share, width) : "") + text();
+  const std::string line = (width >= narrowest_bar ? bar(figures.share, width) : "") + whole_line(parts);
   return line.substr(0, static_cast<std::size_t>(std::max(0, columns)));
 }
 
-RunProgress::RunProgress(Log& log, double start, double end) : log_(log), end_(end), load_(start), left_(start, end) {}
+std::string debonded_words(const FirstDebonding& first, const Vector& axis) {
+  constexpr double upright = 0.99;
+  if (!std::isfinite(first.polar_from)) return fmt::format("\"{}\" debonded", first.surface);
+  const bool along = 0.5 * (first.polar_from + first.polar_to) < std::numbers::pi / 2.0;
+  if (axis.z() > upright) return along ? "upper pole debonded" : "lower pole debonded";
+  return along ? "pole along the load debonded" : "pole against the load debonded";
+}
+
+RunProgress::RunProgress(Log& log, double start, double end, ProgressUnits units)
+    : log_(log), end_(end), units_(std::move(units)), left_(start, end) {
+  figures_.reached = fmt::format("load {:.4g} of {:.4g}", start, end);
+  figures_.share = start / end;
+}
 
 double RunProgress::seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
 
-void RunProgress::draw(double load, Index step, Index iteration) {
+void RunProgress::draw() {
   if (Clock::now() - drawn_ < std::chrono::milliseconds(100)) return;
   drawn_ = Clock::now();
-  log_.progress(progress_line({.load = load,
-                               .end = end_,
-                               .share = load_ / end_,
-                               .damaged_volume = damaged_volume_,
-                               .step = step,
-                               .iteration = iteration,
-                               .seconds_left = left_.seconds(seconds())},
-                              log_.columns()));
+  log_.progress(progress_line(figures_, log_.columns()));
 }
 
 void RunProgress::iterated(const IterationReport& iteration) {
   left_.iterated(iteration.iteration, iteration.load);
-  draw(iteration.load, iteration.step, iteration.iteration);
+  figures_.iteration = iteration.iteration;
+  figures_.seconds_left = left_.seconds(seconds());
+  draw();
 }
 
-void RunProgress::step_done(const StepReport& step, double displacement, double force) {
-  load_ = step.load;
-  damaged_volume_ = step.damaged_volume;
+void RunProgress::step_done(const StepReport& step, double displacement, double force, const std::string& event) {
   left_.step_done(step.load);
-  draw(step.load, step.step, step.staggered_iterations);
-  log_.step(
-      fmt::format("step {:4}  load {:.5f}  displacement {:.4e} m  force {:.4e} N  max damage {:.4f}  "
-                  "damaged {:.3e} m^3  {:3} iterations  {} elapsed, {}",
-                  step.step, step.load, displacement, force, step.max_damage, step.damaged_volume,
-                  step.staggered_iterations, clock_time(seconds()), words_for(left_.seconds(seconds()))));
+  const std::string u = shown_in(units_.units.displacement, displacement), f = shown_in(units_.units.force, force);
+  figures_ = {.reached = units_.is_box ? fmt::format("load {:.4g} of {:.4g}", step.load, end_) : u + ", " + f,
+              .event = event,
+              .share = step.load / end_,
+              .steps = step.step,
+              .about_steps = 0,
+              .iteration = 0,
+              .seconds_left = left_.seconds(seconds())};
+  if (const auto more = left_.steps()) figures_.about_steps = step.step + static_cast<Index>(std::ceil(*more - 1e-6));
+  draw();
+  log_.step(fmt::format("step {:4}  load {:.5f}  {}max damage {:.4f}  damaged {}  {:3} iterations  {} elapsed, {}",
+                        step.step, step.load,
+                        units_.is_box ? std::string() : fmt::format("displacement {}  force {}  ", u, f),
+                        step.max_damage, shown_in({.si_unit = "m^3"}, step.damaged_volume), step.staggered_iterations,
+                        clock_time(seconds()), words_for(figures_.seconds_left)));
 }
 
 }  // namespace pfdm

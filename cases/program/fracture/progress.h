@@ -1,11 +1,14 @@
 #pragma once
 // How far a fracture run is: a line that is redrawn on a terminal, a line per step elsewhere.
 
+#include "cases/program/fracture/end_of_run.h"
 #include "cases/program/session/log.h"
+#include "postproc/cohesive/first_debonding.h"
 #include "solver/fracture/fracture_run.h"
 
 #include <chrono>
 #include <optional>
+#include <string>
 
 namespace pfdm {
 
@@ -20,6 +23,8 @@ class TimeLeft {
   void step_done(double load);
   /// [s], `elapsed` since the start; none while no step is done, or where the load has fallen back.
   std::optional<double> seconds(double elapsed) const;
+  /// That are still to come, by those so far; none while no step is done.
+  std::optional<double> steps() const;
 
  private:
   double start_, end_;
@@ -30,34 +35,49 @@ class TimeLeft {
 };
 
 struct ProgressFigures {
-  double load = 0.0, end = 1.0;  ///< parameter
-  double share = 0.0;            ///< of the load that is done
-  double damaged_volume = 0.0;   ///< [m^3]
-  Index step = 0, iteration = 0;
+  std::string reached;    ///< "454.3 um, 21.83 N"
+  std::string event;      ///< "lower pole debonded"; empty: nothing has
+  double share = 0.0;     ///< of the load that is done
+  Index steps = 0;        ///< that are done
+  Index about_steps = 0;  ///< of the whole run, by those so far; 0: not known
+  Index iteration = 0;    ///< of the step that is being made; 0: none
   std::optional<double> seconds_left{};
 };
 
-/// In at most so many columns: what is least important goes first.
+/// "454.3 um, 21.83 N, lower pole debonded; 26 of about 37 steps, iteration 5; 0:46 left"
+std::string progress_words(const ProgressFigures& figures);
+
+/// The same behind a bar, in at most so many columns: what is least important goes first.
 std::string progress_line(const ProgressFigures& figures, int columns);
+
+/// "lower pole debonded"; poles are called so where `axis` points up, along z, and else by the direction of the load.
+std::string debonded_words(const FirstDebonding& first, const Vector& axis);
+
+/// What a run shows of itself: of a box the load parameter, else displacement and force.
+struct ProgressUnits {
+  CurveUnits units;
+  bool is_box = false;
+};
 
 class RunProgress {
  public:
   /// `start` and `end` are values of the load parameter.
-  RunProgress(Log& log, double start, double end);
+  RunProgress(Log& log, double start, double end, ProgressUnits units);
   void iterated(const IterationReport& iteration);
-  /// displacement [m] and force [N] of the curve.
-  void step_done(const StepReport& step, double displacement, double force);
+  /// displacement [m] and force [N] of the curve; `event` as in ProgressFigures.
+  void step_done(const StepReport& step, double displacement, double force, const std::string& event);
+  const ProgressFigures& figures() const { return figures_; }
 
  private:
   using Clock = std::chrono::steady_clock;
   double seconds() const;
-  void draw(double load, Index step, Index iteration);
+  void draw();
 
   Log& log_;
   double end_;
-  double load_;
-  double damaged_volume_ = 0.0;
+  ProgressUnits units_;
   TimeLeft left_;
+  ProgressFigures figures_{};
   Clock::time_point began_ = Clock::now();
   Clock::time_point drawn_;
 };

@@ -139,9 +139,9 @@ void run_case(const HomogenizationProgram& program, Session& session) {
             session);
 }
 
-void report(const HomogenizationProgram& program, Session& session) {
-  write_report(homogenization_page(program.homogenization.title, program.name, program.hash, session.results), session,
-               {.hash = program.hash});
+CasePage page_of(const HomogenizationProgram& program, const Session& session) {
+  return {.report = homogenization_page(program.homogenization.title, program.name, program.hash, session.results),
+          .extras = {.hash = program.hash}};
 }
 
 RunnableCase read_program(const CaseFile& file) {
@@ -159,7 +159,7 @@ RunnableCase read_program(const CaseFile& file) {
           .check = [program](Session& session) { check(*program, session); },
           .mesh = [program](Session& session) { mesh_only(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
-          .report = [program](Session& session) { report(*program, session); },
+          .page = [program](const Session& session) { return page_of(*program, session); },
           .prepare =
               [program](Session& session) {
                 if (session.meshes != nullptr) find_mesh(*program, *session.meshes, session.log);

@@ -165,9 +165,10 @@ RunnableCase read_program(const CaseFile& file) {
                         .mesh = [program](Session& session) { mesh_only(*program, session); },
                         .run = [program](Session& session) { run_case(*program, session); },
                         .fit = [program](Session& session) { fit_plate(*program, session); },
-                        .report =
-                            [program](Session& session) {
-                              write_report(plate_page(*program, session), session, {.hash = program->hash});
+                        .page =
+                            [program](const Session& session) {
+                              return CasePage{.report = plate_page(*program, session),
+                                              .extras = {.hash = program->hash}};
                             },
                         .data_files = program->parsed.data_files};
   if (!program->fit)

@@ -138,16 +138,16 @@ RunnableCase read_program(const CaseFile& file) {
   if (program->point.fit)
     data.insert(data.end(), program->point.fit->data_files.begin(), program->point.fit->data_files.end());
   program->hash = case_hash(file, data);
-  RunnableCase runnable{.title = program->point.title,
-                        .check = [program](Session& session) { check(*program, session); },
-                        .run = [program](Session& session) { run_case(*program, session); },
-                        .report =
-                            [program](Session& session) {
-                              write_report(
-                                  endochronic_page(program->point, program->name, program->hash, session.results),
-                                  session, {.hash = program->hash});
-                            },
-                        .data_files = of_run};
+  RunnableCase runnable{
+      .title = program->point.title,
+      .check = [program](Session& session) { check(*program, session); },
+      .run = [program](Session& session) { run_case(*program, session); },
+      .page =
+          [program](const Session& session) {
+            return CasePage{.report = endochronic_page(program->point, program->name, program->hash, session.results),
+                            .extras = {.hash = program->hash}};
+          },
+      .data_files = of_run};
   runnable.fit = [program](Session& session) { fit_case(*program, session); };
   runnable.compare = [program](Session& session) {
     compare_with_experiments(*program->point.fit, program->point.law, program->name, program->hash, session);

@@ -81,20 +81,13 @@ fs::path case_of(const fs::path& results) {
   return {};
 }
 
-/// Quoted where the shell would take a part of it for its own.
-std::string shell_word(const std::string& word) {
-  const auto is_plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./+=:,@%").find(c) != std::string_view::npos;
-  };
-  return !word.empty() && std::ranges::all_of(word, is_plain) ? word : quoted(word);
-}
-
 std::string command_of(const fs::path& results) {
   const fs::path file = case_of(results);
   if (file.empty()) return {};
   const bool is_default = results.filename() == "results" && fs::exists(results.parent_path() / "case.toml");
-  const char* job = fs::exists(results / summary_file) || !fs::exists(results / "fit.json") ? "run" : "fit";
+  const char* job = "run";
+  if (!fs::exists(results / summary_file) && fs::exists(results / "fit.json")) job = "fit";
+  if (!fs::exists(results / summary_file) && fs::exists(results / "sweep.csv")) job = "sweep";
   return fmt::format("./pfdm {} {}", job, shell_word((is_default ? results.parent_path() : file).string()));
 }
 
@@ -144,11 +137,21 @@ std::vector<HeadFigure> figures_of_tables(const ReportPage& report) {
 
 bool is_told_elsewhere(const PageBlock& block, const BrowserExtras& extras) {
   if (const auto* text = std::get_if<TextBlock>(&block)) return text->caption == warnings_caption;
+  if (const auto* table = std::get_if<Table>(&block)) return extras.runs && table->caption == runs_caption;
+  if (std::holds_alternative<Chart>(block)) return extras.runs.has_value();  // any figure over any value is there
   const auto* picture = std::get_if<Picture>(&block);
   return picture != nullptr && extras.body && picture->caption.starts_with("Damage, plane");
 }
 
 }  // namespace
+
+std::string shell_word(const std::string& word) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./+=:,@%").find(c) != std::string_view::npos;
+  };
+  return !word.empty() && std::ranges::all_of(word, is_plain) ? word : quoted(word);
+}
 
 BrowserPage browser_page(ReportPage report, const fs::path& results, BrowserExtras extras) {
   for (PageRow& row : report.rows)
@@ -163,7 +166,8 @@ BrowserPage browser_page(ReportPage report, const fs::path& results, BrowserExtr
                    .case_text = {},
                    .steps = std::move(extras.steps),
                    .body = std::move(extras.body),
-                   .beside = std::move(extras.beside)};
+                   .beside = std::move(extras.beside),
+                   .runs = std::move(extras.runs)};
   for (const char* log : {"run.log", "fit.log"})
     for (std::string& warning : warnings_of(results / log)) page.warnings.push_back(std::move(warning));
   if (const fs::path file = case_of(results); !file.empty()) page.case_text = read_file(file);

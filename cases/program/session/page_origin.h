@@ -4,10 +4,14 @@
 #include "cases/program/session/report_parts.h"
 
 #include <filesystem>
+#include <string>
 
 namespace pfdm {
 
 /// Blocks of warnings are left out: all of them stand by themselves.
 BrowserPage browser_page(ReportPage report, const std::filesystem::path& results, BrowserExtras extras);
+
+/// A word of a command line, quoted where the shell would take a part of it for its own.
+std::string shell_word(const std::string& word);
 
 }  // namespace pfdm

@@ -100,8 +100,8 @@ void write_pages(const std::filesystem::path& folder, const ReportPage& page, Se
   session.log.say(fmt::format("open in a browser: {}", (folder / "index.html").string()));
 }
 
-void write_report(const ReportPage& page, Session& session, BrowserExtras extras) {
-  write_pages(session.results / "report", page, session, std::move(extras));
+void write_report(CasePage page, Session& session) {
+  write_pages(session.results / "report", page.report, session, std::move(page.extras));
 }
 
 }  // namespace pfdm

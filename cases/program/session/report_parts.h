@@ -29,6 +29,7 @@ void add_series(Chart& chart, const std::vector<double>& x, std::span<const std:
 std::vector<PageRow> in_pairs(std::vector<PageBlock> blocks);
 
 inline constexpr std::string_view warnings_caption = "Warnings";
+inline constexpr std::string_view runs_caption = "Runs";  ///< of a sweep, in a table
 
 /// The warnings of a log, each once; none if there is no such file.
 std::vector<std::string> warnings_of(const std::filesystem::path& log);
@@ -62,6 +63,13 @@ struct BrowserExtras {
   std::optional<Body> body{};
   std::vector<PageBlock> more{};  ///< after those on paper
   std::vector<std::string> beside{};
+  std::optional<RunSet> runs{};
+};
+
+/// A report on paper and in the browser.
+struct CasePage {
+  ReportPage report;
+  BrowserExtras extras{};
 };
 
 /// report.pdf, report.png and index.html in a folder, and says so. Warnings, the case as it ran and where it comes from
@@ -69,6 +77,6 @@ struct BrowserExtras {
 void write_pages(const std::filesystem::path& folder, const ReportPage& page, Session& session, BrowserExtras extras);
 
 /// The same in report/ of the session's results.
-void write_report(const ReportPage& page, Session& session, BrowserExtras extras);
+void write_report(CasePage page, Session& session);
 
 }  // namespace pfdm

@@ -12,6 +12,8 @@
 
 namespace pfdm {
 
+struct CasePage;
+
 /// A case that was read and found in order. A kind leaves out the jobs that mean nothing to it.
 struct RunnableCase {
   std::string title;
@@ -23,7 +25,8 @@ struct RunnableCase {
   std::function<void(Session&)> fit{};              ///< estimates the parameters that the case names
   std::function<void(Session&)> sweep{};            ///< runs with the sets of values that the case names
   std::function<void(Session&)> analyse{};          ///< what records say without a fit
-  std::function<void(Session&)> report{};           ///< pictures and plots on one page
+  std::function<void(Session&)> report{};           ///< pictures and plots on one page; read_case() makes it of `page`
+  std::function<CasePage(const Session&)> page{};   ///< what the results show
   std::function<void(Session&)> prepare{};          ///< makes what runs with other values share, as the mesh
   std::vector<std::filesystem::path> data_files{};  ///< that decide the results of `run` besides case.toml
   bool goes_on = false;                             ///< run with --restart, and fit, go on after an interruption

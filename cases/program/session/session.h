@@ -15,6 +15,12 @@ namespace pfdm {
 struct CaseFile;
 struct RunnableCase;
 
+/// Of a run whose page is kept up to date: the commands that the page names.
+struct LiveCommands {
+  std::string command;  ///< makes the results again
+  std::string report;   ///< makes the whole page
+};
+
 struct Session {
   std::filesystem::path results;   ///< directory
   bool restart = false;            ///< continue from the last complete output
@@ -24,12 +30,13 @@ struct Session {
   std::string version;
   RunnableCase (*read_case)(const CaseFile& file) = nullptr;  ///< of any kind: for jobs that run other cases
   Log& log;
-  bool strict = false;               ///< a fit that is not sound is an error
-  bool slurm = false;                ///< hand the runs of a sweep to Slurm
-  std::filesystem::path curve_to{};  ///< where a script reads the rows of the curve while the run goes on
-  bool figures_only = false;         ///< of many runs: summary and curves, no fields
-  MeshStore* meshes = nullptr;       ///< where meshes are kept that several runs share
-  ExportWords exports{};             ///< of cohesive
+  bool strict = false;                 ///< a fit that is not sound is an error
+  bool slurm = false;                  ///< hand the runs of a sweep to Slurm
+  std::filesystem::path curve_to{};    ///< where a script reads the rows of the curve while the run goes on
+  bool figures_only = false;           ///< of many runs: summary and curves, no fields
+  MeshStore* meshes = nullptr;         ///< where meshes are kept that several runs share
+  ExportWords exports{};               ///< of cohesive
+  std::optional<LiveCommands> live{};  ///< report/index.html is kept up to date while the run goes on
 };
 
 }  // namespace pfdm

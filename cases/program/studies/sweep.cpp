@@ -5,6 +5,7 @@
 #include "cases/program/session/runnable_case.h"
 #include "cases/program/session/stopwatch.h"
 #include "cases/program/studies/case_runs.h"
+#include "cases/program/studies/shown_columns.h"
 #include "cases/program/studies/sweep_on_slurm.h"
 #include "cases/program/studies/sweep_report.h"
 #include "postproc/curves/summary.h"
@@ -21,10 +22,6 @@ namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Numbers of a summary that tell what a run cost, in its last session alone, and not what came out.
-constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "krylov_iterations",
-                                      "wall_seconds", "cpu_seconds",          "peak_memory_bytes"};
 
 /// "regions.interface.toughness_J_per_m2"
 std::string column_name(const CaseParameter& parameter) {
@@ -128,7 +125,7 @@ CsvTable table_of(const SweepSettings& settings, const std::vector<DoneRun>& run
   const auto first = std::ranges::find_if(summaries, [](const auto& summary) { return summary.has_value(); });
   if (first == summaries.end()) return table;
   for (const auto& [name, ignored] : (*first)->numbers) {
-    if (std::ranges::count(costs, name) > 0) continue;
+    if (is_cost(name)) continue;
     std::vector<double> values;
     values.reserve(summaries.size());
     for (const auto& summary : summaries) values.push_back(summary ? summary->number(name) : Headlines::none);

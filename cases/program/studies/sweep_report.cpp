@@ -1,6 +1,8 @@
 #include "cases/program/studies/sweep_report.h"
 
 #include "cases/program/session/report_parts.h"
+#include "cases/program/studies/shown_columns.h"
+#include "cases/program/studies/sweep_runs.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/page/page_drawing.h"
@@ -21,49 +23,6 @@ constexpr std::size_t most_runs_shown = 40, most_figures = 6, most_columns = 3, 
 /// Figures that one asks for first; others that differ between the runs follow.
 constexpr std::string_view wanted_first[] = {"peak_force_N", "displacement_at_peak_m", "first_debonding_force_N",
                                              "first_debonding_displacement_m", "initial_stiffness_N_per_m"};
-
-/// Endings of columns' names, and the units that they stand for; the longest first.
-struct Ending {
-  std::string_view ending, unit;
-  bool takes_prefix;
-};
-constexpr Ending endings[] = {{"_N_per_m", "N/m", false}, {"_J_per_m2", "J/m²", false},
-                              {"_m2", "m^2", true},       {"_m3", "m^3", true},
-                              {"_Pa", "Pa", true},        {"_Hz", "Hz", true},
-                              {"_deg", "°", false},       {"_N", "N", true},
-                              {"_J", "J", true},          {"_m", "m", true},
-                              {"_s", "s", true},          {"_K", "K", false},
-                              {"_kg", "kg", false}};
-
-/// A column as it is shown: words, unit and the numbers in it.
-struct ShownColumn {
-  std::string words, unit;
-  std::vector<double> values;
-  std::string title() const { return fmt::format("{} [{}]", words, unit.empty() ? "-" : unit); }
-};
-
-ShownColumn shown_column(const CsvTable& table, std::size_t j) {
-  const std::string& name = table.names[j];
-  const auto ending = std::ranges::find_if(endings, [&](const Ending& e) { return name.ends_with(e.ending); });
-  ShownColumn column{.words = name, .unit = {}, .values = table.columns[j]};
-  if (ending != std::end(endings)) {
-    column.words = name.substr(0, name.size() - ending->ending.size());
-    DisplayUnit unit{.factor = 1.0, .name = std::string(ending->unit)};
-    if (ending->takes_prefix) unit = common_unit(std::span(&table.columns[j], 1), ending->unit);
-    column.unit = unit.name;
-    column.values = in_unit(table.columns[j], unit);
-  }
-  std::ranges::replace(column.words, '_', ' ');
-  return column;
-}
-
-/// Whether the finite values of a column differ.
-bool varies(const std::vector<double>& values) {
-  double least = INFINITY, most = -INFINITY;
-  for (const double value : values)
-    if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
-  return most - least > 1e-9 * std::max(std::abs(least), std::abs(most));
-}
 
 /// Numbers of columns: what the sweep changes, and figures that came out.
 struct SweepColumns {
@@ -91,12 +50,13 @@ Table runs_table(const CsvTable& table, const SweepColumns& columns) {
   all.insert(all.end(), columns.figures.begin(),
              columns.figures.begin() + static_cast<std::ptrdiff_t>(std::min(columns.figures.size(), most_columns)));
   const std::size_t n = std::min(table.n_rows(), most_runs_shown);
-  Table shown_table{.caption = n < table.n_rows() ? fmt::format("The first {} of {} runs", n, table.n_rows()) : "Runs",
+  Table shown_table{.caption = n < table.n_rows() ? fmt::format("The first {} of {} runs", n, table.n_rows())
+                                                  : std::string(runs_caption),
                     .rows = {{"run"}},
                     .has_header = true};
   for (std::size_t i = 0; i < n; ++i) shown_table.rows.push_back({fmt::format("{}", i + 1)});
   for (const std::size_t j : all) {
-    const ShownColumn column = shown_column(table, j);
+    const ShownColumn column = shown_column(table.names[j], table.columns[j]);
     shown_table.rows[0].push_back(column.title());
     for (std::size_t i = 0; i < n; ++i) shown_table.rows[i + 1].push_back(shown(column.values[i]));
   }
@@ -116,7 +76,8 @@ std::map<double, std::vector<std::size_t>> groups(const CsvTable& table, const S
 }
 
 Chart figure_chart(const CsvTable& table, const SweepColumns& columns, std::size_t x, std::size_t figure) {
-  const ShownColumn across = shown_column(table, x), up = shown_column(table, figure);
+  const ShownColumn across = shown_column(table.names[x], table.columns[x]),
+                    up = shown_column(table.names[figure], table.columns[figure]);
   Chart chart{.caption = up.words, .x = {.title = across.title()}, .y = {.title = up.title()}, .series = {}};
   const auto by_value = groups(table, columns, x);
   for (const auto& [value, runs] : by_value) {
@@ -127,7 +88,7 @@ Chart figure_chart(const CsvTable& table, const SweepColumns& columns, std::size
     Series series{.label = {}, .x = {}, .y = {}, .style = SeriesStyle::line_with_points};
     if (by_value.size() > 1) {
       const std::size_t other = columns.parameters[0] == x ? columns.parameters[1] : columns.parameters[0];
-      const ShownColumn column = shown_column(table, other);
+      const ShownColumn column = shown_column(table.names[other], table.columns[other]);
       series.label = fmt::format("{} {} {}", column.words, shown(column.values[runs.front()]), column.unit);
     } else if (columns.parameters.size() > 1) {
       series.style = SeriesStyle::points;
@@ -174,7 +135,7 @@ bool has_own_run(const fs::path& results) {
 
 void report_sweep(const std::string& title, Session& session) {
   const fs::path folder = session.results / "report" / (has_own_run(session.results) ? "sweep" : "");
-  write_pages(folder, sweep_page(session.results, title, session.version), session, {});
+  write_pages(folder, sweep_page(session.results, title, session.version), session, {.runs = sweep_runs(session)});
 }
 
 }  // namespace pfdm

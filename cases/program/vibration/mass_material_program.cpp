@@ -227,6 +227,10 @@ void run_case(const MassMaterialProgram& program, Session& session) {
             session);
 }
 
+CasePage page_of(const MassMaterialProgram& program, const Session& session) {
+  return {.report = mass_material_page(program, session), .extras = {.hash = program.hash}};
+}
+
 RunnableCase read_program(const CaseFile& file) {
   auto program =
       std::make_shared<MassMaterialProgram>(MassMaterialProgram{.file = file, .parsed = {}, .name = {}, .hash = {}});
@@ -241,9 +245,10 @@ RunnableCase read_program(const CaseFile& file) {
           .analyse = [program](Session& session) { analyse_mass_material(*program, session); },
           .report =
               [program](Session& session) {
-                write_report(mass_material_page(*program, session), session, {.hash = program->hash});
+                write_report(page_of(*program, session), session);
                 write_test_pages(*program, session);
               },
+          .page = [program](const Session& session) { return page_of(*program, session); },
           .data_files = program->parsed.data_files};
 }
 

@@ -49,7 +49,7 @@ std::optional<Model> model_of(const MassMaterialCase& c, bool fitted, const fs::
   return std::nullopt;
 }
 
-VibrationStory story_of(const MassMaterialProgram& program, Session& session) {
+VibrationStory story_of(const MassMaterialProgram& program, const Session& session) {
   VibrationStory story{.program = program,
                        .records = {},
                        .fit = find_of_case(session.results / "fit.json", program.hash, read_fit_json)};
@@ -270,7 +270,7 @@ std::string first_clause(const std::string& text) { return text.substr(0, text.f
 
 }  // namespace
 
-ReportPage mass_material_page(const MassMaterialProgram& program, Session& session) {
+ReportPage mass_material_page(const MassMaterialProgram& program, const Session& session) {
   const VibrationStory story = story_of(program, session);
   const VibrationRecord& record = story.record();
   const SegmentSettings& segments = program.parsed.analysis.segments;

@@ -1,9 +1,10 @@
 // The body: what is shown of it, and how.
 import { Cells, surface_of } from "./cells.js";
-import { colour_maps, diverging } from "./colours.js";
+import { colour_maps } from "./colours.js";
 import { controls_of, listen } from "./controls.js";
 import { integers, octets, quantised } from "./bytes.js";
 import { colour_of, element, save, shown } from "./elements.js";
+import { quantities_of } from "./quantities.js";
 import { Scene } from "./scene.js";
 
 const broken = 0.95;
@@ -36,19 +37,8 @@ function round_down(value) {
   return [5, 2, 1].find((k) => k * power <= value * (1 + 1e-9)) * power;
 }
 
-function quantile_range(blocks, scale) {
-  const sample = [];
-  const every = Math.max(1, Math.floor((blocks.length * blocks[0].length) / 60000));
-  let k = 0;
-  for (const block of blocks)
-    for (; k < block.length || ((k -= block.length), false); k += every) sample.push(block[k]);
-  sample.sort((a, b) => a - b);
-  const at = (q) => scale * sample[Math.min(sample.length - 1, Math.floor(q * sample.length))];
-  return [at(0.002), at(0.998)];
-}
-
 export class Body {
-  constructor(data, steps, on_frame) {
+  constructor(data, steps, on_frame, title = "The body") {
     this.data = data;
     this.steps = steps;
     this.on_frame = on_frame;
@@ -61,18 +51,29 @@ export class Body {
     this.note = element("div", { class: "note" });
     this.read = element("div", { class: "read" });
     this.state = element("p", { class: "state", "aria-live": "polite" });
-    this.section = element("section", { id: "body" }, element("h2", {}, "The body"), this.holder);
+    this.section = element("section", { class: "body" }, element("h2", {}, title), this.holder);
   }
 
   async start() {
+    await this.load();
+    const { steps, state, scale, choices } = this.show();
+    this.section.append(steps, state, scale, ...choices);
+  }
+
+  async load() {
     Object.assign(this, await unpacked(this.data));
     this.prepare();
+  }
+
+  /** Draws what was loaded; returns its controls. */
+  show() {
     this.scene = new Scene(this.holder);
     this.holder.append(this.note, this.read);
-    this.section.append(...controls_of(this));
+    const controls = controls_of(this);
     this.repaint();
     this.home();
     listen(this);
+    return controls;
   }
 
   prepare() {
@@ -93,33 +94,7 @@ export class Body {
     this.regions = data.regions.map(() => true);
     this.hide_broken = true;
     this.mesh_lines = false;
-    const displacement = {
-      name: "displacement",
-      unit: data.displacement_unit.name,
-      factor: data.displacement_unit.factor,
-      at_points: (f, i) => Math.hypot(...this.moves.map((axis) => axis[f][i])),
-      range: [0, most * data.displacement_unit.factor],
-    };
-    const component = {
-      name: `displacement ${"xyz"[data.component]}`,
-      unit: displacement.unit,
-      factor: displacement.factor,
-      at_points: (f, i) => this.moves[data.component][f][i],
-      range: [data.displacement[data.component].from, data.displacement[data.component].to].map(
-        (v) => v * displacement.factor,
-      ),
-    };
-    this.quantities = data.fields.map((field, k) => ({
-      ...field,
-      at_cells: this.fields[k],
-      range: field.name === "damage" ? [0, 1] : quantile_range(this.fields[k], field.factor),
-    }));
-    this.quantities.push(displacement, component);
-    for (const q of this.quantities) {
-      q.map = q.range[0] < 0 && q.range[1] > 0 ? diverging : q.name === "damage" ? "light to dark" : "viridis";
-      if (q.map === diverging) q.range = [-1, 1].map((s) => s * Math.max(-q.range[0], q.range[1]));
-      if (!(q.range[0] < q.range[1])) q.range = [q.range[0], q.range[0] + (Math.abs(q.range[0]) || 1)];
-    }
+    this.quantities = quantities_of(data, this.moves, this.fields, most);
     const has_damage =
       this.quantities[0].name === "damage" && this.fields[0].some((block) => block.some((v) => v > 0.05));
     this.quantity = this.quantities[has_damage ? 0 : Math.min(1, this.quantities.length - 1)];
@@ -174,6 +149,26 @@ export class Body {
       borders: of_ends(this.soup.borders),
     });
     this.tell();
+    for (const other of this.followers ?? []) other.follow(this);
+  }
+
+  /** Shows what another body shows, as far as this one has it. */
+  follow(lead) {
+    const same = this.quantities.find((quantity) => quantity.name === lead.quantity.name);
+    if (same) {
+      this.quantity = same;
+      same.map = lead.quantity.map;
+    }
+    for (const choice of ["warp", "hide_broken", "mesh_lines"]) this[choice] = lead[choice];
+    const { axis, at, flipped } = lead.cut;
+    const part = axis < 0 ? 0 : (at - lead.lower[axis]) / (lead.size[axis] || 1);
+    if (!this.is_flat && this.data.cuts !== "none")
+      this.cut = { axis, at: axis < 0 ? 0 : this.lower[axis] + part * this.size[axis], flipped };
+    this.data.regions.forEach((name, r) => {
+      const theirs = lead.data.regions.indexOf(name);
+      if (theirs >= 0) this.regions[r] = lead.regions[theirs];
+    });
+    this.draw();
   }
 
   /** A coordinate of a vertex, moved. */

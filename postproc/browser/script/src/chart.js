@@ -104,6 +104,13 @@ const with_label = (name) => (u, ticks) => {
   });
 };
 
+/** As many digits as tell a tick from the next. */
+function tick_words(value, step) {
+  const digits = Math.ceil(Math.log10(Math.abs(value) / step)) + 1;
+  const plain = Math.abs(value) >= 1e-3 && Math.abs(value) < 1e6;
+  return digits > 4 && digits < 15 && plain ? String(Number(value.toPrecision(digits))) : shown(value);
+}
+
 function options_of(chart, width, hooks) {
   const scale = (axis) => ({
     time: false,
@@ -120,7 +127,7 @@ function options_of(chart, width, hooks) {
     labelFont: '14px "Liberation Sans", Helvetica, Arial, sans-serif',
     size: name === "y" ? 64 : 44,
     ...(chart[name].logarithmic ? { filter: with_label(name) } : {}),
-    values: (u, ticks) => ticks.map((v) => (v === null ? "" : shown(v))),
+    values: (u, ticks, _, space, step) => ticks.map((v) => (v === null ? "" : tick_words(v, step))),
   });
   return {
     mode: 2,

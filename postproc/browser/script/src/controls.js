@@ -56,10 +56,9 @@ export function controls_of(body) {
       body.draw();
     },
   });
-  const rows = [
-    element("div", { class: "steps", hidden: last === 0 }, body.play_button, body.slider),
-    body.state,
-    (body.scale = element("div", { class: "scale" })),
+  const steps = element("div", { class: "steps", hidden: last === 0 }, body.play_button, body.slider);
+  body.scale = element("div", { class: "scale" });
+  const choices = [
     element(
       "div",
       { class: "controls" },
@@ -72,9 +71,9 @@ export function controls_of(body) {
       element("button", { onclick: () => body.save_picture() }, "Picture"),
     ),
   ];
-  if (!body.is_flat && data.cuts !== "none") rows.push(cut_controls(body, choice, label));
+  if (!body.is_flat && data.cuts !== "none") choices.push(cut_controls(body, choice, label));
   if (data.regions.length > 1)
-    rows.push(
+    choices.push(
       element(
         "div",
         { class: "controls" },
@@ -82,7 +81,7 @@ export function controls_of(body) {
         ...data.regions.map((name, r) => check(name, true, (on) => (body.regions[r] = on))),
       ),
     );
-  return rows;
+  return { steps, state: body.state, scale: body.scale, choices };
 }
 
 function cut_controls(body, choice, label) {

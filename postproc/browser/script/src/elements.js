@@ -26,8 +26,11 @@ export function shown(value) {
   return String(Number(value.toPrecision(size >= 1e4 ? 6 : 4)));
 }
 
-/** Calls `act` after the size of an element has changed, and at first. */
-export const on_size = (watched, act) => new ResizeObserver(() => setTimeout(act)).observe(watched);
+/** Calls `act` after the size of an element has changed, and once what is built now is in the page. */
+export function on_size(watched, act) {
+  setTimeout(act);
+  new ResizeObserver(() => setTimeout(act)).observe(watched);
+}
 
 /** Gives the reader a file. */
 export function save(name, content, type) {

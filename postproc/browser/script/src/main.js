@@ -1,10 +1,13 @@
 // The page: everything that its data say, one section after the other.
 import uplot_css from "uplot/dist/uPlot.min.css";
 import page_css from "./page.css";
+import { bodies_section } from "./bodies.js";
 import { Body } from "./body.js";
 import { chart_section } from "./chart.js";
 import { element, save } from "./elements.js";
+import { keep_theme, kept_theme, live_section } from "./live.js";
 import { picture_section } from "./picture.js";
+import { runs_sections } from "./runs.js";
 
 const data = JSON.parse(document.getElementById("pfdm-data").textContent);
 const repaints = [];
@@ -14,9 +17,10 @@ function table_section(table) {
   const rows = table.rows.map((cells, i) =>
     element("tr", {}, ...cells.map((cell) => element(i === 0 && table.has_header ? "th" : "td", {}, cell))),
   );
+  const is_broad = data.first && (table.rows[0]?.length ?? 0) > 3;
   return element(
     "section",
-    {},
+    { class: is_broad ? "broad" : "" },
     element("h2", {}, table.caption),
     element("div", { class: "scrolls" }, element("table", {}, ...rows)),
   );
@@ -50,7 +54,10 @@ function set_theme(theme) {
 }
 
 function head() {
-  const other = () => set_theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
+  const other = () => {
+    set_theme(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
+    keep_theme(document.documentElement.dataset.theme);
+  };
   return element(
     "header",
     {},
@@ -85,7 +92,26 @@ function origin() {
   return section;
 }
 
+function told_when_shown(start, holder) {
+  start.then(
+    () => (document.documentElement.dataset.body = "shown"),
+    (error) => {
+      document.documentElement.dataset.body = "missing";
+      holder.replaceChildren(
+        element("p", { style: "padding: 20px" }, `The body cannot be shown: ${error.message}. The curves do without.`),
+      );
+    },
+  );
+}
+
+function side_by_side() {
+  const { section, start, repaint } = bodies_section(data.bodies, data.bodies_axis);
+  repaints.push(repaint);
+  return { section, started: () => told_when_shown(start(), section) };
+}
+
 function stage(link_holder) {
+  if (data.bodies) return side_by_side();
   if (!data.body) return null;
   let row = data.body.frames[data.body.frames.length - 1];
   const body = new Body(data.body, data.steps, (now) => {
@@ -100,29 +126,17 @@ function stage(link_holder) {
     if (at >= 0) right.append(section_of(data.blocks.splice(at, 1)[0], link_holder.link));
   }
   repaints.push(() => body.repaint());
-  const started = () => {
-    body.start().then(
-      () => (document.documentElement.dataset.body = "shown"),
-      (error) => {
-        document.documentElement.dataset.body = "missing";
-        body.holder.replaceChildren(
-          element(
-            "p",
-            { style: "padding: 20px" },
-            `The body cannot be shown: ${error.message}. The curves do without.`,
-          ),
-        );
-      },
-    );
-  };
+  const started = () => told_when_shown(body.start(), body.holder);
   return { section: element("div", { class: "pair stage" }, body.section, right), started };
 }
 
 function build() {
   document.head.append(element("style", {}, uplot_css + page_css));
-  document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  document.documentElement.dataset.theme =
+    kept_theme() ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
   const holder = {};
   const main = element("main", {}, head());
+  if (data.live) main.append(live_section(data.live));
   if (data.headline.length)
     main.append(element("div", { class: "headline" }, ...data.headline.map((line) => element("p", {}, line))));
   if (data.figures.length) main.append(element("div", { class: "figures" }, ...data.figures.map(figure)));
@@ -135,8 +149,18 @@ function build() {
         element("ul", {}, ...data.warnings.map((w) => element("li", {}, w))),
       ),
     );
+  for (const block of data.first ?? []) {
+    const section = section_of(block);
+    section.querySelector(".scrolls")?.classList.add("tall");
+    main.append(element("div", { class: "wide" }, section));
+  }
   const shown_body = stage(holder);
   if (shown_body) main.append(shown_body.section);
+  if (data.runs) {
+    const sections = runs_sections(data.runs);
+    for (const section of sections) repaints.push(() => section.repaint?.());
+    main.append(...sections);
+  }
   main.append(element("div", { class: "grid" }, ...data.blocks.map((block) => section_of(block, holder.link))));
   main.append(origin());
   document.body.append(main);

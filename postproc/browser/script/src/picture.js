@@ -28,7 +28,7 @@ export function picture_section(picture) {
     const width = canvas.clientWidth;
     if (!width || (!anew && width === drawn)) return;
     drawn = width;
-    const height = picture.stretched ? Math.round(0.55 * width) : Math.round(Math.min(900, (width * high) / wide));
+    const height = picture.stretched ? Math.round(0.55 * width) : Math.round(Math.min(600, (width * high) / wide));
     const ratio = window.devicePixelRatio || 1;
     canvas.style.height = `${height}px`;
     canvas.width = width * ratio;

@@ -121,6 +121,7 @@ export class Scene {
 
   /** From the next picture on: at the middle from `direction`, `up` upwards; `half`: half the height that is seen. */
   look(middle, direction, up, distance, half) {
+    this.home = { middle, half };
     const camera = this.renderer.getActiveCamera();
     camera.setFocalPoint(...middle);
     camera.setPosition(...middle.map((c, i) => c + distance * direction[i]));
@@ -128,6 +129,39 @@ export class Scene {
     camera.setParallelProjection(true);
     camera.setParallelScale(half);
     this.renderer.updateLightsGeometryToFollowCamera();
+  }
+
+  /** Calls `act` after the camera has moved, once for all that moves it before the next picture. */
+  on_camera(act) {
+    let waits = false;
+    this.renderer.getActiveCamera().onModified(() => {
+      if (waits) return;
+      waits = true;
+      requestAnimationFrame(() => ((waits = false), act()));
+    });
+  }
+
+  /** Sees its body as another scene sees its own; nothing where it does already. */
+  see_as(other) {
+    const from = other.renderer.getActiveCamera();
+    const camera = this.renderer.getActiveCamera();
+    const ratio = this.home.half / other.home.half;
+    const focal = from.getFocalPoint();
+    const here = this.home.middle.map((c, i) => c + ratio * (focal[i] - other.home.middle[i]));
+    const place = from.getPosition().map((c, i) => here[i] + ratio * (c - focal[i]));
+    const scale = ratio * from.getParallelScale();
+    const up = from.getViewUp();
+    const now = [...camera.getFocalPoint(), ...camera.getPosition(), ...camera.getViewUp(), camera.getParallelScale()];
+    const size = Math.hypot(...place.map((c, i) => c - here[i]));
+    const same = [...here, ...place].every((v, i) => Math.abs(v - now[i]) < 1e-6 * size);
+    if (same && up.every((v, i) => Math.abs(v - now[6 + i]) < 1e-6) && Math.abs(scale / now[9] - 1) < 1e-6) return;
+    camera.setFocalPoint(...here);
+    camera.setPosition(...place);
+    camera.setViewUp(...up);
+    camera.setParallelScale(scale);
+    this.renderer.resetCameraClippingRange();
+    this.renderer.updateLightsGeometryToFollowCamera();
+    this.window.render();
   }
 
   turn(azimuth, elevation) {
