@@ -18,7 +18,7 @@
 // E (x_image - x_node); the work of the forces on these moves, by E, is the mean stress times the volume: that is their
 // equation.
 //
-// All const functions may be called by several threads at once.
+// Const functions keep nothing between calls: the work space of a sweep belongs to its caller.
 
 #include "physics/elasticity/linear_stress.h"
 #include "solver/linear/block_matrix.h"
