@@ -38,7 +38,11 @@ double strength(const char* folder, double toughness) {
 
 }  // namespace
 
-int main(int, char** words) {
+int main(int n, char** words) {
+  if (n != 2) {
+    std::fprintf(stderr, "usage: 2_toughnesses .../cases/bar_at2\n");
+    return 2;
+  }
   const double E = 30e9, ell = 5e-3, area = 1e-6;
   int status = 0;
   for (const double toughness : {60.0, 80.0, 100.0}) {

@@ -12,6 +12,7 @@
 #include "cases/program/reference/key_schema.h"
 #include "cases/program/session/external_program.h"
 #include "cases/program/session/message_text.h"
+#include "cases/program/session/page_origin.h"
 #include "cases/program/session/stop_signal.h"
 #include "cases/program/studies/comparison_page.h"
 #include "cases/program/studies/sweep_on_slurm.h"
@@ -40,7 +41,7 @@ enum ExitStatus { done = 0, computation_failed = 1, input_wrong = 2 };
 std::string options_of(const CommandLine& line) {
   std::string options;
   for (const std::string& word : line.set) options += fmt::format(" --set {}", quoted(word));
-  return line.output.empty() ? options : fmt::format("{} --output {}", options, line.output);
+  return line.output.empty() ? options : fmt::format("{} --output {}", options, shell_word(line.output));
 }
 
 /// What is kept after an interruption, and how the job is continued.
@@ -51,14 +52,14 @@ std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
     return fmt::format("; earlier results are unchanged, and the same command starts the {} from the beginning",
                        line.command);
   if (line.command != "run") return "";
-  return fmt::format("; pfdm run {}{} --restart continues from the last complete step", line.case_directory,
+  return fmt::format("; pfdm run {}{} --restart continues from the last complete step", shell_word(line.case_directory),
                      options_of(line));
 }
 
 /// A command on the same case and results, as the user would give it.
 std::string command_on_same(const CommandLine& line, std::string_view command) {
   const char* launcher = std::getenv("PFDM_LAUNCHER");  // that the user has called
-  return fmt::format("{} {} {}{}", launcher != nullptr ? launcher : "pfdm", command, line.case_directory,
+  return fmt::format("{} {} {}{}", launcher != nullptr ? launcher : "pfdm", command, shell_word(line.case_directory),
                      options_of(line));
 }
 
@@ -141,10 +142,11 @@ void do_case(const CommandLine& line, std::ostream& out, std::ostream& err, bool
     const RunnableCase runnable = read_case(file);
     for (const std::string& remark : file.config.remarks()) log.say(remark);
     if (session.results.empty()) session.results = own_results(file);
-    if (!line.curve_to.empty() && !runnable.goes_on)
-      throw InputError("--curve-to: only runs of kind \"fracture\" and \"homogenize\" have a curve that grows");
-    if (line.live && !runnable.goes_on)
-      throw InputError("--live: only runs of kind \"fracture\" and \"homogenize\" have a page while they go on");
+    if ((!line.curve_to.empty() || line.live) && !runnable.has_steps)
+      throw InputError(
+          fmt::format("{}: only runs of kind \"fracture\", and of kind \"homogenize\" along a path of loads, "
+                      "have steps to follow",
+                      line.live ? "--live" : "--curve-to"));
     if (line.live) session.live = live_commands(line);
     do_job(job_of(line, runnable), session, way_on(line, runnable));
     say_next(line, runnable, log);

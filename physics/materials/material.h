@@ -60,8 +60,8 @@ class Material {
   virtual bool is_finite_strain() const { return false; }
   /// Whether the response depends on the duration of a step, which must then be positive.
   virtual bool depends_on_rate() const { return false; }
-  /// Whether the mean stress relaxes at a volume that is held.
-  virtual bool relaxes_in_volume() const { return false; }
+  /// What is left of the elasticity after any time under a strain that is held.
+  virtual IsotropicElasticity relaxed_elasticity() const { return elasticity_; }
 
   virtual std::size_t history_size() const = 0;
   virtual void start(std::span<double> history) const { std::ranges::fill(history, 0.0); }  ///< the virgin state

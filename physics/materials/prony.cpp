@@ -50,7 +50,7 @@ class Prony final : public SmallStrainMaterial {
         heat_(mean_ + 6) {}
 
   bool depends_on_rate() const override { return true; }
-  bool relaxes_in_volume() const override { return !law_.bulk.empty(); }
+  IsotropicElasticity relaxed_elasticity() const override { return law_.relaxed; }
   std::size_t history_size() const override { return heat_ + 1; }
   std::vector<HistoryField> history_fields() const override { return {{"viscous_strain", "1", mean_, 6}}; }
 

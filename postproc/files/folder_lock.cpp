@@ -40,10 +40,10 @@ void make(const std::filesystem::path& folder) {
 /// Whether a run, a fit, a mesh or an export has written there, also one of a version that did not mark its folders, or
 /// the folder is that of a case.
 bool holds_results(const fs::path& folder) {
-  constexpr const char* signs[] = {
-      owned_folder_mark, "run.log",   "summary.json", "fit.json",       "chain.json",
-      "comparison.json", "sweep.csv", "mesh.vtu",     "checkpoint.bin", "case.toml",
-      "cohesive_law",    "report",    "history.csv",  "analysis",       "force_displacement.csv"};
+  constexpr const char* signs[] = {owned_folder_mark, "run.log",         "summary.json",  "fit.json",
+                                   "chain.json",      "comparison.json", "compared.json", "sweep.csv",
+                                   "mesh.vtu",        "checkpoint.bin",  "case.toml",     "cohesive_law",
+                                   "report",          "history.csv",     "analysis",      "force_displacement.csv"};
   return std::ranges::any_of(signs, [&](const char* sign) { return fs::exists(folder / sign); });
 }
 

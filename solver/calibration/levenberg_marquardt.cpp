@@ -72,10 +72,12 @@ class Recorder : public ceres::IterationCallback {
     }
     // Before the first successful step Ceres 2.2 leaves the norm at zero.
     const bool was_tried = summary.iteration > 0 && summary.step_is_valid && summary.step_norm > 0.0;
-    if (is_hopeless(summary.iteration)) result_.message = "at its pace it would not come down to what is due";
-    const bool is_over = !result_.message.empty() || (was_tried && summary.step_norm < settings_.least_step);
+    gave_up_ = gave_up_ || is_hopeless(summary.iteration);
+    const bool is_over = gave_up_ || (was_tried && summary.step_norm < settings_.least_step);
     return is_over ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
+
+  bool gave_up() const { return gave_up_; }
 
  private:
   bool is_hopeless(int iteration) const {
@@ -89,6 +91,7 @@ class Recorder : public ceres::IterationCallback {
 
   const LeastSquaresSettings& settings_;
   LeastSquaresResult& result_;
+  bool gave_up_ = false;
 };
 
 ceres::Solver::Options options_of(const LeastSquaresSettings& settings) {
@@ -149,11 +152,11 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, const VectorXd& 
   options.callbacks.push_back(&recorder);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &ceres_problem, &summary);
-  result.converged = summary.termination_type == ceres::CONVERGENCE || summary.termination_type == ceres::USER_SUCCESS;
-  if (result.message.empty())
-    result.message = summary.termination_type == ceres::USER_SUCCESS
-                         ? fmt::format("the last step was shorter than {:g}", settings.least_step)
-                         : summary.message;
+  const bool stopped_here = summary.termination_type == ceres::USER_SUCCESS;
+  result.converged = !recorder.gave_up() && (stopped_here || summary.termination_type == ceres::CONVERGENCE);
+  result.message = recorder.gave_up() ? "at its pace it would not come down to what is due"
+                   : stopped_here     ? fmt::format("the last step was shorter than {:g}", settings.least_step)
+                                      : summary.message;
   if (summary.IsSolutionUsable()) result.cost = summary.final_cost;
   return result;
 }

@@ -208,7 +208,8 @@ double CellStiffness::residual_energy(Index cell, double psi_plus, const Fractur
   const RegionModel& region = model_.in_cell(mesh_, cell);
   if (!region.damageable) return 0.0;
   const double lost = 1.0 - model_.degradation_of(region).g(seen(cell, state));
-  return model_.residual_stiffness * lost * psi_plus * mesh_.cell_volume[cell];
+  const double idle = materials_.has(cell) ? materials_.energy(cell, state.histories).idle : 0.0;
+  return model_.residual_stiffness * lost * (psi_plus + idle) * mesh_.cell_volume[cell];
 }
 
 CellField<Mandel> CellStiffness::eigenstrain_moments(const CellMechanics& mechanics, const FractureState& state,

@@ -62,7 +62,8 @@ class CellStiffness {
   /// By which eigenstrains do work, minus these times their growth [J]; empty without eigenstrains.
   CellField<Mandel> eigenstrain_moments(const CellMechanics& mechanics, const FractureState& state,
                                         const Vector& plane_normal) const;
-  /// Energy dissipated by the materials [J] from one state to the other.
+  /// Energy dissipated by the materials [J] from one state to the other, with the heat of what damage has freed and did
+  /// not drive it.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
   /// Of the undamaged material [Pa], on which strength depends: at finite strain Biot's.
   Tensor undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const;

@@ -159,16 +159,27 @@ void require_history(const FractureModel& m, const Material& law, const LoadingS
                     law.name()));
 }
 
-// What a split keeps in closed cracks is elastic.
-void require_open_volume(const FractureModel& m, const RegionModel& region) {
+// Where elasticity relaxes: energies drive the damage, one modulus makes no strength, and what a split keeps in closed
+// cracks is elastic.
+void require_relaxing(const FractureModel& m, const RegionModel& region) {
+  const IsotropicElasticity relaxed = region.material->relaxed_elasticity();
+  if (!region.damageable || relaxed == region.elasticity) return;
   const EnergySplit& split = m.split_of(region);
-  if (!region.damageable || !region.material->relaxes_in_volume() || !split.has_secant()) return;
-  if (split.secant(region.elasticity, 0.5, 1.0) == split.secant(region.elasticity, 0.5, 0.0)) return;
-  throw InputError(fmt::format(
-      "a damageable material of the law \"{}\" whose volume relaxes (bulk_branches) cannot be combined with "
-      "the energy split \"{}\", which keeps the bulk modulus of closed cracks; leave out bulk_branches, or "
-      "choose the split \"none\"",
-      region.material->name(), split.name()));
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("a damageable material of the law \"{}\" cannot be combined with {}",
+                                 region.material->name(), what));
+  };
+  if (!split.is_variational())
+    refuse(fmt::format("the energy split \"{}\", whose driving energy is not the one that is stored", split.name()));
+  if (m.degradation_of(region).law().needs_strength)
+    refuse(
+        fmt::format("the degradation \"{}\", whose strength is that of one modulus", m.degradation_of(region).name()));
+  if (relaxed.bulk_modulus() != region.elasticity.bulk_modulus() &&
+      split.secant(region.elasticity, 0.5, 1.0) != split.secant(region.elasticity, 0.5, 0.0))
+    refuse(
+        fmt::format("bulk_branches and the energy split \"{}\", which keeps the bulk modulus of closed cracks; leave "
+                    "out bulk_branches, or choose the split \"none\"",
+                    split.name()));
 }
 
 constexpr double close_to_zero = 1e-9;  // of a vector's part, relative
@@ -301,7 +312,7 @@ void require_combination(const Mesh& mesh, const FractureModel& model, const Unk
   for (const RegionModel& region : model.regions)
     if (region.material && !model.is_finite_strain()) {
       require_history(model, *region.material, loading);
-      require_open_volume(model, region);
+      require_relaxing(model, region);
     }
   if (model.is_finite_strain()) require_finite(mesh, model, unknowns, loading);
   if (model.has_strength()) require_strength(model);

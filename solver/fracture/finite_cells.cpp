@@ -164,7 +164,8 @@ FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure
   const double mean = free.inverse().squaredNorm() / 3.0;  // of m.m
   law.stress = free.stress(law.stress);
   law.A = free.tangent(law.A);
-  law.face.mu *= free.volume() * mean;
+  law.free_share = free.volume() * mean;
+  law.face.mu *= law.free_share;
   law.face.lambda /= free.volume();
   law.swelling /= mean;
   law.free_change = free.change();

@@ -70,11 +70,10 @@ struct LineSearch {
 
 bool inverts(const MomentumOperator& balance) {
   constexpr double least_volume = 0.1, damaged = 0.5;
-  return parallel_sum(balance.finite()->states().deformation().size(), [&](Index c) {
-           return !balance.finite()->states().is_softer(c, damaged) &&
-                          balance.finite()->states().deformation()[c].determinant() < least_volume
-                      ? 1.0
-                      : 0.0;
+  if (balance.finite() == nullptr) return false;
+  const FiniteStates& states = balance.finite()->states();
+  return parallel_sum(states.deformation().size(), [&](Index c) {
+           return !states.is_softer(c, damaged) && states.elastic_volume(c) < least_volume ? 1.0 : 0.0;
          }) > 0.0;
 }
 

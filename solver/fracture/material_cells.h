@@ -1,9 +1,9 @@
 #pragma once
 // The cells whose material is a law with a history (physics/materials/material.h). Damage degrades their effective
 // stress sigma_0(eps, history), which does not depend on damage: sigma = g sigma_0, plus the elastic stress that the
-// energy split keeps in compression. Damage is driven by the energy that the effective material stores, psi_plus of the
-// elastic strain and what the law locks up; so work = stored energy + surface energy + g times the plastic dissipation
-// of the effective material.
+// energy split keeps in compression. The law says which part of the stored energy drives damage (MaterialEnergy); the
+// rest, `idle`, becomes heat where damage frees it. So work = stored energy + surface energy + g times the dissipation
+// of the effective material + heat of what was idle. Strains are those less the eigenstrain.
 //
 // Within a load step each equilibrium is linear, with the stress linearised at the last strain eps_k by the consistent
 // tangent T: sigma_0 = sigma_0(eps_k) + T (eps - eps_k). The first of a step is elastic, as the load may reverse. The

@@ -249,10 +249,7 @@ CoupledNewton::Moved Staggered::Loop::advance(CellField<double>& answer) {
   auto moved = CoupledNewton::Moved::no;
   if (newton) {
     const auto lap = s.clock_.lap("coupled_newton");
-    const std::vector<Vector> load = s.momentum_.balance().load_vector(state.load);
-    double energy = energies.stored + s.momentum_.balance().foundation_energy(state.displacement) +
-                    s.damage_.fracture_energy(state.damage);
-    for (std::size_t i = 0; i < load.size(); ++i) energy -= load[i].dot(state.displacement[i]);
+    const double energy = energies.stored + s.damage_.fracture_energy(state.damage) + s.potential_of_loads(state);
     moved = newton->move({energy, lower}, state, answer);
     report.krylov_iterations += newton->krylov_iterations();
   }
@@ -289,9 +286,14 @@ double Staggered::reduced_energy(FractureState state) {
       state.displacement, MomentumOperator::Wanted::without_gradient, stiffness_.degradable_part(state));
   double energy = damage_.renewed_fracture_energy(state.damage);
   energy += parallel_sum(mesh_.n_cells(), [&](Index c) { return stiffness_.stored_energy(c, mechanics, state); });
+  return energy + potential_of_loads(state);
+}
+
+double Staggered::potential_of_loads(const FractureState& state) const {
   const std::vector<Vector> load = momentum_.balance().load_vector(state.load);
-  for (std::size_t i = 0; i < load.size(); ++i) energy -= load[i].dot(state.displacement[i]);
-  return energy;
+  double potential = momentum_.balance().foundation_energy(state.displacement);
+  for (std::size_t i = 0; i < load.size(); ++i) potential -= load[i].dot(state.displacement[i]);
+  return potential;
 }
 
 double Staggered::work(const FractureState& from, double t, const std::vector<Vector>& force,

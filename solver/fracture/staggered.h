@@ -107,6 +107,7 @@ class Staggered {
   };
   /// With `settles` the stiffness may follow the strain.
   Energies update_driving_energy(const FractureState& start, FractureState& state, bool settles);
+  double potential_of_loads(const FractureState& state) const;  // elastic foundations included [J]
   double drive(const FractureState& start, FractureState& state, double scale);
   ResidualShare residual_share(const FractureState& state, const Energies& energies);
   /// Of a strength model, at the equilibrium of this state; empty without.

@@ -25,7 +25,7 @@ struct BoundaryCondition {
     plane_stress,  ///< the same with no stress across it in place of no strain
     axisymmetric,  ///< front or back of a sector about the axis z, one cell wide: the cells stretch by u_r / r across
                    ///< it
-    elastic_foundation,  ///< traction t = -(k_n u.n n + k_t (u - u.n n)) (Robin; Winkler's bedding), n the normal of
+    elastic_foundation,  ///< traction t = -(k_n u.n n + k_t (u - u.n n)) (Robin; Winkler foundation), n the normal of
                          ///< the undeformed surface also at finite strain
   };
   std::string patch;

@@ -1,5 +1,6 @@
 #pragma once
-// Eigenstrains eps* of the cells, one each (thermal expansion, misfit): the stress is C (eps - eps*).
+// Eigenstrains eps* of the cells, one each (thermal expansion, misfit): the stress is C (eps - eps*), at finite
+// strain that of F (1 + eps*)^-1.
 
 #include "solver/momentum/unknowns.h"
 

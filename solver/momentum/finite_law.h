@@ -19,6 +19,7 @@ struct FiniteLaw {
   const HyperelasticMaterial* pressure = nullptr;
   double open = 1.0, closed = 1.0;
   double free_change = 0.0;  ///< of their volume, J* - 1 of the free deformation F*
+  double free_share = 1.0;   ///< mu of the faces with F* over that without
 
   VolumeAt volume(double q) const {
     const VolumeAt elastic = pressure->volume(q, q > 0.0 ? open : closed);

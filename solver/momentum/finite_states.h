@@ -85,8 +85,10 @@ class FiniteStates {
   /// Whether a cell has lost all but this share of its stiffness.
   bool is_softer(Index cell, double share) const {
     const Unknowns& unknowns = skeleton_.unknowns;
-    return laws_[cell].face.mu < share * unknowns.sound[as_size(unknowns.zone[cell])].mu;
+    return laws_[cell].face.mu < share * laws_[cell].free_share * unknowns.sound[as_size(unknowns.zone[cell])].mu;
   }
+  /// J over that of the free deformation.
+  double elastic_volume(Index cell) const { return F_[cell].determinant() / (1.0 + laws_[cell].free_change); }
 
  private:
   struct BondedState {

@@ -62,8 +62,8 @@ class MomentumOperator {
   /// cell's faces [Pa].
   CellField<double> set_finite(const FiniteLawAt& law, const CellField<double>& g, const std::vector<Vector>& u,
                                double t, double part = 0.0);
-  /// The eigenstrains of the body at the load parameter t, or none; before set_moduli() and set_law(). Returns whether
-  /// they have changed.
+  /// The eigenstrains of the body at the load parameter t, or none; before set_moduli(), set_law() and set_finite().
+  /// Returns whether they have changed.
   bool set_eigenstrain(std::optional<double> t);
   const CellField<Mandel>& eigenstrain() const { return eigenstrain_->all(); }  ///< of now [-]; empty: none
   /// Twice the energy that the eigenstrains of now would store in the undamaged body if nothing moved, at finite strain

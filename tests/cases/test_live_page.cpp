@@ -122,7 +122,7 @@ TEST(LivePage, IsLeftByARunAndRefusedWhereNothingIsStepped) {
   const TemporaryCase bar(bar_case());
   const Outcome outcome = run({"run", bar.path().string(), "--live", "--max-steps", "3"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("open in a browser while it runs: "));
+  EXPECT_THAT(outcome.out, HasSubstr("open in a browser: "));
   const auto data = data_of_page(content_of(bar.results() / "report" / "index.html"));
   EXPECT_THAT(data["headline"][0].get<std::string>(), HasSubstr("The run has ended: stopped by --max-steps"));
   EXPECT_FALSE(data.contains("live"));

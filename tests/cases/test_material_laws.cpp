@@ -104,14 +104,18 @@ TEST(MaterialLaws, ViscoelasticityRefusesWhatItCannotBe) {
   refused("", timed, "none", "needs shear_branches or bulk_branches");
   refused("shear_branches = " + branch, "[loading]\n", "none", "duration = \"1 s\" in [loading]");
   refused("bulk_branches = " + branch, timed, "volumetric_deviatoric", "keeps the bulk modulus of closed cracks");
+  refused("shear_branches = " + branch, timed, "hybrid", "whose driving energy is not the one that is stored");
+  refused("degradation = \"rational\"\nstrength = \"3 MPa\"\nshear_branches = " + branch, timed, "none",
+          "whose strength is that of one modulus");
   refused("shear_branches = " + branch, timed, "spectral", "cannot be combined with the energy split");
   refused("shear_branches = [{ modulus = \"10 GPa\", time = \"-1 s\" }]\n", timed, "none", "time");
   refused("shear_branches = [{ modulus = \"10 GPa\" }]\n", timed, "none", "time");
   refused("yield_stress = \"2 MPa\"\nshear_branches = " + branch, timed, "none", "yield_stress");
 }
 
-// Cells with a history have no pressure: what they are too stiff by is said.
-TEST(MaterialLaws, NearlyIncompressibleHistoriesAreWarnedOf) {
+// Cells with a history have no pressure, and jumps are held by the instantaneous moduli: what that makes too stiff is
+// said.
+TEST(MaterialLaws, HistoriesThatMeshesMakeTooStiffAreWarnedOf) {
   const std::string prony = "law = \"prony\"\nshear_branches = [{ modulus = \"10 GPa\", time = \"0.1 s\" }]\n";
   const std::string timed = replaced(with_material(prony), "[loading]\n", "[loading]\nduration = \"1 s\"\n");
   const auto said = [](const std::string& text) {
@@ -123,6 +127,8 @@ TEST(MaterialLaws, NearlyIncompressibleHistoriesAreWarnedOf) {
   EXPECT_THAT(said(timed), ::testing::Not(HasSubstr("nearly incompressible")));
   EXPECT_THAT(said(replaced(timed, "poisson_ratio = 0.2", "poisson_ratio = 0.495")),
               HasSubstr("law \"prony\" cells have no pressure unknown"));
+  EXPECT_THAT(said(timed), ::testing::Not(HasSubstr("times the relaxed one")));
+  EXPECT_THAT(said(replaced(timed, "\"10 GPa\"", "\"500 GPa\"")), HasSubstr("41 times the relaxed one"));
 }
 
 struct Refused {

@@ -50,6 +50,7 @@ TEST(ProgressLine, NamesThePole) {
   EXPECT_EQ(debonded_words({.surface = "i", .polar_from = 0.0, .polar_to = 0.6}, up), "upper pole debonded");
   EXPECT_EQ(debonded_words({.surface = "i", .polar_from = 0.0, .polar_to = 0.6}, Vector::UnitX()),
             "pole along the load debonded");
+  EXPECT_EQ(debonded_words({.surface = "ring", .polar_from = 1.0, .polar_to = 1.5}, up), "\"ring\" debonded");
   EXPECT_EQ(debonded_words({.surface = "glue"}, up), "\"glue\" debonded");
 }
 

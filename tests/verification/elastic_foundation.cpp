@@ -1,4 +1,5 @@
-// Bodies on elastic foundations (Winkler's bedding; Hetenyi, Beams on elastic foundation, 1946): t = -K u on a surface.
+// Bodies on elastic foundations (Winkler foundation; Hetenyi, Beams on elastic foundation, 1946): t = -K u on a
+// surface.
 
 #include "tests/verification/finite.h"
 

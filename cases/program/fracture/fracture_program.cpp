@@ -1,6 +1,5 @@
 #include "cases/program/fracture/fracture_program.h"
 
-#include "cases/program/fracture/end_of_run.h"
 #include "cases/program/fracture/experiment_case.h"
 #include "cases/program/fracture/fracture_browser.h"
 #include "cases/program/fracture/fracture_case.h"
@@ -9,18 +8,15 @@
 #include "cases/program/fracture/fracture_laws.h"
 #include "cases/program/fracture/fracture_report.h"
 #include "cases/program/fracture/fracture_results.h"
-#include "cases/program/fracture/live_page.h"
 #include "cases/program/fracture/other_laws.h"
-#include "cases/program/fracture/progress.h"
 #include "cases/program/fracture/recorded_steps.h"
 #include "cases/program/fracture/run_estimate.h"
 #include "cases/program/fracture/run_keys.h"
+#include "cases/program/fracture/running_case.h"
 #include "cases/program/input/kept_case.h"
 #include "cases/program/session/earlier_results.h"
-#include "cases/program/session/followed_rows.h"
 #include "cases/program/session/head_line.h"
 #include "cases/program/session/report_parts.h"
-#include "cases/program/session/stop_signal.h"
 #include "cases/program/session/stopwatch.h"
 #include "cases/program/studies/curve_fit.h"
 #include "mesh/quality.h"
@@ -29,8 +25,8 @@
 #include "postproc/files/other_case.h"
 #include "solver/fracture/bending_words.h"
 #include "solver/fracture/fracture_run.h"
-#include "solver/fracture/locking_words.h"
 #include "solver/fracture/resolution.h"
+#include "solver/fracture/stiffness_words.h"
 
 #include <fmt/format.h>
 
@@ -44,23 +40,6 @@ namespace {
 /// Tables that say how the load is stepped and the steps are solved, and what they are compared with; not what is
 /// loaded.
 constexpr std::string_view may_change_on_the_way[] = {"solver", "loading", "experiment", "fit", "sweep"};
-
-/// Where the wall-clock time of a run goes [s].
-struct RunTimes {
-  Stopwatch whole;
-  double mesh = 0.0;
-  double results = 0.0;
-};
-
-struct FractureProgram {
-  CaseFile file;
-  FractureCase fracture{};
-  std::optional<ExperimentSettings> experiment{};
-  std::optional<CurveFitSettings> fit{};
-  std::string name{};
-  std::string hash{};
-  std::string mesh_hash{};  ///< of what decides the mesh
-};
 
 Mesh make_mesh(const FractureProgram& program, Log& log) {
   for (const std::string& remark : program.fracture.materials.remarks) log.say(remark);
@@ -122,7 +101,7 @@ void check(const FractureProgram& program, Session& session) {
   warn_of_interfaces(run, log);
   if (const std::string remark = direction_remark(mesh, run.model()); !remark.empty()) log.say(remark);
   if (const auto warning = bending_warning(mesh, run.model())) log.warn(*warning);
-  if (const auto warning = locking_warning(mesh, run.model())) log.warn(*warning);
+  for (const std::string& warning : stiffness_warnings(mesh, run.model())) log.warn(warning);
   const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
   log.say(fmt::format("{}: {}", program.name, program.fracture.title));
   if (program.fracture.box) log.say(program.fracture.box->words);
@@ -166,181 +145,8 @@ std::optional<FractureState> state_to_go_on_from(const FractureProgram& program,
   }
 }
 
-RunSummary summary_of(const FractureProgram& program, const Session& session, const FractureRun& run,
-                      const RunTimes& times) {
-  RunSummary summary;
-  summary.case_name = program.name;
-  summary.version = session.version;
-  summary.threads = session.threads;
-  summary.unknowns = run.n_unknowns();
-  summary.staggered_iterations = run.staggered_iterations();
-  summary.krylov_iterations = run.krylov_iterations();
-  summary.cpu_seconds_by_stage = run.cpu_seconds_by_stage();
-  summary.wall_seconds = times.whole.seconds();
-  summary.wall_seconds_by_stage = {
-      {"mesh", times.mesh}, {"results", times.results}, {"solve", summary.wall_seconds - times.mesh - times.results}};
-  summary.cpu_seconds = cpu_seconds();
-  summary.peak_memory = peak_memory();
-  return summary;
-}
-
-void cohesive(const FractureProgram& program, Session& session, bool in_run = false) {
-  write_cohesive_laws(program.fracture, program.file, program.name, program.hash, session, in_run);
-}
-
-/// A run that steps.
-struct RunningCase {
-  const FractureProgram& program;
-  Session& session;
-  RunTimes& times;
-  FractureRun& run;
-  FractureResults& results;
-  CoarseCells coarse;
-  FollowedRows followed;  ///< by a script
-  FractureState state;    ///< the last one that was reached
-  bool goes_on = false;   ///< from a state that is in the results already
-  std::optional<LivePages> live{};
-};
-
-ProgressUnits progress_units(const FractureProgram& program) {
-  return {.units = read_curve_units(program.file, program.fracture.output.curve),
-          .is_box = program.fracture.box.has_value()};
-}
-
-/// What is known of the first debonding, for the line of progress.
-std::string debonded(const RunningCase& c) {
-  const auto& first = c.results.first_debonding();
-  return first ? debonded_words(*first, c.program.fracture.cohesive.axis) : std::string();
-}
-
-/// A page, if one is due and earlier results do not stand where it belongs.
-void look_at_page(RunningCase& c, const RunProgress& progress) {
-  if (c.live && !c.results.wait()) c.live->look(progress.figures(), c.results.rows());
-}
-
-void record(RunningCase& c, const FractureState& now, const StepReport& report) {
-  const Stopwatch watch;
-  for (const std::string& remark : report.remarks) c.session.log.warn(remark);
-  for (const std::string& warning : c.coarse.look(now.damage)) c.session.log.warn(warning);
-  for (const std::string& warning : c.results.step_done(now, report, [&] { return c.run.output(now); }))
-    c.session.log.warn(warning);
-  c.state = now;
-  c.times.results += watch.seconds();
-  c.followed.write(curve_line(c.results.last_row()));
-}
-
-/// Why the run ends after this step; empty if it continues.
-std::string reason_to_end(const RunningCase& c, Index first_step) {
-  if (c.run.is_complete(c.state)) return "complete";
-  if (c.session.max_steps && c.state.step - first_step >= *c.session.max_steps) return "stopped by --max-steps";
-  if (c.session.until && c.results.last_row().displacement >= *c.session.until)
-    return "stopped at the last displacement needed";
-  return "";
-}
-
-/// Steps until the end of the load, --max-steps or failure; returns what became of it.
-std::string advance(RunningCase& c) {
-  RunProgress progress(c.session.log, c.state.load, c.program.fracture.loading.end, progress_units(c.program));
-  const LooksForStop looks;
-  const auto iterated = [&](const IterationReport& iteration) {
-    progress.iterated(iteration);
-    look_at_page(c, progress);
-    stop_if_asked();
-  };
-  const auto recorded = [&](const FractureState& now, const StepReport& report) {
-    record(c, now, report);
-    const CurveRow& row = c.results.last_row();
-    progress.step_done(report, row.displacement, row.force[c.program.fracture.output.curve.component], debonded(c));
-    look_at_page(c, progress);
-  };
-  const Index first_step = c.state.step;
-  FractureState next = c.state;
-  std::string reason = c.run.is_complete(next) ? "complete" : "";
-  if (!c.goes_on) {
-    recorded(next, c.run.report_of(next));
-    reason = reason_to_end(c, first_step);
-  }
-  while (reason.empty()) {
-    const StepReport report = c.run.step(next, iterated);
-    recorded(next, report);
-    reason = reason_to_end(c, first_step);
-  }
-  return reason;
-}
-
-/// Steps may have come between them and the end.
-void repeat_warnings(Log& log) {
-  if (log.warnings().empty()) return;
-  log.say(fmt::format("  {} of this run:", counted(static_cast<Index>(log.warnings().size()), "warning")));
-  for (const std::string& warning : log.warnings()) log.say(fmt::format("  - {}", warning));
-}
-
-/// "See force_displacement.csv (curve), fields.pvd (ParaView), run.log (all steps).", of what there is.
-std::string where_to_look(const std::filesystem::path& results) {
-  std::string files;
-  for (const auto& [what, file] : {std::pair("curve", curve_file), std::pair("ParaView", "fields.pvd"),
-                                   std::pair("laws", "cohesive.json"), std::pair("all steps", "run.log")})
-    if (std::filesystem::exists(results / file))
-      files += fmt::format("{}{} ({})", files.empty() ? "See " : ", ", file, what);
-  return files + ".";
-}
-
-/// The summary is the last file of all: where it says "complete", all is there. Returns what is to be said at last.
-std::string finish(RunningCase& c, const std::string& status) {
-  RunSummary summary = summary_of(c.program, c.session, c.run, c.times);
-  summary.status = status;
-  summary = c.results.write_summary(summary);
-  std::vector<std::string> told =
-      as_sentences(what_happened(c.program.fracture, c.program.file, summary, c.results.folder()));
-  for (const std::string& sentence : told) c.session.log.say("  " + sentence);
-  if (!c.results.wait()) c.session.log.say("  " + where_to_look(c.results.folder()));
-  repeat_warnings(c.session.log);
-  std::string ending = fmt::format("{} at step {}, load {:.6g}, after {}", status, c.state.step, c.state.load,
-                                   duration_words(c.times.whole.seconds()));
-  if (c.live && !c.results.wait()) {
-    told.insert(told.begin(), fmt::format("The run has ended: {}.", ending));
-    c.live->end(std::move(told), c.results.rows());
-  }
-  return fmt::format("{}; results in {}", ending, c.session.results.string());
-}
-
-std::string earlier_results_stay(const RunningCase& c) {
-  return fmt::format("the earlier results in {} are kept", c.session.results.string());
-}
-
-/// Keeps as much of a run that failed as there is room for.
-void finish_failed(RunningCase& c, const std::string& why) {
-  if (c.results.wait()) return c.session.log.say(earlier_results_stay(c));
-  try {
-    c.results.write_last_frame([&] { return c.run.output(c.state); });
-    c.results.write_what_waits(c.state);
-    c.session.log.say(finish(c, fmt::format("failed: {}", why)));
-  } catch (const ComputationError&) {
-    // A full disk is often what failed in the first place; the first message is the one to show.
-  }
-}
-
-/// Returns what is to be said.
-std::string finish_interrupted(RunningCase& c, const std::string& status) {
-  if (c.results.wait()) return fmt::format("{}; {}", status, earlier_results_stay(c));
-  c.results.write_what_waits(c.state);
-  return finish(c, status);
-}
-
-void solve(RunningCase& c) {
-  try {
-    const std::string status = advance(c);
-    c.results.write_what_waits(c.state);
-    if (c.results.records_columns()) cohesive(c.program, c.session, true);
-    c.session.log.say(finish(c, status));
-  } catch (const Interrupted& wish) {
-    const std::string told = finish_interrupted(c, wish.what());
-    c.session.log.record(told);
-    throw Interrupted(wish.signal, told);
-  } catch (const ComputationError& error) {
-    finish_failed(c, error.what());
-    throw;
-  }
+void cohesive(const FractureProgram& program, Session& session) {
+  write_cohesive_laws(program.fracture, program.file, program.name, program.hash, session, false);
 }
 
 /// Made, or found where several runs share it.
@@ -366,7 +172,8 @@ void run_case(FractureProgram program, Session& session) {
   warn_of_interfaces(run, session.log);
   if (!session.figures_only)
     if (const auto words = bending_warning(mesh, run.model())) session.log.say(*words);
-  if (const auto words = locking_warning(mesh, run.model()); words && !session.figures_only) session.log.warn(*words);
+  if (!session.figures_only)
+    for (const std::string& warning : stiffness_warnings(mesh, run.model())) session.log.warn(warning);
   const FractureState initial = run.initial_state();
   const std::vector<ColumnSet> surfaces = column_sets(program.fracture.cohesive, mesh, run.model());
   const std::vector<ColumnSet> none, &columns = session.figures_only ? none : surfaces;
@@ -455,7 +262,8 @@ RunnableCase runnable(const std::shared_ptr<FractureProgram>& program) {
           .page = [program](const Session& session) { return page_of(*program, session); },
           .prepare = [program](Session& session) { prepare(*program, session); },
           .data_files = data_files,
-          .goes_on = true};
+          .goes_on = true,
+          .has_steps = true};
 }
 
 RunnableCase read_program(const CaseFile& file) {

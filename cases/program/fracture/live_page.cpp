@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -30,10 +31,7 @@ void PageTimes::made(double now, double took) {
 double PageTimes::apart() const { return std::max(least_apart_, dearest_ / share_); }
 
 LivePages::LivePages(LiveCase live, Session& session, PageTimes times)
-    : live_(std::move(live)), session_(session), times_(times) {
-  session_.log.say(
-      fmt::format("open in a browser while it runs: {}", (session_.results / "report/index.html").string()));
-}
+    : live_(std::move(live)), session_(session), times_(times) {}
 
 BrowserPage LivePages::page(std::span<const CurveRow> rows) const {
   const Headlines f = headlines(rows, live_.fracture.output.curve.component);
@@ -63,6 +61,12 @@ void LivePages::write(const BrowserPage& page) {
   }
 }
 
+/// Of a page that is there now.
+void LivePages::tell(std::string_view when) {
+  if (!std::exchange(is_told_, true) && !gave_up_)
+    session_.log.say(fmt::format("open in a browser{}: {}", when, (session_.results / "report/index.html").string()));
+}
+
 void LivePages::look(const ProgressFigures& progress, std::span<const CurveRow> rows) {
   const double start = now();
   if (gave_up_ || rows.empty() || !times_.is_due(start)) return;
@@ -73,6 +77,7 @@ void LivePages::look(const ProgressFigures& progress, std::span<const CurveRow> 
                .made = since_1970()};
   write(made);
   times_.made(now(), now() - start);
+  tell(" while it runs");
 }
 
 void LivePages::end(std::vector<std::string> told, std::span<const CurveRow> rows) {
@@ -81,6 +86,7 @@ void LivePages::end(std::vector<std::string> told, std::span<const CurveRow> row
   for (std::string& sentence : told) made.headline.push_back(in_print(std::move(sentence)));
   made.headline.push_back(fmt::format("{} makes the whole page, with the body that moves.", live_.report));
   write(made);
+  tell("");
 }
 
 }  // namespace pfdm

@@ -60,12 +60,13 @@ class LivePages {
   double now() const { return watch_.seconds(); }
   BrowserPage page(std::span<const CurveRow> rows) const;
   void write(const BrowserPage& page);
+  void tell(std::string_view when);
 
   LiveCase live_;
   Session& session_;
   Stopwatch watch_;
   PageTimes times_;
-  bool gave_up_ = false;
+  bool gave_up_ = false, is_told_ = false;
 };
 
 }  // namespace pfdm

@@ -99,8 +99,9 @@ std::string progress_line(const ProgressFigures& figures, int columns) {
 
 std::string debonded_words(const FirstDebonding& first, const Vector& axis) {
   constexpr double upright = 0.99;
-  if (!std::isfinite(first.polar_from)) return fmt::format("\"{}\" debonded", first.surface);
-  const bool along = 0.5 * (first.polar_from + first.polar_to) < std::numbers::pi / 2.0;
+  constexpr double at_pole = 20.0 * std::numbers::pi / 180.0;  // a place of the mesh about the pole
+  const bool along = first.polar_from < at_pole;
+  if (!along && !(first.polar_to > std::numbers::pi - at_pole)) return fmt::format("\"{}\" debonded", first.surface);
   if (axis.z() > upright) return along ? "upper pole debonded" : "lower pole debonded";
   return along ? "pole along the load debonded" : "pole against the load debonded";
 }

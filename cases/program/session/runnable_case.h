@@ -30,6 +30,7 @@ struct RunnableCase {
   std::function<void(Session&)> prepare{};          ///< makes what runs with other values share, as the mesh
   std::vector<std::filesystem::path> data_files{};  ///< that decide the results of `run` besides case.toml
   bool goes_on = false;                             ///< run with --restart, and fit, go on after an interruption
+  bool has_steps = false;                           ///< a curve that grows with the run, for --curve-to and --live
 };
 
 /// A job that the kind has and this case does not ask for: throws InputError that says which table is missing, what

@@ -1,5 +1,6 @@
 #include "cases/program/studies/comparison_page.h"
 
+#include "cases/program/session/page_origin.h"
 #include "cases/program/studies/merged_charts.h"
 #include "cases/program/studies/shown_columns.h"
 #include "physics/error.h"
@@ -86,13 +87,14 @@ void take_bodies(BrowserPage& page, std::vector<ComparedRun>& runs) {
   std::string unit;
   for (ComparedRun& run : runs) {
     const auto [chart, series] = first_curve(run.page.report);
-    if (!run.page.body || chart == nullptr || page.bodies.size() == most_bodies) continue;
+    if (!run.page.body || chart == nullptr || series->x.empty() || page.bodies.size() == most_bodies) continue;
     const auto [words, own] = words_and_unit(chart->x.title);
     if (page.bodies.empty()) page.bodies_axis = {.words = words.substr(0, words.find(" of ")), .unit = unit = own};
     const auto factor = factor_between(own, unit);
     if (!factor) continue;
     NamedBody body{.name = run.name, .steps = std::move(run.page.steps), .at = {}, .body = {}};
-    for (const Index row : run.page.body->steps) body.at.push_back(*factor * series->x.at(as_size(row)));
+    for (const Index row : run.page.body->steps)  // a run that goes on may have gained a step since the curve was read
+      body.at.push_back(*factor * series->x[std::min(as_size(row), series->x.size() - 1)]);
     body.body = std::move(*run.page.body);
     page.bodies.push_back(std::move(body));
   }
@@ -109,11 +111,19 @@ void tell_of_runs(BrowserPage& page, const std::vector<ComparedRun>& runs) {
   }
 }
 
+/// But for what an earlier comparison that was killed at once may have left.
+bool is_as_good_as_empty(const fs::path& folder) {
+  return std::ranges::all_of(fs::directory_iterator(folder), [](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name == owned_folder_mark || (name.starts_with('.') && name.ends_with(".partial"));
+  });
+}
+
 /// Empty, or an earlier comparison's.
 void require_own_folder(const fs::path& folder) {
   if (fs::exists(folder) && !fs::is_directory(folder))
     throw InputError(fmt::format("{} is a file, not a folder; choose another with --output", folder.string()));
-  if (!fs::exists(folder) || fs::is_empty(folder) || fs::exists(folder / compared_file)) return;
+  if (!fs::exists(folder) || fs::exists(folder / compared_file) || is_as_good_as_empty(folder)) return;
   throw InputError(
       fmt::format("{} holds files that are not of a comparison: choose another folder with --output, one that is empty "
                   "or that has {}",

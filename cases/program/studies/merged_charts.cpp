@@ -10,7 +10,7 @@
 namespace pfdm {
 namespace {
 
-constexpr int grey = 7, n_colours = 8;
+constexpr int grey = 7;                 // the last colour, of what was measured
 constexpr std::size_t most_charts = 6;  // that one is split into
 
 /// A chart of one of the pages.
@@ -107,9 +107,14 @@ Chart empty_like(const std::vector<Part>& group) {
   return chart;
 }
 
+// Also after another change of units.
+bool are_alike(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::ranges::equal(a, b, [](double p, double q) { return p == q || std::abs(p - q) <= 1e-9 * std::abs(p); });
+}
+
 bool is_there(const std::vector<Series>& all, const Series& one) {
-  return std::ranges::any_of(all,
-                             [&](const Series& s) { return s.label == one.label && s.x == one.x && s.y == one.y; });
+  return std::ranges::any_of(
+      all, [&](const Series& s) { return s.label == one.label && are_alike(s.x, one.x) && are_alike(s.y, one.y); });
 }
 
 /// What is not a run's own, each once.
@@ -127,8 +132,8 @@ std::vector<Series> shared_series(const std::vector<Part>& group) {
 Series named(const Series& series, const std::string& label, std::size_t page) {
   Series own = series;
   own.label = label;
-  own.colour = static_cast<int>(page % n_colours);
-  if (page >= n_colours && own.style != SeriesStyle::points && own.style != SeriesStyle::band)
+  own.colour = static_cast<int>(page % grey);
+  if (page >= grey && own.style != SeriesStyle::points && own.style != SeriesStyle::band)
     own.style = SeriesStyle::dashed;
   own.of_steps = false;
   return own;

@@ -89,6 +89,8 @@ export function bodies_section(runs, axis) {
       body.section.append(state);
       if (k === 0) panel.append(scale, ...choices);
       body.go = (frame) => go(Number(slider.value) + frame - body.frame); // the keys of the picture
+      body.first = () => go(0);
+      body.last = () => go(ticks.length - 1);
       body.play = () => play.click();
     });
     share_scale(bodies);

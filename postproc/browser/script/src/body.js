@@ -233,6 +233,14 @@ export class Body {
     if (told) this.on_frame(this.data.frames[this.frame]);
   }
 
+  first() {
+    this.go(0);
+  }
+
+  last() {
+    this.go(this.data.frames.length - 1);
+  }
+
   /** To the frame that is nearest to a row of the run's curve. */
   go_to_row(row) {
     let best = 0;

@@ -120,8 +120,8 @@ export function listen(body) {
   const acts = {
     ArrowLeft: () => body.go(body.frame - 1),
     ArrowRight: () => body.go(body.frame + 1),
-    Home: () => body.go(0),
-    End: () => body.go(body.data.frames.length - 1),
+    Home: () => body.first(),
+    End: () => body.last(),
     " ": () => body.play(),
     h: () => body.scene.turn(10, 0),
     l: () => body.scene.turn(-10, 0),

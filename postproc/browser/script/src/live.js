@@ -6,13 +6,16 @@ const late = 60; // s without a new page, beyond ten of the usual times between 
 /** `live`: words, share (0 to 1 of the load), every (s between two pages), made (s since 1970). */
 export function live_section(live) {
   let held = false;
+  const state = element("b", {}, "Running");
   const words = element("span", {}, live.words);
   const hold = element("button", { title: "The page stays as it is" }, "Hold");
   const wait = () => {
     const age = Date.now() / 1000 - live.made;
     const is_late = age > 10 * live.every + late;
-    if (is_late)
-      words.textContent = `No news since ${new Date(1000 * live.made).toLocaleTimeString()}: the run was stopped, or a step takes long. Before: ${live.words}`;
+    if (is_late) {
+      state.textContent = "No news";
+      words.textContent = `since ${new Date(1000 * live.made).toLocaleString()}: the run was stopped, or a step takes long. Before: ${live.words}`;
+    }
     return 1000 * (is_late ? 30 : Math.max(2, live.every));
   };
   let timer = setTimeout(() => location.reload(), wait());
@@ -25,7 +28,7 @@ export function live_section(live) {
   return element(
     "section",
     { class: "live", role: "status" },
-    element("b", {}, "Running"),
+    state,
     element("progress", { max: 1, value: live.share, "aria-label": "part of the load that is done" }),
     words,
     hold,

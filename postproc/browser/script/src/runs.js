@@ -22,7 +22,8 @@ function ends_of(values) {
   return least < most ? [least, most] : [least - (Math.abs(least) || 1), most + (Math.abs(most) || 1)];
 }
 
-const varies = (column) => new Set(column.values.filter(is_number)).size > 1;
+/** Also where some runs have no value. */
+const varies = (column) => new Set(column.values.map((value) => (is_number(value) ? value : null))).size > 1;
 
 /** Which run is pointed out; who shows runs is told. */
 class Pointer {
