@@ -112,7 +112,7 @@ class Runs(Folder):
         self.assertEqual(pandas.DataFrame(seen)["displacement_m"].tolist(), run.curve["displacement_m"].tolist())
 
     def test_of_kinds_without_load_steps_cannot_be_followed(self):
-        with self.assertRaisesRegex(pfdm.InputError, "have a curve that grows"):
+        with self.assertRaisesRegex(pfdm.InputError, "have steps to follow"):
             pfdm.Case(shipped / "endochronic_uniaxial").run(self.folder / "r", on_step=print)
 
     def test_end_in_order_where_the_script_says_so(self):
