@@ -21,6 +21,7 @@ class FreeDeformation {
         inverse_((Tensor::Identity() + eigenstrain).inverse()),
         change_(volume_change(eigenstrain)) {}
 
+  bool is_none() const { return (strain_.array() == 0.0).all(); }
   double volume() const { return 1.0 + change_; }                  ///< J* [-]
   double change() const { return change_; }                        ///< J* - 1 [-], exact to rounding for small eps*
   Tensor stretch() const { return Tensor::Identity() + strain_; }  ///< F* [-]

@@ -161,6 +161,7 @@ Tensor FiniteCells::elastic(const Tensor& H, const FreeDeformation& free) const 
 FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure, const FreeDeformation& free) const {
   const Tensor F_e = elastic(H, free);
   FiniteLaw law = is_plane_stress() ? plane_stress_law(cell, F_e, g) : solid_law(cell, F_e, g, closure);
+  if (free.is_none()) return law;
   const double mean = free.inverse().squaredNorm() / 3.0;  // of m.m
   law.stress = free.stress(law.stress);
   law.A = free.tangent(law.A);

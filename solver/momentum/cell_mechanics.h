@@ -17,6 +17,8 @@ struct CellMechanics {
   CellField<Tensor> stress;    ///< traction moment (1/V) sum A t (x) (x_f - x_c) [Pa]
   /// 1/2 sum A t.(u_f - u_c) over a cell's faces [J]; sums to half the external work. Of eigenstrains less half the
   /// work of the traction moment on them.
+  /// At finite strain, where `stress` is the first Piola-Kirchhoff stress: half the work of what tractions and face
+  /// displacements differ by from those of the mean gradient, 1/2 sum A t.(u_f - u_c - gradient d).
   CellField<double> energy;
   /// Of a part of the stiffness: its share in `energy`, per volume [J/m^3],
   ///
@@ -27,10 +29,6 @@ struct CellMechanics {
   CellField<double> part_energy{};
   /// By least squares, as used in the tractions of the faces [-]; empty unless some material is linearised.
   CellField<Tensor> reconstructed_strain{};
-  /// At finite strain `stress` is the first Piola-Kirchhoff stress, `energy` half the work of what tractions and face
-  /// displacements differ by from those of the mean gradient, 1/2 sum A t.(u_f - u_c - gradient d), and this is H by
-  /// least squares [-]; else empty.
-  CellField<Tensor> reconstructed_gradient{};
   /// At finite strain, of nearly incompressible bodies: J - 1 by the volume of the moved cell, of those with a pressure
   /// [-]; of others by the mean gradient. Else empty.
   CellField<double> volume_change{};

@@ -96,7 +96,6 @@ CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
     if (pressure_.any()) result.moderate_stress[c] = (sums.moment - pressed) * closure / volume;
     result.energy[c] = sums.work - by_pressure - 0.5 * contract(sums.moment - pressed, gradient);
   });
-  result.reconstructed_gradient = s.gradients;
   if (pressure_.any()) add_work_of_moments(skeleton_.mesh, skeleton_.unknowns.pressure_cells, result);
   result.face_displacement = std::move(u_face);
   return result;

@@ -4,15 +4,13 @@
 #include "postproc/files/csv_table.h"
 #include "postproc/files/text_file.h"
 #include "tests/cases/endochronic_case.h"
+#include "tests/cases/page_data.h"
 #include "tests/cases/temporary_case.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#include <array>
-#include <cstdio>
 
 namespace pfdm::this_file {
 namespace {
@@ -23,18 +21,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr const char* hostile = "</script><script>alert('x')</script> \\\"µ\\\" & <b>";
-
-nlohmann::json data_of(const std::string& html) {
-  const std::string mark = "id=\"pfdm-data\">";
-  const std::size_t from = html.find(mark) + mark.size();
-  return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
-}
-
-nlohmann::json block(const nlohmann::json& data, const std::string& caption) {
-  for (const auto& one : data["blocks"])
-    if (one["caption"].get<std::string>().starts_with(caption)) return one;
-  throw std::runtime_error("the page has no \"" + caption + "\"");
-}
 
 nlohmann::json figure(const nlohmann::json& data, const std::string& label) {
   for (const auto& one : data["figures"])
@@ -62,7 +48,7 @@ TEST(Browser, PageOfAFractureHasTheFiguresOfTheSummary) {
   const TemporaryCase directory(bar_case() + crack_plane());
   const std::string html = page_of(directory);
   EXPECT_LT(html.size(), 5000000u);
-  const auto data = data_of(html);
+  const auto data = data_of_page(html);
   const auto summary = read_summary(directory.results() / summary_file);
   const double peak = summary->number("peak_force_N"), at = summary->number("displacement_at_peak_m");
   EXPECT_EQ(figure(data, "Greatest force")["value"], fmt::format("{:.4g} N", peak));
@@ -70,7 +56,7 @@ TEST(Browser, PageOfAFractureHasTheFiguresOfTheSummary) {
   EXPECT_THAT(data["headline"][0].get<std::string>(), HasSubstr(fmt::format("{:.4g} N", peak)));
   EXPECT_EQ(figure(data, "Run")["value"], "complete");
   const CsvTable curve = read_csv(directory.results() / "force_displacement.csv");
-  const auto series = block(data, "Force against displacement")["series"].back();
+  const auto series = block_of_page(data, "Force against displacement")["series"].back();
   ASSERT_EQ(series["y"].size(), curve.n_rows());
   EXPECT_EQ(series["of_steps"], true);
   for (std::size_t i = 0; i < curve.n_rows(); ++i) {
@@ -92,24 +78,21 @@ TEST(Browser, ShowsWhatACaseSaysAsText) {
   const TemporaryCase directory(replaced(bar_case(), "a bar", hostile));
   const std::string html = page_of(directory);
   EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
-  EXPECT_THAT(data_of(html)["title"].get<std::string>(), HasSubstr("</script><script>alert('x')</script> \"µ\" & <b>"));
+  EXPECT_THAT(data_of_page(html)["title"].get<std::string>(),
+              HasSubstr("</script><script>alert('x')</script> \"µ\" & <b>"));
 }
 
 TEST(Browser, PageOfAMaterialPointHasItsCurves) {
   const TemporaryCase directory(tension_case());
-  const auto data = data_of(page_of(directory));
+  const auto data = data_of_page(page_of(directory));
   EXPECT_TRUE(data["body"].is_null());
   EXPECT_GE(data["blocks"].size(), 2u);
   EXPECT_THAT(data["title"].get<std::string>(), HasSubstr(":"));
 }
 
-/// What a browser does that loads the page, moves the slider and clicks on the curve; it tells in the title.
-constexpr const char* probe = R"(<script>
-(async () => {
-  const errors = [];
-  addEventListener("error", (e) => errors.push(e.message));
-  console.error = (...words) => errors.push(words.join(" "));
-  for (let i = 0; i < 300 && !document.documentElement.dataset.body; ++i) await new Promise((r) => setTimeout(r, 50));
+/// What a browser does that has loaded the page: it moves the slider and clicks on the curve.
+constexpr const char* probe = R"(async () => {
+  for (let i = 0; i < 300 && !document.documentElement.dataset.body; ++i) await after(50);
   const pixels = () => document.querySelector(".scene canvas").toDataURL();
   const last = pixels();
   const slider = document.querySelector(".steps input");
@@ -120,34 +103,16 @@ constexpr const char* probe = R"(<script>
   const box = over.getBoundingClientRect();
   const at = { clientX: box.left + 0.95 * box.width, clientY: box.bottom - 5, bubbles: true };
   for (const type of ["mousemove", "mousedown", "mouseup"]) over.dispatchEvent(new MouseEvent(type, at));
-  await new Promise((r) => setTimeout(r, 200));
-  document.title = JSON.stringify({ body: document.documentElement.dataset.body, slider: first !== last,
-                                    click: pixels() !== first, frame: slider.value, errors });
-})();
-</script>)";
-
-/// What a command prints.
-std::string said_by(const std::string& command) {
-  std::string text;
-  FILE* pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> buffer{};
-  while (pipe && std::fgets(buffer.data(), buffer.size(), pipe)) text += buffer.data();
-  if (pipe) pclose(pipe);
-  return text;
-}
+  await after(200);
+  return { body: document.documentElement.dataset.body, slider: first !== last, click: pixels() !== first,
+           frame: slider.value };
+})";
 
 TEST(Browser, ShowsTheBodyAndLinksItWithTheCurve) {
-  if (said_by("command -v chromium").empty()) GTEST_SKIP() << "chromium is not installed";
   const TemporaryCase directory(replaced(bar_case(), "a bar", hostile));
-  directory.write("probe.html", page_of(directory) + probe);
-  const std::string page = said_by(
-      fmt::format("HOME={0} timeout 100 chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
-                  "--enable-unsafe-swiftshader --window-size=1280,900 --virtual-time-budget=15000 --dump-dom "
-                  "file://{0}/probe.html 2>/dev/null",
-                  directory.path().string()));
-  const std::size_t from = page.find("<title>{");
-  ASSERT_NE(from, std::string::npos) << page.substr(0, 300);
-  const auto told = nlohmann::json::parse(page.substr(from + 7, page.find("</title>", from) - from - 7));
+  const auto told_if_there = told_by_browser(directory.path(), page_of(directory), probe);
+  if (!told_if_there) GTEST_SKIP() << "chromium is not installed";
+  const auto& told = *told_if_there;
   EXPECT_EQ(told["body"], "shown");
   EXPECT_EQ(told["slider"], true);
   EXPECT_EQ(told["click"], true);

@@ -170,10 +170,10 @@ void run_case(FractureProgram program, Session& session) {
   times.mesh = times.whole.seconds();
   FractureRun run = make_run(program, mesh, session.log);
   warn_of_interfaces(run, session.log);
-  if (!session.figures_only)
+  if (!session.figures_only) {
     if (const auto words = bending_warning(mesh, run.model())) session.log.say(*words);
-  if (!session.figures_only)
     for (const std::string& warning : stiffness_warnings(mesh, run.model())) session.log.warn(warning);
+  }
   const FractureState initial = run.initial_state();
   const std::vector<ColumnSet> surfaces = column_sets(program.fracture.cohesive, mesh, run.model());
   const std::vector<ColumnSet> none, &columns = session.figures_only ? none : surfaces;

@@ -137,8 +137,7 @@ std::vector<HeadFigure> figures_of_tables(const ReportPage& report) {
 
 bool is_told_elsewhere(const PageBlock& block, const BrowserExtras& extras) {
   if (const auto* text = std::get_if<TextBlock>(&block)) return text->caption == warnings_caption;
-  if (const auto* table = std::get_if<Table>(&block))
-    return extras.runs && (table->caption == runs_caption || table->caption.ends_with(" runs"));
+  if (const auto* table = std::get_if<Table>(&block)) return extras.runs && table->caption.starts_with(runs_caption);
   if (std::holds_alternative<Chart>(block)) return extras.runs.has_value();  // any figure over any value is there
   const auto* picture = std::get_if<Picture>(&block);
   return picture != nullptr && extras.body && picture->caption.starts_with("Damage, plane");

@@ -50,8 +50,9 @@ Table runs_table(const CsvTable& table, const SweepColumns& columns) {
   all.insert(all.end(), columns.figures.begin(),
              columns.figures.begin() + static_cast<std::ptrdiff_t>(std::min(columns.figures.size(), most_columns)));
   const std::size_t n = std::min(table.n_rows(), most_runs_shown);
-  Table shown_table{.caption = n < table.n_rows() ? fmt::format("The first {} of {} runs", n, table.n_rows())
-                                                  : std::string(runs_caption),
+  Table shown_table{.caption = n < table.n_rows()
+                                   ? fmt::format("{}, the first {} of {}", runs_caption, n, table.n_rows())
+                                   : std::string(runs_caption),
                     .rows = {{"run"}},
                     .has_header = true};
   for (std::size_t i = 0; i < n; ++i) shown_table.rows.push_back({fmt::format("{}", i + 1)});
