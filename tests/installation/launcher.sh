@@ -59,6 +59,8 @@ expect_no_build 0 "./pfdm run CASE [--restart]" help
 expect_no_build 0 "meshes, solves, writes the results" help run
 expect_no_build 0 "meshes, solves, writes the results" run --help
 expect_no_build 0 "Fracture toughness, critical energy release rate Gc" help toughness
+expect_no_build 0 "the documentation as a site" help docs
+expect_no_build 2 "takes --output DIR alone" docs --outputs site
 expect_no_build 0 "number, above -1 and at most 0.4999" help materials.poisson_ratio
 expect_no_build 0 "(plate)" help cooling.emissivity
 expect_no_build 2 "no command and no key of case.toml has this name" help toughnes

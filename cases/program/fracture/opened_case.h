@@ -22,7 +22,7 @@ namespace pfdm {
 class OpenedCase {
  public:
   /// `where` is the case directory or a .toml file in it; `values` are other ones for its keys, "KEY=VALUE" as of
-  /// --set. Makes the mesh. Writes nothing. Throws InputError for whatever is wrong with the case, unknown keys
+  /// `--set`. Makes the mesh. Writes nothing. Throws InputError for whatever is wrong with the case, unknown keys
   /// included, and for cases of other kinds.
   explicit OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values = {});
 
