@@ -1,0 +1,53 @@
+"""The notebook cases/python/study.ipynb, cell by cell, and a picture and a film of one of its runs by draw_body.py.
+
+Exit status 77 where matplotlib, Pillow or VTK's Python is not installed.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import matplotlib
+    from PIL import Image
+    import vtkmodules  # noqa: F401
+except ImportError as error:
+    print(error)
+    sys.exit(77)
+
+checkout = pathlib.Path(__file__).resolve().parents[2]
+
+
+class Notebook(unittest.TestCase):
+    def test_runs_and_its_runs_can_be_drawn(self):
+        matplotlib.use("Agg")
+        os.chdir(checkout / "cases/python")
+        names = {}
+        for cell in json.loads(pathlib.Path("study.ipynb").read_text())["cells"]:
+            if cell["cell_type"] == "code":
+                exec("".join(cell["source"]), names)
+        runs = names["runs"]
+        # Which interface comes off first, and how far the weakest lags behind.
+        off = [run.summary["first_debonding_displacement_m"] for run in runs.values()]
+        self.assertIsNone(off[0])
+        self.assertEqual(sorted(off[1:], reverse=True), off[1:])
+
+        with tempfile.TemporaryDirectory() as folder:
+            picture, film = pathlib.Path(folder) / "body.png", pathlib.Path(folder) / "body.webp"
+            draw = [sys.executable, checkout / "postproc/plots/draw_body.py", runs["15 MPa"].folder, "--colour", "von_mises"]
+            subprocess.run([*draw, "--output", picture], check=True)
+            subprocess.run([*draw, "--film", film], check=True)
+            with Image.open(picture) as image:
+                self.assertEqual(image.width, 600)
+                glass = image.convert("RGB").getpixel((int(0.42 * image.width), image.height // 2))
+                self.assertNotEqual(glass, (255, 255, 255))
+            with Image.open(film) as moving:
+                self.assertEqual(moving.n_frames, len(runs["15 MPa"].frames))
+
+
+if __name__ == "__main__":
+    unittest.main()
