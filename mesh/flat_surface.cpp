@@ -1,6 +1,7 @@
 #include "mesh/flat_surface.h"
 
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -127,8 +128,8 @@ FlatSurface polygon(const std::vector<Vector>& corners) {
   if (!(area.norm() > rounding * size * size)) throw InputError("the corners are collinear: they span no surface");
   for (const Vector& x : corners)
     if (const double off = std::abs(normal.dot(x - corners[0])); off > rounding * size)
-      throw InputError(fmt::format("the corner ({:.6g}, {:.6g}, {:.6g}) m is {:.3g} m off the plane of the others",
-                                   x[0], x[1], x[2], off));
+      throw InputError(
+          fmt::format("the corner {} is {} off the plane of the others", point_text(x, 6), quantity_text(off, "m", 3)));
   return {.point = corners[0], .normal = normal, .has_foot = [corners, normal](const Vector& x) {
             return is_within(corners, normal, x);
           }};

@@ -12,6 +12,7 @@
 #include "mesh/geometry.h"
 #include "physics/error.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 
 namespace pfdm {
 namespace {
@@ -146,8 +147,8 @@ void check_cells(const Mesh& mesh, const std::vector<Index>& order) {
       throw InputError(
           fmt::format("cell {} does not close: it overlaps a neighbour, or its points are out of order", order[c]));
     if (!(mesh.cell_volume[c] > 1e-15 * portable::pow(total, 1.5)))
-      throw InputError(
-          fmt::format("cell {} has the volume {:.6g} m^3, which is not positive", order[c], mesh.cell_volume[c]));
+      throw InputError(fmt::format("cell {} has the volume {}, which is not positive", order[c],
+                                   quantity_text(mesh.cell_volume[c], "m^3", 6)));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 namespace pfdm {
 
@@ -11,9 +12,9 @@ void require_bounded(const std::vector<Vector>& points, const std::string& body)
     const Vector& x = points[i];
     if ((x.array().abs() <= farthest_point).all()) continue;
     throw InputError(
-        fmt::format("{} has point {} at ({:.3g}, {:.3g}, {:.3g}) m; coordinates may be up to {:g} m: is the unit of "
-                    "length right, and the file whole?",
-                    body, i, x[0], x[1], x[2], farthest_point));
+        fmt::format("{} has point {} at {}; coordinates may be up to {}: is the unit of length "
+                    "right, and the file whole?",
+                    body, i, point_text(x), quantity_text(farthest_point, "m", 6)));
   }
 }
 

@@ -19,6 +19,7 @@
 #include "mesh/point_bounds.h"
 #include "physics/error.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 
 namespace pfdm {
 namespace {
@@ -60,7 +61,7 @@ class Importer {
 
   Mesh import(void (*check)(const Mesh&) = nullptr) {
     if (!(settings_.scale > 0.0))
-      throw error(fmt::format("its unit of length is {:g} m; it must be positive", settings_.scale));
+      throw error(fmt::format("its unit of length is {}; it must be positive", quantity_text(settings_.scale, "m", 6)));
     extrude_flat();
     region_numbers_ = region_numbers();
     name_regions();
@@ -234,7 +235,8 @@ class Importer {
     if (signed_cell_volume(soup_.points, shape, ids) < 0.0) mirror(shape, ids);
     const double volume = signed_cell_volume(soup_.points, shape, ids);
     if (!(volume > flat_cell * portable::pow((soup_.points[ids[0]] - soup_.points[ids[2]]).norm(), 3)))
-      throw error(fmt::format("its cell {} has the volume {:g} m^3, which is not positive", number_of(cell), volume));
+      throw error(fmt::format("its cell {} has the volume {}, which is not positive", number_of(cell),
+                              quantity_text(volume, "m^3", 6)));
   }
 
   using FaceSets = std::map<std::vector<Index>, Index>;  // sorted points -> number

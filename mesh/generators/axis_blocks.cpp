@@ -7,6 +7,7 @@
 
 #include "physics/error.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 
 namespace pfdm {
 namespace {
@@ -41,7 +42,8 @@ void check_sector(double azimuth, double inner_radius) {
     throw InputError(fmt::format("the sector is {:g} degrees wide in azimuth; more than 0 and at most 45 are allowed",
                                  azimuth * 180.0 / pi));
   if (!(inner_radius >= 0.0))
-    throw InputError(fmt::format("the sector's inner radius is {:g} m; it must be zero or positive", inner_radius));
+    throw InputError(fmt::format("the sector's inner radius is {}; it must be zero or positive",
+                                 quantity_text(inner_radius, "m", 6)));
 }
 
 }  // namespace pfdm

@@ -9,6 +9,7 @@
 
 #include "mesh/patch_rules.h"
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 #include "physics/system/machine_limits.h"
 
 namespace pfdm {
@@ -141,9 +142,9 @@ Index node_at(const BoxGrid& grid, const Slit& slit, std::size_t axis, double x)
   if (x > nodes.back()) return grid.n_cells(axis);
   const auto above = std::ranges::lower_bound(nodes, x - rounding);
   if (*above <= x + rounding) return static_cast<Index>(above - nodes.begin());
-  throw InputError(
-      fmt::format("slit \"{}\": {} = {:.6g} m is not a plane of the grid; the nearest are {:.6g} and {:.6g} m",
-                  slit.name, "xyz"[axis], x, *(above - 1), *above));
+  throw InputError(fmt::format("slit \"{}\": {} = {} is not a plane of the grid; the nearest are {}", slit.name,
+                               "xyz"[axis], quantity_text(x, "m", 6),
+                               quantities_text({*(above - 1), *above}, "m", " and ", 6)));
 }
 
 GridSlit on_grid(const Slit& slit, const BoxGrid& grid) {

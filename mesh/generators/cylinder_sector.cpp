@@ -9,6 +9,7 @@
 
 #include "physics/error.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 
 namespace pfdm {
 namespace {
@@ -22,10 +23,9 @@ class Rolling {
         height_(axis_nodes(0.0, settings.height, "the sector along its height").back()),
         sphere_(settings.upper_sphere) {
     if (sphere_ != 0.0 && !(sphere_ > outer_))
-      throw InputError(
-          fmt::format("the sphere of the sector's upper end has a radius of {:g} m; it must be larger than that of the "
-                      "sector, {:g} m",
-                      sphere_, outer_));
+      throw InputError(fmt::format(
+          "the sphere of the sector's upper end has a radius of {}; it must be larger than that of the sector, {}",
+          quantity_text(sphere_, "m", 6), quantity_text(outer_, "m", 6)));
   }
 
   Vector operator()(const Vector& flat) const {

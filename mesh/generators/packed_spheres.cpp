@@ -7,6 +7,7 @@
 #include "mesh/surfaces/surface_remeshing.h"
 #include "physics/error.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -35,9 +36,8 @@ double draw(const DiameterDistribution& d, std::size_t number, RandomNumbers& ra
     if (diameter >= d.least && (d.most == 0.0 || diameter <= d.most)) return diameter;
   }
   throw InputError(
-      fmt::format("hardly any diameter of the lognormal distribution (mean {:.4g} m, coefficient {:.4g}) "
-                  "lies between {:.4g} and {:.4g} m",
-                  d.mean, d.coefficient, d.least, d.most));
+      fmt::format("hardly any diameter of the lognormal distribution (mean {}, coefficient {:.4g}) lies between {}",
+                  quantity_text(d.mean, "m"), d.coefficient, quantities_text({d.least, d.most}, "m", " and ")));
 }
 
 // Radius of the polyhedron's corners over that of the sphere of its volume.
@@ -95,7 +95,8 @@ void check_gaps(const PackedSpheresSettings& settings, const ParticlesInBoxSetti
     throw InputError(fmt::format("there are {} centres and {} diameters of spheres", settings.centres.size(),
                                  settings.diameters.size()));
   for (const double diameter : settings.diameters)
-    if (!(diameter > 0.0)) throw InputError(fmt::format("a sphere has the diameter {:g} m", diameter));
+    if (!(diameter > 0.0))
+      throw InputError(fmt::format("a sphere has the diameter {}", quantity_text(diameter, "m", 6)));
   if (!((box.upper - box.lower).minCoeff() > 0.0)) throw InputError("a side of the box is not positive");
 }
 

@@ -14,6 +14,7 @@
 #include "mesh/surfaces/surface_checks.h"
 #include "physics/error.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 
 namespace pfdm {
 namespace {
@@ -24,10 +25,10 @@ bool is_sphere(const Particle& p) { return p.shape.triangles.empty(); }
 
 std::string describe_particle(const ParticlesInBoxSettings& settings, std::size_t i) {
   const Particle& p = settings.particles[i];
-  const std::string extent = is_sphere(p) ? fmt::format("radius {:g} m", p.radius)
+  const std::string extent = is_sphere(p) ? fmt::format("radius {}", quantity_text(p.radius, "m", 6))
                                           : fmt::format("a surface of {} triangles", p.shape.triangles.size());
-  return fmt::format("particle {} (centre {:g} {:g} {:g} m, {}{})", i + 1, p.centre[0], p.centre[1], p.centre[2],
-                     extent, p.n_layers > 0 ? fmt::format(", layers of {:g} m", p.layer_thickness) : "");
+  return fmt::format("particle {} (centre {}, {}{})", i + 1, point_text(p.centre, 6), extent,
+                     p.n_layers > 0 ? fmt::format(", layers of {}", quantity_text(p.layer_thickness, "m", 6)) : "");
 }
 
 void check_positive(const std::string& what, double value) {
@@ -38,10 +39,9 @@ void check_sphere_in_box(const ParticlesInBoxSettings& settings, const Particle&
   check_positive("the radius of " + name, p.radius);
   const double room = std::min((p.centre - settings.lower).minCoeff(), (settings.upper - p.centre).minCoeff());
   if (!(outer_radius(p) < room))
-    throw InputError(
-        fmt::format("{} leaves the box or touches its side: it needs more than {:g} m from its centre to every "
-                    "side and has {:g} m",
-                    name, outer_radius(p), room));
+    throw InputError(fmt::format(
+        "{} leaves the box or touches its side: it needs more than {} from its centre to every side and has {}", name,
+        quantity_text(outer_radius(p), "m", 6), quantity_text(room, "m", 6)));
 }
 
 void check_particle(const ParticlesInBoxSettings& settings, std::size_t i) {
@@ -49,8 +49,8 @@ void check_particle(const ParticlesInBoxSettings& settings, std::size_t i) {
   const std::string name = describe_particle(settings, i);
   if (!p.centre.allFinite()) throw InputError(name + " has a centre that is not finite");
   if (p.surface_size != 0.0 && p.subdivision != 0)
-    throw InputError(fmt::format("{} has both a surface size ({:g} m) and a subdivision ({}); give one", name,
-                                 p.surface_size, p.subdivision));
+    throw InputError(fmt::format("{} has both a surface size ({}) and a subdivision ({}); give one", name,
+                                 quantity_text(p.surface_size, "m", 6), p.subdivision));
   if (p.subdivision == 0) check_positive("the surface size [m] of " + name, p.surface_size);
   if (p.subdivision < 0 || p.n_layers < 0)
     throw InputError(fmt::format("{} has the subdivision {} and {} layers; neither may be negative", name,
@@ -66,8 +66,9 @@ void check_apart(const ParticlesInBoxSettings& settings, std::size_t i, std::siz
   const double distance = (a.centre - b.centre).norm();
   const double needed = outer_radius(a) + outer_radius(b);
   if (!(distance > needed))
-    throw InputError(fmt::format("{} and {} overlap or touch: their centres are {:g} m apart and need more than {:g} m",
-                                 describe_particle(settings, i), describe_particle(settings, j), distance, needed));
+    throw InputError(fmt::format("{} and {} overlap or touch: their centres are {} apart and need more than {}",
+                                 describe_particle(settings, i), describe_particle(settings, j),
+                                 quantity_text(distance, "m", 6), quantity_text(needed, "m", 6)));
 }
 
 double area_of_sides(const Vector& extent) {
@@ -80,16 +81,16 @@ void check_number_of_cells(const ParticlesInBoxSettings& settings) {
   const Vector extent = settings.upper - settings.lower;
   const double edge = settings.size_far, cells = extent.prod() / (regular * edge * edge * edge);
   if (!(cells < most))
-    throw InputError(fmt::format(
-        "the box would have about {:.3g} tetrahedra of {:.3g} m (size_far), too many to number", cells, edge));
+    throw InputError(fmt::format("the box would have about {:.3g} tetrahedra of {} (size_far), too many to number",
+                                 cells, quantity_text(edge, "m", 3)));
   require_few_triangles("the box", area_of_sides(extent), settings.boundary_size > 0.0 ? settings.boundary_size : edge);
 }
 
 void check_settings(const ParticlesInBoxSettings& settings) {
   const Vector extent = settings.upper - settings.lower;
   if (!(extent.minCoeff() > 0.0) || !extent.allFinite())
-    throw InputError(fmt::format("the box has the sides {:g}, {:g} and {:g} m; all must be positive", extent[0],
-                                 extent[1], extent[2]));
+    throw InputError(fmt::format("the box has the sides {}; all must be positive",
+                                 quantities_text({extent[0], extent[1], extent[2]}, "m", ", ", 6)));
   check_positive("the largest cell size (size_far) [m]", settings.size_far);
   check_positive("the largest cell size inside particles over that on their surface", settings.particle_size_factor);
   if (std::isfinite(settings.particle_size_factor) && !std::ranges::all_of(settings.particles, is_sphere))
@@ -301,10 +302,9 @@ void check_watertight(const Mesh& mesh, const ParticlesInBoxSettings& settings) 
   const double box_surface_area = area_of_sides(extent);
   const auto differs = [](double a, double b) { return !(std::abs(a - b) <= 1e-9 * b); };
   if (differs(filled, extent.prod()) || differs(surface, box_surface_area))
-    throw ComputationError(
-        fmt::format("the mesh does not fill its box: volume {:.12g} of {:.12g} m^3, boundary {:.12g} of "
-                    "{:.12g} m^2",
-                    filled, extent.prod(), surface, box_surface_area));
+    throw ComputationError(fmt::format("the mesh does not fill its box: volume {:.12g} of {}, boundary {:.12g} of {}",
+                                       filled, quantity_text(extent.prod(), "m^3", 12), surface,
+                                       quantity_text(box_surface_area, "m^2", 12)));
 }
 
 }  // namespace

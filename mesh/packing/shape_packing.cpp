@@ -3,6 +3,7 @@
 #include "mesh/packing/convex_distance.h"
 #include "physics/error.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -115,10 +116,11 @@ class GrowingBodies {
     try {
       return pack_spheres(spheres, random_);
     } catch (const InputError&) {  // which speaks of spheres
-      throw InputError(fmt::format(
-          "{} particles with gaps of {:.4g} m, and {:.4g} m from the sides, have no room in a box whose shortest side "
-          "is {:.4g} m: take fewer of them, or smaller gaps",
-          hulls_.size(), packing_.gap, packing_.wall_gap, (packing_.upper - packing_.lower).minCoeff()));
+      throw InputError(
+          fmt::format("{} particles with gaps of {}, and {} from the sides, have no room in a box whose shortest side "
+                      "is {}: take fewer of them, or smaller gaps",
+                      hulls_.size(), quantity_text(packing_.gap, "m"), quantity_text(packing_.wall_gap, "m"),
+                      quantity_text((packing_.upper - packing_.lower).minCoeff(), "m")));
     }
   }
 
@@ -179,10 +181,10 @@ std::vector<ShapePlace> pack_shapes(const ShapePacking& packing, RandomNumbers& 
     for (int i = 0; i < last_sweeps; ++i) bodies.sweep();
     return bodies.places();
   }
-  throw InputError(fmt::format(
-      "{} particles with gaps of {:.4g} m found no room: they would have to be {:.2g} % smaller; take a lower "
-      "volume fraction or gap, or another seed",
-      packing.bodies.size(), packing.gap, 100.0 * (1.0 - best)));
+  throw InputError(
+      fmt::format("{} particles with gaps of {} found no room: they would have to be {:.2g} % smaller; take a lower "
+                  "volume fraction or gap, or another seed",
+                  packing.bodies.size(), quantity_text(packing.gap, "m"), 100.0 * (1.0 - best)));
 }
 
 }  // namespace pfdm

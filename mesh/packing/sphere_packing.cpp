@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -141,9 +142,9 @@ void check_room(const SpherePacking& packing) {
   const double side = (packing.upper - packing.lower).minCoeff();
   if (2.0 * largest >= side)
     throw InputError(
-        fmt::format("a sphere of diameter {:.4g} m with {:.4g} m on each side has no room in a box whose "
-                    "shortest side is {:.4g} m",
-                    2.0 * (largest - packing.wall_gap), packing.wall_gap, side));
+        fmt::format("a sphere of diameter {} with {} on each side has no room in a box whose shortest side is {}",
+                    quantity_text(2.0 * (largest - packing.wall_gap), "m"), quantity_text(packing.wall_gap, "m"),
+                    quantity_text(side, "m")));
   const double with_gaps = volume_of(packing.radii, 0.5 * packing.gap) / (packing.upper - packing.lower).prod();
   if (with_gaps > 0.7)
     throw InputError(
@@ -200,10 +201,10 @@ std::vector<Vector> pack_spheres(const SpherePacking& packing, RandomNumbers& ra
     return spheres.centres();
   }
   throw InputError(fmt::format(
-      "{} spheres with gaps of {:.4g} m found no room: at their volume fraction of {:.4f} (of the spheres around the "
-      "corners of their surfaces, with their layers) they would have to be {:.2f} % smaller; take a lower fraction or "
-      "gap, finer surfaces, a wider distribution of diameters, or another seed",
-      packing.radii.size(), packing.gap, volume_fraction(packing), 100.0 * (1.0 - best)));
+      "{} spheres with gaps of {} found no room: at their volume fraction of {:.4f} (of the spheres around the corners "
+      "of their surfaces, with their layers) they would have to be {:.2f} % smaller; take a lower fraction or gap, "
+      "finer surfaces, a wider distribution of diameters, or another seed",
+      packing.radii.size(), quantity_text(packing.gap, "m"), volume_fraction(packing), 100.0 * (1.0 - best)));
 }
 
 }  // namespace pfdm

@@ -12,6 +12,7 @@
 #include "mesh/surfaces/sphere_refinement.h"
 #include "physics/error.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 #include "physics/system/packed_bytes.h"
 #include "physics/system/separate_process.h"
 
@@ -80,9 +81,9 @@ TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
   const auto bytes = computed_separately([&] { return bytes_of(remeshed_by_cgal(given, size, sharp)); });
   if (!bytes)
     throw InputError(
-        fmt::format("the surface {}: CGAL crashes where it divides it into triangles of {:g} m: give a smaller "
+        fmt::format("the surface {}: CGAL crashes where it divides it into triangles of {}: give a smaller "
                     "surface_size, or repair flat and needle-shaped triangles of the file",
-                    given.name, size));
+                    given.name, quantity_text(size, "m", 6)));
   return surface_in(*bytes);
 }
 
@@ -92,9 +93,10 @@ TriangleSurface remeshed_body(const NamedSurface& given, double size, double sha
   const double volume = enclosed_volume(given.surface), kept = enclosed_volume(surface) / volume;
   if (!(kept >= least))
     throw InputError(
-        fmt::format("the surface {}: triangles of {:g} m leave {:.2g} of its volume, that of a sphere of diameter "
-                    "{:.3g} m; at least {:g} is required: give a smaller surface_size",
-                    given.name, size, kept, portable::cbrt(6.0 / std::numbers::pi * volume), least));
+        fmt::format("the surface {}: triangles of {} leave {:.2g} of its volume, that of a sphere of diameter {}; at "
+                    "least {:g} is required: give a smaller surface_size",
+                    given.name, quantity_text(size, "m", 6), kept,
+                    quantity_text(portable::cbrt(6.0 / std::numbers::pi * volume), "m", 3), least));
   return surface;
 }
 

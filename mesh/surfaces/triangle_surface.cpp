@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 namespace pfdm {
 namespace {
@@ -85,8 +86,8 @@ void require_few_triangles(std::string_view surface, double area, double edge) {
   constexpr double most = 1e7;
   const double n = 4.0 / std::numbers::sqrt3 * area / (edge * edge);
   if (!(n < most))
-    throw InputError(fmt::format("the surface of {} would get {:.2g} triangles of {:.3g} m; at most {:.2g}", surface, n,
-                                 edge, most));
+    throw InputError(fmt::format("the surface of {} would get {:.2g} triangles of {}; at most {:.2g}", surface, n,
+                                 quantity_text(edge, "m", 3), most));
 }
 
 TriangleSurface unit_icosphere(Index n) {

@@ -1,6 +1,7 @@
 #include "physics/elasticity/anisotropy.h"
 
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -79,10 +80,10 @@ MandelMatrix cubic_stiffness(double C11, double C12, double C44) {
   C.topLeftCorner<3, 3>().setConstant(C12);
   for (int i = 0; i < 3; ++i) C(i, i) = C11, C(i + 3, i + 3) = 2.0 * C44;
   if (!is_positive(C))
-    throw InputError(fmt::format(
-        "the elastic energy of these constants is not positive for every strain: C44 = {:.4g} Pa, C11 - C12 "
-        "= {:.4g} Pa and C11 + 2 C12 = {:.4g} Pa must be positive",
-        C44, C11 - C12, C11 + 2.0 * C12));
+    throw InputError(
+        fmt::format("the elastic energy of these constants is not positive for every strain: C44 = {}, C11 - C12 = {} "
+                    "and C11 + 2 C12 = {} must be positive",
+                    quantity_text(C44, "Pa"), quantity_text(C11 - C12, "Pa"), quantity_text(C11 + 2.0 * C12, "Pa")));
   return C;
 }
 

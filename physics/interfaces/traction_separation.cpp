@@ -2,6 +2,7 @@
 
 #include "physics/damage/softening_law.h"
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -137,16 +138,16 @@ TabulatedPoints tabulate(std::span<const double> separation, std::span<const dou
   if (x.front() > 0.0) x.insert(x.begin(), 0.0), y.insert(y.begin(), 0.0);
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (i > 0 ? !(x[i] > x[i - 1]) : x[i] != 0.0)
-      throw InputError(fmt::format("point {} of a tabulated law: the separations have to rise from zero, found {:g} m",
-                                   i + 1, x[i]));
+      throw InputError(fmt::format("point {} of a tabulated law: the separations have to rise from zero, found {}",
+                                   i + 1, quantity_text(x[i], "m", 6)));
     if (!(y[i] >= 0.0))
-      throw InputError(fmt::format("point {} of a tabulated law: traction {:g} Pa is negative", i + 1, y[i]));
+      throw InputError(
+          fmt::format("point {} of a tabulated law: traction {} is negative", i + 1, quantity_text(y[i], "Pa", 6)));
   }
   if (y[0] != 0.0 || !(y[1] > 0.0))
     throw InputError(
-        fmt::format("a tabulated law begins with the traction 0 at the separation 0 and rises; found {:g} "
-                    "Pa, then {:g} Pa",
-                    y[0], y[1]));
+        fmt::format("a tabulated law begins with the traction 0 at the separation 0 and rises; found {}, then {}",
+                    quantity_text(y[0], "Pa", 6), quantity_text(y[1], "Pa", 6)));
   TabulatedPoints points{.strength = *std::ranges::max_element(y), .energy = 0.0, .shape = {}};
   for (std::size_t i = 1; i < x.size(); ++i) points.energy += 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]);
   for (std::size_t i = 0; i < x.size(); ++i) {

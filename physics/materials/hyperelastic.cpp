@@ -1,6 +1,7 @@
 #include "physics/materials/hyperelastic.h"
 
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -82,11 +83,10 @@ HyperelasticMaterial::HyperelasticMaterial(const HyperelasticLaw& law, Hyperelas
   if (!(std::abs(0.5 * C(3, 3) + p0_ - elasticity().mu) <= rounding))
     throw InputError(fmt::format("a material of the law \"{}\" needs exponents and shares", law_.name));
   if (Lambda_ < -rounding)
-    throw InputError(
-        fmt::format("a material of the law \"{}\" with these parameters and a Poisson's ratio of {:.6g} has a negative "
-                    "stiffness against changes of volume beyond its shear part's, {:.4g} Pa; a larger Poisson's ratio "
-                    "is required",
-                    law_.name, elasticity().poisson_ratio(), Lambda_));
+    throw InputError(fmt::format(
+        "a material of the law \"{}\" with these parameters and a Poisson's ratio of {:.6g} has a negative stiffness "
+        "against changes of volume beyond its shear part's, {}; a larger Poisson's ratio is required",
+        law_.name, elasticity().poisson_ratio(), quantity_text(Lambda_, "Pa")));
   const double moderate = std::max(moderate_lambda * elasticity().mu - C(0, 1), 0.0);
   if (elasticity().poisson_ratio() > nearly_incompressible)
     pressure_modulus_ = std::max(Lambda_ - moderate, 0.5 * Lambda_);

@@ -2,6 +2,7 @@
 
 #include "physics/error.h"
 #include "physics/materials/small_strain_material.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -67,10 +68,10 @@ class J2Plasticity final : public SmallStrainMaterial {
 std::shared_ptr<const Material> make_j2_plasticity(const IsotropicElasticity& elasticity, const J2Parameters& law) {
   if (!(law.yield_stress > 0.0 && law.isotropic_hardening >= 0.0 && law.kinematic_hardening >= 0.0))
     throw InputError(
-        fmt::format("J2 plasticity with yield stress {} Pa, isotropic hardening {} Pa and kinematic hardening {} Pa: "
-                    "the first must "
-                    "be positive, the others must not be negative",
-                    law.yield_stress, law.isotropic_hardening, law.kinematic_hardening));
+        fmt::format("J2 plasticity with yield stress {}, isotropic hardening {} and kinematic hardening {}: the first "
+                    "must be positive, the others must not be negative",
+                    quantity_text(law.yield_stress, "Pa", 6), quantity_text(law.isotropic_hardening, "Pa", 6),
+                    quantity_text(law.kinematic_hardening, "Pa", 6)));
   return std::make_shared<const J2Plasticity>(elasticity, law);
 }
 

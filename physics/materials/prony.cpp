@@ -3,6 +3,7 @@
 #include "physics/error.h"
 #include "physics/materials/small_strain_material.h"
 #include "physics/portable_math.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -119,8 +120,8 @@ std::shared_ptr<const Material> make_prony(const PronyLaw& law) {
   for (const auto* branches : {&law.shear, &law.bulk})
     for (const PronyBranch& branch : *branches)
       if (!(branch.modulus > 0.0 && branch.time > 0.0))
-        throw InputError(fmt::format("a Prony branch with the modulus {} Pa and the time {} s: both must be positive",
-                                     branch.modulus, branch.time));
+        throw InputError(fmt::format("a Prony branch with the modulus {} and the time {} s: both must be positive",
+                                     quantity_text(branch.modulus, "Pa", 6), branch.time));
   if (law.shear.empty() && law.bulk.empty())
     throw InputError(
         "a material of the law \"prony\" needs shear_branches or bulk_branches, as in shear_branches = "

@@ -1,6 +1,7 @@
 #include "physics/materials/strength_model.h"
 
 #include "physics/materials/biot_stress.h"
+#include "physics/quantity_text.h"
 #include "physics/registry.h"
 
 #include <cmath>
@@ -52,17 +53,17 @@ constexpr StrengthLaw all_strength_laws[] = {drucker_prager};
 void require_surface(const StrengthData& data) {
   if (data.tensile > 0.0 && 3.0 * data.hydrostatic > data.tensile) return;
   throw InputError(
-      fmt::format("the strength in hydrostatic tension is {:.4g} Pa, that in uniaxial tension {:.4g} Pa; expected more "
-                  "than a third of the latter",
-                  data.hydrostatic, data.tensile));
+      fmt::format("the strength in hydrostatic tension is {}, that in uniaxial tension {}; expected more than a third "
+                  "of the latter",
+                  quantity_text(data.hydrostatic, "Pa"), quantity_text(data.tensile, "Pa")));
 }
 
 }  // namespace
 
 double hydrostatic_strength(double tensile, double compressive) {
   if (!(tensile > 0.0 && compressive > tensile))
-    throw InputError(fmt::format("the compressive strength is {:.4g} Pa; expected more than the tensile one, {:.4g} Pa",
-                                 compressive, tensile));
+    throw InputError(fmt::format("the compressive strength is {}; expected more than the tensile one, {}",
+                                 quantity_text(compressive, "Pa"), quantity_text(tensile, "Pa")));
   return 2.0 / 3.0 * tensile * compressive / (compressive - tensile);
 }
 

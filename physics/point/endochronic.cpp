@@ -1,6 +1,7 @@
 #include "physics/point/endochronic.h"
 
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -208,8 +209,8 @@ void check(const EndochronicLaw& law) {
   if (law.kernel.empty()) throw InputError("the kernel of the endochronic law needs at least one term (C, alpha)");
   for (const auto& [C, alpha] : law.kernel)
     if (!(C > 0.0) || !(alpha >= 0.0) || !std::isfinite(C) || !std::isfinite(alpha))
-      throw InputError(
-          fmt::format("a kernel term has C = {} Pa, alpha = {}; C must be positive, alpha zero or positive", C, alpha));
+      throw InputError(fmt::format("a kernel term has C = {}, alpha = {}; C must be positive, alpha zero or positive",
+                                   quantity_text(C, "Pa", 6), alpha));
   if (!(law.beta >= 0.0 && law.beta <= 1.0))
     throw InputError(fmt::format("beta = {} must be between 0 and 1 (1/2: second order)", law.beta));
 }

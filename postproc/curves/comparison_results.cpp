@@ -2,6 +2,7 @@
 
 #include "physics/angle.h"
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/files/json.h"
@@ -115,9 +116,9 @@ ForceComparison compare_forces(const SampledCurve& model, const std::vector<Samp
                         .stiffness_from = stiffness_from,
                         .stiffness_to = stiffness_to};
   if (stiffness_from < force.curves.x.front() || stiffness_to > force.curves.x.back())
-    throw InputError(fmt::format(
-        "the stiffness is requested between {:.4g} and {:.4g} m; the common range of the curves is {:.4g} to {:.4g} m",
-        stiffness_from, stiffness_to, force.curves.x.front(), force.curves.x.back()));
+    throw InputError(fmt::format("the stiffness is requested between {}; the common range of the curves is {}",
+                                 quantities_text({stiffness_from, stiffness_to}, "m", " and "),
+                                 quantities_text({force.curves.x.front(), force.curves.x.back()}, "m", " to ")));
   const auto figures = [&](const SampledCurve& curve) {
     return figures_of(curve, force.curves.x.front(), force.curves.x.back(), stiffness_from, stiffness_to);
   };

@@ -1,6 +1,7 @@
 #include "postproc/curves/measured_curve.h"
 
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 #include <boost/math/distributions/students_t.hpp>
@@ -55,12 +56,13 @@ InputError falling(const std::vector<double>& x, double jitter, double moved) {
     top = std::max(top, value);
     depth = std::max(depth, top - value);
   }
-  const std::string allowed =
-      jitter > 0.0 ? fmt::format(", and a jitter of {:.4g} m does not cover moves of {:.4g} m", jitter, moved) : "";
+  const std::string allowed = jitter > 0.0 ? fmt::format(", and a jitter of {} does not cover moves of {}",
+                                                         quantity_text(jitter, "m"), quantity_text(moved, "m"))
+                                           : "";
   return InputError(fmt::format(
-      "the displacements decrease, first from row {} ({:.6g} m) to the next ({:.6g} m), and lie up to {:.4g} m below "
-      "earlier ones{}; set loops = \"envelope\" to leave unloading out, or jitter to the largest noise",
-      row, x[row - 1], x[row], depth, allowed));
+      "the displacements decrease, first from row {} ({}) to the next ({}), and lie up to {} below earlier ones{}; set "
+      "loops = \"envelope\" to leave unloading out, or jitter to the largest noise",
+      row, quantity_text(x[row - 1], "m", 6), quantity_text(x[row], "m", 6), quantity_text(depth, "m"), allowed));
 }
 
 void take_jitter(MeasuredCurve& measured, double jitter) {
@@ -75,8 +77,8 @@ void take_jitter(MeasuredCurve& measured, double jitter) {
   }
   if (!(largest <= jitter)) throw falling(x, jitter, largest);
   x = smooth;
-  measured.done.push_back(
-      fmt::format("jitter: {} of {} displacements moved, by {:.4g} m at most", n_moved, x.size(), largest));
+  measured.done.push_back(fmt::format("jitter: {} of {} displacements moved, by {} at most", n_moved, x.size(),
+                                      quantity_text(largest, "m")));
 }
 
 /// The first row of the straight part, and the one after its last.
@@ -95,17 +97,17 @@ void take_toe(MeasuredCurve& measured, const Toe& toe) {
                                   {curve.y.begin() + begin, curve.y.begin() + end}, measured.set_up.force_offset);
   if (!line)
     throw InputError(
-        fmt::format("toe: {} rows lie between {:.4g} and {:.4g} {}; a straight part that rises needs three "
-                    "at two displacements",
-                    last - first, toe.from, toe.to, toe.of_force ? "N" : "m"));
+        fmt::format("toe: {} rows lie between {}; a straight part that rises needs three at two displacements",
+                    last - first, quantities_text({toe.from, toe.to}, toe.of_force ? "N" : "m", " and ")));
   std::vector<std::size_t> kept;
   for (std::size_t i = first; i < curve.x.size(); ++i) kept.push_back(i);
   curve = rows_of(curve, kept);
   for (double& x : curve.x) x -= line->zero;
   measured.done.push_back(fmt::format(
-      "toe: the straight part of {} rows, {:.5g} N/m, meets zero force at {:.4g} m (standard error {:.2g}), "
-      "the new origin; {} rows before it left out",
-      line->n_points, line->slope, line->zero, line->zero_error, first));
+      "toe: the straight part of {} rows, {}, meets zero force at {} (standard error {}), the new origin; {} rows "
+      "before it left out",
+      line->n_points, quantity_text(line->slope, "N/m", 5), quantity_text(line->zero, "m"),
+      quantity_text(line->zero_error, "m", 2), first));
 }
 
 }  // namespace
@@ -123,9 +125,10 @@ SampledCurve MeasuredCurve::of_specimen() const {
 
 std::vector<std::string> MeasuredCurve::treatment() const {
   std::vector<std::string> all = done;
-  if (set_up.offset != 0.0) all.push_back(fmt::format("offset: {:.4g} m", set_up.offset));
-  if (set_up.force_offset != 0.0) all.push_back(fmt::format("force_offset: {:.4g} N", set_up.force_offset));
-  if (set_up.compliance != 0.0) all.push_back(fmt::format("compliance: {:.4g} m/N", set_up.compliance));
+  if (set_up.offset != 0.0) all.push_back(fmt::format("offset: {}", quantity_text(set_up.offset, "m")));
+  if (set_up.force_offset != 0.0)
+    all.push_back(fmt::format("force_offset: {}", quantity_text(set_up.force_offset, "N")));
+  if (set_up.compliance != 0.0) all.push_back(fmt::format("compliance: {}", quantity_text(set_up.compliance, "m/N")));
   return all;
 }
 
@@ -216,9 +219,10 @@ std::optional<MissedOrigin> missed_origin(const SampledCurve& measured, const Sa
 
 std::string missed_origin_text(const MissedOrigin& missed, const std::string& specimen) {
   return fmt::format(
-      "the straight part of {} meets zero force at {:.3g} m (standard error {:.2g}), that of the computed curve at "
-      "{:.3g}: an offset or a toe; see offset, force_offset and toe of [experiment]",
-      specimen, missed.measured, missed.error, missed.computed);
+      "the straight part of {} meets zero force at {} (standard error {}), that of the computed curve at {}: "
+      "an offset or a toe; see offset, force_offset and toe of [experiment]",
+      specimen, quantity_text(missed.measured, "m", 3), quantity_text(missed.error, "m", 2),
+      quantity_text(missed.computed, "m", 3));
 }
 
 std::optional<Slack> slack_at_start(const SampledCurve& measured) {
@@ -252,9 +256,10 @@ std::optional<std::string> doubt_of_origin(const SampledCurve& measured, const S
                                            double to) {
   if (const auto slack = slack_at_start(measured))
     return fmt::format(
-        "{} begins with slack: {} rows up to {:.3g} m are at zero force, and the rise after them meets it at {:.4g} m "
-        "(standard error {:.2g}); toe = [\"{:.3g} N\", \"{:.3g} N\"] of [experiment] makes that the origin",
-        measured.name, slack->n_rows, slack->until, slack->origin, slack->error, slack->from, slack->to);
+        "{} begins with slack: {} rows up to {} are at zero force, and the rise after them meets it at {} (standard "
+        "error {}); toe = [\"{}\", \"{}\"] of [experiment] makes that the origin",
+        measured.name, slack->n_rows, quantity_text(slack->until, "m", 3), quantity_text(slack->origin, "m"),
+        quantity_text(slack->error, "m", 2), quantity_text(slack->from, "N", 3), quantity_text(slack->to, "N", 3));
   const auto missed = missed_origin(measured, computed, from, to);
   return missed ? std::optional(missed_origin_text(*missed, measured.name)) : std::nullopt;
 }

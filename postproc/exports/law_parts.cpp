@@ -1,6 +1,7 @@
 #include "postproc/exports/law_parts.h"
 
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 
@@ -30,12 +31,12 @@ Figure stiffness_of(const ExportedLaw& law, double compliance, const ExportChoic
   const double least = 0.5 * strength * strength / energy;  // its rise takes the whole energy
   constexpr double most = 1e6;  // times the least: the rise is shorter than anything that a mesh or a table resolves
   if (choice.stiffness && *choice.stiffness > most * least)
-    throw InputError(fmt::format("--stiffness {:.4g} Pa/m: at most {:g} strength^2 / (2 GI) = {:.4g} Pa/m",
-                                 *choice.stiffness, most, most * least));
+    throw InputError(fmt::format("--stiffness {}: at most {:g} strength^2 / (2 GI) = {}",
+                                 quantity_text(*choice.stiffness, "Pa/m"), most, quantity_text(most * least, "Pa/m")));
   if (choice.stiffness) {
     if (*choice.stiffness > least) return {*choice.stiffness, "given (--stiffness)"};
-    throw InputError(fmt::format("--stiffness {:.4g} Pa/m: the law needs more than strength^2 / (2 GI) = {:.4g} Pa/m",
-                                 *choice.stiffness, least));
+    throw InputError(fmt::format("--stiffness {}: the law needs more than strength^2 / (2 GI) = {}",
+                                 quantity_text(*choice.stiffness, "Pa/m"), quantity_text(least, "Pa/m")));
   }
   const double rule = least / rise_share;
   const double value = 1.0 / (1.0 / rule + compliance);

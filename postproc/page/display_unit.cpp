@@ -1,5 +1,7 @@
 #include "postproc/page/display_unit.h"
 
+#include "physics/quantity_text.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -51,19 +53,11 @@ std::optional<double> factor_between(std::string_view a, std::string_view b) {
 }
 
 DisplayUnit display_unit(double largest, std::string_view si_unit) {
-  const std::size_t hat = si_unit.find('^');
-  const std::string_view base = si_unit.substr(0, hat);
-  const int exponent = hat == std::string_view::npos ? 1 : si_unit[hat + 1] - '0';
-  const std::string_view raised = exponent == 2 ? "²" : exponent == 3 ? "³" : "";
-  const double least = exponent == 1 ? 0.9995 : 1e-3;  // 0.02 mm³ rather than 2e+07 µm³
-  const Prefix* chosen = &prefixes[4];
-  if (std::isfinite(largest) && largest != 0.0) {
-    chosen = &prefixes.front();
-    for (const Prefix& prefix : prefixes)
-      if (std::abs(largest) >= least * std::pow(1e3, prefix.power * exponent)) chosen = &prefix;
-  }
-  return {.factor = std::pow(1e3, -chosen->power * exponent),
-          .name = fmt::format("{}{}{}", chosen->sign, base, raised)};
+  ScaledUnit scaled = scaled_unit(largest, si_unit);
+  if (scaled.name.size() > si_unit.size() && scaled.name.front() == 'u') scaled.name.replace(0, 1, "µ");
+  for (const auto& [plain, sign] : {std::pair("^2", "²"), std::pair("^3", "³")})
+    if (const std::size_t at = scaled.name.find(plain); at != std::string::npos) scaled.name.replace(at, 2, sign);
+  return {.factor = scaled.factor, .name = scaled.name};
 }
 
 std::string shown(double value, std::string_view si_unit) {

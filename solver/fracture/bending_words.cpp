@@ -1,5 +1,6 @@
 #include "solver/fracture/bending_words.h"
 
+#include "physics/quantity_text.h"
 #include "solver/momentum/bending_layers.h"
 
 #include <fmt/format.h>
@@ -49,13 +50,13 @@ std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel
   const BendingLayers& at = worst->layers;
   const double nu = worst->poisson_ratio;
   return fmt::format(
-      "region \"{}\": {:g} layer{} of hexahedra {:.3g} m long across {:.3g} m: where they bend, their stiffness is "
-      "about {:.0f} % too {} (1.5 (1 - nu) (length/thickness)^2 = {:.3g} less (3 - 2/n)/n^2 = {:.3g}; {}). For {:.0f} "
-      "%: {} "
-      "layers of cells up to {:.2g} m long ([mesh])",
-      mesh.region_names[as_size(mesh.region[worst->cell])], at.n, at.n == 1.0 ? "" : "s", at.length, at.thickness,
-      100.0 * std::abs(worst->error), worst->error > 0.0 ? "high" : "low", at.excess(nu), at.lack(), why,
-      100.0 * bearable, layers_for_it, at.thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))));
+      "region \"{}\": {:g} layer{} of hexahedra {} long across {}: where they bend, their stiffness is about {:.0f} % "
+      "too {} (1.5 (1 - nu) (length/thickness)^2 = {:.3g} less (3 - 2/n)/n^2 = {:.3g}; {}). For {:.0f} %: {} layers of "
+      "cells up to {} long ([mesh])",
+      mesh.region_names[as_size(mesh.region[worst->cell])], at.n, at.n == 1.0 ? "" : "s",
+      quantity_text(at.length, "m", 3), quantity_text(at.thickness, "m", 3), 100.0 * std::abs(worst->error),
+      worst->error > 0.0 ? "high" : "low", at.excess(nu), at.lack(), why, 100.0 * bearable, layers_for_it,
+      quantity_text(at.thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))), "m", 2));
 }
 
 }  // namespace pfdm

@@ -2,6 +2,7 @@
 
 #include "physics/elasticity/gradient_stress.h"
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 #include "solver/momentum/finite_tractions.h"
 #include "solver/parallel.h"
 
@@ -89,9 +90,10 @@ void CohesiveFaces::add(std::size_t number, const CohesiveSurface& surface, std:
       (too_soft(at.strength, at.toughness) ||
        (surface.law.depends_on_mode() && too_soft(at.shear_strength, at.shear_toughness))))
     throw InputError(
-        fmt::format("interface \"{}\": with the stiffness {:.4g} Pa/m the rise to the strength takes more than the "
-                    "toughness; at least strength^2 / (2 toughness) = {:.4g} Pa/m",
-                    surface.name, at.stiffness, 0.5 * at.strength * at.strength / at.toughness));
+        fmt::format("interface \"{}\": with the stiffness {} the rise to the strength takes more than the toughness; "
+                    "at least strength^2 / (2 toughness) = {}",
+                    surface.name, quantity_text(at.stiffness, "Pa/m"),
+                    quantity_text(0.5 * at.strength * at.strength / at.toughness, "Pa/m")));
   faces_.push_back({.surface = number,
                     .P = mesh_.owner[f],
                     .N = mesh_.neighbour[f],
@@ -270,9 +272,9 @@ std::vector<std::string> CohesiveFaces::warnings() const {
   for (std::size_t s = 0; s < worst.size(); ++s)
     if (worst[s] > 1.0)
       lines.push_back(fmt::format(
-          "interface \"{}\": the law softens faster than the cells beside it unload, {:.3g} m from centre to centre; "
-          "faces would tear one by one, in jumps: at most {:.3g} m resolves the law",
-          model_.interfaces[s].name, length[s], length[s] / worst[s]));
+          "interface \"{}\": the law softens faster than the cells beside it unload, {} from centre to centre; faces "
+          "would tear one by one, in jumps: at most {} resolves the law",
+          model_.interfaces[s].name, quantity_text(length[s], "m", 3), quantity_text(length[s] / worst[s], "m", 3)));
   return lines;
 }
 

@@ -1,5 +1,6 @@
 #include "solver/fracture/combinations.h"
 
+#include "physics/quantity_text.h"
 #include "solver/fracture/held_interfaces.h"
 
 #include "physics/elasticity/anisotropy.h"
@@ -13,7 +14,7 @@
 namespace pfdm {
 namespace {
 
-std::string shown(const Vector& x) { return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", x[0], x[1], x[2]); }
+std::string shown(const Vector& x) { return point_text(x, 4); }
 
 bool controls_dissipation(const LoadingSettings& loading) { return std::isfinite(loading.maximum_dissipation); }
 

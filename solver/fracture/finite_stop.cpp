@@ -1,5 +1,6 @@
 #include "solver/fracture/finite_stop.h"
 
+#include "physics/quantity_text.h"
 #include "solver/momentum/finite_tractions.h"
 
 #include <fmt/format.h>
@@ -31,9 +32,9 @@ std::string most_distorted(const Mesh& mesh, const MomentumOperator& balance, co
   const Tensor& F = balance.finite()->states().deformation()[worst];
   const Vector stretches = principal_stretches(F), &x = mesh.cell_centre[worst];
   return fmt::format(
-      "The cell at ({:.4g}, {:.4g}, {:.4g}) m in region \"{}\" is distorted most: J = {:.3g}, principal stretches "
+      "The cell at {} in region \"{}\" is distorted most: J = {:.3g}, principal stretches "
       "{:.3g}, {:.3g}, {:.3g}",
-      x[0], x[1], x[2], mesh.region_names[as_size(mesh.region[worst])], F.determinant(), stretches[0], stretches[1],
+      point_text(x, 4), mesh.region_names[as_size(mesh.region[worst])], F.determinant(), stretches[0], stretches[1],
       stretches[2]);
 }
 

@@ -1,5 +1,6 @@
 #include "solver/fracture/resolution.h"
 
+#include "physics/quantity_text.h"
 #include "solver/fracture/combinations.h"
 #include "solver/momentum/bending_layers.h"
 
@@ -105,8 +106,8 @@ std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model)
 
 void add_words_on_thickness(const std::string& region, const Sizes& sizes, ResolutionWords& words) {
   if (sizes.n_too_thick == 0) return;
-  const std::string sizes_words =
-      fmt::format("region \"{}\": cells are up to {:.3g} m thick, ell is {:.3g} m", region, sizes.thickness, sizes.ell);
+  const std::string sizes_words = fmt::format("region \"{}\": cells are up to {} thick, ell is {}", region,
+                                              quantity_text(sizes.thickness, "m", 3), quantity_text(sizes.ell, "m", 3));
   if (sizes.n_too_thick == sizes.n_cells)
     words.warnings.push_back(
         fmt::format("{}: no crack would be resolved (at most ell/{:g}: smaller cells in [mesh], or a "
@@ -122,19 +123,19 @@ void add_words_on_thickness(const std::string& region, const Sizes& sizes, Resol
 // Of a mesh one cell thick.
 void add_words_on_length(const std::string& region, const Sizes& sizes, ResolutionWords& words) {
   if (sizes.n_cells == 0 || sizes.n_too_long < sizes.n_cells || sizes.n_too_thick == sizes.n_cells) return;
-  words.remarks.push_back(fmt::format(
-      "region \"{}\": cells are {:.3g} m long or longer in their plane, ell is {:.3g} m: cracks are resolved "
-      "along that length, not across it; the run warns of those",
-      region, sizes.shortest, sizes.ell));
+  words.remarks.push_back(
+      fmt::format("region \"{}\": cells are {} long or longer in their plane, ell is {}: cracks are resolved along "
+                  "that length, not across it; the run warns of those",
+                  region, quantity_text(sizes.shortest, "m", 3), quantity_text(sizes.ell, "m", 3)));
 }
 
 void add_words_on_strength(const std::string& name, const RegionModel& region, ResolutionWords& words) {
   if (!region.damageable || !region.strength.is_chosen()) return;
   if (const double largest = largest_length(region.strength.data()); region.ell > largest)
-    words.warnings.push_back(fmt::format(
-        "region \"{}\": ell is {:.3g} m; a model of strength needs less than 3 Gc/(16 W) = {:.3g} m, W being the "
-        "energy density at the tensile strength",
-        name, region.ell, largest));
+    words.warnings.push_back(
+        fmt::format("region \"{}\": ell is {}; a model of strength needs less than 3 Gc/(16 W) = {}, W being the "
+                    "energy density at the tensile strength",
+                    name, quantity_text(region.ell, "m", 3), quantity_text(largest, "m", 3)));
 }
 
 void add_words_on_band(const Band& band, const Sizes& sizes, const FractureModel& model, double ell,
@@ -142,23 +143,24 @@ void add_words_on_band(const Band& band, const Sizes& sizes, const FractureModel
   const auto n = static_cast<double>(sizes.n_cells);
   if (sizes.width > widest_in_ell * sizes.front && static_cast<double>(sizes.n_fine) < fine_share * n)
     words.warnings.push_back(fmt::format(
-        "region \"{}\": cells are {:.3g} m wide along the band in the mean, {} {:.3g} m: the front of a "
-        "crack that runs along it would not be resolved (at most that: surface_size of the particle, or cells of "
-        "[mesh])",
-        band.region, sizes.width / n,
-        sizes.front / n > 1.01 * ell ? "the front's process zone E' Gc/ft^2 is" : "ell is", sizes.front / n));
+        "region \"{}\": cells are {} wide along the band in the mean, {} {}: the front of a crack that runs along it "
+        "would not be resolved (at most that: surface_size of the particle, or cells of [mesh])",
+        band.region, quantity_text(sizes.width / n, "m", 3),
+        sizes.front / n > 1.01 * ell ? "the front's process zone E' Gc/ft^2 is" : "ell is",
+        quantity_text(sizes.front / n, "m", 3)));
   else if (sizes.width > widest_in_ell * sizes.front)
-    words.remarks.push_back(fmt::format(
-        "region \"{}\": the front of a crack that runs along the band is resolved in {} of {} cells, which are at most "
-        "{:.3g} m wide",
-        band.region, sizes.n_fine, sizes.n_cells, sizes.front / n));
+    words.remarks.push_back(
+        fmt::format("region \"{}\": the front of a crack that runs along the band is resolved in {} of {} cells, which "
+                    "are at most {} wide",
+                    band.region, sizes.n_fine, sizes.n_cells, quantity_text(sizes.front / n, "m", 3)));
   const double half = std::min(model.crack->support, long_tail) * ell,
                beyond = energy_beyond(*model.crack, 0.5 * band.width / ell);
   if (corrects_toughness ? beyond > 0.5 : band.width < 2.0 * half)
-    words.warnings.push_back(fmt::format(
-        "region \"{}\" is {:.3g} m wide: the profile of a crack in it, {:.3g} m with this ell, reaches beyond it with "
-        "{:.0f} % of its energy (a wider band, or a smaller length of [regions.{}])",
-        band.region, band.width, 2.0 * half, 100.0 * beyond, band.region));
+    words.warnings.push_back(
+        fmt::format("region \"{}\" is {} wide: the profile of a crack in it, {} with this ell, reaches beyond it with "
+                    "{:.0f} % of its energy (a wider band, or a smaller length of [regions.{}])",
+                    band.region, quantity_text(band.width, "m", 3), quantity_text(2.0 * half, "m", 3), 100.0 * beyond,
+                    band.region));
 }
 
 }  // namespace
@@ -211,10 +213,11 @@ std::vector<std::string> CoarseCells::look(const CellField<double>& damage) {
     if (told_[r] || !(damage[c] > cracked)) continue;
     told_[r] = true;
     const Vector x = without_rounding(mesh_.cell_centre[c]);
-    warnings.push_back(fmt::format(
-        "region \"{}\": a crack has entered cells that do not resolve it, {:.3g} m thick at ({:.3g}, {:.3g}, {:.3g}) m "
-        "with ell = {:.3g} m (at most ell/{:g}): smaller cells there in [mesh], or a larger length in [fracture]",
-        mesh_.region_names[r], thickness(mesh_, c), x.x(), x.y(), x.z(), model_.in_cell(mesh_, c).ell, cells_in_ell));
+    warnings.push_back(
+        fmt::format("region \"{}\": a crack has entered cells that do not resolve it, {} thick at {} with "
+                    "ell = {} (at most ell/{:g}): smaller cells there in [mesh], or a larger length in [fracture]",
+                    mesh_.region_names[r], quantity_text(thickness(mesh_, c), "m", 3), point_text(x),
+                    quantity_text(model_.in_cell(mesh_, c).ell, "m", 3), cells_in_ell));
   }
   look_at_neighbours(damage, warnings);
   return warnings;
@@ -257,12 +260,12 @@ void CoarseCells::look_at_neighbours(const CellField<double>& damage, std::vecto
       continue;
     told_[r] = true;
     const Vector x = without_rounding(mesh_.face_centre[f]);
-    warnings.push_back(fmt::format(
-        "region \"{}\": the damage changes by {:.2f} from a cell to the next, {:.3g} m apart at ({:.3g}, {:.3g}, "
-        "{:.3g}) m "
-        "with ell = {:.3g} m: the crack is not resolved (at most ell/{:g}: smaller cells there in [mesh], or a larger "
-        "length in [fracture])",
-        mesh_.region_names[r], drop_at(f), spacing(f), x.x(), x.y(), x.z(), ell, cells_in_ell));
+    warnings.push_back(
+        fmt::format("region \"{}\": the damage changes by {:.2f} from a cell to the next, {} apart at {} with ell = "
+                    "{}: the crack is not resolved (at most ell/{:g}: smaller cells there in "
+                    "[mesh], or a larger length in [fracture])",
+                    mesh_.region_names[r], drop_at(f), quantity_text(spacing(f), "m", 3), point_text(x),
+                    quantity_text(ell, "m", 3), cells_in_ell));
   }
 }
 

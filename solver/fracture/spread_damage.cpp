@@ -1,5 +1,6 @@
 #include "solver/fracture/spread_damage.h"
 
+#include "physics/quantity_text.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>
@@ -81,10 +82,10 @@ std::string SpreadDamage::remark(const FractureState& before, const FractureStat
   if (!(with_bump < energy - rounding * std::abs(energy))) return "";
   said_ = true;
   return fmt::format(
-      "load {:.6g}: damage of up to {:.2g} grows evenly over {:.3g} m^3. The body softens, and this equilibrium is "
-      "unstable: the energy falls where damage gathers in one place, as it does in a real body, which breaks there. "
-      "Make one place weaker, or every cell a little different: fracture.perturbation = 0.01",
-      now.load, softening.largest, softening.volume);
+      "load {:.6g}: damage of up to {:.2g} grows evenly over {}. The body softens, and this equilibrium is unstable: "
+      "the energy falls where damage gathers in one place, as it does in a real body, which breaks there. Make one "
+      "place weaker, or every cell a little different: fracture.perturbation = 0.01",
+      now.load, softening.largest, quantity_text(softening.volume, "m^3", 3));
 }
 
 }  // namespace pfdm

@@ -1,6 +1,7 @@
 #include "solver/momentum/rigid_motion.h"
 
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -186,14 +187,14 @@ std::string free_motion(const Part& part) {
   if (about.empty()) return "";
   const Vector b = Eigen::SelfAdjointEigenSolver<Tensor>(rotation).eigenvectors().col(0);
   const Vector a = -held * mixed * b;
-  return fmt::format("it can rotate about {} through {} m", about, direction(part.origin + part.size * b.cross(a)));
+  return fmt::format("it can rotate about {} through {}", about, point_text(part.origin + part.size * b.cross(a)));
 }
 
 std::string describe(const Mesh& mesh, const Part& part, std::size_t n_parts, bool cracked) {
   if (n_parts == 1) return "the body can still move rigidly";
-  return fmt::format("{} {} parts, and the one around {} m (region \"{}\", {} of {} cells) can still move rigidly",
+  return fmt::format("{} {} parts, and the one around {} (region \"{}\", {} of {} cells) can still move rigidly",
                      cracked ? "the initial damage cuts the body into" : "the cells of the mesh form", n_parts,
-                     direction(part.origin), mesh.region_names[as_size(mesh.region[part.cells.front()])],
+                     point_text(part.origin), mesh.region_names[as_size(mesh.region[part.cells.front()])],
                      part.cells.size(), mesh.n_cells());
 }
 

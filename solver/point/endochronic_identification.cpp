@@ -1,5 +1,6 @@
 #include "solver/point/endochronic_identification.h"
 
+#include "physics/quantity_text.h"
 #include "physics/registry.h"
 
 #include <algorithm>
@@ -39,8 +40,8 @@ EndochronicIdentification select(const EndochronicLaw& law, const FitChoice& cho
     tried.push_back(
         {n, rms_misfit(fitted.law, experiments, settings.control),
          bayesian_information(result.sum_of_squares, n_measured(experiments), fitted.parameters.size(), negligible)});
-    settings.say(fmt::format("{} terms: rms misfit {:.6g} Pa, Bayesian information {:.6g}", n, tried.back().rms,
-                             tried.back().information));
+    settings.say(fmt::format("{} terms: rms misfit {}, Bayesian information {:.6g}", n,
+                             quantity_text(tried.back().rms, "Pa", 6), tried.back().information));
     const bool better = std::ranges::all_of(
         tried, [&](const TriedKernel& other) { return tried.back().information <= other.information; });
     if (better) best.fit = std::move(fitted);
@@ -146,9 +147,9 @@ void finish_jointly(EndochronicIdentification& result, const std::vector<Endochr
   double least = std::numeric_limits<double>::infinity();
   for (const StaggeredRound& round : result.rounds) least = std::min(least, round.rms_after_kernel);
   result.remark = fmt::format(
-      "the staggered scheme {} after {} rounds, at best with an rms misfit of {:.6g} Pa; the estimates are those of "
-      "the joint fit",
-      settled ? "settled" : "went to and fro and did not settle", result.rounds.size(), least);
+      "the staggered scheme {} after {} rounds, at best with an rms misfit of {}; the estimates are those of the joint "
+      "fit",
+      settled ? "settled" : "went to and fro and did not settle", result.rounds.size(), quantity_text(least, "Pa", 6));
   settings.say(result.remark);
   const FitChoice choice{.kernel = true, .hardening = true, .rate = settings.choice.rate};
   result.fit = fit_from(starts, choice, experiments, settings);
@@ -173,8 +174,8 @@ EndochronicIdentification identify_staggered(const EndochronicLaw& start, const 
     const double after_kernel = rms_misfit(law, experiments, settings.control);
     const double now = relative_misfit(law, experiments, settings.control);
     result.rounds.push_back({after_hardening, after_kernel, now});
-    settings.say(fmt::format("iteration {}: rms misfit {:.6g} Pa after the hardening, {:.6g} Pa after the kernel",
-                             round + 1, after_hardening, after_kernel));
+    settings.say(fmt::format("iteration {}: rms misfit {} after the hardening, {} after the kernel", round + 1,
+                             quantity_text(after_hardening, "Pa", 6), quantity_text(after_kernel, "Pa", 6)));
     if (now < least) best = law;
     least = std::min(least, now);
     settled = std::abs(last - now) <= settings.round_tolerance * now;

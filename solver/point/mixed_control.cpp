@@ -1,5 +1,6 @@
 #include "solver/point/mixed_control.h"
 
+#include "physics/quantity_text.h"
 #include "solver/point/rest_flow.h"
 
 #include <fmt/format.h>
@@ -153,21 +154,19 @@ class SegmentRunner {
     const bool flows = law_.hardening.depends_on_rate() && is_lost();  // where the surface grows with the rate
     if (!flows && stress_prescribed && now > 0.97 * radius)
       return fmt::format(
-          "{}: the prescribed stress lies beyond the saturation surface: the deviatoric stress has reached {:.6g} Pa "
-          "of the {:.6g} Pa (2 f sum C/alpha) that the material can sustain; prescribe less stress, or a strain "
-          "instead",
-          where, now, radius);
+          "{}: the prescribed stress lies beyond the saturation surface: the deviatoric stress has reached {} of the "
+          "{} (2 f sum C/alpha) that the material can sustain; prescribe less stress, or a strain instead",
+          where, quantity_text(now, "Pa", 6), quantity_text(radius, "Pa", 6));
     if (is_lost())
       return fmt::format(
-          "{}: the strain has reached {:.3g}: the law cannot bear the prescribed stress; the deviatoric stress is "
-          "{:.6g} "
-          "Pa, and saturates at {:.6g} Pa at this zeta and rate; prescribe less stress, or a strain instead",
-          where, point_.state.strain.norm(), now, radius);
+          "{}: the strain has reached {:.3g}: the law cannot bear the prescribed stress; the deviatoric stress is {}, "
+          "and saturates at {} at this zeta and rate; prescribe less stress, or a strain instead",
+          where, point_.state.strain.norm(), quantity_text(now, "Pa", 6), quantity_text(radius, "Pa", 6));
     return fmt::format(
         "{}: Newton's method does not converge, not even in steps of 1/{:.0f} of the increment; the deviatoric stress "
-        "is "
-        "{:.6g} Pa, and saturates at {:.6g} Pa at this zeta and rate",
-        where, std::ldexp(1.0, settings_.maximum_halvings), now, radius);
+        "is {}, and saturates at {} at this zeta and rate",
+        where, std::ldexp(1.0, settings_.maximum_halvings), quantity_text(now, "Pa", 6),
+        quantity_text(radius, "Pa", 6));
   }
 
  private:

@@ -362,7 +362,7 @@ const BadInput bad_inputs[] = {
      "[[mesh.regions]]",
      "[[mesh.slits]]\nname = \"notch\"\nlower = [\"0.0123 mm\", \"-9 mm\", \"-9 mm\"]\n"
      "upper = [\"0.0123 mm\", \"9 mm\", \"9 mm\"]\n[[mesh.regions]]",
-     {"slit \"notch\": x = 1.23e-05 m is not a plane of the grid"}},
+     {"slit \"notch\": x = 12.3 um is not a plane of the grid"}},
     {"slit_with_the_name_of_a_patch",
      "[[mesh.regions]]",
      "[[mesh.slits]]\nname = \"xmin\"\nlower = [\"0 mm\", \"-9 mm\", \"-9 mm\"]\n"
@@ -404,7 +404,7 @@ TEST(BadInput, LengthThatTheStrengthDoesNotAllow) {
   const Outcome outcome = run({"check", directory.path().string()});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(
-      outcome.err.find("the length (ell) is 0.004 m; with this strength and toughness the \"linear\" law needs one "
+      outcome.err.find("the length (ell) is 4 mm; with this strength and toughness the \"linear\" law needs one "
                        "of at most 0.00119"),
       std::string::npos)
       << outcome.err;

@@ -284,7 +284,7 @@ TEST(Program, WarnsOfCellsThatAreTooThickForTheLength) {
   EXPECT_EQ(run({"check", fine.path().string()}).out.find("would not be resolved"), std::string::npos);
   const Outcome outcome = run({"check", coarse.path().string()});
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_NE(outcome.out.find("region \"bar\": cells are up to 0.0005 m thick, ell is 0.0006 m"), std::string::npos)
+  EXPECT_NE(outcome.out.find("region \"bar\": cells are up to 500 um thick, ell is 600 um"), std::string::npos)
       << outcome.out;
 }
 
@@ -302,7 +302,7 @@ TEST(Program, DoesNotWarnOfCoarseCellsThatNoCrackEnters) {
   const Outcome within = run({"run", fine.path().string()});
   ASSERT_EQ(within.status, 0) << within.err;
   EXPECT_THAT(within.out,
-              ::testing::HasSubstr("region \"bar\": cells are up to 0.0005 m thick, ell is 0.0006 m: a crack "
+              ::testing::HasSubstr("region \"bar\": cells are up to 500 um thick, ell is 600 um: a crack "
                                    "is resolved in 32 of 48 cells"));
   EXPECT_THAT(within.out, ::testing::Not(::testing::HasSubstr("warning")));
 }
@@ -313,7 +313,7 @@ TEST(Program, WarnsOfABandThatIsNarrowerThanItsCracksProfile) {
                                          "\"bar\"] }\n"));
   const Outcome outcome = run({"check", directory.path().string()});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("region \"weak\" is 0.0008 m wide: the profile of a crack in it, 0.016 m"),
+  EXPECT_NE(outcome.out.find("region \"weak\" is 800 um wide: the profile of a crack in it, 16 mm"),
             std::string::npos)
       << outcome.out;
 }

@@ -100,7 +100,7 @@ TEST(CylinderSector, RefusesWhatIsOutOfRange) {
   CylinderSectorSettings settings = cylinder();
   settings.azimuth = 2.0;
   EXPECT_THAT(refusal(settings), HasSubstr("at most 45"));
-  EXPECT_THAT(refusal(cylinder(-0.1)), HasSubstr("inner radius is -0.1 m"));
+  EXPECT_THAT(refusal(cylinder(-0.1)), HasSubstr("inner radius is -100 mm"));
   settings = cylinder();
   settings.upper_sphere = 1.5;
   EXPECT_THAT(refusal(settings), HasSubstr("larger than that of the sector, 2 m"));

@@ -182,7 +182,7 @@ TEST(PackedShapes, LieInASlabThatTheyCannotStandIn) {
   EXPECT_THAT(message_of<InputError>([&] { pack_shapes(slab, random); }), HasSubstr("4 particles"));
   slab.upper[2] = 0.02;
   EXPECT_THAT(message_of<InputError>([&] { pack_shapes(slab, random); }),
-              HasSubstr("4 particles with gaps of 0.01 m, and 0.01 m from the sides"));
+              HasSubstr("4 particles with gaps of 10 mm, and 10 mm from the sides"));
 }
 
 TEST(PackedShapes, SayWhereThereIsNoRoom) {

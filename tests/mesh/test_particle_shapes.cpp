@@ -264,7 +264,7 @@ TEST(ParticlesInBox, RejectsAShapeThatLeavesTheBoxOrHoldsAnother) {
   sphere.radius = 0.3;
   sphere.subdivision = 2;
   settings.particles.push_back(sphere);
-  EXPECT_THAT(message(settings), HasSubstr("particle 2 (centre 1 0 0 m, radius 0.3 m) lies within particle 1"));
+  EXPECT_THAT(message(settings), HasSubstr("particle 2 (centre (1, 0, 0) m, radius 300 mm) lies within particle 1"));
   settings.particles.pop_back();
   settings.particle_size_factor = 1.0;
   EXPECT_THAT(message(settings), HasSubstr("particle_size_factor"));

@@ -65,7 +65,7 @@ TEST(MeasuredCurve, RefusesDisplacementsThatFallAndNamesTheKeys) {
   EXPECT_THAT(complaint(recorded, {}),
               HasSubstr("the displacements decrease, first from row 3 (2 m) to the next (1.5 m)"));
   EXPECT_THAT(complaint(recorded, {}), HasSubstr("set loops = \"envelope\" to leave unloading out, or jitter"));
-  EXPECT_THAT(complaint(recorded, {.jitter = 0.2}), HasSubstr("a jitter of 0.2 m does not cover moves of 0.25 m"));
+  EXPECT_THAT(complaint(recorded, {.jitter = 0.2}), HasSubstr("a jitter of 200 mm does not cover moves of 250 mm"));
   EXPECT_THAT(prepared(recorded, {.jitter = 0.25}, {}).curve.x, ElementsAre(0, 1, 1.75, 1.75, 3));
 }
 
@@ -81,7 +81,7 @@ TEST(MeasuredCurve, EnvelopeLeavesLoopsOutAndKeepsJitter) {
   EXPECT_EQ(measured.as_recorded.x.size(), 13u);
   ASSERT_EQ(measured.treatment().size(), 2u);
   EXPECT_EQ(measured.treatment()[0], "unloading loops: 5 of 13 rows left out");
-  EXPECT_THAT(measured.treatment()[1], HasSubstr("jitter: 2 of 8 displacements moved, by 0.025 m at most"));
+  EXPECT_THAT(measured.treatment()[1], HasSubstr("jitter: 2 of 8 displacements moved, by 25 mm at most"));
 }
 
 /// A toe up to a force of 2, then straight, 5 per displacement from 1.5 on, and softer above 12.

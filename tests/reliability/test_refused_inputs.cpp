@@ -67,7 +67,7 @@ const Refused inputs[] = {
     {"stl_nearly_flat", "check", {}, "TetGen crashes between the surfaces of the mesh"},
     {"stl_layers_1e-9_mm", "check", {}, "TetGen crashes between the surfaces of the mesh"},
     {"bead_layers_1e-9_um", "check", {}, "TetGen crashes between the surfaces of the mesh"},
-    {"stl_1e150", "check", {}, "coordinates may be up to 1e+06 m"},
+    {"stl_1e150", "check", {}, "coordinates may be up to 1000 km"},
     {"stl_needle", "run", {}, "the linear solver came no closer to the balance of forces", 1},
     {"wav_unit_1e300", "fit", {}, "a record has less than 1e+09 m/s^2"},
     {"point_twice", "check", {}, "there is another point \"centre\""},

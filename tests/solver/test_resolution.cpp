@@ -57,7 +57,7 @@ TEST(Resolution, TellsOfACrackThatEntersCoarseCells) {
   for (Index c = 0; c < mesh.n_cells(); ++c) damage[c] = 0.6;
   const std::vector<std::string> warnings = coarse.look(damage);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("a crack has entered cells that do not resolve it, 0.5 m thick at (0.45, 0.5, 0.5) m"),
+  EXPECT_NE(warnings[0].find("a crack has entered cells that do not resolve it, 500 mm thick at (450, 500, 500) mm"),
             std::string::npos)
       << warnings[0];
   EXPECT_TRUE(coarse.look(damage).empty());  // said once
@@ -69,7 +69,7 @@ TEST(Resolution, TellsOfACrackAcrossLongCells) {
   const ResolutionWords words = resolution_words(mesh, model, {}, true);
   EXPECT_TRUE(words.warnings.empty());
   ASSERT_EQ(words.remarks.size(), 1u);
-  EXPECT_NE(words.remarks[0].find("cells are 0.5 m long or longer in their plane, ell is 0.3 m"), std::string::npos);
+  EXPECT_NE(words.remarks[0].find("cells are 500 mm long or longer in their plane, ell is 300 mm"), std::string::npos);
   CellField<double> damage(as_size(mesh.n_cells()), 0.0);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (mesh.cell_centre[c].x() < 0.5) damage[c] = 0.55;  // no steeper than 1/ell
@@ -79,7 +79,7 @@ TEST(Resolution, TellsOfACrackAcrossLongCells) {
     if (mesh.cell_centre[c].x() < 0.5) damage[c] = 0.95;
   const std::vector<std::string> warnings = coarse.look(damage);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("the damage changes by 0.95 from a cell to the next, 0.5 m apart"), std::string::npos)
+  EXPECT_NE(warnings[0].find("the damage changes by 0.95 from a cell to the next, 500 mm apart"), std::string::npos)
       << warnings[0];
   EXPECT_TRUE(coarse.look(damage).empty());  // said once
   CoarseCells beside_glass(mesh, model);
@@ -87,7 +87,7 @@ TEST(Resolution, TellsOfACrackAcrossLongCells) {
   EXPECT_TRUE(beside_glass.look(damage).empty());
 }
 
-/// A plane band one cell wide in z, 0.2 m thick in y, of columns whose lengths along x are given; ell is 0.1 m.
+/// A plane band one cell wide in z, 0.2 m thick in y, of columns whose lengths along x are given; ell is 100 mm.
 struct PlaneBand {
   Mesh mesh;
   FractureModel model;
@@ -129,7 +129,7 @@ TEST(Resolution, HoldsCellsAlongABandWithSofteningAgainstTheProcessZone) {
   band.law("Wu", rational_degradation(rational_coefficients(linear, E, Gc, std::sqrt(4e11), 0.1)));
   const ResolutionWords words = band.words();
   EXPECT_TRUE(warns_of_width(words));
-  EXPECT_NE(words.warnings[0].find("ell is 0.1 m"), std::string::npos) << words.warnings[0];
+  EXPECT_NE(words.warnings[0].find("ell is 100 mm"), std::string::npos) << words.warnings[0];
 }
 
 TEST(Resolution, RemarksOnABandThatIsFineWhereItsCrackGrows) {

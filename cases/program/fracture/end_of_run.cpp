@@ -1,6 +1,7 @@
 #include "cases/program/fracture/end_of_run.h"
 
 #include "cases/program/fracture/mean_curve.h"
+#include "physics/quantity_text.h"
 #include "postproc/files/json.h"
 #include "postproc/page/display_unit.h"
 
@@ -147,9 +148,10 @@ std::string line_of_law(const nlohmann::ordered_json& surface) {
   const nlohmann::ordered_json* strongest = strongest_law(surface);
   if (strongest == nullptr) return {};
   const auto number = [&](const char* key) { return number_of(strongest->at(key)); };
-  return fmt::format("law of \"{}\": largest normal traction {} at a separation of {}, surface energy {:.4g} J/m^2{}",
+  return fmt::format("law of \"{}\": largest normal traction {} at a separation of {}, surface energy {}{}",
                      surface.at("name").get<std::string>(), shown_in({.si_unit = "Pa"}, number("strength_Pa")),
-                     shown_in({.si_unit = "m"}, number("critical_separation_m")), number("surface_energy_J_per_m2"),
+                     shown_in({.si_unit = "m"}, number("critical_separation_m")),
+                     quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
                      strongest->at("traced").get<bool>() ? "" : "; not seen down to zero traction");
 }
 
@@ -180,9 +182,9 @@ std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface) {
   const auto number = [&](const char* key) { return number_of(law->at(key)); };
   return HeadFigure{.label = fmt::format("Strength of \"{}\"", surface.at("name").get<std::string>()),
                     .value = shown_in({.si_unit = "Pa"}, number("strength_Pa")),
-                    .note = fmt::format("largest normal traction, at a separation of {}; surface energy {:.4g} J/m^2{}",
+                    .note = fmt::format("largest normal traction, at a separation of {}; surface energy {}{}",
                                         shown_in({.si_unit = "m"}, number("critical_separation_m")),
-                                        number("surface_energy_J_per_m2"),
+                                        quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
                                         law->at("traced").get<bool>() ? "" : ", not seen down to zero traction")};
 }
 
@@ -197,12 +199,7 @@ CurveUnits read_curve_units(const CaseFile& file, const CurveSettings& curve) {
 std::string shown_in(const CaseUnit& unit, double si) {
   if (unit.si_unit == "1") return shown(si);
   if (!unit.name.empty()) return fmt::format("{} {}", shown(si / unit.in_si), unit.name);
-  const DisplayUnit chosen = display_unit(si, unit.si_unit);
-  std::string name = chosen.name;
-  for (const auto& [sign, plain] : {std::pair("µ", "u"), std::pair("²", "^2"), std::pair("³", "^3")})
-    if (const std::size_t at = name.find(sign); at != std::string::npos)
-      name.replace(at, std::string_view(sign).size(), plain);
-  return fmt::format("{} {}", shown(chosen.factor * si), name);
+  return quantity_text(si, unit.si_unit);
 }
 
 std::string first_debonding_words(const RunSummary& summary, const FractureCase& fracture, const CurveUnits& units) {

@@ -7,6 +7,7 @@
 #include "cases/program/input/units.h"
 #include "physics/angle.h"
 #include "physics/error.h"
+#include "physics/quantity_text.h"
 #include "postproc/cohesive/cohesive_results.h"
 #include "postproc/exports/export_formats.h"
 #include "postproc/exports/given_law.h"
@@ -26,18 +27,17 @@ std::string outcome_of(const CohesiveResult& result) {
   const CohesiveFigures& f = result.figures;
   if (f.jump) {
     const auto separation = [&](std::size_t step) { return result.law.states[step].separation[0]; };
-    return fmt::format("unstable at step {}: the law from {} to {} is unknown; int T ddelta at least {:.4g} J/m^2",
-                       *f.jump, shown_in(metres, separation(*f.jump - 1)), shown_in(metres, separation(*f.jump)),
-                       f.energy_at_least);
+    return fmt::format("unstable at step {}: the law from {} to {} is unknown; int T ddelta at least {}", *f.jump,
+                       shown_in(metres, separation(*f.jump - 1)), shown_in(metres, separation(*f.jump)),
+                       quantity_text(f.energy_at_least, "J/m^2"));
   }
   if (!f.is_traced())
-    return fmt::format("{} {} at the end; int T ddelta so far at least {:.4g} J/m^2",
-                       f.unloaded ? "unloaded to" : "carries", shown_in(pascals, f.final_traction), f.energy_at_least);
+    return fmt::format("{} {} at the end; int T ddelta so far at least {}", f.unloaded ? "unloaded to" : "carries",
+                       shown_in(pascals, f.final_traction), quantity_text(f.energy_at_least, "J/m^2"));
   const double work = f.normal_energy + f.tangential_energy;
-  const std::string energy =
-      std::isfinite(work)
-          ? fmt::format("int T ddelta {:.6g} J/m^2", work)
-          : fmt::format("int T ddelta at least {:.4g} J/m^2, as some places are unstable", f.energy_at_least);
+  const std::string energy = std::isfinite(work) ? fmt::format("int T ddelta {}", quantity_text(work, "J/m^2", 6))
+                                                 : fmt::format("int T ddelta at least {}, as some places are unstable",
+                                                               quantity_text(f.energy_at_least, "J/m^2"));
   if (result.fits.empty()) return energy + ", too few states for a fit";
   return fmt::format("{}; nearest to \"{}\", rms {:.2g} % of the strength", energy, result.fits.front().law,
                      100.0 * result.fits.front().rms);
@@ -72,9 +72,9 @@ std::string words_of_law(const CohesiveResult& result, SurfaceKind kind) {
                                                        : fmt::format("  {:3.0f} to {:3.0f} degrees",
                                                                      result.law.from / degree, result.law.to / degree);
   if (!(f.strength > 0.0)) return where + ": always in compression";
-  return fmt::format("{}: largest normal traction {} at {}, {}; surface energy {:.4g} J/m^2", where,
+  return fmt::format("{}: largest normal traction {} at {}, {}; surface energy {}", where,
                      shown_in(pascals, f.strength), shown_in(metres, f.critical_separation), outcome_of(result),
-                     f.surface_energy);
+                     quantity_text(f.surface_energy, "J/m^2"));
 }
 
 constexpr Dimension stiffness_per_area{"stiffness per area", "Pa/m", "1e14 Pa/m"};
@@ -115,11 +115,12 @@ Export read_export(const ExportWords& words) {
 
 void write_law(const Export& wanted, const ExportedLaw& law, Session& session) {
   const auto files = write_exports(session.results, wanted.formats, law, wanted.units);
-  session.log.say(fmt::format(
-      "exported law of \"{}\": strength {}, GI {:.6g} J/m^2, stiffness {:.4g} Pa/m; tables of {} and {} points, "
-      "within {:.2g} and {:.2g} % of the strength",
-      law.surface, shown_in(pascals, law.strength.value), law.energy.value, law.stiffness.value, law.curve.size(),
-      law.damage.size(), 100.0 * law.curve_error, 100.0 * law.damage_error));
+  session.log.say(
+      fmt::format("exported law of \"{}\": strength {}, GI {}, stiffness {}; tables of {} and {} points, within {:.2g} "
+                  "and {:.2g} % of the strength",
+                  law.surface, shown_in(pascals, law.strength.value), quantity_text(law.energy.value, "J/m^2", 6),
+                  quantity_text(law.stiffness.value, "Pa/m"), law.curve.size(), law.damage.size(),
+                  100.0 * law.curve_error, 100.0 * law.damage_error));
   for (const auto& file : files) session.log.say(fmt::format("written to {}", file.string()));
 }
 

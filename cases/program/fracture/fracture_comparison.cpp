@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/fracture_results.h"
 #include "physics/angle.h"
+#include "physics/quantity_text.h"
 #include "postproc/cohesive/cohesive_law.h"
 #include "postproc/curves/comparison_results.h"
 
@@ -42,37 +43,37 @@ std::vector<EnergyComparison> compare_energies_of(const ExperimentSettings& expe
 
 void say(const ForceComparison& force, Log& log) {
   const auto line = [&](const char* what, const char* unit, double model, double measured) {
-    log.say(fmt::format("  {:<22} {:>12.6g} {:<4} measured {:.6g}, {:+.2f} %", what, model, unit, measured,
-                        100.0 * (model / measured - 1.0)));
+    log.say(fmt::format("  {:<22} {:>12}  measured {}, {:+.2f} %", what, quantity_text(model, unit, 6),
+                        quantity_text(measured, unit, 6), 100.0 * (model / measured - 1.0)));
   };
-  log.say(fmt::format("force against displacement from {:.4g} to {:.4g} m, specimens: {}", force.curves.x.front(),
-                      force.curves.x.back(), force.names.size()));
+  log.say(fmt::format("force against displacement from {}, specimens: {}",
+                      quantities_text({force.curves.x.front(), force.curves.x.back()}, "m", " to "),
+                      force.names.size()));
   line("initial stiffness", "N/m", force.model.initial_stiffness, force.mean.initial_stiffness);
   line("peak", "N", force.model.peak_force, force.mean.peak_force);
   line("displacement at peak", "m", force.model.displacement_at_peak, force.mean.displacement_at_peak);
   line("work", "J", force.model.work, force.mean.work);
-  log.say(fmt::format("  difference rms {:.4g} N ({:.2f} % of the largest force), at most {:.4g} N at {:.4g} m",
-                      force.curves.rms, 100.0 * force.curves.rms / force.curves.largest_measured, force.curves.largest,
-                      force.curves.x_of_largest));
+  log.say(fmt::format("  difference rms {} ({:.2f} % of the largest force), at most {} at {}",
+                      quantity_text(force.curves.rms, "N"), 100.0 * force.curves.rms / force.curves.largest_measured,
+                      quantity_text(force.curves.largest, "N"), quantity_text(force.curves.x_of_largest, "m")));
   if (force.curves.share_in_band)
     log.say(fmt::format("  within two standard deviations over {:.1f} % of the range",
                         100.0 * *force.curves.share_in_band));
 }
 
 void say(const AngleComparison& angle, Log& log) {
-  const auto onset = [](const std::optional<double>& at) { return at ? fmt::format("{:.4g} m", *at) : "never"; };
-  log.say(
-      fmt::format("debonding angle: difference rms {:.3g} degrees, at most {:.3g} at {:.4g} m; begins at {}, measured "
-                  "{}",
-                  angle.curves.rms / degree, angle.curves.largest / degree, angle.curves.x_of_largest,
-                  onset(angle.model_onset), onset(angle.mean_onset)));
+  const auto onset = [](const std::optional<double>& at) { return at ? quantity_text(*at, "m") : "never"; };
+  log.say(fmt::format("debonding angle: difference rms {:.3g} degrees, at most {:.3g} at {}; begins at {}, measured {}",
+                      angle.curves.rms / degree, angle.curves.largest / degree,
+                      quantity_text(angle.curves.x_of_largest, "m"), onset(angle.model_onset),
+                      onset(angle.mean_onset)));
 }
 
 void say(const EnergyComparison& energy, Log& log) {
   const ComparedCurves& c = energy.curves;
-  log.say(fmt::format("energy {}: {:.4g} J at {:.4g} m, measured {:.4g} J; difference at most {:.2f} % of the largest",
-                      energy.kind, c.model.back(), c.x.back(), c.measured.back(),
-                      100.0 * c.largest / c.largest_measured));
+  log.say(fmt::format("energy {}: {} at {}, measured {}; difference at most {:.2f} % of the largest", energy.kind,
+                      quantity_text(c.model.back(), "J"), quantity_text(c.x.back(), "m"),
+                      quantity_text(c.measured.back(), "J"), 100.0 * c.largest / c.largest_measured));
 }
 
 /// What was done to the measured curves, and which of them miss the origin.

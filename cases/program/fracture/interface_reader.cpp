@@ -1,6 +1,7 @@
 #include "cases/program/fracture/interface_reader.h"
 
 #include "cases/program/input/path_reader.h"
+#include "physics/quantity_text.h"
 #include "physics/registry.h"
 #include "postproc/files/csv_table.h"
 
@@ -146,9 +147,9 @@ InterfaceStrength strength_at(const InterfaceSettings& settings, const Vector& x
   constexpr double equal = 1.0 + 1e-12;
   if (settings.law.mixed_mode->is_potential && at.shear_toughness > equal * at.toughness)
     throw settings.where.at("shear_toughness")
-        .error(fmt::format("{:.4g} J/m^2 is more than the toughness in opening, {:.4g} J/m^2: by Xu and Needleman's "
-                           "potential a sheared interface would then push its sides apart",
-                           at.shear_toughness, at.toughness));
+        .error(fmt::format("{} is more than the toughness in opening, {}: by Xu and Needleman's potential a sheared "
+                           "interface would then push its sides apart",
+                           quantity_text(at.shear_toughness, "J/m^2"), quantity_text(at.toughness, "J/m^2")));
   return at;
 }
 

@@ -6,6 +6,7 @@
 #include "cases/program/input/path_reader.h"
 #include "physics/elasticity/anisotropy.h"
 #include "physics/interfaces/interface_toughness.h"
+#include "physics/quantity_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,9 +29,9 @@ RationalCoefficients make_coefficients(std::optional<double> strength, const Reg
   const double E = model.elasticity.young_modulus(), longest = longest_length(law, E, model.Gc, *strength);
   if (model.ell > longest)
     throw table.error(
-        fmt::format("region \"{}\": the length (ell) is {:.4g} m; with this strength and toughness the "
-                    "\"{}\" law needs one of at most {:.4g} m",
-                    region, model.ell, law.name, longest));
+        fmt::format("region \"{}\": the length (ell) is {}; with this strength and toughness the \"{}\" law needs one "
+                    "of at most {}",
+                    region, quantity_text(model.ell, "m"), law.name, quantity_text(longest, "m")));
   return rational_coefficients(law, E, model.Gc, *strength, model.ell);
 }
 
@@ -242,16 +243,17 @@ std::string describe(const Band& band, const BandToughness& toughness, bool corr
   const std::string between = fmt::format("between \"{}\" and \"{}\"", band.neighbours[0], band.neighbours[1]);
   const Vector anywhere = Vector::Zero();
   if (toughness.varies())
-    return fmt::format("region \"{}\" ({:.4g} m wide) {}: toughness varies, {}", band.region, band.width, between,
-                       corrects ? "corrected in each cell for its neighbours" : "as given");
-  const std::string words = fmt::format("region \"{}\" ({:.4g} m wide, ell = {:.4g} m) {}", band.region, band.width,
-                                        toughness.ell.at(anywhere), between);
+    return fmt::format("region \"{}\" ({} wide) {}: toughness varies, {}", band.region, quantity_text(band.width, "m"),
+                       between, corrects ? "corrected in each cell for its neighbours" : "as given");
+  const std::string words =
+      fmt::format("region \"{}\" ({} wide, ell = {}) {}", band.region, quantity_text(band.width, "m"),
+                  quantity_text(toughness.ell.at(anywhere), "m"), between);
   const double given = toughness.given.at(anywhere);
   if (!corrects)
-    return fmt::format("{}: toughness {:.6g} J/m^2 as given; a crack at its middle will dissipate {:.6g}", words, given,
-                       toughness.apparent(anywhere));
-  return fmt::format("{}: toughness {:.6g} J/m^2, so that a crack at its middle dissipates the {:.6g} given", words,
-                     toughness.corrected(anywhere), given);
+    return fmt::format("{}: toughness {} as given; a crack at its middle will dissipate {}", words,
+                       quantity_text(given, "J/m^2", 6), quantity_text(toughness.apparent(anywhere), "J/m^2", 6));
+  return fmt::format("{}: toughness {}, so that a crack at its middle dissipates the {} given", words,
+                     quantity_text(toughness.corrected(anywhere), "J/m^2", 6), quantity_text(given, "J/m^2", 6));
 }
 
 // Replaces the toughness of a band by the one with which a crack in it dissipates what was given.

@@ -9,6 +9,7 @@
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/whole_run.h"
 #include "mesh/quality.h"
+#include "physics/quantity_text.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/folder_lock.h"
 
@@ -84,8 +85,9 @@ void write_summary_of(const HomogenizationProgram& program, const Session& sessi
 void say_bounds(const EffectiveMaterial& material, Log& log) {
   if (!material.hashin_shtrikman) return;
   const ModulusBounds& bounds = *material.hashin_shtrikman;
-  log.say(fmt::format("Hashin and Shtrikman's bounds: K {:.5g} to {:.5g} Pa, G {:.5g} to {:.5g} Pa", bounds.bulk_lower,
-                      bounds.bulk_upper, bounds.shear_lower, bounds.shear_upper));
+  log.say(fmt::format("Hashin and Shtrikman's bounds: K {}, G {}",
+                      quantities_text({bounds.bulk_lower, bounds.bulk_upper}, "Pa", " to ", 5),
+                      quantities_text({bounds.shear_lower, bounds.shear_upper}, "Pa", " to ", 5)));
 }
 
 void say_result(const HomogenizationProgram& program, const Homogenized& result, const EffectiveMaterial& material,
@@ -96,9 +98,10 @@ void say_result(const HomogenizationProgram& program, const Homogenized& result,
                         material.fraction[m], material.energy_share[m]));
   say_bounds(material, log);
   const IsotropicElasticity& c = material.isotropic;
-  log.say(
-      fmt::format("closest isotropic: E = {:.5g} Pa, nu = {:.4f}, K = {:.5g} Pa, G = {:.5g} Pa; anisotropy {:.2g} %",
-                  c.young_modulus(), c.poisson_ratio(), c.bulk_modulus(), c.mu, 100.0 * material.anisotropy));
+  log.say(fmt::format("closest isotropic: E = {}, nu = {:.4f}, K = {}, G = {}; anisotropy {:.2g} %",
+                      quantity_text(c.young_modulus(), "Pa", 5), c.poisson_ratio(),
+                      quantity_text(c.bulk_modulus(), "Pa", 5), quantity_text(c.mu, "Pa", 5),
+                      100.0 * material.anisotropy));
   if (material.loss.young > 0.0)
     log.say(fmt::format("loss factors: E {:.4g}, K {:.4g}, G {:.4g}", material.loss.young, material.loss.bulk,
                         material.loss.shear));

@@ -5,6 +5,7 @@
 #include "cases/program/studies/curve_fit_at_work.h"
 #include "cases/program/studies/curve_fit_results.h"
 #include "cases/program/studies/finer_case.h"
+#include "physics/quantity_text.h"
 #include "postproc/files/folder_lock.h"
 
 #include <fmt/format.h>
@@ -119,10 +120,11 @@ MeasuredPoints CurveFit::points_of(const CurveFitStage& stage, const SampledCurv
   for (const SetUp& set_up : least_set_ups()) latest.push_back(as_recorded(curve, set_up).x.back());
   MeasuredPoints points = job_.settings.where.in_context(
       [&] { return points_between(job_.specimens, std::max(stage.from, curve.x.front()), stage.to, latest); });
-  session_.log.say(fmt::format("stage \"{}\": {} parameters, {} measured points from {:.4g} to {:.4g} m", stage.name,
+  session_.log.say(fmt::format("stage \"{}\": {} parameters, {} measured points from {}", stage.name,
                                stage.parameters.size(), points.points.size(),
-                               std::ranges::min(points.points, {}, &MeasuredPoints::Point::x).x,
-                               std::ranges::max(points.points, {}, &MeasuredPoints::Point::x).x));
+                               quantities_text({std::ranges::min(points.points, {}, &MeasuredPoints::Point::x).x,
+                                                std::ranges::max(points.points, {}, &MeasuredPoints::Point::x).x},
+                                               "m", " to ")));
   return points;
 }
 

@@ -3,6 +3,7 @@
 #include "cases/program/studies/curve_fit_at_work.h"
 #include "cases/program/studies/finer_case.h"
 #include "cases/program/studies/interval_trial.h"
+#include "physics/quantity_text.h"
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/profile_likelihood.h"
 
@@ -92,9 +93,9 @@ void CurveFit::suspect_preload(FitFindings& found) const {
     const SampledCurve& curve = job_.specimens[s].curve;
     const double offset = set_ups[s].force_offset;
     if (set_ups[s] == job_.specimens[s].set_up || !contradicts_unloaded_start(curve, offset)) continue;
-    question(found, fmt::format("a force_offset of {:.4g} N contradicts the first row of {}, {:.3g} N: the specimen "
-                                "would have been loaded before; another law, or a force_offset that is given",
-                                offset, curve.name, curve.y.front()));
+    question(found, fmt::format("a force_offset of {} contradicts the first row of {}, {}: the specimen would "
+                                "have been loaded before; another law, or a force_offset that is given",
+                                quantity_text(offset, "N"), curve.name, quantity_text(curve.y.front(), "N", 3)));
   }
 }
 

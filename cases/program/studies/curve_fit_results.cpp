@@ -1,6 +1,7 @@
 #include "cases/program/studies/curve_fit_results.h"
 
 #include "cases/program/session/fit_verdict.h"
+#include "physics/quantity_text.h"
 #include "postproc/curves/curve_misfit.h"
 #include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"
@@ -129,8 +130,8 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
     for (const std::string& done : e.preparation) session.log.say(fmt::format("{}: {}", e.name, done));
   say_estimates(report.found, found.parameters, session.log);
   for (const ExperimentMisfit& e : report.experiments)
-    session.log.say(fmt::format("rms difference from {}: {:.4g} N, {:.2f} % of its rms force", e.name, e.absolute->rms,
-                                100.0 * e.relative));
+    session.log.say(fmt::format("rms difference from {}: {}, {:.2f} % of its rms force", e.name,
+                                quantity_text(e.absolute->rms, "N"), 100.0 * e.relative));
   session.log.say(fmt::format("{} runs made, {} reused, {} of them did not converge; {:.1f} s; {}", found.runs.made,
                               found.runs.reused, found.runs.failed, found.seconds, report.found.message));
   session.log.say(fmt::format("written to {}; run it with: pfdm run {}", results.string(),

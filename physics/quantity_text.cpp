@@ -1,0 +1,66 @@
+#include "physics/quantity_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+struct Prefix {
+  int power;  // of a thousand
+  std::string_view sign;
+};
+constexpr std::array<Prefix, 8> prefixes{
+    {{-4, "p"}, {-3, "n"}, {-2, "u"}, {-1, "m"}, {0, ""}, {1, "k"}, {2, "M"}, {3, "G"}}};
+
+/// A number with some digits, whole where it has more before the point: "12346" rather than "1.235e+04".
+std::string number_text(double value, int digits) {
+  const double magnitude = std::abs(value);
+  if (magnitude >= std::pow(10.0, digits) && magnitude < 1e7) return fmt::format("{:.0f}", value);
+  return fmt::format("{:.{}g}", value, digits);
+}
+
+}  // namespace
+
+ScaledUnit scaled_unit(double largest, std::string_view si_unit) {
+  const auto letters = static_cast<std::size_t>(
+      std::ranges::find_if(si_unit, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) == 0; }) -
+      si_unit.begin());
+  const std::string_view rest = si_unit.substr(letters);
+  const int exponent = rest.starts_with("^2") ? 2 : rest.starts_with("^3") ? 3 : 1;
+  const double least = exponent == 1 ? 0.9995 : 1e-3;  // 0.02 mm^3 rather than 2e+07 um^3
+  const Prefix* chosen = &prefixes[4];
+  const double magnitude = std::abs(largest);
+  const auto of = [&](const Prefix& prefix) { return std::pow(1e3, prefix.power * exponent); };
+  if (magnitude >= least * of(prefixes.front()) && magnitude < 1e4 * of(prefixes.back()))
+    for (const Prefix& prefix : prefixes)
+      if (magnitude >= least * of(prefix) && (prefix.power <= 1 || !si_unit.starts_with("m"))) chosen = &prefix;
+  return {.factor = std::pow(1e3, -chosen->power * exponent), .name = fmt::format("{}{}", chosen->sign, si_unit)};
+}
+
+std::string quantity_text(double si, std::string_view si_unit, int digits) {
+  if (!std::isfinite(si)) return "-";
+  const ScaledUnit unit = scaled_unit(si, si_unit);
+  return fmt::format("{} {}", number_text(unit.factor * si, digits), unit.name);
+}
+
+std::string quantities_text(std::initializer_list<double> si, std::string_view si_unit, std::string_view between,
+                            int digits) {
+  double largest = 0.0;
+  for (const double value : si)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  const ScaledUnit unit = scaled_unit(largest, si_unit);
+  std::string words;
+  for (const double value : si) {
+    const double least = 1e-9 * largest;  // what is left of a zero
+    if (!words.empty()) words += between;
+    words += number_text(std::abs(value) < least ? 0.0 : unit.factor * value, digits);
+  }
+  return fmt::format("{} {}", words, unit.name);
+}
+
+}  // namespace pfdm
