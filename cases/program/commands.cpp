@@ -147,7 +147,10 @@ void Parser::add_case_options() {
         ->allow_extra_args(false);
     of.add_flag("--quiet", line.quiet, "say nothing but warnings and errors");
     if (of.get_name() != "check")
-      of.add_option("-o,--output", line.output, "results directory (default: CASE/results)")
+      of.add_option("-o,--output", line.output,
+                    of.get_name() == "report"
+                        ? "results directory (default: CASE/results); of several cases where their page goes"
+                        : "results directory (default: CASE/results)")
           ->check(not_empty())
           ->type_name("DIR");
   }

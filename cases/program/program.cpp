@@ -44,6 +44,11 @@ std::string options_of(const CommandLine& line) {
   return line.output.empty() ? options : fmt::format("{} --output {}", options, shell_word(line.output));
 }
 
+/// A command on the same case and results, as the user would give it.
+std::string command_on_same(const CommandLine& line, std::string_view command) {
+  return fmt::format("{} {} {}{}", called_as(), command, shell_word(line.case_directory), options_of(line));
+}
+
 /// What is kept after an interruption, and how the job is continued.
 std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
   if (line.command == "sweep" || (line.command == "fit" && runnable.goes_on))
@@ -52,15 +57,7 @@ std::string way_on(const CommandLine& line, const RunnableCase& runnable) {
     return fmt::format("; earlier results are unchanged, and the same command starts the {} from the beginning",
                        line.command);
   if (line.command != "run") return "";
-  return fmt::format("; pfdm run {}{} --restart continues from the last complete step", shell_word(line.case_directory),
-                     options_of(line));
-}
-
-/// A command on the same case and results, as the user would give it.
-std::string command_on_same(const CommandLine& line, std::string_view command) {
-  const char* launcher = std::getenv("PFDM_LAUNCHER");  // that the user has called
-  return fmt::format("{} {} {}{}", launcher != nullptr ? launcher : "pfdm", command, shell_word(line.case_directory),
-                     options_of(line));
+  return fmt::format("; {} --restart continues from the last complete step", command_on_same(line, "run"));
 }
 
 LiveCommands live_commands(const CommandLine& line) {

@@ -14,6 +14,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
@@ -88,7 +89,7 @@ std::string command_of(const fs::path& results) {
   const char* job = "run";
   if (!fs::exists(results / summary_file) && fs::exists(results / "fit.json")) job = "fit";
   if (!fs::exists(results / summary_file) && fs::exists(results / "sweep.csv")) job = "sweep";
-  return fmt::format("./pfdm {} {}", job, shell_word((is_default ? results.parent_path() : file).string()));
+  return fmt::format("{} {} {}", called_as(), job, shell_word((is_default ? results.parent_path() : file).string()));
 }
 
 /// Of a number in `unit`: with a prefix where the unit takes one.
@@ -144,6 +145,11 @@ bool is_told_elsewhere(const PageBlock& block, const BrowserExtras& extras) {
 }
 
 }  // namespace
+
+std::string called_as() {
+  const char* launcher = std::getenv("PFDM_LAUNCHER");
+  return launcher != nullptr ? launcher : "pfdm";
+}
 
 std::string shell_word(const std::string& word) {
   const auto is_plain = [](char c) {

@@ -14,4 +14,7 @@ BrowserPage browser_page(ReportPage report, const std::filesystem::path& results
 /// A word of a command line, quoted where the shell would take a part of it for its own.
 std::string shell_word(const std::string& word);
 
+/// The program as the user calls it: the launcher ("./pfdm") that has called it, or "pfdm".
+std::string called_as();
+
 }  // namespace pfdm

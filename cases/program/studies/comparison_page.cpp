@@ -177,7 +177,7 @@ BrowserPage comparison_page(std::vector<ComparedRun> runs, const std::string& ve
 void report_compared(const std::vector<std::string>& places, Session& session) {
   require_own_folder(session.results);
   std::vector<ComparedRun> runs = open_compared(places, session);
-  std::string command = "./pfdm report";
+  std::string command = called_as() + " report";
   for (const std::string& place : places) command += " " + shell_word(place);
   command += " --output " + shell_word(session.results.string());
   const std::string record = record_of(runs, session.version);
