@@ -24,6 +24,23 @@ std::string number_text(double value, int digits) {
   return fmt::format("{:.{}g}", value, digits);
 }
 
+double largest_of(std::initializer_list<double> values) {
+  double largest = 0.0;
+  for (const double value : values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+std::string joined(std::initializer_list<double> values, double factor, std::string_view between, int digits) {
+  const double least = 1e-9 * largest_of(values);  // below it is what is left of a zero
+  std::string words;
+  for (const double value : values) {
+    if (!words.empty()) words += between;
+    words += number_text(std::abs(value) < least ? 0.0 : factor * value, digits);
+  }
+  return words;
+}
+
 }  // namespace
 
 ScaledUnit scaled_unit(double largest, std::string_view si_unit) {
@@ -50,17 +67,14 @@ std::string quantity_text(double si, std::string_view si_unit, int digits) {
 
 std::string quantities_text(std::initializer_list<double> si, std::string_view si_unit, std::string_view between,
                             int digits) {
-  double largest = 0.0;
-  for (const double value : si)
-    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  const ScaledUnit unit = scaled_unit(largest, si_unit);
-  std::string words;
-  for (const double value : si) {
-    const double least = 1e-9 * largest;  // what is left of a zero
-    if (!words.empty()) words += between;
-    words += number_text(std::abs(value) < least ? 0.0 : unit.factor * value, digits);
-  }
-  return fmt::format("{} {}", words, unit.name);
+  const ScaledUnit unit = scaled_unit(largest_of(si), si_unit);
+  return fmt::format("{} {}", joined(si, unit.factor, between, digits), unit.name);
+}
+
+std::string point_text(double x, double y, double z, int digits) {
+  const std::initializer_list<double> at = {x, y, z};
+  const ScaledUnit unit = scaled_unit(largest_of(at), "m");
+  return fmt::format("({}) {}", joined(at, unit.factor, ", ", digits), unit.name);
 }
 
 }  // namespace pfdm

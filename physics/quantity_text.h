@@ -25,11 +25,10 @@ std::string quantities_text(std::initializer_list<double> si, std::string_view s
                             int digits = 4);
 
 /// A point [m]: "(0.1, 20, 300) um".
+std::string point_text(double x, double y, double z, int digits = 3);
 template <class Point>
 std::string point_text(const Point& x, int digits = 3) {
-  const std::string words = quantities_text({x[0], x[1], x[2]}, "m", ", ", digits);
-  const std::size_t unit = words.rfind(' ');
-  return "(" + words.substr(0, unit) + ")" + words.substr(unit);
+  return point_text(x[0], x[1], x[2], digits);
 }
 
 }  // namespace pfdm
