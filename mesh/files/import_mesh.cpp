@@ -31,18 +31,6 @@ constexpr int vtk_voxel = 11;
 constexpr double flat_cell = 1e-14;    // volume over the cube of an edge or diagonal: nothing but rounding
 constexpr int vtk_last_flat_type = 9;  // vertices, lines, triangles, strips, polygons, pixels, quadrilaterals
 
-std::optional<CellShape> shape_of(int vtk_type) {
-  switch (vtk_type) {
-    case 10: return CellShape::tetrahedron;
-    case vtk_voxel:
-    case 12: return CellShape::hexahedron;
-    case 13: return CellShape::wedge;
-    case 14: return CellShape::pyramid;
-    case 42: return CellShape::polyhedron;
-    default: return std::nullopt;
-  }
-}
-
 bool is_face_type(int vtk_type) { return vtk_type == 5 || (vtk_type >= 7 && vtk_type <= vtk_last_flat_type); }
 
 // Turns a cell with its points in mirrored order into itself in right order.

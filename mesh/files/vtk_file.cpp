@@ -4,9 +4,11 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIncrementalOctreePointLocator.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
@@ -21,6 +23,9 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "mesh/files/vtk_messages.h"
 #include "physics/error.h"
@@ -31,30 +36,30 @@ namespace pfdm {
 namespace {
 
 template <class Reader>
-vtkSmartPointer<vtkUnstructuredGrid> read_with(const std::filesystem::path& path) {
+vtkSmartPointer<vtkUnstructuredGrid> read_with(const std::filesystem::path& path, std::string_view noun) {
   const CaughtVtkMessages caught;
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
   vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
   if (!caught.none() || !grid)
-    throw InputError(fmt::format("cannot read the mesh {}: {}", path.string(),
+    throw InputError(fmt::format("cannot read the {} {}: {}", noun, path.string(),
                                  caught.none() ? "it contains no grid" : caught.first()));
   return grid;
 }
 
-void require_file(const std::filesystem::path& path) {
+void require_file(const std::filesystem::path& path, std::string_view noun) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
-    throw InputError(fmt::format("cannot read the mesh {}: it is a directory", path.string()));
+    throw InputError(fmt::format("cannot read the {} {}: it is a directory", noun, path.string()));
   if (!std::ifstream(path))
-    throw InputError(fmt::format("cannot read the mesh {}: {}", path.string(), std::strerror(errno)));
+    throw InputError(fmt::format("cannot read the {} {}: {}", noun, path.string(), std::strerror(errno)));
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path) {
-  if (path.extension() == ".vtu") return read_with<vtkXMLUnstructuredGridReader>(path);
-  if (path.extension() == ".vtk") return read_with<vtkUnstructuredGridReader>(path);
-  throw InputError(fmt::format("cannot read the mesh {}: its name must end in .vtu or .vtk", path.string()));
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path, std::string_view noun) {
+  if (path.extension() == ".vtu") return read_with<vtkXMLUnstructuredGridReader>(path, noun);
+  if (path.extension() == ".vtk") return read_with<vtkUnstructuredGridReader>(path, noun);
+  throw InputError(fmt::format("cannot read the {} {}: its name must end in .vtu or .vtk", noun, path.string()));
 }
 
 Index point_number(vtkUnstructuredGrid& grid, vtkIdType id, vtkIdType cell) {
@@ -122,24 +127,58 @@ void copy_arrays(MeshFile& file, vtkUnstructuredGrid& grid) {
   }
 }
 
-MeshFile read_here(const std::filesystem::path& path) {
-  const auto grid = read_grid(path);
-  MeshFile file;
+void copy_mesh(MeshFile& file, vtkUnstructuredGrid& grid) {
+  if (std::max(grid.GetNumberOfPoints(), 8 * grid.GetNumberOfCells()) > std::numeric_limits<Index>::max())
+    throw InputError("it has too many cells to number");
+  for (vtkIdType i = 0; i < grid.GetNumberOfPoints(); ++i) file.points.emplace_back(grid.GetPoint(i));
+  copy_cells(file, grid);
+  copy_arrays(file, grid);
+}
+
+std::string names_of(vtkDataSetAttributes& data) {
+  std::string names;
+  for (int a = 0; a < data.GetNumberOfArrays(); ++a)
+    if (const vtkDataArray* array = data.GetArray(a); array && data.GetArrayName(a))
+      names += (names.empty() ? "" : ", ") + std::string(data.GetArrayName(a));
+  return names.empty() ? "none" : names;
+}
+
+void copy_field(FileArray& field, vtkUnstructuredGrid& grid, const std::string& name) {
+  vtkDataSetAttributes &of_points = *grid.GetPointData(), &of_cells = *grid.GetCellData();
+  vtkDataArray* array = of_points.GetArray(name.c_str());
+  field.at_points = array != nullptr;
+  if (!array) array = of_cells.GetArray(name.c_str());
+  if (!array)
+    throw InputError(fmt::format("it has no array \"{}\"; available: {} at points, {} in cells", name,
+                                 names_of(of_points), names_of(of_cells)));
+  if (array->GetNumberOfTuples() != (field.at_points ? grid.GetNumberOfPoints() : grid.GetNumberOfCells()))
+    throw InputError(fmt::format("its array \"{}\" has {} entries, its points are {} and its cells {}", name,
+                                 array->GetNumberOfTuples(), grid.GetNumberOfPoints(), grid.GetNumberOfCells()));
+  field.n_components = array->GetNumberOfComponents();
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    for (int k = 0; k < field.n_components; ++k) field.values.push_back(array->GetComponent(i, k));
+}
+
+/// A file's mesh, and one of its arrays if it has a name. `noun` for messages.
+std::pair<MeshFile, FileArray> read_here(const std::filesystem::path& path, const std::string& array,
+                                         std::string_view noun) {
+  const auto grid = read_grid(path, noun);
+  std::pair<MeshFile, FileArray> read;
   try {
-    if (std::max(grid->GetNumberOfPoints(), 8 * grid->GetNumberOfCells()) > std::numeric_limits<Index>::max())
-      throw InputError("it has too many cells to number");
-    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) file.points.emplace_back(grid->GetPoint(i));
-    copy_cells(file, *grid);
-    copy_arrays(file, *grid);
+    copy_mesh(read.first, *grid);
+    if (!array.empty()) copy_field(read.second, *grid, array);
   } catch (const InputError& e) {
-    throw InputError(fmt::format("the mesh {}: {}", path.string(), e.what()));
+    throw InputError(fmt::format("the {} {}: {}", noun, path.string(), e.what()));
   }
-  return file;
+  return read;
 }
 
 /// What the formats of VTK have.
-std::string bytes_of(const MeshFile& file) {
+std::string bytes_of(const MeshFile& file, const FileArray& field) {
   BytePacker packer;
+  packer.put(field.at_points);
+  packer.put(field.n_components);
+  packer.put(field.values);
   packer.put(file.points);
   packer.put(file.cell_type);
   packer.put(file.cell_offsets);
@@ -149,25 +188,50 @@ std::string bytes_of(const MeshFile& file) {
   return packer.take();
 }
 
-MeshFile file_in(const std::string& bytes) {
+std::pair<MeshFile, FileArray> file_in(const std::string& bytes) {
   ByteUnpacker unpacker(bytes);
-  MeshFile file;
+  std::pair<MeshFile, FileArray> read;
+  auto& [file, field] = read;
+  unpacker.take(field.at_points);
+  unpacker.take(field.n_components);
+  unpacker.take(field.values);
   unpacker.take(file.points);
   unpacker.take(file.cell_type);
   unpacker.take(file.cell_offsets);
   unpacker.take(file.cell_points);
   unpacker.take(file.polyhedron_faces);
   unpacker.take(file.integer_arrays);
-  return file;
+  return read;
+}
+
+// VTK's readers crash on some damaged files.
+std::pair<MeshFile, FileArray> read_apart(const std::filesystem::path& path, const std::string& array,
+                                          std::string_view noun) {
+  require_file(path, noun);
+  return file_in(read_separately(path, fmt::format("cannot read the {} {}", noun, path.string()), [&] {
+    const auto [file, field] = read_here(path, array, noun);
+    return bytes_of(file, field);
+  }));
 }
 
 }  // namespace
 
-// VTK's readers crash on some damaged files.
-MeshFile read_vtk_file(const std::filesystem::path& path) {
-  require_file(path);
-  return file_in(read_separately(path, fmt::format("cannot read the mesh {}", path.string()),
-                                 [&] { return bytes_of(read_here(path)); }));
+std::optional<CellShape> shape_of(int vtk_type) {
+  switch (vtk_type) {
+    case VTK_TETRA: return CellShape::tetrahedron;
+    case VTK_VOXEL:
+    case VTK_HEXAHEDRON: return CellShape::hexahedron;
+    case VTK_WEDGE: return CellShape::wedge;
+    case VTK_PYRAMID: return CellShape::pyramid;
+    case VTK_POLYHEDRON: return CellShape::polyhedron;
+    default: return std::nullopt;
+  }
+}
+
+MeshFile read_vtk_file(const std::filesystem::path& path) { return read_apart(path, "", "mesh").first; }
+
+std::pair<MeshFile, FileArray> read_vtk_array(const std::filesystem::path& path, const std::string& array) {
+  return read_apart(path, array, "field");
 }
 
 std::vector<Index> merge_points(std::vector<Vector>& points, double tolerance) {

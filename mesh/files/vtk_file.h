@@ -2,14 +2,31 @@
 // What an unstructured VTK file holds, as plain data (VTK).
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/files/mesh_file.h"
+#include "mesh/mesh.h"
 
 namespace pfdm {
 
 /// Reads a .vtu or a legacy .vtk file. Throws InputError naming the path and the reason; VTK itself stays silent.
 MeshFile read_vtk_file(const std::filesystem::path& path);
+
+/// Of VTK's cells of first order with a volume (its voxels are hexahedra); nothing for others.
+std::optional<CellShape> shape_of(int vtk_type);
+
+/// One array of a file, whatever it means.
+struct FileArray {
+  bool at_points = false;  ///< or in cells
+  int n_components = 1;
+  std::vector<double> values;  ///< [n_points or n_cells, n_components], row by row
+};
+
+/// Likewise, with the array of that name at points, or else in cells. Throws InputError also where there is none.
+std::pair<MeshFile, FileArray> read_vtk_array(const std::filesystem::path& path, const std::string& array);
 
 /// For each point the number of the first one within the tolerance (same unit), counted without the others; the points
 /// that are left take their place.

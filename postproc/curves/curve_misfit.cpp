@@ -19,8 +19,10 @@ const SampledCurve& model_of(const ModelCurves& models, const MeasuredPoints::Po
 }
 
 InputError zero_deviation(const SampledCurve& curve, std::size_t row) {
-  return InputError(fmt::format("the standard deviation of \"{}\" at {:.4g} (SI) is zero: its weight would be infinite",
-                                curve.name, curve.x[row]));
+  return InputError(
+      fmt::format("the standard deviation of \"{}\" at {:.4g} (SI), its point {}, is zero: its weight "
+                  "would be infinite; give the deviation of the force sensor, or leave \"deviation\" out",
+                  curve.name, curve.x[row], row + 1));
 }
 
 /// Mean of a curve over [middle - reach, middle + reach]; the value in the middle where reach is zero.

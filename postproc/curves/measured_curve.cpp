@@ -48,6 +48,22 @@ void take_envelope(MeasuredCurve& measured, double jitter) {
   measured.curve = rows_of(measured.curve, kept);
 }
 
+/// Whether the rows go down from zero, and are in order with the other sign.
+bool has_other_sign(const std::vector<double>& x, double jitter) {
+  const auto [least, most] = std::ranges::minmax(x);
+  std::vector<double> turned;
+  for (const double value : x) turned.push_back(-value);
+  const std::vector<std::size_t> kept = envelope_of(turned, jitter);
+  return -least > jitter && most <= 0.1 * -least && 2 * kept.size() > x.size() && turned[kept.back()] > 0.9 * -least;
+}
+
+InputError other_sign(const std::vector<double>& x) {
+  return InputError(fmt::format(
+      "the displacements go down, from {:.4g} to {:.4g} m: their sign is not the model's; factor = -1 turns "
+      "a column, as in displacement = {{ ..., factor = -1 }}, and that of the force likewise",
+      x.front(), x.back()));
+}
+
 InputError falling(const std::vector<double>& x, double jitter, double moved) {
   std::size_t row = 1;
   while (!(x[row] < x[row - 1])) ++row;
@@ -134,6 +150,7 @@ std::vector<std::string> MeasuredCurve::treatment() const {
 
 MeasuredCurve prepared(SampledCurve recorded, const Preparation& preparation, const SetUp& set_up) {
   MeasuredCurve measured{.as_recorded = recorded, .curve = std::move(recorded), .set_up = set_up};
+  if (has_other_sign(measured.curve.x, preparation.jitter)) throw other_sign(measured.curve.x);
   if (preparation.envelope) take_envelope(measured, preparation.jitter);
   take_jitter(measured, preparation.jitter);
   if (preparation.toe) take_toe(measured, *preparation.toe);

@@ -39,7 +39,7 @@ set(rooms
     "postproc/page: physics postproc/files"
     "postproc/browser: physics mesh postproc/files postproc/fields postproc/page"
     "postproc/records: physics postproc/files"
-    "cases/program/input: physics postproc/files"
+    "cases/program/input: physics mesh mesh/files postproc/files"
     "cases/program/reference: physics cases/program/input"
     "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page postproc/browser
      cases/program/input"

@@ -51,7 +51,9 @@ void VtuText::write_vtu(const std::filesystem::path& path) const {
   write_cells(out, cells);
   out << "</Cells>\n<CellData>\n";
   for (const auto& [name, values] : cell_arrays) write_array(out, "type=\"Float64\" Name=\"" + name + "\"", values);
-  out << "</CellData>\n</Piece></UnstructuredGrid></VTKFile>\n";
+  out << "</CellData>\n<PointData>\n";
+  for (const auto& [name, values] : point_arrays) write_array(out, "type=\"Float64\" Name=\"" + name + "\"", values);
+  out << "</PointData>\n</Piece></UnstructuredGrid></VTKFile>\n";
 }
 
 void VtuText::write_legacy(const std::filesystem::path& path) const {

@@ -18,7 +18,7 @@ struct VtuText {
   };
   std::vector<Vector> points;
   std::vector<Cell> cells;
-  std::map<std::string, std::vector<double>> cell_arrays;
+  std::map<std::string, std::vector<double>> cell_arrays, point_arrays;
 
   void write_vtu(const std::filesystem::path& path) const;
   void write_legacy(const std::filesystem::path& path) const;

@@ -69,6 +69,14 @@ TEST(MeasuredCurve, RefusesDisplacementsThatFallAndNamesTheKeys) {
   EXPECT_THAT(prepared(recorded, {.jitter = 0.25}, {}).curve.x, ElementsAre(0, 1, 1.75, 1.75, 3));
 }
 
+TEST(MeasuredCurve, NamesTheSignOfARecordThatGoesDown) {
+  const SampledCurve recorded = curve({0, -1, -2, -2.9, -2.8, -4}, {0, -1, -2, -3, -2.9, -4});
+  for (const Preparation& preparation : {Preparation{}, {.envelope = true}, {.jitter = 0.2}})
+    EXPECT_THAT(complaint(recorded, preparation),
+                HasSubstr("go down, from 0 to -4 m: their sign is not the model's; factor = -1"));
+  EXPECT_THAT(complaint(curve({0, 1, 2, -4}, {0, 1, 2, -4}), {}), HasSubstr("the displacements decrease"));
+}
+
 TEST(MeasuredCurve, EnvelopeLeavesLoopsOutAndKeepsJitter) {
   //                         loop, closed          jitter     loop, to the end
   const SampledCurve recorded =

@@ -3,6 +3,7 @@
 #include "cases/program/chain/chain_case.h"
 #include "cases/program/chain/chain_page.h"
 #include "cases/program/chain/chain_record.h"
+#include "cases/program/input/field_reader.h"
 #include "cases/program/input/kept_case.h"
 #include "cases/program/input/result_number.h"
 #include "cases/program/session/head_line.h"
@@ -47,7 +48,10 @@ ReadyStep get_ready(const ChainStep& step, const Session& session) {
     ReadyStep ready{step, file, session.read_case(file), own_results(file), ""};
     for (const std::string& remark : ready.file.config.remarks()) session.log.say(remark);
     if (!ready.job()) throw InputError(fmt::format("this kind of case has no \"{}\"", step.job->name));
-    ready.key = case_hash(file, data_files_named(file));
+    std::vector<fs::path> data = data_files_named(file);
+    const std::vector<fs::path> fields = field_files(file);  // with the frames that their lists name
+    data.insert(data.end(), fields.begin(), fields.end());
+    ready.key = case_hash(file, data);
     return ready;
   });
 }

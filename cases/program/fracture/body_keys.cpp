@@ -1,6 +1,7 @@
 #include "cases/program/fracture/body_keys.h"
 
 #include "cases/program/fracture/boundary_reader.h"
+#include "cases/program/input/field_keys.h"
 #include "cases/program/input/law_keys.h"
 #include "physics/damage/crack_geometry.h"
 #include "physics/damage/degradation.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr Range above_zero_below_one{0.0, 1.0, true, "above 0 and below 1"};
 constexpr Range below_half{0.0, 0.5, false, "between 0 and 0.5"};
 constexpr Dimension force_per_volume{"force per volume", "N/m^3", "20 kN/m^3"};
+constexpr Dimension difference_of_temperature{"temperature", "K", "20 K"};
 constexpr Dimension foundation_stiffness{"stiffness per area", "N/m^3", "50 MN/m^3"};
 
 constexpr ParameterWords split_words[] = {
@@ -93,7 +95,7 @@ const KeyTable& goodier_keys() {
 /// Three components, each a value or "free".
 KeyType components(const Dimension& due) {
   using namespace keys;
-  return list(either({quantity(due), table(expression_keys), choice("component", {"free"})}), 3, 3);
+  return list(either({quantity(due), table(expression_keys), table(field_keys), choice("component", {"free"})}), 3, 3);
 }
 
 }  // namespace
@@ -143,7 +145,7 @@ const KeyTable& initial_damage_keys() {
       .sentence = "Cracks and damage that are there before the first step.",
       .keys = {
           {"cracks", tables(crack_keys), "none", "Plane cracks that are there before the first step."},
-          {"damage", either({number(range::fraction), keys::table(expression_keys)}), "0",
+          {"damage", varying(number(range::fraction)), "0",
            "Initial damage field from 0 to 1, a number or a formula of the place."},
           {"regions", list(text("region"), 1), "all damageable regions", "Regions that have the initial damage."}}};
   return table;
@@ -191,7 +193,7 @@ const KeyTable& load_keys() {
            "Acceleration of gravity along x, y, z, which acts on the materials' density."},
           {"body_force", list(varying(quantity(force_per_volume)), 3, 3), "none",
            "Force per reference volume along x, y, z in all regions, such as a centrifugal force."},
-          {"temperature_change", varying(quantity(dimension::temperature)), "none",
+          {"temperature_change", varying(quantity(difference_of_temperature)), "none",
            "Change of temperature, a difference in K, that strains the body by the materials' expansion."},
           {"applied", choice("way in which loads are applied", {"with_load", "from_start"}), "\"with_load\"",
            "Whether plain body loads and eigenstrains grow with the load parameter or act from the start."},

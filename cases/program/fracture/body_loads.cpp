@@ -1,6 +1,7 @@
 #include "cases/program/fracture/body_loads.h"
 
 #include "cases/program/input/amount.h"
+#include "cases/program/input/field_reader.h"
 
 #include <fmt/format.h>
 
@@ -10,10 +11,7 @@
 namespace pfdm {
 namespace {
 
-ScalarField in_time(const Amount& amount, bool from_start) {
-  if (!from_start || !amount.at_full_load) return amount.value;
-  return [full = *amount.at_full_load](const Vector&, double) { return full; };
-}
+ScalarField in_time(const Amount& amount, bool from_start) { return from_start ? amount.from_start : amount.value; }
 
 // Of the components xx, yy, zz, yz, xz, xy.
 constexpr std::array<std::array<Index, 2>, 6> places{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
@@ -29,7 +27,7 @@ LoadField<Vector> read_vector(const ConfigValue& value, bool from_start) {
 ScalarField read_temperature(const ConfigValue& value, bool from_start) {
   std::string unit;
   if (value.is_string()) unit = unit_of(value.string());
-  if (value.is_table()) unit = value.table().string("unit", "");
+  if (value.is_table() && !is_field(value)) unit = value.table().string("unit", "");
   if (is_unit_of(unit, dimension::temperature) && parse_quantity("0 " + unit, dimension::temperature) != 0.0)
     throw value.error("a change of temperature is a difference: give it in K, as in \"20 K\"");
   return in_time(read_amount(value), from_start);

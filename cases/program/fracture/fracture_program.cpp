@@ -13,6 +13,7 @@
 #include "cases/program/fracture/run_estimate.h"
 #include "cases/program/fracture/run_keys.h"
 #include "cases/program/fracture/running_case.h"
+#include "cases/program/input/field_reader.h"
 #include "cases/program/input/kept_case.h"
 #include "cases/program/session/earlier_results.h"
 #include "cases/program/session/head_line.h"
@@ -251,6 +252,8 @@ RunnableCase runnable(const std::shared_ptr<FractureProgram>& program) {
   program->name = case_name(file);
   std::vector<std::filesystem::path> data_files = program->fracture.mesh.data_files;
   data_files.insert(data_files.end(), program->fracture.data_files.begin(), program->fracture.data_files.end());
+  const std::vector<std::filesystem::path> fields = field_files(file);
+  data_files.insert(data_files.end(), fields.begin(), fields.end());
   program->hash = case_hash(file, data_files, may_change_on_the_way);
   program->mesh_hash = table_hash(file, "mesh", program->fracture.mesh.data_files);
   if (const auto ell = program->fracture.mesh.ell) program->mesh_hash += fmt::format(" ell {}", *ell);

@@ -6,6 +6,7 @@
 #include "cases/program/homogenization/homogenization_keys.h"
 #include "cases/program/homogenization/homogenization_report.h"
 #include "cases/program/homogenization/homogenized_results.h"
+#include "cases/program/input/field_reader.h"
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/whole_run.h"
 #include "mesh/quality.h"
@@ -154,10 +155,12 @@ RunnableCase read_program(const CaseFile& file) {
       HomogenizationProgram{.file = file, .homogenization = {}, .name = {}, .hash = {}, .mesh_hash = {}});
   program->homogenization = read_homogenization_case(file.config.root(), file.directory);
   program->name = case_name(file);
-  const std::vector<std::filesystem::path>& data = program->homogenization.mesh.data_files;
+  const std::vector<std::filesystem::path>& of_mesh = program->homogenization.mesh.data_files;
+  std::vector<std::filesystem::path> data = field_files(file);
+  data.insert(data.begin(), of_mesh.begin(), of_mesh.end());
   constexpr std::string_view left_out[] = {"sweep"};
   program->hash = case_hash(file, data, left_out);
-  program->mesh_hash = table_hash(file, "mesh", data);
+  program->mesh_hash = table_hash(file, "mesh", of_mesh);
   return {.title = program->homogenization.title,
           .check = [program](Session& session) { check(*program, session); },
           .mesh = [program](Session& session) { mesh_only(*program, session); },

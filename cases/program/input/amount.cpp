@@ -1,11 +1,10 @@
 #include "cases/program/input/amount.h"
 
 #include "cases/program/input/expression.h"
+#include "cases/program/input/field_reader.h"
 #include "cases/program/input/key.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace pfdm {
 namespace {
@@ -31,11 +30,10 @@ ExpressionInUnit read_expression(const ConfigTable& table, const Dimension& due)
 /// Not a number out of a result file (result_number.h), which may stand for any number.
 bool is_expression(const ConfigValue& value) {
   if (!value.is_table()) return false;
-  const auto entries = value.table().entries();
-  const auto has = [&](std::string_view key) {
-    return std::ranges::any_of(entries, [&](const auto& entry) { return entry.first == key; });
-  };
-  return !has("from") || !has("key");
+  const ConfigTable table = value.table();
+  if (!table.has("from") || !table.has("key")) return true;
+  table.entries();  // all of them are known to whoever reads the number
+  return false;
 }
 
 double plain_value(const ConfigValue& value, const Dimension& due, const Range& allowed) {
@@ -47,6 +45,33 @@ const KeyType& plain_type(const ConfigValue& value) {
   const KeyType* const type = value.type();
   if (const KeyType* quantity = type->as(KeyType::Kind::quantity)) return *quantity;
   return *type->as(KeyType::Kind::number);
+}
+
+Amount amount_of(const FieldInFile& field) {
+  if (field.is_series()) return {.value = field, .at_full_load = std::nullopt, .from_start = field};
+  return {.value = [field](const Vector& x, double t) { return t * field(x, 1.0); },
+          .at_full_load = std::nullopt,
+          .from_start = field};
+}
+
+/// Of a value that may depend on the place alone.
+FieldInFile steady_field(const ConfigValue& value, const Dimension& due) {
+  FieldInFile field(value, due);
+  if (field.is_series()) throw value.error("this may depend on x, y and z only, not on the time of a list of frames");
+  return field;
+}
+
+/// What `at` gives, where it is allowed.
+std::function<double(const Vector&)> within_range(const ConfigValue& value, const Dimension& due, const Range& allowed,
+                                                  const std::function<double(const Vector&)>& at) {
+  return [value, due, allowed, at](const Vector& x) {
+    const double here = at(x);
+    if (!allowed.holds(here))
+      throw value.error(fmt::format("{:.6g}{} at ({:.6g}, {:.6g}, {:.6g}) m must be {}", here,
+                                    has_unit(due) ? fmt::format(" {}", due.si_unit) : "", x[0], x[1], x[2],
+                                    allowed.words));
+    return here;
+  };
 }
 
 const Dimension& due_of(const KeyType& type) { return type.due != nullptr ? *type.due : dimension::number; }
@@ -61,14 +86,17 @@ Parameter read_parameter(const ConfigValue& value) {
 }
 
 Amount read_amount(const ConfigValue& value, const Dimension& due) {
-  if (is_expression(value))
-    return {.value =
-                [value, scaled = read_expression(value.table(), due)](const Vector& x, double t) {
-                  return value.in_context([&] { return scaled.factor * scaled.expression(x, t); });
-                },
-            .at_full_load = std::nullopt};
+  if (is_field(value)) return amount_of(FieldInFile(value, due));
+  if (is_expression(value)) {
+    const ScalarField as_it_stands = [value, scaled = read_expression(value.table(), due)](const Vector& x, double t) {
+      return value.in_context([&] { return scaled.factor * scaled.expression(x, t); });
+    };
+    return {.value = as_it_stands, .at_full_load = std::nullopt, .from_start = as_it_stands};
+  }
   const double full = plain_value(value, due, range::any);
-  return {.value = [full](const Vector&, double t) { return t * full; }, .at_full_load = full};
+  return {.value = [full](const Vector&, double t) { return t * full; },
+          .at_full_load = full,
+          .from_start = [full](const Vector&, double) { return full; }};
 }
 
 Parameter read_parameter(const ConfigValue& value, const Dimension& due, const Range& allowed) {
@@ -76,19 +104,22 @@ Parameter read_parameter(const ConfigValue& value, const Dimension& due, const R
     const double plain = plain_value(value, due, allowed);
     return {.at = [plain](const Vector&) { return plain; }, .varies = false, .text = fmt::format("{}", plain)};
   }
+  if (is_field(value)) {
+    const FieldInFile field = steady_field(value, due);
+    return {.at = within_range(value, due, allowed, [field](const Vector& x) { return field(x, 0.0); }),
+            .varies = true,
+            .text = field.text()};
+  }
   const ConfigTable table = value.table();
   const ExpressionInUnit scaled = read_expression(table, due);
   if (scaled.expression.uses_load())
     throw value.error("this may depend on x, y and z (metres) only, not on the load parameter t");
-  const auto at = [value, scaled, due, allowed](const Vector& x) {
-    const double here = value.in_context([&] { return scaled.factor * scaled.expression(x, 0.0); });
-    if (!allowed.holds(here))
-      throw value.error(fmt::format("{:.6g}{} at ({:.6g}, {:.6g}, {:.6g}) m must be {}", here,
-                                    has_unit(due) ? fmt::format(" {}", due.si_unit) : "", x[0], x[1], x[2],
-                                    allowed.words));
-    return here;
+  const auto at = [value, scaled](const Vector& x) {
+    return value.in_context([&] { return scaled.factor * scaled.expression(x, 0.0); });
   };
-  return {.at = at, .varies = true, .text = fmt::format("{} * {}", scaled.factor, table.string("expr"))};
+  return {.at = within_range(value, due, allowed, at),
+          .varies = true,
+          .text = fmt::format("{} * {}", scaled.factor, table.string("expr"))};
 }
 
 Vector read_point(const ConfigValue& value, const Range& allowed) {

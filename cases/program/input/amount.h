@@ -16,9 +16,11 @@ using ScalarField = std::function<double(const Vector& x, double t)>;
 struct Amount {
   ScalarField value;
   std::optional<double> at_full_load;  ///< of a plain quantity, which is reached linearly at t = 1; SI
+  ScalarField from_start{};            ///< the same where what grows linearly acts from the first step on
 };
 
-/// "800 um", reached linearly at t = 1, or { expr = "0.1*t", unit = "um" }, used as it stands.
+/// "800 um" or a field out of a file, reached linearly at t = 1, or { expr = "0.1*t", unit = "um" } or a field with
+/// times, used as it stands.
 Amount read_amount(const ConfigValue& value, const Dimension& due);
 Amount read_amount(const ConfigValue& value);  ///< of the dimension that the row of its key says
 
@@ -30,7 +32,8 @@ struct Parameter {
   std::string text{};  ///< what the file says; equal texts are equal functions
 };
 
-/// "75 MPa" or { expr = "75 + 1e4*x", unit = "MPa" }; of a plain number 0.3 or { expr = "0.3 + 20*x" }.
+/// "75 MPa" or { expr = "75 + 1e4*x", unit = "MPa" }; of a plain number 0.3 or { expr = "0.3 + 20*x" }; or a field out
+/// of a file without times.
 Parameter read_parameter(const ConfigValue& value, const Dimension& due, const Range& allowed);
 Parameter read_parameter(const ConfigValue& value);  ///< of the dimension and range that the row of its key says
 

@@ -1,5 +1,7 @@
 #include "cases/program/input/key.h"
 
+#include "cases/program/input/field_keys.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -80,7 +82,7 @@ KeyType anything() { return {}; }
 
 KeyType point(const Range& allowed) { return list(quantity(dimension::length, allowed), 3, 3); }
 KeyType direction() { return list(number(), 3, 3); }
-KeyType varying(const KeyType& plain) { return either({plain, table(expression_keys)}); }
+KeyType varying(const KeyType& plain) { return either({plain, table(expression_keys), table(field_keys)}); }
 
 std::vector<Key> joined(std::initializer_list<std::vector<Key>> lists) {
   std::vector<Key> all;

@@ -85,7 +85,7 @@ KeyType anything();
 
 KeyType point(const Range& allowed = range::any);  ///< three lengths
 KeyType direction();                               ///< three numbers
-/// Itself, or { expr, unit }.
+/// Itself, or { expr, unit }, or a field out of a file (field_keys.h).
 KeyType varying(const KeyType& plain);
 
 /// The rows of several lists, in their order.

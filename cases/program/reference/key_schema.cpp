@@ -1,5 +1,6 @@
 #include "cases/program/reference/key_schema.h"
 
+#include "cases/program/input/field_keys.h"
 #include "cases/program/reference/key_words.h"
 #include "cases/program/reference/unit_patterns.h"
 
@@ -143,7 +144,8 @@ std::string definition_of(const KeyType& type) {
   const std::string range = type.allowed.words == range::any.words ? "" : fmt::format(", {}", type.allowed.words);
   if (type.kind == Kind::quantity) return std::string(type.due->name) + range;
   if (type.kind == Kind::number) return "number" + range;
-  if (type.kind == Kind::table && &type.table() == &expression_keys()) return "expression";
+  if (type.kind == Kind::table && (&type.table() == &expression_keys() || &type.table() == &field_keys()))
+    return std::string(type.table().name);
   return "";
 }
 
