@@ -405,7 +405,7 @@ TEST(BadInput, LengthThatTheStrengthDoesNotAllow) {
   EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(
       outcome.err.find("the length (ell) is 4 mm; with this strength and toughness the \"linear\" law needs one "
-                       "of at most 0.00119"),
+                       "of at most 1.19"),
       std::string::npos)
       << outcome.err;
 }
