@@ -204,7 +204,8 @@ TEST(ParticlesInBox, ParticleOutsideTheBoxIsRefused) {
   ParticlesInBoxSettings settings = one_bead(4, 20);
   settings.particles[0].centre = Vector(0, 0, 270) * micro;
   EXPECT_THAT(message_of<InputError>([&] { make_particles_in_box(settings); }),
-              AllOf(HasSubstr("particle 1"), HasSubstr("leaves the box"), HasSubstr("more than 140 um"), HasSubstr("has 130 um")));
+              AllOf(HasSubstr("particle 1"), HasSubstr("leaves the box"), HasSubstr("more than 140 um"),
+                    HasSubstr("has 130 um")));
   settings.particles[0].n_layers = 0;  // fits without them
   EXPECT_NO_THROW(make_particles_in_box(settings));
 }
@@ -214,7 +215,8 @@ TEST(ParticlesInBox, TouchingParticlesAreRefused) {
   settings.particles[0].centre = Vector(-140, 0, 0) * micro;
   settings.particles.push_back(bead(Vector(100, 0, 0), 4, 2));
   EXPECT_THAT(message_of<InputError>([&] { make_particles_in_box(settings); }),
-              AllOf(HasSubstr("particle 1"), HasSubstr("particle 2"), HasSubstr("240 um apart"), HasSubstr("more than 280 um")));
+              AllOf(HasSubstr("particle 1"), HasSubstr("particle 2"), HasSubstr("240 um apart"),
+                    HasSubstr("more than 280 um")));
 }
 
 TEST(ParticlesInBox, SizesThatAreNotPositiveAreRefused) {
