@@ -14,38 +14,35 @@ namespace {
 constexpr double bearable = 0.03;
 constexpr int layers_for_it = 10;  // (3 - 2/n)/n^2 is then 2.8 %
 
+// Why gradients are of one ring wherever layers bend; empty where lines of cells or cubics may serve.
 std::string reason(const FractureModel& model) {
-  if (model.is_finite_strain()) return "finite strain";
-  if (model.is_anisotropic()) return "elasticity that depends on the direction";
-  if (!model.is_isotropic()) return "a split without secant moduli";
-  if (std::ranges::any_of(model.regions, [](const RegionModel& region) { return region.material != nullptr; }))
-    return "a material with a history";
   const auto has = [&](BoundaryCondition::Kind kind) {
     return std::ranges::any_of(model.boundary, [&](const BoundaryCondition& on) { return on.kind == kind; });
   };
   if (has(BoundaryCondition::Kind::axisymmetric)) return "a body about an axis";
+  if (model.is_finite_strain()) return "";
+  if (model.is_anisotropic()) return "elasticity that depends on the direction";
+  if (!model.is_isotropic()) return "a split without secant moduli";
+  if (std::ranges::any_of(model.regions, [](const RegionModel& region) { return region.material != nullptr; }))
+    return "a material with a history";
   return "";
-}
-
-// In space, where lines of cells do not serve.
-std::string reason_in_space(const FractureModel& model, const Unknowns& unknowns) {
-  if (elastic_body(model).loads.eigenstrain) return "in space with eigenstrains";
-  return unknowns.pressure_cells.empty() ? "in space with fewer than three cells of one material across"
-                                         : "in space with a pressure, nu above 0.47, or fewer than three cells across";
 }
 
 }  // namespace
 
 std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel& model) {
   const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) { return is_front_or_back(on); });
+  const bool is_finite = model.is_finite_strain();
   std::string why = reason(model);
-  if (why.empty() && is_plane) return std::nullopt;
+  const bool may_have_lines = why.empty();
+  if (may_have_lines && is_plane && !is_finite) return std::nullopt;
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
-  const LinesInSpace lines(mesh, unknowns);
-  const bool has_lines = why.empty();
-  const auto worst =
-      largest_bending_error(mesh, unknowns, [&](const BendingCell& in) { return !has_lines || !lines.cover(in); });
-  if (has_lines) why = reason_in_space(model, unknowns);
+  const LinesIn where = is_finite ? LinesIn::space_and_plane : LinesIn::space;
+  const auto worst = largest_bending_error(
+      mesh, unknowns, [&](const BendingCell& in) { return !may_have_lines || !has_lines(mesh, unknowns, in, where); });
+  if (may_have_lines)
+    why = fmt::format("{} with fewer than three cells of one material across",
+                      is_finite ? "at finite strain" : "in space");
   if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
   const BendingLayers& at = worst->layers;
   const double nu = worst->poisson_ratio;

@@ -179,24 +179,18 @@ Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, cons
   return n;
 }
 
-LinesInSpace::LinesInSpace(const Mesh& mesh, const Unknowns& unknowns)
-    : mesh_(mesh), unknowns_(unknowns), has_pressure_(as_size(mesh.n_cells()), 0) {
-  for (const Index c : unknowns.pressure_cells) has_pressure_[as_size(c)] = 1;
-}
-
 // Fewer have no slopes to extrapolate.
-bool LinesInSpace::cover(const BendingCell& in) const {
+bool has_lines(const Mesh& mesh, const Unknowns& unknowns, const BendingCell& in, LinesIn where) {
   constexpr Index least_layers = 3;
-  return unknowns_.plane_normal.isZero() && !unknowns_.loads.eigenstrain && has_pressure_[as_size(in.cell)] == 0 &&
-         cells_through(mesh_, unknowns_, in.cell, in.across) >= least_layers;
+  if (unknowns.is_axisymmetric() || (where == LinesIn::space && !unknowns.plane_normal.isZero())) return false;
+  return cells_through(mesh, unknowns, in.cell, in.across) >= least_layers;
 }
 
-std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns) {
+std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns, LinesIn where) {
   std::vector<BendingCell> cells;
-  if (!unknowns.plane_normal.isZero()) return cells;
-  const LinesInSpace lines(mesh, unknowns);
+  if (unknowns.is_axisymmetric() || (where == LinesIn::space && !unknowns.plane_normal.isZero())) return cells;
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
-    if (std::max(at.excess(nu), at.lack()) > least_error && lines.cover(in)) cells.push_back(in);
+    if (std::max(at.excess(nu), at.lack()) > least_error && has_lines(mesh, unknowns, in, where)) cells.push_back(in);
   });
   return cells;
 }

@@ -41,22 +41,15 @@ std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unkno
 /// Cells of one elastic zone in the line of a cell through two opposite faces, split faces being ends.
 Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces);
 
-/// Whether layers that bend have gradients along lines of cells (layer_gradients.h): in space, with at least three
-/// cells of one zone across, without pressures and eigenstrains.
-class LinesInSpace {
- public:
-  LinesInSpace(const Mesh& mesh, const Unknowns& unknowns);
-  bool cover(const BendingCell& in) const;
+/// Where layers that bend have gradients along lines of cells (layer_gradients.h); not about an axis.
+enum class LinesIn { space, space_and_plane };
 
- private:
-  const Mesh& mesh_;
-  const Unknowns& unknowns_;
-  std::vector<char> has_pressure_;
-};
+/// Whether a cell has them: with at least three cells of one zone across.
+bool has_lines(const Mesh& mesh, const Unknowns& unknowns, const BendingCell& in, LinesIn where);
 
-/// Those of cells_of_layers() that LinesInSpace cover and that gradients of one ring would bend with an error of more
-/// than half a per cent.
-std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns);
+/// Those of cells_of_layers() that have lines and that gradients of one ring would bend with an error of more than half
+/// a per cent.
+std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns, LinesIn where);
 
 /// Per cell, nonzero for hexahedra in bodies at least three times as long as thick whose layers would bend with an
 /// error of more than half a per cent. None in boxes that follow a mean strain.

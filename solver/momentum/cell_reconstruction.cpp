@@ -14,7 +14,7 @@ CellReconstruction::CellReconstruction(const FaceSkeleton& skeleton)
                                 .wanted = {}}),
       cubic_(skeleton.mesh, skeleton.unknowns, skeleton.sides_by_turn()),
       layers_(skeleton.mesh, skeleton.unknowns, skeleton.sides_by_turn(), skeleton.links,
-              cells_with_lines(skeleton.mesh, skeleton.unknowns)),
+              cells_with_lines(skeleton.mesh, skeleton.unknowns, LinesIn::space)),
       pressure_(skeleton.mesh, skeleton.unknowns) {}
 
 void CellReconstruction::relax_flat_cells() {
@@ -28,6 +28,14 @@ void CellReconstruction::relax_flat_cells() {
     return cubic_.fits(in.cell) || cells_through(mesh, unknowns, in.cell, in.across) < least_layers;
   });
   layers_ = LayerGradients(mesh, unknowns, skeleton_.sides_by_turn(), skeleton_.links, cells);
+}
+
+void CellReconstruction::take_lines_alone() {
+  const Mesh& mesh = skeleton_.mesh;
+  const Unknowns& unknowns = skeleton_.unknowns;
+  cubic_ = CubicFaces();
+  layers_ = LayerGradients(mesh, unknowns, skeleton_.sides_by_turn(), skeleton_.links,
+                           cells_with_lines(mesh, unknowns, LinesIn::space_and_plane));
 }
 
 void CellReconstruction::weigh_third_order(const CellField<double>& g) {

@@ -18,6 +18,9 @@ class CellReconstruction {
   /// layer_gradients.h, other flat cells weaker jump terms (polyhedral_jump.cpp).
   void relax_flat_cells();
   bool relaxes_flat_cells() const { return relaxes_flat_cells_; }
+  /// For tractions by one gradient a cell, as at finite strain: lines of cells in plane meshes too, in place of cubic
+  /// faces.
+  void take_lines_alone();
 
   /// The weights of the gradients of one ring by the stiffness factors g, where these have changed by more than this
   /// fraction.

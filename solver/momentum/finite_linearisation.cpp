@@ -25,11 +25,11 @@ void FiniteTractions::set(const FiniteLawAt& law, const CellField<double>& g, co
                           Sweep& sweep) {
   FiniteSweep& s = of(sweep);
   cells_.weigh(g, part);
-  cells_.leave_out_third_order();
+  cells_.weigh_third_order(g);
   cells_.weigh_pressures(g);
   pressure_.weigh(g);
   reconstruct(u, s);
-  states_.linearise(law, s.gradients, s.bonded);
+  states_.linearise(law, s.gradients, s.on_sides);
   pressure_.linearise(s);
   set_face_tensors();
   find_changes(s);
@@ -83,11 +83,14 @@ FiniteTractions::FaceTurn FiniteTractions::face_turn(Index cell, const Vector& n
 void FiniteTractions::turn_link(std::size_t i, const std::vector<Vector>& u, const FiniteSweep& s) {
   const Link& link = skeleton_.links[i];
   const LinkTensors& by = link_tensors_[i];
+  const CellField<Tensor>& F = states_.deformation();
   const std::size_t P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
   const Vector jump =
       u[as_size(link.N)] + s.gradients[link.N] * link.d_N - u[as_size(link.P)] - s.gradients[link.P] * link.d_P;
   const Vector step = true_traction(link.N, link.n, link.d_N, N, s) - true_traction(link.P, link.n, link.d_P, P, s);
-  const Vector y_P = by.weight.transpose() * jump + by.softness * step, y_N = jump - y_P;
+  if (weights_.turns(i)) weights_.linearise(i, F[link.P], F[link.N], by.c, jump);
+  const Vector weighed = weights_.weigh(i, jump);
+  const Vector y_P = by.weight.transpose() * weighed + by.softness * step, y_N = weighed - y_P;
   face_turns_[P] = face_turn(link.P, link.n, link.d_P, P, states_.push(link.P) / link.h_P(), y_P, s);
   face_turns_[N] = face_turn(link.N, link.n, link.d_N, N, states_.push(link.N) / link.h_N(), y_N, s);
   if (!jump_turns_.empty()) turn_jump(i, jump, s);

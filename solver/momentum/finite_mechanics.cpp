@@ -4,26 +4,13 @@
 
 #include "solver/momentum/cell_sums.h"
 #include "solver/momentum/finite_tractions.h"
+#include "solver/momentum/polar_parts.h"
 #include "solver/parallel.h"
-
-#include <Eigen/Eigenvalues>
-
-#include <algorithm>
-#include <cmath>
 
 namespace pfdm {
 namespace {
 
 Tensor skew_part(const Tensor& A) { return 0.5 * (A - A.transpose()); }
-
-// R of F = R U, where no stretch is below 1e-3.
-Tensor rotation_of(const Tensor& F) {
-  constexpr double least = 1e-3;
-  const Eigen::SelfAdjointEigenSolver<Tensor> C(F.transpose() * F);
-  Vector inverse;
-  for (Index i = 0; i < 3; ++i) inverse[i] = 1.0 / std::max(std::sqrt(std::max(C.eigenvalues()[i], 0.0)), least);
-  return F * C.eigenvectors() * inverse.asDiagonal() * C.eigenvectors().transpose();
-}
 
 // The tractions of a cell have a moment about its centre; those of all cells together are in balance with the loads.
 // In the sheared cells along a bonded surface it does 1 % of the work. At the rotation R of a cell, beyond the rotation
@@ -35,10 +22,10 @@ void add_work_of_moments(const Mesh& mesh, const std::vector<Index>& of_cells, C
     whole += mesh.cell_volume[c] * (Tensor::Identity() + cells.gradient[c]);
     volume += mesh.cell_volume[c];
   }
-  const Tensor R_0 = rotation_of(whole / volume);
+  const Tensor R_0 = polar_parts(whole / volume).R;
   parallel_for(static_cast<Index>(of_cells.size()), [&](Index k) {
     const Index c = of_cells[as_size(k)];
-    const Tensor R = rotation_of(Tensor::Identity() + cells.gradient[c]);
+    const Tensor R = polar_parts(Tensor::Identity() + cells.gradient[c]).R;
     const Tensor moment = skew_part(cells.moderate_stress[c] * R.transpose());
     cells.energy[c] += 0.5 * mesh.cell_volume[c] * contract(moment, skew_part(R * R_0.transpose()));
   });
@@ -62,6 +49,24 @@ CellMechanics unknown_mechanics(std::size_t n_cells, std::size_t n_parts) {
 }
 
 }  // namespace
+
+// Where lines of cells count, the mean gradient is theirs, from which the tractions are computed. The gradient varies
+// along the lines, by h^2/12 times the square of its slope, and so much more energy is in the cell.
+void FiniteTractions::find_within_layers(const CellField<Tensor>& gradients, CellMechanics& result) const {
+  const LayerGradients& layers = cells_.layers();
+  if (!layers.any()) return;
+  layers.each_cell([&](Index c, double counts, Index first, Index end) {
+    if (first == end) return;
+    double within = 0.0;
+    for (Index line = first; line < end; ++line) {
+      const auto spread = to_components(layers.spread(line, gradients));
+      within += 0.5 * skeleton_.mesh.cell_volume[c] * spread.dot(states_.law(c).A * spread);
+    }
+    result.gradient[c] += counts * (gradients[c] - result.gradient[c]);
+    result.strain[c] = symmetric_part(result.gradient[c]);
+    result.energy[c] += counts * (within - result.energy[c]);
+  });
+}
 
 CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
                                          const CellField<IsotropicElasticity>& part) const {
@@ -96,6 +101,7 @@ CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
     if (pressure_.any()) result.moderate_stress[c] = (sums.moment - pressed) * closure / volume;
     result.energy[c] = sums.work - by_pressure - 0.5 * contract(sums.moment - pressed, gradient);
   });
+  find_within_layers(s.gradients, result);
   if (pressure_.any()) add_work_of_moments(skeleton_.mesh, skeleton_.unknowns.pressure_cells, result);
   result.face_displacement = std::move(u_face);
   return result;

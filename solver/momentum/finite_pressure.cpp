@@ -16,7 +16,7 @@ FinitePressure::FinitePressure(const FaceSkeleton& skeleton, const CellPressure&
 
 void FinitePressure::prepare(FinitePressureSweep& s) const {
   s.pressure = pressure_.field();
-  s.bonded.resize(states_.bonded().size());
+  s.on_sides.resize(states_.n_own());
   if (!any()) return;
   s.moved.resize(skeleton_.links.size());
   s.area_changes.resize(skeleton_.n_forces());
@@ -29,9 +29,9 @@ void FinitePressure::read(const std::vector<Vector>& u, const CellField<Tensor>&
   const BondedSides& bonded = states_.bonded();
   parallel_for(static_cast<Index>(bonded.size()), [&](Index k) {
     const Index c = skeleton_.sides[bonded.side(as_size(k))].cell;
-    s.bonded[as_size(k)] = bonded.gradient(as_size(k), u, gradients[c]);
+    s.on_sides[as_size(k)] = bonded.gradient(as_size(k), u, gradients[c]);
   });
-  moved_faces_.move({u, gradients, s.bonded}, s.corner_moves);
+  moved_faces_.move({u, gradients, s.on_sides}, s.corner_moves);
 }
 
 void FinitePressure::linearise(const FinitePressureSweep& s) {
@@ -63,9 +63,9 @@ void FinitePressure::find_area_changes(const CellField<Tensor>& gradients, Finit
       return;
     }
     const Side& side = skeleton_.sides[k - n_links];
-    const Index b = states_.bonded().number(k - n_links);
-    s.area_changes[k] = (b < 0 ? cofactor_change(states_.deformation()[side.cell], gradients[side.cell])
-                               : cofactor_change(states_.deformation_on(b), s.bonded[as_size(b)])) *
+    const Index own = states_.own(k - n_links);
+    s.area_changes[k] = (own < 0 ? cofactor_change(states_.deformation()[side.cell], gradients[side.cell])
+                                 : cofactor_change(states_.deformation_on(own), s.on_sides[as_size(own)])) *
                         side.n;
   });
 }

@@ -12,7 +12,7 @@ namespace pfdm {
 /// What a sweep finds of moved faces; all but the gradients empty without pressures.
 struct FinitePressureSweep {
   PressureField pressure;
-  std::vector<Tensor> bonded;        ///< gradients on bonded sides
+  std::vector<Tensor> on_sides;      ///< gradients on sides that have their own (FiniteStates::own)
   std::vector<Vector> moved;         ///< by link: linearised displacement [m]
   std::vector<Vector> corner_moves;  ///< of the points of moved faces [m]
   std::vector<Vector> area_changes;  ///< by force: of the moved area, over the undeformed one
@@ -26,7 +26,7 @@ class FinitePressure {
 
   bool any() const { return pressure_.any(); }
   void prepare(FinitePressureSweep& s) const;
-  /// Pressures, and displacements of the points, with these gradients of the cells and those on bonded sides.
+  /// Pressures, gradients on bonded sides, and displacements of the points, with these gradients of the cells.
   void read(const std::vector<Vector>& u, const CellField<Tensor>& gradients, FinitePressureSweep& s) const;
   void find_area_changes(const CellField<Tensor>& gradients, FinitePressureSweep& s) const;
 

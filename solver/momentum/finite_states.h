@@ -1,6 +1,6 @@
 #pragma once
-// Cells at finite strain where their laws are linearised, and on bonded sides the laws at the gradient on the surface;
-// the stiffness of their faces,
+// Cells at finite strain where their laws are linearised, and on sides that have a gradient of their own, bonded ones
+// and surfaces of layers that bend, the laws at that gradient; the stiffness of their faces,
 //
 //   a h = mu I + m c c^T,  m = lambda + mu phi(J),  c = cof F N,
 //
@@ -11,6 +11,7 @@
 #include "solver/momentum/bonded_sides.h"
 #include "solver/momentum/face_skeleton.h"
 #include "solver/momentum/finite_law.h"
+#include "solver/momentum/layer_gradients.h"
 
 namespace pfdm {
 
@@ -21,47 +22,50 @@ class FiniteStates {
     double stiffness = 0.0, slope = 0.0;  ///< [Pa]
     Push operator/(double h) const { return {stiffness / h, slope / h}; }
   };
-  /// What a gradient H changes a cell by, or a bonded side.
+  /// What a gradient H changes a cell by, or a side that has one of its own.
   struct Change {
     Tensor stress = Tensor::Zero();    ///< A : H [Pa]
     Tensor cofactor = Tensor::Zero();  ///< of cof F [-]
     double volume = 0.0;               ///< of J [-]
   };
-  /// Changes of all cells and of all bonded sides.
+  /// Changes of all cells and of all sides that have a gradient of their own.
   struct Changes {
     CellField<Change> of_cell;
-    std::vector<Change> of_bonded;
+    std::vector<Change> on_side;
   };
 
   /// For use while the skeleton exists.
-  explicit FiniteStates(const FaceSkeleton& skeleton);
+  FiniteStates(const FaceSkeleton& skeleton, const LayerGradients& layers);
 
-  /// About these gradients of the cells and of bonded sides.
-  void linearise(const FiniteLawAt& law, const CellField<Tensor>& gradients, const std::vector<Tensor>& bonded);
+  /// About these gradients of the cells, and on the sides that have their own.
+  void linearise(const FiniteLawAt& law, const CellField<Tensor>& gradients, const std::vector<Tensor>& on_sides);
   /// The changes by these gradients.
-  void find_changes(const CellField<Tensor>& gradients, const std::vector<Tensor>& bonded, Changes& changes) const;
+  void find_changes(const CellField<Tensor>& gradients, const std::vector<Tensor>& on_sides, Changes& changes) const;
 
   const BondedSides& bonded() const { return bonded_; }
   /// Number of the bonded side that side number `turn` is; -1: none.
-  Index bonded_at(std::size_t turn) const {
-    return skeleton_.is_side(turn) ? bonded_.number(turn - 2 * skeleton_.links.size()) : -1;
-  }
+  Index bonded_at(std::size_t turn) const { return skeleton_.is_side(turn) ? bonded_.number(side_at(turn)) : -1; }
+  /// Sides with a gradient of their own: the bonded ones, in their order, then the surfaces.
+  std::size_t n_own() const { return own_sides_.size(); }
+  std::size_t side_of_own(std::size_t k) const { return own_sides_[k]; }
+  /// Number of a side among them; -1: it is none.
+  Index own(std::size_t side) const { return own_of_side_.empty() ? -1 : own_of_side_[side]; }
   const FiniteLaw& law(Index cell) const { return laws_[cell]; }
   const CellField<Tensor>& deformation() const { return F_; }
   const CellField<Tensor>& cofactors() const { return cofactor_; }
-  const Tensor& deformation_on(Index bonded) const { return bonded_states_[as_size(bonded)].F; }
-  /// As side number `turn` sees them: of the cell, or of the surface on which it is bonded.
+  const Tensor& deformation_on(Index own) const { return side_states_[as_size(own)].F; }
+  /// As side number `turn` sees them: of the cell, or of the side's own gradient.
   const Tensor& stress_at(Index cell, std::size_t turn) const {
-    const Index k = bonded_at(turn);
-    return k < 0 ? laws_[cell].stress : bonded_states_[as_size(k)].law.stress;
+    const Index k = own_at(turn);
+    return k < 0 ? laws_[cell].stress : side_states_[as_size(k)].law.stress;
   }
   const Tensor& cofactor_at(Index cell, std::size_t turn) const {
-    const Index k = bonded_at(turn);
-    return k < 0 ? cofactor_[cell] : bonded_states_[as_size(k)].cofactor;
+    const Index k = own_at(turn);
+    return k < 0 ? cofactor_[cell] : side_states_[as_size(k)].cofactor;
   }
   const Change& change_at(Index cell, std::size_t turn, const Changes& changes) const {
-    const Index k = bonded_at(turn);
-    return k < 0 ? changes.of_cell[cell] : changes.of_bonded[as_size(k)];
+    const Index k = own_at(turn);
+    return k < 0 ? changes.of_cell[cell] : changes.on_side[as_size(k)];
   }
 
   /// m and dm/dJ times h.
@@ -91,11 +95,14 @@ class FiniteStates {
   double elastic_volume(Index cell) const { return F_[cell].determinant() / (1.0 + laws_[cell].free_change); }
 
  private:
-  struct BondedState {
+  struct SideState {
     FiniteLaw law;
     Tensor F, cofactor;
     Push push;
   };
+  std::size_t side_at(std::size_t turn) const { return turn - 2 * skeleton_.links.size(); }
+  Index own_at(std::size_t turn) const { return skeleton_.is_side(turn) ? own(side_at(turn)) : -1; }
+  double stiffer(std::size_t side) const { return bonded_.number(side) < 0 ? 1.0 : BondedSides::stiffer; }
   static Push push_of(const FiniteLaw& law, double J);
   static Push capped(double share, const FiniteLaw& law, const Push& push);
 
@@ -104,8 +111,10 @@ class FiniteStates {
   CellField<Tensor> F_, cofactor_;
   CellField<Push> push_;
   CellField<double> jump_share_;
-  BondedSides bonded_;  // also of cells with cubic faces, which count at small strain alone
-  std::vector<BondedState> bonded_states_;
+  BondedSides bonded_;
+  std::vector<std::size_t> own_sides_;
+  std::vector<Index> own_of_side_;
+  std::vector<SideState> side_states_;
 };
 
 }  // namespace pfdm

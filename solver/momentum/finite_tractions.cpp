@@ -12,11 +12,21 @@ using momentum_faces::LinkTensors;
 using momentum_faces::Side;
 using momentum_faces::SplitFace;
 
+namespace {
+
+CellReconstruction& with_lines_alone(CellReconstruction& cells) {
+  cells.take_lines_alone();
+  return cells;
+}
+
+}  // namespace
+
 FiniteTractions::FiniteTractions(const FaceSkeleton& skeleton, CellReconstruction& cells)
     : FaceTractions(skeleton),
-      cells_(cells),
-      states_(skeleton),
+      cells_(with_lines_alone(cells)),
+      states_(skeleton, cells.layers()),
       pressure_(skeleton, cells.pressure(), states_),
+      weights_(cells.layers(), skeleton.links.size()),
       initial_sector_(as_size(skeleton.sector_area.size()), 0.0),
       face_turns_(skeleton.n_turns()),
       link_tensors_(skeleton.links.size()),
@@ -29,18 +39,25 @@ std::unique_ptr<Sweep> FiniteTractions::new_sweep() const {
   auto s = std::make_unique<FiniteSweep>(skeleton_);
   pressure_.prepare(*s);
   s->changes.of_cell = CellField<Change>(as_size(skeleton_.mesh.n_cells()));
-  s->changes.of_bonded.resize(states_.bonded().size());
+  s->changes.on_side.resize(states_.n_own());
+  s->layers.assign(cells_.layers().any() ? skeleton_.n_turns() : 0, Tensor::Zero());
   return s;
 }
 
 void FiniteTractions::reconstruct(const std::vector<Vector>& u, FiniteSweep& s) const {
   cells_.find_gradients(u, s.gradients);
+  if (cells_.layers().any()) cells_.layers().correct(u, s.gradients, s.layers);
   pressure_.read(u, s.gradients, s);
+  const std::size_t n_bonded = states_.bonded().size();
+  parallel_for(static_cast<Index>(states_.n_own() - n_bonded), [&](Index i) {
+    const std::size_t k = n_bonded + as_size(i), side = states_.side_of_own(k);
+    s.on_sides[k] = s.gradients[skeleton_.sides[side].cell] + s.layers[skeleton_.turn_of_side(side)];
+  });
 }
 
 void FiniteTractions::find_changes(FiniteSweep& s) const {
   pressure_.find_area_changes(s.gradients, s);
-  states_.find_changes(s.gradients, s.bonded, s.changes);
+  states_.find_changes(s.gradients, s.on_sides, s.changes);
   const Vector& across = skeleton_.unknowns.plane_normal;
   parallel_for(s.sector_stress.size(), [&](Index c) {
     s.sector_stress[c] = across.dot(s.changes.of_cell[c].stress * across);
@@ -74,7 +91,8 @@ void FiniteTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) co
     const Vector u_P = u[as_size(link.P)] + s.gradients[link.P] * link.d_P;
     const Vector jump = u[as_size(link.N)] + s.gradients[link.N] * link.d_N - u_P;
     if (!s.moved.empty()) s.moved[i] = u_P + by.weight.transpose() * jump + by.softness * (stress_N - stress_P);
-    s.force[i] = link.area * (stress_N + by.weight * (stress_P - stress_N) + by.c * jump);
+    s.force[i] = link.area * (stress_N + by.weight * (stress_P - stress_N) + by.c * weights_.weigh(i, jump));
+    if (weights_.turns(i)) s.force[i] += link.area * weights_.change(i, s.gradients[link.P], s.gradients[link.N]);
     if (!jump_turns_.empty()) s.force[i] += link.area * turned_jump(i, s);
   });
   parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
@@ -94,6 +112,7 @@ bool FiniteTractions::add_constant(Sweep& s) const {
     const Vector &on_P = face_turns_[FaceSkeleton::turn_P(i)].initial,
                  &on_N = face_turns_[FaceSkeleton::turn_N(i)].initial;
     s.force[i] += link.area * (on_N + link_tensors_[i].weight * (on_P - on_N));
+    if (weights_.turns(i)) s.force[i] += link.area * weights_.initial(i);
     if (!jump_turns_.empty()) s.force[i] += link.area * jump_turns_[i].initial;
   });
   parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {

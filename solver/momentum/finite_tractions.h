@@ -18,6 +18,9 @@
 // m = (lambda + mu phi(J))/h. The balance is linear in the displacements, with these as they were at the last ones; its
 // constant part makes it exact there. Pressures have V J(q) = volume of the moved cell, linearised likewise.
 //
+// Where few layers of hexahedra bend, H is that along lines of cells, in plane meshes too; surfaces have gradients of
+// their own, and the jump y_P + y_N of t has weights (layer_gradients.h, turned_weights.h).
+//
 //   symbol              member, function
 //   a, b                side_tensors_; LinkTensors::{weight, c, softness} of links
 //   m, dm/dJ            FiniteStates::Push
@@ -27,12 +30,14 @@
 #include "solver/momentum/face_tractions.h"
 #include "solver/momentum/finite_pressure.h"
 #include "solver/momentum/finite_states.h"
+#include "solver/momentum/turned_weights.h"
 
 namespace pfdm {
 
 /// What a sweep of these tractions also finds.
 struct FiniteSweep : Sweep, FinitePressureSweep {
   using Sweep::Sweep;
+  std::vector<Tensor> layers;  // by turn; empty without lines
   FiniteStates::Changes changes;
 };
 
@@ -60,6 +65,7 @@ class FiniteTractions final : public FaceTractions {
   double hoop_modulus(Index cell) const override;
   double shear_stiffness(Index cell) const override { return states_.law(cell).face.mu; }
   Tensor softness_of_side(std::size_t side) const override { return side_tensors_[side].inverse(); }
+  bool has_third_order() const override { return cells_.layers().any(); }
   bool is_linearised() const override { return true; }
   CellMechanics mechanics(const std::vector<Vector>& u, bool with_gradient,
                           const CellField<IsotropicElasticity>& part) const override;
@@ -94,7 +100,7 @@ class FiniteTractions final : public FaceTractions {
   // What the cell's displacement rises by to the centre of side number `turn` [m].
   Vector rise(Index cell, const Vector& d, std::size_t turn, const FiniteSweep& s) const {
     const Index k = states_.bonded_at(turn);
-    return (k < 0 ? s.gradients[cell] : s.bonded[as_size(k)]) * d;
+    return (k < 0 ? s.gradients[cell] : s.on_sides[as_size(k)]) * d;
   }
 
   // finite_linearisation.cpp
@@ -107,10 +113,13 @@ class FiniteTractions final : public FaceTractions {
   Vector true_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn, const FiniteSweep& s) const;
   void find_initial_sector_stress(const FiniteSweep& s);
   void linearise_volumes(const std::vector<Vector>& u, FiniteSweep& s);
+  // finite_mechanics.cpp
+  void find_within_layers(const CellField<Tensor>& gradients, CellMechanics& result) const;
 
   CellReconstruction& cells_;
   FiniteStates states_;
   FinitePressure pressure_;
+  TurnedWeights weights_;
   CellField<double> initial_sector_;  // constant part of the stress across the sector [Pa]
   std::vector<FaceTurn> face_turns_;  // by turn
   std::vector<JumpTurn> jump_turns_;  // by link; empty where the jump's stiffness is that of the tractions

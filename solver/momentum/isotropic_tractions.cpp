@@ -17,7 +17,9 @@ IsotropicTractions::IsotropicTractions(const FaceSkeleton& skeleton, CellReconst
     : SmallTractions(skeleton, cells, eigenstrain),
       moduli_(as_size(skeleton.mesh.n_cells())),
       jump_(skeleton, jump_share_),
-      bonded_(skeleton.mesh, skeleton.unknowns, skeleton.sides, [&](Index c) { return !cells.cubic().fits(c); }),
+      bonded_(
+          skeleton.mesh, skeleton.unknowns, skeleton.sides,
+          [&](Index c) { return !cells.cubic().fits(c) && (cells.relaxes_flat_cells() || !cells.layers().cover(c)); }),
       link_values_(skeleton.links.size()),
       side_values_(skeleton.sides.size()) {}
 

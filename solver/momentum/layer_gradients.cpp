@@ -134,7 +134,19 @@ class LayerGradients::Maker {
       const Vector step = place(places[k].to) - place(places[k].from);
       made_.slopes_.push_back({places[k].from, places[k].to, step, weights[k] / step.norm()});
     }
-    made_.lines_.push_back({dual_of(cell, faces), first, made_.slopes_.size()});
+    const auto neighbour = [&](Index face) {
+      const Index next = beyond(cell, face).cell;
+      return next < 0 ? cell : next;
+    };
+    const Index before = neighbour(faces[0]), after = neighbour(faces[1]);
+    const double distance = (mesh_.cell_centre[after] - mesh_.cell_centre[before]).norm();
+    made_.lines_.push_back(
+        {.along = dual_of(cell, faces),
+         .first_slope = first,
+         .end_slope = made_.slopes_.size(),
+         .before = before,
+         .after = after,
+         .spread = distance > 0.0 ? length(faces[0], faces[1]) / (std::sqrt(12.0) * distance) : 0.0});
   }
 
   // Takes the derivative along the line to the gradient, those along the faces being kept.
@@ -232,6 +244,12 @@ void LayerGradients::weigh(const CellField<double>& g) {
     const double counts = std::min(counting_[P], counting_[N]);
     weights_[as_size(i)] = counts * sound_weights_[as_size(i)] + (1.0 - counts) * Tensor::Identity();
   });
+}
+
+std::vector<std::size_t> LayerGradients::surface_sides() const {
+  std::vector<std::size_t> sides;
+  for (const Surface& at : surfaces_) sides.push_back(at.side);
+  return sides;
 }
 
 void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gradients,

@@ -1,6 +1,6 @@
 #pragma once
-// Gradients of bodies in layers of hexahedra that bend, vibrating ones and others in space, of third order along the
-// lines of cells through opposite faces.
+// Gradients of bodies in layers of hexahedra that bend, of third order along the lines of cells through opposite faces:
+// of vibrating ones, others in space, and at finite strain also in plane meshes.
 //
 // With the gradients of one ring (momentum.h) n layers leave out the bending within each of them, (3 - 2/n)/n^2 of the
 // stiffness, less in torsion; the jump term of the faces across the span adds 1.5 (1 - nu) (h_x/h)^2 in cells of length
@@ -27,6 +27,7 @@
 #include "solver/momentum/bending_layers.h"
 #include "solver/momentum/cubic_faces.h"
 #include "solver/momentum/momentum_faces.h"
+#include "solver/parallel.h"
 
 #include <vector>
 
@@ -46,13 +47,25 @@ class LayerGradients {
   bool cover(Index cell) const { return any() && is_covered_[cell] != 0; }
   /// How much the lines of each cell count, by the stiffness factors g.
   void weigh(const CellField<double>& g);
-  /// None counts: at finite strain, for laws by strain, and for materials with a history.
+  /// None counts: for laws by strain, and for materials with a history.
   void leave_out() { counts_ = false; }
   /// Whether the jump at a link has a weight of its own.
   bool weighs(std::size_t link) const { return any() && is_weighed_[link] != 0; }
   /// Turns the gradients of one ring of the displacements u into those along the lines, and finds by what the gradient
   /// at a side, by its number, differs from that of the cell; sides that are no surfaces are left alone.
   void correct(const std::vector<Vector>& u, CellField<Tensor>& gradients, std::vector<Tensor>& changes) const;
+  /// What the gradient of a cell varies by along one of its lines: the root of the mean square of that over the cell
+  /// [-].
+  Tensor spread(Index line, const CellField<Tensor>& gradients) const {
+    const Line& on = lines_[as_size(line)];
+    return on.spread * (gradients[on.after] - gradients[on.before]);
+  }
+  /// Calls see(cell, how much its lines count, the first of its lines, the one behind the last) of all cells with
+  /// lines.
+  template <class See>
+  void each_cell(const See& see) const;
+  /// The sides, by their numbers, whose gradients differ from those of their cells.
+  std::vector<std::size_t> surface_sides() const;
   /// The weights of the components of the jump at a link.
   const Tensor& weight(std::size_t link) const { return weights_[link]; }
 
@@ -67,6 +80,8 @@ class LayerGradients {
   struct Line {
     Vector along;  // the gradient changes by (mean slope - its own along the line) (x) along
     std::size_t first_slope, end_slope;
+    Index before, after;  // the cells beside this one, itself where there is none
+    double spread;        // of a cell's length over twelve's root and the distance of these two
   };
   struct Cell {
     Index cell;
@@ -95,5 +110,13 @@ class LayerGradients {
   bool counts_ = false;
   std::vector<char> is_weighed_;
 };
+
+template <class See>
+void LayerGradients::each_cell(const See& see) const {
+  parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
+    const Cell& in = cells_[as_size(i)];
+    see(in.cell, in.weight, static_cast<Index>(in.first_line), static_cast<Index>(in.end_line));
+  });
+}
 
 }  // namespace pfdm

@@ -5,6 +5,7 @@
 // A = 3 K e/(3 K + 4 mu), K of the sphere and mu of the matrix).
 
 #include "mesh/generators/sphere_sector.h"
+#include "physics/materials/hyperelastic.h"
 #include "solver/fracture/law_newton.h"
 #include "tests/verification/bar.h"
 #include "tests/verification/support.h"
@@ -276,8 +277,12 @@ struct Strip {
   double curvature = 0.0, exact = 0.0;
 };
 
-// Of two layers, 0.4 and 0.6 of the height; plane stress. The last cells at its ends do not count.
-Strip bend_by_heat(Index along, Index across, double length, double alpha_lower, double alpha_upper) {
+enum class StripIn { plane_stress, space, finite };
+
+// Of two layers, 0.4 and 0.6 of the height; plane stress, or half of a narrow strip in space. The last cells at its
+// ends do not count.
+Strip bend_by_heat(Index along, Index across, double length, double alpha_lower, double alpha_upper,
+                   StripIn in = StripIn::plane_stress) {
   const IsotropicElasticity steel = from_young_poisson(200e9, 0.3), zinc = from_young_poisson(90e9, 0.3);
   constexpr double lower = 0.4, upper = 0.6, dT = 1.0;
   BoxHexesSettings box;
@@ -287,9 +292,17 @@ Strip bend_by_heat(Index along, Index across, double length, double alpha_lower,
   box.regions = {{.name = "upper", .lower = {-1.0, lower, -1.0}, .upper = {length + 1.0, 2.0, 1.0}}};
   box.patches = {{"pin", {-1e-9, -1e-9, -1.0}, {1e-9, lower / static_cast<double>(2 * across) + 1e-9, 1.0}}};
   const Mesh mesh = make_box_hexes(box);
-  FractureModel model =
-      elastic_model({steel, zinc}, {plane_stress_on("zmin"), plane_stress_on("zmax"), symmetry_on("xmin"),
-                                    displacement_on("pin", [](const Vector&) -> Vector { return Vector::Zero(); })});
+  std::vector<BoundaryCondition> boundary{
+      symmetry_on("xmin"),
+      moved("pin", {true, true, in != StripIn::space}, [](const Vector&, double) -> Vector { return Vector::Zero(); })};
+  if (in == StripIn::space)
+    boundary.push_back(symmetry_on("zmin"));
+  else
+    boundary.insert(boundary.end(), {plane_stress_on("zmin"), plane_stress_on("zmax")});
+  FractureModel model = elastic_model({steel, zinc}, std::move(boundary));
+  if (in == StripIn::finite)
+    for (RegionModel& region : model.regions)
+      region.material = make_hyperelastic("neo_hookean", {.elasticity = region.elasticity});
   model.regions[0].expansion = alpha_lower * Tensor::Identity();
   model.regions[1].expansion = alpha_upper * Tensor::Identity();
   model.loads.temperature = [](const Vector&, double t) { return t * dT; };
@@ -322,6 +335,17 @@ TEST(Eigenstrains, BimetalStripBendsAsTimoshenkosDoes) {
   }
   EXPECT_LT(errors[1], 0.02);
   EXPECT_LT(errors[2], 0.01);
+}
+
+// In space gradients are those along lines of cells; so they are at finite strain.
+TEST(Eigenstrains, BimetalStripsOfFewOrLongCellsBendAsTimoshenkosDoes) {
+  for (const StripIn in : {StripIn::space, StripIn::finite})
+    for (const Index along : {60, 30, 15}) {
+      const Strip strip = bend_by_heat(along, 2, 12.0, 12e-6, 30e-6, in);
+      report_row(fmt::format("{} x 10 cells, {}", along, in == StripIn::space ? "in space" : "finite strain"),
+                 {{"curvature over Timoshenko's", strip.curvature / strip.exact}});
+      EXPECT_NEAR(strip.curvature / strip.exact, 1.0, 0.03);
+    }
 }
 
 TEST(Eigenstrains, SphereThatDoesNotFit) {
