@@ -279,6 +279,8 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   FractureCase fracture = read_body(root, case_directory, false);
   fracture.boundary = read_boundary(root, fracture.materials);
   fracture.model.loads = read_body_loads(root);
+  fracture.heat = read_heat(root, fracture.loading);
+  if (fracture.heat) fracture.model.heat = fracture.heat->model;
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
   read_output(root, fracture);
   read_columns(root, fracture);
