@@ -103,6 +103,14 @@ TEST(HeatCase, SaysThatCyclesDoNotRepeat) {
   EXPECT_NE((outcome.out + outcome.err).find("more than heat.repeats_within"), std::string::npos);
 }
 
+TEST(HeatCase, SaysThatTemperaturesMakeNoStrains) {
+  const TemporaryCase directory(
+      replaced(heated_block, "damageable = false\n", "damageable = false\nexpansion = \"3e-4 1/K\"\n"));
+  const Outcome outcome = run({"check", directory.path().string()});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("make no strains"), std::string::npos) << outcome.out;
+}
+
 TEST(HeatCase, IsRefused) {
   for (const BadInput& input : std::vector<BadInput>{
            {"none", "heat_transfer = \"50 W/m^2/K\"\n", "", {"one of rise, flux and heat_transfer"}},
