@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace pfdm {
@@ -75,7 +76,7 @@ std::vector<std::string> columns_of_heat() {
 std::vector<double> row_of_heat(const StepReport& report, double duration) {
   std::vector<double> row{static_cast<double>(report.step), report.load, report.load * duration};
   add_figures(report.heat->figures, report.heat->account, row);
-  row.push_back(report.heat->cycle_change);
+  row.push_back(std::min(report.heat->cycle_change, 1.0));  // a number, too, before two whole cycles
   return row;
 }
 
