@@ -120,7 +120,7 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr("another case"));
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
-  other[8] = 11;
+  other[8] = 12;
   EXPECT_THAT(complaint(other, hash), HasSubstr("has format 12; this program reads format 11"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
