@@ -18,7 +18,7 @@ namespace pfdm {
 namespace {
 
 constexpr std::string_view magic = "PFDMCKPT";
-constexpr std::uint32_t format_version = 10;
+constexpr std::uint32_t format_version = 11;
 constexpr std::size_t size_position = magic.size() + sizeof(format_version);
 constexpr std::size_t header_size = size_position + sizeof(std::uint64_t);
 constexpr std::size_t checksum_size = sizeof(std::uint64_t);
@@ -97,11 +97,13 @@ class Reader {
 template <class Archive, class State>
 void archive_state(Archive& archive, State& state) {
   auto& [step, load, increment, displacement, damage, driving_energy, closure, histories, interfaces, boundary_force,
-         energy] = state;
+         energy, heat] = state;
   const auto each = [&](auto&... members) { (archive(members), ...); };
   each(step, load, increment, displacement, damage, driving_energy, closure, histories.first, histories.values,
        interfaces, boundary_force);
   for (const EnergyEntry& entry : energy_entries) archive(energy.*entry.value);
+  auto& [rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account] = heat;
+  each(rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account.made, account.stored, account.lost);
 }
 
 template <class T>

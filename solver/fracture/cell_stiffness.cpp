@@ -224,13 +224,15 @@ CellField<Mandel> CellStiffness::eigenstrain_moments(const CellMechanics& mechan
 
 double CellStiffness::plastic_dissipation(const FractureState& from, const FractureState& to) const {
   if (!materials_.any()) return 0.0;
-  return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    if (!materials_.has(c)) return 0.0;
-    const double g_from = factor(c, from.damage[c]), g_to = factor(c, to.damage[c]);
-    const MaterialEnergy before = materials_.energy(c, from.histories), after = materials_.energy(c, to.histories);
-    const double flow = 0.5 * (g_from + g_to) * (after.dissipated - before.dissipated);
-    return mesh_.cell_volume[c] * (flow + 0.5 * (g_from - g_to) * (before.idle + after.idle));
-  });
+  return parallel_sum(mesh_.n_cells(), [&](Index c) { return plastic_dissipation(c, from, to); });
+}
+
+double CellStiffness::plastic_dissipation(Index cell, const FractureState& from, const FractureState& to) const {
+  if (!materials_.has(cell)) return 0.0;
+  const double g_from = factor(cell, from.damage[cell]), g_to = factor(cell, to.damage[cell]);
+  const MaterialEnergy before = materials_.energy(cell, from.histories), after = materials_.energy(cell, to.histories);
+  const double flow = 0.5 * (g_from + g_to) * (after.dissipated - before.dissipated);
+  return mesh_.cell_volume[cell] * (flow + 0.5 * (g_from - g_to) * (before.idle + after.idle));
 }
 
 double CellStiffness::follow(const CellMechanics& mechanics, FractureState& state) {

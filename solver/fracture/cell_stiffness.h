@@ -65,6 +65,8 @@ class CellStiffness {
   /// Energy dissipated by the materials [J] from one state to the other, with the heat of what damage has freed and did
   /// not drive it.
   double plastic_dissipation(const FractureState& from, const FractureState& to) const;
+  /// The part of it in a cell [J].
+  double plastic_dissipation(Index cell, const FractureState& from, const FractureState& to) const;
   /// Of the undamaged material [Pa], on which strength depends: at finite strain Biot's.
   Tensor undamaged_stress(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   const MaterialCells& materials() const { return materials_; }

@@ -196,15 +196,38 @@ double CohesiveFaces::dissipated(const std::vector<InterfaceHistory>& from,
   return sum;
 }
 
+std::vector<double> CohesiveFaces::heat(const std::vector<InterfaceHistory>& from,
+                                        const std::vector<InterfaceHistory>& to, double debonding_share) const {
+  std::vector<double> made(faces_.size());
+  for (std::size_t k = 0; k < faces_.size(); ++k)
+    made[k] =
+        faces_[k].area * (to[k].rubbed - from[k].rubbed + debonding_share * (to[k].dissipated - from[k].dissipated));
+  return made;
+}
+
+bool CohesiveFaces::has_debonded(std::size_t k, const Vector& n, const Vector& separation,
+                                 const InterfaceHistory& history) const {
+  constexpr double most_of_it = 0.9;
+  return law(faces_[k]).damage(faces_[k].at, n, separation, history) >= most_of_it;
+}
+
+std::vector<char> CohesiveFaces::parted(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                        const std::vector<InterfaceHistory>& histories) const {
+  std::vector<char> parted(faces_.size(), 0);
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const Vector n = normal(faces_[k], balance), separation = balance.separation(k, u);
+    parted[k] = n.dot(separation) > 0.0 && has_debonded(k, n, separation, histories[k]) ? 1 : 0;
+  }
+  return parted;
+}
+
 std::vector<double> CohesiveFaces::debonded_areas(const MomentumOperator& balance, const std::vector<Vector>& u,
                                                   const std::vector<InterfaceHistory>& histories) const {
-  constexpr double most_of_it = 0.9;
   std::vector<double> areas(model_.interfaces.size(), 0.0);
   for (std::size_t k = 0; k < faces_.size(); ++k) {
     const Face& face = faces_[k];
     const Vector n = normal(face, balance);
-    if (law(face).damage(face.at, n, balance.separation(k, u), histories[k]) >= most_of_it)
-      areas[face.surface] += face.area;
+    if (has_debonded(k, n, balance.separation(k, u), histories[k])) areas[face.surface] += face.area;
   }
   return areas;
 }

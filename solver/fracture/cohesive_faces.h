@@ -47,6 +47,12 @@ class CohesiveFaces {
                  const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
   /// Energy dissipated from one state to the other [J].
   double dissipated(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
+  /// What each face dissipates from one state to the other [J], of decohesion this share.
+  std::vector<double> heat(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to,
+                           double debonding_share) const;
+  /// Of each face, whether it has debonded and its sides do not touch.
+  std::vector<char> parted(const MomentumOperator& balance, const std::vector<Vector>& u,
+                           const std::vector<InterfaceHistory>& histories) const;
   /// Of each surface, where nine tenths of the toughness, that of the mode in which the face is loaded, or more are
   /// dissipated [m^2].
   std::vector<double> debonded_areas(const MomentumOperator& balance, const std::vector<Vector>& u,
@@ -74,6 +80,7 @@ class CohesiveFaces {
   Vector normal(const Face& face, const MomentumOperator& balance) const;
   void turn(const Face& face, const MomentumOperator& balance, const Vector& separation, const InterfaceResponse& at,
             FaceSpring& spring) const;
+  bool has_debonded(std::size_t k, const Vector& n, const Vector& separation, const InterfaceHistory& history) const;
   const InterfaceLaw& law(const Face& face) const { return model_.interfaces[face.surface].law; }
 
   const Mesh& mesh_;

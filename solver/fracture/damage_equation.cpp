@@ -159,10 +159,13 @@ void DamageEquation::resist_change(double resistance, const CellField<double>& f
 
 double DamageEquation::viscous_dissipation(const CellField<double>& d) const {
   if (!(resistance_ > 0.0)) return 0.0;
-  return parallel_sum(mesh_.n_cells(), [&](Index c) {
-    const double change = d[c] - from_[c];
-    return mesh_.cell_volume[c] * resistance_ * change * change;
-  });
+  return parallel_sum(mesh_.n_cells(), [&](Index c) { return viscous_dissipation(c, d[c]); });
+}
+
+double DamageEquation::viscous_dissipation(Index cell, double d) const {
+  if (!(resistance_ > 0.0)) return 0.0;
+  const double change = d - from_[cell];
+  return mesh_.cell_volume[cell] * resistance_ * change * change;
 }
 
 ScalarSolution DamageEquation::solve(const CellField<double>& psi_plus, const CellField<double>& lower,

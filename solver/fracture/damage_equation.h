@@ -49,6 +49,8 @@ class DamageEquation {
   void set_driving_force(CellField<double> force) { force_ = std::move(force); }
   /// Energy that the resistance dissipates up to d [J]: int eta (d - d_n)^2/dt dV.
   double viscous_dissipation(const CellField<double>& d) const;
+  /// The part of it in a cell [J].
+  double viscous_dissipation(Index cell, double d) const;
   /// The left side of a cell's equation, over the cell [J], with the deferred flux of the last solution; its derivative
   /// by d is `diagonal`, those by the other cells' are minus the coefficients of `coupling`.
   double imbalance(Index cell, const CellField<double>& d, double psi_plus) const;

@@ -8,6 +8,7 @@
 #include "physics/interfaces/interface_law.h"
 #include "physics/materials/material.h"
 #include "physics/materials/strength_model.h"
+#include "solver/heat/heat_model.h"
 #include "solver/momentum/boundary_condition.h"
 #include "solver/momentum/preconditioner.h"
 #include "solver/momentum/unknowns.h"
@@ -15,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,8 @@ struct RegionModel {
   double density = 0.0;                                    ///< on which gravity acts [kg/m^3]
   Tensor expansion = Tensor::Zero();                       ///< thermal, symmetric [1/K]
   std::shared_ptr<const LoadField<Tensor>> eigenstrain{};  ///< given besides [-]; null: none
+  double conductivity = 0.0;                               ///< of heat [W/(m K)]; where there is heat
+  double specific_heat = 0.0;                              ///< likewise, of the density [J/(kg K)]
   /// Elasticity that depends on the direction [Pa]; `elasticity` is then the closest isotropic one, an estimate. Null:
   /// `elasticity` is it.
   std::shared_ptr<const MandelMatrix> stiffness{};
@@ -91,6 +95,7 @@ struct FractureModel {
   BoxMotion motion{};                       ///< of a box by its mean strain; then nothing is prescribed on patches
   BodyLoads loads{};
   std::vector<CohesiveSurface> interfaces{};  ///< no face in two of them
+  std::optional<HeatModel> heat{};            ///< none: what is dissipated warms nothing
   /// At load 0 the damage is nowhere below this, between 0 and 1 [-]: it has the profile of least surface energy.
   /// Empty: none.
   CellField<double> initial_damage{};
@@ -143,7 +148,7 @@ struct LoadingSettings {
   /// its maximum. A load that would dissipate more is lowered, also below that of the step before, so that the
   /// snap-back branch is traced.
   double maximum_dissipation = std::numeric_limits<double>::infinity();
-  /// Time in which the load parameter grows by 1 [s]; required by a viscosity and by rate-dependent materials.
+  /// Time in which the load parameter grows by 1 [s]; required by a viscosity, by rate-dependent materials and by heat.
   double duration = 0.0;
   std::vector<double> stops;  ///< values of t that a step must end on (frames)
   /// Whether what is prescribed may be taken as proportional to t: the first guess of a step.

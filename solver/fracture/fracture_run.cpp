@@ -1,6 +1,7 @@
 #include "solver/fracture/fracture_run.h"
 
 #include "physics/error.h"
+#include "solver/fracture/body_heat.h"
 #include "solver/fracture/combinations.h"
 #include "solver/fracture/finite_stop.h"
 #include "solver/fracture/held_interfaces.h"
@@ -46,6 +47,7 @@ struct FractureRun::Parts {
   StaggeredSettings settings;
   ResidualStiffness residual_stiffness;
   SpreadDamage spread_damage;
+  BodyHeat heat;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
   Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& given, LoadingSettings l)
@@ -56,8 +58,8 @@ struct FractureRun::Parts {
         sides(faces_of_sides(model.motion)),
         staggered(m, model, unknowns, given),
         settings(given),
-        residual_stiffness(model.residual_stiffness) {
-    require_combination(mesh, model, unknowns, loading);
+        residual_stiffness(model.residual_stiffness),
+        heat((require_combination(mesh, model, unknowns, loading), m), model, unknowns.plane_normal) {
     relax_initial_damage();
   }
 
@@ -83,7 +85,7 @@ struct FractureRun::Parts {
     double stop = loading.end;
     for (const double s : loading.stops)
       if (s > load + load_rounding) stop = std::min(stop, s);
-    return stop;
+    return std::min(stop, heat.end_of_cycle(load));
   }
 
   double next_increment(double increment, const StepOutcome& outcome) const {
@@ -191,6 +193,7 @@ struct FractureRun::Parts {
     next.energy.eigenstrain_work += state.energy.eigenstrain_work;
     for (const EnergyEntry& entry : energy_entries)
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
+    if (heat.any()) heat.advance(staggered, state, increment * loading.duration, next);
     next.increment = next_increment(planned, outcome);
     const bool follows_path = std::isfinite(loading.maximum_dissipation);
     const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
@@ -215,6 +218,7 @@ struct FractureRun::Parts {
     r.debonded_area =
         staggered.faces().debonded_areas(staggered.momentum().balance(), state.displacement, state.interfaces);
     const CellField<double> damage = staggered.damage_equation().stiffness_damage().of(state.damage);
+    if (heat.any()) r.heat = heat.report(state.heat);
     r.max_damage = parallel_max(mesh.n_cells(), [&](Index c) { return damage[c]; });
     r.damaged_volume =
         parallel_sum(mesh.n_cells(), [&](Index c) { return damage[c] > 0.5 ? mesh.cell_volume[c] : 0.0; });
@@ -259,11 +263,12 @@ FractureState FractureRun::initial_state() const {
   state.histories = parts_->staggered.stiffness().materials().virgin_histories();
   state.interfaces = parts_->staggered.faces().virgin_histories();
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
+  state.heat = parts_->heat.start();
   return state;
 }
 
 bool FractureRun::is_complete(const FractureState& state) const {
-  return state.load >= parts_->loading.end - load_rounding;
+  return state.load >= parts_->loading.end - load_rounding || parts_->heat.repeats(state.heat);
 }
 
 StepReport FractureRun::report_of(const FractureState& start) {
@@ -314,7 +319,13 @@ OutputFields FractureRun::output(const FractureState& state) {
   if (parts_->unknowns.plane_stress) fields.plane_stress_normal = parts_->unknowns.plane_normal;
   fields.interfaces = staggered.faces().output(staggered.momentum().balance(), state);
   fields.history = staggered.stiffness().materials().output(state.histories);
+  parts_->heat.show(state.heat, fields.history);
   return fields;
+}
+
+std::vector<HeatRow> FractureRun::warm_by_cycles(const FractureState& state, double time, Index n,
+                                                 CellField<double>& rise) {
+  return parts_->heat.warm_by_cycles(state.heat, parts_->loading.duration, time, n, rise);
 }
 
 std::vector<std::string> FractureRun::interface_warnings() const {

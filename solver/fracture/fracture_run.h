@@ -25,7 +25,7 @@ class FractureRun {
   ~FractureRun();
 
   FractureState initial_state() const;
-  /// Whether the load has reached its end.
+  /// Whether the load has reached its end, or the heat of its cycles repeats.
   bool is_complete(const FractureState& state) const;
   /// Advances the state by one accepted step; increments are cut back until one is accepted. Throws ComputationError,
   /// with the state as it was, when the smallest does not converge. `watch` sees every iteration, also of increments
@@ -35,6 +35,9 @@ class FractureRun {
   StepReport report_of(const FractureState& start);
 
   OutputFields output(const FractureState& state);
+  /// What the mean heat of the last whole cycle warms from the start on, in a time of `n` steps [s]; the rises of the
+  /// cells at its end go to `rise` [K]. Throws ComputationError without a whole cycle.
+  std::vector<HeatRow> warm_by_cycles(const FractureState& state, double time, Index n, CellField<double>& rise);
   const FractureModel& model() const;
   std::vector<std::string> interface_warnings() const;  ///< of cells too large for their laws; of held sides
   Index n_unknowns() const;                             ///< of displacement

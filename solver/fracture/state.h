@@ -5,6 +5,7 @@
 #include "physics/interfaces/interface_law.h"
 #include "solver/fracture/cell_histories.h"
 #include "solver/fracture/energy_account.h"
+#include "solver/heat/heat_state.h"
 #include "solver/momentum/box_means.h"
 
 #include <optional>
@@ -27,6 +28,14 @@ struct FractureState {
   std::vector<InterfaceHistory> interfaces;  ///< of the cohesive faces, one surface after the other
   std::vector<Vector> boundary_force;        ///< on each boundary face [N], in the mesh's face order
   EnergyAccount energy;
+  HeatState heat{};  ///< without heat empty
+};
+
+/// Of a body that heat warms.
+struct HeatReport {
+  HeatFigures figures{};
+  HeatBalance account{};
+  double cycle_change = 0.0;  ///< of the last whole cycle's heat from the one before, relative; infinite before two
 };
 
 /// One row of the force-displacement curve.
@@ -38,6 +47,7 @@ struct StepReport {
   EnergyAccount energy;
   std::optional<BoxMeans> means;      ///< of a box that moves by its mean strain
   std::vector<double> debonded_area;  ///< of each cohesive surface: where it has dissipated nine tenths or more [m^2]
+  std::optional<HeatReport> heat;     ///< of a body that heat warms
   double max_damage = 0.0;            ///< [-]
   double damaged_volume = 0.0;        ///< volume with d > 0.5 [m^3]
   Index staggered_iterations = 0;

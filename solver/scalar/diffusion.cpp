@@ -91,7 +91,8 @@ Diffusion::Diffusion(const Mesh& mesh, DiffusionProblem problem) {
   require_one_each(problem.boundary);
   TwoPointFlux flux(mesh, {.conductance = problem.conductivity,
                            .exchanges = exchanges_of(mesh, problem.boundary),
-                           .plane_normal = problem.plane_normal});
+                           .plane_normal = problem.plane_normal,
+                           .resistance = problem.resistance});
   CellField<double> inflow = inflow_of(mesh, problem.boundary);
   parts_.reset(new Parts{mesh, std::move(problem), std::move(flux), std::move(inflow)});
 }

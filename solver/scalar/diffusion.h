@@ -5,6 +5,7 @@
 
 #include "mesh/mesh.h"
 #include "solver/scalar/bounded_newton.h"
+#include "solver/scalar/diffusion_boundary.h"
 
 #include <functional>
 #include <memory>
@@ -12,19 +13,6 @@
 #include <vector>
 
 namespace pfdm {
-
-/// What is prescribed on a patch; patches that are not named are insulated.
-struct DiffusionBoundary {
-  enum class Kind {
-    value,     ///< u
-    flux,      ///< per area, into the body
-    exchange,  ///< Robin: per area, out of the body, coefficient (u - value), as by convection
-  };
-  std::string patch;
-  Kind kind = Kind::value;
-  double value = 0.0;        ///< of u at the face or beyond it; of the flux [W/m^2]
-  double coefficient = 0.0;  ///< of an exchange [W/(m^2 K)], positive
-};
 
 /// A source and its derivative.
 struct DiffusionSource {
@@ -38,7 +26,8 @@ struct DiffusionProblem {
   std::vector<DiffusionBoundary> boundary;
   std::function<DiffusionSource(Index cell, double u)> source{};  ///< empty: none
   Vector plane_normal = Vector::Zero();                           ///< of one-cell-thick meshes
-  double precision = 1e-9;  ///< change of u, over its size, from which on a solution has converged
+  FaceField<double> resistance{};  ///< across each interior face [m^2 K/W], infinite: insulated; or empty
+  double precision = 1e-9;         ///< change of u, over its size, from which on a solution has converged
 };
 
 class Diffusion {

@@ -77,12 +77,16 @@ Vector TwoPointFlux::within_face(Index face, Index cell, const Vector& normal) c
   return d - d.dot(normal) * normal;
 }
 
+bool TwoPointFlux::is_cut(Index face) const {
+  return (medium_.cut.size() > 0 && medium_.cut[face] != 0) || std::isinf(resistance_of(face));
+}
+
 void TwoPointFlux::build_links() {
   for (Exchange& exchange : medium_.exchanges) exchange.corrected = exchange.corrected && is_oblique(exchange);
   const CellField<double>& k = medium_.conductance;
   for (Index f = 0; f < mesh_.n_interior_faces(); ++f) {
     const Index P = mesh_.owner[f], N = mesh_.neighbour[f];
-    if (!(k[P] > 0.0 && k[N] > 0.0) || (medium_.cut.size() > 0 && medium_.cut[f] != 0)) continue;
+    if (!(k[P] > 0.0 && k[N] > 0.0) || is_cut(f)) continue;
     const double area = mesh_.face_area[f].norm();
     const Vector n = mesh_.face_area[f] / area;
     const double h_P = std::abs((mesh_.face_centre[f] - point_of(P)).dot(n));
@@ -91,7 +95,7 @@ void TwoPointFlux::build_links() {
     links_.push_back({.face = f,
                       .P = P,
                       .N = N,
-                      .coefficient = area / (h_P / k[P] + h_N / k[N]),
+                      .coefficient = area / (h_P / k[P] + h_N / k[N] + resistance_of(f)),
                       .corrected = (centre_line - n).norm() > orthogonal});
   }
 }
@@ -115,6 +119,14 @@ void TwoPointFlux::build_exchanges() {
   }
 }
 
+// Across them cells do not enter each other's gradient.
+FaceField<char> TwoPointFlux::kinks() const {
+  if (medium_.resistance.size() == 0) return medium_.cut;
+  FaceField<char> kinks(as_size(mesh_.n_faces()), 0);
+  for (Index f = 0; f < mesh_.n_interior_faces(); ++f) kinks[f] = is_cut(f) || resistance_of(f) > 0.0 ? 1 : 0;
+  return kinks;
+}
+
 Gradient TwoPointFlux::build_gradient() const {
   std::vector<char> wanted(as_size(mesh_.n_cells()), 0);
   for (const Link& link : links_)
@@ -123,7 +135,7 @@ Gradient TwoPointFlux::build_gradient() const {
     if (exchange.corrected) wanted[as_size(exchange.cell)] = 1;
   return Gradient(mesh_, {.zone = smooth_zones(mesh_, medium_.conductance),
                           .node_of_face = {},
-                          .cut = medium_.cut,
+                          .cut = kinks(),
                           .shift = medium_.shift,
                           .plane_normal = medium_.plane_normal,
                           .wanted = std::move(wanted),

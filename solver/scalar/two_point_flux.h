@@ -28,8 +28,11 @@ class TwoPointFlux {
     std::vector<Exchange> exchanges{};
     Vector plane_normal = Vector::Zero();  ///< of one-cell-thick meshes
     FaceField<char> cut{};                 ///< nonzero where there is no flux; or empty
-    CellField<Vector> shift{};             ///< of the point of a cell's value from the cell's centre [m]; or empty
-    bool limited = false;                  ///< the deferred correction, to the range of u around a face
+    /// Across each interior face: jump of u over the flux per area, at infinity no flux; u has a kink or a jump where
+    /// it is not zero. Or empty.
+    FaceField<double> resistance{};
+    CellField<Vector> shift{};  ///< of the point of a cell's value from the cell's centre [m]; or empty
+    bool limited = false;       ///< the deferred correction, to the range of u around a face
   };
   TwoPointFlux(const Mesh& mesh, Medium medium);
 
@@ -61,6 +64,9 @@ class TwoPointFlux {
   void build_links();
   void build_exchanges();
   bool is_oblique(const Exchange& exchange) const;
+  double resistance_of(Index face) const { return medium_.resistance.size() > 0 ? medium_.resistance[face] : 0.0; }
+  bool is_cut(Index face) const;
+  FaceField<char> kinks() const;
   Vector point_of(Index cell) const;                                       // that its value stands for [m]
   Vector within_face(Index face, Index cell, const Vector& normal) const;  // of the way from there to the face [m]
   Gradient build_gradient() const;

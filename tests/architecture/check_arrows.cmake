@@ -22,9 +22,10 @@ set(rooms
     "solver: physics"
     "solver/linear: physics mesh solver"
     "solver/scalar: physics mesh solver solver/linear"
+    "solver/heat: physics mesh solver solver/linear solver/scalar"
     "solver/momentum: physics mesh solver solver/linear solver/scalar"
     "solver/dynamics: physics mesh solver solver/linear solver/scalar solver/momentum"
-    "solver/fracture: physics mesh solver solver/linear solver/scalar solver/momentum"
+    "solver/fracture: physics mesh solver solver/linear solver/scalar solver/heat solver/momentum"
     "solver/homogenization: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/calibration: physics solver solver/linear"
     "solver/point: physics solver solver/calibration"
@@ -50,7 +51,7 @@ set(rooms
      cases/program/session cases/program/studies"
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/vibration postproc/page postproc/records
      cases/program/input cases/program/session cases/program/studies"
-    "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
+    "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/heat solver/momentum solver/fracture postproc/files
      postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies"
     "cases/cpp: physics mesh mesh/generators solver/fracture cases/program/fracture"

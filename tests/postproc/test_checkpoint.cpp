@@ -38,6 +38,13 @@ FractureState awkward_state() {
                    .shear = Vector(0.0, 1e-310, -2.0)}};
   s.boundary_force = {Vector(1, 2, 3), Vector(4, 5, 6)};
   s.energy = {std::exp(2.0), std::exp(0.5), std::exp(1.0), std::exp(-1.0), std::exp(-2.0)};
+  s.heat = {.rise = CellField<double>({0.1, -0.0, 1e-310}),
+            .made = CellField<double>({1.0, 2.0, 3.0}),
+            .cycle = CellField<double>({4.0, 5.0, 1.0 / 3.0}),
+            .transmitted = {7.0},
+            .cycle_transmittance = {8.0},
+            .cycle_change = 0.25,
+            .account = {.made = 0.1, .stored = 0.2, .lost = -0.0}};
   return s;
 }
 
@@ -66,6 +73,8 @@ TEST(Checkpoint, state_comes_back_bit_for_bit) {
   EXPECT_EQ(r.boundary_force, s.boundary_force);
   for (const EnergyEntry& entry : energy_entries)
     EXPECT_TRUE(same_bits(r.energy.*entry.value, s.energy.*entry.value)) << entry.column;
+  EXPECT_EQ(r.heat, s.heat);
+  EXPECT_TRUE(std::signbit(r.heat.account.lost));
   EXPECT_EQ(folder.n_entries(), 1u);
 }
 
@@ -111,8 +120,8 @@ TEST(Checkpoint, says_what_is_wrong) {
   EXPECT_THAT(complaint(whole, "another"), HasSubstr("another case"));
   EXPECT_THAT(complaint(whole, "another"), HasSubstr(hash));
   std::string other = whole;
-  other[8] = 11;
-  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 11; this program reads format 10"));
+  other[8] = 12;
+  EXPECT_THAT(complaint(other, hash), HasSubstr("has format 12; this program reads format 11"));
   other = whole;
   other[other.size() / 2] = static_cast<char>(other[other.size() / 2] ^ 4);
   EXPECT_THAT(complaint(other, hash), HasSubstr("checksum"));

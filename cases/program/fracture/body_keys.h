@@ -19,6 +19,7 @@ const KeyTable& initial_damage_keys();
 const KeyTable& boundary_keys();
 const KeyTable& load_keys();
 const KeyTable& interface_keys();
+const KeyTable& heat_keys();
 
 /// { E1, E2 ... }, { C11, C12, C44 }, { stiffness }
 const KeyTable& orthotropic_keys();

@@ -23,17 +23,20 @@ LoadField<Vector> read_vector(const ConfigValue& value, bool from_start) {
   return [parts](const Vector& x, double t) { return Vector(parts[0](x, t), parts[1](x, t), parts[2](x, t)); };
 }
 
-// "20 degC" would be a temperature, 293 K.
 ScalarField read_temperature(const ConfigValue& value, bool from_start) {
+  require_temperature_difference(value);
+  return in_time(read_amount(value), from_start);
+}
+
+}  // namespace
+
+void require_temperature_difference(const ConfigValue& value) {
   std::string unit;
   if (value.is_string()) unit = unit_of(value.string());
   if (value.is_table() && !is_field(value)) unit = value.table().string("unit", "");
   if (is_unit_of(unit, dimension::temperature) && parse_quantity("0 " + unit, dimension::temperature) != 0.0)
     throw value.error("a change of temperature is a difference: give it in K, as in \"20 K\"");
-  return in_time(read_amount(value), from_start);
 }
-
-}  // namespace
 
 bool apply_from_start(const ConfigTable& root) {
   if (!root.has("loads")) return false;

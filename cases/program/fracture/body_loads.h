@@ -17,6 +17,9 @@ bool apply_from_start(const ConfigTable& root);
 /// Three or six numbers, or expressions with t: the eigenstrain's xx, yy, zz and yz, xz, xy [-].
 std::shared_ptr<const LoadField<Tensor>> read_eigenstrain(const ConfigValue& value, bool from_start);
 
+/// Throws InputError for a temperature in place of a difference, as "20 degC".
+void require_temperature_difference(const ConfigValue& value);
+
 /// Throws InputError if there is a load without a material on which it acts: gravity on a region without a density, a
 /// change of temperature where nothing expands. Such a load without a value somewhere is found by evaluating all of
 /// them in the cells at these load parameters.

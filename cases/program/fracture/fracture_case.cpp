@@ -272,6 +272,19 @@ void require_boundary_values(const FractureCase& fracture, const Mesh& mesh, std
   }
 }
 
+/// What expands does so by [loads] alone.
+void give_heat(FractureCase& fracture) {
+  fracture.model.heat = fracture.heat->model;
+  const auto expands = [](const RegionMaterial& region) {
+    return !region.varies && !region.at(Vector::Zero()).expansion.isZero();
+  };
+  const auto found = std::ranges::find_if(fracture.materials.by_region, expands);
+  if (found == fracture.materials.by_region.end()) return;
+  fracture.materials.remarks.push_back(fmt::format(
+      "region \"{}\" expands by [loads] temperature_change alone: the temperatures of [heat] make no strains",
+      found->region));
+}
+
 }  // namespace
 
 FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
@@ -279,6 +292,8 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   FractureCase fracture = read_body(root, case_directory, false);
   fracture.boundary = read_boundary(root, fracture.materials);
   fracture.model.loads = read_body_loads(root);
+  fracture.heat = read_heat(root, fracture.loading);
+  if (fracture.heat) give_heat(fracture);
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
   read_output(root, fracture);
   read_columns(root, fracture);

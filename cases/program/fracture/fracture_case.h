@@ -6,6 +6,7 @@
 #include "cases/program/fracture/cohesive_case.h"
 #include "cases/program/fracture/energy_release_case.h"
 #include "cases/program/fracture/frame_settings.h"
+#include "cases/program/fracture/heat_case.h"
 #include "cases/program/fracture/initial_damage.h"
 #include "cases/program/fracture/interface_reader.h"
 #include "cases/program/fracture/materials.h"
@@ -59,6 +60,7 @@ struct FractureCase {
   FractureModel model;  ///< what depends on the mesh is filled in by model_on()
   Perturbation perturbation;
   std::optional<InitialDamage> initial_damage;
+  std::optional<HeatSettings> heat;  ///< its model is that of `model`
   StaggeredSettings staggered;
   LoadingSettings loading;
   FractureOutput output;

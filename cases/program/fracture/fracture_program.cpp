@@ -197,6 +197,7 @@ void run_case(FractureProgram program, Session& session) {
   RunningCase running{program,
                       session,
                       times,
+                      mesh,
                       run,
                       results,
                       CoarseCells(mesh, run.model()),

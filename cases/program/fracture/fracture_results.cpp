@@ -1,5 +1,6 @@
 #include "cases/program/fracture/fracture_results.h"
 
+#include "cases/program/fracture/heat_results.h"
 #include "cases/program/fracture/mean_curve.h"
 #include "cases/program/session/earlier_results.h"
 #include "cases/program/session/report_parts.h"
@@ -147,8 +148,9 @@ bool has_results(const fs::path& results) {
 void remove_earlier_run(const fs::path& directory) {
   remove_what_was_made_of_them(directory);
   std::error_code ignored;
-  for (const char* file : {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file, means_file,
-                           homogenized_file, load_cases_file, first_debonding_file})
+  for (const char* file :
+       {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file, means_file, homogenized_file,
+        load_cases_file, first_debonding_file, heat_file, heat_over_time_file, heated_file})
     fs::remove(directory / file, ignored);
   remove_columns(directory / columns_folder);
   for (const char* folder : {frames_folder, interfaces_folder})
@@ -197,6 +199,7 @@ FractureResults::Files::Files(const fs::path& folder, const FractureCase& fractu
   if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
   if (const auto& tips = fracture.output.tips; !tips.empty())
     energy_release.emplace(folder / energy_release_file, energy_release_columns(tips), last_step);
+  if (fracture.heat) heat.emplace(folder / heat_file, columns_of_heat(), last_step);
   if (fracture.box) means.emplace(folder / means_file, columns_of_means(fracture.interfaces), last_step);
 }
 
@@ -247,6 +250,7 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
   note_debonding(state, report, output);
   const bool waits = may_wait();
   if (files_->means) files_->means->append(row_of_means(report), !waits);
+  if (files_->heat) files_->heat->append(row_of_heat(report, fracture_.loading.duration), !waits);
   if (waits) {
     waits_ = true;
     return warnings;
@@ -329,6 +333,7 @@ void FractureResults::write_what_waits(const FractureState& state) {
   if (waits_) {
     files_->curve.write();
     if (files_->means) files_->means->write();
+    if (files_->heat) files_->heat->write();
     write_state(state);
   }
   take_place(state);
@@ -398,10 +403,11 @@ RunSummary FractureResults::write_summary(RunSummary summary) const {
   summary.cells = mesh_.n_cells();
   summary.steps = last_step_;
   summary.figures = headlines(files_->curve.rows(), fracture_.output.curve.component);
-  summary.other_figures = damaged_areas();
+  summary.other_figures.merge(damaged_areas());
   summary.other_figures.merge(last_energy_release());
   if (files_->means) summary.other_figures.merge(figures_of_means(*files_->means, fracture_.box->component));
   summary.other_figures.merge(figures_of_debonding());
+  if (files_->heat) summary.other_figures.merge(figures_of_heat(*files_->heat));
   if (debonding_) summary.other_texts["first_debonding_surface"] = debonding_->surface;
   pfdm::write_summary(folder() / summary_file, summary);
   return summary;

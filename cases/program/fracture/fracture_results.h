@@ -106,6 +106,7 @@ class FractureResults {
     std::optional<StepTable> energy_release;
     std::optional<PvdSeries> interfaces;
     std::optional<StepTable> means;
+    std::optional<StepTable> heat;
   };
 
   bool frame_is_due(const FractureState& state) const;

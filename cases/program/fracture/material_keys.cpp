@@ -44,6 +44,10 @@ const Quantity quantities[] = {
      "Strength in uniaxial compression, of the model of strength."},
     {"density", &MaterialKeys::density, dimension::density, range::positive, "none",
      "Mass density, on which gravity acts; damage takes no weight away."},
+    {"conductivity", &MaterialKeys::conductivity, dimension::conductivity, range::positive, "required with [heat]",
+     "Thermal conductivity, also of damaged material."},
+    {"specific_heat", &MaterialKeys::specific_heat, dimension::specific_heat, range::positive, "required with [heat]",
+     "Specific heat capacity per mass."},
 };
 constexpr std::size_t n_elastic = 2;  // the first of them
 

@@ -16,7 +16,7 @@ namespace pfdm {
 /// What a material or a region's override may say.
 struct MaterialKeys {
   std::optional<Parameter> young_modulus, poisson_ratio, toughness, strength, length, hydrostatic_strength,
-      compressive_strength, density;
+      compressive_strength, density, conductivity, specific_heat;
   std::optional<std::array<Parameter, 3>> expansion;  // [1/K]
   std::shared_ptr<const LoadField<Tensor>> eigenstrain{};
   std::shared_ptr<const MandelMatrix> stiffness{};  // along the axes; the moduli above are then the closest ones

@@ -94,6 +94,8 @@ RegionModel make_model(const MaterialKeys& keys, const std::string& region, cons
   if (model.material && !model.material->is_finite_strain()) model.elasticity = model.material->elasticity();
   model.split = keys.split.value_or(EnergySplit());
   model.density = value_at(keys.density, x).value_or(0.0);
+  model.conductivity = value_at(keys.conductivity, x).value_or(0.0);
+  model.specific_heat = value_at(keys.specific_heat, x).value_or(0.0);
   turn(keys, table, x, model);
   model.eigenstrain = keys.eigenstrain;
   model.damageable = keys.damageable.value_or(true);

@@ -188,6 +188,7 @@ const KeyTable& fracture_keys() {
             {"boundary", tables(boundary_keys), "", "Boundary conditions: displacements, tractions, symmetry."},
             {"interface", tables(interface_keys), "none", "Cohesive interfaces without thickness."},
             {"loads", keys::table(load_keys), "none", "Body loads: gravity, forces, temperature."},
+            {"heat", keys::table(heat_keys), "none", "Heat of what is dissipated: conduction, cycles of load."},
             {"loading", keys::table(loading_keys), "defaults", "Load parameter and its increments."},
             {"solver", keys::table(solver_keys), "defaults", "Tolerances and linear solver."},
             {"output", keys::table(output_keys), "", "Curve and fields that are written."},

@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/end_of_run.h"
 #include "cases/program/fracture/fracture_cohesive.h"
+#include "cases/program/fracture/heat_results.h"
 #include "cases/program/fracture/progress.h"
 #include "cases/program/session/head_line.h"
 #include "cases/program/session/stop_signal.h"
@@ -119,6 +120,7 @@ std::string where_to_look(const std::filesystem::path& results) {
 std::string finish(RunningCase& c, const std::string& status) {
   RunSummary summary = summary_of(c.program, c.session, c.run, c.times);
   summary.status = status;
+  summary.other_figures = c.heat;
   summary = c.results.write_summary(summary);
   std::vector<std::string> told =
       as_sentences(what_happened(c.program.fracture, c.program.file, summary, c.results.folder()));
@@ -163,6 +165,7 @@ void solve(RunningCase& c) {
   try {
     const std::string status = advance(c);
     c.results.write_what_waits(c.state);
+    if (c.program.fracture.heat) c.heat = heat_at_the_end(c);
     if (c.results.records_columns())
       write_cohesive_laws(c.program.fracture, c.program.file, c.program.name, c.program.hash, c.session, true);
     c.session.log.say(finish(c, status));

@@ -11,6 +11,7 @@
 #include "solver/fracture/fracture_run.h"
 #include "solver/fracture/resolution.h"
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -38,6 +39,7 @@ struct RunningCase {
   const FractureProgram& program;
   Session& session;
   RunTimes& times;
+  const Mesh& mesh;
   FractureRun& run;
   FractureResults& results;
   CoarseCells coarse;
@@ -45,6 +47,7 @@ struct RunningCase {
   FractureState state;    ///< the last one that was reached
   bool goes_on = false;   ///< from a state that is in the results already
   std::optional<LivePages> live{};
+  std::map<std::string, double> heat{};  ///< figures of the long time after the cycles
 };
 
 /// Steps until the end of the load, --max-steps, an interruption or failure, and says what happened. Throws

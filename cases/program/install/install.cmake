@@ -36,7 +36,7 @@ foreach(shell bash zsh)
 endforeach()
 
 set(libraries options physics mesh solver postproc)
-foreach(room parallel linear scalar momentum dynamics homogenization fracture calibration point vibration)
+foreach(room parallel linear scalar heat momentum dynamics homogenization fracture calibration point vibration)
   list(APPEND libraries solver_${room})
 endforeach()
 foreach(room files fields curves point vibration cohesive exports page browser records)

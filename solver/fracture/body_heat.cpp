@@ -1,0 +1,117 @@
+#include "solver/fracture/body_heat.h"
+
+#include "physics/error.h"
+#include "solver/parallel.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+constexpr double load_rounding = 1e-9;  // of a cycle
+
+}  // namespace
+
+BodyHeat::BodyHeat(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal)
+    : mesh_(mesh), model_(model) {
+  if (!model.heat) return;
+  HeatBody body{.conductivity = CellField<double>(as_size(mesh.n_cells())),
+                .capacity = CellField<double>(as_size(mesh.n_cells())),
+                .boundary = model.heat->boundary,
+                .plane_normal = plane_normal};
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const RegionModel& region = model.in_cell(mesh, c);
+    body.conductivity[c] = region.conductivity;
+    body.capacity[c] = region.density * region.specific_heat;
+  }
+  for (const CohesiveSurface& surface : model.interfaces)
+    body.interfaces.insert(body.interfaces.end(), surface.faces.begin(), surface.faces.end());
+  equation_ = std::make_unique<HeatEquation>(mesh, std::move(body));
+}
+
+HeatState BodyHeat::start() const {
+  if (!any()) return {};
+  std::size_t n_faces = 0;
+  for (const CohesiveSurface& surface : model_.interfaces) n_faces += surface.faces.size();
+  const auto n = as_size(mesh_.n_cells());
+  return {.rise = CellField<double>(n, 0.0),
+          .made = CellField<double>(n, 0.0),
+          .cycle = {},
+          .transmitted = std::vector<double>(n_faces, 0.0),
+          .cycle_transmittance = {}};
+}
+
+std::vector<double> BodyHeat::transmittance(const std::vector<char>& parted) const {
+  std::vector<double> of_face(parted.size());
+  for (std::size_t k = 0; k < parted.size(); ++k)
+    of_face[k] =
+        equation_->transmittance(k, parted[k] != 0 ? model_.heat->open_conductance : model_.heat->closed_conductance);
+  return of_face;
+}
+
+void BodyHeat::advance(const Staggered& staggered, const FractureState& from, double duration, FractureState& to) {
+  const std::vector<double> transmittance =
+      this->transmittance(staggered.faces().parted(staggered.balance(), to.displacement, to.interfaces));
+  equation_->set_transmittance(transmittance);
+  CellField<double> made(as_size(mesh_.n_cells()));
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    made[c] = staggered.stiffness().plastic_dissipation(c, from, to) +
+              staggered.damage_equation().viscous_dissipation(c, to.damage[c]);
+  });
+  equation_->add_interfaces(staggered.faces().heat(from.interfaces, to.interfaces, model_.heat->debonding_share), made);
+  equation_->step(duration, made, to.heat.rise, to.heat.account);
+  parallel_for(mesh_.n_cells(), [&](Index c) { to.heat.made[c] += made[c]; });
+  for (std::size_t k = 0; k < transmittance.size(); ++k) to.heat.transmitted[k] += duration * transmittance[k];
+  if (to.load >= end_of_cycle(from.load) - load_rounding * model_.heat->cycle)
+    end_cycle(duration / (to.load - from.load) * model_.heat->cycle, to.heat);
+}
+
+double BodyHeat::end_of_cycle(double load) const {
+  if (!any() || !(model_.heat->cycle > 0.0)) return std::numeric_limits<double>::infinity();
+  return model_.heat->cycle * (std::floor(load / model_.heat->cycle + load_rounding) + 1.0);
+}
+
+// `duration`: of a cycle [s].
+void BodyHeat::end_cycle(double duration, HeatState& heat) const {
+  if (heat.cycle.size() > 0) {
+    const auto sum = [&](const auto& of_cell) { return parallel_sum(mesh_.n_cells(), of_cell); };
+    const double change = sum([&](Index c) { return std::abs(heat.made[c] - heat.cycle[c]); });
+    const double whole = sum([&](Index c) { return std::abs(heat.made[c]); });
+    heat.cycle_change = change > 0.0 ? change / whole : 0.0;
+  }
+  heat.cycle = std::exchange(heat.made, CellField<double>(as_size(mesh_.n_cells()), 0.0));
+  heat.cycle_transmittance = std::exchange(heat.transmitted, std::vector<double>(heat.transmitted.size(), 0.0));
+  for (double& of_face : heat.cycle_transmittance) of_face /= duration;
+}
+
+HeatReport BodyHeat::report(const HeatState& heat) const {
+  return {.figures = equation_->figures(heat.rise), .account = heat.account, .cycle_change = heat.cycle_change};
+}
+
+bool BodyHeat::repeats(const HeatState& heat) const {
+  return any() && model_.heat->cycle > 0.0 && heat.cycle_change <= model_.heat->repeats_within;
+}
+
+std::vector<HeatRow> BodyHeat::warm_by_cycles(const HeatState& heat, double duration, double time, Index n,
+                                              CellField<double>& rise) {
+  if (!any() || heat.cycle.size() == 0)
+    throw ComputationError("heat: there is no whole cycle whose heat could warm the body");
+  CellField<double> power = heat.cycle;
+  for (double& q : power) q /= model_.heat->cycle * duration;
+  equation_->set_transmittance(heat.cycle_transmittance);
+  rise = CellField<double>(as_size(mesh_.n_cells()), 0.0);
+  return equation_->under_steady_source(power, time, n, rise);
+}
+
+void BodyHeat::show(const HeatState& heat, std::vector<OutputHistory>& fields) const {
+  if (!any()) return;
+  const bool has_cycle = heat.cycle.size() > 0;
+  CellField<double> density = has_cycle ? heat.cycle : heat.made;
+  for (Index c = 0; c < mesh_.n_cells(); ++c) density[c] /= mesh_.cell_volume[c];
+  fields.push_back({.name = "temperature_rise", .unit = "K", .scalar = heat.rise});
+  fields.push_back({.name = has_cycle ? "heat_of_cycle" : "heat", .unit = "J/m^3", .scalar = std::move(density)});
+}
+
+}  // namespace pfdm
