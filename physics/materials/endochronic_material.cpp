@@ -24,6 +24,7 @@ class EndochronicMaterial final : public SmallStrainMaterial {
       : SmallStrainMaterial("endochronic", law.elasticity), law_(std::move(law)) {}
 
   bool depends_on_rate() const override { return law_.hardening.depends_on_rate(); }
+  bool has_linear_volume() const override { return true; }
   std::size_t history_size() const override { return terms + 6 * law_.kernel.size(); }
   std::vector<HistoryField> history_fields() const override {
     return {{"plastic_strain", "1", plastic_strain, 6}, {"plastic_path_length", "1", zeta, 1}};

@@ -20,6 +20,7 @@ class J2Plasticity final : public SmallStrainMaterial {
   J2Plasticity(const IsotropicElasticity& elasticity, const J2Parameters& law)
       : SmallStrainMaterial("j2_plasticity", elasticity), law_(law) {}
 
+  bool has_linear_volume() const override { return true; }
   std::size_t history_size() const override { return n_numbers; }
   std::vector<HistoryField> history_fields() const override {
     return {{"plastic_strain", "1", plastic_strain, 6}, {"equivalent_plastic_strain", "1", equivalent, 1}};

@@ -16,6 +16,8 @@
 
 namespace pfdm {
 
+struct PronyLaw;
+
 struct MaterialStep {
   Tensor from;                      ///< H at the start of the step [-]
   Tensor to;                        ///< H at its end [-]
@@ -62,6 +64,11 @@ class Material {
   virtual bool depends_on_rate() const { return false; }
   /// What is left of the elasticity after any time under a strain that is held.
   virtual IsotropicElasticity relaxed_elasticity() const { return elasticity_; }
+  /// Whether pressure and volume change are linear in each other over a step, p = K tr eps + p_0, whatever the deviator
+  /// does. Nearly incompressible cells of such a law have p as an unknown.
+  virtual bool has_linear_volume() const { return false; }
+  /// The moduli of a law that is linear and relaxes; null: another one.
+  virtual const PronyLaw* relaxing() const { return nullptr; }
 
   virtual std::size_t history_size() const = 0;
   virtual void start(std::span<double> history) const { std::ranges::fill(history, 0.0); }  ///< the virgin state

@@ -13,22 +13,6 @@
 namespace pfdm {
 namespace {
 
-/// Of a branch over a step of the length x = dt/tau.
-struct Decay {
-  double left;    // exp(-x)
-  double phi;     // (1 - exp(-x))/x
-  double second;  // (1 - phi)/x
-};
-Decay decay(double x) {
-  const double left = portable::exp(-x);
-  if (x < 1e-2) {  // to rounding
-    const double second = 0.5 - x / 6.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0 * (1.0 - x / 7.0))));
-    return {left, 1.0 - x * second, second};
-  }
-  const double phi = (1.0 - left) / x;
-  return {left, phi, (1.0 - phi) / x};
-}
-
 double sum_of(const std::vector<PronyBranch>& branches) {
   return std::accumulate(branches.begin(), branches.end(), 0.0,
                          [](double sum, const PronyBranch& branch) { return sum + branch.modulus; });
@@ -52,6 +36,8 @@ class Prony final : public SmallStrainMaterial {
 
   bool depends_on_rate() const override { return true; }
   IsotropicElasticity relaxed_elasticity() const override { return law_.relaxed; }
+  bool has_linear_volume() const override { return true; }
+  const PronyLaw* relaxing() const override { return &law_; }
   std::size_t history_size() const override { return heat_ + 1; }
   std::vector<HistoryField> history_fields() const override { return {{"viscous_strain", "1", mean_, 6}}; }
 
@@ -71,7 +57,7 @@ class Prony final : public SmallStrainMaterial {
     double mu = law_.relaxed.mu, K = law_.relaxed.bulk_modulus(), heat = step.history[heat_];
     Mandel mean = Mandel::Zero();
     for (std::size_t i = 0; i < law_.shear.size(); ++i) {
-      const Decay by = decay(step.duration / law_.shear[i].time);
+      const PronyDecay by = decay_over(step.duration / law_.shear[i].time);
       const Mandel before = Eigen::Map<const Mandel>(step.history.data() + 6 * i);
       const Mandel q_n = deviator(step.from) - before, de = deviator(change), q = by.left * q_n + by.phi * de;
       const Mandel viscous = deviator(step.to) - q;
@@ -82,7 +68,7 @@ class Prony final : public SmallStrainMaterial {
               std::max(2.0 * de.dot(by.phi * q_n + by.second * de) - q.squaredNorm() + q_n.squaredNorm(), 0.0);
     }
     for (std::size_t j = 0; j < law_.bulk.size(); ++j) {
-      const Decay by = decay(step.duration / law_.bulk[j].time);
+      const PronyDecay by = decay_over(step.duration / law_.bulk[j].time);
       const double r_n = trace(step.from) - step.history[bulk_ + j], dv = trace(change);
       const double r = by.left * r_n + by.phi * dv;
       history[bulk_ + j] = trace(step.to) - r;
@@ -115,6 +101,23 @@ class Prony final : public SmallStrainMaterial {
 };
 
 }  // namespace
+
+PronyDecay decay_over(double x) {
+  const double left = portable::exp(-x);
+  if (x < 1e-2) {  // to rounding
+    const double second = 0.5 - x / 6.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0 * (1.0 - x / 7.0))));
+    return {left, 1.0 - x * second, second};
+  }
+  const double phi = (1.0 - left) / x;
+  return {left, phi, (1.0 - phi) / x};
+}
+
+IsotropicElasticity elasticity_over(const PronyLaw& law, double duration) {
+  double mu = law.relaxed.mu, K = law.relaxed.bulk_modulus();
+  for (const PronyBranch& branch : law.shear) mu += decay_over(duration / branch.time).phi * branch.modulus;
+  for (const PronyBranch& branch : law.bulk) K += decay_over(duration / branch.time).phi * branch.modulus;
+  return {.lambda = K - 2.0 * mu / 3.0, .mu = mu};
+}
 
 std::shared_ptr<const Material> make_prony(const PronyLaw& law) {
   for (const auto* branches : {&law.shear, &law.bulk})

@@ -37,6 +37,17 @@ struct PronyLaw {
   PronyDrive drive = PronyDrive::equilibrium;
 };
 
+/// What is left of a branch at the end of a step of the length x = dt/tau in which the strain changes linearly.
+struct PronyDecay {
+  double left = 1.0;    ///< exp(-x), of what its spring had
+  double phi = 1.0;     ///< (1 - exp(-x))/x, of the change of strain
+  double second = 0.5;  ///< (1 - phi)/x, of the change in the mean over the step
+};
+PronyDecay decay_over(double x);
+
+/// By a step of this duration [s]: the moduli that the change of strain meets [Pa].
+IsotropicElasticity elasticity_over(const PronyLaw& law, double duration);
+
 /// The elasticity of the material is the instantaneous one: relaxed moduli and all branches. Its results show
 /// viscous_strain, by which the instantaneous stress is less. Throws InputError unless there is a branch, and all
 /// moduli and times are positive.

@@ -68,7 +68,7 @@ void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) co
   } else if (is_isotropic_) {
     CellField<IsotropicElasticity> moduli(n);
     parallel_for(mesh_.n_cells(), [&](Index c) { moduli[c] = split(c).secant(elasticity(c), g[c], state.closure[c]); });
-    momentum.set_moduli(moduli, g, materials_.any() ? linearised(state, g, moduli) : CellField<LinearStress>());
+    momentum.set_moduli(moduli, g, materials_.any() ? with_histories(state, g, moduli) : HistoryStress());
   } else {
     momentum.set_law(law(g, state.closure), g, state.displacement);
   }
@@ -132,26 +132,28 @@ StrainLaw CellStiffness::law(const CellField<double>& g, const CellField<double>
 }
 
 // What the split keeps beyond g times the stiffness is elastic.
-CellField<LinearStress> CellStiffness::linearised(const FractureState& state, const CellField<double>& g,
-                                                  const CellField<IsotropicElasticity>& moduli) const {
-  CellField<LinearStress> stress(as_size(mesh_.n_cells()));
+HistoryStress CellStiffness::with_histories(const FractureState& state, const CellField<double>& g,
+                                            CellField<IsotropicElasticity>& moduli) const {
+  HistoryStress history = materials_.history_stress(state.histories);
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    stress[c].C = stiffness_matrix(moduli[c]);
+    LinearStress& stress = history.stress[c];
+    stress.C = stiffness_matrix(moduli[c]);
     if (!materials_.has(c)) return;
     const LinearStress effective = materials_.linearised(c, state.histories);
-    stress[c].C += g[c] * (effective.C - stiffness_matrix(elasticity(c)));
-    stress[c].initial = g[c] * effective.initial;
+    stress.C += g[c] * (effective.C - stiffness_matrix(elasticity(c)));
+    stress.initial = g[c] * effective.initial;
+    const IsotropicElasticity beyond = materials_.beyond_elasticity(c);
+    moduli[c].lambda += g[c] * beyond.lambda;
+    moduli[c].mu += g[c] * beyond.mu;
   });
-  return stress;
+  return history;
 }
 
 double CellStiffness::integrate(const CellMechanics& mechanics, const FractureState& start, FractureState& state) {
   if (!materials_.any()) return 0.0;
   return parallel_sum(mesh_.n_cells(), [&](Index c) {
     if (!materials_.has(c)) return 0.0;
-    Tensor strain = mechanics.reconstructed_strain[c];
-    if (mechanics.eigenstrain.size() > 0) strain -= to_tensor(mechanics.eigenstrain[c]);
-    const double wrong = materials_.advance(c, strain, start.histories, state.histories);
+    const double wrong = materials_.advance(c, mechanics, start.histories, state.histories);
     return factor(c, state.damage[c]) * wrong * mesh_.cell_volume[c];
   });
 }

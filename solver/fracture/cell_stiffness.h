@@ -83,8 +83,9 @@ class CellStiffness {
   }
   FiniteEnergies finite_energies(Index cell, const CellMechanics& mechanics, const FractureState& state) const;
   CellField<double> factors(const FractureState& state) const;
-  CellField<LinearStress> linearised(const FractureState& state, const CellField<double>& g,
-                                     const CellField<IsotropicElasticity>& moduli) const;
+  /// Cells with a history at the state; their moduli become those that gaps meet.
+  HistoryStress with_histories(const FractureState& state, const CellField<double>& g,
+                               CellField<IsotropicElasticity>& moduli) const;
   const IsotropicElasticity& elasticity(Index cell) const;
   // Where the elasticity depends on the direction; else null.
   const AnisotropicElasticity* anisotropy(Index cell) const {

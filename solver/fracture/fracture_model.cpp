@@ -1,6 +1,7 @@
 #include "solver/fracture/fracture_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfdm {
 
@@ -84,6 +85,29 @@ bool have_one_stiffness(const RegionModel& a, const RegionModel& b) {
   return a.stiffness && b.stiffness ? *a.stiffness == *b.stiffness : a.stiffness == b.stiffness;
 }
 
+// None of materials that relax (history_tractions.h).
+std::optional<IsotropicElasticity> volume_elasticity(const RegionModel& region) {
+  if (!region.material) return region.elasticity;
+  if (!region.material->has_linear_volume() || region.material->relaxing() != nullptr) return std::nullopt;
+  return region.elasticity;
+}
+
+// That of the region where Poisson's ratio does not vary within it.
+std::function<std::optional<IsotropicElasticity>(const Mesh&, Index)> volume_elasticities(const FractureModel& model) {
+  constexpr double differs = 1e-9;
+  std::vector<std::optional<IsotropicElasticity>> regions;
+  for (const RegionModel& region : model.regions) regions.push_back(volume_elasticity(region));
+  CellField<std::optional<IsotropicElasticity>> cells(as_size(model.cells.size()));
+  for (Index c = 0; c < model.cells.size(); ++c) cells[c] = volume_elasticity(model.cells[c]);
+  return [regions, cells](const Mesh& mesh, Index c) {
+    const auto& region = regions[as_size(mesh.region[c])];
+    if (cells.size() == 0) return region;
+    const auto& own = cells[c];
+    const bool varies = !own || !region || std::abs(own->poisson_ratio() - region->poisson_ratio()) > differs;
+    return varies ? own : region;
+  };
+}
+
 }  // namespace
 
 ElasticBody elastic_body(const FractureModel& model) {
@@ -101,9 +125,8 @@ ElasticBody elastic_body(const FractureModel& model) {
     body.split_faces.insert(body.split_faces.end(), surface.faces.begin(), surface.faces.end());
   body.motion = model.motion;
   body.loads = volume_loads(model);
-  body.has_pressure = model.is_isotropic() && std::ranges::none_of(model.regions, [](const RegionModel& r) {
-                        return r.material != nullptr && !r.material->is_finite_strain();
-                      });
+  body.has_pressure = model.is_isotropic();
+  if (!model.is_finite_strain()) body.volume_elasticity = volume_elasticities(model);
   return body;
 }
 

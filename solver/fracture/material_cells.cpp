@@ -21,31 +21,44 @@ OutputHistory& output_field(const HistoryField& field, std::size_t n_cells, std:
   return added;
 }
 
+CellField<const Material*> materials_of(const Mesh& mesh, const FractureModel& model) {
+  const bool any = !model.is_finite_strain() && std::ranges::any_of(model.regions, [](const RegionModel& region) {
+    return region.material != nullptr;
+  });
+  CellField<const Material*> materials(any ? as_size(mesh.n_cells()) : 0, nullptr);
+  for (Index c = 0; c < materials.size(); ++c) materials[c] = model.in_cell(mesh, c).material.get();
+  return materials;
+}
+
 }  // namespace
 
-MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {
-  any_ = !model.is_finite_strain() &&
-         std::ranges::any_of(model.regions, [](const RegionModel& region) { return region.material != nullptr; });
+MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model)
+    : mesh_(mesh), model_(model), material_(materials_of(mesh, model)), gaps_(mesh, material_) {
+  any_ = material_.size() > 0;
   if (!any_) return;
-  const auto n = as_size(mesh.n_cells());
-  material_ = CellField<const Material*>(n, nullptr);
-  for (Index c = 0; c < mesh.n_cells(); ++c) material_[c] = model.in_cell(mesh, c).material.get();
-  tangent_ = CellField<MandelMatrix>(n);
+  tangent_ = CellField<MandelMatrix>(as_size(mesh.n_cells()));
   start_step(0.0);
 }
 
 void MaterialCells::start_step(double duration) {
   duration_ = duration;
+  gaps_.start_step(duration);
   parallel_for(any_ ? mesh_.n_cells() : 0, [&](Index c) {
-    if (has(c)) tangent_[c] = stiffness_matrix(material_[c]->elasticity());
+    if (has(c)) tangent_[c] = stiffness_matrix(gaps_.has(c) ? gaps_.elasticity(c) : material_[c]->elasticity());
   });
 }
 
-double MaterialCells::advance(Index cell, const Tensor& strain, const CellHistories& from, CellHistories& to) {
+double MaterialCells::advance(Index cell, const CellMechanics& mechanics, const CellHistories& from,
+                              CellHistories& to) {
   const Material& material = *material_[cell];
+  Tensor strain = mechanics.reconstructed_strain[cell];
+  if (mechanics.eigenstrain.size() > 0) strain -= to_tensor(mechanics.eigenstrain[cell]);
   const Mandel expected = linearised(cell, to)(to_mandel(strain));
-  const MaterialResponse result = material.update({from.gradient(cell), strain, duration_, from.of(cell)}, to.of(cell));
+  const std::size_t n = material.history_size();
+  const MaterialResponse result =
+      material.update({from.gradient(cell), strain, duration_, law_numbers(cell, from)}, to.of(cell).first(n));
   if (!result.solved) return std::numeric_limits<double>::quiet_NaN();
+  if (gaps_.has(cell)) gaps_.advance(cell, mechanics, gap_numbers(cell, from), to.of(cell).subspan(n));
   to.gradient(cell) = strain;
   tangent_[cell] = by_strain(result.tangent);
   const Mandel stress = to_mandel(result.stress);
@@ -55,22 +68,48 @@ double MaterialCells::advance(Index cell, const Tensor& strain, const CellHistor
 LinearStress MaterialCells::linearised(Index cell, const CellHistories& histories) const {
   const MandelMatrix& T = tangent_[cell];
   const Tensor strain = histories.gradient(cell);
-  return {T, to_mandel(material_[cell]->stress(strain, histories.of(cell))) - T * to_mandel(strain)};
+  return {T, to_mandel(material_[cell]->stress(strain, law_numbers(cell, histories))) - T * to_mandel(strain)};
+}
+
+IsotropicElasticity MaterialCells::beyond_elasticity(Index cell) const {
+  if (!gaps_.has(cell)) return {};
+  const IsotropicElasticity &now = gaps_.elasticity(cell), &at_once = material_[cell]->elasticity();
+  return {.lambda = now.lambda - at_once.lambda, .mu = now.mu - at_once.mu};
+}
+
+HistoryStress MaterialCells::history_stress(const CellHistories& histories) const {
+  const auto n = as_size(mesh_.n_cells());
+  HistoryStress history{.stress = CellField<LinearStress>(n)};
+  if (!gaps_.any()) return history;
+  history.sound = CellField<IsotropicElasticity>(n);
+  history.relaxes = CellField<char>(n, 0);
+  history.gaps.resize(mesh_.cell_faces.size());
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    history.sound[c] = model_.in_cell(mesh_, c).elasticity;
+    if (gaps_.has(c)) gaps_.tell(c, gap_numbers(c, histories), history);
+  });
+  return history;
 }
 
 MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories) const {
-  return material_[cell]->energy(histories.gradient(cell), histories.of(cell),
-                                 model_.split_of(model_.in_cell(mesh_, cell)));
+  MaterialEnergy energy = material_[cell]->energy(histories.gradient(cell), law_numbers(cell, histories),
+                                                  model_.split_of(model_.in_cell(mesh_, cell)));
+  if (!gaps_.has(cell)) return energy;
+  const std::span<const double> gaps = gap_numbers(cell, histories);
+  energy.locked += gaps_.locked(gaps);
+  energy.dissipated += gaps_.dissipated(gaps);
+  return energy;
 }
 
 CellHistories MaterialCells::virgin_histories() const {
   if (!any_) return {};
   std::vector<std::size_t> sizes;
   sizes.reserve(as_size(mesh_.n_cells()));
-  for (Index c = 0; c < mesh_.n_cells(); ++c) sizes.push_back(has(c) ? material_[c]->history_size() : 0);
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    sizes.push_back(has(c) ? material_[c]->history_size() + gaps_.size(c) : 0);
   CellHistories histories(sizes);
   for (Index c = 0; c < mesh_.n_cells(); ++c)
-    if (has(c)) material_[c]->start(histories.of(c));
+    if (has(c)) material_[c]->start(histories.of(c).first(material_[c]->history_size()));
   return histories;
 }
 

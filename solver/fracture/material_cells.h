@@ -13,6 +13,7 @@
 #include "mesh/mesh.h"
 #include "physics/elasticity/linear_stress.h"
 #include "solver/fracture/fracture_model.h"
+#include "solver/fracture/relaxing_gaps.h"
 #include "solver/fracture/state.h"
 
 namespace pfdm {
@@ -26,24 +27,36 @@ class MaterialCells {
 
   /// At the beginning of a load step, which takes `duration` [s].
   void start_step(double duration);
-  /// Takes a cell from its history at the start of the step to this strain. Returns the error [J/m^3] of its energy
-  /// density with the previous linearised stress; NaN if the material's step cannot be solved.
-  double advance(Index cell, const Tensor& strain, const CellHistories& from, CellHistories& to);
+  /// Takes a cell from its history at the start of the step to what it is strained by now. Returns the error [J/m^3] of
+  /// its energy density with the previous linearised stress; NaN if the material's step cannot be solved.
+  double advance(Index cell, const CellMechanics& mechanics, const CellHistories& from, CellHistories& to);
   /// The undamaged stress about the cell's state.
   LinearStress linearised(Index cell, const CellHistories& histories) const;
-  /// Of the undamaged material.
+  /// What the moduli that the gaps of a cell meet in the step are more than those of its elasticity, undamaged [Pa].
+  IsotropicElasticity beyond_elasticity(Index cell) const;
+  /// What the cells of relaxing materials remember, with room for the stress of every cell.
+  HistoryStress history_stress(const CellHistories& histories) const;
+  /// Of the undamaged material, with what the gaps of its faces have.
   MaterialEnergy energy(Index cell, const CellHistories& histories) const;
-
   CellHistories virgin_histories() const;
   std::vector<OutputHistory> output(const CellHistories& histories) const;
 
  private:
+  // Of the law alone, without those of the gaps.
+  std::span<const double> law_numbers(Index cell, const CellHistories& histories) const {
+    return histories.of(cell).first(material_[cell]->history_size());
+  }
+  std::span<const double> gap_numbers(Index cell, const CellHistories& histories) const {
+    return histories.of(cell).subspan(material_[cell]->history_size());
+  }
+
   const Mesh& mesh_;
   const FractureModel& model_;
   bool any_ = false;
   double duration_ = 0.0;
   CellField<const Material*> material_;  // null: elastic
-  CellField<MandelMatrix> tangent_;      // [Pa]; empty without such cells
+  RelaxingGaps gaps_;
+  CellField<MandelMatrix> tangent_;  // [Pa]; empty without such cells
 };
 
 }  // namespace pfdm

@@ -1,50 +1,68 @@
 #include "solver/fracture/stiffness_words.h"
 
+#include "solver/fracture/relaxing_gaps.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 namespace pfdm {
 namespace {
 
-std::string why_without(const FractureModel& model) {
-  for (const RegionModel& region : model.regions)
-    if (region.material && !region.material->is_finite_strain())
-      return fmt::format("beside a material of the law \"{}\"", region.material->name());
-  if (model.is_anisotropic()) return "beside elasticity that depends on the direction";
-  return "with a split without secant moduli";
+bool may_have_pressure(const Material& material) {
+  return material.has_linear_volume() && material.relaxing() == nullptr;
 }
 
+std::string why_without(const FractureModel& model) {
+  if (model.is_anisotropic()) return "beside elasticity that depends on the direction";
+  if (!model.is_isotropic()) return "with a split without secant moduli";
+  for (const RegionModel& region : model.regions)
+    if (region.material && !may_have_pressure(*region.material))
+      return fmt::format("in a material of the law \"{}\"", region.material->name());
+  return "here";
+}
+
+bool all_may_have_pressure(const FractureModel& model) {
+  return model.is_isotropic() && std::ranges::all_of(model.regions, [](const RegionModel& region) {
+           return !region.material || region.material->is_finite_strain() || may_have_pressure(*region.material);
+         });
+}
+
+// Cells that are nearly incompressible, by the elasticity to which they relax, and have no pressure.
 std::optional<std::string> of_volume(const Mesh& mesh, const FractureModel& model) {
+  if (all_may_have_pressure(model)) return std::nullopt;
   ElasticBody body = elastic_body(model);
-  if (body.has_pressure) return std::nullopt;
+  const std::vector<Index> with = place_unknowns(mesh, body).pressure_cells;
   for (std::size_t r = 0; r < model.regions.size(); ++r)
     if (const auto& material = model.regions[r].material; material && !material->is_finite_strain())
       if (const IsotropicElasticity relaxed = material->relaxed_elasticity();
           relaxed.poisson_ratio() > body.elasticity[r].poisson_ratio())
         body.elasticity[r] = relaxed;
   body.has_pressure = true;
+  body.volume_elasticity = {};
   const Unknowns unknowns = place_unknowns(mesh, body);
-  if (unknowns.pressure_cells.empty()) return std::nullopt;
+  std::vector<Index> without;
+  std::ranges::set_difference(unknowns.pressure_cells, with, std::back_inserter(without));
+  if (without.empty()) return std::nullopt;
   const auto nu = [&](Index cell) { return unknowns.sound[as_size(unknowns.zone[cell])].poisson_ratio(); };
-  const Index worst = *std::ranges::max_element(unknowns.pressure_cells, {}, nu);
+  const Index worst = *std::ranges::max_element(without, {}, nu);
   return fmt::format(
       "region \"{}\" is nearly incompressible (nu = {:.5g}), and {} cells have no pressure unknown: where it is "
-      "confined "
-      "the body is too stiff (a bonded disc of hexahedra by 0.5 % at nu = 0.49, by 20 % at 0.4997); compare a finer "
-      "mesh, or lower materials.NAME.poisson_ratio",
+      "confined the body is too stiff (a bonded disc of hexahedra by 0.5 % at nu = 0.49, by 20 % at 0.4997); compare a "
+      "finer mesh, or lower materials.NAME.poisson_ratio",
       mesh.region_names[as_size(mesh.region[worst])], nu(worst), why_without(model));
 }
 
-// The faces hold on to the jumps of the displacement by the instantaneous moduli.
+// Where gaps do not relax, they meet the instantaneous moduli, however far the body has relaxed.
 std::optional<std::string> of_relaxation(const Mesh& mesh, const FractureModel& model) {
   constexpr double usual = 30.0;
   double most = usual;
   std::size_t region = model.regions.size();
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
     const auto& material = model.regions[r].material;
-    if (!material || material->is_finite_strain()) continue;
+    if (!material || material->is_finite_strain() || gaps_relax(*material)) continue;
     const double ratio = material->elasticity().mu / material->relaxed_elasticity().mu;
     if (ratio > most) most = ratio, region = r;
   }

@@ -8,9 +8,9 @@
 
 namespace pfdm {
 
-/// A line on the cell that is least compressible, where cells that would have a pressure have none (beside materials
-/// with a history, splits without secant moduli and elasticity that depends on the direction); and one on a material
-/// whose instantaneous shear modulus is many times the relaxed one.
+/// A line on the cell that is least compressible, where cells that would have a pressure have none (with splits without
+/// secant moduli, beside elasticity that depends on the direction, and of relaxing materials); and one on a material
+/// of nu above 0.4 that relaxes far, as the gaps at its faces meet the instantaneous moduli.
 std::vector<std::string> stiffness_warnings(const Mesh& mesh, const FractureModel& model);
 
 }  // namespace pfdm

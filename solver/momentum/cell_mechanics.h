@@ -4,7 +4,18 @@
 #include "mesh/fields.h"
 #include "physics/elasticity/mandel.h"
 
+#include <vector>
+
 namespace pfdm {
+
+/// What the strain of a cell at one of its faces differs from that of the cell by, as the tractions of bodies with a
+/// history have it: (u_f - u_c - G d)/h, borne by (sym(gap n^T) : C) n.
+struct FaceGap {
+  Vector strain = Vector::Zero();  ///< [-]
+  double volume = 0.0;             ///< A h [m^3]: half of it times traction and gap is an energy; 0: there is no force
+  double by_shear = 0.0;           ///< stiffness along the normal over the shear modulus, and
+  double by_bulk = 0.0;            ///< over the bulk modulus besides
+};
 
 /// Strain, stress and energy of the cells for a given displacement.
 struct CellMechanics {
@@ -27,8 +38,10 @@ struct CellMechanics {
   /// eps_f being the strain from which a face's traction is computed; it varies between the faces of a cell. Never of
   /// the other sign than the energy of `strain`. Empty if none is given, zero where the part has no shear modulus.
   CellField<double> part_energy{};
-  /// By least squares, as used in the tractions of the faces [-]; empty unless some material is linearised.
+  /// By least squares, as used in the tractions of the faces; with the volume change that belongs to the pressure in
+  /// cells that have one [-]; empty unless some material is linearised.
   CellField<Tensor> reconstructed_strain{};
+  std::vector<FaceGap> gaps{};  ///< as Mesh::cell_faces; empty without relaxing materials
   /// At finite strain, of nearly incompressible bodies: J - 1 by the volume of the moved cell, of those with a pressure
   /// [-]; of others by the mean gradient. Else empty.
   CellField<double> volume_change{};

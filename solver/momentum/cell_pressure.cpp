@@ -9,6 +9,13 @@
 namespace pfdm {
 namespace {
 
+// Cells without a pressure are no samples of its gradient, also within a zone.
+CellField<Index> pressed_zones(const Unknowns& unknowns) {
+  CellField<Index> zone(unknowns.zone.size() > 0 ? as_size(unknowns.zone.size()) : 0, -1);
+  for (const Index c : unknowns.pressure_cells) zone[c] = unknowns.zone[c];
+  return zone;
+}
+
 std::vector<char> with_pressure(const Mesh& mesh, const Unknowns& unknowns) {
   std::vector<char> has(as_size(mesh.n_cells()), 0);
   for (const Index c : unknowns.pressure_cells) has[as_size(c)] = 1;
@@ -38,7 +45,7 @@ FaceField<Tensor> warps(const Mesh& mesh) {
 CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
     : mesh_(mesh),
       unknowns_(unknowns),
-      gradient_(mesh, {.zone = unknowns.zone,
+      gradient_(mesh, {.zone = pressed_zones(unknowns),
                        .node_of_face = {},
                        .cut = split_faces(mesh, unknowns),
                        .plane_normal = unknowns.plane_normal,
@@ -52,8 +59,9 @@ CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
 }
 
 void CellPressure::take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
-  for (const Index c : unknowns_.pressure_cells) {
-    const IsotropicElasticity& sound = unknowns_.sound[as_size(unknowns_.zone[c])];
+  for (std::size_t k = 0; k < unknowns_.pressure_cells.size(); ++k) {
+    const Index c = unknowns_.pressure_cells[k];
+    const IsotropicElasticity& sound = unknowns_.pressure_elasticity[k];
     const double kept = moderate_lambda * sound.mu / sound.lambda * moduli[c].lambda;
     modulus_[c] = moduli[c].lambda - kept;
     moduli[c].lambda = kept;

@@ -64,18 +64,17 @@ void IsotropicTractions::balance_pressures(const std::vector<Vector>&, Sweep& sw
 // What eigenstrains add to these rows: V tr eps*, less the fluxes of what their tractions move the faces by.
 void IsotropicTractions::take_away_constant_volumes(std::vector<Vector>& load) const {
   const std::vector<Index>& cells = skeleton_.unknowns.pressure_cells;
-  if (!eigenstrain_.any() || cells.empty()) return;
+  if (!has_initial_stress() || cells.empty()) return;
   std::vector<double> flux(skeleton_.n_forces(), 0.0);
   parallel_for(static_cast<Index>(skeleton_.links.size()), [&](Index i) {
     const Link& link = skeleton_.links[as_size(i)];
     const LinkValues& by = link_values_[as_size(i)];
     const double softness = by.weight_n * (1.0 - by.weight_n) / by.c_n;
-    const Vector apart = (initial_stress(link.N) - initial_stress(link.P)) * link.n;
-    flux[as_size(i)] = link.area * softness * link.n.dot(apart);
+    flux[as_size(i)] = link.area * softness * link.n.dot(initial_jump(as_size(i)));
   });
   parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
     const Index c = cells[as_size(k)];
-    const double freely = skeleton_.mesh.cell_volume[c] * to_tensor(eigenstrain_[c]).trace();
+    const double freely = skeleton_.mesh.cell_volume[c] * free_volume_change(c);
     load[as_size(skeleton_.unknowns.n_nodes() + k)] -= (freely - skeleton_.out_of(c, flux)) * Vector::UnitX();
   });
 }

@@ -34,15 +34,16 @@ std::unique_ptr<Sweep> IsotropicTractions::new_sweep() const {
 }
 
 void IsotropicTractions::set(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part) {
-  set_moduli(moduli, g);
+  set_moduli(moduli, g, {});
   cells_.weigh(g, part);
   cells_.weigh_third_order(g);
   set_coefficients();
 }
 
-void IsotropicTractions::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g) {
+void IsotropicTractions::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
+                                    const CellField<IsotropicElasticity>& sound) {
   moduli_ = moduli;
-  jump_.renew(moduli_);
+  jump_.renew(moduli_, sound);
   condense();
   cells_.take_over(moduli_, g);
   find_initial_stress();
@@ -118,12 +119,14 @@ bool IsotropicTractions::add_constant(Sweep& s) const {
   const auto n_links = static_cast<Index>(skeleton_.links.size());
   parallel_for(n_links, [&](Index i) {
     const Link& link = skeleton_.links[as_size(i)];
-    const Vector on_P = initial_stress(link.P) * link.n, on_N = initial_stress(link.N) * link.n;
+    const Vector on_P = initial_traction(link.P, link.n, FaceSkeleton::turn_P(as_size(i)));
+    const Vector on_N = initial_traction(link.N, link.n, FaceSkeleton::turn_N(as_size(i)));
     s.force[as_size(i)] += link.area * (on_N + weigh(as_size(i), on_P - on_N));
   });
   parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
     const Side& side = skeleton_.sides[as_size(i)];
-    s.force[as_size(n_links + i)] += side.area * (initial_stress(side.cell) * side.n).eval();
+    s.force[as_size(n_links + i)] +=
+        side.area * initial_traction(side.cell, side.n, skeleton_.turn_of_side(as_size(i)));
   });
   const Vector& across = plane_normal();
   parallel_for(s.sector_stress.size(), [&](Index c) { s.sector_stress[c] += across.dot(initial_stress(c) * across); });
@@ -158,8 +161,7 @@ Vector IsotropicTractions::link_displacement(std::size_t i, const std::vector<Ve
   const Vector from_P = u[as_size(link.P)] + rise(link.P, link.d_P, P, s);
   const Vector from_N = u[as_size(link.N)] + rise(link.N, link.d_N, N, s);
   Vector stress_jump = own_traction(link.N, link.n, link.d_N, N, s) - own_traction(link.P, link.n, link.d_P, P, s);
-  if (has_initial_stress())
-    stress_jump += (initial_stress(link.N) * link.n).eval() - (initial_stress(link.P) * link.n).eval();
+  if (has_initial_stress()) stress_jump += initial_traction(link.N, link.n, N) - initial_traction(link.P, link.n, P);
   return from_P + weigh(i, from_N - from_P) + give(i, stress_jump);
 }
 

@@ -31,6 +31,10 @@ struct IsotropicStress {
     const IsotropicElasticity& c = moduli[cell];
     return (c.lambda * G.trace()) * n + c.mu * (G * n + G.transpose() * n);
   }
+  /// Where the gradient at a side is not that of the cell.
+  Vector at_side(Index cell, const Tensor&, const Tensor& at_side, const Vector& n) const {
+    return (*this)(cell, at_side, n);
+  }
 };
 
 /// What a sweep of these tractions also finds.
@@ -80,22 +84,34 @@ class IsotropicTractions : public SmallTractions {
  protected:
   virtual bool has_initial_stress() const { return eigenstrain_.any(); }
   virtual Tensor initial_stress(Index cell) const { return initial_stress_[cell]; }  // [Pa]
-  // stress_of(cell, G, n): the traction on n of the gradient G [Pa].
+  // On n of the side of a face that is number `turn` of the cell [Pa].
+  virtual Vector initial_traction(Index cell, const Vector& n, std::size_t) const { return initial_stress_[cell] * n; }
+  // N's less P's on a link [Pa].
+  virtual Vector initial_jump(std::size_t link) const {
+    const momentum_faces::Link& on = skeleton_.links[link];
+    return (initial_stress_[on.N] - initial_stress_[on.P]) * on.n;
+  }
+  // Volume change [-] of a cell whose pressure is zero.
+  virtual double free_volume_change(Index cell) const { return to_tensor(eigenstrain_[cell]).trace(); }
+  // stress_of(cell, G, n): the traction on n of the gradient G [Pa]; stress_of.at_side(cell, G, at_side, n) where the
+  // gradient at a side is another one than G of the cell.
   template <class StressOf>
   void sweep_faces(const std::vector<Vector>& u, IsotropicSweep& s, const StressOf& stress_of) const;
   // On side number `turn`, at the distance d from the cell's centre [Pa].
   template <class StressOf>
   Vector traction(Index cell, const Vector& n, const Vector& d, std::size_t turn, const IsotropicSweep& s,
                   const StressOf& stress_of) const {
-    Vector stress =
-        varies_within_cells() ? stress_of(cell, gradient_at(cell, turn, s), n) : stress_of(cell, s.gradients[cell], n);
+    Vector stress = varies_within_cells() ? stress_of.at_side(cell, s.gradients[cell], gradient_at(cell, turn, s), n)
+                                          : stress_of(cell, s.gradients[cell], n);
     if (cells_.pressure().any()) stress += s.pressure.at(cell, d) * n;
     return stress;
   }
   // Likewise, with the stress of these cells.
   virtual Vector own_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
                               const IsotropicSweep& s) const;
-  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+  // `sound`: undamaged moduli, empty: those of the zones.
+  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
+                  const CellField<IsotropicElasticity>& sound);
   void set_coefficients();
   Tensor with_strain_across(Index cell, const Tensor& gradient) const override;
   double stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const override;
@@ -103,6 +119,17 @@ class IsotropicTractions : public SmallTractions {
                         const FaceMoves& moves) const override;
   std::unique_ptr<Sweep> new_sweep() const override;
   PressureRow pressure_row(std::size_t k) const override;
+
+  static const IsotropicSweep& of(const Sweep& sweep) { return static_cast<const IsotropicSweep&>(sweep); }
+  static IsotropicSweep& of(Sweep& sweep) { return static_cast<IsotropicSweep&>(sweep); }
+  // Number of the bonded side that side number `turn` is; -1: none.
+  Index bonded_at(std::size_t turn) const {
+    return skeleton_.is_side(turn) ? bonded_.number(turn - 2 * skeleton_.links.size()) : -1;
+  }
+  // a over that of sides that are not bonded.
+  double stiffer_at(std::size_t turn) const { return bonded_at(turn) < 0 ? 1.0 : BondedSides::stiffer; }
+  const CellField<IsotropicElasticity>& moduli() const { return moduli_; }  // as in the traction, and
+  double jump_modulus(Index cell) const { return jump_.modulus(cell, moduli_[cell]); }
 
   CellField<StrainAcross> strain_across_;  // of plane stress, else empty
 
@@ -116,20 +143,11 @@ class IsotropicTractions : public SmallTractions {
   struct SideValues {
     double a_n = 0.0, a_t = 0.0;  // [Pa/m]
   };
-  static const IsotropicSweep& of(const Sweep& sweep) { return static_cast<const IsotropicSweep&>(sweep); }
-  static IsotropicSweep& of(Sweep& sweep) { return static_cast<IsotropicSweep&>(sweep); }
-
   void condense();
   void find_initial_stress();
   LinkValues values_of(std::size_t link) const;
   SideValues values_of_side(std::size_t side) const;
   void reconstruct(const std::vector<Vector>& u, IsotropicSweep& s) const;
-  // Number of the bonded side that side number `turn` is; -1: none.
-  Index bonded_at(std::size_t turn) const {
-    return skeleton_.is_side(turn) ? bonded_.number(turn - 2 * skeleton_.links.size()) : -1;
-  }
-  // a over that of sides that are not bonded.
-  double stiffer_at(std::size_t turn) const { return bonded_at(turn) < 0 ? 1.0 : BondedSides::stiffer; }
   bool varies_within_cells() const { return cells_.cubic().any() || cells_.layers().any() || bonded_.size() > 0; }
   // That of the cell, or of the surface on which side number `turn` is bonded.
   const Tensor& mean_gradient_at(Index cell, std::size_t turn, const IsotropicSweep& s) const {

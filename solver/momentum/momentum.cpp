@@ -33,10 +33,10 @@ Kind& MomentumOperator::choose(const Parts&... parts) {
 }
 
 void MomentumOperator::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,
-                                  CellField<LinearStress> stress) {
-  if (stress.size() > 0) {
+                                  HistoryStress history) {
+  if (history.any()) {
     auto& tractions = choose<HistoryTractions>(*eigenstrain_);
-    tractions.set(moduli, g, part, std::move(stress));
+    tractions.set(moduli, g, part, std::move(history));
     isotropic_ = &tractions;
   } else {
     isotropic_ = &choose<IsotropicTractions>(*eigenstrain_);

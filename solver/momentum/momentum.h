@@ -20,7 +20,6 @@
 //
 // Const functions keep nothing between calls: the work space of a sweep belongs to its caller.
 
-#include "physics/elasticity/linear_stress.h"
 #include "solver/linear/block_matrix.h"
 #include "solver/momentum/boundary_loads.h"
 #include "solver/momentum/cell_eigenstrain.h"
@@ -29,6 +28,7 @@
 #include "solver/momentum/face_springs.h"
 #include "solver/momentum/face_tractions.h"
 #include "solver/momentum/finite_law.h"
+#include "solver/momentum/history_stress.h"
 #include "solver/momentum/spin_forces.h"
 #include "solver/momentum/strain_law.h"
 #include "solver/momentum/unknowns.h"
@@ -49,10 +49,10 @@ class MomentumOperator {
   MomentumOperator(const Mesh& mesh, const Unknowns& unknowns);  ///< for use while both exist
 
   /// Secant moduli of every cell, and the stiffness factors g that weight the gradients; the weights are updated only
-  /// where g has changed by more than this fraction. Where `stress` is given, it replaces the stress of the moduli in
-  /// every cell.
+  /// where g has changed by more than this fraction. Where a `history` is given, its stress
+  /// replaces that of the moduli in every cell.
   void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part = 0.0,
-                  CellField<LinearStress> stress = {});
+                  HistoryStress history = {});
   /// A stress by the strain, linearised about the displacements u; being of first degree, it is exact there. The faces
   /// are found from where they were, or `afresh`. Returns a measure of the stiffness of each cell's faces [Pa].
   CellField<double> set_law(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u, bool afresh,

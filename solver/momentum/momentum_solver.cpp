@@ -43,10 +43,10 @@ MomentumSolver::~MomentumSolver() = default;
 MomentumSolver::MomentumSolver(MomentumSolver&&) noexcept = default;
 
 void MomentumSolver::set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                                CellField<LinearStress> stress) {
+                                HistoryStress history) {
   const bool afresh = stale_.begin(!stale_.was_built_for(moduli));
-  if (stress.size() > 0) reference_load_.reset();
-  operator_.set_moduli(moduli, g, afresh ? 0.0 : bearable_lag, std::move(stress));
+  if (history.any()) reference_load_.reset();
+  operator_.set_moduli(moduli, g, afresh ? 0.0 : bearable_lag, std::move(history));
   // With split faces it waits for their springs.
   if (stale_.renew(g, moduli) && unknowns_.split_faces.empty()) build_preconditioner();
 }

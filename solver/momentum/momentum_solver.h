@@ -33,10 +33,9 @@ class MomentumSolver {
 
   /// New secant moduli. The preconditioner is rebuilt when the stiffness factor g of some cell has changed by more than
   /// a factor of 2, or its moduli alone have (a crack that has closed) and the last solve did not converge; the weights
-  /// of the gradients where g has changed by more than a hundredth. Where `stress` is given, it replaces the stress of
-  /// the moduli in every cell.
-  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g,
-                  CellField<LinearStress> stress = {});
+  /// of the gradients where g has changed by more than a hundredth. Where a `history` is given, its stress replaces
+  /// that of the moduli in every cell.
+  void set_moduli(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, HistoryStress history = {});
   /// A stress by the strain, linearised about the displacements u (MomentumOperator::set_law). The next solve rebuilds
   /// the preconditioner if the stiffness of some cell's faces has changed by more than a factor of 2.
   void set_law(StrainLaw law, const CellField<double>& g, const std::vector<Vector>& u);

@@ -30,11 +30,12 @@ CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns) {
 }
 
 // From 0 in undamaged polyhedra and open cracks to 1 in closed cracks, which keep only the bulk modulus.
-void PolyhedralJump::renew(const CellField<IsotropicElasticity>& moduli) {
+void PolyhedralJump::renew(const CellField<IsotropicElasticity>& moduli,
+                           const CellField<IsotropicElasticity>& undamaged) {
   const Unknowns& unknowns = skeleton_.unknowns;
   parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
     if (skeleton_.mesh.shape[c] != CellShape::polyhedron) return;
-    const IsotropicElasticity& sound = unknowns.sound[as_size(unknowns.zone[c])];
+    const IsotropicElasticity& sound = undamaged.size() > 0 ? undamaged[c] : unknowns.sound[as_size(unknowns.zone[c])];
     const double stiffer = moduli[c].bulk_modulus() * sound.mu / (sound.bulk_modulus() * moduli[c].mu);
     liquidity_[c] = std::max(0.0, 1.0 - 1.0 / stiffer);
   });

@@ -27,8 +27,9 @@ class PolyhedralJump {
   PolyhedralJump(const FaceSkeleton& skeleton, const CellField<double>& shares)
       : skeleton_(skeleton), share_(shares), liquidity_(as_size(skeleton.mesh.n_cells()), 0.0) {}
 
-  /// For the moduli of the cells, before plane stress or pressures change them.
-  void renew(const CellField<IsotropicElasticity>& moduli);
+  /// For the moduli of the cells, before plane stress or pressures change them; `sound`: undamaged ones, empty: those
+  /// of the zones.
+  void renew(const CellField<IsotropicElasticity>& moduli, const CellField<IsotropicElasticity>& sound);
 
   /// lambda_s + 2 mu of a cell with these moduli [Pa].
   double modulus(Index cell, const IsotropicElasticity& moduli) const {

@@ -61,7 +61,7 @@ CellMechanics SmallTractions::mechanics(const std::vector<Vector>& u, bool with_
     if (with_gradient) result.gradient[c] = gradient;
     finish_stress(c, sums, *lease, result);
   });
-  add_reconstructed_strain(*lease, result);
+  add_histories(moves, result);
   result.face_displacement = std::move(u_face);
   return result;
 }

@@ -42,7 +42,8 @@ class SmallTractions : public FaceTractions {
   /// Energy per volume [J/m^3] of a part of the cell's stiffness (CellMechanics::part_energy).
   virtual double energy_of_part(Index cell, const IsotropicElasticity& part, const Tensor& strain,
                                 const FaceMoves& moves) const = 0;
-  virtual void add_reconstructed_strain(const Sweep&, CellMechanics&) const {}
+  /// What materials with a history ask for besides.
+  virtual void add_histories(const FaceMoves&, CellMechanics&) const {}
 
   /// The energy of the mean strain and of what the strains of the faces differ from it; without eigenstrains, of which
   /// the cell has one. strain_at(turn, d, n, move) is the gradient at a face that moves by `move`.

@@ -120,12 +120,15 @@ void place_sector(const std::vector<Vector>& normals, Unknowns& unknowns) {
 }
 
 // In plane stress there is nothing that grows with lambda.
-std::vector<Index> pressure_cells(const Mesh& mesh, const ElasticBody& body, const Unknowns& unknowns) {
-  std::vector<Index> cells;
-  if (unknowns.plane_stress || !body.has_pressure) return cells;
-  for (Index c = 0; c < mesh.n_cells(); ++c)
-    if (unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio() > nearly_incompressible) cells.push_back(c);
-  return cells;
+void place_pressures(const Mesh& mesh, const ElasticBody& body, Unknowns& unknowns) {
+  if (unknowns.plane_stress || !body.has_pressure) return;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const auto by = body.volume_elasticity ? body.volume_elasticity(mesh, c)
+                                           : std::optional(unknowns.sound[as_size(unknowns.zone[c])]);
+    if (!by || !is_nearly_incompressible(*by)) continue;
+    unknowns.pressure_cells.push_back(c);
+    unknowns.pressure_elasticity.push_back(*by);
+  }
 }
 
 // Also between two zones: the node of the interface is then the owner's.
@@ -154,6 +157,10 @@ void hold(const ElasticBody& body, Unknowns& unknowns) {
 }
 
 }  // namespace
+
+bool is_nearly_incompressible(const IsotropicElasticity& elasticity) {
+  return elasticity.poisson_ratio() > nearly_incompressible;
+}
 
 Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   Unknowns unknowns;
@@ -189,7 +196,7 @@ Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   require_front_and_back(mesh, unknowns);
   place_sector(sector_normals, unknowns);
   hold(body, unknowns);
-  unknowns.pressure_cells = pressure_cells(mesh, body, unknowns);
+  place_pressures(mesh, body, unknowns);
   unknowns.spin_holds = spin_holds(mesh, unknowns);
   return unknowns;
 }

@@ -12,6 +12,7 @@
 #include "solver/momentum/spin_holds.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace pfdm {
@@ -67,6 +68,9 @@ struct ElasticBody {
   VolumeLoads loads{};
   /// Nearly incompressible cells have a pressure: not where the stress is not that of isotropic moduli.
   bool has_pressure = true;
+  /// By which elasticity a cell is nearly incompressible, undamaged: its own, or that to which it relaxes; none: the
+  /// cell has no pressure whatever it is. Empty: by the elasticity of its region.
+  std::function<std::optional<IsotropicElasticity>(const Mesh& mesh, Index cell)> volume_elasticity{};
 };
 
 /// One boundary condition, found on its patch.
@@ -99,6 +103,8 @@ struct Unknowns {
   Index n_cells = 0;
   std::vector<SpinHold> spin_holds{};  ///< of cells in columns one cell wide; else empty
   std::vector<Index> pressure_cells;   ///< entry k is the cell of unknown n_nodes() + k
+  /// The undamaged elasticity by which each of them is nearly incompressible.
+  std::vector<IsotropicElasticity> pressure_elasticity{};
 
   bool is_axisymmetric() const { return radial != Vector::Zero(); }
   Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }
@@ -125,6 +131,9 @@ struct Unknowns {
   /// All nodes where the prescribed motion of the box has them at the load parameter t, its free strains zero.
   std::vector<Vector> moved_with_box(const Mesh& mesh, double t) const;
 };
+
+/// Whether cells of this elasticity have a pressure: nu above 0.47.
+bool is_nearly_incompressible(const IsotropicElasticity& elasticity);
 
 /// Throws InputError for a condition on an unknown patch, two conditions on one patch, a symmetry patch that is not
 /// plane, plane stress together with plane strain, a plane mesh without a front or a back, or a part of the body that

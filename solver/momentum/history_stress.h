@@ -1,0 +1,31 @@
+#pragma once
+// Bodies with a history (viscoelastic, plastic, endochronic cells) as one solve sees them.
+
+#include "mesh/fields.h"
+#include "physics/elasticity/elasticity.h"
+#include "physics/elasticity/linear_stress.h"
+
+#include <vector>
+
+namespace pfdm {
+
+/// Stress that a relaxing material has on a face where the strain there does not differ from the cell's: shear moduli
+/// times what is left of earlier gaps (CellMechanics::gaps), and bulk moduli times that along the normal.
+struct GapStress {
+  Vector shear = Vector::Zero();  ///< [Pa]
+  double bulk = 0.0;              ///< [Pa]
+};
+
+struct HistoryStress {
+  /// Of every cell; replaces that of its moduli. Empty: there is no history.
+  CellField<LinearStress> stress{};
+  /// The undamaged moduli that a change of strain meets in the step, and `relaxes` of the cells whose gaps relax; both
+  /// empty without any.
+  CellField<IsotropicElasticity> sound{};
+  CellField<char> relaxes{};
+  std::vector<GapStress> gaps{};  ///< what is left of earlier gaps, by Mesh::cell_faces; empty likewise
+
+  bool any() const { return stress.size() > 0; }
+};
+
+}  // namespace pfdm
