@@ -57,7 +57,11 @@ Tensor inverse_of_span(const Tensor& sum) {
 }  // namespace
 
 KnownPlaces::KnownPlaces(const CellSoup& soup)
-    : points_(soup.points), faces_(half_faces(soup)), first_face_(soup.shape.size() + 1, 0), tree_({}) {
+    : points_(soup.points),
+      faces_(half_faces(soup)),
+      first_face_(soup.shape.size() + 1, 0),
+      tree_({}),
+      point_tree_({}) {
   for (const Index cell : faces_.cell) ++first_face_[as_size(cell) + 1];
   for (std::size_t c = 1; c < first_face_.size(); ++c) first_face_[c] += first_face_[c - 1];
   measure_cells();
@@ -66,6 +70,13 @@ KnownPlaces::KnownPlaces(const CellSoup& soup)
   around_ = cells.empty() ? Box{Vector::Zero(), Vector::Zero()} : cells.front();
   for (const Box& box : cells) around_ = {around_.low.cwiseMin(box.low), around_.high.cwiseMax(box.high)};
   tree_ = BoxTree(std::move(cells));
+  std::vector<Box> places;
+  for (Index p = 0; p < n_points(); ++p) {
+    if (first_of_point_[as_size(p)] == first_of_point_[as_size(p) + 1]) continue;  // of no cell
+    point_of_box_.push_back(p);
+    places.push_back({points_[as_size(p)], points_[as_size(p)]});
+  }
+  point_tree_ = BoxTree(std::move(places));
 }
 
 std::vector<Index> KnownPlaces::points_of_cell(Index cell) const {
@@ -216,6 +227,17 @@ Interpolation KnownPlaces::from_cells(const Vector& x) const {
   return result;
 }
 
+Interpolation KnownPlaces::from_one_point(const Vector& x) const {
+  Index nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  point_tree_.search(x, [&](Index box) {
+    const Index p = point_of_box_[as_size(box)];
+    if (const double distance = (x - points_[as_size(p)]).norm(); distance < least) least = distance, nearest = p;
+    return least;
+  });
+  return {.known = {nearest}, .weight = {1.0}, .outside = find(x).distance};
+}
+
 Interpolation KnownPlaces::from_one_cell(const Vector& x) const {
   const Found found = find(x);
   return {.known = {found.cell}, .weight = {1.0}, .outside = found.distance};
@@ -224,12 +246,8 @@ Interpolation KnownPlaces::from_one_cell(const Vector& x) const {
 Interpolation KnownField::at(Vector x, bool nearest) const {
   for (Eigen::Index a = 0; a < 3; ++a)
     if (!varies[static_cast<std::size_t>(a)]) x[a] = fixed[a];
-  Interpolation found = at_points ? places.from_points(x) : nearest ? places.from_one_cell(x) : places.from_cells(x);
-  if (nearest && at_points) {
-    const auto largest = std::ranges::max_element(found.weight) - found.weight.begin();
-    found.known = {found.known[static_cast<std::size_t>(largest)]};
-    found.weight = {1.0};
-  }
+  Interpolation found = nearest ? (at_points ? places.from_one_point(x) : places.from_one_cell(x))
+                                : (at_points ? places.from_points(x) : places.from_cells(x));
   for (Index& known : found.known) known = entry[as_size(known)];
   return found;
 }

@@ -32,6 +32,8 @@ class KnownPlaces {
   /// share a point with it, weighted by 1/distance^2; none along directions in which the mesh has one layer. Outside
   /// likewise.
   Interpolation from_cells(const Vector& x) const;
+  /// Of values at points: that of the point nearest to x, of those that cells have.
+  Interpolation from_one_point(const Vector& x) const;
   /// The cell's value around x, or nearest to it.
   Interpolation from_one_cell(const Vector& x) const;
 
@@ -57,6 +59,8 @@ class KnownPlaces {
   std::vector<Index> first_of_point_, cells_of_point_;
   Box around_;
   BoxTree tree_;
+  std::vector<Index> point_of_box_;  // of point_tree_
+  BoxTree point_tree_;
 };
 
 /// Where a field is known, and along which coordinates it varies.

@@ -20,7 +20,7 @@ constexpr std::array<Prefix, 8> prefixes{
 /// A number with some digits, whole where it has more before the point: "12346" rather than "1.235e+04".
 std::string number_text(double value, int digits) {
   const double magnitude = std::abs(value);
-  if (magnitude >= std::pow(10.0, digits) && magnitude < 1e7) return fmt::format("{:.0f}", value);
+  if (magnitude >= std::pow(10.0, digits) - 0.5 && magnitude < 1e7) return fmt::format("{:.0f}", value);
   return fmt::format("{:.{}g}", value, digits);
 }
 

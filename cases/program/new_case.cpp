@@ -2,6 +2,7 @@
 
 #include "cases/program/chain/chain_case.h"
 #include "cases/program/input/case_file.h"
+#include "cases/program/input/frame_list.h"
 #include "cases/program/input/toml_document.h"
 #include "cases/program/kinds.h"
 #include "postproc/files/atomic_file.h"
@@ -20,6 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path whole(const fs::path& path) { return fs::weakly_canonical(fs::absolute(path)); }
+
+/// Of `folder`, the way to `file`, neither of which need be there.
+std::string way_to(const fs::path& file, const fs::path& folder) {
+  return whole(file).lexically_relative(whole(folder)).string();
+}
 
 void require_empty(const fs::path& directory) {
   if (!fs::exists(directory)) return;
@@ -40,7 +46,10 @@ struct DataCopies {
     const fs::path file = old_directory / path;
     if (!fs::is_regular_file(file)) return path;
     const fs::path key = whole(file);
-    if (!places.contains(key)) places[key] = place_of(file, old_directory);
+    if (!places.contains(key)) {
+      places[key] = place_of(file, old_directory);
+      if (file.extension() == ".pvd") take_frames(file, places[key]);
+    }
     return places[key].string();
   }
 
@@ -52,6 +61,13 @@ struct DataCopies {
   }
 
  private:
+  /// The frames that a list names stand to it as they did.
+  void take_frames(const fs::path& list, const fs::path& place) {
+    for (const ListedFrame& frame : read_frame_list(list))
+      if (const std::string way = way_to(frame.file, list.parent_path()); !way.starts_with(".."))
+        places[whole(frame.file)] = place.parent_path() / way;
+  }
+
   fs::path place_of(const fs::path& file, const fs::path& old_directory) {
     fs::path place = fs::relative(whole(file), whole(old_directory));
     if (place.empty() || *place.begin() == "..") place = fs::path("data") / file.filename();
@@ -66,11 +82,6 @@ std::string readme(const std::string& name, const std::string& like) {
       "# {}\n\nWhat this case shows, where its numbers come from, what to expect.\n\nBegun as a copy of `{}`"
       " with `pfdm init`.\n",
       name, like);
-}
-
-/// Of `folder`, the way to `file`, neither of which need be there.
-std::string way_to(const fs::path& file, const fs::path& folder) {
-  return whole(file).lexically_relative(whole(folder)).string();
 }
 
 /// The schema that editors take is named in a comment, from the case on.

@@ -22,6 +22,7 @@ struct Corners {
   Index n;
 };
 constexpr Corners higher_order[] = {
+    {21, 3, 2},  {68, 3, 2},  // quadratic and Lagrange lines
     {22, 5, 3},  {69, 5, 3},  // quadratic and Lagrange triangles
     {34, 5, 3},               // with a point within
     {23, 9, 4},  {28, 9, 4},  {70, 9, 4},  {24, 10, 4}, {71, 10, 4}, {25, 12, 8}, {29, 12, 8}, {33, 12, 8},

@@ -102,8 +102,9 @@ void archive_state(Archive& archive, State& state) {
   each(step, load, increment, displacement, damage, driving_energy, closure, histories.first, histories.values,
        interfaces, boundary_force);
   for (const EnergyEntry& entry : energy_entries) archive(energy.*entry.value);
-  auto& [rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account] = heat;
-  each(rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account.made, account.stored, account.lost);
+  auto& [rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account, duration] = heat;
+  each(rise, made, cycle, transmitted, cycle_transmittance, cycle_change, account.made, account.stored, account.lost,
+       duration);
 }
 
 template <class T>

@@ -20,6 +20,11 @@ bool FractureModel::is_finite_strain() const {
       regions, [](const RegionModel& region) { return region.material && region.material->is_finite_strain(); });
 }
 
+bool FractureModel::is_plane_stress() const {
+  return std::ranges::any_of(
+      boundary, [](const BoundaryCondition& on) { return on.kind == BoundaryCondition::Kind::plane_stress; });
+}
+
 bool FractureModel::has_strength() const {
   return std::ranges::any_of(regions, [](const RegionModel& region) { return region.strength.is_chosen(); });
 }

@@ -111,6 +111,7 @@ struct FractureModel {
   }
   /// Whether the laws of the materials are of finite strain: those of all regions, or of none.
   bool is_finite_strain() const;
+  bool is_plane_stress() const;  ///< whether front and back of a plane mesh bear no stress
   bool has_strength() const;     ///< whether some region has a strength model
   bool has_body_force() const;   ///< whether a force or gravity is given
   bool has_eigenstrain() const;  ///< whether some region expands or has one

@@ -264,6 +264,7 @@ FractureState FractureRun::initial_state() const {
   state.interfaces = parts_->staggered.faces().virgin_histories();
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
   state.heat = parts_->heat.start();
+  if (parts_->heat.any()) state.heat.duration = parts_->loading.duration;
   return state;
 }
 

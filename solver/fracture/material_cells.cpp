@@ -33,7 +33,10 @@ CellField<const Material*> materials_of(const Mesh& mesh, const FractureModel& m
 }  // namespace
 
 MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model)
-    : mesh_(mesh), model_(model), material_(materials_of(mesh, model)), gaps_(mesh, material_) {
+    : mesh_(mesh),
+      model_(model),
+      material_(materials_of(mesh, model)),
+      gaps_(mesh, material_, model.is_plane_stress()) {
   any_ = material_.size() > 0;
   if (!any_) return;
   tangent_ = CellField<MandelMatrix>(as_size(mesh.n_cells()));

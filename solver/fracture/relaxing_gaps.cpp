@@ -30,18 +30,24 @@ Eigen::Map<const Vector> vector_at(std::span<const double> numbers, std::size_t 
 
 }  // namespace
 
-bool gaps_relax(const Material& material) {
+bool gaps_relax(const Material& material, bool in_plane_stress) {
   constexpr double most = 0.4 + 1e-6;  // Poisson's ratio
-  return material.relaxing() != nullptr && material.elasticity().poisson_ratio() <= most &&
-         material.relaxed_elasticity().poisson_ratio() <= most;
+  return material.relaxing() != nullptr && !in_plane_stress &&
+         stiffest_against_volume(material).poisson_ratio() <= most;
 }
 
-RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials) : mesh_(mesh) {
+IsotropicElasticity stiffest_against_volume(const Material& material) {
+  const IsotropicElasticity relaxed = material.relaxed_elasticity();
+  return {.lambda = material.elasticity().bulk_modulus() - 2.0 * relaxed.mu / 3.0, .mu = relaxed.mu};
+}
+
+RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, bool in_plane_stress)
+    : mesh_(mesh) {
   if (materials.size() == 0) return;
   kind_ = CellField<Index>(as_size(materials.size()), -1);
   for (Index c = 0; c < materials.size(); ++c) {
     const Material* material = materials[c];
-    if (material == nullptr || !gaps_relax(*material)) continue;
+    if (material == nullptr || !gaps_relax(*material, in_plane_stress)) continue;
     const auto known = std::ranges::find(kinds_, material, &Kind::material);
     kind_[c] = static_cast<Index>(known - kinds_.begin());
     if (known == kinds_.end()) kinds_.push_back({.material = material, .law = material->relaxing()});

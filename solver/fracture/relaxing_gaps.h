@@ -3,7 +3,7 @@
 // there differs from that of the cell by (CellMechanics::gaps). The law is linear, so that a gap z [-] is a strain that
 // it bears as any other: the traction of a branch is its modulus times r, r' + r/tau = z', and relaxes with it. A gap
 // that met the instantaneous moduli for ever would make a body that has relaxed too stiff.
-// Materials of nu above 0.4, at once or relaxed, have none of it (gaps_relax).
+// Materials of nu above 0.4 at any time, and bodies in plane stress, have none of it (gaps_relax).
 //
 // Half the work of traction and gap is part of a cell's energy. Energies here are per volume of the cell [J/m^3].
 
@@ -18,15 +18,20 @@
 
 namespace pfdm {
 
-/// Whether the gaps of a material relax: it does so itself, and nu is at most 0.4 at once and relaxed. Above that,
-/// modes of coarse meshes grew in time (85 tetrahedra, nu = 0.46: by 150 % of the force within 400 relaxation times; at
-/// 0.3 and 0.4 forces were those of the relaxed elastic body).
-bool gaps_relax(const Material& material);
+/// Whether the gaps of a material relax: it does so itself, not in plane stress (history_tractions.h), and nu is at
+/// most 0.4 at all times, also where the shear has relaxed and the bulk has not. Above that, modes of coarse meshes
+/// grew in time (85 tetrahedra, nu = 0.46: by 150 % of the force within 400 relaxation times; at 0.3 and 0.4 forces
+/// were those of the relaxed elastic body).
+bool gaps_relax(const Material& material, bool in_plane_stress);
+
+/// The bulk modulus at once and the shear modulus at last: the greatest Poisson's ratio that a relaxing material can
+/// come to between them. That of the elasticity of other materials.
+IsotropicElasticity stiffest_against_volume(const Material& material);
 
 class RelaxingGaps {
  public:
   /// Of the materials of the cells, null: elastic; empty: of all.
-  RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials);
+  RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, bool in_plane_stress);
 
   bool any() const { return !kinds_.empty(); }
   bool has(Index cell) const { return any() && kind_[cell] >= 0; }

@@ -5,54 +5,42 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 
 namespace pfdm {
 namespace {
 
-bool may_have_pressure(const Material& material) {
-  return material.has_linear_volume() && material.relaxing() == nullptr;
-}
-
-std::string why_without(const FractureModel& model) {
+std::string why_without(const FractureModel& model, const RegionModel& region) {
   if (model.is_anisotropic()) return "beside elasticity that depends on the direction";
   if (!model.is_isotropic()) return "with a split without secant moduli";
-  for (const RegionModel& region : model.regions)
-    if (region.material && !may_have_pressure(*region.material))
-      return fmt::format("in a material of the law \"{}\"", region.material->name());
-  return "here";
+  return fmt::format("in a material of the law \"{}\"", region.material ? region.material->name() : "linear_elastic");
 }
 
-bool all_may_have_pressure(const FractureModel& model) {
-  return model.is_isotropic() && std::ranges::all_of(model.regions, [](const RegionModel& region) {
-           return !region.material || region.material->is_finite_strain() || may_have_pressure(*region.material);
-         });
+// The elasticity by which a cell can come to be nearly incompressible; none of materials of finite strain, which have
+// pressures of their own, and of elasticity that depends on the direction.
+std::optional<IsotropicElasticity> against_volume(const RegionModel& region) {
+  if (region.stiffness || (region.material && region.material->is_finite_strain())) return std::nullopt;
+  return region.material ? stiffest_against_volume(*region.material) : region.elasticity;
 }
 
-// Cells that are nearly incompressible, by the elasticity to which they relax, and have no pressure.
+// Cells that are nearly incompressible, at any time of materials that relax, and have no pressure.
 std::optional<std::string> of_volume(const Mesh& mesh, const FractureModel& model) {
-  if (all_may_have_pressure(model)) return std::nullopt;
-  ElasticBody body = elastic_body(model);
-  const std::vector<Index> with = place_unknowns(mesh, body).pressure_cells;
-  for (std::size_t r = 0; r < model.regions.size(); ++r)
-    if (const auto& material = model.regions[r].material; material && !material->is_finite_strain())
-      if (const IsotropicElasticity relaxed = material->relaxed_elasticity();
-          relaxed.poisson_ratio() > body.elasticity[r].poisson_ratio())
-        body.elasticity[r] = relaxed;
-  body.has_pressure = true;
-  body.volume_elasticity = {};
-  const Unknowns unknowns = place_unknowns(mesh, body);
-  std::vector<Index> without;
-  std::ranges::set_difference(unknowns.pressure_cells, with, std::back_inserter(without));
-  if (without.empty()) return std::nullopt;
-  const auto nu = [&](Index cell) { return unknowns.sound[as_size(unknowns.zone[cell])].poisson_ratio(); };
-  const Index worst = *std::ranges::max_element(without, {}, nu);
+  if (model.is_plane_stress() || model.is_finite_strain()) return std::nullopt;
+  const std::vector<Index> with = place_unknowns(mesh, elastic_body(model)).pressure_cells;  // in rising order
+  Index n_without = 0, worst = -1;
+  double most = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const auto by = against_volume(model.in_cell(mesh, c));
+    if (!by || !is_nearly_incompressible(*by) || std::ranges::binary_search(with, c)) continue;
+    ++n_without;
+    if (by->poisson_ratio() > most) most = by->poisson_ratio(), worst = c;
+  }
+  if (n_without == 0) return std::nullopt;
   return fmt::format(
-      "region \"{}\" is nearly incompressible (nu = {:.5g}), and {} cells have no pressure unknown: where it is "
+      "region \"{}\" is nearly incompressible (nu = {:.5g}), and {} cells have no pressure unknown {}: where it is "
       "confined the body is too stiff (a bonded disc of hexahedra by 0.5 % at nu = 0.49, by 20 % at 0.4997); compare a "
       "finer mesh, or lower materials.NAME.poisson_ratio",
-      mesh.region_names[as_size(mesh.region[worst])], nu(worst), why_without(model));
+      mesh.region_names[as_size(mesh.region[worst])], most, n_without, why_without(model, model.in_cell(mesh, worst)));
 }
 
 // Where gaps do not relax, they meet the instantaneous moduli, however far the body has relaxed.
@@ -62,7 +50,7 @@ std::optional<std::string> of_relaxation(const Mesh& mesh, const FractureModel& 
   std::size_t region = model.regions.size();
   for (std::size_t r = 0; r < model.regions.size(); ++r) {
     const auto& material = model.regions[r].material;
-    if (!material || material->is_finite_strain() || gaps_relax(*material)) continue;
+    if (!material || material->is_finite_strain() || gaps_relax(*material, model.is_plane_stress())) continue;
     const double ratio = material->elasticity().mu / material->relaxed_elasticity().mu;
     if (ratio > most) most = ratio, region = r;
   }

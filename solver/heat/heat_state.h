@@ -26,6 +26,7 @@ struct HeatState {
   double cycle_change =
       std::numeric_limits<double>::infinity();  ///< of the cycles' heat from the last but one, relative
   HeatBalance account{};
+  double duration = 0.0;  ///< of the load parameter's 1, by which these times were made [s]
   friend bool operator==(const HeatState&, const HeatState&) = default;
 };
 

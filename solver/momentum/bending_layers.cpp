@@ -64,7 +64,11 @@ class LayerLines {
     for (const PatchCondition& on : unknowns_.conditions) {
       using Kind = BoundaryCondition::Kind;
       const auto& held = on.condition.displacement_prescribed;
-      const bool is_held = on.condition.kind == Kind::components && held[0] && held[1] && held[2];
+      const auto is_held_along = [&](std::size_t i) {  // or nothing moves there: across a plane mesh
+        return held[i] || std::abs(unknowns_.plane_normal[static_cast<Eigen::Index>(i)]) > 0.999;
+      };
+      const bool is_held =
+          on.condition.kind == Kind::components && is_held_along(0) && is_held_along(1) && is_held_along(2);
       if (on.condition.kind != Kind::symmetry && !is_held) continue;
       const End kind = is_held ? End::held : End::mirror;
       const Patch& patch = mesh_.patches[as_size(on.patch)];

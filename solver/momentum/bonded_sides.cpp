@@ -7,13 +7,6 @@
 namespace pfdm {
 namespace {
 
-// Of displacements that vary within a plane or sectional mesh there is nothing to hold across it.
-bool is_bonded(const Unknowns& unknowns, Index node) {
-  const Tensor& is_free = unknowns.free_directions[as_size(node - unknowns.n_cells)];
-  const Vector& across = unknowns.plane_normal;
-  return (is_free - is_free * across * across.transpose()).isZero();
-}
-
 // Hexahedra and prisms behind their ends have another face opposite to this one, with the same direction across both.
 bool has_opposite(const Mesh& mesh, const momentum_faces::Side& side) {
   const CellShape shape = mesh.shape[side.cell];
@@ -72,7 +65,7 @@ BondedSides::BondedSides(const Mesh& mesh, const Unknowns& unknowns, const std::
   std::vector<Index> side_of_face(as_size(mesh.n_faces()), -1);
   for (std::size_t i = 0; i < sides.size(); ++i)
     if (!mesh.is_interior(sides[i].face) && has_pressure[as_size(sides[i].cell)] != 0 && has_opposite(mesh, sides[i]) &&
-        is_bonded(unknowns, sides[i].node))
+        unknowns.free_within(sides[i].node).isZero())
       side_of_face[as_size(sides[i].face)] = static_cast<Index>(i);
   for (const Patch& patch : mesh.patches) {
     const Index end = patch.first_face + patch.n_faces;

@@ -7,7 +7,8 @@
 //   the direction of the strain increment;
 // - by relaxing materials, which are linear, as strains are: a, b and c are of the moduli that a change of strain
 //   meets in the step, and what is left of earlier gaps is an initial traction of the side (history_stress.h). A body
-//   that has relaxed is then the elastic one of the relaxed moduli.
+//   that has relaxed is then the elastic one of the relaxed moduli with gradients of one ring. Not in plane stress: its
+//   modulus along a face's normal is not linear in mu, so that the parts of the branches do not add up.
 //
 // Nearly incompressible cells have a pressure (cell_pressure.h): of p = K tr eps + p_0, with K and p_0 of C and
 // sigma_0, it carries all but K_s tr eps, V (q - p_0)/(K - K_s) = sum u_f.S. Relaxing materials have none: with gaps
@@ -20,7 +21,8 @@ namespace pfdm {
 
 class HistoryTractions final : public IsotropicTractions {
  public:
-  using IsotropicTractions::IsotropicTractions;
+  HistoryTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain)
+      : IsotropicTractions(skeleton, cells, eigenstrain, false) {}
 
   /// As IsotropicTractions::set(), with the history of the body.
   void set(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,

@@ -13,13 +13,15 @@ using momentum_faces::scale;
 using momentum_faces::Side;
 
 IsotropicTractions::IsotropicTractions(const FaceSkeleton& skeleton, CellReconstruction& cells,
-                                       const CellEigenstrain& eigenstrain)
+                                       const CellEigenstrain& eigenstrain, bool has_third_order)
     : SmallTractions(skeleton, cells, eigenstrain),
       moduli_(as_size(skeleton.mesh.n_cells())),
       jump_(skeleton, jump_share_),
-      bonded_(
-          skeleton.mesh, skeleton.unknowns, skeleton.sides,
-          [&](Index c) { return !cells.cubic().fits(c) && (cells.relaxes_flat_cells() || !cells.layers().cover(c)); }),
+      bonded_(skeleton.mesh, skeleton.unknowns, skeleton.sides,
+              [&](Index c) {
+                return !has_third_order ||
+                       (!cells.cubic().fits(c) && (cells.relaxes_flat_cells() || !cells.layers().cover(c)));
+              }),
       link_values_(skeleton.links.size()),
       side_values_(skeleton.sides.size()) {}
 

@@ -49,7 +49,10 @@ struct IsotropicSweep : Sweep {
 
 class IsotropicTractions : public SmallTractions {
  public:
-  IsotropicTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain);
+  /// `has_third_order`: cells have gradients of third order where they bend, which do without the care for bonded
+  /// sides.
+  IsotropicTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain,
+                     bool has_third_order = true);
 
   /// Secant moduli of every cell, and the stiffness factors g that weight the gradients; the weights are updated only
   /// where g has changed by more than the fraction `part`.

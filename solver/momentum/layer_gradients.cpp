@@ -76,15 +76,18 @@ class LayerGradients::Maker {
       if (f == face) return side;
     return std::nullopt;
   }
-  // On the surface of the body: components whose traction is prescribed.
+  // On the surface of the body: components whose traction is prescribed, in plane meshes of those within the plane.
   Tensor free_part(Index face) const {
     const Index node = unknowns_.node_of_face[face];
     if (mesh_.is_interior(face) || node < 0) return Tensor::Zero();
-    return unknowns_.free_directions[as_size(node - unknowns_.n_cells)];
+    return unknowns_.free_within(node);
   }
   bool is_free(Index face) const { return !free_part(face).isZero(); }
   bool is_split(Index face) const { return unknowns_.neighbour_node.size() > 0 && unknowns_.neighbour_node[face] >= 0; }
-  bool is_mirror(Index face) const { return is_free(face) && !free_part(face).isIdentity(); }
+  bool is_mirror(Index face) const {
+    const Vector& across = unknowns_.plane_normal;
+    return is_free(face) && !(free_part(face) + across * across.transpose()).isIdentity();
+  }
 
   struct Place {
     std::size_t from, to;  // outwards from the first cell of the line

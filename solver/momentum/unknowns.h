@@ -116,6 +116,12 @@ struct Unknowns {
     const bool beyond = neighbour_node.size() > 0 && neighbour_node[face] >= 0 && mesh.owner[face] != cell;
     return beyond ? neighbour_node[face] : node_of_face[face];
   }
+  /// Free directions of a face node, that across a plane or sectional mesh left out: whatever is prescribed along it,
+  /// nothing moves there.
+  Tensor free_within(Index node) const {
+    const Tensor& all = free_directions[as_size(node - n_cells)];
+    return all - all * plane_normal * plane_normal.transpose();
+  }
   Index first_strain() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }
   Index n_unknowns() const { return first_strain() + static_cast<Index>(motion.free_strains.size()); }  ///< vectors
   bool has_free_strains() const { return !motion.free_strains.empty(); }

@@ -112,7 +112,8 @@ ScalarSolution Diffusion::step(double dt, CellField<double>& u) {
   return solve(1.0 / dt, u);
 }
 
-// The deferred flux is updated until the field no longer changes.
+// The deferred flux is updated until the field no longer changes. From a field of zeros on without a value at a patch
+// nothing says yet what is small: the first solution is as exact as its own first step says.
 ScalarSolution Diffusion::solve(double rate, CellField<double>& u) {
   constexpr Index most_updates = 100;
   const Parts& p = *parts_;
@@ -127,7 +128,7 @@ ScalarSolution Diffusion::solve(double rate, CellField<double>& u) {
       if (on.kind != Kind::flux) scale = std::max(scale, std::abs(on.value));
     for (const double value : u) scale = std::max(scale, std::abs(value));
     const CellField<double> before = u;
-    account = newton.solve({.least_step = 0.01 * precision * (scale > 0.0 ? scale : 1.0)});
+    account = newton.solve({.least_step = 0.01 * precision * scale});
     const double change = parallel_max(u.size(), [&](Index c) { return std::abs(u[c] - before[c]); });
     if (!account.converged) break;
     if (change <= precision * scale) return account;

@@ -92,6 +92,15 @@ TEST(HeatCase, GoesOnAfterAStopToTheSameHeat) {
   }
 }
 
+TEST(HeatCase, ItsTimesStayWhenItGoesOn) {
+  const TemporaryCase directory(heated_block);
+  ASSERT_EQ(run({"run", directory.path().string(), "--quiet", "--max-steps", "3"}).status, 0);
+  const Outcome outcome = run({"run", directory.path().string(), "--restart", "--set", "loading.duration=1 ms"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.err.find("duration = \"0.00628319 s\", which cannot change on the way"), std::string::npos)
+      << outcome.err;
+}
+
 TEST(HeatCase, SaysThatCyclesDoNotRepeat) {
   std::string text = replaced(heated_block, "repeats_within = 0.01", "repeats_within = 1e-9");
   text = replaced(text, "maximum_increment = 0.025", "maximum_increment = 0.1");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -66,6 +67,18 @@ Mesh bead_in_box() {
   return make_particles_in_box(settings);
 }
 
+TEST_F(KnownFields, NearestIsTheNearestPoint) {
+  const Mesh mesh = bead_in_box();
+  VtuText text = vtu_text(mesh);
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) text.point_arrays["T"].push_back(static_cast<double>(p));
+  const FieldFile file = read(text);
+  for (const Vector& x : places(3.0)) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vector& point : mesh.points) least = std::min(least, (point - x).norm());
+    EXPECT_LT((mesh.points[static_cast<std::size_t>(value_at(file, x, true))] - x).norm(), least + 1e-12);
+  }
+}
+
 TEST_F(KnownFields, AtPointsOfAnyCellsAreLinear) {
   const Mesh mesh = bead_in_box();
   for (VtuText text : {vtu_text(mesh), vtu_text_of_polyhedra(mesh)}) {
@@ -113,6 +126,12 @@ TEST_F(KnownFields, TakeCellsOfSecondOrder) {
   for (const Vector& x : text.points) text.point_arrays["T"].push_back(linear(x));
   const Vector x(0.2, 0.3, 0.1);
   EXPECT_NEAR(value_at(read(text), x), linear(x), 1e-12);
+  // A flat mesh and the lines of its boundary, as meshio writes Gmsh's.
+  VtuText flat;
+  flat.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}, {0.5, 0.5, 0}, {0, 0.5, 0}};
+  flat.cells = {{22, {0, 1, 2, 3, 4, 5}, {}}, {21, {0, 1, 3}, {}}};
+  for (const Vector& at : flat.points) flat.point_arrays["T"].push_back(linear(at));
+  EXPECT_NEAR(value_at(read(flat), Vector(0.2, 0.3, 0.0)), linear(Vector(0.2, 0.3, 0.0)), 1e-12);
 }
 
 // A disc of triangles in the plane z = 5; of a second-order function the error falls with the square of its size.

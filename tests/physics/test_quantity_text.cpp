@@ -18,6 +18,7 @@ TEST(QuantityText, HasThePrefixThatLeavesFewDigits) {
   EXPECT_EQ(quantity_text(-0.1, "N"), "-100 mN");
   EXPECT_EQ(quantity_text(0.0, "m"), "0 m");
   EXPECT_EQ(quantity_text(999.97e-6, "m"), "1 mm");
+  EXPECT_EQ(quantity_text(99.7e-6, "m", 2), "100 um");
 }
 
 TEST(QuantityText, TakesPowersOfUnits) {

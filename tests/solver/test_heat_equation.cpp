@@ -164,6 +164,45 @@ TEST(HeatEquation, InterfacesAreResistancesInSeries) {
   }
 }
 
+// What warms by less than any figure that is printed is not lost: it adds up.
+TEST(HeatEquation, TinyHeatIsStored) {
+  const Mesh mesh = box(4, 1, 1, {0.02, 0.01, 0.01});
+  HeatEquation equation(mesh, uniform(mesh, {}));
+  const CellField<double> rise = warmed(equation, mesh, 1e-12, 1.0, 10);
+  for (const double value : rise) EXPECT_NEAR(value, 1e-12 / c, 1e-8 * 1e-12 / c);
+}
+
+// A sheet of skewed cells, one thick, of which nobody says that it is one: a field that is linear along it.
+TEST(HeatEquation, OneLayerOfSkewedCellsIsLinear) {
+  Mesh mesh = box(6, 6, 1, {0.01, 0.01, 0.002});
+  CellSoup soup{.points = mesh.points};
+  const auto bulge = [](Vector& x) {
+    const double by = 0.0015 * std::sin(100.0 * pi * x.x()) * std::sin(100.0 * pi * x.y());
+    x += Vector(by, by, 0.0);
+  };
+  soup.region_names = {"body"};
+  for (Index cell = 0; cell < mesh.n_cells(); ++cell) {
+    const auto points = mesh.points_of_cell(cell);
+    soup.add_cell(mesh.shape[cell], points, 0);
+  }
+  for (Vector& x : soup.points) bulge(x);
+  const auto at = [](double y) {
+    return PatchRule{
+        .name = y == 0.0 ? "low" : "high",
+        .holds = [y](const Vector& x, const Vector&, std::span<const Index>) { return std::abs(x.y() - y) < 1e-9; }};
+  };
+  const auto rest =
+      PatchRule{.name = "rest", .holds = [](const Vector&, const Vector&, std::span<const Index>) { return true; }};
+  mesh = assemble_mesh(std::move(soup), {at(0.0), at(0.01), rest});
+  HeatEquation equation(mesh, uniform(mesh, {{.patch = "low", .kind = Kind::value, .value = 0.0},
+                                             {.patch = "high", .kind = Kind::value, .value = 1.0}}));
+  const CellField<double> rise = warmed(equation, mesh, 0.0, 1e5, 20);
+  double worst = 0.0;
+  for (Index cell = 0; cell < mesh.n_cells(); ++cell)
+    worst = std::max(worst, std::abs(rise[cell] - 100.0 * mesh.cell_centre[cell].y()));
+  EXPECT_LT(worst, 0.02);
+}
+
 TEST(HeatEquation, RowsUnderASteadySource) {
   const Mesh mesh = box(4, 1, 1, {0.02, 0.01, 0.01});
   HeatEquation equation(mesh, uniform(mesh, {}));

@@ -137,6 +137,10 @@ std::optional<FractureState> state_to_go_on_from(const FractureProgram& program,
     if (state &&
         (state->damage.size() != initial.damage.size() || state->displacement.size() != initial.displacement.size()))
       throw InputError(fmt::format("{}: the checkpoint belongs to another mesh", session.results.string()));
+    if (state && state->heat.duration != initial.heat.duration)
+      throw InputError(
+          fmt::format("{}: its heat was made with [loading] duration = \"{:g} s\", which cannot change on the way",
+                      session.results.string(), state->heat.duration));
     if (state) require_steps_up_to(*state, session.results, program.fracture, n_column_sets);
     return state;
   } catch (const OtherCase& error) {

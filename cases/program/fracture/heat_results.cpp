@@ -1,5 +1,6 @@
 #include "cases/program/fracture/heat_results.h"
 
+#include "physics/quantity_text.h"
 #include "postproc/fields/vtu_writer.h"
 
 #include <fmt/format.h>
@@ -61,10 +62,6 @@ void write_field(const RunningCase& c, const CellField<double>& rise, double cyc
              time);
 }
 
-std::string shown(const Vector& x) {
-  return fmt::format("({:.3g}, {:.3g}, {:.3g}) um", 1e6 * x.x(), 1e6 * x.y(), 1e6 * x.z());
-}
-
 }  // namespace
 
 std::vector<std::string> columns_of_heat() {
@@ -98,9 +95,12 @@ std::map<std::string, double> heat_at_the_end(RunningCase& c) {
   if (!c.session.figures_only) write_field(c, rise, cycle_time, heat.time);
   c.session.log.say(
       fmt::format("heat: {:.4g} W, the mean of the last cycle, warm the body in {:g} s by at most {:.4g} K, at {}, and "
-                  "by {:.4g} K in the mean; {:.3g} % of the heat has left it ({}, {})",
-                  power, heat.time, end.figures.greatest, shown(end.figures.place), end.figures.mean,
-                  100.0 * end.account.lost / end.account.made, heat_over_time_file, heated_file));
+                  "by {:.4g} K in the mean{} ({}, {})",
+                  power, heat.time, end.figures.greatest, point_text(end.figures.place), end.figures.mean,
+                  end.account.made > 0.0
+                      ? fmt::format("; {:.3g} % of the heat has left it", 100.0 * end.account.lost / end.account.made)
+                      : "",
+                  heat_over_time_file, heated_file));
   std::vector<double> figures;
   add_figures(end.figures, end.account, figures);
   std::map<std::string, double> result = named("after_time", figure_columns, figures);

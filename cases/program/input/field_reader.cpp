@@ -156,6 +156,8 @@ void FieldInFile::Content::prepare_csv(const Dimension& due) {
   }
   if (used.size() == 1) throw value.error("name the columns of the coordinates x, y, z on which the field depends");
   leave_out_gaps(table, used);
+  for (std::size_t a = 0; a < 3; ++a)
+    if (varies[a]) text += fmt::format("{} ", "xyz"[a]);
   for (const std::vector<double>* column : used)
     for (const double entry : *column) text += fmt::format("{} ", entry);
   std::vector<Vector> points(columns[3].size(), Vector::Zero());
@@ -188,8 +190,10 @@ std::vector<double> FieldInFile::Content::looked_up(const Vector& x) const {
   for (std::size_t i = 0; i < frames->fields.size(); ++i) {
     const KnownField& field = *frames->fields[i];
     const Interpolation there = field.at(x, nearest);
-    const Box& box = field.places.around();
-    const double allowed = tolerance.value_or(0.01 * (box.high - box.low).norm());
+    Vector extent = field.places.around().high - field.places.around().low;
+    for (Eigen::Index a = 0; a < 3; ++a)
+      if (!field.varies[static_cast<std::size_t>(a)]) extent[a] = 0.0;
+    const double allowed = tolerance.value_or(0.01 * extent.norm());
     if (there.outside > allowed) throw outside(x, field, there.outside, allowed);
     const double here = units.factor * sum_of(there, frames->values[i]) + units.shift;
     if (!std::isfinite(here))
