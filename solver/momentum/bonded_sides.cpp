@@ -93,7 +93,7 @@ void BondedSides::add(const Mesh& mesh, const Unknowns& unknowns, const momentum
   const std::size_t first = samples_.size();
   for (const Index f : neighbours) {
     const Index node = unknowns.node_of_face[f];
-    if (node < 0 || !is_bonded(unknowns, node)) continue;
+    if (node < 0 || !unknowns.free_within(node).isZero()) continue;
     if (std::abs(mesh.face_area[f].normalized().dot(side.n)) < cosine) continue;
     const Vector d = mesh.face_centre[f] - mesh.face_centre[side.face], along = within * d;
     const double weight = 1.0 / d.squaredNorm();
