@@ -175,7 +175,8 @@ TEST(HeatEquation, TinyHeatIsStored) {
 // A sheet of skewed cells, one thick, of which nobody says that it is one: a field that is linear along it.
 TEST(HeatEquation, OneLayerOfSkewedCellsIsLinear) {
   Mesh mesh = box(6, 6, 1, {0.01, 0.01, 0.002});
-  CellSoup soup{.points = mesh.points};
+  CellSoup soup;
+  soup.points = mesh.points;
   const auto bulge = [](Vector& x) {
     const double by = 0.0015 * std::sin(100.0 * pi * x.x()) * std::sin(100.0 * pi * x.y());
     x += Vector(by, by, 0.0);
