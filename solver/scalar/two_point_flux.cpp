@@ -46,9 +46,9 @@ CellField<Index> smooth_zones(const Mesh& mesh, const CellField<double>& conduct
   return zone;
 }
 
-// The normal of the plane in which all centres of cells lie, as of a mesh one cell thick; zero of other meshes.
-// Gradients along it are not to be had from the cells, and those within it are.
-Vector plane_of_centres(const Mesh& mesh) {
+// The normal of a flat mesh one cell thick: all centres lie in a plane, and faces are along it or across. Gradients
+// along it are not to be had from the cells, and those within it are. Zero of other meshes, those of cones among them.
+Vector normal_of_flat_layer(const Mesh& mesh) {
   constexpr double flat = 1e-16;  // of the second moments
   Vector middle = Vector::Zero();
   for (Index c = 0; c < mesh.n_cells(); ++c) middle += mesh.cell_centre[c];
@@ -61,7 +61,12 @@ Vector plane_of_centres(const Mesh& mesh) {
   const Eigen::SelfAdjointEigenSolver<Tensor> modes(moment);
   const Vector& size = modes.eigenvalues();
   if (!(size[0] <= flat * size[2]) || size[1] <= flat * size[2]) return Vector::Zero();
-  return modes.eigenvectors().col(0);
+  const Vector normal = modes.eigenvectors().col(0);
+  constexpr double straight = 1e-6;
+  for (Index f = 0; f < mesh.n_faces(); ++f)
+    if (const double along = std::abs(unit_normal(mesh, f).dot(normal)); along > straight && along < 1.0 - straight)
+      return Vector::Zero();
+  return normal;
 }
 
 SymmetricCoupling coupling_of(const Mesh& mesh, const std::vector<TwoPointFlux::Link>& links) {
@@ -153,14 +158,14 @@ Gradient TwoPointFlux::build_gradient() const {
     if (link.corrected) wanted[as_size(link.P)] = wanted[as_size(link.N)] = 1;
   for (const Exchange& exchange : medium_.exchanges)
     if (exchange.corrected) wanted[as_size(exchange.cell)] = 1;
-  return Gradient(
-      mesh_, {.zone = smooth_zones(mesh_, medium_.conductance),
-              .node_of_face = {},
-              .cut = kinks(),
-              .shift = medium_.shift,
-              .plane_normal = medium_.plane_normal != Vector::Zero() ? medium_.plane_normal : plane_of_centres(mesh_),
-              .wanted = std::move(wanted),
-              .zero_if_deficient = true});
+  return Gradient(mesh_, {.zone = smooth_zones(mesh_, medium_.conductance),
+                          .node_of_face = {},
+                          .cut = kinks(),
+                          .shift = medium_.shift,
+                          .plane_normal = medium_.plane_normal != Vector::Zero() ? medium_.plane_normal
+                                                                                 : normal_of_flat_layer(mesh_),
+                          .wanted = std::move(wanted),
+                          .zero_if_deficient = true});
 }
 
 // The two-sided flux is c (u_N + grad_N.d_N - u_P - grad_P.d_P) plus the averaged normal gradients; what is beyond
