@@ -171,7 +171,7 @@ TEST(Comparison, PageOfASweepHasItsTableAndCurves) {
   const std::string html = content_of(sweep.results() / "report" / "index.html");
   EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
   const auto runs = data_of_page(html)["runs"];
-  EXPECT_EQ(data_of_page(html)["command"], fmt::format("./pfdm sweep {}", sweep.path().string()));
+  EXPECT_EQ(data_of_page(html)["command"], fmt::format("pfdm sweep {}", sweep.path().string()));
   const CsvTable table = read_csv(sweep.results() / "sweep.csv", {.has_gaps = true});
   ASSERT_EQ(runs["labels"].size(), 6u);
   EXPECT_EQ(runs["labels"][0], "weak.toughness=60J_m2,length=3mm");

@@ -636,10 +636,10 @@ TEST(CurveFit, RefusesWhatCannotBeFitted) {
   expect("[\"10 GPa\", \"90 GPa\"]", "[\"40 GPa\", \"90 GPa\"]",
          "the case's own value, 30 GPa, from which the fit starts, is outside these bounds");
   expect("force = { column = \"force_N\" }", "force = { column = \"force_N\" }\ndeviation = { column = \"s\" }",
-         "the standard deviation of \"one\" at 0 (SI) is zero");
+         "the standard deviation of \"one\" at 0 (SI), its point 1, is zero");
   expect_in("check", "force = { column = \"force_N\" }",
             "force = { column = \"force_N\" }\ndeviation = { column = \"s\" }",
-            "the standard deviation of \"one\" at 0 (SI) is zero");
+            "the standard deviation of \"one\" at 0 (SI), its point 1, is zero");
   expect("bounds = [\"10 GPa\"", "prior = { mean = \"30 GPa\", deviation = \"1 GPa\" }\nbounds = [\"10 GPa\"",
          "a prior requires the noise of the data to be known");
 }

@@ -119,7 +119,7 @@ Mesh cut_box() {
 TEST(Unknowns, EveryPartOfTheMeshMustBeHeld) {
   const Mesh mesh = cut_box();
   EXPECT_THAT(refusal(mesh, {clamped("xmin")}),
-              AllOf(HasSubstr("2 parts"), HasSubstr("(0.75, 0.5, 0.5) m"), HasSubstr("region \"right\", 8 of 16"),
+              AllOf(HasSubstr("2 parts"), HasSubstr("(750, 500, 500) mm"), HasSubstr("region \"right\", 8 of 16"),
                     HasSubstr("along x and y and z")));
   EXPECT_THAT(refusal(mesh, {clamped("xmin"), held_along("xmax", 0)}), HasSubstr("along y and z"));
   EXPECT_THAT(refusal(mesh, {of_kind("ymin", Kind::symmetry), of_kind("zmin", Kind::symmetry), clamped("xmin")}),
