@@ -3,6 +3,8 @@
 #include "solver/momentum/momentum_faces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace pfdm {
 namespace {
@@ -37,8 +39,29 @@ bool gaps_relax(const Material& material, bool in_plane_stress) {
 }
 
 IsotropicElasticity stiffest_against_volume(const Material& material) {
+  const PronyLaw* law = material.relaxing();
+  IsotropicElasticity worst = material.elasticity();
+  if (law == nullptr) return worst;
+  const auto consider = [&](const IsotropicElasticity& at) {
+    if (at.poisson_ratio() > worst.poisson_ratio()) worst = at;
+  };
   const IsotropicElasticity relaxed = material.relaxed_elasticity();
-  return {.lambda = material.elasticity().bulk_modulus() - 2.0 * relaxed.mu / 3.0, .mu = relaxed.mu};
+  consider(relaxed);
+  const auto left = [](const std::vector<PronyBranch>& branches, double time) {
+    double sum = 0.0;
+    for (const PronyBranch& branch : branches) sum += branch.modulus * std::exp(-time / branch.time);
+    return sum;
+  };
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const auto* branches : {&law->shear, &law->bulk})
+    for (const PronyBranch& branch : *branches)
+      least = std::min(least, branch.time), most = std::max(most, branch.time);
+  constexpr double step = 1.3;
+  for (double time = 0.1 * least; time < 30.0 * most; time *= step) {
+    const double mu = relaxed.mu + left(law->shear, time), K = relaxed.bulk_modulus() + left(law->bulk, time);
+    consider({.lambda = K - 2.0 * mu / 3.0, .mu = mu});
+  }
+  return worst;
 }
 
 RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, bool in_plane_stress)

@@ -24,8 +24,8 @@ namespace pfdm {
 /// were those of the relaxed elastic body).
 bool gaps_relax(const Material& material, bool in_plane_stress);
 
-/// The bulk modulus at once and the shear modulus at last: the greatest Poisson's ratio that a relaxing material can
-/// come to between them. That of the elasticity of other materials.
+/// The moduli of a relaxing material when its Poisson's ratio is greatest, after a strain that is held: at once, at
+/// last or between, where the shear has relaxed and the bulk has not. The elasticity of other materials.
 IsotropicElasticity stiffest_against_volume(const Material& material);
 
 class RelaxingGaps {
