@@ -22,6 +22,7 @@ matplotlib.use("Agg")
 import matplotlib.collections  # noqa: E402
 import matplotlib.colors  # noqa: E402
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.transforms  # noqa: E402
 import numpy  # noqa: E402
 from PIL import Image  # noqa: E402
 from vtkmodules.numpy_interface.dataset_adapter import WrapDataObject  # noqa: E402
@@ -160,9 +161,10 @@ def draw_body(axes, grid, options, window, most):
     axes.set_xlim(left, right), axes.set_ylim(bottom, top)
     axes.set_aspect("equal"), axes.set_axis_off()
     length = nice_length(right - left)
-    height = bottom - 0.03 * (top - bottom)
-    axes.plot([left, left + length], [height, height], color="0.1", linewidth=2.5, clip_on=False, solid_capstyle="butt")
-    axes.text(left + 1.1 * length, height, with_unit(length, "m"), va="center", fontsize=9)
+    below = axes.transData + matplotlib.transforms.ScaledTranslation(0.0, -0.12, axes.figure.dpi_scale_trans)
+    axes.plot([left, left + length], [bottom, bottom], color="0.1", linewidth=2.5, clip_on=False, solid_capstyle="butt",
+              transform=below)
+    axes.text(left + 1.1 * length, bottom, with_unit(length, "m"), va="center", fontsize=9, transform=below)
     return picture
 
 
@@ -193,9 +195,10 @@ def picture_of(file, row, curve, options, window, most):
     _, displacements, forces = curve
     tall = (window[3] - window[2]) / (window[1] - window[0])
     inches, columns = options.width / 100, (0.58, 0.42) if options.film else (1.0,)
-    figure = plt.figure(figsize=(inches, min(columns[0] * inches * 0.8 * tall, inches) + 0.75))
+    height = min(columns[0] * inches * 0.8 * tall, inches) + 0.75
+    figure = plt.figure(figsize=(inches, height))
     grid_spec = figure.add_gridspec(1, len(columns), width_ratios=columns, left=0.03, right=0.97 if options.film else 0.9,
-                                    bottom=0.15 if options.film else 0.08, top=0.88, wspace=0.45)
+                                    bottom=(0.6 if options.film else 0.3) / height, top=1.0 - 0.45 / height, wspace=0.45)
     body = figure.add_subplot(grid_spec[0])
     colours = draw_body(body, read_grid(file, options.colour), options, window, most)
     bar = figure.colorbar(colours, ax=body, fraction=0.045, pad=0.03, aspect=30)
@@ -203,7 +206,7 @@ def picture_of(file, row, curve, options, window, most):
     if options.film:
         draw_curve(figure.add_subplot(grid_spec[1]), displacements, forces, row)
     moved = "" if options.warp == 1.0 else f", drawn {options.warp:g} times as far"
-    figure.text(0.03, 0.94, f"{with_unit(displacements[row], 'm')}, {with_unit(forces[row], 'N')}{moved}", fontsize=11, weight="bold")
+    figure.text(0.03, 1.0 - 0.25 / height, f"{with_unit(displacements[row], 'm')}, {with_unit(forces[row], 'N')}{moved}", fontsize=11, weight="bold")
     memory = io.BytesIO()
     figure.savefig(memory, format="png", dpi=200)
     plt.close(figure)
