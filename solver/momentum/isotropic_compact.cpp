@@ -61,7 +61,8 @@ void IsotropicTractions::balance_pressures(const std::vector<Vector>&, Sweep& sw
   });
 }
 
-// What eigenstrains and histories add to these rows: V tr eps* and V p_0/K, less the fluxes of what their tractions move the faces by.
+// What eigenstrains and histories add to these rows: V tr eps* and V p_0/K, less the fluxes of what their tractions
+// move the faces by.
 void IsotropicTractions::take_away_constant_volumes(std::vector<Vector>& load) const {
   const std::vector<Index>& cells = skeleton_.unknowns.pressure_cells;
   if (!has_initial_stress() || cells.empty()) return;

@@ -403,10 +403,9 @@ TEST(BadInput, LengthThatTheStrengthDoesNotAllow) {
       replaced(cohesive, "poisson_ratio = 0.2\n", "poisson_ratio = 0.2\nstrength = \"40 MPa\"\n"));
   const Outcome outcome = run({"check", directory.path().string()});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(
-      outcome.err.find("the length (ell) is 4 mm; with this strength and toughness the \"linear\" law needs one "
-                       "of at most 1.19"),
-      std::string::npos)
+  EXPECT_NE(outcome.err.find("the length (ell) is 4 mm; with this strength and toughness the \"linear\" law needs one "
+                             "of at most 1.19"),
+            std::string::npos)
       << outcome.err;
 }
 

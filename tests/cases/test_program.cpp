@@ -301,9 +301,8 @@ TEST(Program, DoesNotWarnOfCoarseCellsThatNoCrackEnters) {
   const TemporaryCase fine(graded_bar());
   const Outcome within = run({"run", fine.path().string()});
   ASSERT_EQ(within.status, 0) << within.err;
-  EXPECT_THAT(within.out,
-              ::testing::HasSubstr("region \"bar\": cells are up to 500 um thick, ell is 600 um: a crack "
-                                   "is resolved in 32 of 48 cells"));
+  EXPECT_THAT(within.out, ::testing::HasSubstr("region \"bar\": cells are up to 500 um thick, ell is 600 um: a crack "
+                                               "is resolved in 32 of 48 cells"));
   EXPECT_THAT(within.out, ::testing::Not(::testing::HasSubstr("warning")));
 }
 
@@ -313,8 +312,7 @@ TEST(Program, WarnsOfABandThatIsNarrowerThanItsCracksProfile) {
                                          "\"bar\"] }\n"));
   const Outcome outcome = run({"check", directory.path().string()});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("region \"weak\" is 800 um wide: the profile of a crack in it, 16 mm"),
-            std::string::npos)
+  EXPECT_NE(outcome.out.find("region \"weak\" is 800 um wide: the profile of a crack in it, 16 mm"), std::string::npos)
       << outcome.out;
 }
 
