@@ -44,13 +44,6 @@ def faults_of_links(folder):
                 yield f"{file.relative_to(folder)}: {link} leads nowhere"
             elif parts.fragment and target in pages and unquote(parts.fragment) not in pages[target].places:
                 yield f"{file.relative_to(folder)}: {link}: no such place in that page"
-            elif parts.scheme == "" and tag_of_network(link):
-                yield f"{file.relative_to(folder)}: {link} needs a network"
-
-
-def tag_of_network(link):
-    """Whether a link without a scheme still leaves the site, as //host/path."""
-    return link.startswith("//")
 
 
 def faults_of_search(folder):
