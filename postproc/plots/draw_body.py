@@ -10,27 +10,21 @@ and python3-matplotlib; no display.
 """
 
 import argparse
-import csv
 import io
 import pathlib
-import re
-import xml.etree.ElementTree
 
-import matplotlib
+import matplotlib.collections
+import matplotlib.colors
+import matplotlib.transforms
+import numpy
+from PIL import Image
+from vtkmodules.numpy_interface.dataset_adapter import WrapDataObject
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPlane
+from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkCleanPolyData, vtkCutter, vtkFeatureEdges
 
-matplotlib.use("Agg")
-import matplotlib.collections  # noqa: E402
-import matplotlib.colors  # noqa: E402
-import matplotlib.pyplot as plt  # noqa: E402
-import matplotlib.transforms  # noqa: E402
-import numpy  # noqa: E402
-from PIL import Image  # noqa: E402
-from vtkmodules.numpy_interface.dataset_adapter import WrapDataObject  # noqa: E402
-from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPlane  # noqa: E402
-from vtkmodules.vtkFiltersCore import vtkCellDataToPointData, vtkCleanPolyData, vtkCutter, vtkFeatureEdges, vtkThreshold  # noqa: E402
-from vtkmodules.vtkFiltersGeneral import vtkWarpVector  # noqa: E402
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader  # noqa: E402
+from frames import cells_between, frame_at, frames_of, read_grid, run, warped
+from plotting import plt, read_columns
 
 AXES = {"xz": (0, 2, 1), "yz": (1, 2, 0), "xy": (0, 1, 2)}  # across the picture, up, normal to it
 DAMAGE = matplotlib.colors.LinearSegmentedColormap.from_list("damage", [
@@ -55,20 +49,11 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def frames_of(results):
-    """(time value, file, step) of all frames."""
-    rows = xml.etree.ElementTree.parse(results / "fields.pvd").findall(".//DataSet")
-    return [(float(row.get("timestep")), results / row.get("file"), int(re.search(r"(\d+)\.vtu", row.get("file"))[1]))
-            for row in rows]
-
-
 def curve_of(results):
     """Steps, displacements [m] and forces [N] along the direction of greatest force."""
-    with (results / "force_displacement.csv").open() as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    forces = numpy.array([[float(row[f"force_{axis}_N"]) for axis in "xyz"] for row in rows])
-    component = numpy.argmax(numpy.abs(forces).max(axis=0))
-    return [int(row["step"]) for row in rows], numpy.array([float(row["displacement_m"]) for row in rows]), forces[:, component]
+    columns = {name: numpy.array(values) for name, values in read_columns(results / "force_displacement.csv").items()}
+    force = max((columns[f"force_{axis}_N"] for axis in "xyz"), key=lambda values: numpy.abs(values).max())
+    return columns["step"].astype(int), columns["displacement_m"], force
 
 
 def prefix_of(value):
@@ -82,27 +67,9 @@ def with_unit(value, unit, digits=3):
     return f"{value / factor:.{digits}g} {prefix}{unit}"
 
 
-def run(a_filter, source):
-    a_filter.SetInputData(source)
-    a_filter.Update()
-    return a_filter.GetOutput()
-
-
-def cells_between(grid, field, low, high):
-    threshold = vtkThreshold()
-    threshold.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, field)
-    threshold.SetLowerThreshold(low)
-    threshold.SetUpperThreshold(high)
-    threshold.SetThresholdFunction(vtkThreshold.THRESHOLD_BETWEEN)
-    return run(threshold, grid)
-
-
-def read_grid(file, colour):
+def coloured_grid(file, colour):
     """The cells of a frame with the values that colour them, in the field "colour"."""
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    grid = WrapDataObject(reader.GetOutput())
+    grid = WrapDataObject(read_grid(file))
     if colour == "damage":
         values = numpy.array(grid.CellData["damage"])
     else:
@@ -129,10 +96,7 @@ def sections(grid, point, normal, warp):
         cut = run(cutter, part)
         if cut.GetNumberOfPolys() == 0:
             continue
-        mover = vtkWarpVector()
-        mover.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "displacement")
-        mover.SetScaleFactor(warp)
-        moved = WrapDataObject(run(vtkCleanPolyData(), run(mover, cut)))  # cells share the points that they have in common
+        moved = WrapDataObject(run(vtkCleanPolyData(), warped(cut, warp)))  # cells share the points that they have in common
         edges = vtkFeatureEdges()
         edges.ColoringOff()
         edges.FeatureEdgesOff()
@@ -200,7 +164,7 @@ def picture_of(file, row, curve, options, window, most):
     grid_spec = figure.add_gridspec(1, len(columns), width_ratios=columns, left=0.03, right=0.97 if options.film else 0.9,
                                     bottom=(0.6 if options.film else 0.3) / height, top=1.0 - 0.45 / height, wspace=0.45)
     body = figure.add_subplot(grid_spec[0])
-    colours = draw_body(body, read_grid(file, options.colour), options, window, most)
+    colours = draw_body(body, coloured_grid(file, options.colour), options, window, most)
     bar = figure.colorbar(colours, ax=body, fraction=0.045, pad=0.03, aspect=30)
     bar.set_label(LOOKS[options.colour][0], fontsize=9), bar.ax.tick_params(labelsize=8), bar.outline.set_visible(False)
     if options.film:
@@ -218,7 +182,7 @@ def main():
     options = parse_arguments()
     plt.rcParams.update({"font.size": 9, "font.family": ["Liberation Sans", "DejaVu Sans"]})
     frames, curve = frames_of(options.results), curve_of(options.results)
-    last = read_grid(frames[-1][1], options.colour)
+    last = coloured_grid(frames[-1][1], options.colour)
     bounds = last.GetBounds()
     options.through = options.through or [0.5 * (bounds[2 * axis] + bounds[2 * axis + 1]) for axis in range(3)]
     window = window_of(last, options)
@@ -226,8 +190,8 @@ def main():
                             float(numpy.percentile(numpy.array(WrapDataObject(last).CellData["colour"]), 99.5)))
     row_of = {step: row for row, step in enumerate(curve[0])}
     if options.film is None:
-        frame = frames[-1] if options.at is None else min(frames, key=lambda f: abs(f[0] - options.at))
-        picture_of(frame[1], row_of[frame[2]], curve, options, window, most).save(options.output, optimize=True)
+        _, file, step = frame_at(frames, options.at)
+        picture_of(file, row_of[step], curve, options, window, most).save(options.output, optimize=True)
         print(options.output)
         return
     pictures = [picture_of(file, row_of[step], curve, options, window, most) for _, file, step in frames]

@@ -9,20 +9,19 @@ it) and, where there is no display, xvfb. ParaView's pvpython runs it as well.
 
 import argparse
 import pathlib
-import xml.etree.ElementTree
 
 import vtkmodules.vtkInteractionStyle  # noqa: F401  (VTK's factories)
 import vtkmodules.vtkRenderingFreeType  # noqa: F401
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPlane
-from vtkmodules.vtkFiltersCore import vtkCutter, vtkFeatureEdges, vtkThreshold
-from vtkmodules.vtkFiltersGeneral import vtkWarpVector
+from vtkmodules.vtkCommonDataModel import vtkPlane
+from vtkmodules.vtkFiltersCore import vtkCutter, vtkFeatureEdges
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer,
                                          vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter)
+
+from frames import cells_between, frame_at, frames_of, read_grid, run, warped
 
 PICTURE = (1400, 1000)
 WHITE, BLACK, GLASS, EDGE = (1, 1, 1), (0.1, 0.1, 0.1), (0.80, 0.83, 0.87), (0.45, 0.45, 0.45)
@@ -44,41 +43,6 @@ def parse_arguments():
     parser.add_argument("--band", type=float, default=0.9, help="least damage of the debonded band")
     parser.add_argument("--zoom", type=float, default=1.0)
     return parser.parse_args()
-
-
-def read_frame(results, time):
-    """The grid and the time value of the frame nearest to the given one."""
-    rows = xml.etree.ElementTree.parse(results / "fields.pvd").findall(".//DataSet")
-    frames = [(float(row.get("timestep")), row.get("file")) for row in rows]
-    if not frames:
-        raise SystemExit(f"{results} has no frames")
-    time, file = frames[-1] if time is None else min(frames, key=lambda frame: abs(frame[0] - time))
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(results / file))
-    reader.Update()
-    return reader.GetOutput(), time
-
-
-def run(a_filter, source):
-    a_filter.SetInputData(source)
-    a_filter.Update()
-    return a_filter.GetOutput()
-
-
-def cells_between(grid, field, low, high):
-    threshold = vtkThreshold()
-    threshold.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, field)
-    threshold.SetLowerThreshold(low)
-    threshold.SetUpperThreshold(high)
-    threshold.SetThresholdFunction(vtkThreshold.THRESHOLD_BETWEEN)
-    return run(threshold, grid)
-
-
-def warped(grid, factor):
-    warp = vtkWarpVector()
-    warp.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "displacement")
-    warp.SetScaleFactor(factor)
-    return run(warp, grid)
 
 
 def section(data, centre, normal):
@@ -224,7 +188,8 @@ def band_actors(grid, bead, least_damage):
 def main():
     options = parse_arguments()
     options.output.mkdir(parents=True, exist_ok=True)
-    grid, time = read_frame(options.results, options.time)
+    time, file, _ = frame_at(frames_of(options.results), options.time)
+    grid = read_grid(file)
     if options.warp:
         grid = warped(grid, options.warp)
     drawn = cells_between(grid, "damage", 0.0, 0.95) if options.gaps else grid
