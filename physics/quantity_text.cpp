@@ -10,11 +10,7 @@
 namespace pfdm {
 namespace {
 
-struct Prefix {
-  int power;  // of a thousand
-  std::string_view sign;
-};
-constexpr std::array<Prefix, 8> prefixes{
+constexpr std::array<UnitPrefix, 8> prefixes{
     {{-4, "p"}, {-3, "n"}, {-2, "u"}, {-1, "m"}, {0, ""}, {1, "k"}, {2, "M"}, {3, "G"}}};
 
 /// A number with some digits, whole where it has more before the point: "12346" rather than "1.235e+04".
@@ -43,6 +39,8 @@ std::string joined(std::initializer_list<double> values, double factor, std::str
 
 }  // namespace
 
+std::span<const UnitPrefix> unit_prefixes() { return prefixes; }
+
 ScaledUnit scaled_unit(double largest, std::string_view si_unit) {
   const auto letters = static_cast<std::size_t>(
       std::ranges::find_if(si_unit, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) == 0; }) -
@@ -50,11 +48,11 @@ ScaledUnit scaled_unit(double largest, std::string_view si_unit) {
   const std::string_view rest = si_unit.substr(letters);
   const int exponent = rest.starts_with("^2") ? 2 : rest.starts_with("^3") ? 3 : 1;
   const double least = exponent == 1 ? 0.9995 : 1e-3;  // 0.02 mm^3 rather than 2e+07 um^3
-  const Prefix* chosen = &prefixes[4];
+  const UnitPrefix* chosen = &prefixes[4];
   const double magnitude = std::abs(largest);
-  const auto of = [&](const Prefix& prefix) { return std::pow(1e3, prefix.power * exponent); };
+  const auto of = [&](const UnitPrefix& prefix) { return std::pow(1e3, prefix.power * exponent); };
   if (magnitude >= least * of(prefixes.front()) && magnitude < 1e4 * of(prefixes.back()))
-    for (const Prefix& prefix : prefixes)
+    for (const UnitPrefix& prefix : prefixes)
       if (magnitude >= least * of(prefix) && (prefix.power <= 1 || !si_unit.starts_with("m"))) chosen = &prefix;
   return {.factor = std::pow(1e3, -chosen->power * exponent), .name = fmt::format("{}{}", chosen->sign, si_unit)};
 }

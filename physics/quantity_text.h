@@ -2,10 +2,18 @@
 // Quantities in SI as people write them, in words of messages.
 
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace pfdm {
+
+struct UnitPrefix {
+  int power;  ///< of a thousand
+  std::string_view sign;
+};
+/// From p to G, in ASCII: "u" of a millionth.
+std::span<const UnitPrefix> unit_prefixes();
 
 struct ScaledUnit {
   double factor = 1.0;  ///< of a number in SI

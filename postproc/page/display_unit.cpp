@@ -4,20 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 namespace pfdm {
 namespace {
-
-struct Prefix {
-  int power;  // of a thousand
-  std::string_view sign;
-};
-constexpr std::array<Prefix, 8> prefixes{
-    {{-4, "p"}, {-3, "n"}, {-2, "µ"}, {-1, "m"}, {0, ""}, {1, "k"}, {2, "M"}, {3, "G"}}};
 
 /// "mm²" as prefix, base and power, in every way that it can be read.
 struct ReadUnit {
@@ -34,9 +26,11 @@ std::vector<ReadUnit> readings(std::string_view unit) {
       break;
     }
   std::vector<ReadUnit> found;
-  for (const Prefix& prefix : prefixes)
-    if (unit.starts_with(prefix.sign) && unit.size() > prefix.sign.size())
-      found.push_back({prefix.power, unit.substr(prefix.sign.size()), power});
+  for (const UnitPrefix& prefix : unit_prefixes()) {
+    const std::string_view sign = prefix.sign == "u" ? "µ" : prefix.sign;
+    if (unit.starts_with(sign) && unit.size() > sign.size())
+      found.push_back({prefix.power, unit.substr(sign.size()), power});
+  }
   return found;
 }
 
