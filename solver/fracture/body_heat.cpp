@@ -31,7 +31,7 @@ BodyHeat::BodyHeat(const Mesh& mesh, const FractureModel& model, const Vector& p
   equation_ = std::make_unique<HeatEquation>(mesh, std::move(body));
 }
 
-HeatState BodyHeat::start() const {
+HeatState BodyHeat::start(double duration) const {
   if (!any()) return {};
   std::size_t n_faces = 0;
   for (const CohesiveSurface& surface : model_.interfaces) n_faces += surface.faces.size();
@@ -40,7 +40,8 @@ HeatState BodyHeat::start() const {
           .made = CellField<double>(n, 0.0),
           .cycle = {},
           .transmitted = std::vector<double>(n_faces, 0.0),
-          .cycle_transmittance = {}};
+          .cycle_transmittance = {},
+          .duration = duration};
 }
 
 std::vector<double> BodyHeat::transmittance(const std::vector<char>& parted) const {
@@ -94,12 +95,11 @@ bool BodyHeat::repeats(const HeatState& heat) const {
   return any() && model_.heat->cycle > 0.0 && heat.cycle_change <= model_.heat->repeats_within;
 }
 
-std::vector<HeatRow> BodyHeat::warm_by_cycles(const HeatState& heat, double duration, double time, Index n,
-                                              CellField<double>& rise) {
+std::vector<HeatRow> BodyHeat::warm_by_cycles(const HeatState& heat, double time, Index n, CellField<double>& rise) {
   if (!any() || heat.cycle.size() == 0)
     throw ComputationError("heat: there is no whole cycle whose heat could warm the body");
   CellField<double> power = heat.cycle;
-  for (double& q : power) q /= model_.heat->cycle * duration;
+  for (double& q : power) q /= model_.heat->cycle * heat.duration;
   equation_->set_transmittance(heat.cycle_transmittance);
   rise = CellField<double>(as_size(mesh_.n_cells()), 0.0);
   return equation_->under_steady_source(power, time, n, rise);

@@ -19,7 +19,7 @@ class BodyHeat {
   BodyHeat(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal);
 
   bool any() const { return equation_ != nullptr; }
-  HeatState start() const;
+  HeatState start(double duration) const;  ///< of a load parameter of 1 [s]
   /// Takes the heat from a state to the one at the end of a step, of which all else is known.
   void advance(const Staggered& staggered, const FractureState& from, double duration, FractureState& to);
   HeatReport report(const HeatState& heat) const;
@@ -27,9 +27,8 @@ class BodyHeat {
   double end_of_cycle(double load) const;
   /// Whether the last whole cycle made the same heat everywhere as the one before.
   bool repeats(const HeatState& heat) const;
-  /// From rise zero on; `duration` is that of a load parameter of 1 [s].
-  std::vector<HeatRow> warm_by_cycles(const HeatState& heat, double duration, double time, Index n,
-                                      CellField<double>& rise);
+  /// From rise zero on.
+  std::vector<HeatRow> warm_by_cycles(const HeatState& heat, double time, Index n, CellField<double>& rise);
   /// Adds the rise and what has been made to the fields of the output.
   void show(const HeatState& heat, std::vector<OutputHistory>& fields) const;
 

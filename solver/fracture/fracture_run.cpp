@@ -263,8 +263,7 @@ FractureState FractureRun::initial_state() const {
   state.histories = parts_->staggered.stiffness().materials().virgin_histories();
   state.interfaces = parts_->staggered.faces().virgin_histories();
   state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
-  state.heat = parts_->heat.start();
-  if (parts_->heat.any()) state.heat.duration = parts_->loading.duration;
+  state.heat = parts_->heat.start(parts_->loading.duration);
   return state;
 }
 
@@ -326,7 +325,7 @@ OutputFields FractureRun::output(const FractureState& state) {
 
 std::vector<HeatRow> FractureRun::warm_by_cycles(const FractureState& state, double time, Index n,
                                                  CellField<double>& rise) {
-  return parts_->heat.warm_by_cycles(state.heat, parts_->loading.duration, time, n, rise);
+  return parts_->heat.warm_by_cycles(state.heat, time, n, rise);
 }
 
 std::vector<std::string> FractureRun::interface_warnings() const {

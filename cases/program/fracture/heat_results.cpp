@@ -89,7 +89,7 @@ std::map<std::string, double> heat_at_the_end(RunningCase& c) {
   CellField<double> rise;
   const std::vector<HeatRow> rows = c.run.warm_by_cycles(c.state, heat.time, heat.time_steps, rise);
   const HeatRow& end = rows.back();
-  const double cycle_time = heat.model.cycle * c.program.fracture.loading.duration;
+  const double cycle_time = heat.model.cycle * c.state.heat.duration;
   const double power = std::accumulate(c.state.heat.cycle.begin(), c.state.heat.cycle.end(), 0.0) / cycle_time;
   write_rows(c, rows);
   if (!c.session.figures_only) write_field(c, rise, cycle_time, heat.time);
