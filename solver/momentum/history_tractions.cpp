@@ -99,12 +99,6 @@ Vector HistoryTractions::initial_traction(Index cell, const Vector& n, std::size
   return of_cell + (is_N ? -1.0 : 1.0) * initial_of_gaps_[turn];
 }
 
-Vector HistoryTractions::initial_jump(std::size_t i) const {
-  const momentum_faces::Link& link = skeleton_.links[i];
-  return initial_traction(link.N, link.n, FaceSkeleton::turn_N(i)) -
-         initial_traction(link.P, link.n, FaceSkeleton::turn_P(i));
-}
-
 double HistoryTractions::free_volume_change(Index cell) const {
   const double by_history = -pressure_[cell] / cells_.pressure().modulus(cell);
   return eigenstrain_.any() ? by_history + trace(eigenstrain_[cell]) : by_history;

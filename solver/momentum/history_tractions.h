@@ -34,7 +34,6 @@ class HistoryTractions final : public IsotropicTractions {
   bool has_initial_stress() const override { return true; }
   Tensor initial_stress(Index cell) const override { return to_tensor(stress_[cell].initial); }
   Vector initial_traction(Index cell, const Vector& n, std::size_t turn) const override;
-  Vector initial_jump(std::size_t link) const override;
   double free_volume_change(Index cell) const override;
   Vector own_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
                       const IsotropicSweep& s) const override;

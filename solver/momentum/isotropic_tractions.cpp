@@ -163,7 +163,7 @@ Vector IsotropicTractions::link_displacement(std::size_t i, const std::vector<Ve
   const Vector from_P = u[as_size(link.P)] + rise(link.P, link.d_P, P, s);
   const Vector from_N = u[as_size(link.N)] + rise(link.N, link.d_N, N, s);
   Vector stress_jump = own_traction(link.N, link.n, link.d_N, N, s) - own_traction(link.P, link.n, link.d_P, P, s);
-  if (has_initial_stress()) stress_jump += initial_traction(link.N, link.n, N) - initial_traction(link.P, link.n, P);
+  if (has_initial_stress()) stress_jump += initial_jump(i);
   return from_P + weigh(i, from_N - from_P) + give(i, stress_jump);
 }
 

@@ -90,9 +90,10 @@ class IsotropicTractions : public SmallTractions {
   // On n of the side of a face that is number `turn` of the cell [Pa].
   virtual Vector initial_traction(Index cell, const Vector& n, std::size_t) const { return initial_stress_[cell] * n; }
   // N's less P's on a link [Pa].
-  virtual Vector initial_jump(std::size_t link) const {
+  Vector initial_jump(std::size_t link) const {
     const momentum_faces::Link& on = skeleton_.links[link];
-    return (initial_stress_[on.N] - initial_stress_[on.P]) * on.n;
+    return initial_traction(on.N, on.n, FaceSkeleton::turn_N(link)) -
+           initial_traction(on.P, on.n, FaceSkeleton::turn_P(link));
   }
   // Volume change [-] of a cell whose pressure is zero.
   virtual double free_volume_change(Index cell) const { return to_tensor(eigenstrain_[cell]).trace(); }
