@@ -8,9 +8,23 @@
 #include <numeric>
 #include <string>
 
+#include "mesh/generators/particles_in_box.h"
 #include "mesh/mesh.h"
 
 namespace pfdm {
+
+/// A sphere of radius 1 in layers of wedges, in a box of tetrahedra.
+inline Mesh wedges_and_tetrahedra() {
+  ParticlesInBoxSettings settings;
+  settings.lower = Vector::Constant(-3.0);
+  settings.upper = Vector::Constant(3.0);
+  settings.particles.resize(1);
+  settings.particles[0].radius = 1.0;
+  settings.particles[0].subdivision = 3;
+  settings.particles[0].n_layers = 3;
+  settings.particles[0].layer_thickness = 0.3;
+  return make_particles_in_box(settings);
+}
 
 inline double total_volume(const Mesh& mesh) {
   return std::accumulate(mesh.cell_volume.begin(), mesh.cell_volume.end(), 0.0);

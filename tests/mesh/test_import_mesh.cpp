@@ -71,20 +71,8 @@ void expect_same_cells(const Mesh& a, const Mesh& b) {
   for (std::size_t c = 0; c < volumes_a.size(); ++c) EXPECT_NEAR(volumes_a[c] / volumes_b[c], 1.0, 1e-12);
 }
 
-ParticlesInBoxSettings wedges_and_tetrahedra() {
-  ParticlesInBoxSettings settings;
-  settings.lower = Vector::Constant(-3.0);
-  settings.upper = Vector::Constant(3.0);
-  settings.particles.resize(1);
-  settings.particles[0].radius = 1.0;
-  settings.particles[0].subdivision = 3;
-  settings.particles[0].n_layers = 3;
-  settings.particles[0].layer_thickness = 0.3;
-  return settings;
-}
-
 TEST_F(ImportVtk, WedgesAndTetrahedraComeBack) {
-  const Mesh original = make_particles_in_box(wedges_and_tetrahedra());
+  const Mesh original = wedges_and_tetrahedra();
   for (const char* name : {"mesh.vtu", "mesh.vtk"}) {
     ImportSettings settings = write(vtu_text(original), name);
     settings.region_names = {{original.region_index("bead"), "glass"}};
@@ -100,7 +88,7 @@ TEST_F(ImportVtk, WedgesAndTetrahedraComeBack) {
 }
 
 TEST_F(ImportVtk, PolyhedraComeBack) {
-  const Mesh original = make_particles_in_box(wedges_and_tetrahedra());
+  const Mesh original = wedges_and_tetrahedra();
   const Mesh mesh = import_vtk(write(vtu_text_of_polyhedra(original)));
   expect_sound(mesh);
   expect_same_cells(mesh, original);

@@ -11,8 +11,8 @@
 
 #include "mesh/files/field_file.h"
 #include "mesh/generators/box_hexes.h"
-#include "mesh/generators/particles_in_box.h"
 #include "mesh/scattered_field.h"
+#include "mesh_checks.h"
 #include "physics/error.h"
 #include "vtu_text.h"
 
@@ -55,20 +55,8 @@ class KnownFields : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-Mesh bead_in_box() {
-  ParticlesInBoxSettings settings;
-  settings.lower = Vector::Constant(-3.0);
-  settings.upper = Vector::Constant(3.0);
-  settings.particles.resize(1);
-  settings.particles[0].radius = 1.0;
-  settings.particles[0].subdivision = 3;
-  settings.particles[0].n_layers = 3;
-  settings.particles[0].layer_thickness = 0.3;
-  return make_particles_in_box(settings);
-}
-
 TEST_F(KnownFields, NearestIsTheNearestPoint) {
-  const Mesh mesh = bead_in_box();
+  const Mesh mesh = wedges_and_tetrahedra();
   VtuText text = vtu_text(mesh);
   for (std::size_t p = 0; p < mesh.points.size(); ++p) text.point_arrays["T"].push_back(static_cast<double>(p));
   const FieldFile file = read(text);
@@ -80,7 +68,7 @@ TEST_F(KnownFields, NearestIsTheNearestPoint) {
 }
 
 TEST_F(KnownFields, AtPointsOfAnyCellsAreLinear) {
-  const Mesh mesh = bead_in_box();
+  const Mesh mesh = wedges_and_tetrahedra();
   for (VtuText text : {vtu_text(mesh), vtu_text_of_polyhedra(mesh)}) {
     for (const Vector& x : mesh.points) text.point_arrays["T"].push_back(linear(x));
     const FieldFile file = read(text);
@@ -92,7 +80,7 @@ TEST_F(KnownFields, AtPointsOfAnyCellsAreLinear) {
 }
 
 TEST_F(KnownFields, InCellsAreLinearBetweenCentroids) {
-  const Mesh mesh = bead_in_box();
+  const Mesh mesh = wedges_and_tetrahedra();
   for (VtuText text : {vtu_text(mesh), vtu_text_of_polyhedra(mesh)}) {
     for (Index c = 0; c < mesh.n_cells(); ++c) text.cell_arrays["T"].push_back(linear(mesh.cell_centre[c]));
     const FieldFile file = read(text);
