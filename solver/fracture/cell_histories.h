@@ -1,6 +1,6 @@
 #pragma once
 // What the materials of the cells remember: for each cell with a history the displacement gradient that it has reached,
-// then the numbers of its law (physics/materials/material.h).
+// then the numbers of its law (physics/materials/material.h) and of its gaps (relaxing_gaps.h).
 
 #include "mesh/fields.h"
 
@@ -16,7 +16,7 @@ struct CellHistories {
   std::vector<double> values;
 
   CellHistories() = default;
-  /// A virgin gradient and as many zeros as each cell's law asks for; cells without a history have size 0.
+  /// A virgin gradient and as many zeros as each cell's law and gaps ask for; cells without a history have size 0.
   explicit CellHistories(const std::vector<std::size_t>& sizes) : first{0} {
     first.reserve(sizes.size() + 1);
     for (const std::size_t n : sizes) first.push_back(first.back() + (n > 0 ? n_gradient + n : 0));
@@ -35,7 +35,7 @@ struct CellHistories {
   Eigen::Map<const Tensor> gradient(Index cell) const {
     return Eigen::Map<const Tensor>(values.data() + first[as_size(cell)]);
   }
-  /// The numbers of the cell's law.
+  /// The numbers of the cell's law, then those of its gaps.
   std::span<double> of(Index cell) { return std::span(values).subspan(begin(cell), size(cell)); }
   std::span<const double> of(Index cell) const { return std::span(values).subspan(begin(cell), size(cell)); }
   friend bool operator==(const CellHistories&, const CellHistories&) = default;

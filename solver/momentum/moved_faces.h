@@ -9,10 +9,10 @@
 //   own displacement, u_f less the mean u_p of the polygon: V = sum of volumes between polygons + (u_f - u_p).S. Its
 //   derivative by u_f is the area vector S on which the pressure acts.
 //
-// On free and split faces of hexahedra and prisms S is cof F N of the cell, on bonded sides that of the surface: the
-// points of a free face that has another one opposite to it move with shears that the cell does not resolve, and a
-// pressure on their polygon is unstable. Tetrahedra and polyhedra have no such shears. There cof F N, with which the
-// areas of the cell's faces do not add up to zero, is what is unstable.
+// On free and split faces of hexahedra and prisms S is cof F N of the cell, on bonded sides and on surfaces of layers
+// that bend that of the side's own gradient: the points of a free face that has another one opposite to it move with
+// shears that the cell does not resolve, and a pressure on their polygon is unstable. Tetrahedra and polyhedra have no
+// such shears. There cof F N, with which the areas of the cell's faces do not add up to zero, is what is unstable.
 //
 // Points on planes of symmetry stay there; points of faces whose displacement is prescribed, in some directions or in
 // all, move with these faces in those directions. Faces of broken cells count little.
