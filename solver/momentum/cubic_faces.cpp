@@ -14,6 +14,9 @@ namespace {
 
 using namespace cubic;
 
+// A vector and a zero: as long as the vectors of the processor's units.
+using Wide = Eigen::Vector4d;
+
 // Points and weights of a rule for quadratics over a face: the middles of the
 // edges of its triangles.
 template <class Add>
@@ -238,27 +241,30 @@ void CubicFaces::leave_out() {
 
 void CubicFaces::read(const std::vector<Vector>& u, const CellField<Tensor>& gradients,
                       std::vector<Change>& changes) const {
-  parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
-    const Cell& fit = cells_[as_size(i)];
-    const Vector& here = u[as_size(fit.cell)];
-    const Tensor& G = gradients[fit.cell];
-    const Coefficient* by = &coefficients_[fit.first_coefficient];
-    for (std::size_t k = fit.first_side; k < fit.first_side + fit.n_sides; ++k) {
-      Change& change = changes[side_numbers_[k]];
-      if (fit.weight == 0.0) {
+  parallel_chunks(static_cast<Index>(cells_.size()), [&](Index begin, Index end) {
+    std::vector<Wide> moved;  // samples against the cell
+    for (Index i = begin; i < end; ++i) {
+      const Cell& fit = cells_[as_size(i)];
+      const Vector& here = u[as_size(fit.cell)];
+      if (moved.size() < fit.n_samples) moved.resize(fit.n_samples, Wide::Zero());
+      for (std::size_t s = 0; s < fit.n_samples; ++s)
+        moved[s].head<3>() = u[as_size(samples_[fit.first_sample + s])] - here;
+      const Tensor& G = gradients[fit.cell];
+      const Coefficient* by = &coefficients_[fit.first_coefficient];
+      for (std::size_t k = fit.first_side; k < fit.first_side + fit.n_sides; ++k, by += fit.n_samples) {
+        Change& change = changes[side_numbers_[k]];
         change = {};
-        continue;
+        if (fit.weight == 0.0) continue;
+        Wide rise = Wide::Zero();
+        std::array<Wide, 3> slope{rise, rise, rise};
+        for (std::size_t s = 0; s < fit.n_samples; ++s) {
+          for (int a = 0; a < 3; ++a) slope[as_size(a)] += by[s].gradient[a] * moved[s];
+          rise += by[s].value * moved[s];
+        }
+        for (int a = 0; a < 3; ++a) change.gradient.col(a) = slope[as_size(a)].head<3>();
+        change.gradient = fit.weight * (change.gradient - G);
+        change.rise = fit.weight * (rise.head<3>() - G * to_face_[k]);
       }
-      Tensor gradient = Tensor::Zero();
-      Vector rise = Vector::Zero();
-      for (std::size_t s = fit.first_sample; s < fit.first_sample + fit.n_samples; ++s) {
-        const Vector moved = u[as_size(samples_[s])] - here;
-        gradient.noalias() += moved * by->gradient.transpose();
-        rise += by->value * moved;
-        ++by;
-      }
-      change.gradient = fit.weight * (gradient - G);
-      change.rise = fit.weight * (rise - G * to_face_[k]);
     }
   });
 }
