@@ -85,14 +85,19 @@ Json to_json(const std::vector<ExperimentMisfit>& experiments) {
   return list;
 }
 
+Json to_json(const RunCounts& runs) {
+  return {{"made", runs.made}, {"reused", runs.reused}, {"not_converged", runs.failed}};
+}
+
 Json to_json(const FractureFindings& own) {
   Json stages = Json::array();
   for (const FitStage& s : own.earlier_stages) {
     stages.push_back({{"name", s.name}, {"from_m", s.from}, {"to_m", s.to}});
     stages.back().update(to_json(s.found));
   }
-  return {{"earlier_stages", stages},
-          {"runs", {{"made", own.runs.made}, {"reused", own.runs.reused}, {"not_converged", own.runs.failed}}}};
+  Json json{{"earlier_stages", stages}, {"runs", to_json(own.runs)}};
+  if (own.coarse_runs) json["coarse_runs"] = to_json(*own.coarse_runs);
+  return json;
 }
 
 std::optional<FittedProfile> profile_in(const Json& parameter) {

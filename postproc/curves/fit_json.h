@@ -98,6 +98,7 @@ struct OwnFindings {
 struct FractureFindings {
   std::vector<FitStage> earlier_stages;
   RunCounts runs;
+  std::optional<RunCounts> coarse_runs = std::nullopt;  ///< of a coarser case that led the fit
 };
 OwnFindings own_findings(const FractureFindings& findings);
 

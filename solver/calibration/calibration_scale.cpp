@@ -36,11 +36,25 @@ double ScaledModel::natural(std::size_t j, double u) const {
   return p.log_scale ? p.first * std::exp(u) : scale_[j] * u;
 }
 
-Eigen::VectorXd ScaledModel::first() const {
+Eigen::VectorXd ScaledModel::from(const std::vector<double>& parameters) const {
   Eigen::VectorXd u(static_cast<Eigen::Index>(n_parameters()));
-  for (std::size_t j = 0; j < n_parameters(); ++j)
-    u[static_cast<Eigen::Index>(j)] = scaled(j, problem_.parameters[j].first);
+  for (std::size_t j = 0; j < n_parameters(); ++j) u[static_cast<Eigen::Index>(j)] = scaled(j, parameters[j]);
   return u;
+}
+
+std::optional<std::vector<double>> ScaledModel::within_bounds(const Eigen::VectorXd& u) const {
+  for (std::size_t j = 0; j < n_parameters(); ++j) {
+    const auto [lower, upper] = bounds(j);
+    const double value = u[static_cast<Eigen::Index>(j)];
+    if (value < lower || value > upper) return std::nullopt;
+  }
+  return natural(u);
+}
+
+Eigen::VectorXd ScaledModel::first() const {
+  std::vector<double> values;
+  for (const FitParameter& p : problem_.parameters) values.push_back(p.first);
+  return from(values);
 }
 
 Eigen::VectorXd ScaledModel::start() const {

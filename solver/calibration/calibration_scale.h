@@ -27,6 +27,14 @@ class ScaledModel {
   std::vector<double> natural(const Eigen::VectorXd& u) const;
   double natural(std::size_t j, double u) const;
   std::pair<double, double> bounds(std::size_t j) const;
+  /// From parameters to scaled ones.
+  Eigen::VectorXd from(const std::vector<double>& parameters) const;
+  /// Of two points, both given as parameters, in scaled ones.
+  double distance(const std::vector<double>& a, const std::vector<double>& b) const {
+    return (from(a) - from(b)).norm();
+  }
+  /// The parameters; nothing if one is beyond its bounds.
+  std::optional<std::vector<double>> within_bounds(const Eigen::VectorXd& u) const;
   double scale(std::size_t j) const { return scale_[j]; }  ///< parameter over scaled one; 1 on a logarithmic scale
 
   /// Of the data, then of the priors.

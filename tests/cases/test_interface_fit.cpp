@@ -145,6 +145,24 @@ TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
               HasSubstr("dissipated up to 1 of its toughness"));
 }
 
+// Blocks of half the cells and of stone that is 0.7 times as stiff lead the fit: by themselves they would be 3 % off.
+TEST(InterfaceFit, IsLedByACoarseCaseToTheSameLine) {
+  std::string text = with_fit(first_guess);
+  text.replace(text.find("intervals = \"profile\""), std::string("intervals = \"profile\"").size(),
+               "coarse = { \"mesh.x[0].cells\" = 4, \"materials.stone.young_modulus\" = \"0.7 GPa\" }");
+  const TemporaryCase directory(text);
+  const Straight line = measure(directory);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("with mesh.x[0].cells = 4, materials.stone.young_modulus = 0.7 GPa"));
+  const auto fit = nlohmann::json::parse(content_of(directory.results() / "fit.json"));
+  ASSERT_EQ(fit["verdict"], "sound") << fit["reasons"];
+  EXPECT_NEAR(fit["parameters"][0]["estimate"].get<double>(), line.strength, 1e-3 * line.strength);
+  EXPECT_NEAR(fit["parameters"][1]["estimate"].get<double>(), line.toughness, 1e-3 * line.toughness);
+  EXPECT_LE(fit["fracture"]["runs"]["made"].get<int>(), 6);
+  EXPECT_GT(fit["fracture"]["coarse_runs"]["made"].get<int>(), 10);
+}
+
 TEST(InterfaceFit, IsNoModelOfFractureOnThePage) {
   const TemporaryCase directory(glued_blocks(linear_glue + "name = \"glue\"\n"));
   ASSERT_EQ(run({"run", directory.path().string(), "--quiet"}).status, 0);

@@ -7,6 +7,7 @@
 #include "cases/program/studies/finer_case.h"
 #include "physics/quantity_text.h"
 #include "postproc/files/folder_lock.h"
+#include "solver/calibration/manifold_mapping.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +31,18 @@ constexpr double lost_misfit = 0.15;  // of the rms force
 constexpr int points_a_parameter = 8, most_points = 16, descents = 2;
 constexpr double reach_of_sample = 1.5;  // of the sample: a factor of 4.5
 
+RunCounts counts_of(const CaseRuns& runs) { return {runs.n_made(), runs.n_reused(), runs.n_failed()}; }
+
+void start_at(const std::vector<double>& values, FitProblem& problem) {
+  for (std::size_t j = 0; j < values.size(); ++j) problem.parameters[j].start = values[j];
+}
+
+FitSettings from_one_start(FitSettings settings) {
+  settings.starts = 1;
+  settings.screened = 0;
+  return settings;
+}
+
 }  // namespace
 
 CurveFit::CurveFit(const CurveFitJob& job, Session& session)
@@ -38,7 +51,13 @@ CurveFit::CurveFit(const CurveFitJob& job, Session& session)
       runs_(session.results / "runs", session),
       parameters_(parameters_of(job.settings)),
       model_(job.file, parameters_, job.read_curve, runs_),
-      finer_(finer_case(job.settings.where, job.file)) {
+      finer_(finer_case(job.settings.where, job.file)),
+      coarse_(coarse_case(job.settings.where, job.file)),
+      coarse_runs_(session.results / "coarse_runs", session) {
+  const auto read_aligned = [this](const std::filesystem::path& results) {
+    return alignment_(job_.read_curve(results));
+  };
+  if (coarse_) coarse_model_.emplace(coarse_->file, parameters_, read_aligned, coarse_runs_);
   for (const CaseParameter& parameter : parameters_) first_.push_back(parameter.value);
   for (const CaseParameter& parameter : parameters_)
     is_of_set_up_.push_back(
@@ -61,7 +80,8 @@ void CurveFit::run() {
                                .first_curve = curve_at(first_, std::nullopt),
                                .fitted_curve = fitted,
                                .specimens = specimens,
-                               .runs = {runs_.n_made(), runs_.n_reused(), runs_.n_failed()},
+                               .runs = counts_of(runs_),
+                               .coarse_runs = coarse_ ? std::optional(counts_of(coarse_runs_)) : std::nullopt,
                                .seconds = watch.seconds()};
   write_curve_fit(job_, found, session_);
 }
@@ -171,19 +191,51 @@ FitSettings CurveFit::settings_of(const CurveFitStage& stage, const MeasuredPoin
   return settings;
 }
 
-void CurveFit::weigh_specimens(const FitSettings& settings, MeasuredPoints& points, FitProblem& problem,
-                               FitResult& result) {
+FitResult CurveFit::fit_model(const FitProblem& problem, const MeasuredPoints& points, const FitSettings& settings) {
+  FitResult result = fit(problem, settings);
+  screen(problem, settings, relative_misfit(result.residuals, points), result);
+  return result;
+}
+
+CurveFit::FittedPoints CurveFit::fit_points(const CurveFitStage& stage, const MeasuredPoints& points,
+                                            std::optional<double> until, const FitSettings& settings,
+                                            const FitProblem& problem) {
+  if (!coarse_) return {fit_model(problem, points, settings), problem};
+  session_.log.say(fmt::format("  with {}", coarse_->shown));
+  CoarseModel coarse{.problem = problem_of(stage, points, until, *coarse_model_),
+                     .meet = [&](std::span<const double> values) { align(with_stage(stage, values), until); }};
+  coarse.problem.parameters = problem.parameters;
+  alignment_ = {};
+  const FitResult rough = fit_model(coarse.problem, points, settings);
+  start_at(rough.values(), coarse.problem);
+  session_.log.say("  the case itself where these lead");
+  MappedFit mapped = fit_by_mapping(problem, coarse, from_one_start(settings));
+  if (mapped.failure.empty()) return {std::move(mapped.result), std::move(mapped.mapped)};
+  session_.log.warn(fmt::format("[fit] coarse does not lead to the estimates: {}; the case itself is run at every step",
+                                mapped.failure));
+  if (mapped.best.empty()) return {fit_model(problem, points, settings), problem};
+  FitProblem from_best = problem;
+  start_at(mapped.best, from_best);
+  return {fit(from_best, from_one_start(settings)), problem};
+}
+
+void CurveFit::align(const std::vector<double>& values, std::optional<double> until) {
+  alignment_ = {};
+  const auto rough = coarse_model_->respond(values, until);
+  if (rough) alignment_ = JumpAlignment(*rough, curve_at(values, until));
+}
+
+void CurveFit::weigh_specimens(const CurveFitStage& stage, std::optional<double> until, const FitSettings& settings,
+                               MeasuredPoints& points, FittedPoints& fitted) {
   if (points.noise_is_known) return;
-  FitSettings once = settings;
-  once.starts = 1;
-  once.screened = 0;
+  FitProblem problem = problem_of(stage, points, until, model_);
   for (int turn = 0; turn < 2; ++turn) {
-    std::vector<double> weights = weights_by_scatter(result.residuals, points);
+    std::vector<double> weights = weights_by_scatter(fitted.result.residuals, points);
     if (weights.empty()) return;
     points.weight = std::move(weights);
     session_.log.say("  the specimens scatter differently: each is weighted by its own scatter");
-    for (std::size_t j = 0; j < problem.parameters.size(); ++j) problem.parameters[j].start = result.estimates[j].value;
-    result = fit(problem, once);
+    start_at(fitted.result.values(), problem);
+    fitted = fit_points(stage, points, until, from_one_start(settings), problem);
   }
 }
 
@@ -220,11 +272,10 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   const std::optional<double> until = end_of_runs(stage);
   const SampledCurve first_curve = curve_at(first_, until);
   MeasuredPoints points = points_of(stage, first_curve);
-  FitProblem problem = problem_of(stage, points, until, model_);
   const FitSettings settings = settings_of(stage, points);
-  FitResult result = fit(problem, settings);
-  screen(problem, settings, relative_misfit(result.residuals, points), result);
-  weigh_specimens(settings, points, problem, result);
+  FittedPoints fitted = fit_points(stage, points, until, settings, problem_of(stage, points, until, model_));
+  weigh_specimens(stage, until, settings, points, fitted);
+  const auto& [result, problem] = fitted;
   values_ = with_stage(stage, result.values());
   for (const std::size_t j : stage.parameters) is_estimated_[j] = true;
   FitStage found{.name = stage.name,

@@ -4,6 +4,7 @@
 
 #include "cases/program/studies/curve_fit.h"
 #include "cases/program/studies/law_trial.h"
+#include "postproc/curves/curve_jumps.h"
 #include "postproc/curves/curve_misfit.h"
 #include "postproc/curves/fit_judgement.h"
 
@@ -49,8 +50,22 @@ class CurveFit {
                         CurveModel& model);
   FitSettings settings_of(const CurveFitStage& stage, const MeasuredPoints& points);
   FitStage fit_stage(const CurveFitStage& stage);
+  /// A fit, and the problem by which it can be doubted: the case itself, or with [fit] `coarse` what the coarse one is
+  /// mapped to.
+  struct FittedPoints {
+    FitResult result;
+    FitProblem problem;
+  };
+  /// `problem`: of the case itself.
+  FittedPoints fit_points(const CurveFitStage& stage, const MeasuredPoints& points, std::optional<double> until,
+                          const FitSettings& settings, const FitProblem& problem);
+  /// Moves the curves of the coarse case so that with these values they jump where the case itself does.
+  void align(const std::vector<double>& values, std::optional<double> until);
+  /// Of one model, with a sample of starts where the first guess leads nowhere.
+  FitResult fit_model(const FitProblem& problem, const MeasuredPoints& points, const FitSettings& settings);
   /// Fits again, with each specimen weighted by its own scatter, where those differ.
-  void weigh_specimens(const FitSettings& settings, MeasuredPoints& points, FitProblem& problem, FitResult& result);
+  void weigh_specimens(const CurveFitStage& stage, std::optional<double> until, const FitSettings& settings,
+                       MeasuredPoints& points, FittedPoints& fitted);
   /// Fits again from the best of a sample, where the first guess has led nowhere. Returns whether that was better.
   bool screen(const FitProblem& problem, const FitSettings& settings, double misfit, FitResult& result);
   bool judge_stage(const DoneStage& done, FitFindings& found);
@@ -83,7 +98,10 @@ class CurveFit {
   CaseRuns runs_;
   std::vector<CaseParameter> parameters_;
   CurveModel model_;
-  std::optional<CaseVariant> finer_;
+  std::optional<CaseVariant> finer_, coarse_;
+  CaseRuns coarse_runs_;
+  std::optional<CurveModel> coarse_model_;
+  JumpAlignment alignment_;         // of its curves
   std::vector<double> first_;       // of all parameters, the case's own [SI]
   std::vector<double> values_;      // of all parameters, as known so far [SI]
   std::vector<bool> is_of_set_up_;  // parameters of the measured curves: no run depends on them

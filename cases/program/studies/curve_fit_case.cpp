@@ -136,7 +136,8 @@ std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
   const ConfigTable root = file.config.root();
   if (!root.has("fit")) return std::nullopt;
   const ConfigTable fit = root.table("fit");
-  finer_case(fit, file);  // whether it makes sense
+  finer_case(fit, file);  // whether they make sense
+  coarse_case(fit, file);
   CurveFitSettings settings{.parameters = {}, .stages = {}, .solver = read_settings(fit), .where = fit};
   settings.profiles = fit.choice("intervals", "linear") == "profile";
   settings.parameters = read_fit_parameters(fit, file);

@@ -106,19 +106,25 @@ void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& p
                           whole.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
 }
 
+std::string counts_text(const RunCounts& runs) {
+  return fmt::format("{} runs made, {} reused, {} of them did not converge", runs.made, runs.reused, runs.failed);
+}
+
 }  // namespace
 
 void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Session& session) {
   const fs::path& results = session.results;
-  const FitReport report{.case_name = job.name,
-                         .case_hash = job.hash,
-                         .version = session.version,
-                         .method = "force_displacement",
-                         .wall_seconds = found.seconds,
-                         .found = merged(found.stages),
-                         .experiments = misfits(found),
-                         .own = own_findings(FractureFindings{
-                             .earlier_stages = {found.stages.begin(), found.stages.end() - 1}, .runs = found.runs})};
+  const FitReport report{
+      .case_name = job.name,
+      .case_hash = job.hash,
+      .version = session.version,
+      .method = "force_displacement",
+      .wall_seconds = found.seconds,
+      .found = merged(found.stages),
+      .experiments = misfits(found),
+      .own = own_findings(FractureFindings{.earlier_stages = {found.stages.begin(), found.stages.end() - 1},
+                                           .runs = found.runs,
+                                           .coarse_runs = found.coarse_runs})};
   write_csv(results / fitted_curve_file, curve_table(job, found));
   const CaseFile fitted = with_values(job.file, found.parameters, found.values);
   write_file(results / "case.fitted.toml",
@@ -132,8 +138,9 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
   for (const ExperimentMisfit& e : report.experiments)
     session.log.say(fmt::format("rms difference from {}: {}, {:.2f} % of its rms force", e.name,
                                 quantity_text(e.absolute->rms, "N"), 100.0 * e.relative));
-  session.log.say(fmt::format("{} runs made, {} reused, {} of them did not converge; {:.1f} s; {}", found.runs.made,
-                              found.runs.reused, found.runs.failed, found.seconds, report.found.message));
+  session.log.say(fmt::format("{}{}; {:.1f} s; {}", counts_text(found.runs),
+                              found.coarse_runs ? ", of the coarse case " + counts_text(*found.coarse_runs) : "",
+                              found.seconds, report.found.message));
   session.log.say(fmt::format("written to {}; run it with: pfdm run {}", results.string(),
                               (results / "case.fitted.toml").string()));
   say_verdict(report.found, session);

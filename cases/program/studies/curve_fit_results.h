@@ -16,6 +16,7 @@ struct CurveFitFindings {
   SampledCurve fitted_curve;
   std::vector<MeasuredCurve> specimens;  ///< with the set-up as estimated
   RunCounts runs;
+  std::optional<RunCounts> coarse_runs;  ///< with [fit] `coarse`
   double seconds = 0.0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// The case on a finer mesh or with finer steps, by which a fit tells what its discretisation does to the estimates.
+// The case on a finer mesh or with finer steps, by which a fit tells what its discretisation does to the estimates; and
+// on a coarser one, by which it finds them.
 
 #include "cases/program/input/config.h"
 #include "cases/program/studies/case_runs.h"
@@ -11,5 +12,7 @@ namespace pfdm {
 /// The case with the values of [fit] `finer`: keys of the case and numbers or texts in their place. Nothing if there is
 /// no such table. Throws InputError if a key is not there.
 std::optional<CaseVariant> finer_case(const ConfigTable& fit, const CaseFile& file);
+/// The same with those of [fit] `coarse`.
+std::optional<CaseVariant> coarse_case(const ConfigTable& fit, const CaseFile& file);
 
 }  // namespace pfdm

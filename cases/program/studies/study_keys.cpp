@@ -137,7 +137,10 @@ const KeyTable& curve_fit_keys() {
                 "Random points lie within the factors exp(-spread) and exp(spread) of the first guess.", "1"),
             {"intervals", choice("kind of intervals", {"linear", "profile"}), "\"linear\"",
              "Confidence intervals from derivatives, or by profile likelihood as well."},
-            finer_key("none: the error of the mesh is not told")}})};
+            finer_key("none: the error of the mesh is not told"),
+            {"coarse", names(value_type()), "none: the case itself is run at every step",
+             "Other values of keys, as a coarser mesh, with which the fit is made; the case itself is run at its "
+             "minima."}}})};
   return table;
 }
 

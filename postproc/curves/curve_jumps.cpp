@@ -1,0 +1,39 @@
+#include "postproc/curves/curve_jumps.h"
+
+#include <algorithm>
+
+namespace pfdm {
+
+std::vector<double> jumps_of(const SampledCurve& curve) {
+  constexpr double least_fall = 0.1;
+  std::vector<double> jumps;
+  if (curve.y.empty()) return jumps;
+  const double largest = std::ranges::max(curve.y);
+  for (std::size_t i = 0; i + 1 < curve.x.size(); ++i)
+    if (curve.y[i] - curve.y[i + 1] > least_fall * largest) jumps.push_back(curve.x[i]);
+  return jumps;
+}
+
+JumpAlignment::JumpAlignment(const SampledCurve& from, const SampledCurve& to) {
+  std::vector<double> theirs = jumps_of(from), due = jumps_of(to);
+  if (theirs.empty() || theirs.size() != due.size()) return;
+  for (std::vector<double>* places : {&theirs, &due}) {
+    places->insert(places->begin(), std::min(from.x.front(), to.x.front()));
+    places->push_back(std::max(from.x.back(), to.x.back()));
+    if (std::ranges::adjacent_find(*places, std::ranges::greater_equal{}) != places->end()) return;
+  }
+  from_ = std::move(theirs);
+  to_ = std::move(due);
+}
+
+SampledCurve JumpAlignment::operator()(SampledCurve curve) const {
+  if (from_.empty()) return curve;
+  for (double& x : curve.x) {
+    if (x <= from_.front() || x >= from_.back()) continue;
+    const auto k = static_cast<std::size_t>(std::ranges::upper_bound(from_, x) - from_.begin());
+    x = to_[k - 1] + (x - from_[k - 1]) * (to_[k] - to_[k - 1]) / (from_[k] - from_[k - 1]);
+  }
+  return curve;
+}
+
+}  // namespace pfdm
