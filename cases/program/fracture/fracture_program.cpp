@@ -91,7 +91,7 @@ void check_fit(const FractureProgram& program, Log& log) {
     log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
                         parameter.in_case.shown(parameter.in_fit.lower),
                         parameter.in_case.shown(parameter.in_fit.upper)));
-  log.say(fmt::format("pfdm fit would make some {} runs", estimated_runs(*program.fit)));
+  log.say(fit_words(*program.fit));
 }
 
 void check(const FractureProgram& program, Session& session) {

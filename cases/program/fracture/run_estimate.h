@@ -19,6 +19,6 @@ std::string time_words(const Mesh& mesh, const FractureModel& model, const Loadi
                        const std::filesystem::path& results, const std::string& case_hash);
 
 /// How many runs a fit makes, about.
-int estimated_runs(const CurveFitSettings& fit);
+std::string fit_words(const CurveFitSettings& fit);
 
 }  // namespace pfdm
