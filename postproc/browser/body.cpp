@@ -75,13 +75,17 @@ std::vector<double> von_mises(const StoredCells& frame, const std::vector<Index>
 }
 
 void add_fields(Body& body, const StoredCells& frame, const std::vector<Index>& cells) {
-  if (body.fields.empty())
+  constexpr const char* rise = "temperature_rise";
+  if (body.fields.empty()) {
     body.fields = {{.name = "damage", .si_unit = {}, .frames = {}},
                    {.name = "stress, von Mises", .si_unit = "Pa", .frames = {}},
                    {.name = fmt::format("stress {0}{0}", "xyz"[body.component]), .si_unit = "Pa", .frames = {}}};
+    if (frame.has(rise)) body.fields.push_back({.name = "temperature rise", .si_unit = "K", .frames = {}});
+  }
   body.fields[0].frames.push_back(of_cells(frame.values("damage"), cells));
   body.fields[1].frames.push_back(von_mises(frame, cells));
   body.fields[2].frames.push_back(of_cells(frame.values("stress", body.component), cells));
+  if (body.fields.size() > 3) body.fields[3].frames.push_back(of_cells(frame.values(rise), cells));
 }
 
 /// Cells and points of the unparted mesh; the points that no chosen cell has are left out.

@@ -33,10 +33,10 @@ struct Body {
   std::vector<std::uint8_t> is_surface;
   std::vector<Index> steps;                       ///< of the frames
   std::vector<std::vector<Vector>> displacement;  ///< of the points, frame by frame [m]
-  std::vector<BodyField> fields;                  ///< damage, von Mises stress, stress along the load
-  Vector cut_at = Vector::Zero();                 ///< where planes across the axes cut first [m]
-  int component = 2;                              ///< direction of the load
-  int flat_axis = -1;                             ///< across which the body has one cell; -1: none
+  std::vector<BodyField> fields;   ///< damage, von Mises stress, stress along the load; with heat the rise
+  Vector cut_at = Vector::Zero();  ///< where planes across the axes cut first [m]
+  int component = 2;               ///< direction of the load
+  int flat_axis = -1;              ///< across which the body has one cell; -1: none
 };
 
 /// A frame of a run.

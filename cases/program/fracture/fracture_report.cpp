@@ -5,6 +5,7 @@
 #include "cases/program/fracture/fracture_pictures.h"
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/fracture/fracture_side_by_side.h"
+#include "cases/program/fracture/heat_charts.h"
 #include "cases/program/fracture/interface_chart.h"
 #include "cases/program/fracture/mean_curve.h"
 #include "cases/program/session/report_parts.h"
@@ -327,6 +328,7 @@ std::vector<PageRow> run_rows(const FractureStory& story, const std::filesystem:
   blocks.emplace_back(story.fracture.box ? mean_chart(story, results) : force_chart(story));
   blocks.emplace_back(energy_chart(story));
   if (has_law(story.records)) blocks.emplace_back(first_law_chart(story));
+  for (PageBlock& chart : heat_charts(results)) blocks.push_back(std::move(chart));
   blocks.emplace_back(iterations_chart(story));
   if (story.experiment)
     for (PageBlock& chart : side_by_side_charts(*story.experiment, story.curve, story.records))
