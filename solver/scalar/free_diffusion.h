@@ -13,9 +13,9 @@ namespace pfdm {
 
 class FreeDiffusion {
  public:
-  /// k [W/(m K)] and c [J/(m^3 K)] of the cells, as of heat. Values and surroundings of the boundary count as zero,
-  /// given fluxes too. dt: [s]. `precision`: change of u, over its size, from which on a step has converged. Throws
-  /// InputError like Diffusion, ComputationError if the matrix cannot be factored.
+  /// k [W/(m K)] and c [J/(m^3 K)] of the cells, as of heat, both positive. Values and surroundings of the boundary
+  /// count as zero, given fluxes too. dt: [s]. `precision`: change of u, over its size, from which on a step has
+  /// converged. Throws InputError like exchanges_of(), ComputationError if the matrix cannot be factored.
   FreeDiffusion(const Mesh& mesh, const CellField<double>& conductivity, const CellField<double>& capacity,
                 std::vector<DiffusionBoundary> boundary, double dt, double precision);
 
