@@ -2,11 +2,38 @@
 
 #include "physics/error.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
+#include <complex>
+#include <utility>
 
 namespace pfdm {
+namespace {
+
+using RowMajor = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// y of S y = first e_1, S an upper Hessenberg matrix: elimination with pivots of two rows each, of quadratic cost
+/// (Golub, Van Loan, Matrix Computations, Johns Hopkins 2013, section 4.3).
+Eigen::VectorXcd solve_hessenberg(RowMajor S, double first) {
+  const Eigen::Index m = S.rows();
+  Eigen::VectorXcd y = first * Eigen::VectorXcd::Unit(m, 0);
+  for (Eigen::Index k = 0; k + 1 < m; ++k) {
+    const Eigen::Index rest = m - k;
+    if (std::norm(S(k + 1, k)) > std::norm(S(k, k))) {
+      S.row(k).tail(rest).swap(S.row(k + 1).tail(rest));
+      std::swap(y[k], y[k + 1]);
+    }
+    const std::complex<double> factor = S(k + 1, k) / S(k, k);
+    S.row(k + 1).tail(rest) -= factor * S.row(k).tail(rest);
+    y[k + 1] -= factor * y[k];
+  }
+  for (Eigen::Index k = m - 1; k >= 0; --k) {
+    const Eigen::Index rest = m - 1 - k;
+    y[k] = (y[k] - S.row(k).tail(rest).transpose().cwiseProduct(y.tail(rest)).sum()) / S(k, k);
+  }
+  return y;
+}
+
+}  // namespace
 
 BaseResponse::BaseResponse(const VibratingBody& body, const Vector& direction, std::span<const Harmonic> wanted,
                            double tolerance, Eigen::Index most_vectors)
@@ -38,10 +65,11 @@ void BaseResponse::reach(std::span<const Harmonic> wanted) {
   for (Eigen::Index j = n_known; j < mass_moment_.size(); ++j) mass_moment_[j] = body_.inner(rigid, space_.vector(j));
 }
 
+// Arnoldi's H is an upper Hessenberg matrix.
 Eigen::VectorXcd BaseResponse::weights(const Harmonic& at) const {
-  const Eigen::Index m = H_.rows();
-  const Eigen::MatrixXcd system = Eigen::MatrixXcd::Identity(m, m) - at.s() * H_.cast<std::complex<double>>();
-  return system.partialPivLu().solve(space_.start_norm() * Eigen::VectorXcd::Unit(m, 0));
+  RowMajor system = -at.s() * H_.cast<std::complex<double>>();
+  system.diagonal().array() += 1.0;
+  return solve_hessenberg(std::move(system), space_.start_norm());
 }
 
 double BaseResponse::residual(const Harmonic& at) const {

@@ -1,9 +1,12 @@
 #include "solver/dynamics/steady_heating.h"
 
 #include "physics/error.h"
+#include "solver/scalar/free_diffusion.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -13,33 +16,40 @@ using Eigen::VectorXd;
 
 constexpr Eigen::Index between_trials = 4;  // vectors
 
-std::vector<DiffusionBoundary> homogeneous(std::vector<DiffusionBoundary> boundary) {
-  for (DiffusionBoundary& on : boundary) on.value = 0.0;
-  return boundary;
-}
-
 VectorXd as_vector(const CellField<double>& field) {
   return VectorXd::Map(&field[0], static_cast<Eigen::Index>(field.size()));
 }
 
+constexpr Index most_factored = 10000;  // cells
+
 /// A step from a rise, without a source.
 class Step {
  public:
-  Step(const Mesh& mesh, const HeatedMaterial& material, const std::vector<DiffusionBoundary>& boundary, double dt)
-      : diffusion_(mesh, {.conductivity = CellField<double>(as_size(mesh.n_cells()), material.conductivity),
-                          .capacity = CellField<double>(as_size(mesh.n_cells()), material.capacity),
-                          .boundary = homogeneous(boundary),
-                          .precision = 1e-11}),
-        field_(as_size(mesh.n_cells()), 0.0),
-        dt_(dt) {}
+  Step(const Mesh& mesh, const HeatedMaterial& material, std::vector<DiffusionBoundary> boundary, double dt)
+      : field_(as_size(mesh.n_cells()), 0.0), dt_(dt) {
+    constexpr double precision = 1e-11;
+    const CellField<double> conductivity(as_size(mesh.n_cells()), material.conductivity),
+        capacity(as_size(mesh.n_cells()), material.capacity);
+    if (mesh.n_cells() <= most_factored) {
+      factored_.emplace(mesh, conductivity, capacity, std::move(boundary), dt, precision);
+      return;
+    }
+    for (DiffusionBoundary& on : boundary) on.value = 0.0;
+    diffusion_.emplace(mesh, DiffusionProblem{.conductivity = conductivity,
+                                              .capacity = capacity,
+                                              .boundary = std::move(boundary),
+                                              .precision = precision});
+  }
   VectorXd operator()(const VectorXd& rise) {
     for (Index c = 0; c < field_.size(); ++c) field_[c] = rise[c];
-    if (!diffusion_.step(dt_, field_).converged) throw ComputationError("conduction of heat: a step did not converge");
+    const bool converged = factored_ ? factored_->step(field_) : diffusion_->step(dt_, field_).converged;
+    if (!converged) throw ComputationError("conduction of heat: a step did not converge");
     return as_vector(field_);
   }
 
  private:
-  Diffusion diffusion_;
+  std::optional<FreeDiffusion> factored_;
+  std::optional<Diffusion> diffusion_;  // of meshes whose factors would be large
   CellField<double> field_;
   double dt_;
 };

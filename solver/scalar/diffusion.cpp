@@ -1,6 +1,7 @@
 #include "solver/scalar/diffusion.h"
 
 #include "physics/error.h"
+#include "solver/scalar/diffusion_exchanges.h"
 
 #include <fmt/format.h>
 
@@ -18,21 +19,6 @@ void require_positive(const CellField<double>& field, const Mesh& mesh, std::str
   if (field.size() != mesh.n_cells()) throw InputError(fmt::format("diffusion: {} is not given for each cell", name));
   for (const double value : field)
     if (!(value > 0.0)) throw InputError(fmt::format("diffusion: {} has to be positive, found {:.4g}", name, value));
-}
-
-std::vector<Exchange> exchanges_of(const Mesh& mesh, const std::vector<DiffusionBoundary>& boundary) {
-  std::vector<Exchange> exchanges;
-  for (const DiffusionBoundary& on : boundary) {
-    if (on.kind == Kind::flux) continue;
-    if (on.kind == Kind::exchange && !(on.coefficient > 0.0))
-      throw InputError(fmt::format("patch \"{}\": the exchange coefficient has to be positive, found {:.4g}", on.patch,
-                                   on.coefficient));
-    const Patch& patch = mesh.patch(on.patch);
-    const double coefficient = on.kind == Kind::exchange ? on.coefficient : std::numeric_limits<double>::infinity();
-    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
-      exchanges.push_back({.face = f, .cell = mesh.owner[f], .coefficient = coefficient, .value = on.value});
-  }
-  return exchanges;
 }
 
 // Into each cell from the patches whose flux is given [W].
@@ -77,6 +63,21 @@ struct DiffusionTerm {
 };
 
 }  // namespace
+
+std::vector<Exchange> exchanges_of(const Mesh& mesh, const std::vector<DiffusionBoundary>& boundary) {
+  std::vector<Exchange> exchanges;
+  for (const DiffusionBoundary& on : boundary) {
+    if (on.kind == Kind::flux) continue;
+    if (on.kind == Kind::exchange && !(on.coefficient > 0.0))
+      throw InputError(fmt::format("patch \"{}\": the exchange coefficient has to be positive, found {:.4g}", on.patch,
+                                   on.coefficient));
+    const Patch& patch = mesh.patch(on.patch);
+    const double coefficient = on.kind == Kind::exchange ? on.coefficient : std::numeric_limits<double>::infinity();
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+      exchanges.push_back({.face = f, .cell = mesh.owner[f], .coefficient = coefficient, .value = on.value});
+  }
+  return exchanges;
+}
 
 struct Diffusion::Parts {
   const Mesh& mesh;

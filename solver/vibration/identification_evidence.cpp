@@ -53,8 +53,9 @@ double excess_of_sweep(const Remainder& r, const VibrationRecord& record) {
   const VectorXd beside =
       r.condition((record.base - tracked_sweep(record.base, record.rate, band, tracking_width)).eval());
   const VectorXd z = amplitudes(r.measured, 1).cwiseAbs2(), y = amplitudes(r.base, 1).cwiseAbs2();
+  const double least = 0.01 * y.maxCoeff();
   double gain = 0.0;  // mean of |H|^2 along the sweep
-  for (Eigen::Index i = 0; i < z.size(); ++i) gain += y[i] > 0.01 * y.maxCoeff() ? z[i] / y[i] : 0.0;
+  for (Eigen::Index i = 0; i < z.size(); ++i) gain += y[i] > least ? z[i] / y[i] : 0.0;
   gain /= static_cast<double>(z.size());
   const double by_noise = 3.0 * width * density + width * gain * mean_square(beside) / whole;
   return std::sqrt(inside / by_noise);

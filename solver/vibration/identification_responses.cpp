@@ -6,7 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -28,13 +32,10 @@ int most_substeps(const MassMaterial& model, std::span<const double> rates) {
   return substeps;
 }
 
-}  // namespace
-
-/// Noise on it would come through the nonlinear terms as a bias. Of a
-/// sweep everything is kept that moves with the driving frequency or its harmonics, within the tracking width; the rest
-/// is noise. Where the rest is no small part there is no sweep, and where it is next to nothing (below -60 dB) there is
-/// no noise: then the record is left as it is.
-DrivingBase driving_base(const VibrationRecord& r) {
+/// Of a sweep everything is kept that moves with the driving frequency or its harmonics, within the tracking width; the
+/// rest is noise. Where the rest is no small part there is no sweep, and where it is next to nothing (below -60 dB)
+/// there is no noise: then the record is left as it is.
+DrivingBase tracked_base(const VibrationRecord& r) {
   const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
   VectorXd tracked = tracked_sweep(r.base, r.rate, band, tracking_width);
   const Eigen::Index edge = r.n() / 4;  // the ends are not tracked well
@@ -47,6 +48,52 @@ DrivingBase driving_base(const VibrationRecord& r) {
     tracked[i] = weight * tracked[i] + (1.0 - weight) * r.base[i];
   }
   return {std::move(tracked), true};
+}
+
+/// Those that were asked for last: every trial of a model asks for those of the same records.
+class TrackedBases {
+ public:
+  DrivingBase of(const VibrationRecord& r) {
+    if (const auto known = find(r)) return *known;
+    const auto tracked = std::make_shared<const DrivingBase>(tracked_base(r));
+    const std::scoped_lock lock(mutex_);
+    known_.push_front({r.base, r.rate, r.band_low, r.band_high, tracked});
+    Eigen::Index n_samples = 0;
+    const auto last = std::ranges::find_if(
+        known_, [&](const Known& known) { return (n_samples += known.base.size()) > most_samples; });
+    known_.erase(last, known_.end());
+    return *tracked;
+  }
+
+ private:
+  static constexpr Eigen::Index most_samples = 2'000'000;
+  struct Known {
+    VectorXd base;
+    double rate, low, high;
+    std::shared_ptr<const DrivingBase> tracked;
+    bool is_of(const VibrationRecord& r) const {
+      return rate == r.rate && low == r.band_low && high == r.band_high && base.size() == r.n() && base == r.base;
+    }
+  };
+
+  std::shared_ptr<const DrivingBase> find(const VibrationRecord& r) {
+    const std::scoped_lock lock(mutex_);
+    const auto known = std::ranges::find_if(known_, [&](const Known& candidate) { return candidate.is_of(r); });
+    if (known == known_.end()) return nullptr;
+    std::rotate(known_.begin(), known, known + 1);
+    return known_.front().tracked;
+  }
+
+  std::mutex mutex_;
+  std::deque<Known> known_;
+};
+
+}  // namespace
+
+/// Noise on it would come through the nonlinear terms as a bias.
+DrivingBase driving_base(const VibrationRecord& r) {
+  static TrackedBases bases;
+  return bases.of(r);
 }
 
 Conditioner output_condition(const VibrationRecord& r, double crop) {

@@ -492,8 +492,7 @@ int n_held(const nlohmann::json& fit) {
   return held;
 }
 
-TEST(CurveFit, FindsTheSetUpWithTheModelsValues) {
-  const BarInASetUp bar;
+void expect_set_up_with_the_models_values(const BarInASetUp& bar) {
   const std::string known_compliance = bar_in_a_set_up("30 GPa", "0.1016 um/N", fitted_modulus + fitted_offset),
                     known_modulus = bar_in_a_set_up("32 GPa", "0.05 um/N", fitted_compliance + fitted_offset);
   int with_modulus = 0, with_compliance = 0;
@@ -510,9 +509,8 @@ TEST(CurveFit, FindsTheSetUpWithTheModelsValues) {
   EXPECT_NE(json["experiments"][0]["preparation"].dump().find("offset: 1."), std::string::npos);
 }
 
-// In series with the bar a spring acts as a softer bar.
-TEST(CurveFit, DoesNotTellTheComplianceOfASetUpFromThatOfTheBar) {
-  const BarInASetUp bar;
+/// In series with the bar a spring acts as a softer bar.
+void expect_compliance_like_that_of_the_bar(const BarInASetUp& bar) {
   for (const unsigned seed : {1u, 2u}) {
     bar.record(seed);
     const auto fit =
@@ -529,13 +527,20 @@ TEST(CurveFit, DoesNotTellTheComplianceOfASetUpFromThatOfTheBar) {
   }
 }
 
-TEST(CurveFit, NamesAStraightPartThatMissesTheOrigin) {
-  const BarInASetUp bar;
+void expect_straight_part_that_misses_the_origin(const BarInASetUp& bar) {
   bar.record(1);
   const auto fit = bar.fit(bar_in_a_set_up("30 GPa", "0 um/N", fitted_modulus));
   EXPECT_EQ(fit["verdict"], "questionable");
   EXPECT_NE(fit["reasons"].dump().find("the straight part of synthetic meets zero force at 1."), std::string::npos)
       << fit["reasons"];
+}
+
+// All at once: they share runs.
+TEST(CurveFit, FindsTheSetUpOfABarNamesWhatItIsLikeAndWhatItExplains) {
+  const BarInASetUp bar;
+  expect_set_up_with_the_models_values(bar);
+  expect_compliance_like_that_of_the_bar(bar);
+  expect_straight_part_that_misses_the_origin(bar);
 }
 
 // Data of another law: its softening ends in half of the way. Offset and compliance do not make up for that.

@@ -52,12 +52,23 @@ inline std::vector<double> base_at_times(const Shaker& s, std::size_t n, double 
   };
   std::mt19937_64 engine(s.seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  constexpr int n_sines = 300;
-  for (int k = 0; k < n_sines && s.random; ++k) {
-    const double frequency = s.low + (s.high - s.low) * (k + uniform(engine)) / n_sines;
-    const std::complex<double> turn = std::polar(1.0, two_pi * frequency * h);
-    std::complex<double> sine = std::polar(s.level * std::sqrt(2.0 / n_sines), two_pi * uniform(engine));
-    for (std::size_t i = 0; i < n; ++i, sine *= turn) y[i] += sine.real();
+  constexpr int n_sines = 300, at_once = 20;  // side by side: alone each waits for its own last turn
+  for (int k = 0; k < n_sines && s.random; k += at_once) {
+    double real[at_once], imaginary[at_once], turn_real[at_once], turn_imaginary[at_once];
+    for (int j = 0; j < at_once; ++j) {
+      const double frequency = s.low + (s.high - s.low) * (k + j + uniform(engine)) / n_sines;
+      const std::complex<double> turn = std::polar(1.0, two_pi * frequency * h);
+      const std::complex<double> sine = std::polar(s.level * std::sqrt(2.0 / n_sines), two_pi * uniform(engine));
+      real[j] = sine.real(), imaginary[j] = sine.imag(), turn_real[j] = turn.real(), turn_imaginary[j] = turn.imag();
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const double sine : real) y[i] += sine;
+      for (int j = 0; j < at_once; ++j) {
+        const double turned = real[j] * turn_real[j] - imaginary[j] * turn_imaginary[j];
+        imaginary[j] = real[j] * turn_imaginary[j] + imaginary[j] * turn_real[j];
+        real[j] = turned;
+      }
+    }
   }
   for (std::size_t i = 0; i < n; ++i) {
     const double t = static_cast<double>(i) * h;

@@ -49,9 +49,7 @@ FitProblem problem_of(const PlateFit& fit, PlateModel& model) {
   FitProblem problem;
   for (const CurveFitParameter& parameter : fit.parameters) problem.parameters.push_back(parameter.in_fit);
   problem.noise_is_known = true;
-  problem.residuals = [&model](std::span<const double> values) -> std::optional<std::vector<double>> {
-    return model.residuals(model.with(values));
-  };
+  problem.residuals = model.remembered_residuals();
   return problem;
 }
 

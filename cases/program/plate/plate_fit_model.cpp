@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <numbers>
 
 namespace pfdm {
@@ -29,7 +31,7 @@ std::vector<CaseParameter> parameters_of(const PlateFit& fit) {
 }  // namespace
 
 PlateModel::PlateModel(const CaseFile& file, const PlateFit& fit, const PlateCase& c, const Mesh& mesh)
-    : file_(file), fit_(fit), parameters_(parameters_of(fit)), case_(c), run_(case_, mesh) {}
+    : file_(file), fit_(fit), parameters_(parameters_of(fit)), case_(c), run_(case_, mesh, 0) {}
 
 PlateCase PlateModel::with(std::span<const double> values) const {
   const CaseFile varied = with_values(file_, parameters_, values);
@@ -97,6 +99,15 @@ std::optional<std::vector<double>> PlateModel::residuals(const PlateCase& c) {
     for (std::size_t i = 0; i < computed->rise[k].size(); ++i)
       residuals.push_back((computed->rise[k][i] - fit_.rises[k].rise[i]) / fit_.rises[k].deviation);
   return residuals;
+}
+
+Residuals PlateModel::remembered_residuals() {
+  using Known = std::map<std::vector<double>, std::optional<std::vector<double>>>;
+  return [this, known = std::make_shared<Known>()](std::span<const double> values) {
+    const std::vector<double> at(values.begin(), values.end());
+    const auto found = known->find(at);
+    return found != known->end() ? found->second : (*known)[at] = residuals(with(at));
+  };
 }
 
 std::vector<ResidualSeries> PlateModel::series(const std::vector<double>& residuals) const {

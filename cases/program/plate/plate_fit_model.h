@@ -37,6 +37,9 @@ class PlateModel {
   /// Of model less measurement over their standard deviation: magnitudes (of their logarithms) and phases of each
   /// response, then the rises.
   std::optional<std::vector<double>> residuals(const PlateCase& c);
+  /// residuals() of values of the parameters, each computed once: a fit asks for them again beside every Jacobian, and
+  /// for the last Jacobian again where it ends. As long as the reading stays.
+  Residuals remembered_residuals();
   /// From now on residuals() takes the measured H1 for this and, but for the usual reading, leaves the rises out.
   void read_as(const ResponseReading& reading) { reading_ = reading; }
   /// In that order.

@@ -28,7 +28,7 @@ std::optional<double> rms_of_fit(const PlateFit& fit, PlateModel& model, const F
   FitProblem problem;
   for (const CurveFitParameter& parameter : fit.parameters) problem.parameters.push_back(parameter.in_fit);
   problem.noise_is_known = true;
-  problem.residuals = [&model](std::span<const double> values) { return model.residuals(model.with(values)); };
+  problem.residuals = model.remembered_residuals();
   try {
     return pfdm::fit(problem, settings).rms;
   } catch (const ComputationError&) {

@@ -112,7 +112,7 @@ void run_heating(const PlateCase& c, const PlateRun& run, const Mesh& mesh, doub
 void compute(const PlateProgram& program, Session& session, const fs::path& folder, FiguresSummary& summary) {
   const PlateCase& c = program.parsed;
   const Mesh mesh = c.mesh.make();
-  const PlateRun run(c, mesh);
+  const PlateRun run(c, mesh, c.n_modes);
   Log& log = session.log;
   log.say(fmt::format("cells {}, {}, {} vectors of the frequency response", mesh.n_cells(), run.body().method(),
                       run.dimension()));

@@ -52,12 +52,12 @@ Index nearest_unknown(const VibratingBody& body, const Vector& place) {
   return best;
 }
 
-PlateRun::PlateRun(const PlateCase& c, const Mesh& mesh)
+PlateRun::PlateRun(const PlateCase& c, const Mesh& mesh, int n_modes)
     : case_(&c),
       modulus_(c.material.young_modulus()),
       mesh_(mesh),
       body_(mesh, elastic_body(c, mesh), std::vector<double>(mesh.region_names.size(), c.material.density)),
-      modes_(lowest_modes(body_, c.n_modes)),
+      modes_(lowest_modes(body_, n_modes)),
       response_(body_, c.direction, all_harmonics()) {}
 
 void PlateRun::take(const PlateCase& c) {
@@ -94,6 +94,10 @@ std::vector<Resonance> PlateRun::resonances(double temperature) const {
                    .effective_mass = mode.participation.cwiseAbs2() / body_.total_mass()});
   }
   return all;
+}
+
+double PlateRun::first_resonance(double temperature) const {
+  return modes_.empty() ? 0.0 : resonances(temperature).front().frequency;
 }
 
 ResponseTable PlateRun::response() const {
@@ -189,7 +193,7 @@ void PlateRun::heat(double frequency, const Done& done) const {
   row.power = heat.power;
   row.correction = heat.correction;
   double temperature = heating.surroundings;
-  row.resonance = resonances(temperature).front().frequency;
+  row.resonance = first_resonance(temperature);
   body.set_source(heat.source);
   done(row, body, heat.source);
   const auto n_steps = static_cast<int>(std::ceil(heating.duration / heating.step - 1e-9));
@@ -209,7 +213,7 @@ void PlateRun::heat(double frequency, const Done& done) const {
       body.set_source(heat.source);
       row.power = heat.power;
       row.correction = heat.correction;
-      row.resonance = resonances(temperature).front().frequency;
+      row.resonance = first_resonance(temperature);
     }
     done(row, body, heat.source);
   }

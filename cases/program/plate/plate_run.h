@@ -16,8 +16,8 @@ Index nearest_unknown(const VibratingBody& body, const Vector& place);
 
 class PlateRun {
  public:
-  /// The case and the mesh must outlive the run.
-  PlateRun(const PlateCase& c, const Mesh& mesh);
+  /// With so many modes, which resonances() tells and heat() the first of. The case and the mesh must outlive the run.
+  PlateRun(const PlateCase& c, const Mesh& mesh, int n_modes);
   /// From now on of this case, which differs from the first one in its modulus, loss, excitation, heat and cooling
   /// only: the same body, a factor on its stiffness. Must outlive the run. Throws ComputationError like
   /// BaseResponse::reach().
@@ -54,6 +54,7 @@ class PlateRun {
   /// c of the stiffness that the body has.
   Harmonic at(double frequency, double temperature) const;
   std::vector<Harmonic> all_harmonics() const;
+  double first_resonance(double temperature) const;  // [Hz]; 0 of a run without modes
   std::vector<Part> parts(double frequency) const;
   Heat heat_of(const std::vector<Part>& parts, double temperature) const;
 
