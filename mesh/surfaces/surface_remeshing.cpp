@@ -3,6 +3,7 @@
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/exceptions.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -78,12 +79,20 @@ TriangleSurface surface_in(const std::string& bytes) {
 
 TriangleSurface remeshed(const NamedSurface& given, double size, double sharp) {
   check_surfaces({given});
-  const auto bytes = computed_separately([&] { return bytes_of(remeshed_by_cgal(given, size, sharp)); });
-  if (!bytes)
-    throw InputError(
+  const auto too_bad = [&] {
+    return InputError(
         fmt::format("the surface {}: CGAL crashes where it divides it into triangles of {}: give a smaller "
                     "surface_size, or repair flat and needle-shaped triangles of the file",
                     given.name, quantity_text(size, "m", 6)));
+  };
+  const auto bytes = computed_separately([&] {
+    try {
+      return bytes_of(remeshed_by_cgal(given, size, sharp));
+    } catch (const CGAL::Failure_exception&) {  // what would crash, where CGAL's assertions are compiled
+      throw too_bad();
+    }
+  });
+  if (!bytes) throw too_bad();
   return surface_in(*bytes);
 }
 
