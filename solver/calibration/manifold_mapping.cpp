@@ -97,7 +97,7 @@ class MappedModel {
     ++n_asked_;
     const auto residuals = fine_.residuals(values), smooth = smooth_of(fine_)(values);
     if (!residuals || !smooth) return false;
-    asked_.push_back({values, as_vector(*residuals), as_vector(*smooth)});
+    asked_.emplace_back(Asked{values, as_vector(*residuals), as_vector(*smooth)});
     if (asked_.size() == 1 || sum(asked_.back()) < sum(asked_[best_])) best_ = asked_.size() - 1;
     return true;
   }
@@ -223,9 +223,8 @@ class Descent {
         if (next.sum_of_squares < (1.0 - of_roughness) * model_.least_sum())
           return failed("what it gains the fine model does not");
         return done(std::move(*mapped));
-      } else if (!has_moved_ || !test(next)) {
-        return done(std::move(*mapped));
       }
+      if (!has_moved_ || !test(next)) return done(std::move(*mapped));
     }
   }
 
@@ -270,7 +269,8 @@ class Descent {
   MappedFit done(FitProblem mapped) const {
     FitSettings here = further_;
     here.maximum_iterations = 0;
-    MappedFit found{.result = fit(mapped, here), .mapped = std::move(mapped), .failure = {}, .best = model_.best()};
+    MappedFit found{.result = fit(mapped, here), .mapped = {}, .failure = {}, .best = model_.best()};
+    found.mapped = std::move(mapped);
     found.result.converged = true;
     found.result.message = fmt::format("no lower residuals of the fine model, after {} evaluations", model_.n_asked());
     found.result.evaluations = model_.n_asked();
