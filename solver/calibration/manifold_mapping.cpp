@@ -110,7 +110,7 @@ class MappedModel {
   MatrixXd known_directions() const {
     std::vector<VectorXd> known;
     for (std::size_t k = 0; k < asked_.size(); ++k)
-      if (!is_too_near(k)) known.push_back(scaled_.from(asked_[k].values) - scaled_.from(best()));
+      if (!is_too_near(k)) known.emplace_back(scaled_.from(asked_[k].values) - scaled_.from(best()));
     return known.empty() ? MatrixXd(std::ssize(best()), 0) : side_by_side(known);
   }
   FitIteration iteration(std::size_t k) const {
