@@ -83,6 +83,13 @@ struct FitSettings {
   std::function<void(const FitIteration&)> iterated = {};  ///< after every step that was taken
 };
 
+/// The same settings for one descent, from the start of the parameters.
+inline FitSettings from_one_start(FitSettings settings) {
+  settings.starts = 1;
+  settings.screened = 0;
+  return settings;
+}
+
 struct FitEstimate {
   double value = 0.0;
   double standard_error = 0.0;  ///< infinite if the data do not determine the parameter

@@ -1,6 +1,7 @@
 #include "solver/calibration/manifold_mapping.h"
 
 #include "solver/calibration/calibration_scale.h"
+#include "solver/calibration/held_parameter.h"
 #include "solver/linear/dense_algebra.h"
 
 #include <fmt/format.h>
@@ -77,12 +78,7 @@ MatrixXd side_by_side(const std::vector<VectorXd>& columns) {
 
 double of_priors(const std::vector<FitParameter>& parameters, const std::vector<double>& values) {
   double sum = 0.0;
-  for (std::size_t j = 0; j < parameters.size(); ++j) {
-    const FitParameter& p = parameters[j];
-    if (!p.prior) continue;
-    const double off = p.log_scale ? std::log(values[j] / p.prior->mean) : values[j] - p.prior->mean;
-    sum += std::pow(off / p.prior->standard_deviation, 2);
-  }
+  for (std::size_t j = 0; j < parameters.size(); ++j) sum += prior_term(parameters[j], values[j]);
   return sum;
 }
 
@@ -95,9 +91,10 @@ class MappedModel {
   /// Whether the fine model has an answer there.
   bool ask(const std::vector<double>& values) {
     ++n_asked_;
-    const auto residuals = fine_.residuals(values), smooth = smooth_of(fine_)(values);
+    const auto residuals = fine_.residuals(values);
+    const auto smooth = fine_.averaged ? fine_.averaged(values) : residuals;
     if (!residuals || !smooth) return false;
-    asked_.emplace_back(Asked{values, as_vector(*residuals), as_vector(*smooth)});
+    asked_.push_back({values, as_vector(*residuals), as_vector(*smooth)});
     if (asked_.size() == 1 || sum(asked_.back()) < sum(asked_[best_])) best_ = asked_.size() - 1;
     return true;
   }
@@ -122,14 +119,15 @@ class MappedModel {
   /// Nothing where the coarse model has no answer at a point of the fine one.
   std::optional<FitProblem> problem() const {
     if (coarse_.meet) coarse_.meet(best());
-    const Residuals coarse = smooth_of(coarse_.problem);
+    const Residuals& coarse = smooth_coarse();
     const auto at_best = coarse(best());
     if (!at_best) return std::nullopt;
     const VectorXd coarse_here = as_vector(*at_best), fine_here = asked_[best_].residuals;
     FitProblem mapped = coarse_.problem;
     mapped.jacobian = {};
     mapped.averaged = {};
-    mapped.residuals = [=, correction = std::make_shared<const Correction>(correction_about_best(coarse_here))](
+    mapped.residuals = [=, coarse = coarse,
+                        correction = std::make_shared<const Correction>(correction_about_best(coarse_here))](
                            std::span<const double> p) -> std::optional<std::vector<double>> {
       const auto c = coarse(p);
       if (!c) return std::nullopt;
@@ -145,8 +143,8 @@ class MappedModel {
     std::vector<double> values;
     VectorXd residuals, smooth;  // the latter as the problem has them averaged
   };
-  static const Residuals& smooth_of(const FitProblem& problem) {
-    return problem.averaged ? problem.averaged : problem.residuals;
+  const Residuals& smooth_coarse() const {
+    return coarse_.problem.averaged ? coarse_.problem.averaged : coarse_.problem.residuals;
   }
   double sum(const Asked& asked) const {
     return asked.residuals.squaredNorm() + of_priors(fine_.parameters, asked.values);
@@ -156,7 +154,7 @@ class MappedModel {
     std::vector<VectorXd> fine, coarse;
     for (std::size_t k = asked_.size(); k-- > 0 && fine.size() < fine_.parameters.size();) {
       if (is_too_near(k)) continue;
-      const auto there = smooth_of(coarse_.problem)(asked_[k].values);
+      const auto there = smooth_coarse()(asked_[k].values);
       if (!there || as_vector(*there) == coarse_here) continue;
       fine.emplace_back(asked_[k].smooth - asked_[best_].smooth);
       coarse.emplace_back(as_vector(*there) - coarse_here);
@@ -202,14 +200,12 @@ class Descent {
  public:
   Descent(const FitProblem& fine, const CoarseModel& coarse, const FitSettings& settings)
       : fine_(fine), coarse_(coarse), settings_(settings), model_(fine, coarse, settings) {
-    further_.starts = 1;
-    further_.screened = 0;
     further_.cost_tolerance *= 0.1;
     further_.iterated = {};
   }
 
   MappedFit run() {
-    first_ = fit(coarse_.problem, settings_);
+    first_ = coarse_.fitted ? *coarse_.fitted : fit(coarse_.problem, settings_);
     if (!model_.ask(first_.values())) return failed("the fine model does not converge where the coarse one fits best");
     tell();
     while (true) {
@@ -284,7 +280,7 @@ class Descent {
   const FitProblem& fine_;
   const CoarseModel& coarse_;
   const FitSettings& settings_;
-  FitSettings further_ = settings_;
+  FitSettings further_ = from_one_start(settings_);
   MappedModel model_;
   FitResult first_;
   bool has_moved_ = true;  // since the last test

@@ -26,6 +26,8 @@ struct CoarseModel {
   /// Told the point p_k about which the residuals are mapped next, before they are asked for: a model may shift itself
   /// to meet the fine one there.
   std::function<void(std::span<const double> parameters)> meet = {};
+  /// Its own fit, where that is there already.
+  std::optional<FitResult> fitted = std::nullopt;
 };
 
 struct MappedFit {

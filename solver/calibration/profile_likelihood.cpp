@@ -24,13 +24,17 @@ class ProfileSide {
  public:
   ProfileSide(const FitProblem& problem, const FitSettings& settings, const FitResult& result, std::size_t k,
               const ProfileSettings& how, double sign, ProfileInterval& found)
-      : problem_(problem), settings_(settings), result_(result), k_(k), how_(how), sign_(sign), found_(found) {
+      : problem_(problem),
+        settings_(from_one_start(settings)),
+        result_(result),
+        k_(k),
+        how_(how),
+        sign_(sign),
+        found_(found) {
     const double n = static_cast<double>(result.residuals.size());
     const double freedom = n - static_cast<double>(problem.parameters.size());
     variance_ = problem.noise_is_known ? 1.0 : result.sum_of_squares / freedom;
     due_ = how.due.value_or(problem.noise_is_known ? student_95(1e9) : student_95(freedom));
-    settings_.starts = 1;
-    settings_.screened = 0;
     settings_.iterated = {};
   }
 

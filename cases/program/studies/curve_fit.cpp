@@ -37,12 +37,6 @@ void start_at(const std::vector<double>& values, FitProblem& problem) {
   for (std::size_t j = 0; j < values.size(); ++j) problem.parameters[j].start = values[j];
 }
 
-FitSettings from_one_start(FitSettings settings) {
-  settings.starts = 1;
-  settings.screened = 0;
-  return settings;
-}
-
 }  // namespace
 
 CurveFit::CurveFit(const CurveFitJob& job, Session& session)
@@ -206,10 +200,9 @@ CurveFit::FittedPoints CurveFit::fit_points(const CurveFitStage& stage, const Me
                      .meet = [&](std::span<const double> values) { align(with_stage(stage, values), until); }};
   coarse.problem.parameters = problem.parameters;
   alignment_ = {};
-  const FitResult rough = fit_model(coarse.problem, points, settings);
-  start_at(rough.values(), coarse.problem);
+  coarse.fitted = fit_model(coarse.problem, points, settings);
   session_.log.say("  the case itself where these lead");
-  MappedFit mapped = fit_by_mapping(problem, coarse, from_one_start(settings));
+  MappedFit mapped = fit_by_mapping(problem, coarse, settings);
   if (mapped.failure.empty()) return {std::move(mapped.result), std::move(mapped.mapped)};
   session_.log.warn(fmt::format("[fit] coarse does not lead to the estimates: {}; the case itself is run at every step",
                                 mapped.failure));
