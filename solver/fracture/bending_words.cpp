@@ -28,32 +28,46 @@ std::string reason(const FractureModel& model) {
   return "";
 }
 
+// Of what, and what would mend it.
+std::string words_on(const BendingError& worst, const std::string& why) {
+  const BendingLayers& at = worst.layers;
+  const double nu = worst.poisson_ratio;
+  const auto length = [](double metres, int digits) { return quantity_text(metres, "m", digits); };
+  if (!worst.has_lines)
+    return fmt::format(
+        "1.5 (1 - nu) (length/thickness)^2 = {:.3g} less (3 - 2/n)/n^2 = {:.3g}; {}). For {:.0f} %: {} layers of cells "
+        "up to {} long ([mesh])",
+        at.excess(nu), at.lack(), why, 100.0 * bearable, layers_for_it,
+        length(at.thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))), 2));
+  if (worst.error > 0.0)
+    return fmt::format(
+        "0.05 (length/thickness - 1) (1 - nu)/sqrt(1 - 2 nu), within a factor of two; cells longer than the body is "
+        "thick). For {:.0f} %: cells up to {} long ([mesh])",
+        100.0 * bearable, length(1.3 * at.thickness, 2));
+  return fmt::format(
+      "0.7 (t/thickness)^2, within a factor of two; one cell of t = {} across a material). For {:.0f} %: two cells "
+      "across it ([mesh])",
+      length(at.lone, 3), 100.0 * bearable);
+}
+
 }  // namespace
 
 std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel& model) {
   const bool is_plane = std::ranges::any_of(model.boundary, [](const auto& on) { return is_front_or_back(on); });
-  const bool is_finite = model.is_finite_strain();
-  std::string why = reason(model);
+  const std::string why = reason(model);
   const bool may_have_lines = why.empty();
-  if (may_have_lines && is_plane && !is_finite) return std::nullopt;
+  if (may_have_lines && is_plane && !model.is_finite_strain() && !model.has_eigenstrain()) return std::nullopt;
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
-  const LinesIn where = is_finite ? LinesIn::space_and_plane : LinesIn::space;
-  const auto worst = largest_bending_error(
-      mesh, unknowns, [&](const BendingCell& in) { return !may_have_lines || !has_lines(mesh, unknowns, in, where); });
-  if (may_have_lines)
-    why = fmt::format("{} with fewer than three cells of one material across",
-                      is_finite ? "at finite strain" : "in space");
+  const auto worst =
+      largest_bending_error(mesh, unknowns, may_have_lines ? std::optional(LinesIn::space_and_plane) : std::nullopt);
   if (!worst || std::abs(worst->error) <= bearable) return std::nullopt;
   const BendingLayers& at = worst->layers;
-  const double nu = worst->poisson_ratio;
   return fmt::format(
       "region \"{}\": {:g} layer{} of hexahedra {} long across {}: where they bend, their stiffness is about {:.0f} % "
-      "too {} (1.5 (1 - nu) (length/thickness)^2 = {:.3g} less (3 - 2/n)/n^2 = {:.3g}; {}). For {:.0f} %: {} layers of "
-      "cells up to {} long ([mesh])",
+      "too {} ({}",
       mesh.region_names[as_size(mesh.region[worst->cell])], at.n, at.n == 1.0 ? "" : "s",
       quantity_text(at.length, "m", 3), quantity_text(at.thickness, "m", 3), 100.0 * std::abs(worst->error),
-      worst->error > 0.0 ? "high" : "low", at.excess(nu), at.lack(), why, 100.0 * bearable, layers_for_it,
-      quantity_text(at.thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))), "m", 2));
+      worst->error > 0.0 ? "high" : "low", words_on(*worst, why.empty() ? "one cell across" : why));
 }
 
 }  // namespace pfdm

@@ -17,6 +17,10 @@ bool touch(const Mesh& mesh, Index f, Index g) {
   return std::any_of(a.begin(), a.end(), [&](Index p) { return std::find(b.begin(), b.end(), p) != b.end(); });
 }
 
+bool is_split(const Unknowns& unknowns, Index face) {
+  return unknowns.neighbour_node.size() > 0 && unknowns.neighbour_node[face] >= 0;
+}
+
 // A line of cells through opposite faces. Ends may be free, planes of symmetry, or neither: held, or beside other
 // cells.
 struct LayerLine {
@@ -108,7 +112,7 @@ class LayerLines {
   // Adds the cells beyond a face.
   End follow(Index cell, Index face, std::vector<Step>& steps) const {
     const Index first = cell;
-    while (mesh_.is_interior(face) && !is_split(face)) {
+    while (mesh_.is_interior(face) && !is_split(unknowns_, face)) {
       cell = mesh_.across(face, cell);
       if (cell == first) return End::held;
       const int axis = axis_of(cell, face);
@@ -119,7 +123,6 @@ class LayerLines {
     }
     return mesh_.is_interior(face) ? End::free : ends_[face];
   }
-  bool is_split(Index face) const { return unknowns_.neighbour_node.size() > 0 && unknowns_.neighbour_node[face] >= 0; }
   int axis_of(Index cell, Index face) const {
     for (int a = 0; a < n_axes(cell); ++a)
       for (const Index f : pairs_[as_size(cell)][as_size(a)].face)
@@ -136,6 +139,23 @@ class LayerLines {
 
 constexpr double least_error = 0.005, least_slenderness = 3.0;
 
+bool is_lone(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {
+  return cells_through(mesh, unknowns, cell, faces) == 1;
+}
+
+// Cells in the line of a cell up to faces at which it ends.
+template <class Ends>
+Index count_through(const Mesh& mesh, Index cell, const std::array<Index, 2>& faces, const Ends& ends) {
+  Index n = 1;
+  for (Index face : faces)
+    for (Index at = cell; mesh.is_interior(face) && !ends(at, face); ++n) {
+      at = mesh.across(face, at);
+      face = opposite_face(mesh, at, face);
+      if (face < 0 || at == cell) break;
+    }
+  return n;
+}
+
 // see(cell with its faces, layers, nu) of the layers across each body that is long enough, at each of its cells, for
 // each direction in which it is.
 template <class See>
@@ -150,7 +170,12 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
         if (across == along || !layers.has_layers()) continue;
         if (length.times() * length.length < least_slenderness * thickness) continue;
         see(BendingCell{.cell = c, .across = lines.faces(c, across), .along = lines.faces(c, along)},
-            BendingLayers{.n = n, .thickness = thickness, .length = lines.length(c, along)},
+            BendingLayers{.n = n,
+                          .thickness = thickness,
+                          .length = lines.length(c, along),
+                          .lone = layers.n > 1.0 && is_lone(mesh, unknowns, c, lines.faces(c, across))
+                                      ? lines.length(c, across)
+                                      : 0.0},
             unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio());
       }
 }
@@ -171,23 +196,19 @@ std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unkno
   return cells;
 }
 
-// Up to an interior face that carries a node.
-Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {
-  Index n = 1;
-  for (Index face : faces)
-    for (Index at = cell; mesh.is_interior(face) && unknowns.node_beside(mesh, at, face) < 0; ++n) {
-      at = mesh.across(face, at);
-      face = opposite_face(mesh, at, face);
-      if (face < 0 || at == cell) break;
-    }
-  return n;
+double BendingLayers::excess_of_lines(double nu) const {
+  const double at_most = std::min(nu, 0.45);
+  return std::max(0.0, 0.05 * (length / thickness - 1.0)) * (1.0 - at_most) / std::sqrt(1.0 - 2.0 * at_most);
 }
 
-// Fewer have no slopes to extrapolate.
+Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {
+  return count_through(mesh, cell, faces,
+                       [&](Index at, Index face) { return unknowns.node_beside(mesh, at, face) >= 0; });
+}
+
 bool has_lines(const Mesh& mesh, const Unknowns& unknowns, const BendingCell& in, LinesIn where) {
-  constexpr Index least_layers = 3;
   if (unknowns.is_axisymmetric() || (where == LinesIn::space && !unknowns.plane_normal.isZero())) return false;
-  return cells_through(mesh, unknowns, in.cell, in.across) >= least_layers;
+  return count_through(mesh, in.cell, in.across, [&](Index, Index face) { return is_split(unknowns, face); }) >= 2;
 }
 
 std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns, LinesIn where) {
@@ -208,12 +229,13 @@ std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
 }
 
 std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns,
-                                                  const std::function<bool(const BendingCell&)>& counts) {
+                                                  std::optional<LinesIn> lines) {
   std::optional<BendingError> largest;
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
-    const double error = at.excess(nu) - at.lack();
-    if ((!largest || std::abs(error) > std::abs(largest->error)) && (!counts || counts(in)))
-      largest = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error};
+    const bool by_lines = lines && has_lines(mesh, unknowns, in, *lines);
+    const double error = by_lines ? at.excess_of_lines(nu) - at.lack_of_lines() : at.excess(nu) - at.lack();
+    if (!largest || std::abs(error) > std::abs(largest->error))
+      largest = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error, .has_lines = by_lines};
   });
   return largest;
 }

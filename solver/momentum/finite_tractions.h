@@ -115,6 +115,7 @@ class FiniteTractions final : public FaceTractions {
   void linearise_volumes(const std::vector<Vector>& u, FiniteSweep& s);
   // finite_mechanics.cpp
   void find_within_layers(const CellField<Tensor>& gradients, CellMechanics& result) const;
+  void add_work_of_moments(CellMechanics& result) const;
 
   CellReconstruction& cells_;
   FiniteStates states_;

@@ -11,9 +11,13 @@
 // 1. The derivative of a cell along each of its lines is the mean over the cell of the polynomial through the slopes
 //    between the centres of the line's cells, four of them, three beside a surface. Slopes of half cells at free
 //    surfaces follow from tractions, and are taken to be those at the surface.
-// 2. On free surfaces across the layers, and on planes of symmetry at the ends of lines, derivatives along the surface
-//    are extrapolated from the centres of the last two cells. (Else Poisson's effect across a plate is that of the
-//    cells' centres: 15 % of the stiffness with four layers at nu = 0.45.)
+// 2. On free surfaces across the layers, at free ends of lines and on planes of symmetry at their ends, derivatives
+//    along the surface are extrapolated from the centres of the last two cells. (Else Poisson's effect across a plate
+//    is that of the cells' centres: 15 % of the stiffness with four layers at nu = 0.45; and a moment at a free end
+//    bends 1 to 5 % too little. At free ends this fades in cells 1 to 1.5 times as long as the body is thick.) On
+//    interfaces between bonded layers of two materials those along them are between the two centres, or by either side
+//    alone where one is more than three times as stiff, and the derivative across follows from the slopes of the half
+//    cell and the next step. A laminate then bends exactly.
 // 3. Of the jump at faces across the span the component across the layers has the weight 0.04/(1 - nu) t h/d^2, t being
 //    the thickness of the layer, h that of all and d the distance of the cells' centres: 0.06/n of the stiffness is
 //    left. The others keep theirs; so twisting shears the faces beside free edges in full.
@@ -35,10 +39,15 @@ namespace pfdm {
 
 class LayerGradients {
  public:
+  /// Which sides have derivatives of their own, by 2.: free surfaces across the layers and planes of symmetry alone, or
+  /// also free ends of lines and interfaces.
+  enum class OwnSides { surfaces, surfaces_ends_and_interfaces };
+
   LayerGradients() = default;
   /// Of these cells, those of one after the other (bending_layers.h). Sides 2 i and 2 i + 1 are those of link number i.
   LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
-                 const std::vector<momentum_faces::Link>& links, const std::vector<BendingCell>& cells);
+                 const std::vector<momentum_faces::Link>& links, const std::vector<BendingCell>& cells,
+                 OwnSides own = OwnSides::surfaces_ends_and_interfaces);
 
   bool any() const { return counts_; }
   /// Whether some cells have lines, whatever they count.
@@ -88,16 +97,22 @@ class LayerGradients {
     std::size_t first_line, end_line;
     double weight = 1.0;
   };
+  // A side with a gradient of its own, and the next cell of its line inwards, or the one bonded to it.
   struct Surface {
     Index cell, next;
-    double ratio;  // distance of the surface from the cell's centre, over that of the two centres
+    double ratio;  // distance of the surface from the cell's centre, over that of the two centres; negative
+                   // if the other one lies beyond it; a part of that at free ends of long cells
     Vector n;
     std::size_t side;
+    std::size_t first_slope, end_slope;  // of bonded ones, else none: their sum is what the slope along the line
+    Vector along;                        // changes by to the surface
+    double weight = 1.0;
   };
 
   class Maker;
 
   double least_factor_ratio(const Cell& in, const CellField<double>& g) const;
+  static double part_of(double factor_ratio);  // how much counts where the least factor over the greatest is this
 
   std::vector<Cell> cells_;
   std::vector<Line> lines_;

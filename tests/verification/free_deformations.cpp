@@ -229,8 +229,8 @@ TEST(FreeDeformations, SphereThatSwellsInAShell) {
   }
 }
 
-// A bead of another expansion, a misfit of 1e-7, against the small-strain program. What the account lacks is the work
-// of the tractions' moments about the centres of coarse cells, which vanishes with the size of cells.
+// A bead of another expansion, a misfit of 1e-7, against the small-strain program. Without the work of the tractions'
+// moments about the centres of these coarse cells 40 and 8 % were missing in the account.
 TEST(FreeDeformations, SmallOnesAreThoseOfTheSmallStrainProgram) {
   std::vector<double> accounts;
   for (const Mesh& mesh : {cube(), sphere_in_cube(2, 3, 2.0, 0.6)}) {
@@ -257,8 +257,7 @@ TEST(FreeDeformations, SmallOnesAreThoseOfTheSmallStrainProgram) {
     EXPECT_LT(difference, 1e-5);
     EXPECT_LT(std::abs(work), 1e-5);
   }
-  EXPECT_LT(accounts[1], 0.1);
-  EXPECT_LT(accounts[1], 0.3 * accounts[0]);
+  for (const double account : accounts) EXPECT_LT(account, 1e-4);
 }
 
 TEST(FreeDeformations, ThatTurnCellsInsideOutAreRefused) {

@@ -1,0 +1,292 @@
+// How the lines of cells of layer_gradients.h are found.
+
+#include "solver/momentum/layer_gradients.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace pfdm {
+namespace {
+
+// Weights of values at `n` places in the mean over [-1/2, 1/2] of the polynomial through them (Lagrange; Gauss's rule
+// of two points is exact for cubics).
+std::array<double, 4> mean_weights(const std::array<double, 4>& places, std::size_t n) {
+  const double gauss = 0.5 / std::sqrt(3.0);
+  std::array<double, 4> weights{};
+  for (const double x : {-gauss, gauss})
+    for (std::size_t j = 0; j < n; ++j) {
+      double product = 0.5;
+      for (std::size_t m = 0; m < n; ++m)
+        if (m != j) product *= (x - places[m]) / (places[j] - places[m]);
+      weights[j] += product;
+    }
+  return weights;
+}
+
+using FacePair = std::array<Index, 2>;
+
+}  // namespace
+
+class LayerGradients::Maker {
+ public:
+  Maker(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
+        const std::vector<momentum_faces::Link>& links, OwnSides own, LayerGradients& made)
+      : mesh_(mesh),
+        unknowns_(unknowns),
+        links_(links),
+        has_all_sides_(own == OwnSides::surfaces_ends_and_interfaces),
+        made_(made),
+        sides_of_(as_size(mesh.n_cells())) {
+    for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[as_size(sides[k].cell)].emplace_back(sides[k].face, k);
+    made.sound_weights_.assign(links.size(), Tensor::Identity());
+    made.counting_ = CellField<double>(as_size(mesh.n_cells()), 1.0);
+    made.is_covered_ = CellField<char>(as_size(mesh.n_cells()), 0);
+    for (const momentum_faces::Link& link : links) made.cells_of_link_.push_back({link.P, link.N});
+    made.is_weighed_.assign(links.size(), 0);
+  }
+
+  void add(const BendingCell& in) {
+    if (made_.cells_.empty() || made_.cells_.back().cell != in.cell) {
+      made_.cells_.push_back({.cell = in.cell, .first_line = made_.lines_.size(), .end_line = 0});
+      made_.is_covered_[in.cell] = 1;
+      has_line_.clear();
+      has_surface_.clear();
+    }
+    add_line(in.cell, in.across);
+    add_line(in.cell, in.along);
+    made_.cells_.back().end_line = made_.lines_.size();
+    for (const Index face : in.across) {
+      if (is_free(face) || is_split(face)) add_surface(in.cell, face);
+      if (has_all_sides_ && is_bonded(face)) add_bond(in.cell, face);
+    }
+    for (const Index face : in.along) {
+      if (is_mirror(face)) add_surface(in.cell, face);
+      if (has_all_sides_ && is_free(face)) add_surface(in.cell, face, part_of_end(in));
+      weigh_jump(in, face);
+    }
+  }
+
+ private:
+  // A cell beyond a face in its line, and that cell's far face; no cell where the face carries a node.
+  struct Step {
+    Index cell = -1, far = -1;
+  };
+  Step beyond(Index cell, Index face) const {
+    if (!mesh_.is_interior(face) || unknowns_.node_beside(mesh_, cell, face) >= 0) return {};
+    const Index other = mesh_.across(face, cell);
+    return {.cell = other, .far = opposite_face(mesh_, other, face)};
+  }
+  double length(Index f, Index g) const { return (mesh_.face_centre[g] - mesh_.face_centre[f]).norm(); }
+  Vector place(std::size_t unknown) const { return unknowns_.place(mesh_, static_cast<Index>(unknown)); }
+  std::optional<std::size_t> side_of(Index cell, Index face) const {
+    for (const auto& [f, side] : sides_of_[as_size(cell)])
+      if (f == face) return side;
+    return std::nullopt;
+  }
+  // On the surface of the body: components whose traction is prescribed, in plane meshes of those within the plane.
+  Tensor free_part(Index face) const {
+    const Index node = unknowns_.node_of_face[face];
+    if (mesh_.is_interior(face) || node < 0) return Tensor::Zero();
+    return unknowns_.free_within(node);
+  }
+  bool is_free(Index face) const { return !free_part(face).isZero(); }
+  bool is_split(Index face) const { return unknowns_.neighbour_node.size() > 0 && unknowns_.neighbour_node[face] >= 0; }
+  bool is_mirror(Index face) const {
+    const Vector& across = unknowns_.plane_normal;
+    return is_free(face) && !(free_part(face) + across * across.transpose()).isIdentity();
+  }
+  bool is_bonded(Index face) const {
+    return mesh_.is_interior(face) && !is_split(face) && unknowns_.node_of_face[face] >= 0;
+  }
+
+  struct Place {
+    std::size_t from, to;  // outwards from the first cell of the line
+    double at;             // of the slope from that cell's centre, over its length
+  };
+  // The slope at the face of a cell of the line: at the distance `x`, the face's distance from the cell's own centre
+  // being `half`, over the length of the first one. Nothing where the face carries neither a cell beyond nor a node.
+  std::optional<Place> slope_at(Index cell, Index face, double x, double half) const {
+    if (const Step next = beyond(cell, face); next.cell >= 0) return Place{as_size(cell), as_size(next.cell), x};
+    const Index node = unknowns_.node_beside(mesh_, cell, face);
+    if (node < 0) return std::nullopt;
+    return Place{as_size(cell), as_size(node), is_free(face) ? x : x - half / 2.0};
+  }
+
+  // Slopes through a cell, those towards its first face at negative places, all along the line; empty where its own
+  // faces have none.
+  std::vector<Place> places_through(Index cell, const FacePair& faces) const {
+    const double unit = length(faces[0], faces[1]);
+    std::vector<Place> places;
+    for (const Index face : faces) {
+      const auto add = [&](Place place) {
+        if (face == faces[0]) place = {place.to, place.from, -place.at};
+        places.push_back(place);
+      };
+      const std::optional<Place> here = slope_at(cell, face, 0.5, 0.5);
+      if (!here) return {};
+      add(*here);
+      const Step next = beyond(cell, face);
+      if (next.cell < 0 || next.far < 0) continue;
+      const double width = length(face, next.far) / unit;
+      if (const auto there = slope_at(next.cell, next.far, 0.5 + width, width / 2.0)) add(*there);
+    }
+    return places;
+  }
+
+  // Once for each pair of faces, though a plate is long in two directions.
+  void add_line(Index cell, const FacePair& faces) {
+    if (std::ranges::find(has_line_, faces[0]) != has_line_.end()) return;
+    has_line_.push_back(faces[0]);
+    const std::vector<Place> places = places_through(cell, faces);
+    if (places.empty()) return;
+    std::array<double, 4> at{};
+    for (std::size_t k = 0; k < places.size(); ++k) at[k] = places[k].at;
+    const std::array<double, 4> weights = mean_weights(at, places.size());
+    const std::size_t first = made_.slopes_.size();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Vector step = place(places[k].to) - place(places[k].from);
+      made_.slopes_.push_back({places[k].from, places[k].to, step, weights[k] / step.norm()});
+    }
+    const auto neighbour = [&](Index face) {
+      const Index next = beyond(cell, face).cell;
+      return next < 0 ? cell : next;
+    };
+    const Index before = neighbour(faces[0]), after = neighbour(faces[1]);
+    const double distance = (mesh_.cell_centre[after] - mesh_.cell_centre[before]).norm();
+    made_.lines_.push_back(
+        {.along = dual_of(cell, faces),
+         .first_slope = first,
+         .end_slope = made_.slopes_.size(),
+         .before = before,
+         .after = after,
+         .spread = distance > 0.0 ? length(faces[0], faces[1]) / (std::sqrt(12.0) * distance) : 0.0});
+  }
+
+  // Takes the derivative along the line to the gradient, those along the faces being kept.
+  Vector dual_of(Index cell, const FacePair& faces) const {
+    const auto outwards = [&](Index f) -> Vector {
+      return (mesh_.owner[f] == cell ? 1.0 : -1.0) * mesh_.face_area[f].normalized();
+    };
+    const Vector line = (mesh_.face_centre[faces[1]] - mesh_.face_centre[faces[0]]).normalized();
+    const Vector normal = (outwards(faces[1]) - outwards(faces[0])).normalized();
+    return normal / normal.dot(line);
+  }
+
+  // `beside`: the cell from whose derivatives along the face, and the cell's own, those on it follow, by this part.
+  void add_side(Index cell, Index face, Index beside, double part, const std::vector<Slope>& half_slopes) {
+    const auto side = side_of(cell, face);
+    if (beside < 0 || !side || std::ranges::find(has_surface_, face) != has_surface_.end()) return;
+    has_surface_.push_back(face);
+    const Vector& centre = mesh_.cell_centre[cell];
+    const Vector to_face = mesh_.face_centre[face] - centre, to_other = mesh_.cell_centre[beside] - centre;
+    const std::size_t first = made_.slopes_.size();
+    made_.slopes_.insert(made_.slopes_.end(), half_slopes.begin(), half_slopes.end());
+    made_.surfaces_.push_back({.cell = cell,
+                               .next = beside,
+                               .ratio = std::copysign(part * to_face.norm() / to_other.norm(), -to_face.dot(to_other)),
+                               .n = mesh_.face_area[face].normalized(),
+                               .side = *side,
+                               .first_slope = first,
+                               .end_slope = made_.slopes_.size(),
+                               .along = to_face.normalized()});
+  }
+
+  void add_surface(Index cell, Index face, double part = 1.0) {
+    add_side(cell, face, beyond(cell, opposite_face(mesh_, cell, face)).cell, part, {});
+  }
+
+  // At the free end of a line: cells 1.5 times as long as the body is thick would make a cantilever 2 % softer.
+  double part_of_end(const BendingCell& in) const {
+    const double ratio = length(in.along[0], in.along[1]) / thickness_at(in);
+    return std::clamp(3.0 - 2.0 * ratio, 0.0, 1.0);
+  }
+  // Of all zones [m].
+  double thickness_at(const BendingCell& in) const {
+    double sum = length(in.across[0], in.across[1]);
+    for (Index face : in.across)
+      for (Index at = in.cell; mesh_.is_interior(face) && !is_split(face);) {
+        at = mesh_.across(face, at);
+        const Index far = opposite_face(mesh_, at, face);
+        if (far < 0 || at == in.cell) break;
+        sum += length(face, far);
+        face = far;
+      }
+    return sum;
+  }
+
+  // Derivatives along it are those between both centres, but of much stiffer and much softer cells those of either side
+  // by itself: their slopes in the soft one have a kink at the interface where shear builds up.
+  void add_bond(Index cell, Index face) {
+    constexpr double most_alike = 3.0;
+    const Index other = mesh_.across(face, cell), next = beyond(cell, opposite_face(mesh_, cell, face)).cell;
+    const double here = shear_modulus(cell), there = shear_modulus(other);
+    const bool are_alike = std::max(here, there) <= most_alike * std::min(here, there);
+    add_side(cell, face, are_alike || next < 0 ? other : next, 1.0, half_slopes(cell, face));
+  }
+  double shear_modulus(Index cell) const { return unknowns_.sound[as_size(unknowns_.zone[cell])].mu; }
+
+  // Whose sum is what the slope towards a bonded face changes by from the middle of the half cell to the face, by that
+  // slope and the next one inwards.
+  std::vector<Slope> half_slopes(Index cell, Index face) const {
+    const Index opposite = opposite_face(mesh_, cell, face), next = beyond(cell, opposite).cell;
+    const Index inwards = next >= 0 ? next : unknowns_.node_beside(mesh_, cell, opposite);
+    if (inwards < 0) return {};
+    const Vector& centre = mesh_.cell_centre[cell];
+    const Vector near = mesh_.face_centre[face] - centre, far = place(as_size(inwards)) - centre;
+    const double at_near = near.norm() / 2.0, at_far = far.norm() / (is_free(opposite) ? 1.0 : 2.0);
+    const double part = at_near / (at_near + at_far);
+    const auto at = as_size(cell), node = as_size(unknowns_.node_beside(mesh_, cell, face));
+    return {{.from = at, .to = node, .step = near, .weight_over_length = part / near.norm()},
+            {.from = at, .to = as_size(inwards), .step = far, .weight_over_length = part / far.norm()}};
+  }
+
+  // Of all cells of the line [m].
+  double length_through(Index cell, const FacePair& faces) const {
+    double sum = length(faces[0], faces[1]);
+    for (Index face : faces)
+      for (Step next = beyond(cell, face); next.cell >= 0 && next.far >= 0; next = beyond(next.cell, face)) {
+        sum += length(face, next.far);
+        face = next.far;
+      }
+    return sum;
+  }
+
+  // Each cell of the face by half.
+  void weigh_jump(const BendingCell& in, Index face) {
+    constexpr double left = 0.04;
+    const auto side = side_of(in.cell, face);
+    if (!side || *side >= 2 * links_.size()) return;
+    const momentum_faces::Link& link = links_[*side / 2];
+    const double distance = (link.d_P - link.d_N).dot(link.n);
+    const double layer = length(in.across[0], in.across[1]), all = length_through(in.cell, in.across);
+    const double nu = unknowns_.sound[as_size(unknowns_.zone[in.cell])].poisson_ratio();
+    const double weight = std::min(1.0, left / (1.0 - nu) * layer * all / (distance * distance));
+    const Vector line = mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]];
+    const Vector within = (line - line.dot(link.n) * link.n).normalized();
+    made_.sound_weights_[*side / 2] -= 0.5 * (1.0 - weight) * within * within.transpose();
+    made_.is_weighed_[*side / 2] = 1;
+  }
+
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+  const std::vector<momentum_faces::Link>& links_;
+  bool has_all_sides_;
+  LayerGradients& made_;
+  std::vector<std::vector<std::pair<Index, std::size_t>>> sides_of_;
+  std::vector<Index> has_line_, has_surface_;  // faces of the last cell
+};
+
+LayerGradients::LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
+                               const std::vector<momentum_faces::Link>& links, const std::vector<BendingCell>& cells,
+                               OwnSides own)
+    : counts_(!cells.empty()) {
+  if (cells.empty()) return;
+  Maker maker(mesh, unknowns, sides, links, own, *this);
+  for (const BendingCell& in : cells) maker.add(in);
+  weights_ = sound_weights_;
+}
+
+}  // namespace pfdm
