@@ -35,17 +35,20 @@ std::string words_on(const BendingError& worst, const std::string& why) {
   const auto length = [](double metres, int digits) { return quantity_text(metres, "m", digits); };
   if (!worst.has_lines)
     return fmt::format(
-        "1.5 (1 - nu) (length/thickness)^2 = {:.3g} less (3 - 2/n)/n^2 = {:.3g}; {}). For {:.0f} %: {} layers of cells "
+        "too {} (1.5 (1 - nu) (length/thickness)^2 = {:.3g} less (3 - 2/n)/n^2 = {:.3g}; {}). For {:.0f} %: {} layers "
+        "of cells "
         "up to {} long ([mesh])",
-        at.excess(nu), at.lack(), why, 100.0 * bearable, layers_for_it,
+        worst.error > 0.0 ? "high" : "low", at.excess(nu), at.lack(), why, 100.0 * bearable, layers_for_it,
         length(at.thickness * std::sqrt(bearable / (1.5 * (1.0 - nu))), 2));
   if (worst.error > 0.0)
     return fmt::format(
-        "0.05 (length/thickness - 1) (1 - nu)/sqrt(1 - 2 nu), within a factor of two; cells longer than the body is "
-        "thick). For {:.0f} %: cells up to {} long ([mesh])",
+        "too high or, with an odd number of cells along, too low (cells longer than the body is thick: 0.05 "
+        "(length/thickness - 1)^1.3 sqrt((1 - nu)/(1 - 2 nu)), within a factor of two). For {:.0f} %: cells up to {} "
+        "long ([mesh])",
         100.0 * bearable, length(1.3 * at.thickness, 2));
   return fmt::format(
-      "0.7 (t/thickness)^2, within a factor of two; one cell of t = {} across a material). For {:.0f} %: two cells "
+      "too low (0.7 (t/thickness)^2, within a factor of two; one cell of t = {} across a material). For {:.0f} %: two "
+      "cells "
       "across it ([mesh])",
       length(at.lone, 3), 100.0 * bearable);
 }
@@ -64,10 +67,10 @@ std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel
   const BendingLayers& at = worst->layers;
   return fmt::format(
       "region \"{}\": {:g} layer{} of hexahedra {} long across {}: where they bend, their stiffness is about {:.0f} % "
-      "too {} ({}",
+      "{}",
       mesh.region_names[as_size(mesh.region[worst->cell])], at.n, at.n == 1.0 ? "" : "s",
       quantity_text(at.length, "m", 3), quantity_text(at.thickness, "m", 3), 100.0 * std::abs(worst->error),
-      worst->error > 0.0 ? "high" : "low", words_on(*worst, why.empty() ? "one cell across" : why));
+      words_on(*worst, why.empty() ? "one cell across" : why));
 }
 
 }  // namespace pfdm

@@ -198,7 +198,8 @@ std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unkno
 
 double BendingLayers::excess_of_lines(double nu) const {
   const double at_most = std::min(nu, 0.45);
-  return std::max(0.0, 0.05 * (length / thickness - 1.0)) * (1.0 - at_most) / std::sqrt(1.0 - 2.0 * at_most);
+  const double longer = std::max(0.0, length / thickness - 1.0);
+  return 0.05 * std::pow(longer, 1.3) * std::sqrt((1.0 - at_most) / (1.0 - 2.0 * at_most));
 }
 
 Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {

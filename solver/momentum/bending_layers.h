@@ -22,8 +22,9 @@ struct BendingLayers {
   /// (3 - 2/n)/n^2 too little.
   double excess(double nu) const { return 1.5 * (1.0 - nu) * length * length / (thickness * thickness); }
   double lack() const { return n > 1.0 ? (3.0 - 2.0 / n) / (n * n) : 1.0; }
-  /// Likewise with gradients along lines of cells, in cells longer than the thickness: 0.05 (length/thickness - 1)
-  /// (1 - nu)/sqrt(1 - 2 nu) too much, nu at most 0.45, and 0.7 (lone/thickness)^2 too little. Measured.
+  /// Likewise with gradients along lines of cells, in cells longer than the thickness: 0.05 (length/thickness - 1)^1.3
+  /// sqrt((1 - nu)/(1 - 2 nu)), nu at most 0.45, too much in cantilevers of an even number of cells, too little with an
+  /// odd one; and 0.7 (lone/thickness)^2 too little. Measured (test `bending`).
   double excess_of_lines(double nu) const;
   double lack_of_lines() const { return 0.7 * lone * lone / (thickness * thickness); }
 };

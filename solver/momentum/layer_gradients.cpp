@@ -60,10 +60,15 @@ void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gr
     const Tensor of_one_ring = G;
     for (std::size_t l = in.first_line; l < in.end_line; ++l) {
       const Line& line = lines_[l];
+      const auto difference = [&](std::size_t k) -> Vector {
+        return u[slopes_[k].to] - u[slopes_[k].from] - of_one_ring * slopes_[k].step;
+      };
       Vector change = Vector::Zero();
       for (std::size_t k = line.first_slope; k < line.end_slope; ++k)
-        change +=
-            slopes_[k].weight_over_length * (u[slopes_[k].to] - u[slopes_[k].from] - of_one_ring * slopes_[k].step);
+        change += slopes_[k].weight_over_length * difference(k);
+      for (std::size_t h = line.first_held; h < line.end_held; ++h)
+        for (std::size_t k = line.first_slope; k < line.end_slope; ++k)
+          change += held_[h].weights[k - line.first_slope] * (held_[h].part * difference(k));
       G += in.weight * change * line.along.transpose();
     }
   });
@@ -77,7 +82,7 @@ void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gr
     for (std::size_t k = at.first_slope; k < at.end_slope; ++k)
       slope += at.weight * slopes_[k].weight_over_length *
                (u[slopes_[k].to] - u[slopes_[k].from] - gradients[at.cell] * slopes_[k].step);
-    change += slope * at.n.transpose() / at.n.dot(at.along);
+    change += at.across * slope * at.n.transpose() / at.n.dot(at.along);
   });
 }
 

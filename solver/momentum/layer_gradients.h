@@ -10,7 +10,8 @@
 //
 // 1. The derivative of a cell along each of its lines is the mean over the cell of the polynomial through the slopes
 //    between the centres of the line's cells, four of them, three beside a surface. Slopes of half cells at free
-//    surfaces follow from tractions, and are taken to be those at the surface.
+//    surfaces follow from tractions, and are taken to be those at the surface; those of components that are held are
+//    those of the middle of the half cell.
 // 2. On free surfaces across the layers, at free ends of lines and on planes of symmetry at their ends, derivatives
 //    along the surface are extrapolated from the centres of the last two cells. (Else Poisson's effect across a plate
 //    is that of the cells' centres: 15 % of the stiffness with four layers at nu = 0.45; and a moment at a free end
@@ -33,6 +34,7 @@
 #include "solver/momentum/momentum_faces.h"
 #include "solver/parallel.h"
 
+#include <array>
 #include <vector>
 
 namespace pfdm {
@@ -89,8 +91,15 @@ class LayerGradients {
   struct Line {
     Vector along;  // the gradient changes by (mean slope - its own along the line) (x) along
     std::size_t first_slope, end_slope;
+    std::size_t first_held, end_held;
     Index before, after;  // the cells beside this one, itself where there is none
     double spread;        // of a cell's length over twelve's root and the distance of these two
+  };
+  // Where a line ends at a face that holds some components alone, as a plane of symmetry does: by what these change the
+  // weights over the lengths of the line's slopes [1/m].
+  struct HeldEnd {
+    Tensor part;
+    std::array<double, 4> weights;
   };
   struct Cell {
     Index cell;
@@ -104,8 +113,9 @@ class LayerGradients {
                    // if the other one lies beyond it; a part of that at free ends of long cells
     Vector n;
     std::size_t side;
-    std::size_t first_slope, end_slope;  // of bonded ones, else none: their sum is what the slope along the line
-    Vector along;                        // changes by to the surface
+    std::size_t first_slope, end_slope;  // of bonded and held ones, else none: their sum is what the slope along the
+    Tensor across;                       // line changes by to the surface, of these components
+    Vector along;
     double weight = 1.0;
   };
 
@@ -117,6 +127,7 @@ class LayerGradients {
   std::vector<Cell> cells_;
   std::vector<Line> lines_;
   std::vector<Slope> slopes_;
+  std::vector<HeldEnd> held_;
   std::vector<Surface> surfaces_;
   std::vector<Tensor> sound_weights_, weights_;  // per link [-]
   std::vector<std::array<Index, 2>> cells_of_link_;

@@ -63,7 +63,7 @@ class LayerGradients::Maker {
       if (has_all_sides_ && is_bonded(face)) add_bond(in.cell, face);
     }
     for (const Index face : in.along) {
-      if (is_mirror(face)) add_surface(in.cell, face);
+      if (is_mirror(face)) add_mirror(in.cell, face);
       if (has_all_sides_ && is_free(face)) add_surface(in.cell, face, part_of_end(in));
       weigh_jump(in, face);
     }
@@ -105,14 +105,18 @@ class LayerGradients::Maker {
   struct Place {
     std::size_t from, to;  // outwards from the first cell of the line
     double at;             // of the slope from that cell's centre, over its length
+    double at_held;        // likewise of the components that are held at a face whose others are free, else `at`
+    Index face;            // of these, else -1
   };
   // The slope at the face of a cell of the line: at the distance `x`, the face's distance from the cell's own centre
   // being `half`, over the length of the first one. Nothing where the face carries neither a cell beyond nor a node.
   std::optional<Place> slope_at(Index cell, Index face, double x, double half) const {
-    if (const Step next = beyond(cell, face); next.cell >= 0) return Place{as_size(cell), as_size(next.cell), x};
+    if (const Step next = beyond(cell, face); next.cell >= 0) return Place{as_size(cell), as_size(next.cell), x, x, -1};
     const Index node = unknowns_.node_beside(mesh_, cell, face);
     if (node < 0) return std::nullopt;
-    return Place{as_size(cell), as_size(node), is_free(face) ? x : x - half / 2.0};
+    const double middle = x - half / 2.0, at = is_free(face) ? x : middle;
+    return is_mirror(face) ? Place{as_size(cell), as_size(node), at, middle, face}
+                           : Place{as_size(cell), as_size(node), at, at, -1};
   }
 
   // Slopes through a cell, those towards its first face at negative places, all along the line; empty where its own
@@ -122,7 +126,7 @@ class LayerGradients::Maker {
     std::vector<Place> places;
     for (const Index face : faces) {
       const auto add = [&](Place place) {
-        if (face == faces[0]) place = {place.to, place.from, -place.at};
+        if (face == faces[0]) place = {place.to, place.from, -place.at, -place.at_held, place.face};
         places.push_back(place);
       };
       const std::optional<Place> here = slope_at(cell, face, 0.5, 0.5);
@@ -150,6 +154,17 @@ class LayerGradients::Maker {
       const Vector step = place(places[k].to) - place(places[k].from);
       made_.slopes_.push_back({places[k].from, places[k].to, step, weights[k] / step.norm()});
     }
+    const std::size_t first_held = made_.held_.size();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (places[k].face < 0) continue;
+      std::array<double, 4> with_held = at;
+      with_held[k] = places[k].at_held;
+      HeldEnd end{.part = Tensor::Identity() - free_part(places[k].face),
+                  .weights = mean_weights(with_held, places.size())};
+      for (std::size_t m = 0; m < places.size(); ++m)
+        end.weights[m] = (end.weights[m] - weights[m]) / made_.slopes_[first + m].step.norm();
+      made_.held_.push_back(end);
+    }
     const auto neighbour = [&](Index face) {
       const Index next = beyond(cell, face).cell;
       return next < 0 ? cell : next;
@@ -160,6 +175,8 @@ class LayerGradients::Maker {
         {.along = dual_of(cell, faces),
          .first_slope = first,
          .end_slope = made_.slopes_.size(),
+         .first_held = first_held,
+         .end_held = made_.held_.size(),
          .before = before,
          .after = after,
          .spread = distance > 0.0 ? length(faces[0], faces[1]) / (std::sqrt(12.0) * distance) : 0.0});
@@ -176,7 +193,9 @@ class LayerGradients::Maker {
   }
 
   // `beside`: the cell from whose derivatives along the face, and the cell's own, those on it follow, by this part.
-  void add_side(Index cell, Index face, Index beside, double part, const std::vector<Slope>& half_slopes) {
+  // `across`: components whose derivative across the face follows from `half_slopes`.
+  void add_side(Index cell, Index face, Index beside, double part, const std::vector<Slope>& half_slopes = {},
+                const Tensor& across = Tensor::Identity()) {
     const auto side = side_of(cell, face);
     if (beside < 0 || !side || std::ranges::find(has_surface_, face) != has_surface_.end()) return;
     has_surface_.push_back(face);
@@ -191,11 +210,18 @@ class LayerGradients::Maker {
                                .side = *side,
                                .first_slope = first,
                                .end_slope = made_.slopes_.size(),
+                               .across = across,
                                .along = to_face.normalized()});
   }
 
   void add_surface(Index cell, Index face, double part = 1.0) {
-    add_side(cell, face, beyond(cell, opposite_face(mesh_, cell, face)).cell, part, {});
+    add_side(cell, face, beyond(cell, opposite_face(mesh_, cell, face)).cell, part);
+  }
+
+  // The components that are held at the end of a line have a slope across it.
+  void add_mirror(Index cell, Index face) {
+    add_side(cell, face, beyond(cell, opposite_face(mesh_, cell, face)).cell, 1.0, half_slopes(cell, face),
+             Tensor::Identity() - free_part(face));
   }
 
   // At the free end of a line: cells 1.5 times as long as the body is thick would make a cantilever 2 % softer.
