@@ -1,7 +1,7 @@
 #include "cases/program/fracture/fracture_browser.h"
 
 #include "cases/program/fracture/end_of_run.h"
-#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/fracture_files.h"
 #include "physics/angle.h"
 #include "postproc/browser/body.h"
 #include "postproc/cohesive/cohesive_law.h"

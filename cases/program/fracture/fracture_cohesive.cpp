@@ -1,7 +1,7 @@
 #include "cases/program/fracture/fracture_cohesive.h"
 
 #include "cases/program/fracture/end_of_run.h"
-#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/fracture_files.h"
 #include "cases/program/fracture/interface_chart.h"
 #include "cases/program/fracture/law_source.h"
 #include "cases/program/input/units.h"

@@ -1,6 +1,6 @@
 #include "cases/program/fracture/fracture_comparison.h"
 
-#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/fracture_files.h"
 #include "physics/angle.h"
 #include "physics/quantity_text.h"
 #include "postproc/cohesive/cohesive_law.h"

@@ -1,6 +1,6 @@
 #include "cases/program/fracture/fracture_pictures.h"
 
-#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/fracture_files.h"
 #include "cases/program/session/report_parts.h"
 #include "postproc/fields/field_slice.h"
 

@@ -5,6 +5,7 @@
 #include "cases/program/fracture/fracture_case.h"
 #include "cases/program/fracture/fracture_cohesive.h"
 #include "cases/program/fracture/fracture_comparison.h"
+#include "cases/program/fracture/fracture_files.h"
 #include "cases/program/fracture/fracture_laws.h"
 #include "cases/program/fracture/fracture_report.h"
 #include "cases/program/fracture/fracture_results.h"

@@ -2,8 +2,8 @@
 
 #include "cases/program/fracture/end_of_run.h"
 #include "cases/program/fracture/fit_on_page.h"
+#include "cases/program/fracture/fracture_files.h"
 #include "cases/program/fracture/fracture_pictures.h"
-#include "cases/program/fracture/fracture_results.h"
 #include "cases/program/fracture/fracture_side_by_side.h"
 #include "cases/program/fracture/heat_charts.h"
 #include "cases/program/fracture/interface_chart.h"

@@ -1,13 +1,10 @@
 #include "cases/program/fracture/fracture_results.h"
 
+#include "cases/program/fracture/fracture_files.h"
 #include "cases/program/fracture/heat_results.h"
 #include "cases/program/fracture/mean_curve.h"
 #include "cases/program/session/earlier_results.h"
-#include "cases/program/session/report_parts.h"
 #include "mesh/quality.h"
-#include "postproc/cohesive/cohesive_results.h"
-#include "postproc/curves/comparison_results.h"
-#include "postproc/exports/export_formats.h"
 #include "postproc/fields/checkpoint.h"
 #include "postproc/fields/frame.h"
 #include "postproc/fields/point_displacement.h"
@@ -19,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace pfdm {
@@ -27,63 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* frames_file = "fields.pvd";
-constexpr const char* frames_folder = "fields";
-constexpr const char* interfaces_file = "interfaces.pvd";
-constexpr const char* interfaces_folder = "interfaces";
-constexpr std::string_view headline_endings[] = {"_G_J_per_m2", "_K1_Pa_sqrt_m", "_K2_Pa_sqrt_m",
-                                                 "_phase_angle_degree"};
-
-constexpr double bearable_damaged_share = 0.05;  // of the integrand of an energy release rate
-
 constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of those that leave figures only
-
-/// Of a step, relative to the results; in the order of the steps, so are the names.
-std::string frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", frames_folder, step); }
-
-std::string interfaces_frame_file(Index step) { return fmt::format("{}/step_{:06}.vtu", interfaces_folder, step); }
-
-bool is_frame(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return name.starts_with("step_") && name.ends_with(".vtu");
-}
-
-/// What other commands, and the end of the run, made of the steps that are there.
-void remove_what_was_made_of_them(const fs::path& directory) {
-  std::error_code ignored;  // what cannot be removed will not be writable either, and that is said then
-  fs::remove(directory / summary_file, ignored);
-  for (const char* file : cohesive_files) fs::remove(directory / file, ignored);
-  remove_exports(directory);
-  for (const char* file : comparison_files) fs::remove(directory / file, ignored);
-  remove_report(directory);
-}
 
 Index patch_number(const Mesh& mesh, const std::string& name) {
   return static_cast<Index>(&mesh.patch(name) - mesh.patches.data());
-}
-
-void require_results(const fs::path& results, const std::string& case_hash) {
-  const fs::path checkpoint = results / checkpoint_file;
-  if (!fs::exists(checkpoint) || !fs::exists(results / curve_file))
-    throw InputError(fmt::format("{}: there are no results; pfdm run makes them", results.string()));
-  read_checkpoint(checkpoint, case_hash);  // refuses another case's
-}
-
-std::optional<std::string> doubt_about(const EnergyRelease& release, const std::string& region) {
-  if (std::isnan(release.G))
-    return fmt::format(
-        "energy release rate \"{}\": around ({:.4g}, {:.4g}, {:.4g}) m the ring reaches beyond the body; no value",
-        region, release.tip.x(), release.tip.y(), release.tip.z());
-  if (release.damaged_share > bearable_damaged_share)
-    return fmt::format(
-        "energy release rate \"{}\": {:.0f} % of it comes from damaged cells (d > 0.1); it is that of the far field "
-        "only where the ring between inner and outer lies in undamaged material",
-        region, 100.0 * release.damaged_share);
-  return std::nullopt;
-}
-
-std::string no_intensity(const std::string& region, std::string_view why) {
-  return fmt::format("energy release rate \"{}\": no stress intensities: {}", region, why);
 }
 
 /// Continues a list of frames up to the last step, or starts one.
@@ -93,20 +36,6 @@ PvdSeries series_of(const fs::path& file, std::string (*frame_of)(Index step), s
 }
 
 bool same_load(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
-
-// The frames that a .pvd lists.
-std::vector<StoredStep> steps_of(const fs::path& results, const char* list) {
-  if (!fs::exists(results / list)) return {};
-  std::vector<StoredStep> steps;
-  for (const Frame& frame : read_pvd(results / list)) {
-    const std::string name = fs::path(frame.file).stem().string();
-    const auto step = parse_int(std::string_view(name).substr(std::min(name.find('_') + 1, name.size())));
-    if (!step)
-      throw InputError(fmt::format("{}: \"{}\" is not a frame that pfdm wrote", (results / list).string(), name));
-    steps.push_back({*step, results / frame.file});
-  }
-  return steps;
-}
 
 }  // namespace
 
@@ -124,70 +53,6 @@ void write_mesh(const fs::path& results, const Mesh& mesh) {
                         0.0);
 }
 
-std::vector<std::string> energy_release_columns(const std::vector<TipRegion>& regions) {
-  std::vector<std::string> names{"step", "load"};
-  for (const TipRegion& region : regions) {
-    std::vector<const char*> columns{"tip_x_m", "tip_y_m", "tip_z_m", "G_J_per_m2", "damaged_share"};
-    if (region.reference_length > 0.0)
-      columns.insert(columns.end(), {"K1_Pa_sqrt_m", "K2_Pa_sqrt_m", "phase_angle_degree"});
-    for (const char* what : columns) names.push_back(fmt::format("{}_{}", region.name, what));
-  }
-  return names;
-}
-
-std::optional<FractureState> find_checkpoint(const fs::path& results, const std::string& case_hash) {
-  const fs::path file = results / checkpoint_file;
-  if (!fs::exists(file)) return std::nullopt;
-  return read_checkpoint(file, case_hash);
-}
-
-bool has_results(const fs::path& results) {
-  return fs::exists(results / checkpoint_file) || fs::exists(results / summary_file);
-}
-
-void remove_earlier_run(const fs::path& directory) {
-  remove_what_was_made_of_them(directory);
-  std::error_code ignored;
-  for (const char* file :
-       {checkpoint_file, curve_file, frames_file, energy_release_file, interfaces_file, means_file, homogenized_file,
-        load_cases_file, first_debonding_file, heat_file, heat_over_time_file, heated_file})
-    fs::remove(directory / file, ignored);
-  remove_columns(directory / columns_folder);
-  for (const char* folder : {frames_folder, interfaces_folder})
-    for (const auto& entry : fs::directory_iterator(directory / folder, ignored))
-      if (is_frame(entry.path())) fs::remove(entry.path(), ignored);
-}
-
-std::vector<CurveRow> read_curve_record(const fs::path& results, const std::string& case_hash) {
-  require_results(results, case_hash);
-  std::vector<CurveRow> rows = read_curve(results / curve_file);
-  if (rows.empty())
-    throw InputError(fmt::format("{}: it has no rows; pfdm run makes it anew", (results / curve_file).string()));
-  return rows;
-}
-
-std::vector<ColumnRecord> read_column_record(const fs::path& results, const std::string& case_hash) {
-  require_results(results, case_hash);
-  std::vector<ColumnRecord> records = read_columns(results / columns_folder);
-  if (records.empty())
-    throw InputError(
-        fmt::format("{}: the run recorded no columns: name the surfaces in [cohesive] of case.toml, and run it again "
-                    "(particles with layers are recorded without)",
-                    results.string()));
-  return records;
-}
-
-std::vector<ColumnRecord> find_column_record(const fs::path& results) { return read_columns(results / columns_folder); }
-
-std::optional<RunSummary> find_summary(const fs::path& results) {
-  if (!fs::exists(results / summary_file)) return std::nullopt;
-  return read_run_summary(results / summary_file);
-}
-
-std::vector<StoredStep> stored_steps(const fs::path& results) { return steps_of(results, frames_file); }
-
-std::vector<StoredStep> stored_interfaces(const fs::path& results) { return steps_of(results, interfaces_file); }
-
 FractureResults::Files::Files(const fs::path& folder, const FractureCase& fracture, const std::vector<ColumnSet>& sets,
                               std::optional<Index> last_step, std::optional<Index> last_frame)
     : curve(last_step ? CurveFile(folder / curve_file, *last_step) : CurveFile(folder / curve_file)),
@@ -197,8 +62,7 @@ FractureResults::Files::Files(const fs::path& folder, const FractureCase& fractu
     interfaces.emplace(series_of(folder / interfaces_file, interfaces_frame_file, last_frame));
   }
   if (!sets.empty()) columns.emplace(folder / columns_folder, sets, fracture.cohesive.axis, last_step);
-  if (const auto& tips = fracture.output.tips; !tips.empty())
-    energy_release.emplace(folder / energy_release_file, energy_release_columns(tips), last_step);
+  if (const auto& tips = fracture.output.tips; !tips.empty()) energy_release.emplace(folder, tips, last_step);
   if (fracture.heat) heat.emplace(folder / heat_file, columns_of_heat(), last_step);
   if (fracture.box) means.emplace(folder / means_file, columns_of_means(fracture.interfaces), last_step);
 }
@@ -230,7 +94,7 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
     remove_frames_beyond(*last_frame);
   }
   files_.emplace(folder(), fracture, columns, last_step, last_frame);
-  warned_of_tip_.assign(fracture.output.tips.size(), false);
+  said_of_tip_.assign(fracture.output.tips.size(), false);
   if (!last) return;
   last_step_ = last->step;
   last_load_ = last->load;
@@ -261,7 +125,7 @@ std::vector<std::string> FractureResults::step_done(const FractureState& state, 
     const OutputFields fields = output();
     if (frame) write_frame(state.step, state.load, fields);
     if (files_->columns) files_->columns->append(state.step, mesh_, model_, fields);
-    if (files_->energy_release) add_energy_release(state, fields, warnings);
+    if (files_->energy_release) warnings = files_->energy_release->add(mesh_, model_, state, fields, said_of_tip_);
   }
   write_state(state);
   if (state.step > 0) take_place(state);
@@ -302,26 +166,6 @@ void FractureResults::take_place(const FractureState& state) {
   if (!place_.wait()) return;
   place_.take_place([this] { remove_earlier_run(directory_); }, checkpoint_file);
   files_.emplace(folder(), fracture_, sets_, state.step, state.step);
-}
-
-void FractureResults::add_energy_release(const FractureState& state, const OutputFields& output,
-                                         std::vector<std::string>& warnings) {
-  std::vector<double> row{static_cast<double>(state.step), state.load};
-  for (std::size_t i = 0; i < fracture_.output.tips.size(); ++i) {
-    const TipRegion& region = fracture_.output.tips[i];
-    const EnergyRelease release = energy_release_rate(mesh_, output, region);
-    row.insert(row.end(), {release.tip.x(), release.tip.y(), release.tip.z(), release.G, release.damaged_share});
-    std::optional<std::string> doubt = doubt_about(release, region.name);
-    if (region.reference_length > 0.0) {
-      const StressIntensity intensity = stress_intensity(mesh_, model_, output, region);
-      row.insert(row.end(), {intensity.K1, intensity.K2, intensity.phase_angle * 180.0 / std::numbers::pi});
-      if (!doubt && std::isnan(intensity.K1)) doubt = no_intensity(region.name, intensity.why_none);
-    }
-    if (warned_of_tip_[i]) continue;
-    if (doubt) warnings.push_back(*doubt);
-    warned_of_tip_[i] = doubt.has_value();
-  }
-  files_->energy_release->append(std::move(row));
 }
 
 /// Many short runs would spend more time on flushing to the disk than on computing.
@@ -379,16 +223,6 @@ std::map<std::string, double> FractureResults::damaged_areas() const {
           {"damaged_area_xy_m2", damaged_area(mesh_, damage_, *through, Vector::UnitZ())}};
 }
 
-std::map<std::string, double> FractureResults::last_energy_release() const {
-  std::map<std::string, double> figures;
-  if (!files_->energy_release || files_->energy_release->rows().empty()) return figures;
-  const std::vector<std::string>& names = files_->energy_release->names();
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (std::ranges::any_of(headline_endings, [&](std::string_view end) { return names[i].ends_with(end); }))
-      figures["final_" + names[i]] = files_->energy_release->rows().back()[i];
-  return figures;
-}
-
 /// Of a box in place of force and displacement: mean stress and strain, which are those over its side and length.
 std::map<std::string, double> FractureResults::figures_of_debonding() const {
   if (!watch_.has_surfaces()) return {};
@@ -404,7 +238,7 @@ RunSummary FractureResults::write_summary(RunSummary summary) const {
   summary.steps = last_step_;
   summary.figures = headlines(files_->curve.rows(), fracture_.output.curve.component);
   summary.other_figures.merge(damaged_areas());
-  summary.other_figures.merge(last_energy_release());
+  if (files_->energy_release) summary.other_figures.merge(files_->energy_release->figures());
   if (files_->means) summary.other_figures.merge(figures_of_means(*files_->means, fracture_.box->component));
   summary.other_figures.merge(figures_of_debonding());
   if (files_->heat) summary.other_figures.merge(figures_of_heat(*files_->heat));

@@ -2,6 +2,7 @@
 // The results directory of a fracture run: curve, frames, checkpoint, summary. Files are written whole or not at all;
 // all functions throw ComputationError where they cannot be written.
 
+#include "cases/program/fracture/energy_release_table.h"
 #include "cases/program/fracture/fracture_case.h"
 #include "cases/program/session/stopwatch.h"
 #include "mesh/mesh.h"
@@ -23,47 +24,8 @@
 
 namespace pfdm {
 
-inline constexpr const char* checkpoint_file = "checkpoint.bin";
-inline constexpr const char* columns_folder = "columns";
-inline constexpr const char* energy_release_file = "energy_release_rate.csv";
-
 /// Writes mesh.vtu: material (the number of the region), volume [m^3] and quality figures. Makes the directory.
 void write_mesh(const std::filesystem::path& results, const Mesh& mesh);
-
-/// Names of the columns of energy_release_file.
-std::vector<std::string> energy_release_columns(const std::vector<TipRegion>& regions);
-
-/// The state to restart from; none if there is no checkpoint. Throws InputError if it belongs to another case.
-std::optional<FractureState> find_checkpoint(const std::filesystem::path& results, const std::string& case_hash);
-
-/// Whether the directory holds results of a run, complete or not.
-bool has_results(const std::filesystem::path& results);
-
-/// Removes the files of a run, and of the six load cases of a box that is linear. Killed in between it leaves what is
-/// complete, what can be continued, or what nobody takes for results.
-void remove_earlier_run(const std::filesystem::path& directory);
-
-/// What the columns of a run told. Throws InputError if there is no such record, or if the results belong to another
-/// case.
-std::vector<ColumnRecord> read_column_record(const std::filesystem::path& results, const std::string& case_hash);
-
-/// The force-displacement curve of a run; throws likewise.
-std::vector<CurveRow> read_curve_record(const std::filesystem::path& results, const std::string& case_hash);
-
-/// The record of the columns, or nothing; for a look at results that are known to belong to the case.
-std::vector<ColumnRecord> find_column_record(const std::filesystem::path& results);
-
-/// What the run said of itself when it ended; none while it has not.
-std::optional<RunSummary> find_summary(const std::filesystem::path& results);
-
-struct StoredStep {
-  Index step = 0;
-  std::filesystem::path file;  ///< .vtu
-};
-/// The frames, in the order of their steps; none if there is no list of them.
-std::vector<StoredStep> stored_steps(const std::filesystem::path& results);
-/// Those of the cohesive interfaces.
-std::vector<StoredStep> stored_interfaces(const std::filesystem::path& results);
 
 class FractureResults {
  public:
@@ -103,7 +65,7 @@ class FractureResults {
     CurveFile curve;
     PvdSeries frames;
     std::optional<ColumnFiles> columns;
-    std::optional<StepTable> energy_release;
+    std::optional<EnergyReleaseTable> energy_release;
     std::optional<PvdSeries> interfaces;
     std::optional<StepTable> means;
     std::optional<StepTable> heat;
@@ -116,12 +78,10 @@ class FractureResults {
   void take_place(const FractureState& state);
   void write_frame(Index step, double load, const OutputFields& output);
   void write_interfaces(Index step, double time, const OutputFields& output);
-  void add_energy_release(const FractureState& state, const OutputFields& output, std::vector<std::string>& warnings);
   void note_debonding(const FractureState& state, const StepReport& report, const Output& output);
   CurveRow row_of(const StepReport& report) const;
   std::map<std::string, double> figures_of_debonding() const;
   std::map<std::string, double> damaged_areas() const;
-  std::map<std::string, double> last_energy_release() const;
 
   std::filesystem::path directory_;
   const Mesh& mesh_;
@@ -135,7 +95,7 @@ class FractureResults {
   NewResults place_;
   std::optional<Files> files_;
   VtuWriter writer_;
-  std::vector<bool> warned_of_tip_;  // region by region
+  std::vector<bool> said_of_tip_;  // region by region
   Index last_step_ = 0;
   double last_load_ = 0.0;
   CellField<double> damage_;

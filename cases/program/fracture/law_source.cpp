@@ -1,6 +1,6 @@
 #include "cases/program/fracture/law_source.h"
 
-#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/fracture_files.h"
 #include "physics/error.h"
 #include "postproc/curves/fit_json.h"
 

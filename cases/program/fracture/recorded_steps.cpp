@@ -1,6 +1,7 @@
 #include "cases/program/fracture/recorded_steps.h"
 
-#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/energy_release_table.h"
+#include "cases/program/fracture/fracture_files.h"
 #include "cases/program/fracture/mean_curve.h"
 #include "postproc/files/csv_table.h"
 

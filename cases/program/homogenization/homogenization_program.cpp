@@ -1,5 +1,6 @@
 #include "cases/program/homogenization/homogenization_program.h"
 
+#include "cases/program/fracture/fracture_files.h"
 #include "cases/program/fracture/fracture_program.h"
 #include "cases/program/fracture/fracture_results.h"
 #include "cases/program/homogenization/debonding_case.h"
