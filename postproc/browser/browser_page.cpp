@@ -231,7 +231,8 @@ void write_browser_page(const std::filesystem::path& folder, const BrowserPage& 
 std::string in_print(std::string text) {
   constexpr std::array<std::string_view, 4> micro{"um", "uN", "uJ", "us"};
   for (std::size_t at = text.find('u'); at != std::string::npos; at = text.find('u', at + 1)) {
-    const bool after_number = at > 1 && text[at - 1] == ' ' && text[at - 2] >= '0' && text[at - 2] <= '9';
+    const bool after_number =
+        at > 1 && text[at - 1] == ' ' && (text[at - 2] == ')' || (text[at - 2] >= '0' && text[at - 2] <= '9'));
     const bool begins = after_number || (at > 0 && text[at - 1] == '/');
     const bool ends = at + 2 >= text.size() || !is_letter(text[at + 2]);
     const bool is_unit =

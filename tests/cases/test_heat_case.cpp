@@ -76,10 +76,11 @@ TEST(HeatCase, CyclesWarmABlockForALongTime) {
   EXPECT_EQ(read_csv(directory.results() / "heat_over_time.csv").column("time_s").size(), 21u);
   EXPECT_TRUE(std::filesystem::exists(directory.results() / "heated.vtu"));
   EXPECT_NE(outcome.out.find("warm the body in 400 s"), std::string::npos);
+  EXPECT_NE(outcome.out.find("Greatest temperature rise "), std::string::npos) << outcome.out;
   ASSERT_EQ(run({"report", directory.path().string(), "--quiet"}).status, 0);
   const std::string page = content_of(directory.results() / "report" / "index.html");
-  for (const char* caption :
-       {"\"Temperature rise\"", "\"Heat\"", "Temperature rise under the mean heat of the last cycle"})
+  for (const char* caption : {"\"Greatest temperature rise\"", "after 400 s, at ", "\"Temperature rise\"", "\"Heat\"",
+                              "Temperature rise under the mean heat of the last cycle", "\"temperature rise\""})
     EXPECT_NE(page.find(caption), std::string::npos) << caption;
 }
 

@@ -123,7 +123,8 @@ TEST(BrowserPage, HasTheNumbersOfItsCharts) {
 TEST(BrowserPage, WritesUnitsAsPrintHasThem) {
   EXPECT_EQ(in_print("between 154.6 and 157.1 um, at 33 degrees, 412 J/m^2, 2 mm^3"),
             "between 154.6 and 157.1 µm, at 33°, 412 J/m², 2 mm³");
-  EXPECT_EQ(in_print("uniform, sum, N/um, 3 us, one of us, 7 um."), "uniform, sum, N/µm, 3 µs, one of us, 7 µm.");
+  EXPECT_EQ(in_print("at (1, 2, 3) um, uniform, sum, N/um, 3 us, one of us, 7 um."),
+            "at (1, 2, 3) µm, uniform, sum, N/µm, 3 µs, one of us, 7 µm.");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/end_of_run.h"
 
+#include "cases/program/fracture/heat_results.h"
 #include "cases/program/fracture/mean_curve.h"
 #include "physics/quantity_text.h"
 #include "postproc/files/json.h"
@@ -238,7 +239,10 @@ std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& sum
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const fs::path& results) {
   const CurveUnits units = read_curve_units(file, fracture.output.curve);
-  std::vector<std::string> lines = lines_of_curve(summary, fracture, units);
+  std::vector<std::string> lines;
+  if (const auto heat = figure_of_hottest_place(fracture, summary))
+    lines.push_back(fmt::format("greatest temperature rise {} {}", heat->value, heat->note));
+  for (std::string& line : lines_of_curve(summary, fracture, units)) lines.push_back(std::move(line));
   const auto surface = summary.other_texts.find("first_debonding_surface");
   if (surface != summary.other_texts.end())
     lines.push_back(
@@ -270,6 +274,7 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
   const auto debonding = [&](const std::string& name) { return figure_of(summary, "first_debonding_" + name); };
   const double from = debonding(axes.x + axes.x_unit), to = debonding(axes.x + "_after" + axes.x_unit);
   const auto surface = summary.other_texts.find("first_debonding_surface");
+  if (auto heat = figure_of_hottest_place(fracture, summary)) figures.push_back(std::move(*heat));
   if (std::isfinite(from) && std::isfinite(to)) {
     std::string note = fmt::format(
         "{} from {}", axes.y_words,

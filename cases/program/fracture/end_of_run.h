@@ -36,7 +36,8 @@ std::string first_debonding_words(const RunSummary& summary, const FractureCase&
 /// debonding, and its angle; none where the summary has none.
 std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& summary, const FractureCase& fracture);
 
-/// A line each: greatest force, end of the curve, first debonding, laws of bands that were extracted into `results`.
+/// A line each: greatest temperature rise, greatest force, end of the curve, first debonding, laws of bands that were
+/// extracted into `results`.
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const std::filesystem::path& results);
 
@@ -46,7 +47,7 @@ std::vector<std::string> as_sentences(std::vector<std::string> lines);
 /// "74 s", "12 min"
 std::string duration_words(double seconds);
 
-/// The same figures, each for itself: first debonding, greatest force, laws, the run.
+/// The same figures, each for itself: greatest temperature rise, first debonding, greatest force, laws, the run.
 std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUnits& units, const RunSummary& summary,
                                     const std::filesystem::path& results);
 

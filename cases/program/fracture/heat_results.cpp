@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace pfdm {
@@ -80,6 +81,27 @@ std::vector<double> row_of_heat(const StepReport& report, double duration) {
 std::map<std::string, double> figures_of_heat(const StepTable& table) {
   if (table.rows().empty()) return {};
   return named("final", figure_columns, std::span(table.rows().back()).subspan(3));
+}
+
+std::optional<HeadFigure> figure_of_hottest_place(const FractureCase& fracture, const RunSummary& summary) {
+  if (!fracture.heat) return std::nullopt;
+  const auto figure = [&](const std::string& name) {
+    const auto found = summary.other_figures.find(name);
+    return found == summary.other_figures.end() ? Headlines::none : found->second;
+  };
+  const double power = figure("heating_of_cycles_W");
+  const bool is_long = std::isfinite(power);
+  const std::string of = is_long ? "after_time_" : "final_";
+  const double rise = figure(of + "greatest_rise_K");
+  if (!std::isfinite(rise)) return std::nullopt;
+  return HeadFigure{
+      .label = "Greatest temperature rise",
+      .value = quantity_text(rise, "K", 3),
+      .note = fmt::format("{}, at {}; {} in the mean{}",
+                          is_long ? fmt::format("after {}", quantity_text(fracture.heat->time, "s", 3)) : "at the end",
+                          point_text(figure(of + "x_m"), figure(of + "y_m"), figure(of + "z_m")),
+                          quantity_text(figure(of + "mean_rise_K"), "K", 3),
+                          is_long ? fmt::format(", from a heating of {}", quantity_text(power, "W", 3)) : "")};
 }
 
 std::map<std::string, double> heat_at_the_end(RunningCase& c) {

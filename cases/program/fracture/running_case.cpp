@@ -165,6 +165,7 @@ void solve(RunningCase& c) {
   try {
     const std::string status = advance(c);
     c.results.write_what_waits(c.state);
+    if (status == "complete") c.results.write_last_frame([&] { return c.run.output(c.state); });
     if (c.program.fracture.heat) c.heat = heat_at_the_end(c);
     if (c.results.records_columns())
       write_cohesive_laws(c.program.fracture, c.program.file, c.program.name, c.program.hash, c.session, true);

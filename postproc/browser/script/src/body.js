@@ -87,7 +87,7 @@ export class Body {
       for (let i = 0; i < data.n_points; ++i)
         most = Math.max(most, Math.hypot(...this.moves.map((axis) => axis[f][i])));
     this.most_moved = most;
-    this.warp = most === 0 || most > 0.02 * this.length ? 1 : round_down((0.08 * this.length) / most);
+    this.warp = most < 1e-12 * this.length || most > 0.02 * this.length ? 1 : round_down((0.08 * this.length) / most);
     this.is_flat = this.data.flat_axis >= 0;
     this.cut = { axis: this.is_flat || data.cuts === "none" ? -1 : data.cut_axis, at: 0, flipped: false };
     this.set_cut_axis(this.cut.axis);
