@@ -1,5 +1,6 @@
 #include "postproc/curves/fit_judgement.h"
 
+#include "physics/quantity_text.h"
 #include "solver/calibration/calibration_statistics.h"
 
 #include <fmt/format.h>
@@ -85,6 +86,13 @@ std::optional<FitEvidence> evidence_without_discretisation(const FitFindings& fo
   return evidence_of(found, data);
 }
 
+/// Units without a name, and those that have a prefix already, take none.
+std::string with_unit(double si, const std::string& unit) {
+  if (unit.empty() || unit == "1") return fmt::format("{:.4g}", si);
+  return unit.starts_with("kg") || unit.starts_with("1/") ? fmt::format("{:.4g} {}", si, unit)
+                                                          : quantity_text(si, unit);
+}
+
 void add_moves(FitFindings& found, const JudgedData& data) {
   const Eigen::VectorXd moves =
       -data.result->inverse_normal * (data.result->derivatives.transpose() * change_by_finer(data));
@@ -95,10 +103,9 @@ void add_moves(FitFindings& found, const JudgedData& data) {
     p.moved_by_finer = p.log_scale ? p.estimate * std::expm1(move) : move;
     if (std::abs(p.moved_by_finer) > noticeable_move * p.standard_error)
       found.warnings.push_back(
-          fmt::format("with {} {} would be {:.4g}, {:+.2g} %: {:.2g} standard errors, which the "
-                      "interval does not hold",
-                      data.finer->what, p.name, p.estimate + p.moved_by_finer, 100.0 * p.moved_by_finer / p.estimate,
-                      std::abs(p.moved_by_finer) / p.standard_error));
+          fmt::format("with {} {} would be {}, {:+.2g} %: {:.2g} standard errors, which the interval does not hold",
+                      data.finer->what, p.name, with_unit(p.estimate + p.moved_by_finer, p.unit),
+                      100.0 * p.moved_by_finer / p.estimate, std::abs(p.moved_by_finer) / p.standard_error));
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 /// As a piece of TOML.
 std::string piece_of(const ConfigValue& value) {
-  return value.is_string() ? quoted_toml(value.string()) : fmt::format("{:.17g}", value.number());
+  return value.is_string() ? quoted_toml(value.string()) : fmt::format("{}", value.number());
 }
 
 /// With the values of a table of [fit].
