@@ -97,6 +97,14 @@ class MovedFacesBuilder {
     for (const Index p : points_and_apex(mesh_, face)) points_.unite(P, N, p);
   }
 
+  // Held across itself alone: where it is held along itself, too, its displacement may vary along it.
+  bool is_on_roller(const MovedFaces::Place& place) const {
+    const Tensor& free = unknowns_.free_directions[as_size(place.node - unknowns_.n_cells)];
+    const Vector n = mesh_.face_area[place.face].normalized(), &across = unknowns_.plane_normal;
+    const double n_held = 3.0 - free.trace() - (across.isZero() ? 0.0 : 1.0 - across.dot(free * across));
+    return unknowns_.glides(place.node, n) && n_held < 1.5;
+  }
+
   // Both sides of an interface that holds have one node.
   void unite_across_nodes() {
     std::vector<Index> cell_at(as_size(unknowns_.n_nodes() - unknowns_.n_cells), -1);
@@ -154,7 +162,7 @@ class MovedFacesBuilder {
                         .bonded = bonded_.number(place.side),
                         .d = within(mesh_.points[as_size(p)] - mesh_.face_centre[place.face])},
              .held = held,
-             .glides = unknowns_.glides(place.node, mesh_.face_area[place.face].normalized())});
+             .glides = is_on_roller(place)});
     }
   }
 
