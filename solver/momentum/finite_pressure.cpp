@@ -51,8 +51,10 @@ bool FinitePressure::has_polygon(std::size_t i) const {
   const Side& side = skeleton_.sides[i];
   const CellShape shape = skeleton_.mesh.shape[side.cell];
   if (states_.bonded().number(i) >= 0) return false;
+  const Unknowns& unknowns = skeleton_.unknowns;
   const bool joins = skeleton_.second_side_of_node[skeleton_.number_of(side.node)] >= 0;
-  return joins || (shape != CellShape::hexahedron && shape != CellShape::wedge);
+  const bool is_held = unknowns.free_within(side.node).isZero() || unknowns.glides(side.node, side.n);
+  return joins || is_held || (shape != CellShape::hexahedron && shape != CellShape::wedge);
 }
 
 void FinitePressure::find_area_changes(const CellField<Tensor>& gradients, FinitePressureSweep& s) const {

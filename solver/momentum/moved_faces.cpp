@@ -41,6 +41,14 @@ Vector MovedFaces::mean(const Field& by, std::size_t begin, std::size_t end) con
   return sum;
 }
 
+// Points of faces that glide stay on their surface, whatever the gradients of the cells say of it.
+Vector MovedFaces::held(const Field& by, const Hold& hold) const {
+  if (!hold.glides) return mean(by, hold.begin, hold.end) / hold.sum;
+  Vector sum = Vector::Zero();
+  for (std::size_t s = hold.begin; s < hold.end; ++s) sum += samples_[s].weight * by.u[as_size(samples_[s].node)];
+  return sum / hold.sum;
+}
+
 void MovedFaces::move(const Field& by, std::vector<Vector>& moves) const {
   moves.resize(corners_.size());
   parallel_for(static_cast<Index>(corners_.size()), [&](Index k) {
@@ -48,7 +56,7 @@ void MovedFaces::move(const Field& by, std::vector<Vector>& moves) const {
     Vector u = mean(by, corner.begin, corner.end);
     for (std::size_t h = corner.first_hold; h < corner.end_of_holds; ++h) {
       const Hold& hold = holds_[h];
-      u += hold.directions * (mean(by, hold.begin, hold.end) / hold.sum - u);
+      u += hold.directions * (held(by, hold) - u);
     }
     moves[as_size(k)] = turns_.empty() ? u : (turns_[as_size(k)] * u).eval();
   });

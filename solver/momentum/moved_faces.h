@@ -14,8 +14,12 @@
 // shears that the cell does not resolve, and a pressure on their polygon is unstable. Tetrahedra and polyhedra have no
 // such shears. There cof F N, with which the areas of the cell's faces do not add up to zero, is what is unstable.
 //
-// Points on planes of symmetry stay there; points of faces whose displacement is prescribed, in some directions or in
-// all, move with these faces in those directions. Faces of broken cells count little.
+// A uniform pressure does no work in a body that is held, however large it is: only so can such a body swell. Therefore
+// both sides of an interface that holds share their points as well; faces that are held or that glide, which is to be
+// held across themselves alone, have their polygon in all cells; and points of gliding faces do not leave the surface.
+//
+// Points of faces whose displacement is prescribed, in some directions or in all, move with these faces in those
+// directions. Faces of broken cells count little.
 //
 // Axisymmetric meshes: points move as their image in the middle of the sector, along their own radius.
 
@@ -82,6 +86,7 @@ class MovedFaces {
   struct Hold {
     Tensor directions;
     std::size_t begin, end;
+    bool glides;       // along their faces, which hold it across themselves
     double sum = 0.0;  // of the weights
   };
   struct Corner {
@@ -99,6 +104,7 @@ class MovedFaces {
   };
   friend class MovedFacesBuilder;
   Vector mean(const Field& by, std::size_t begin, std::size_t end) const;
+  Vector held(const Field& by, const Hold& hold) const;
   Vector place_in(const Loop& loop, Index corner) const {
     return corners_[as_size(corner)].point + at_[as_size(corner)] - loop.centre;
   }

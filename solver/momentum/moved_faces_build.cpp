@@ -9,8 +9,8 @@
 namespace pfdm {
 namespace {
 
-// The points of the cells with a pressure, each as often as there are cells: those that belong together, across links,
-// are one corner.
+// The points of the cells with a pressure, each as often as there are cells: those that belong together, across links
+// and interfaces that hold, are one corner.
 class PointsOfCells {
  public:
   PointsOfCells(const Mesh& mesh, const Unknowns& unknowns) : offsets_(as_size(mesh.n_cells()) + 1, 0) {
@@ -89,12 +89,37 @@ class MovedFacesBuilder {
   struct OnNode {
     MovedFaces::Sample sample;
     Tensor held;
+    bool glides;
   };
+
+  void unite(Index P, Index N, Index face) {
+    if (!points_.has(P) || !points_.has(N)) return;
+    for (const Index p : points_and_apex(mesh_, face)) points_.unite(P, N, p);
+  }
+
+  // Held across itself alone: where it is held along itself, too, its displacement may vary along it.
+  bool is_on_roller(const MovedFaces::Place& place) const {
+    const Tensor& free = unknowns_.free_directions[as_size(place.node - unknowns_.n_cells)];
+    const Vector n = mesh_.face_area[place.face].normalized(), &across = unknowns_.plane_normal;
+    const double n_held = 3.0 - free.trace() - (across.isZero() ? 0.0 : 1.0 - across.dot(free * across));
+    return unknowns_.glides(place.node, n) && n_held < 1.5;
+  }
+
+  // Both sides of an interface that holds have one node.
+  void unite_across_nodes() {
+    std::vector<Index> cell_at(as_size(unknowns_.n_nodes() - unknowns_.n_cells), -1);
+    for (const MovedFaces::Place& place : places_) {
+      if (place.node < 0) continue;
+      Index& first = cell_at[as_size(place.node - unknowns_.n_cells)];
+      if (first >= 0) unite(first, place.cell, place.face);
+      first = place.cell;
+    }
+  }
 
   void number_corners() {
     for (const MovedFaces::Place& place : places_)
-      if (place.beyond >= 0 && points_.has(place.cell))
-        for (const Index p : points_and_apex(mesh_, place.face)) points_.unite(place.cell, place.beyond, p);
+      if (place.beyond >= 0) unite(place.cell, place.beyond, place.face);
+    unite_across_nodes();
     for (Index c = 0; c < mesh_.n_cells(); ++c)
       for (std::size_t s = points_.begin(c); s < points_.end(c); ++s) {
         const std::size_t root = points_.root(s);
@@ -136,7 +161,8 @@ class MovedFacesBuilder {
                         .cell = place.cell,
                         .bonded = bonded_.number(place.side),
                         .d = within(mesh_.points[as_size(p)] - mesh_.face_centre[place.face])},
-             .held = held});
+             .held = held,
+             .glides = is_on_roller(place)});
     }
   }
 
@@ -154,8 +180,13 @@ class MovedFacesBuilder {
         return (on.held - held).norm() < rounding;
       });
       const std::size_t begin = faces_.samples_.size();
-      for (auto on = rest.begin(); on != end; ++on) faces_.samples_.push_back(on->sample);
-      if (!held.isZero()) faces_.holds_.push_back({.directions = held, .begin = begin, .end = faces_.samples_.size()});
+      const auto is_bonded = [](const OnNode& on) { return on.sample.bonded >= 0; };
+      const bool any_bonded = std::any_of(rest.begin(), end, is_bonded);  // their gradients are those of the surface
+      for (auto on = rest.begin(); on != end; ++on)
+        if (!any_bonded || is_bonded(*on)) faces_.samples_.push_back(on->sample);
+      const bool glides = std::all_of(rest.begin(), end, [](const OnNode& on) { return on.glides; });
+      if (!held.isZero())
+        faces_.holds_.push_back({.directions = held, .begin = begin, .end = faces_.samples_.size(), .glides = glides});
       rest.erase(rest.begin(), end);
     }
     corner.end = faces_.samples_.size();

@@ -122,6 +122,11 @@ struct Unknowns {
     const Tensor& all = free_directions[as_size(node - n_cells)];
     return all - all * plane_normal * plane_normal.transpose();
   }
+  /// Whether a face node with this normal is held across its face, and free in some direction within it.
+  bool glides(Index node, const Vector& normal) const {
+    constexpr double rounding = 1e-9;
+    return !free_within(node).isZero() && (free_directions[as_size(node - n_cells)] * normal).norm() < rounding;
+  }
   Index first_strain() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }
   Index n_unknowns() const { return first_strain() + static_cast<Index>(motion.free_strains.size()); }  ///< vectors
   bool has_free_strains() const { return !motion.free_strains.empty(); }

@@ -39,10 +39,10 @@ inline Drawn draw(const Mesh& mesh, const FractureModel& model, Index steps, dou
   return drawn;
 }
 
-enum class BoxCells { hexahedra, tetrahedra };
+enum class BoxCells { hexahedra, tetrahedra, prisms };
 
-/// The unit cube, n hexahedra in each direction or each cut into six tetrahedra, whose points are moved. Patches as
-/// those of a box.
+/// The unit cube, n hexahedra in each direction or each cut into six tetrahedra or two prisms, whose points are moved.
+/// Patches as those of a box.
 inline Mesh mapped_box(const std::array<Index, 3>& n, const std::function<Vector(const Vector&)>& map,
                        BoxCells cells = BoxCells::hexahedra) {
   CellSoup soup;
@@ -63,6 +63,14 @@ inline Mesh mapped_box(const std::array<Index, 3>& n, const std::function<Vector
             at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)};
         if (cells == BoxCells::hexahedra) {
           soup.add_cell(CellShape::hexahedron, points, 0);
+          continue;
+        }
+        if (cells == BoxCells::prisms) {
+          for (const auto& [a, b] : {std::pair{2, 1}, {3, 2}})
+            soup.add_cell(CellShape::wedge,
+                          std::array{points[0], points[as_size(a)], points[as_size(b)], points[4],
+                                     points[as_size(a) + 4], points[as_size(b) + 4]},
+                          0);
           continue;
         }
         for (const auto& [a, b] : {std::pair{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}})  // about the diagonal 0 6
