@@ -86,11 +86,11 @@ std::optional<FitEvidence> evidence_without_discretisation(const FitFindings& fo
   return evidence_of(found, data);
 }
 
-/// Units without a name, and those that have a prefix already, take none.
+/// With a prefix where people write one: of stresses, lengths, forces and energies.
 std::string with_unit(double si, const std::string& unit) {
-  if (unit.empty() || unit == "1") return fmt::format("{:.4g}", si);
-  return unit.starts_with("kg") || unit.starts_with("1/") ? fmt::format("{:.4g} {}", si, unit)
-                                                          : quantity_text(si, unit);
+  const std::string first = unit.substr(0, unit.find_first_of("/^ "));
+  if (first == "Pa" || first == "m" || first == "N" || first == "J") return quantity_text(si, unit);
+  return unit.empty() || unit == "1" ? fmt::format("{:.4g}", si) : fmt::format("{:.4g} {}", si, unit);
 }
 
 void add_moves(FitFindings& found, const JudgedData& data) {
@@ -102,10 +102,10 @@ void add_moves(FitFindings& found, const JudgedData& data) {
     const double move = moves[static_cast<Eigen::Index>(j)];
     p.moved_by_finer = p.log_scale ? p.estimate * std::expm1(move) : move;
     if (std::abs(p.moved_by_finer) > noticeable_move * p.standard_error)
-      found.warnings.push_back(
-          fmt::format("with {} {} would be {}, {:+.2g} %: {:.2g} standard errors, which the interval does not hold",
-                      data.finer->what, p.name, with_unit(p.estimate + p.moved_by_finer, p.unit),
-                      100.0 * p.moved_by_finer / p.estimate, std::abs(p.moved_by_finer) / p.standard_error));
+      found.warnings.push_back(fmt::format(
+          "with {} {} would be {}, {:+.2g} %: a shift of {:.2g} standard errors, which the interval has no part for",
+          data.finer->what, p.name, with_unit(p.estimate + p.moved_by_finer, p.unit),
+          100.0 * p.moved_by_finer / p.estimate, std::abs(p.moved_by_finer) / p.standard_error));
   }
 }
 

@@ -76,6 +76,11 @@ TEST(HeatCase, CyclesWarmABlockForALongTime) {
   EXPECT_EQ(read_csv(directory.results() / "heat_over_time.csv").column("time_s").size(), 21u);
   EXPECT_TRUE(std::filesystem::exists(directory.results() / "heated.vtu"));
   EXPECT_NE(outcome.out.find("warm the body in 400 s"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(directory.results() / "fields" / "step_000120.vtu"));  // its last state
+  const std::string told = content_of(directory.results() / "summary.json");
+  const Outcome again = run({"run", directory.path().string(), "--restart"});
+  EXPECT_NE(again.out.find("is complete already"), std::string::npos) << again.out;
+  EXPECT_EQ(content_of(directory.results() / "summary.json"), told);
   EXPECT_NE(outcome.out.find("Greatest temperature rise "), std::string::npos) << outcome.out;
   ASSERT_EQ(run({"report", directory.path().string(), "--quiet"}).status, 0);
   const std::string page = content_of(directory.results() / "report" / "index.html");

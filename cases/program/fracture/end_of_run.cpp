@@ -254,7 +254,8 @@ std::vector<std::string> what_happened(const FractureCase& fracture, const CaseF
 }
 
 std::vector<std::string> as_sentences(std::vector<std::string> lines) {
-  std::ranges::stable_partition(lines, [](const std::string& line) { return line.starts_with("first debonding"); });
+  for (const std::string_view first : {"first debonding", "greatest temperature rise"})
+    std::ranges::stable_partition(lines, [=](const std::string& line) { return line.starts_with(first); });
   for (std::string& line : lines) {
     line.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(line.front())));
     line += ".";

@@ -41,7 +41,7 @@ std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& sum
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const std::filesystem::path& results);
 
-/// Lines as sentences, the first debonding first.
+/// Lines as sentences, heat first, then the first debonding.
 std::vector<std::string> as_sentences(std::vector<std::string> lines);
 
 /// "74 s", "12 min"

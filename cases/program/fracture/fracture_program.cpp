@@ -186,7 +186,7 @@ void run_case(FractureProgram program, Session& session) {
   const DebondingWatch watch(surfaces, program.fracture.cohesive.axis, initial.damage);
   const FolderLock lock(session.results);
   const auto last = state_to_go_on_from(program, initial, columns.size(), session);
-  if (last && last->load >= program.fracture.loading.end && status_of_earlier(session.results) == "complete") {
+  if (last && run.is_complete(*last) && status_of_earlier(session.results) == "complete") {
     session.log.say(fmt::format("the run in {} is complete already", session.results.string()));
     return;
   }

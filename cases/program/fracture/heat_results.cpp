@@ -93,12 +93,12 @@ std::optional<HeadFigure> figure_of_hottest_place(const FractureCase& fracture, 
   const bool is_long = std::isfinite(power);
   const std::string of = is_long ? "after_time_" : "final_";
   const double rise = figure(of + "greatest_rise_K");
-  if (!std::isfinite(rise)) return std::nullopt;
+  if (!(rise > 0.0)) return std::nullopt;
   return HeadFigure{
       .label = "Greatest temperature rise",
       .value = quantity_text(rise, "K", 3),
       .note = fmt::format("{}, at {}; {} in the mean{}",
-                          is_long ? fmt::format("after {}", quantity_text(fracture.heat->time, "s", 3)) : "at the end",
+                          is_long ? fmt::format("after {:g} s", fracture.heat->time) : "after the last step",
                           point_text(figure(of + "x_m"), figure(of + "y_m"), figure(of + "z_m")),
                           quantity_text(figure(of + "mean_rise_K"), "K", 3),
                           is_long ? fmt::format(", from a heating of {}", quantity_text(power, "W", 3)) : "")};
