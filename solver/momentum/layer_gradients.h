@@ -17,8 +17,9 @@
 //    is that of the cells' centres: 15 % of the stiffness with four layers at nu = 0.45; and a moment at a free end
 //    bends 1 to 5 % too little. At free ends this fades in cells 1 to 1.5 times as long as the body is thick.) On
 //    interfaces between bonded layers of two materials those along them are between the two centres, or by either side
-//    alone where one is more than three times as stiff, and the derivative across follows from the slopes of the half
-//    cell and the next step. A laminate then bends exactly.
+//    alone where one is more than three times as stiff and has a cell behind it, and the derivative across follows from
+//    the slopes of the half cell and the next step. So it does of components that are held at the end of a line. A
+//    laminate then bends exactly.
 // 3. Of the jump at faces across the span the component across the layers has the weight 0.04/(1 - nu) t h/d^2, t being
 //    the thickness of the layer, h that of all and d the distance of the cells' centres: 0.06/n of the stiffness is
 //    left. The others keep theirs; so twisting shears the faces beside free edges in full.

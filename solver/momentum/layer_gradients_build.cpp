@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace pfdm {
 namespace {
@@ -48,25 +49,33 @@ class LayerGradients::Maker {
     made.is_weighed_.assign(links.size(), 0);
   }
 
-  void add(const BendingCell& in) {
-    if (made_.cells_.empty() || made_.cells_.back().cell != in.cell) {
-      made_.cells_.push_back({.cell = in.cell, .first_line = made_.lines_.size(), .end_line = 0});
-      made_.is_covered_[in.cell] = 1;
-      has_line_.clear();
-      has_surface_.clear();
+  // All directions in which a cell lies in layers that bend. A side that is across in one of them and along in another
+  // is across, whatever their order.
+  void add(std::span<const BendingCell> all) {
+    const Index cell = all.front().cell;
+    made_.cells_.push_back({.cell = cell, .first_line = made_.lines_.size(), .end_line = 0});
+    made_.is_covered_[cell] = 1;
+    has_line_.clear();
+    has_surface_.clear();
+    for (const BendingCell& in : all) {
+      add_line(cell, in.across);
+      add_line(cell, in.along);
     }
-    add_line(in.cell, in.across);
-    add_line(in.cell, in.along);
     made_.cells_.back().end_line = made_.lines_.size();
-    for (const Index face : in.across) {
-      if (is_free(face) || is_split(face)) add_surface(in.cell, face);
-      if (has_all_sides_ && is_bonded(face)) add_bond(in.cell, face);
-    }
-    for (const Index face : in.along) {
-      if (is_mirror(face)) add_mirror(in.cell, face);
-      if (has_all_sides_ && is_free(face)) add_surface(in.cell, face, part_of_end(in));
-      weigh_jump(in, face);
-    }
+    for (const BendingCell& in : all)
+      for (const Index face : in.along)
+        if (is_mirror(face)) add_mirror(cell, face);
+    for (const BendingCell& in : all)
+      for (const Index face : in.across) {
+        if (is_free(face) || is_split(face)) add_surface(cell, face);
+        if (has_all_sides_ && is_bonded(face)) add_bond(cell, face);
+      }
+    for (const BendingCell& in : all)
+      for (const Index face : in.along) {
+        if (const double part = part_of_end(all, face); has_all_sides_ && is_free(face) && part > 0.0)
+          add_surface(cell, face, part);
+        weigh_jump(in, face);
+      }
   }
 
  private:
@@ -224,10 +233,14 @@ class LayerGradients::Maker {
              Tensor::Identity() - free_part(face));
   }
 
-  // At the free end of a line: cells 1.5 times as long as the body is thick would make a cantilever 2 % softer.
-  double part_of_end(const BendingCell& in) const {
-    const double ratio = length(in.along[0], in.along[1]) / thickness_at(in);
-    return std::clamp(3.0 - 2.0 * ratio, 0.0, 1.0);
+  // At the free end of a line, by the thinnest of the layers that it ends: cells 1.5 times as long as these are thick
+  // would make a cantilever 2 % softer.
+  double part_of_end(std::span<const BendingCell> all, Index face) const {
+    double part = 1.0;
+    for (const BendingCell& in : all)
+      if (std::ranges::count(in.along, face) > 0)
+        part = std::min(part, 3.0 - 2.0 * length(in.along[0], in.along[1]) / thickness_at(in));
+    return part;
   }
   // Of all zones [m].
   double thickness_at(const BendingCell& in) const {
@@ -254,8 +267,8 @@ class LayerGradients::Maker {
   }
   double shear_modulus(Index cell) const { return unknowns_.sound[as_size(unknowns_.zone[cell])].mu; }
 
-  // Whose sum is what the slope towards a bonded face changes by from the middle of the half cell to the face, by that
-  // slope and the next one inwards.
+  // Whose sum is what the slope towards a bonded or held face changes by from the middle of the half cell to the face,
+  // by that slope and the next one inwards.
   std::vector<Slope> half_slopes(Index cell, Index face) const {
     const Index opposite = opposite_face(mesh_, cell, face), next = beyond(cell, opposite).cell;
     const Index inwards = next >= 0 ? next : unknowns_.node_beside(mesh_, cell, opposite);
@@ -311,7 +324,11 @@ LayerGradients::LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const
     : counts_(!cells.empty()) {
   if (cells.empty()) return;
   Maker maker(mesh, unknowns, sides, links, own, *this);
-  for (const BendingCell& in : cells) maker.add(in);
+  for (auto next = cells.begin(); next != cells.end();) {
+    const auto end = std::find_if(next, cells.end(), [&](const BendingCell& in) { return in.cell != next->cell; });
+    maker.add({next, end});
+    next = end;
+  }
   weights_ = sound_weights_;
 }
 

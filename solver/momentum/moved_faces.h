@@ -15,8 +15,9 @@
 // such shears. There cof F N, with which the areas of the cell's faces do not add up to zero, is what is unstable.
 //
 // A uniform pressure does no work in a body that is held, however large it is: only so can such a body swell. Therefore
-// both sides of an interface that holds share their points as well; faces that are held or that glide, which is to be
-// held across themselves alone, have their polygon in all cells; and points of gliding faces do not leave the surface.
+// both sides of an interface that holds share their points as well. Faces that are held or that glide, which is to be
+// held across themselves alone, have their polygon in all cells but those of bonded sides (bonded_sides.h); and points
+// of gliding faces do not leave the surface.
 //
 // Points of faces whose displacement is prescribed, in some directions or in all, move with these faces in those
 // directions. Faces of broken cells count little.

@@ -275,7 +275,7 @@ TEST(Bending, LaminatesUnderAMomentInSpace) {
       const double error = displacement_error(mesh, *solution, bent);
       report_row(fmt::format("{} x {} + {} cells, moduli 1 to {}", along, layers[0], layers[1], E_upper / E),
                  {{"displacement", error}});
-      EXPECT_LT(error, 0.01);
+      EXPECT_LT(error, 0.003);
     }
 }
 
