@@ -47,8 +47,7 @@ std::string words_on(const BendingError& worst, const std::string& why) {
         100.0 * bearable, length(1.3 * at.thickness, 2));
   return fmt::format(
       "too low (0.7 (t/thickness)^2, within a factor of two; one cell of t = {} across a material). For {:.0f} %: two "
-      "cells "
-      "across it ([mesh])",
+      "cells across it ([mesh])",
       length(at.lone, 3), 100.0 * bearable);
 }
 

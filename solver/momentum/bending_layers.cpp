@@ -17,10 +17,6 @@ bool touch(const Mesh& mesh, Index f, Index g) {
   return std::any_of(a.begin(), a.end(), [&](Index p) { return std::find(b.begin(), b.end(), p) != b.end(); });
 }
 
-bool is_split(const Unknowns& unknowns, Index face) {
-  return unknowns.neighbour_node.size() > 0 && unknowns.neighbour_node[face] >= 0;
-}
-
 // A line of cells through opposite faces. Ends may be free, planes of symmetry, or neither: held, or beside other
 // cells.
 struct LayerLine {
@@ -112,7 +108,7 @@ class LayerLines {
   // Adds the cells beyond a face.
   End follow(Index cell, Index face, std::vector<Step>& steps) const {
     const Index first = cell;
-    while (mesh_.is_interior(face) && !is_split(unknowns_, face)) {
+    while (mesh_.is_interior(face) && !unknowns_.is_split(face)) {
       cell = mesh_.across(face, cell);
       if (cell == first) return End::held;
       const int axis = axis_of(cell, face);
@@ -147,12 +143,7 @@ bool is_lone(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::
 template <class Ends>
 Index count_through(const Mesh& mesh, Index cell, const std::array<Index, 2>& faces, const Ends& ends) {
   Index n = 1;
-  for (Index face : faces)
-    for (Index at = cell; mesh.is_interior(face) && !ends(at, face); ++n) {
-      at = mesh.across(face, at);
-      face = opposite_face(mesh, at, face);
-      if (face < 0 || at == cell) break;
-    }
+  along_line(mesh, cell, faces, ends, [&](Index, Index) { ++n; });
   return n;
 }
 
@@ -209,7 +200,7 @@ Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, cons
 
 bool has_lines(const Mesh& mesh, const Unknowns& unknowns, const BendingCell& in, LinesIn where) {
   if (unknowns.is_axisymmetric() || (where == LinesIn::space && !unknowns.plane_normal.isZero())) return false;
-  return count_through(mesh, in.cell, in.across, [&](Index, Index face) { return is_split(unknowns, face); }) >= 2;
+  return count_through(mesh, in.cell, in.across, [&](Index, Index face) { return unknowns.is_split(face); }) >= 2;
 }
 
 std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns, LinesIn where) {

@@ -32,6 +32,20 @@ struct BendingLayers {
 /// The face of a hexahedron opposite to one of its faces, or a prism's other triangle; else -1.
 Index opposite_face(const Mesh& mesh, Index cell, Index face);
 
+/// Calls see(near face, far face) of every other cell in the line of a cell through these opposite faces, outwards, up
+/// to faces at which it ends: ends(cell before the face, face).
+template <class Ends, class See>
+void along_line(const Mesh& mesh, Index cell, const std::array<Index, 2>& faces, const Ends& ends, const See& see) {
+  for (Index face : faces)
+    for (Index at = cell; mesh.is_interior(face) && !ends(at, face);) {
+      at = mesh.across(face, at);
+      const Index far = opposite_face(mesh, at, face);
+      if (far < 0 || at == cell) break;
+      see(face, far);
+      face = far;
+    }
+}
+
 /// A cell of layers that bend: its two faces across which the layers lie one on another, and the two that the length of
 /// the body runs through.
 struct BendingCell {

@@ -67,7 +67,7 @@ class LayerGradients::Maker {
         if (is_mirror(face)) add_mirror(cell, face);
     for (const BendingCell& in : all)
       for (const Index face : in.across) {
-        if (is_free(face) || is_split(face)) add_surface(cell, face);
+        if (is_free(face) || unknowns_.is_split(face)) add_surface(cell, face);
         if (has_all_sides_ && is_bonded(face)) add_bond(cell, face);
       }
     for (const BendingCell& in : all)
@@ -102,13 +102,12 @@ class LayerGradients::Maker {
     return unknowns_.free_within(node);
   }
   bool is_free(Index face) const { return !free_part(face).isZero(); }
-  bool is_split(Index face) const { return unknowns_.neighbour_node.size() > 0 && unknowns_.neighbour_node[face] >= 0; }
   bool is_mirror(Index face) const {
     const Vector& across = unknowns_.plane_normal;
     return is_free(face) && !(free_part(face) + across * across.transpose()).isIdentity();
   }
   bool is_bonded(Index face) const {
-    return mesh_.is_interior(face) && !is_split(face) && unknowns_.node_of_face[face] >= 0;
+    return mesh_.is_interior(face) && !unknowns_.is_split(face) && unknowns_.node_of_face[face] >= 0;
   }
 
   struct Place {
@@ -223,14 +222,14 @@ class LayerGradients::Maker {
                                .along = to_face.normalized()});
   }
 
-  void add_surface(Index cell, Index face, double part = 1.0) {
-    add_side(cell, face, beyond(cell, opposite_face(mesh_, cell, face)).cell, part);
-  }
+  // The next one inwards.
+  Index cell_behind(Index cell, Index face) const { return beyond(cell, opposite_face(mesh_, cell, face)).cell; }
+
+  void add_surface(Index cell, Index face, double part = 1.0) { add_side(cell, face, cell_behind(cell, face), part); }
 
   // The components that are held at the end of a line have a slope across it.
   void add_mirror(Index cell, Index face) {
-    add_side(cell, face, beyond(cell, opposite_face(mesh_, cell, face)).cell, 1.0, half_slopes(cell, face),
-             Tensor::Identity() - free_part(face));
+    add_side(cell, face, cell_behind(cell, face), 1.0, half_slopes(cell, face), Tensor::Identity() - free_part(face));
   }
 
   // At the free end of a line, by the thinnest of the layers that it ends: cells 1.5 times as long as these are thick
@@ -242,25 +241,28 @@ class LayerGradients::Maker {
         part = std::min(part, 3.0 - 2.0 * length(in.along[0], in.along[1]) / thickness_at(in));
     return part;
   }
+  // Of all cells of a line, up to faces at which it ends [m].
+  template <class Ends>
+  double length_through(Index cell, const FacePair& faces, const Ends& ends) const {
+    double sum = length(faces[0], faces[1]);
+    along_line(mesh_, cell, faces, ends, [&](Index near, Index far) { sum += length(near, far); });
+    return sum;
+  }
   // Of all zones [m].
   double thickness_at(const BendingCell& in) const {
-    double sum = length(in.across[0], in.across[1]);
-    for (Index face : in.across)
-      for (Index at = in.cell; mesh_.is_interior(face) && !is_split(face);) {
-        at = mesh_.across(face, at);
-        const Index far = opposite_face(mesh_, at, face);
-        if (far < 0 || at == in.cell) break;
-        sum += length(face, far);
-        face = far;
-      }
-    return sum;
+    return length_through(in.cell, in.across, [&](Index, Index face) { return unknowns_.is_split(face); });
+  }
+  // Of its zone [m].
+  double zone_thickness_at(const BendingCell& in) const {
+    return length_through(in.cell, in.across,
+                          [&](Index at, Index face) { return unknowns_.node_beside(mesh_, at, face) >= 0; });
   }
 
   // Derivatives along it are those between both centres, but of much stiffer and much softer cells those of either side
   // by itself: their slopes in the soft one have a kink at the interface where shear builds up.
   void add_bond(Index cell, Index face) {
     constexpr double most_alike = 3.0;
-    const Index other = mesh_.across(face, cell), next = beyond(cell, opposite_face(mesh_, cell, face)).cell;
+    const Index other = mesh_.across(face, cell), next = cell_behind(cell, face);
     const double here = shear_modulus(cell), there = shear_modulus(other);
     const bool are_alike = std::max(here, there) <= most_alike * std::min(here, there);
     add_side(cell, face, are_alike || next < 0 ? other : next, 1.0, half_slopes(cell, face));
@@ -282,17 +284,6 @@ class LayerGradients::Maker {
             {.from = at, .to = as_size(inwards), .step = far, .weight_over_length = part / far.norm()}};
   }
 
-  // Of all cells of the line [m].
-  double length_through(Index cell, const FacePair& faces) const {
-    double sum = length(faces[0], faces[1]);
-    for (Index face : faces)
-      for (Step next = beyond(cell, face); next.cell >= 0 && next.far >= 0; next = beyond(next.cell, face)) {
-        sum += length(face, next.far);
-        face = next.far;
-      }
-    return sum;
-  }
-
   // Each cell of the face by half.
   void weigh_jump(const BendingCell& in, Index face) {
     constexpr double left = 0.04;
@@ -300,7 +291,7 @@ class LayerGradients::Maker {
     if (!side || *side >= 2 * links_.size()) return;
     const momentum_faces::Link& link = links_[*side / 2];
     const double distance = (link.d_P - link.d_N).dot(link.n);
-    const double layer = length(in.across[0], in.across[1]), all = length_through(in.cell, in.across);
+    const double layer = length(in.across[0], in.across[1]), all = zone_thickness_at(in);
     const double nu = unknowns_.sound[as_size(unknowns_.zone[in.cell])].poisson_ratio();
     const double weight = std::min(1.0, left / (1.0 - nu) * layer * all / (distance * distance));
     const Vector line = mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]];

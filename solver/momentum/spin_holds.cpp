@@ -62,7 +62,7 @@ class Holds {
   // About each of the directions in which the cell is free to turn.
   void join(Index c, Index f) {
     const Index other = mesh_.across(f, c);
-    const bool is_cut = unknowns_.neighbour_node.size() > 0 && unknowns_.neighbour_node[f] >= 0;
+    const bool is_cut = unknowns_.is_split(f);
     if (is_cut || (!free_[other].isZero() && mesh_.owner[f] != c)) return;
     const double area = mesh_.face_area[f].norm(), apart = (mesh_.cell_centre[other] - mesh_.cell_centre[c]).norm();
     for (const Vector& b : axes_of(free_[c]))

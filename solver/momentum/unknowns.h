@@ -111,10 +111,11 @@ struct Unknowns {
   Vector place(const Mesh& mesh, Index node) const {
     return node < n_cells ? mesh.cell_centre[node] : mesh.face_centre[face_of_node[as_size(node - n_cells)]];
   }
+  /// Whether both sides of a face have nodes of their own.
+  bool is_split(Index face) const { return neighbour_node.size() > 0 && neighbour_node[face] >= 0; }
   /// Node of a face on the side of one of its cells; -1 where it carries none.
   Index node_beside(const Mesh& mesh, Index cell, Index face) const {
-    const bool beyond = neighbour_node.size() > 0 && neighbour_node[face] >= 0 && mesh.owner[face] != cell;
-    return beyond ? neighbour_node[face] : node_of_face[face];
+    return is_split(face) && mesh.owner[face] != cell ? neighbour_node[face] : node_of_face[face];
   }
   /// Free directions of a face node, that across a plane or sectional mesh left out: whatever is prescribed along it,
   /// nothing moves there.
