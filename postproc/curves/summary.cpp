@@ -123,6 +123,11 @@ void write_summary(const std::filesystem::path& path, const RunSummary& summary)
   write_file(path, json_text(to_json(summary)));
 }
 
+double RunSummary::other_figure(const std::string& name) const {
+  const auto found = other_figures.find(name);
+  return found != other_figures.end() ? found->second : Headlines::none;
+}
+
 double ReadSummary::number(std::string_view name) const {
   const auto found = std::ranges::find(numbers, name, &std::pair<std::string, double>::first);
   return found != numbers.end() ? found->second : Headlines::none;

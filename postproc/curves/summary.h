@@ -58,6 +58,7 @@ struct RunSummary {
   std::map<std::string, double> other_figures;  ///< a case's own, with the unit in the name
   std::map<std::string, std::int64_t> other_counts;
   std::map<std::string, std::string> other_texts;
+  double other_figure(const std::string& name) const;  ///< NaN if there is none of this name
 };
 
 /// Written whole or not at all; numbers that are not finite become null. Throws ComputationError if the file cannot be

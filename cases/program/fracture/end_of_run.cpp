@@ -88,11 +88,6 @@ std::string two_shown(const CaseUnit& unit, double a, std::string_view between, 
   return fmt::format("{} {} {}", first, between, second);
 }
 
-double figure_of(const RunSummary& summary, const std::string& name) {
-  const auto found = summary.other_figures.find(name);
-  return found == summary.other_figures.end() ? Headlines::none : found->second;
-}
-
 /// Names of displacement and force among the figures, and their units; strain and stress of a box.
 struct Axes {
   std::string x, x_unit, y, y_unit;
@@ -116,8 +111,9 @@ struct Peak {
 Peak peak_of(const RunSummary& summary, const FractureCase& fracture, const Axes& axes) {
   const Headlines& f = *summary.figures;
   if (!fracture.box) return {f.peak_force, f.displacement_at_peak, f.final_force, f.final_displacement};
-  return {figure_of(summary, fmt::format("peak_{}_Pa", axes.y)), figure_of(summary, fmt::format("{}_at_peak", axes.x)),
-          figure_of(summary, fmt::format("final_{}_Pa", axes.y)), figure_of(summary, fmt::format("final_{}", axes.x))};
+  return {
+      summary.other_figure(fmt::format("peak_{}_Pa", axes.y)), summary.other_figure(fmt::format("{}_at_peak", axes.x)),
+      summary.other_figure(fmt::format("final_{}_Pa", axes.y)), summary.other_figure(fmt::format("final_{}", axes.x))};
 }
 
 /// "greatest force 27.08 N at 624 um, the end of the curve"
@@ -205,7 +201,7 @@ std::string shown_in(const CaseUnit& unit, double si) {
 
 std::string first_debonding_words(const RunSummary& summary, const FractureCase& fracture, const CurveUnits& units) {
   const Axes axes = axes_of(fracture, units);
-  const auto figure = [&](const std::string& name) { return figure_of(summary, "first_debonding_" + name); };
+  const auto figure = [&](const std::string& name) { return summary.other_figure("first_debonding_" + name); };
   const double from = figure(axes.x + axes.x_unit), to = figure(axes.x + "_after" + axes.x_unit);
   if (!std::isfinite(from) || !std::isfinite(to)) return {};
   std::string words =
@@ -220,7 +216,7 @@ std::string first_debonding_words(const RunSummary& summary, const FractureCase&
 
 std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& summary, const FractureCase& fracture) {
   const Axes axes = axes_of(fracture, {});
-  const auto figure = [&](const std::string& name) { return figure_of(summary, "first_debonding_" + name); };
+  const auto figure = [&](const std::string& name) { return summary.other_figure("first_debonding_" + name); };
   const auto shown_between = [&](const std::string& name, const std::string& unit, const CaseUnit& si) {
     const double from = figure(name + unit), to = figure(name + "_after" + unit);
     const DisplayUnit in = display_unit(std::max(std::abs(from), std::abs(to)), si.si_unit == "1" ? "" : si.si_unit);
@@ -239,23 +235,22 @@ std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& sum
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const fs::path& results) {
   const CurveUnits units = read_curve_units(file, fracture.output.curve);
+  const auto surface = summary.other_texts.find("first_debonding_surface");
+  const bool has_debonded = surface != summary.other_texts.end();
   std::vector<std::string> lines;
   if (const auto heat = figure_of_hottest_place(fracture, summary))
     lines.push_back(fmt::format("greatest temperature rise {} {}", heat->value, heat->note));
-  for (std::string& line : lines_of_curve(summary, fracture, units)) lines.push_back(std::move(line));
-  const auto surface = summary.other_texts.find("first_debonding_surface");
-  if (surface != summary.other_texts.end())
+  if (has_debonded)
     lines.push_back(
         fmt::format("first debonding of \"{}\" {}", surface->second, first_debonding_words(summary, fracture, units)));
-  else if (summary.other_figures.contains("first_debonding_load"))
+  for (std::string& line : lines_of_curve(summary, fracture, units)) lines.push_back(std::move(line));
+  if (!has_debonded && summary.other_figures.contains("first_debonding_load"))
     lines.emplace_back("no debonding: every surface holds");
   for (std::string& line : lines_of_laws(results)) lines.push_back(std::move(line));
   return lines;
 }
 
 std::vector<std::string> as_sentences(std::vector<std::string> lines) {
-  for (const std::string_view first : {"first debonding", "greatest temperature rise"})
-    std::ranges::stable_partition(lines, [=](const std::string& line) { return line.starts_with(first); });
   for (std::string& line : lines) {
     line.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(line.front())));
     line += ".";
@@ -272,7 +267,7 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
                                     const fs::path& results) {
   std::vector<HeadFigure> figures;
   const Axes axes = axes_of(fracture, units);
-  const auto debonding = [&](const std::string& name) { return figure_of(summary, "first_debonding_" + name); };
+  const auto debonding = [&](const std::string& name) { return summary.other_figure("first_debonding_" + name); };
   const double from = debonding(axes.x + axes.x_unit), to = debonding(axes.x + "_after" + axes.x_unit);
   const auto surface = summary.other_texts.find("first_debonding_surface");
   if (auto heat = figure_of_hottest_place(fracture, summary)) figures.push_back(std::move(*heat));

@@ -36,12 +36,12 @@ std::string first_debonding_words(const RunSummary& summary, const FractureCase&
 /// debonding, and its angle; none where the summary has none.
 std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& summary, const FractureCase& fracture);
 
-/// A line each: greatest temperature rise, greatest force, end of the curve, first debonding, laws of bands that were
+/// A line each: greatest temperature rise, first debonding, greatest force, end of the curve, laws of bands that were
 /// extracted into `results`.
 std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
                                        const std::filesystem::path& results);
 
-/// Lines as sentences, heat first, then the first debonding.
+/// Lines as sentences.
 std::vector<std::string> as_sentences(std::vector<std::string> lines);
 
 /// "74 s", "12 min"

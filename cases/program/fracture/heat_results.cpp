@@ -85,10 +85,7 @@ std::map<std::string, double> figures_of_heat(const StepTable& table) {
 
 std::optional<HeadFigure> figure_of_hottest_place(const FractureCase& fracture, const RunSummary& summary) {
   if (!fracture.heat) return std::nullopt;
-  const auto figure = [&](const std::string& name) {
-    const auto found = summary.other_figures.find(name);
-    return found == summary.other_figures.end() ? Headlines::none : found->second;
-  };
+  const auto figure = [&](const std::string& name) { return summary.other_figure(name); };
   const double power = figure("heating_of_cycles_W");
   const bool is_long = std::isfinite(power);
   const std::string of = is_long ? "after_time_" : "final_";
