@@ -57,7 +57,7 @@ std::string unit_of_displacement(const TomlValue& root, const CurveSettings& cur
   for (const TomlValue& boundary : elements_of(entry_named(&root, "boundary"))) {
     const auto components = elements_of(entry_named(&boundary, "displacement"));
     for (std::size_t i = 0; i < components.size(); ++i) {
-      const std::string unit = unit_given(components[i]);
+      std::string unit = unit_given(components[i]);
       if (!is_unit_of(unit, dimension::length)) continue;
       if (names_patch(boundary, curve.patch) && i == static_cast<std::size_t>(curve.component)) return unit;
       if (any.empty()) any = unit;
@@ -68,7 +68,7 @@ std::string unit_of_displacement(const TomlValue& root, const CurveSettings& cur
 
 std::string unit_of_force(const TomlValue& root) {
   for (const TomlValue& specimen : elements_of(entry_named(entry_named(&root, "experiment"), "specimens")))
-    if (const std::string unit = text_of(entry_named(entry_named(&specimen, "force"), "unit"));
+    if (std::string unit = text_of(entry_named(entry_named(&specimen, "force"), "unit"));
         is_unit_of(unit, dimension::force))
       return unit;
   return {};
