@@ -45,7 +45,8 @@ constexpr CommandText case_commands[] = {
      "Writes to CASE/results: comparison.json, comparison.csv."},
     {"fit", "Estimate the values that the case names in [fit] from its experiment",
      "Writes to CASE/results: fit.json, the fitted case case.fitted.toml and curves. The last line is the\nverdict: "
-     "sound, questionable or failed; estimates of a fit that is not sound have no intervals.\nThe fit of a fracture "
+     "sound (with correlated residuals, within the error of mesh and steps), questionable or failed;\n"
+     "estimates of a fit that is not sound have no intervals. The fit of a fracture "
      "case keeps "
      "its runs in CASE/results/runs; the same command continues them."},
     {"sweep", "Run a case with the sets of values that it names in [sweep]",

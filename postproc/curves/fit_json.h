@@ -22,8 +22,8 @@ struct FittedParameter {
   std::string name;
   std::string unit;
   double estimate = 0.0;
-  double standard_error = 0.0;  ///< not finite where it is not known, as the interval
-  double lower = 0.0, upper = 0.0;
+  double standard_error = 0.0;      ///< by noise alone; not finite where it is not known, as the interval
+  double lower = 0.0, upper = 0.0;  ///< of the noise, and of what a finer discretisation moves
   double first_guess = std::numeric_limits<double>::quiet_NaN();  ///< NaN if there was none
   double lower_bound = -std::numeric_limits<double>::infinity();
   double upper_bound = std::numeric_limits<double>::infinity();
@@ -52,7 +52,7 @@ struct FitFindings {
   std::vector<FitIteration> starts{};    ///< what each start came to
   std::vector<FitIteration> path{};      ///< of the best start
   std::vector<FitIteration> screened{};  ///< points of a sample
-  /// By which the intervals of the parameters were widened; empty unless the verdict is that of correlated residuals.
+  /// By which the intervals of the parameters were widened; empty unless correlated residuals did so.
   std::vector<CorrelatedError> correlated{};
   std::string finer{};  ///< the finer discretisation; empty: none was tried
 };

@@ -93,23 +93,57 @@ std::string with_unit(double si, const std::string& unit) {
   return unit.empty() || unit == "1" ? fmt::format("{:.4g}", si) : fmt::format("{:.4g} {}", si, unit);
 }
 
+Eigen::VectorXd moves_by_finer(const JudgedData& data) {
+  return -data.result->inverse_normal * (data.result->derivatives.transpose() * change_by_finer(data));
+}
+
+/// What the interval reaches on the side of the finer discretisation, of noise alone.
+double reach_towards_finer(const FittedParameter& p) {
+  return p.moved_by_finer < 0.0 ? p.estimate - p.lower : p.upper - p.estimate;
+}
+
+/// Of a move that is noticeable; one that is larger than the interval of the noise is a reason.
+void tell_move(FitFindings& found, const FittedParameter& p) {
+  const double errors = std::abs(p.moved_by_finer) / p.standard_error;
+  if (!(errors > noticeable_move)) return;
+  const std::string told =
+      fmt::format("with {} {} would be {}, {:+.2g} %: a shift of {:.2g} standard errors", found.finer, p.name,
+                  with_unit(p.estimate + p.moved_by_finer, p.unit), 100.0 * p.moved_by_finer / p.estimate, errors);
+  if (is_sound(found.verdict) && std::abs(p.moved_by_finer) > reach_towards_finer(p)) {
+    found.verdict = Verdict::discretised;
+    found.reasons.push_back(told +
+                            ", more than what the noise leaves open; with the values of [fit] `finer` in the "
+                            "case itself it is less");
+  } else {
+    found.warnings.push_back(told);
+  }
+}
+
 void add_moves(FitFindings& found, const JudgedData& data) {
-  const Eigen::VectorXd moves =
-      -data.result->inverse_normal * (data.result->derivatives.transpose() * change_by_finer(data));
+  const Eigen::VectorXd moves = moves_by_finer(data);
   found.finer = data.finer->what;
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {
     FittedParameter& p = found.parameters[j];
     const double move = moves[static_cast<Eigen::Index>(j)];
     p.moved_by_finer = p.log_scale ? p.estimate * std::expm1(move) : move;
-    if (std::abs(p.moved_by_finer) > noticeable_move * p.standard_error)
-      found.warnings.push_back(fmt::format(
-          "with {} {} would be {}, {:+.2g} %: a shift of {:.2g} standard errors, which the interval has no part for",
-          data.finer->what, p.name, with_unit(p.estimate + p.moved_by_finer, p.unit),
-          100.0 * p.moved_by_finer / p.estimate, std::abs(p.moved_by_finer) / p.standard_error));
+    tell_move(found, p);
+    hold_move(p, p.lower, p.upper);
   }
 }
 
 }  // namespace
+
+void hold_move(const FittedParameter& p, double& lower, double& upper) {
+  if (!std::isfinite(p.moved_by_finer)) return;
+  if (p.log_scale) {
+    const double factor = 1.0 + p.moved_by_finer / p.estimate;
+    lower *= std::min(1.0, factor);
+    upper *= std::max(1.0, factor);
+  } else {
+    lower += std::min(0.0, p.moved_by_finer);
+    upper += std::max(0.0, p.moved_by_finer);
+  }
+}
 
 bool judge(FitFindings& found, JudgedData data) {
   FitEvidence evidence = evidence_of(found, data);
@@ -124,16 +158,16 @@ bool judge(FitFindings& found, JudgedData data) {
               fmt::format("the residuals hold the error of the discretisation: {} takes it out", data.finer->what));
         }
       }
-    add_moves(found, data);
   }
   found.verdict = judgement.verdict;
   found.reasons = std::move(judgement.reasons);
   found.converged = found.converged && found.verdict != Verdict::failed;
-  if (!is_sound(found.verdict)) withhold_intervals(found);
   if (found.verdict == Verdict::correlated) {
     for (std::size_t j = 0; j < evidence.correlated.size(); ++j) widen(found.parameters[j], evidence.correlated[j]);
     found.correlated = std::move(evidence.correlated);
   }
+  if (data.finer && data.result != nullptr) add_moves(found, data);
+  if (!is_sound(found.verdict)) withhold_intervals(found);
   return judgement.model_error;
 }
 

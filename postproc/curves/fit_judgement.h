@@ -28,11 +28,15 @@ struct JudgedData {
 };
 /// Gives findings their verdict. Estimates of a fit that is not sound lose their intervals and standard errors, those
 /// of one with correlated residuals get wider ones, and one that has failed has not converged. What a finer
-/// discretisation does to the residuals counts as explained. Returns whether the residuals are more than white noise.
+/// discretisation does to the residuals counts as explained, and intervals hold what it does to estimates: the standard
+/// error is of the noise alone. Returns whether the residuals are more than white noise.
 bool judge(FitFindings& found, JudgedData data);
 
 /// One more reason: the findings are questionable at best, and lose their intervals.
 void question(FitFindings& found, std::string reason);
 void withhold_intervals(FitFindings& found);
+
+/// Moves the end of an interval of noise alone that lies on the side of what a finer discretisation says, by as much.
+void hold_move(const FittedParameter& p, double& lower, double& upper);
 
 }  // namespace pfdm

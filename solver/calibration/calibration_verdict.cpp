@@ -144,6 +144,7 @@ std::string_view name_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::sound: return "sound";
     case Verdict::correlated: return "sound with correlated residuals";
+    case Verdict::discretised: return "sound within the error of mesh and steps";
     case Verdict::questionable: return "questionable";
     case Verdict::failed: break;
   }
@@ -151,7 +152,8 @@ std::string_view name_of(Verdict verdict) {
 }
 
 Verdict verdict_named(std::string_view name) {
-  for (const Verdict verdict : {Verdict::sound, Verdict::correlated, Verdict::questionable, Verdict::failed})
+  for (const Verdict verdict :
+       {Verdict::sound, Verdict::correlated, Verdict::discretised, Verdict::questionable, Verdict::failed})
     if (name_of(verdict) == name) return verdict;
   throw InputError(fmt::format("\"{}\" is no verdict on a fit", name));
 }

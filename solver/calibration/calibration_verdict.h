@@ -17,13 +17,15 @@ namespace pfdm {
 enum class Verdict {
   sound,         ///< nothing speaks against the estimates and their intervals
   correlated,    ///< sound, with intervals widened for the correlation of the residuals
+  discretised,   ///< sound, with intervals of which the error of mesh or steps is the larger part
   questionable,  ///< the estimates are what the data give, but their intervals do not hold: reasons say why
   failed,        ///< there is no fit
 };
-/// "sound", "sound with correlated residuals", "questionable", "failed".
+/// "sound", "sound with correlated residuals", "sound within the error of mesh and steps", "questionable", "failed".
 std::string_view name_of(Verdict verdict);
+constexpr Verdict worst_sound = Verdict::discretised;
 /// Whether the estimates have intervals.
-inline bool is_sound(Verdict verdict) { return verdict <= Verdict::correlated; }
+inline bool is_sound(Verdict verdict) { return verdict <= worst_sound; }
 /// Throws InputError.
 Verdict verdict_named(std::string_view name);
 

@@ -35,9 +35,9 @@ ChainFigure read_figure(const ConfigTable& table, const ChainJob& job) {
 
 Verdict read_accepted(const ConfigTable& table, const ChainJob& job) {
   const auto accept = table.find("accept");
-  if (!accept) return Verdict::correlated;
+  if (!accept) return worst_sound;
   if (job.name != "fit") throw accept->error("only a step that does \"fit\" has a verdict");
-  return accept->choice() == "sound" ? Verdict::correlated : Verdict::questionable;
+  return accept->choice() == "sound" ? worst_sound : Verdict::questionable;
 }
 
 ChainStep read_step(const ConfigTable& table, const fs::path& directory) {

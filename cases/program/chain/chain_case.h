@@ -42,7 +42,7 @@ struct ChainStep {
   std::string name;
   std::filesystem::path where;  ///< of its case: a directory, or a .toml file in it
   const ChainJob* job = nullptr;
-  Verdict accepted = Verdict::correlated;  ///< the worst verdict on its fit with which the chain goes on
+  Verdict accepted = worst_sound;  ///< the worst verdict on its fit with which the chain goes on
   std::vector<ChainFigure> figures;
   ConfigValue place;  ///< for messages
 };

@@ -136,10 +136,12 @@ void CurveFit::add_profiles(const DoneStage& done, FitFindings& found) const {
                       fmt::format("the fit has ended beside the lowest residuals: they are smaller with {} = {}; "
                                   "more starts may find them",
                                   parameter.name, parameter.shown(interval.better->value)));
-    found.parameters[k].profile = FittedProfile{.lower = interval.lower_95,
-                                                .upper = interval.upper_95,
-                                                .lower_open = interval.lower_open,
-                                                .upper_open = interval.upper_open};
+    FittedProfile profile{.lower = interval.lower_95,
+                          .upper = interval.upper_95,
+                          .lower_open = interval.lower_open,
+                          .upper_open = interval.upper_open};
+    hold_move(found.parameters[k], profile.lower, profile.upper);
+    found.parameters[k].profile = profile;
   }
 }
 

@@ -89,7 +89,10 @@ class Fit:
 
     @property
     def verdict(self) -> str:
-        """ "sound", "questionable" or "failed". """
+        """ "sound", "questionable" or "failed".
+
+        "sound with correlated residuals" and "sound within the error of mesh and steps" have intervals too.
+        """
         return str(self.content["verdict"])
 
     @property
