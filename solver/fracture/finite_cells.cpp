@@ -272,16 +272,21 @@ double FiniteCells::beside_mean(Index cell, const CellMechanics& mechanics, cons
   return 0.5 * contract(excess, stretch_part(F_e) * free.stretch());
 }
 
+// The moments of tractions in cells without a pressure count in the account alone: the rotation of the whole body is in
+// them, which cannot drive the damage of a cell.
 FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics, double g) const {
   const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
   const double volume = free_deformation(cell, mechanics).volume();
+  const double V = mesh_.cell_volume[cell], moments = mechanics.moment_work[cell];
+  const bool drive = has_pressure(cell) || !model_.in_cell(mesh_, cell).damageable;
   return {.moderate = volume * at.moderate.energy,
           .network = volume * at.network.energy,
           .pressure = volume * at.pressure.energy,
           .compression = volume * at.compression.energy,
           .is_compressed = at.is_compressed,
-          .faces = mechanics.energy[cell] / mesh_.cell_volume[cell] + beside_mean(cell, mechanics, at, g),
-          .of = g};
+          .faces = (mechanics.energy[cell] + (drive ? moments : 0.0)) / V + beside_mean(cell, mechanics, at, g),
+          .of = g,
+          .moments = drive ? 0.0 : moments / V};
 }
 
 double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g) const {
@@ -289,7 +294,7 @@ double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g
   const bool whole = keeps(cell, at);
   const double kept = whole ? (1.0 - g) * at.compression : 0.0;
   const double density = by.moderate.value * at.moderate + by.network.value * at.network + kept +
-                         (whole ? 1.0 : by.pressure.value) * at.pressure + at.faces;
+                         (whole ? 1.0 : by.pressure.value) * at.pressure + at.faces + at.moments;
   return mesh_.cell_volume[cell] * density;
 }
 

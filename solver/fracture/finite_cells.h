@@ -52,6 +52,7 @@ struct FiniteEnergies {
   double compression = 0.0;      ///< W_c, of the moderate one, where compression does not drive the damage
   bool is_compressed = false;    ///< there, and J < 1
   double faces = 0.0, of = 1.0;  ///< what the faces add, at the g with which the displacements were found
+  double moments = 0.0;          ///< likewise, of their moments where these do not drive the damage
 };
 
 /// What a split does at finite strain: a row of the table of those there are.

@@ -49,6 +49,20 @@ class LayerLines {
   }
   const std::array<Index, 2>& faces(Index cell, int axis) const { return pairs_[as_size(cell)][as_size(axis)].face; }
   const LayerLine& line(Index cell, int axis) const { return lines_[as_size(cell)][as_size(axis)]; }
+  /// Of the cells of one zone in the line, twice that where one of its ends is a plane of symmetry [m].
+  double zone_length(Index cell, int axis) const {
+    double sum = length(cell, axis);
+    std::array<Index, 2> ends = faces(cell, axis);
+    along_line(
+        mesh_, cell, faces(cell, axis),
+        [&](Index at, Index face) { return unknowns_.node_beside(mesh_, at, face) >= 0; },
+        [&](Index near, Index far) {
+          sum += (mesh_.face_centre[far] - mesh_.face_centre[near]).norm();
+          (near == ends[0] ? ends[0] : ends[1]) = far;
+        });
+    const auto is_mirror = [&](Index face) { return !mesh_.is_interior(face) && ends_[face] == End::mirror; };
+    return is_mirror(ends[0]) != is_mirror(ends[1]) ? 2.0 * sum : sum;
+  }
   double length(Index cell, int axis) const {
     const auto& [f, g] = pairs_[as_size(cell)][as_size(axis)].face;
     return (mesh_.face_centre[g] - mesh_.face_centre[f]).norm();
@@ -160,7 +174,11 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
         const double n = layers.times() * layers.n, thickness = layers.times() * layers.length;
         if (across == along || !layers.has_layers()) continue;
         if (length.times() * length.length < least_slenderness * thickness) continue;
-        see(BendingCell{.cell = c, .across = lines.faces(c, across), .along = lines.faces(c, along)},
+        see(BendingCell{.cell = c,
+                        .across = lines.faces(c, across),
+                        .along = lines.faces(c, along),
+                        .thickness = thickness,
+                        .zone_thickness = lines.zone_length(c, across)},
             BendingLayers{.n = n,
                           .thickness = thickness,
                           .length = lines.length(c, along),

@@ -51,6 +51,8 @@ void along_line(const Mesh& mesh, Index cell, const std::array<Index, 2>& faces,
 struct BendingCell {
   Index cell = 0;
   std::array<Index, 2> across{-1, -1}, along{-1, -1};
+  double thickness = 0.0;       ///< of all layers, of half models that of the whole body [m]
+  double zone_thickness = 0.0;  ///< likewise of those of the cell's own zone
 };
 
 /// All cells of bodies at least three times as long as thick, whatever the error; a cell of a plate is listed for both

@@ -31,6 +31,9 @@ struct CellMechanics {
   /// At finite strain, where `stress` is the first Piola-Kirchhoff stress: half the work of what tractions and face
   /// displacements differ by from those of the mean gradient, 1/2 sum A t.(u_f - u_c - gradient d).
   CellField<double> energy;
+  /// At finite strain, beside it: half the work of the moment of a cell's tractions about its centre, at its rotation
+  /// beyond that of the whole body [J]; zero where it is not counted.
+  CellField<double> moment_work{};
   /// Of a part of the stiffness: its share in `energy`, per volume [J/m^3],
   ///
   ///   (1/2V) sum A (u_f - u_c).(part : eps_f) n,  eps_f = sym(G + (u_f - u_c - G d) n^T / h),

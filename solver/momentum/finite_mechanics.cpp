@@ -32,7 +32,7 @@ void add_moments(const Mesh& mesh, const std::vector<Index>& of_cells, const Cel
     const Index c = of_cells[as_size(k)];
     const Tensor R = polar_parts(Tensor::Identity() + cells.gradient[c]).R;
     const Tensor moment = skew_part(stress[c] * R.transpose());
-    cells.energy[c] += 0.5 * mesh.cell_volume[c] * contract(moment, skew_part(R * R_0.transpose()));
+    cells.moment_work[c] = 0.5 * mesh.cell_volume[c] * contract(moment, skew_part(R * R_0.transpose()));
   });
 }
 
@@ -50,6 +50,7 @@ CellMechanics unknown_mechanics(std::size_t n_cells, std::size_t n_parts) {
           .gradient = CellField<Tensor>(n_cells),
           .stress = CellField<Tensor>(n_cells),
           .energy = CellField<double>(n_cells),
+          .moment_work = CellField<double>(n_cells, 0.0),
           .part_energy = CellField<double>(n_parts, 0.0)};
 }
 

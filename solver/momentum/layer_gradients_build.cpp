@@ -238,24 +238,8 @@ class LayerGradients::Maker {
     double part = 1.0;
     for (const BendingCell& in : all)
       if (std::ranges::count(in.along, face) > 0)
-        part = std::min(part, 3.0 - 2.0 * length(in.along[0], in.along[1]) / thickness_at(in));
+        part = std::min(part, 3.0 - 2.0 * length(in.along[0], in.along[1]) / in.thickness);
     return part;
-  }
-  // Of all cells of a line, up to faces at which it ends [m].
-  template <class Ends>
-  double length_through(Index cell, const FacePair& faces, const Ends& ends) const {
-    double sum = length(faces[0], faces[1]);
-    along_line(mesh_, cell, faces, ends, [&](Index near, Index far) { sum += length(near, far); });
-    return sum;
-  }
-  // Of all zones [m].
-  double thickness_at(const BendingCell& in) const {
-    return length_through(in.cell, in.across, [&](Index, Index face) { return unknowns_.is_split(face); });
-  }
-  // Of its zone [m].
-  double zone_thickness_at(const BendingCell& in) const {
-    return length_through(in.cell, in.across,
-                          [&](Index at, Index face) { return unknowns_.node_beside(mesh_, at, face) >= 0; });
   }
 
   // Derivatives along it are those between both centres, but of much stiffer and much softer cells those of either side
@@ -291,7 +275,7 @@ class LayerGradients::Maker {
     if (!side || *side >= 2 * links_.size()) return;
     const momentum_faces::Link& link = links_[*side / 2];
     const double distance = (link.d_P - link.d_N).dot(link.n);
-    const double layer = length(in.across[0], in.across[1]), all = zone_thickness_at(in);
+    const double layer = length(in.across[0], in.across[1]), all = in.zone_thickness;
     const double nu = unknowns_.sound[as_size(unknowns_.zone[in.cell])].poisson_ratio();
     const double weight = std::min(1.0, left / (1.0 - nu) * layer * all / (distance * distance));
     const Vector line = mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]];

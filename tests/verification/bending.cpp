@@ -345,6 +345,21 @@ TEST(Bending, InSpaceByOneRingErrsAsTheFormulaSays) {
       }
 }
 
+TEST(Bending, HalfABodyIsAsThickAsTheWhole) {
+  const Mesh mesh = mesh_of(25, 4);
+  for (const bool is_half : {false, true}) {
+    std::vector<BoundaryCondition> conditions = clamped_at_x0(false);
+    if (is_half) conditions.push_back(symmetry_on("ymin"));
+    const FractureModel model = elastic_model({from_young_poisson(E, 0.3)}, conditions);
+    const std::vector<BendingCell> cells = cells_of_layers(mesh, place_unknowns(mesh, elastic_body(model)));
+    ASSERT_EQ(cells.size(), 100u);
+    for (const BendingCell& in : cells) {
+      EXPECT_NEAR(in.thickness, (is_half ? 2.0 : 1.0) * height, 1e-9);
+      EXPECT_NEAR(in.zone_thickness, in.thickness, 1e-9);
+    }
+  }
+}
+
 // A body that has lost half of its stiffness everywhere bends twice as much.
 TEST(Bending, OfEvenlyDamagedBeams) {
   const Beam beam{.along = 25, .across = 4};
