@@ -13,7 +13,7 @@
 //   cmake -S cases/cpp -B build/cpp -DCMAKE_PREFIX_PATH=DIR && cmake --build build/cpp
 //   build/cpp/2_toughnesses cases/bar_at2
 
-#include "cases/program/fracture/opened_case.h"
+#include "cases/program/fracture/case/opened_case.h"
 #include "physics/error.h"
 
 #include <algorithm>

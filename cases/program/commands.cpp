@@ -1,6 +1,6 @@
 #include "cases/program/commands.h"
 
-#include "cases/program/input/config.h"
+#include "cases/program/input/config/config.h"
 #include "postproc/curves/instruction_set.h"
 #include "postproc/exports/export_formats.h"
 

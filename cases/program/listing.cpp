@@ -1,6 +1,6 @@
 #include "cases/program/listing.h"
 
-#include "cases/program/input/case_file.h"
+#include "cases/program/input/case_files/case_file.h"
 #include "cases/program/kinds.h"
 #include "postproc/curves/summary.h"
 

@@ -1,5 +1,5 @@
 #include "cases/program/program.h"
-#include "cases/program/session/stop_signal.h"
+#include "cases/program/session/terminal/stop_signal.h"
 #include "postproc/curves/instruction_set.h"
 #include "postproc/files/flush.h"
 

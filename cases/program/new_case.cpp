@@ -1,9 +1,9 @@
 #include "cases/program/new_case.h"
 
 #include "cases/program/chain/chain_case.h"
-#include "cases/program/input/case_file.h"
-#include "cases/program/input/frame_list.h"
-#include "cases/program/input/toml_document.h"
+#include "cases/program/input/case_files/case_file.h"
+#include "cases/program/input/config/toml_document.h"
+#include "cases/program/input/fields/frame_list.h"
 #include "cases/program/kinds.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/text_file.h"

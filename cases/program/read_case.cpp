@@ -1,7 +1,7 @@
 #include "cases/program/kinds.h"
 #include "cases/program/session/report_parts.h"
-#include "cases/program/studies/sweep.h"
-#include "cases/program/studies/sweep_report.h"
+#include "cases/program/studies/sweep/sweep.h"
+#include "cases/program/studies/sweep/sweep_report.h"
 
 #include <fmt/format.h>
 

@@ -44,8 +44,8 @@ html_copy_source = False
 doxygen_inputs = [
     "mesh/mesh.h", "mesh/generators/box_hexes.h", "physics/error.h", "physics/damage/softening_law.h",
     "physics/materials/small_strain_material.h", "physics/materials/hyperelastic.h", "physics/interfaces/interface_law.h",
-    "solver/momentum/boundary_condition.h", "solver/fracture/fracture_model.h", "solver/fracture/fracture_run.h",
-    "solver/fracture/state.h", "cases/program/fracture/opened_case.h",
+    "solver/momentum/body/boundary_condition.h", "solver/fracture/model/fracture_model.h", "solver/fracture/fracture_run.h",
+    "solver/fracture/model/state.h", "cases/program/fracture/case/opened_case.h",
 ]
 breathe_default_project = "pfdm"
 breathe_domain_by_extension = {"h": "cpp"}

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/known_places.h"
+#include "mesh/search/known_places.h"
 
 namespace pfdm {
 

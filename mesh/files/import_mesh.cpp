@@ -16,7 +16,7 @@
 #include "mesh/files/gmsh_file.h"
 #include "mesh/files/vtk_file.h"
 #include "mesh/matching.h"
-#include "mesh/point_bounds.h"
+#include "mesh/search/point_bounds.h"
 #include "physics/error.h"
 #include "physics/portable_math.h"
 #include "physics/quantity_text.h"

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <utility>
 
-#include "mesh/point_bounds.h"
+#include "mesh/search/point_bounds.h"
 #include "mesh/surfaces/cgal_surface.h"
 #include "physics/error.h"
 

@@ -12,8 +12,9 @@
 namespace pfdm {
 namespace {
 
-// Poisson's ratio above which cells have a pressure, and lambda_s/mu; as at small strain (solver/momentum/unknowns.cpp,
-// cell_pressure.h). Without a pressure 0.49 takes ten times the iterations of 0.3, 0.499 does not converge.
+// Poisson's ratio above which cells have a pressure, and lambda_s/mu; as at small strain
+// (solver/momentum/body/unknowns.cpp, cell_pressure.h). Without a pressure 0.49 takes ten times the iterations of 0.3,
+// 0.499 does not converge.
 constexpr double nearly_incompressible = 0.47, moderate_lambda = 2.5;
 constexpr double least_volume = 0.1;  // J from which on functions of J go on by their expansion
 

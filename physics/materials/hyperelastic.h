@@ -24,7 +24,7 @@
 // energy, convex in J still, and its stress are finite for any F, also where a cell has turned inside out.
 //
 // Nearly incompressible materials (nu > 0.47): an unknown pressure q = c U'(J) carries the share c of U that is beyond
-// lambda_s = 2.5 mu (solver/momentum/cell_pressure.h), P = dW_m/dF + q cof F with W_m = W - c U.
+// lambda_s = 2.5 mu (solver/momentum/body/cell_pressure.h), P = dW_m/dF + q cof F with W_m = W - c U.
 
 #include "physics/elasticity/mandel.h"
 #include "physics/materials/material.h"

@@ -8,9 +8,9 @@
 //
 // with T the traction on the faces of each cell; n the normal, 1 and 2 the tangents. In a sound column it is zero.
 
-#include "mesh/line_walk.h"
-#include "solver/fracture/fracture_model.h"
-#include "solver/fracture/state.h"
+#include "mesh/search/line_walk.h"
+#include "solver/fracture/model/fracture_model.h"
+#include "solver/fracture/model/state.h"
 
 #include <array>
 #include <string>

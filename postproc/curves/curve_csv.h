@@ -2,7 +2,7 @@
 // The force-displacement curve: rows of numbers, as a file that other tools rely on, and back.
 
 #include "postproc/files/growing_file.h"
-#include "solver/fracture/state.h"
+#include "solver/fracture/model/state.h"
 
 #include <filesystem>
 #include <string>

@@ -12,8 +12,8 @@
 // Where the stiffnesses differ T is not along delta, and an energy would be spent to a part only in mixed mode: Camacho
 // and Ortiz' rule is written by displacements. Its lambda is delta_m times a factor of the mode mix alone.
 #include "postproc/exports/deck_number.h"
-#include "postproc/exports/export_head.h"
-#include "postproc/exports/mode_remarks.h"
+#include "postproc/exports/law/export_head.h"
+#include "postproc/exports/law/mode_remarks.h"
 #include "postproc/exports/writers.h"
 
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 // the energy of mode II kappa G_c; T_n = sigma delta_n/Delta, T_s = beta^2/kappa sigma delta_t/Delta. With kappa = 1 it
 // is Camacho and Ortiz' rule. penalty is the stiffness in compression.
 #include "postproc/exports/deck_number.h"
-#include "postproc/exports/export_head.h"
-#include "postproc/exports/mode_remarks.h"
+#include "postproc/exports/law/export_head.h"
+#include "postproc/exports/law/mode_remarks.h"
 #include "postproc/exports/writers.h"
 
 #include <fmt/format.h>

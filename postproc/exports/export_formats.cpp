@@ -1,7 +1,7 @@
 #include "postproc/exports/export_formats.h"
 
 #include "physics/error.h"
-#include "postproc/exports/export_head.h"
+#include "postproc/exports/law/export_head.h"
 #include "postproc/exports/writers.h"
 #include "postproc/files/atomic_file.h"
 

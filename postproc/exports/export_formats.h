@@ -2,8 +2,8 @@
 // The formats that a law can be exported in: a row each in the table of export_formats.cpp, a file each with its
 // writer.
 
-#include "postproc/exports/exported_law.h"
-#include "postproc/exports/unit_systems.h"
+#include "postproc/exports/law/exported_law.h"
+#include "postproc/exports/law/unit_systems.h"
 
 #include <filesystem>
 #include <span>

@@ -11,8 +11,8 @@
 // TES 2: T_i = T_i,max TSLC(l)/l (delta_i/final_i), l^2 = sum (delta_i/final_i)^2; TES 0 power law, 1 Benzeggagh and
 // Kenane. TES and the sign of XMU are those of the keyword manual, which is not public as a page.
 #include "postproc/exports/deck_number.h"
-#include "postproc/exports/export_head.h"
-#include "postproc/exports/mode_remarks.h"
+#include "postproc/exports/law/export_head.h"
+#include "postproc/exports/law/mode_remarks.h"
 #include "postproc/exports/writers.h"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 // whole area; one stiffness for all modes, T = (1 - d) K delta; onset where the squares of the tractions over their
 // strengths add up to one; mixed_mode_criterion BK or POWER_LAW of the separations' ratio.
 #include "postproc/exports/deck_number.h"
-#include "postproc/exports/export_head.h"
-#include "postproc/exports/mode_remarks.h"
+#include "postproc/exports/law/export_head.h"
+#include "postproc/exports/law/mode_remarks.h"
 #include "postproc/exports/writers.h"
 
 #include <fmt/format.h>

@@ -5,8 +5,8 @@
 // characters ("large field fixed format" of the bulk data guidelines). MCOHED with DMGINI and DMGEVO is not written:
 // its releases order the directions differently.
 #include "postproc/exports/deck_number.h"
-#include "postproc/exports/export_head.h"
-#include "postproc/exports/mode_remarks.h"
+#include "postproc/exports/law/export_head.h"
+#include "postproc/exports/law/mode_remarks.h"
 #include "postproc/exports/writers.h"
 
 #include <fmt/format.h>

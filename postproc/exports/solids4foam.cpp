@@ -3,7 +3,7 @@
 // traction at (T_n/sigmaMax)^2 + (T_s/tauMax)^2 = 1 until GI/GIc + GII/GIIc = 1 (variableMixedModeCohesiveZoneModel.C);
 // linear is sigmaMax (1 - delta/deltaC), deltaC = 2 GIc/sigmaMax (linearSimpleCohesiveZoneLaw.C).
 #include "postproc/exports/deck_number.h"
-#include "postproc/exports/export_head.h"
+#include "postproc/exports/law/export_head.h"
 #include "postproc/exports/writers.h"
 
 #include <fmt/format.h>

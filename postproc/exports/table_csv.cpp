@@ -1,6 +1,6 @@
 // A table for any code that interpolates: the points of T-delta and those of D-delta, with both columns in each row.
 #include "postproc/exports/deck_number.h"
-#include "postproc/exports/export_head.h"
+#include "postproc/exports/law/export_head.h"
 #include "postproc/exports/writers.h"
 
 #include <fmt/format.h>

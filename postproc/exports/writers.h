@@ -2,8 +2,8 @@
 // The writers of the formats: the input after the head. The law is in the units given. Each file cites what its layout
 // was taken from.
 
-#include "postproc/exports/exported_law.h"
-#include "postproc/exports/unit_systems.h"
+#include "postproc/exports/law/exported_law.h"
+#include "postproc/exports/law/unit_systems.h"
 
 #include <string>
 

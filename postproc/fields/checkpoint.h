@@ -1,7 +1,7 @@
 #pragma once
 // checkpoint.bin: the state of a fracture run, bit for bit, for a restart.
 
-#include "solver/fracture/state.h"
+#include "solver/fracture/model/state.h"
 
 #include <filesystem>
 #include <string>

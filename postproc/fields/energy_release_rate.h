@@ -19,8 +19,8 @@
 // tip also collect the next terms of the body's field, to the first power of the cells' size. G does not.
 
 #include "physics/interfaces/interface_crack.h"
-#include "solver/fracture/fracture_model.h"
-#include "solver/fracture/state.h"
+#include "solver/fracture/model/fracture_model.h"
+#include "solver/fracture/model/state.h"
 
 #include "mesh/mesh.h"
 

@@ -3,7 +3,7 @@
 
 #include "mesh/mesh.h"
 #include "postproc/fields/vtu_writer.h"
-#include "solver/fracture/state.h"
+#include "solver/fracture/model/state.h"
 
 #include <vector>
 

@@ -4,8 +4,8 @@
 
 #include "mesh/mesh.h"
 #include "postproc/fields/vtu_writer.h"
-#include "solver/fracture/state.h"
-#include "solver/momentum/boundary_condition.h"
+#include "solver/fracture/model/state.h"
+#include "solver/momentum/body/boundary_condition.h"
 
 #include <vector>
 

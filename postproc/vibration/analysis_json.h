@@ -2,7 +2,7 @@
 // analysis.json: how the records of a mass-material case were analysed, and how hard each test was. SI units, units in
 // the names; accelerations also in multiples of gravity, as test reports state them.
 
-#include "solver/vibration/record_analysis.h"
+#include "solver/vibration/diagnosis/record_analysis.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -2,8 +2,8 @@
 // What fit.json tells of the mass-material model alone. SI units, units in the names.
 
 #include "postproc/curves/fit_json.h"
-#include "solver/vibration/identification_repeats.h"
-#include "solver/vibration/ogden_fit.h"
+#include "solver/vibration/diagnosis/identification_repeats.h"
+#include "solver/vibration/simulation/ogden_fit.h"
 
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 // AFRL-RW-EG-TR-2016-088).
 
 #include "solver/calibration/calibration_verdict.h"
-#include "solver/vibration/identification.h"
+#include "solver/vibration/identification/identification.h"
 
 #include <cmath>
 #include <filesystem>

@@ -2,7 +2,7 @@
 
 #include "solver/dynamics/spline_grid.h"
 #include "solver/linear/sparse_cholesky.h"
-#include "solver/momentum/cell_pressure.h"
+#include "solver/momentum/body/cell_pressure.h"
 #include "solver/parallel.h"
 
 #include <algorithm>

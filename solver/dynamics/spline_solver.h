@@ -9,7 +9,7 @@
 // with the elastic energy K of the splines from their strains in the cells and from what they move held faces by (an
 // additive auxiliary space: Xu, Computing 56 (1996) 215).
 
-#include "solver/momentum/preconditioner.h"
+#include "solver/momentum/solution/preconditioner.h"
 
 namespace pfdm {
 

@@ -2,7 +2,7 @@
 
 #include "physics/error.h"
 #include "solver/dynamics/spline_solver.h"
-#include "solver/momentum/rigid_motion.h"
+#include "solver/momentum/body/rigid_motion.h"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,7 @@
 
 #include "solver/dynamics/operator_matrix.h"
 #include "solver/linear/sparse_lu.h"
-#include "solver/momentum/momentum_solver.h"
+#include "solver/momentum/solution/momentum_solver.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #include "solver/fracture/bending_words.h"
 
 #include "physics/quantity_text.h"
-#include "solver/momentum/bending_layers.h"
+#include "solver/momentum/bending/bending_layers.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a run does to the bending of few or long cells where they have gradients of one ring (bending_layers.h).
 
-#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/model/fracture_model.h"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 #include "solver/fracture/combinations.h"
 
 #include "physics/quantity_text.h"
-#include "solver/fracture/held_interfaces.h"
+#include "solver/fracture/model/held_interfaces.h"
 
 #include "physics/elasticity/anisotropy.h"
 #include "physics/error.h"

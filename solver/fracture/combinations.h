@@ -1,9 +1,9 @@
 #pragma once
 // What may be combined with what in a fracture run. Each check throws InputError that says what excludes what.
 
-#include "solver/fracture/fracture_model.h"
 #include "solver/fracture/fracture_run.h"
-#include "solver/momentum/unknowns.h"
+#include "solver/fracture/model/fracture_model.h"
+#include "solver/momentum/body/unknowns.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #include "solver/fracture/finite_stop.h"
 
 #include "physics/quantity_text.h"
-#include "solver/momentum/finite_tractions.h"
+#include "solver/momentum/finite_strain/finite_tractions.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 #pragma once
 // What is said where a step at finite strain does not converge.
 
-#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/staggered.h"
 #include "solver/momentum/momentum.h"
 

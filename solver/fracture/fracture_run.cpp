@@ -3,13 +3,13 @@
 #include "physics/error.h"
 #include "solver/fracture/body_heat.h"
 #include "solver/fracture/combinations.h"
+#include "solver/fracture/damage/residual_stiffness.h"
 #include "solver/fracture/finite_stop.h"
-#include "solver/fracture/held_interfaces.h"
-#include "solver/fracture/residual_stiffness.h"
+#include "solver/fracture/model/held_interfaces.h"
 #include "solver/fracture/spread_damage.h"
 #include "solver/fracture/staggered.h"
 #include "solver/fracture/unconverged.h"
-#include "solver/momentum/rigid_motion.h"
+#include "solver/momentum/body/rigid_motion.h"
 #include "solver/parallel.h"
 
 #include <fmt/format.h>

@@ -8,9 +8,9 @@
 //   }
 
 #include "mesh/mesh.h"
-#include "solver/fracture/fracture_model.h"
-#include "solver/fracture/iteration_report.h"
-#include "solver/fracture/state.h"
+#include "solver/fracture/model/fracture_model.h"
+#include "solver/fracture/model/iteration_report.h"
+#include "solver/fracture/model/state.h"
 
 #include <map>
 #include <memory>

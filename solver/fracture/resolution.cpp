@@ -2,7 +2,7 @@
 
 #include "physics/quantity_text.h"
 #include "solver/fracture/combinations.h"
-#include "solver/momentum/bending_layers.h"
+#include "solver/momentum/bending/bending_layers.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

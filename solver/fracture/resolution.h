@@ -3,7 +3,7 @@
 
 #include "mesh/band.h"
 #include "mesh/mesh.h"
-#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/model/fracture_model.h"
 
 #include <span>
 #include <string>

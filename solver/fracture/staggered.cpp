@@ -1,7 +1,7 @@
 #include "solver/fracture/staggered.h"
 
-#include "solver/fracture/finite_newton.h"
-#include "solver/fracture/law_newton.h"
+#include "solver/fracture/equilibrium/finite_newton.h"
+#include "solver/fracture/equilibrium/law_newton.h"
 #include "solver/parallel.h"
 
 #include <algorithm>

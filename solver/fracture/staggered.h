@@ -2,18 +2,18 @@
 // Alternate minimisation of one load step: equilibrium at fixed damage, damage at fixed displacement, until neither
 // the damage nor the energy changes (Bourdin, Francfort, Marigo, J. Mech. Phys. Solids 48 (2000) 797).
 
-#include "solver/fracture/cell_stiffness.h"
-#include "solver/fracture/cohesive_newton.h"
-#include "solver/fracture/coupled_newton.h"
-#include "solver/fracture/damage_equation.h"
-#include "solver/fracture/fracture_model.h"
-#include "solver/fracture/iteration_report.h"
-#include "solver/fracture/relaxation.h"
-#include "solver/fracture/residual_stiffness.h"
+#include "solver/fracture/cells/cell_stiffness.h"
+#include "solver/fracture/cells/strength_drive.h"
+#include "solver/fracture/damage/damage_equation.h"
+#include "solver/fracture/damage/residual_stiffness.h"
+#include "solver/fracture/equilibrium/cohesive_newton.h"
+#include "solver/fracture/equilibrium/coupled_newton.h"
+#include "solver/fracture/equilibrium/relaxation.h"
+#include "solver/fracture/model/fracture_model.h"
+#include "solver/fracture/model/iteration_report.h"
+#include "solver/fracture/model/state.h"
 #include "solver/fracture/stage_clock.h"
-#include "solver/fracture/state.h"
-#include "solver/fracture/strength_drive.h"
-#include "solver/momentum/momentum_solver.h"
+#include "solver/momentum/solution/momentum_solver.h"
 
 #include <limits>
 

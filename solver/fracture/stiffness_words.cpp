@@ -1,6 +1,6 @@
 #include "solver/fracture/stiffness_words.h"
 
-#include "solver/fracture/relaxing_gaps.h"
+#include "solver/fracture/cells/relaxing_gaps.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Where the mesh makes bodies too stiff that are nearly incompressible without a pressure unknown, or have relaxed.
 
-#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/model/fracture_model.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 // The surface of a body that fills a box, side by side. Faces inside the box (of voids and slits) belong to none.
 
 #include "mesh/mesh.h"
-#include "solver/momentum/unknowns.h"
+#include "solver/momentum/body/unknowns.h"
 
 #include <array>
 #include <vector>

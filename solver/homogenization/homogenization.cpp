@@ -4,8 +4,8 @@
 #include "physics/error.h"
 #include "physics/registry.h"
 #include "solver/homogenization/box_sides.h"
-#include "solver/momentum/box_means.h"
-#include "solver/momentum/momentum_solver.h"
+#include "solver/momentum/body/box_means.h"
+#include "solver/momentum/solution/momentum_solver.h"
 
 #include <fmt/format.h>
 

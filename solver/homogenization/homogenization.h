@@ -4,16 +4,16 @@
 //
 //   C = <sigma> <eps>^-1
 //
-// as matrices whose columns are the load cases (solver/momentum/box_means.h). Voids inside the box count as material
-// without stiffness.
+// as matrices whose columns are the load cases (solver/momentum/body/box_means.h). Voids inside the box count as
+// material without stiffness.
 //
 // The order of the energies of one body: uniform traction <= periodic <= uniform displacement (Suquet, Lecture Notes in
 // Physics 272 (1987) 193; Hazanov, Huet, J. Mech. Phys. Solids 42 (1994) 1995).
 
 #include "mesh/mesh.h"
 #include "physics/elasticity/mandel.h"
-#include "solver/momentum/preconditioner.h"
-#include "solver/momentum/unknowns.h"
+#include "solver/momentum/body/unknowns.h"
+#include "solver/momentum/solution/preconditioner.h"
 
 #include <array>
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 // A path of mean strain and mean stress of a box, one of the two prescribed in each component: the box then moves by
-// its mean strain, whose other components are unknowns of the momentum balance (solver/momentum/unknowns.h). For bodies
-// that are not linear: composites that debond.
+// its mean strain, whose other components are unknowns of the momentum balance (solver/momentum/body/unknowns.h). For
+// bodies that are not linear: composites that debond.
 
 #include "physics/elasticity/mandel.h"
 #include "solver/homogenization/homogenization.h"

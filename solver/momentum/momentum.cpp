@@ -1,9 +1,9 @@
 #include "solver/momentum/momentum.h"
 
-#include "solver/momentum/cell_pressure.h"
-#include "solver/momentum/finite_tractions.h"
-#include "solver/momentum/history_tractions.h"
-#include "solver/momentum/law_tractions.h"
+#include "solver/momentum/body/cell_pressure.h"
+#include "solver/momentum/finite_strain/finite_tractions.h"
+#include "solver/momentum/small_strain/history_tractions.h"
+#include "solver/momentum/small_strain/law_tractions.h"
 #include "solver/parallel.h"
 
 #include <algorithm>

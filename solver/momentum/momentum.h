@@ -21,17 +21,17 @@
 // Const functions keep nothing between calls: the work space of a sweep belongs to its caller.
 
 #include "solver/linear/block_matrix.h"
-#include "solver/momentum/boundary_loads.h"
-#include "solver/momentum/cell_eigenstrain.h"
-#include "solver/momentum/cell_mechanics.h"
-#include "solver/momentum/cell_reconstruction.h"
-#include "solver/momentum/face_springs.h"
-#include "solver/momentum/face_tractions.h"
-#include "solver/momentum/finite_law.h"
-#include "solver/momentum/history_stress.h"
+#include "solver/momentum/body/cell_eigenstrain.h"
+#include "solver/momentum/body/cell_mechanics.h"
+#include "solver/momentum/body/unknowns.h"
+#include "solver/momentum/faces/boundary_loads.h"
+#include "solver/momentum/faces/cell_reconstruction.h"
+#include "solver/momentum/faces/face_springs.h"
+#include "solver/momentum/faces/face_tractions.h"
+#include "solver/momentum/finite_strain/finite_law.h"
+#include "solver/momentum/small_strain/history_stress.h"
+#include "solver/momentum/small_strain/strain_law.h"
 #include "solver/momentum/spin_forces.h"
-#include "solver/momentum/strain_law.h"
-#include "solver/momentum/unknowns.h"
 
 #include <memory>
 #include <optional>

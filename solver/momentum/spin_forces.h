@@ -2,8 +2,8 @@
 // The forces of cells whose spin the unknowns do not see (spin_holds.h), by the energy 1/2 k (of_cell : G - target)^2
 // of each hold.
 
-#include "solver/momentum/boundary_loads.h"
-#include "solver/momentum/face_tractions.h"
+#include "solver/momentum/faces/boundary_loads.h"
+#include "solver/momentum/faces/face_tractions.h"
 #include "solver/scalar/gradient.h"
 
 #include <vector>

@@ -9,8 +9,8 @@
 // the two are each other's transpose up to what the operator itself is not symmetric by. The weights of the
 // least-squares gradients, which also depend on g, are taken as constant.
 
-#include "solver/momentum/isotropic_tractions.h"
 #include "solver/momentum/momentum.h"
+#include "solver/momentum/small_strain/isotropic_tractions.h"
 
 namespace pfdm {
 

@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Each room, and the rooms that it may use: they stand above it. Files belong to the innermost room around them. Whoever
-# may use physics from another folder may use all of its rooms.
+# may use one of `open_folders` from outside of it may use all of its rooms.
 set(rooms
     "physics"
     "physics/system: physics"
@@ -15,45 +15,94 @@ set(rooms
     "physics/materials: physics physics/elasticity physics/damage physics/point"
     "physics/closed_forms: physics physics/elasticity physics/damage physics/point"
     "mesh: physics"
-    "mesh/surfaces: physics mesh"
+    "mesh/search: physics mesh"
+    "mesh/surfaces: physics mesh mesh/search"
     "mesh/packing: physics mesh"
     "mesh/generators: physics mesh mesh/surfaces mesh/packing"
-    "mesh/files: physics mesh"
+    "mesh/files: physics mesh mesh/search"
     "solver: physics"
     "solver/linear: physics mesh solver"
     "solver/scalar: physics mesh solver solver/linear"
     "solver/heat: physics mesh solver solver/linear solver/scalar"
-    "solver/momentum: physics mesh solver solver/linear solver/scalar"
+    "solver/momentum/body: physics mesh solver solver/linear solver/scalar"
+    "solver/momentum/bending: physics mesh solver solver/linear solver/scalar solver/momentum/body"
+    "solver/momentum/faces: physics mesh solver solver/linear solver/scalar solver/momentum/body solver/momentum/bending"
+    "solver/momentum/small_strain: physics mesh solver solver/linear solver/scalar solver/momentum/body solver/momentum/faces"
+    "solver/momentum/finite_strain: physics mesh solver solver/linear solver/scalar solver/momentum/body solver/momentum/bending
+     solver/momentum/faces"
+    "solver/momentum: physics mesh solver solver/linear solver/scalar solver/momentum/body solver/momentum/bending
+     solver/momentum/faces solver/momentum/small_strain solver/momentum/finite_strain"
+    "solver/momentum/solution: physics mesh solver solver/linear solver/scalar solver/momentum/body solver/momentum/finite_strain
+     solver/momentum"
     "solver/dynamics: physics mesh solver solver/linear solver/scalar solver/momentum"
-    "solver/fracture: physics mesh solver solver/linear solver/scalar solver/heat solver/momentum"
+    "solver/fracture/model: physics mesh solver solver/linear solver/scalar solver/heat solver/momentum"
+    "solver/fracture/cells: physics mesh solver solver/linear solver/momentum solver/fracture/model"
+    "solver/fracture/damage: physics mesh solver solver/linear solver/scalar solver/fracture/model"
+    "solver/fracture/equilibrium: physics mesh solver solver/linear solver/scalar solver/momentum solver/fracture/model
+     solver/fracture/cells solver/fracture/damage"
+    "solver/fracture: physics mesh solver solver/linear solver/scalar solver/heat solver/momentum solver/fracture/model
+     solver/fracture/cells solver/fracture/damage solver/fracture/equilibrium"
     "solver/homogenization: physics mesh solver solver/linear solver/scalar solver/momentum"
     "solver/calibration: physics solver solver/linear"
     "solver/point: physics solver solver/calibration"
+    "solver/vibration/signals: physics solver solver/linear solver/calibration"
+    "solver/vibration/simulation: physics solver solver/linear solver/calibration solver/vibration/signals"
+    "solver/vibration/identification: physics solver solver/linear solver/calibration solver/vibration/signals
+     solver/vibration/simulation"
+    "solver/vibration/diagnosis: physics solver solver/linear solver/calibration solver/vibration/signals
+     solver/vibration/simulation solver/vibration/identification"
     "solver/vibration: physics solver solver/linear solver/calibration"
     "postproc/files: physics"
     "postproc/fields: physics mesh mesh/files solver solver/momentum solver/fracture postproc/files"
     "postproc/curves: physics solver/fracture solver/calibration postproc/files"
     "postproc/point: physics solver/point postproc/files postproc/curves"
     "postproc/vibration: physics solver/vibration solver/calibration postproc/files postproc/curves"
-    "postproc/cohesive: physics mesh solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"
-    "postproc/exports: physics mesh solver/fracture postproc/files postproc/cohesive"
+    "postproc/cohesive: physics mesh mesh/search solver solver/fracture solver/calibration postproc/files postproc/fields postproc/curves"
+    "postproc/exports/law: physics mesh solver/fracture postproc/files postproc/cohesive"
+    "postproc/exports: physics mesh solver/fracture postproc/files postproc/cohesive postproc/exports/law"
     "postproc/page: physics postproc/files"
     "postproc/browser: physics mesh postproc/files postproc/fields postproc/page"
     "postproc/records: physics postproc/files"
+    "cases/program/input/config: physics postproc/files"
+    "cases/program/input/case_files: physics postproc/files cases/program/input/config"
+    "cases/program/input/fields: physics mesh mesh/search mesh/files postproc/files cases/program/input/config
+     cases/program/input/case_files"
+    "cases/program/input/laws: physics postproc/files cases/program/input/config"
     "cases/program/input: physics mesh mesh/files postproc/files"
     "cases/program/reference: physics cases/program/input"
+    "cases/program/session/terminal: physics mesh solver postproc/files cases/program/input"
     "cases/program/session: physics mesh solver postproc/files postproc/curves postproc/page postproc/browser
-     cases/program/input"
+     cases/program/input cases/program/session/terminal"
+    "cases/program/studies/runs: physics solver/calibration postproc/files postproc/curves cases/program/input cases/program/session"
+    "cases/program/studies/fit: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser
+     cases/program/input cases/program/session cases/program/studies/runs"
+    "cases/program/studies/sweep: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser
+     cases/program/input cases/program/session cases/program/studies/runs"
     "cases/program/studies: physics solver/calibration postproc/files postproc/curves postproc/page postproc/browser cases/program/input
-     cases/program/session"
+     cases/program/session cases/program/studies/runs cases/program/studies/fit
+     cases/program/studies/sweep"
     "cases/program/chain: physics solver/calibration postproc/files postproc/page cases/program/input cases/program/session"
     "cases/program/point: physics solver/point postproc/files postproc/curves postproc/point postproc/page cases/program/input
      cases/program/session cases/program/studies"
     "cases/program/vibration: physics solver/vibration postproc/files postproc/curves postproc/vibration postproc/page postproc/records
      cases/program/input cases/program/session cases/program/studies"
+    "cases/program/fracture/body: physics mesh mesh/search mesh/surfaces mesh/generators mesh/files solver/momentum solver/fracture postproc/files
+     cases/program/input"
+    "cases/program/fracture/case: physics mesh mesh/files solver/heat solver/momentum solver/fracture postproc/files postproc/fields
+     postproc/curves postproc/cohesive cases/program/input cases/program/session cases/program/studies cases/program/fracture/body"
+    "cases/program/fracture/results: physics mesh solver/heat solver/momentum solver/fracture postproc/files postproc/fields
+     postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
+     cases/program/studies cases/program/fracture/body cases/program/fracture/case"
+    "cases/program/fracture/page: physics mesh solver/fracture postproc/files postproc/fields postproc/curves postproc/cohesive
+     postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
+     cases/program/fracture/results"
+    "cases/program/fracture/run: physics mesh solver/heat solver/fracture postproc/files postproc/fields postproc/curves
+     postproc/cohesive postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
+     cases/program/fracture/results cases/program/fracture/page"
     "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/heat solver/momentum solver/fracture postproc/files
      postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
-     cases/program/studies"
+     cases/program/studies cases/program/fracture/body cases/program/fracture/case
+     cases/program/fracture/results cases/program/fracture/page cases/program/fracture/run"
     "cases/cpp: physics mesh mesh/generators solver/fracture cases/program/fracture"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics solver/calibration
      postproc/files postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session
@@ -65,9 +114,13 @@ set(rooms
      cases/program/homogenization cases/program/plate cases/program/chain")
 set(complaints "")
 
-set(physics_rooms ${rooms})
-list(FILTER physics_rooms INCLUDE REGEX "^physics/")
-list(TRANSFORM physics_rooms REPLACE ":.*" "")
+set(open_folders physics solver/momentum solver/fracture solver/vibration postproc/exports cases/program/input cases/program/session
+    cases/program/studies cases/program/fracture)
+foreach(folder IN LISTS open_folders)
+  set(rooms_in_${folder} ${rooms})
+  list(FILTER rooms_in_${folder} INCLUDE REGEX "^${folder}/")
+  list(TRANSFORM rooms_in_${folder} REPLACE ":.*" "")
+endforeach()
 
 set(names "")
 foreach(row IN LISTS rooms)
@@ -80,9 +133,11 @@ foreach(row IN LISTS rooms)
   endforeach()
   list(APPEND names ${room})
   set(used_by_${room} ${room} ${words})
-  if(NOT room MATCHES "^physics")
-    list(APPEND used_by_${room} ${physics_rooms})
-  endif()
+  foreach(folder IN LISTS open_folders)
+    if(folder IN_LIST words AND NOT room MATCHES "^${folder}(/|$)")
+      list(APPEND used_by_${room} ${rooms_in_${folder}})
+    endif()
+  endforeach()
 endforeach()
 
 # The innermost room of a path; empty for what is in none, as headers of libraries.

@@ -11,8 +11,8 @@
 
 #include "mesh/generators/particles_in_box.h"
 #include "postproc/fields/frame.h"
-#include "solver/fracture/damage_equation.h"
-#include "solver/momentum/momentum_solver.h"
+#include "solver/fracture/damage/damage_equation.h"
+#include "solver/momentum/solution/momentum_solver.h"
 #include "solver/parallel.h"
 
 namespace pfdm {

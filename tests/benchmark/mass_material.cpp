@@ -1,8 +1,8 @@
 // The mass-material model: simulation against real time, and one step of an identification.
 
 #include "solver/parallel.h"
-#include "solver/vibration/identification.h"
-#include "solver/vibration/mass_material_simulation.h"
+#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/simulation/mass_material_simulation.h"
 #include "tests/solver/mass_material_truth.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 #include "tests/cases/own_slurm.h"
 
-#include "cases/program/session/external_program.h"
+#include "cases/program/session/terminal/external_program.h"
 #include "tests/cases/temporary_case.h"
 
 #include <arpa/inet.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Fields of a frame for the tests: of a sound body, and of one that has opened across a band of broken cells.
 
-#include "solver/fracture/state.h"
+#include "solver/fracture/model/state.h"
 
 #include <algorithm>
 #include <cmath>

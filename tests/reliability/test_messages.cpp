@@ -1,6 +1,6 @@
 // Messages stay readable whatever the names and files hold that they quote.
 
-#include "cases/program/session/message_text.h"
+#include "cases/program/session/terminal/message_text.h"
 #include "tests/cases/temporary_case.h"
 
 #include <gmock/gmock.h>

@@ -4,7 +4,7 @@
 
 #include "physics/point/mass_material.h"
 #include "solver/point/endochronic_fit.h"
-#include "solver/vibration/vibration_record.h"
+#include "solver/vibration/simulation/vibration_record.h"
 
 #include <cmath>
 #include <complex>

@@ -2,8 +2,8 @@
 // Models with known parameters and records made from them, for tests of identification. All records are synthetic.
 // Size of the numbers: a sample of HTPB with 50 % solids under 1.12 kg, resonance near 250 Hz.
 
-#include "solver/vibration/identification.h"
-#include "solver/vibration/mass_material_simulation.h"
+#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/simulation/mass_material_simulation.h"
 
 #include <cmath>
 #include <numbers>

@@ -11,7 +11,7 @@
 
 #include "mesh/generators/box_hexes.h"
 #include "mesh/generators/particles_in_box.h"
-#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/model/fracture_model.h"
 #include "solver/parallel.h"
 
 namespace pfdm {

@@ -9,9 +9,9 @@
 
 #include "solver/linear/dense_algebra.h"
 #include "solver/parallel.h"
-#include "solver/vibration/identification_stiffness.h"
-#include "solver/vibration/impulse_response.h"
-#include "solver/vibration/vibration_excitation.h"
+#include "solver/vibration/identification/identification_stiffness.h"
+#include "solver/vibration/signals/impulse_response.h"
+#include "solver/vibration/simulation/vibration_excitation.h"
 #include "tests/solver/mass_material_truth.h"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include "mesh/generators/box_hexes.h"
 #include "mesh/generators/particles_in_box.h"
 #include "solver/fracture/fracture_run.h"
-#include "solver/momentum/momentum_solver.h"
+#include "solver/momentum/solution/momentum_solver.h"
 
 #include <array>
 #include <functional>

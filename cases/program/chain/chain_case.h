@@ -2,7 +2,7 @@
 // Reads a case of kind "chain": jobs of other cases one after the other, each of which may take numbers and files from
 // the results of those before.
 
-#include "cases/program/input/key.h"
+#include "cases/program/input/config/key.h"
 #include "cases/program/session/runnable_case.h"
 #include "solver/calibration/calibration_verdict.h"
 

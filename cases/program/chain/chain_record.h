@@ -1,7 +1,7 @@
 #pragma once
 // chain.json: what the steps of a chain have done, and from what.
 
-#include "cases/program/input/case_file.h"
+#include "cases/program/input/case_files/case_file.h"
 
 #include <filesystem>
 #include <string>

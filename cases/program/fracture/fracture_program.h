@@ -1,7 +1,7 @@
 #pragma once
 // A case of kind "fracture" as a program: what check, mesh and run do with it.
 
-#include "cases/program/fracture/fracture_case.h"
+#include "cases/program/fracture/case/fracture_case.h"
 #include "cases/program/session/case_kind.h"
 
 namespace pfdm {

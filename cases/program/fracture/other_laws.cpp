@@ -1,6 +1,6 @@
 #include "cases/program/fracture/other_laws.h"
 
-#include "cases/program/fracture/interface_reader.h"
+#include "cases/program/fracture/body/interface_reader.h"
 #include "physics/damage/softening_law.h"
 
 #include <fmt/format.h>

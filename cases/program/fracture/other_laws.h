@@ -1,7 +1,7 @@
 #pragma once
 // A fracture case with other laws of its cracks: what a fit whose residuals are more than noise may lack.
 
-#include "cases/program/studies/case_runs.h"
+#include "cases/program/studies/runs/case_runs.h"
 
 #include <vector>
 

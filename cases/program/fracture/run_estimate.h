@@ -1,9 +1,9 @@
 #pragma once
 // What a run will cost, for pfdm check.
 
-#include "cases/program/studies/curve_fit_case.h"
+#include "cases/program/studies/fit/curve_fit_case.h"
 #include "mesh/mesh.h"
-#include "solver/fracture/fracture_model.h"
+#include "solver/fracture/model/fracture_model.h"
 
 #include <filesystem>
 #include <string>

@@ -2,7 +2,7 @@
 // Reads a case of kind "homogenize" with a path of mean strain or stress: a box whose interfaces debond, or whose
 // materials break, as a fracture case without patches that are loaded.
 
-#include "cases/program/fracture/fracture_case.h"
+#include "cases/program/fracture/case/fracture_case.h"
 
 namespace pfdm {
 

@@ -1,8 +1,8 @@
 #include "cases/program/homogenization/homogenization_case.h"
 
-#include "cases/program/fracture/body_keys.h"
+#include "cases/program/fracture/body/body_keys.h"
 #include "cases/program/homogenization/homogenization_keys.h"
-#include "cases/program/input/key_member.h"
+#include "cases/program/input/config/key_member.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
 #include "cases/program/homogenization/homogenization_keys.h"
 
-#include "cases/program/fracture/body_keys.h"
-#include "cases/program/fracture/mesh_keys.h"
-#include "cases/program/fracture/run_keys.h"
+#include "cases/program/fracture/body/body_keys.h"
+#include "cases/program/fracture/body/mesh_keys.h"
+#include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/homogenization/homogenization_case.h"
-#include "cases/program/input/key_member.h"
+#include "cases/program/input/config/key_member.h"
 #include "cases/program/studies/study_keys.h"
 #include "physics/elasticity/mandel.h"
 #include "solver/homogenization/homogenization.h"
-#include "solver/momentum/preconditioner.h"
+#include "solver/momentum/solution/preconditioner.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Rows of the keys of kind "homogenize": of a linear composite, and of a box along a path of mean strain.
 
-#include "cases/program/input/key.h"
+#include "cases/program/input/config/key.h"
 
 #include <string>
 #include <vector>

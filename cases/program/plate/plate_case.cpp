@@ -1,11 +1,11 @@
 #include "cases/program/plate/plate_case.h"
 
-#include "cases/program/input/key_member.h"
+#include "cases/program/input/config/key_member.h"
 #include "cases/program/plate/plate_keys.h"
 
-#include "cases/program/input/amount.h"
-#include "cases/program/input/heat_units.h"
-#include "cases/program/input/path_reader.h"
+#include "cases/program/input/config/heat_units.h"
+#include "cases/program/input/config/path_reader.h"
+#include "cases/program/input/fields/amount.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/vibration/vibration_fit.h"

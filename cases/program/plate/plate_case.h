@@ -1,8 +1,8 @@
 #pragma once
 // Reads a case of kind "plate": a viscoelastic body on a shaker, and how it is cooled.
 
-#include "cases/program/fracture/mesh_recipe.h"
-#include "cases/program/input/config.h"
+#include "cases/program/fracture/body/mesh_recipe.h"
+#include "cases/program/input/config/config.h"
 #include "solver/dynamics/base_response.h"
 #include "solver/dynamics/heated_body.h"
 

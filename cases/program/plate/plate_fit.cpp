@@ -2,7 +2,7 @@
 
 #include "cases/program/plate/plate_fit_model.h"
 #include "cases/program/session/fit_verdict.h"
-#include "cases/program/session/stopwatch.h"
+#include "cases/program/session/terminal/stopwatch.h"
 #include "physics/error.h"
 #include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"

@@ -1,7 +1,7 @@
 #include "cases/program/plate/plate_fit_case.h"
 
-#include "cases/program/input/csv_columns.h"
-#include "cases/program/input/path_reader.h"
+#include "cases/program/input/config/path_reader.h"
+#include "cases/program/input/fields/csv_columns.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 // Reads [fit] of a case of kind "plate": which of its values are estimated, and the measured curves.
 
 #include "cases/program/plate/plate_case.h"
-#include "cases/program/studies/curve_fit_case.h"
+#include "cases/program/studies/fit/curve_fit_case.h"
 
 namespace pfdm {
 

@@ -3,7 +3,7 @@
 
 #include "cases/program/plate/plate_fit_case.h"
 #include "cases/program/plate/plate_run.h"
-#include "cases/program/session/log.h"
+#include "cases/program/session/terminal/log.h"
 #include "postproc/curves/fit_judgement.h"
 
 #include <span>

@@ -1,7 +1,7 @@
 #pragma once
 // Rows of the keys of kind "plate".
 
-#include "cases/program/input/key.h"
+#include "cases/program/input/config/key.h"
 
 namespace pfdm {
 

@@ -1,17 +1,17 @@
 #include "cases/program/plate/plate_program.h"
 
-#include "cases/program/fracture/fracture_results.h"
+#include "cases/program/fracture/results/fracture_results.h"
 #include "cases/program/plate/plate_fit.h"
 #include "cases/program/plate/plate_keys.h"
 #include "cases/program/plate/plate_report.h"
 #include "cases/program/plate/plate_run.h"
 #include "cases/program/session/report_parts.h"
-#include "cases/program/session/stop_signal.h"
+#include "cases/program/session/terminal/stop_signal.h"
 #include "cases/program/session/whole_run.h"
 #include "mesh/quality.h"
 #include "postproc/curves/summary.h"
 #include "postproc/files/folder_lock.h"
-#include "solver/momentum/bending_layers.h"
+#include "solver/momentum/bending/bending_layers.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "cases/program/plate/plate_report.h"
 
-#include "cases/program/fracture/fit_on_page.h"
+#include "cases/program/fracture/page/fit_on_page.h"
 #include "cases/program/plate/plate_fit.h"
 #include "cases/program/session/report_parts.h"
 #include "postproc/curves/summary.h"

@@ -2,7 +2,7 @@
 // The computation of a plate case: modes, frequency response, heating.
 
 #include "cases/program/plate/plate_results.h"
-#include "cases/program/session/log.h"
+#include "cases/program/session/terminal/log.h"
 
 #include <functional>
 

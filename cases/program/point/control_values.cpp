@@ -1,7 +1,7 @@
 #include "cases/program/point/control_values.h"
 
-#include "cases/program/input/csv_columns.h"
-#include "cases/program/input/expression.h"
+#include "cases/program/input/config/expression.h"
+#include "cases/program/input/fields/csv_columns.h"
 #include "cases/program/point/endochronic_case_keys.h"
 #include "cases/program/point/endochronic_loading.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Prescribed stresses and strains over time: plain values, formulas, tables and columns of CSV files.
 
-#include "cases/program/input/config.h"
+#include "cases/program/input/config/config.h"
 #include "solver/point/mixed_control.h"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 // A case of kind "endochronic": a material point, its loading, and what is to be estimated.
 
-#include "cases/program/input/endochronic_reader.h"
+#include "cases/program/input/laws/endochronic_reader.h"
 #include "cases/program/point/endochronic_fit_case.h"
 #include "cases/program/point/endochronic_loading.h"
 

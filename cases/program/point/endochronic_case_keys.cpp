@@ -1,7 +1,7 @@
 #include "cases/program/point/endochronic_case_keys.h"
 
-#include "cases/program/input/csv_keys.h"
-#include "cases/program/input/endochronic_keys.h"
+#include "cases/program/input/config/csv_keys.h"
+#include "cases/program/input/laws/endochronic_keys.h"
 #include "cases/program/studies/study_keys.h"
 #include "physics/elasticity/mandel.h"
 #include "solver/point/endochronic_identification.h"

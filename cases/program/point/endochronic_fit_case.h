@@ -1,7 +1,7 @@
 #pragma once
 // [fit] of a case of kind "endochronic": experiments, method, bounds.
 
-#include "cases/program/input/config.h"
+#include "cases/program/input/config/config.h"
 #include "solver/point/endochronic_identification.h"
 
 #include <filesystem>

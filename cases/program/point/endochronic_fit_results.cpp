@@ -1,6 +1,6 @@
 #include "cases/program/point/endochronic_fit_results.h"
 
-#include "cases/program/input/endochronic_reader.h"
+#include "cases/program/input/laws/endochronic_reader.h"
 #include "cases/program/point/endochronic_comparison.h"
 #include "postproc/curves/fit_judgement.h"
 #include "postproc/files/atomic_file.h"

@@ -1,7 +1,7 @@
 #pragma once
 // What pfdm fit writes for a case of kind "endochronic": fit.json, a curve for each experiment, case.fitted.toml.
 
-#include "cases/program/input/case_file.h"
+#include "cases/program/input/case_files/case_file.h"
 #include "cases/program/point/endochronic_fit_case.h"
 #include "postproc/curves/fit_json.h"
 

@@ -1,6 +1,6 @@
 #include "cases/program/point/endochronic_loading.h"
 
-#include "cases/program/input/csv_columns.h"
+#include "cases/program/input/fields/csv_columns.h"
 #include "cases/program/point/control_values.h"
 #include "cases/program/point/endochronic_case_keys.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // [loading] of a case of kind "endochronic": six conditions on stress and strain, segment by segment.
 
-#include "cases/program/input/config.h"
+#include "cases/program/input/config/config.h"
 #include "solver/point/mixed_control.h"
 
 #include <filesystem>

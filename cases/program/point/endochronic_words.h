@@ -1,7 +1,7 @@
 #pragma once
 // Endochronic laws and their histories in the words of the log, in units that leave few digits before the point.
 
-#include "cases/program/session/log.h"
+#include "cases/program/session/terminal/log.h"
 #include "solver/point/mixed_control.h"
 
 #include <map>

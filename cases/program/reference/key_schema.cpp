@@ -1,6 +1,6 @@
 #include "cases/program/reference/key_schema.h"
 
-#include "cases/program/input/field_keys.h"
+#include "cases/program/input/config/field_keys.h"
 #include "cases/program/reference/key_words.h"
 #include "cases/program/reference/unit_patterns.h"
 

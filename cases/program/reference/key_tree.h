@@ -1,7 +1,7 @@
 #pragma once
 // All keys of all kinds of case as a tree of tables: what pfdm help KEY, the schema and the reference walk through.
 
-#include "cases/program/input/key.h"
+#include "cases/program/input/config/key.h"
 
 #include <functional>
 #include <string>

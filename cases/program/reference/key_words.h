@@ -1,7 +1,7 @@
 #pragma once
 // What a row of a key says, in words for people.
 
-#include "cases/program/input/key.h"
+#include "cases/program/input/config/key.h"
 
 #include <string>
 #include <string_view>

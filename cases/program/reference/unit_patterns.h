@@ -2,7 +2,7 @@
 // Regular expressions of quantities for editors, which know no units library: what people write, less than UDUNITS
 // takes.
 
-#include "cases/program/input/config.h"
+#include "cases/program/input/config/config.h"
 
 #include <string>
 

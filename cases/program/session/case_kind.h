@@ -1,8 +1,8 @@
 #pragma once
 // What a kind of case is: how it is read, and the laws, methods and conditions that its case.toml may name.
 
-#include "cases/program/input/case_file.h"
-#include "cases/program/input/key.h"
+#include "cases/program/input/case_files/case_file.h"
+#include "cases/program/input/config/key.h"
 #include "cases/program/session/runnable_case.h"
 
 #include <span>

@@ -1,6 +1,6 @@
 #include "cases/program/session/earlier_results.h"
 
-#include "cases/program/input/kept_case.h"
+#include "cases/program/input/case_files/kept_case.h"
 #include "physics/error.h"
 #include "postproc/curves/summary.h"
 

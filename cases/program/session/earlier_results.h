@@ -1,7 +1,7 @@
 #pragma once
 // What is in the results' folder when a run is about to begin.
 
-#include "cases/program/input/case_file.h"
+#include "cases/program/input/case_files/case_file.h"
 #include "cases/program/session/session.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #include "cases/program/session/page_origin.h"
 
-#include "cases/program/session/external_program.h"
 #include "cases/program/session/fit_verdict.h"
+#include "cases/program/session/terminal/external_program.h"
 #include "physics/error.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/curves/summary.h"

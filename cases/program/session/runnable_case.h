@@ -1,7 +1,7 @@
 #pragma once
 // What can be done with a case of any kind.
 
-#include "cases/program/input/case_file.h"
+#include "cases/program/input/case_files/case_file.h"
 #include "cases/program/session/session.h"
 
 #include <filesystem>

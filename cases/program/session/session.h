@@ -2,8 +2,8 @@
 // What the command line asked for, and where to say things.
 
 #include "cases/program/session/export_words.h"
-#include "cases/program/session/log.h"
 #include "cases/program/session/mesh_store.h"
+#include "cases/program/session/terminal/log.h"
 #include "physics/tensor.h"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "cases/program/session/whole_run.h"
 
-#include "cases/program/input/kept_case.h"
+#include "cases/program/input/case_files/kept_case.h"
 #include "cases/program/session/earlier_results.h"
 #include "cases/program/session/head_line.h"
 #include "cases/program/session/report_parts.h"

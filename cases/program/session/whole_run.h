@@ -1,9 +1,9 @@
 #pragma once
 // A run without steps that could be restarted. Its results take the place of earlier ones once all of them are there.
 
-#include "cases/program/input/case_file.h"
+#include "cases/program/input/case_files/case_file.h"
 #include "cases/program/session/session.h"
-#include "cases/program/session/stopwatch.h"
+#include "cases/program/session/terminal/stopwatch.h"
 #include "postproc/curves/figures_summary.h"
 
 #include <filesystem>

@@ -1,8 +1,8 @@
 #include "cases/program/studies/study_keys.h"
 
-#include "cases/program/input/key_member.h"
-#include "cases/program/studies/curve_fit_case.h"
-#include "cases/program/studies/slurm.h"
+#include "cases/program/input/config/key_member.h"
+#include "cases/program/studies/fit/curve_fit_case.h"
+#include "cases/program/studies/runs/slurm.h"
 
 namespace pfdm {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // Rows of the keys of [fit] and [sweep].
 
-#include "cases/program/input/key.h"
+#include "cases/program/input/config/key.h"
 
 namespace pfdm {
 

@@ -4,8 +4,8 @@
 #include "postproc/files/folder_lock.h"
 #include "postproc/records/signal_table.h"
 #include "postproc/vibration/analysis_json.h"
-#include "solver/vibration/identification.h"
-#include "solver/vibration/signals_filter.h"
+#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/signals/signals_filter.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

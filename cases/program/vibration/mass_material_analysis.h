@@ -2,7 +2,7 @@
 // pfdm analyse of a case of kind "mass_material": its records without a fit.
 
 #include "cases/program/vibration/mass_material_jobs.h"
-#include "solver/vibration/record_analysis.h"
+#include "solver/vibration/diagnosis/record_analysis.h"
 
 #include <filesystem>
 #include <string>

@@ -1,11 +1,11 @@
 #include "cases/program/vibration/mass_material_case.h"
 
-#include "cases/program/input/key_member.h"
+#include "cases/program/input/config/key_member.h"
 #include "cases/program/vibration/mass_material_keys.h"
 
-#include "cases/program/input/csv_marks.h"
-#include "cases/program/input/path_reader.h"
-#include "cases/program/input/units.h"
+#include "cases/program/input/config/path_reader.h"
+#include "cases/program/input/config/units.h"
+#include "cases/program/input/fields/csv_marks.h"
 #include "cases/program/vibration/vibration_reader.h"
 
 #include <fmt/format.h>

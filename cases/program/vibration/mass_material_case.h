@@ -1,12 +1,12 @@
 #pragma once
 // Reads a case of kind "mass_material": the model, the vibration tests, what an identification is to do.
 
-#include "cases/program/input/config.h"
+#include "cases/program/input/config/config.h"
 #include "cases/program/vibration/mass_material_schedule.h"
 #include "physics/point/mass_material.h"
 #include "postproc/files/csv_table.h"
-#include "solver/vibration/record_analysis.h"
-#include "solver/vibration/vibration_excitation.h"
+#include "solver/vibration/diagnosis/record_analysis.h"
+#include "solver/vibration/simulation/vibration_excitation.h"
 
 #include <filesystem>
 #include <optional>

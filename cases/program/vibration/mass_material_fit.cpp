@@ -1,7 +1,7 @@
 // fit_mass_material() of mass_material_jobs.h.
 
 #include "cases/program/session/fit_verdict.h"
-#include "cases/program/session/stopwatch.h"
+#include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/vibration/mass_material_identified.h"
 #include "cases/program/vibration/mass_material_jobs.h"
 #include "cases/program/vibration/mass_material_models.h"
@@ -10,7 +10,7 @@
 #include "postproc/files/atomic_file.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/vibration/vibration_fit.h"
-#include "solver/vibration/identification.h"
+#include "solver/vibration/identification/identification.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,9 +2,9 @@
 
 #include "physics/error.h"
 #include "postproc/curves/fit_judgement.h"
-#include "solver/vibration/identification_changes.h"
-#include "solver/vibration/identification_evidence.h"
-#include "solver/vibration/identification_faults.h"
+#include "solver/vibration/diagnosis/identification_changes.h"
+#include "solver/vibration/diagnosis/identification_faults.h"
+#include "solver/vibration/identification/identification_evidence.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

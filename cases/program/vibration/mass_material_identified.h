@@ -1,12 +1,12 @@
 #pragma once
 // One model structure identified from the records of a mass-material case, and judged.
 
-#include "cases/program/session/log.h"
+#include "cases/program/session/terminal/log.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/vibration/vibration_fit.h"
-#include "solver/vibration/identification.h"
-#include "solver/vibration/identification_ten_steps.h"
+#include "solver/vibration/identification/identification.h"
+#include "solver/vibration/identification/identification_ten_steps.h"
 
 #include <limits>
 #include <optional>

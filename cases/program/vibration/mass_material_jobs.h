@@ -1,7 +1,7 @@
 #pragma once
 // What the jobs of a mass-material case share.
 
-#include "cases/program/input/case_file.h"
+#include "cases/program/input/case_files/case_file.h"
 #include "cases/program/session/session.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "cases/program/vibration/vibration_reader.h"

@@ -1,7 +1,7 @@
 #include "cases/program/vibration/mass_material_keys.h"
 
-#include "cases/program/input/csv_keys.h"
-#include "cases/program/input/key_member.h"
+#include "cases/program/input/config/csv_keys.h"
+#include "cases/program/input/config/key_member.h"
 #include "cases/program/studies/study_keys.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "cases/program/vibration/mass_material_schedule.h"

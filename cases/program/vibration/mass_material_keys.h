@@ -1,7 +1,7 @@
 #pragma once
 // Rows of the keys of kind "mass_material".
 
-#include "cases/program/input/key.h"
+#include "cases/program/input/config/key.h"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 #include "cases/program/vibration/mass_material_program.h"
 
 #include "cases/program/session/report_parts.h"
-#include "cases/program/session/stopwatch.h"
+#include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/session/whole_run.h"
 #include "cases/program/vibration/mass_material_analysis.h"
 #include "cases/program/vibration/mass_material_case.h"
@@ -11,8 +11,8 @@
 #include "postproc/curves/figures_summary.h"
 #include "postproc/curves/summary.h"
 #include "postproc/records/signal_table.h"
-#include "solver/vibration/mass_material_simulation.h"
-#include "solver/vibration/signals_spectra.h"
+#include "solver/vibration/signals/signals_spectra.h"
+#include "solver/vibration/simulation/mass_material_simulation.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include "cases/program/vibration/vibration_charts.h"
 #include "postproc/curves/fit_json.h"
 #include "postproc/vibration/vibration_fit.h"
-#include "solver/vibration/identification.h"
+#include "solver/vibration/identification/identification.h"
 
 #include <fmt/format.h>
 

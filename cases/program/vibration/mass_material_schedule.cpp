@@ -1,10 +1,10 @@
 #include "cases/program/vibration/mass_material_schedule.h"
 
-#include "cases/program/input/key_member.h"
+#include "cases/program/input/config/key_member.h"
 
-#include "cases/program/input/units.h"
+#include "cases/program/input/config/units.h"
 #include "cases/program/vibration/mass_material_case.h"
-#include "solver/vibration/vibration_excitation.h"
+#include "solver/vibration/simulation/vibration_excitation.h"
 
 #include <fmt/format.h>
 

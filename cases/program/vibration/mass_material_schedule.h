@@ -2,9 +2,9 @@
 // The schedule of repeated vibration tests: when and how hard each was; and, for synthetic records, how the sample
 // changes over it.
 
-#include "cases/program/input/config.h"
+#include "cases/program/input/config/config.h"
 #include "physics/point/mass_material.h"
-#include "solver/vibration/repeatability.h"
+#include "solver/vibration/diagnosis/repeatability.h"
 
 #include <string>
 #include <string_view>

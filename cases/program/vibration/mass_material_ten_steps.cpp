@@ -3,7 +3,7 @@
 #include "physics/error.h"
 #include "postproc/files/atomic_file.h"
 #include "postproc/records/signal_table.h"
-#include "solver/vibration/impulse_response.h"
+#include "solver/vibration/signals/impulse_response.h"
 
 #include <fmt/format.h>
 

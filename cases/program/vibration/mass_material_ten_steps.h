@@ -1,8 +1,8 @@
 #pragma once
 // What the report's iteration did on the way, as files: its iterations, the Prony series, the kernel's responses.
 
-#include "cases/program/session/log.h"
-#include "solver/vibration/identification_ten_steps.h"
+#include "cases/program/session/terminal/log.h"
+#include "solver/vibration/identification/identification_ten_steps.h"
 
 #include <filesystem>
 #include <optional>

@@ -2,8 +2,8 @@
 // Charts of vibration records, for the pages of pfdm report.
 
 #include "postproc/page/report_page.h"
-#include "solver/vibration/record_analysis.h"
-#include "solver/vibration/vibration_record.h"
+#include "solver/vibration/diagnosis/record_analysis.h"
+#include "solver/vibration/simulation/vibration_record.h"
 
 #include <Eigen/Core>
 

@@ -1,11 +1,11 @@
 #include "cases/program/vibration/vibration_reader.h"
 
-#include "cases/program/input/units.h"
+#include "cases/program/input/config/units.h"
 #include "physics/error.h"
 #include "postproc/files/csv_table.h"
 #include "postproc/files/text_file.h"
 #include "postproc/records/signal_table.h"
-#include "solver/vibration/vibration_checks.h"
+#include "solver/vibration/diagnosis/vibration_checks.h"
 
 #include <fmt/format.h>
 

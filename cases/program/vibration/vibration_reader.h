@@ -1,9 +1,9 @@
 #pragma once
 // Vibration records from files, in SI units, checked.
 
-#include "cases/program/session/log.h"
+#include "cases/program/session/terminal/log.h"
 #include "cases/program/vibration/mass_material_case.h"
-#include "solver/vibration/vibration_record.h"
+#include "solver/vibration/simulation/vibration_record.h"
 
 #include <filesystem>
 #include <string>

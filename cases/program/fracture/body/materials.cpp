@@ -1,0 +1,362 @@
+#include "cases/program/fracture/body/materials.h"
+
+#include "cases/program/fracture/body/body_keys.h"
+#include "cases/program/fracture/body/material_keys.h"
+#include "cases/program/fracture/body/material_laws.h"
+#include "cases/program/input/config/path_reader.h"
+#include "physics/elasticity/anisotropy.h"
+#include "physics/interfaces/interface_toughness.h"
+#include "physics/quantity_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+// Strength and toughness make the coefficients of the degradation.
+RationalCoefficients make_coefficients(std::optional<double> strength, const RegionModel& model,
+                                       const std::string& region, const SofteningLaw& law, const ConfigTable& table) {
+  if (!strength)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no strength (ft), which the softening law "
+                    "\"{}\" needs; give strength, as in \"{}\", or damageable = false",
+                    region, law.name, dimension::stress.example));
+  const double E = model.elasticity.young_modulus(), longest = longest_length(law, E, model.Gc, *strength);
+  if (model.ell > longest)
+    throw table.error(
+        fmt::format("region \"{}\": the length (ell) is {}; with this strength and toughness the \"{}\" law needs one "
+                    "of at most {}",
+                    region, quantity_text(model.ell, "m"), law.name, quantity_text(longest, "m")));
+  return rational_coefficients(law, E, model.Gc, *strength, model.ell);
+}
+
+double hydrostatic_strength_of(const MaterialKeys& keys, const std::string& region, const ConfigTable& table,
+                               const Vector& x) {
+  if (keys.hydrostatic_strength.has_value() == keys.compressive_strength.has_value())
+    throw table.error(
+        fmt::format("region \"{}\": expected either hydrostatic_strength or compressive_strength, which the model of "
+                    "strength needs, as in \"{}\"",
+                    region, dimension::stress.example));
+  if (keys.hydrostatic_strength) return keys.hydrostatic_strength->at(x);
+  return table.in_context([&] { return hydrostatic_strength(keys.strength->at(x), keys.compressive_strength->at(x)); });
+}
+
+StrengthModel make_strength(const MaterialKeys& keys, const RegionModel& model, const std::string& region,
+                            const StrengthChoice& choice, const ConfigTable& table, const Vector& x) {
+  const bool is_elastic = !keys.material || keys.material->is_finite_strain();
+  if (!is_elastic || (keys.degradation && keys.degradation->name() != "quadratic"))
+    throw table.error(fmt::format(
+        "region \"{}\": the model of strength requires the degradation \"quadratic\" and a linear elastic or "
+        "hyperelastic material",
+        region));
+  if (!keys.strength)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no strength (in uniaxial tension), which the "
+                    "model of strength needs, as in \"{}\"",
+                    region, dimension::stress.example));
+  const StrengthData data{.elasticity = model.elasticity,
+                          .tensile = keys.strength->at(x),
+                          .hydrostatic = hydrostatic_strength_of(keys, region, table, x),
+                          .Gc = model.Gc,
+                          .ell = model.ell,
+                          .material = keys.material};
+  return table.in_context([&] {
+    const double delta = choice.delta ? *choice.delta : choice.law->delta(data, choice.mesh_size);
+    return StrengthModel(*choice.law, data, delta);
+  });
+}
+
+// What depends on the direction, in the frame of the mesh.
+void turn(const MaterialKeys& keys, const ConfigTable& table, const Vector& x, RegionModel& model) {
+  if (keys.axes && !keys.stiffness && !keys.expansion)
+    throw table.error("axes turn an elasticity that depends on the direction, or an expansion; neither is given");
+  const Tensor axes = keys.axes ? keys.axes->at(x) : Tensor::Identity();
+  if (keys.stiffness)
+    model.stiffness = keys.axes ? std::make_shared<const MandelMatrix>(turned(*keys.stiffness, axes)) : keys.stiffness;
+  if (!keys.expansion) return;
+  Vector along;
+  for (std::size_t i = 0; i < 3; ++i) along[static_cast<Index>(i)] = (*keys.expansion)[i].at(x);
+  const bool is_uniform = along[0] == along[1] && along[1] == along[2];  // without rounding by the axes
+  model.expansion =
+      keys.axes && !is_uniform ? Tensor(axes * along.asDiagonal() * axes.transpose()) : Tensor(along.asDiagonal());
+}
+
+RegionModel make_model(const MaterialKeys& keys, const std::string& region, const MaterialDefaults& defaults,
+                       const ConfigTable& table, const Vector& x) {
+  RegionModel model;
+  model.elasticity = from_young_poisson(keys.young_modulus->at(x), keys.poisson_ratio->at(x));
+  model.material = keys.material;
+  if (model.material && !model.material->is_finite_strain()) model.elasticity = model.material->elasticity();
+  model.split = keys.split.value_or(EnergySplit());
+  model.density = value_at(keys.density, x).value_or(0.0);
+  model.conductivity = value_at(keys.conductivity, x).value_or(0.0);
+  model.specific_heat = value_at(keys.specific_heat, x).value_or(0.0);
+  turn(keys, table, x, model);
+  model.eigenstrain = keys.eigenstrain;
+  model.damageable = keys.damageable.value_or(true);
+  model.Gc = value_at(keys.toughness, x).value_or(0.0);
+  model.ell = value_at(keys.length, x).value_or(defaults.ell.value_or(0.0));
+  if (!model.damageable) return model;
+  if (!keys.toughness)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no toughness (Gc); give toughness, as in "
+                    "\"{}\", or damageable = false",
+                    region, dimension::toughness.example));
+  if (model.ell == 0.0)
+    throw table.error(
+        fmt::format("region \"{}\" can be damaged but has no length (ell); give it in [fracture] or "
+                    "here, as in \"10 um\"",
+                    region));
+  if (defaults.strength.law != nullptr)
+    model.strength = make_strength(keys, model, region, defaults.strength, table, x);
+  if (keys.degradation) model.degradation = *keys.degradation;
+  if (!keys.degradation.value_or(defaults.degradation).law().needs_strength) return model;
+  const SofteningLaw* const given = keys.softening.value_or(defaults.softening);
+  const SofteningLaw& softening = given != nullptr ? *given : softening_law("linear");
+  model.degradation =
+      rational_degradation(make_coefficients(value_at(keys.strength, x), model, region, softening, table));
+  return model;
+}
+
+struct RegionOverride {
+  std::string region;
+  ConfigValue value;
+  MaterialKeys keys;
+  std::optional<Band> band;  // where the file tells what the mesh generator does not
+  bool used = false;
+};
+
+std::optional<Band> read_band(const std::string& region, const ConfigTable& table) {
+  if (!table.has("band")) return std::nullopt;
+  const ConfigTable band = table.table("band");
+  const std::vector<ConfigValue> between = band.at("between").list(2);
+  table.in_context([&] { return require_plain_name(region, "a folder"), true; });
+  return Band{region, band.quantity("width"), {between[0].string(), between[1].string()}};
+}
+
+std::vector<RegionOverride> read_overrides(const ConfigTable& root, bool loads_from_start) {
+  std::vector<RegionOverride> overrides;
+  if (!root.has("regions")) return overrides;
+  for (const auto& [name, value] : root.table("regions").entries()) {
+    const ConfigTable table = value.table();
+    overrides.push_back({name, value, read_keys(table, loads_from_start), read_band(name, table)});
+  }
+  return overrides;
+}
+
+// A region with what its material and its override say of it.
+struct RegionKeys {
+  std::string region;
+  ConfigValue where;
+  ConfigTable table;  // of the material
+  MaterialKeys keys;
+};
+
+// A history begins with the elasticity of its own table.
+void refuse_other_elasticity(const RegionOverride& over, const MaterialKeys& base) {
+  if (base.stiffness && !over.keys.stiffness && (over.keys.young_modulus || over.keys.poisson_ratio))
+    throw over.value.error(fmt::format(
+        "the elasticity of region \"{}\" depends on the direction; override it by another elasticity", over.region));
+  if (base.material && (over.keys.young_modulus || over.keys.poisson_ratio))
+    throw over.value.error(fmt::format(
+        "the material of region \"{}\" has the law \"{}\", whose elasticity cannot be overridden; give it a "
+        "material of its own",
+        over.region, base.material->name()));
+}
+
+RegionKeys read_region(const ConfigValue& where, const ConfigTable& table, const MaterialKeys& base,
+                       std::vector<RegionOverride>& overrides) {
+  RegionKeys entry{where.string(), where, table, base};
+  for (RegionOverride& over : overrides)
+    if (over.region == entry.region) {
+      refuse_other_elasticity(over, base);
+      entry.keys = overridden(entry.keys, over.keys);
+      over.used = true;
+    }
+  return entry;
+}
+
+RegionKeys* find_region(std::vector<RegionKeys>& regions, const std::string& name) {
+  const auto found = std::find_if(regions.begin(), regions.end(), [&](const auto& r) { return r.region == name; });
+  return found == regions.end() ? nullptr : &*found;
+}
+
+MaterialKeys read_own_keys(const ConfigTable& given, const MaterialDefaults& defaults) {
+  if (defaults.elastic_keys != nullptr) return read_elastic_keys(given.with_keys(defaults.elastic_keys()));
+  const MaterialLaw& law = law_of_material(given);
+  const ConfigTable table = given.with_keys(material_keys(), law.name);
+  if (!table.has("elasticity")) table.at("young_modulus"), table.at("poisson_ratio");
+  MaterialKeys keys = read_keys(table, defaults.loads_from_start);
+  if (keys.stiffness && (table.has("law") || table.has("kernel")))
+    throw table.at("elasticity").error("elasticity that depends on the direction has no law besides");
+  keys.material = law.read(table);
+  return keys;
+}
+
+void read_material(Materials& materials, const std::string& name, const ConfigTable& table,
+                   const MaterialDefaults& defaults, std::vector<RegionOverride>& overrides,
+                   std::vector<RegionKeys>& regions) {
+  const MaterialKeys base = read_own_keys(table, defaults);
+  const bool varies = base.young_modulus->varies || base.poisson_ratio->varies || base.stiffness;
+  const Vector anywhere = Vector::Zero();
+  materials.by_name.push_back({name, varies ? std::nullopt
+                                            : std::optional(from_young_poisson(base.young_modulus->at(anywhere),
+                                                                               base.poisson_ratio->at(anywhere)))});
+  for (const ConfigValue& where : table.at("regions").list()) {
+    const std::string region = where.string();
+    if (find_region(regions, region) != nullptr)
+      throw where.error(fmt::format("region \"{}\" already has a material", region));
+    regions.push_back(read_region(where, table, base, overrides));
+  }
+}
+
+BandNeighbour neighbour(const MaterialKeys& keys, const Vector& x) {
+  if (!keys.damageable.value_or(true)) return {std::numeric_limits<double>::infinity()};
+  return {value_at(keys.toughness, x).value_or(0.0)};
+}
+
+// A band with what it needs to know of its neighbours.
+struct BandToughness {
+  const CrackGeometry* crack;
+  double width;
+  Parameter given, ell;
+  MaterialKeys one, other;
+
+  bool varies() const {
+    const auto does = [](const MaterialKeys& keys) { return keys.toughness && keys.toughness->varies; };
+    return given.varies || ell.varies || does(one) || does(other);
+  }
+  double corrected(const Vector& x) const {
+    return band_toughness(*crack, given.at(x), width, ell.at(x), neighbour(one, x), neighbour(other, x));
+  }
+  double apparent(const Vector& x) const {
+    return apparent_toughness(*crack, given.at(x), width, ell.at(x), neighbour(one, x), neighbour(other, x));
+  }
+};
+
+bool lacks_toughness(const MaterialKeys& keys) { return keys.damageable.value_or(true) && !keys.toughness; }
+
+std::string describe(const Band& band, const BandToughness& toughness, bool corrects) {
+  const std::string between = fmt::format("between \"{}\" and \"{}\"", band.neighbours[0], band.neighbours[1]);
+  const Vector anywhere = Vector::Zero();
+  if (toughness.varies())
+    return fmt::format("region \"{}\" ({} wide) {}: toughness varies, {}", band.region, quantity_text(band.width, "m"),
+                       between, corrects ? "corrected in each cell for its neighbours" : "as given");
+  const std::string words =
+      fmt::format("region \"{}\" ({} wide, ell = {}) {}", band.region, quantity_text(band.width, "m"),
+                  quantity_text(toughness.ell.at(anywhere), "m"), between);
+  const double given = toughness.given.at(anywhere);
+  if (!corrects)
+    return fmt::format("{}: toughness {} as given; a crack at its middle will dissipate {}", words,
+                       quantity_text(given, "J/m^2", 6), quantity_text(toughness.apparent(anywhere), "J/m^2", 6));
+  return fmt::format("{}: toughness {}, so that a crack at its middle dissipates the {} given", words,
+                     quantity_text(toughness.corrected(anywhere), "J/m^2", 6), quantity_text(given, "J/m^2", 6));
+}
+
+// Replaces the toughness of a band by the one with which a crack in it dissipates what was given.
+void correct_toughness(const Band& band, std::vector<RegionKeys>& regions, const MaterialDefaults& defaults,
+                       std::vector<std::string>& remarks) {
+  RegionKeys* const found = find_region(regions, band.region);
+  const RegionKeys *one = find_region(regions, band.neighbours[0]), *other = find_region(regions, band.neighbours[1]);
+  if (found == nullptr || one == nullptr || other == nullptr)
+    throw InputError(fmt::format("the band \"{}\" lies between \"{}\" and \"{}\", and one of the three has no material",
+                                 band.region, band.neighbours[0], band.neighbours[1]));
+  MaterialKeys& keys = found->keys;
+  if (!keys.damageable.value_or(true) || !keys.toughness || !(keys.length || defaults.ell)) return;
+  if (lacks_toughness(one->keys) || lacks_toughness(other->keys)) return;
+  const Parameter ell = keys.length ? *keys.length : Parameter{.at = [l = *defaults.ell](const Vector&) { return l; }};
+  const BandToughness toughness{defaults.crack, band.width, *keys.toughness, ell, one->keys, other->keys};
+  remarks.push_back(describe(band, toughness, defaults.corrects_toughness));
+  if (!defaults.corrects_toughness) return;
+  keys.toughness->varies = toughness.varies();
+  keys.toughness->at = [toughness](const Vector& x) { return toughness.corrected(x); };
+}
+
+}  // namespace
+
+const IsotropicElasticity& Materials::elasticity(const ConfigValue& name) const {
+  std::vector<std::string> names;
+  for (const NamedElasticity& material : by_name) names.push_back(material.material);
+  const std::string wanted = name.one_of(names, "material");
+  const auto found = std::ranges::find(by_name, wanted, &NamedElasticity::material);
+  if (!found->elasticity)
+    throw name.error(
+        fmt::format("the elasticity of material \"{}\" varies; a uniform, isotropic one is required here", wanted));
+  return *found->elasticity;
+}
+
+Materials read_materials(const ConfigTable& root, const MaterialDefaults& defaults) {
+  Materials materials;
+  std::vector<RegionOverride> overrides;
+  if (defaults.elastic_keys == nullptr) overrides = read_overrides(root, defaults.loads_from_start);
+  std::vector<RegionKeys> regions;
+  for (const auto& [name, value] : root.table("materials").entries())
+    read_material(materials, name, value.table(), defaults, overrides, regions);
+  for (const RegionOverride& over : overrides)
+    if (!over.used)
+      throw over.value.error(
+          fmt::format("region \"{}\" has no material; name it in some material's regions", over.region));
+  materials.corrects_toughness = defaults.corrects_toughness;
+  materials.bands = defaults.bands;
+  for (const RegionOverride& over : overrides)
+    if (over.band) materials.bands.push_back(*over.band);
+  for (const Band& band : materials.bands) correct_toughness(band, regions, defaults, materials.remarks);
+  for (const RegionKeys& entry : regions) {
+    const auto at = [entry, defaults](const Vector& x) {
+      return make_model(entry.keys, entry.region, defaults, entry.table, x);
+    };
+    const bool varies = any_varies(entry.keys);
+    if (!varies) at(Vector::Zero());  // what is wrong with it is wrong everywhere
+    materials.by_region.push_back(
+        {.region = entry.region,
+         .where = entry.where,
+         .at = at,
+         .varies = varies,
+         .elastic_law = fmt::format("{} | {} | {}", entry.keys.young_modulus->text, entry.keys.poisson_ratio->text,
+                                    fmt::ptr(entry.keys.material.get())),
+         .material = entry.keys.material,
+         .split = entry.keys.split.value_or(EnergySplit())});
+  }
+  return materials;
+}
+
+namespace {
+
+const RegionMaterial& material_of(const Materials& materials, const std::string& region) {
+  const auto& given = materials.by_region;
+  const auto found = std::ranges::find(given, region, &RegionMaterial::region);
+  if (found == given.end())
+    throw InputError(
+        fmt::format("{}: region \"{}\" of the mesh has no material; name it in the regions of one of "
+                    "[materials.*]",
+                    given.empty() ? "case.toml" : given.front().where.file(), region));
+  return *found;
+}
+
+}  // namespace
+
+void place_materials(const Materials& materials, const Mesh& mesh, FractureModel& model) {
+  for (const RegionMaterial& entry : materials.by_region) entry.where.one_of(mesh.region_names, "region of the mesh");
+  std::vector<const RegionMaterial*> of_region;
+  for (const std::string& region : mesh.region_names) of_region.push_back(&material_of(materials, region));
+  std::vector<Vector> example(of_region.size(), Vector::Zero());
+  for (Index c = mesh.n_cells() - 1; c >= 0; --c) example[as_size(mesh.region[c])] = mesh.cell_centre[c];
+  for (std::size_t r = 0; r < of_region.size(); ++r) {
+    model.regions.push_back(of_region[r]->at(example[r]));
+    // Regions of one law share an elastic zone: the example of the first one serves them all.
+    const auto same = std::ranges::find_if(
+        of_region, [&](const RegionMaterial* other) { return other->elastic_law == of_region[r]->elastic_law; });
+    model.regions[r].elasticity = model.regions[static_cast<std::size_t>(same - of_region.begin())].elasticity;
+  }
+  if (std::ranges::none_of(of_region, &RegionMaterial::varies)) return;
+  model.cells = CellField<RegionModel>(as_size(mesh.n_cells()));
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    model.cells[c] = of_region[as_size(mesh.region[c])]->at(mesh.cell_centre[c]);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,14 @@
+#pragma once
+// Reads [[output.energy_release_rate]]: around which crack tips the energy release rate is measured.
+
+#include "cases/program/input/config/config.h"
+#include "postproc/fields/energy_release_rate.h"
+
+#include <vector>
+
+namespace pfdm {
+
+/// `output` is the table [output].
+std::vector<TipRegion> read_energy_release(const ConfigTable& output);
+
+}  // namespace pfdm

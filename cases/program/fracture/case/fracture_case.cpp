@@ -1,0 +1,357 @@
+#include "cases/program/fracture/case/fracture_case.h"
+
+#include "cases/program/fracture/body/body_keys.h"
+#include "cases/program/fracture/body/material_keys.h"
+#include "cases/program/fracture/case/run_keys.h"
+#include "cases/program/input/config/key_member.h"
+#include "solver/fracture/model/toughness_perturbation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+std::string unsuited_split(const Material& material, const EnergySplit& split) {
+  return fmt::format("a material of the law \"{}\" cannot be combined with the energy split \"{}\"; allowed: {}",
+                     material.name(), split.name(), splits_with_secant());
+}
+
+template <class Law>
+const Law* find_law(const ConfigTable& table, std::string_view key, const Law& otherwise, std::span<const Law> laws,
+                    std::string_view what) {
+  const auto value = table.find(key);
+  return value ? &choose(*value, laws, what) : &otherwise;
+}
+
+Irreversibility read_irreversibility(const ConfigValue& value) {
+  const std::string way = value.choice();
+  return way == "history"     ? Irreversibility::history
+         : way == "crack_set" ? Irreversibility::crack_set
+                              : Irreversibility::bounds;
+}
+
+/// A crack geometric function, or a strength model, which has one.
+const CrackGeometry& read_model(const ConfigTable& table, StrengthChoice& strength) {
+  const auto value = table.find("model");
+  if (!value) return crack_geometry("AT2");
+  const std::string name = value->choice();
+  const auto law = std::ranges::find(strength_laws(), name, &StrengthLaw::name);
+  if (law == strength_laws().end()) return crack_geometry(name);
+  strength.law = &*law;
+  return crack_geometry(law->crack);
+}
+
+void read_delta(const ConfigTable& table, const FractureModel& model, StrengthChoice& strength) {
+  const auto delta = table.find("delta");
+  if (strength.law == nullptr) {
+    if (delta) throw delta->error("this belongs to the model \"strength\"");
+    return;
+  }
+  if (const auto degrading = table.find("degradation"); degrading && model.degradation.name() != "quadratic")
+    throw degrading->error(fmt::format("the model \"{}\" requires the degradation \"quadratic\"", strength.law->name));
+  if (model.irreversibility == Irreversibility::history)
+    throw table.at("irreversibility")
+        .error(fmt::format("the model \"{}\" requires \"bounds\" or \"crack_set\"", strength.law->name));
+  if (!delta) return;
+  if (delta->is_table())
+    strength.mesh_size =
+        delta->table().with_keys(delta->type()->as(KeyType::Kind::table)->table()).quantity("mesh_size");
+  else
+    strength.delta = delta->number();
+}
+
+MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
+  const ConfigTable table = root.table("fracture");
+  MaterialDefaults defaults;
+  model.crack = &read_model(table, defaults.strength);
+  const auto degrading = table.find("degradation"), split = table.find("split");
+  model.degradation = degrading ? read_degradation(*degrading) : degradation("quadratic");
+  model.split = split ? read_split(*split) : energy_split("volumetric_deviatoric");
+  if (const auto irreversibility = table.find("irreversibility"))
+    model.irreversibility = read_irreversibility(*irreversibility);
+  read_delta(table, model, defaults.strength);
+  if (const auto by = table.find("stiffness_damage"))
+    model.stiffness_by = by->choice() == "mean" ? StiffnessBy::mean : StiffnessBy::cell;
+  model.residual_stiffness = table.number("residual_stiffness", model.residual_stiffness);
+  if (table.has("viscosity")) model.viscosity = table.quantity("viscosity");
+  defaults.crack = model.crack;
+  defaults.corrects_toughness = table.choice("effective_toughness", "corrected") == "corrected";
+  if (table.has("length")) defaults.ell = table.quantity("length");
+  defaults.degradation = model.degradation;
+  if (model.degradation.law().needs_strength)
+    defaults.softening = find_law(table, "softening", softening_law("linear"), softening_laws(), "softening law");
+  return defaults;
+}
+
+Perturbation read_perturbation(const ConfigTable& root) {
+  if (!root.has("fracture")) return {};
+  const ConfigTable table = root.table("fracture");
+  if (table.has("perturbation_seed") && !table.has("perturbation"))
+    throw table.at("perturbation_seed").error("this belongs to a perturbation, which is not given");
+  return {.part = table.number("perturbation", 0.0),
+          .seed = static_cast<std::uint64_t>(table.integer("perturbation_seed", std::int64_t{1}))};
+}
+
+/// Of bodies in which only interfaces break.
+MaterialDefaults elastic(FractureModel& model) {
+  model.crack = &crack_geometry("AT2");
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
+  MaterialDefaults defaults;
+  defaults.elastic_keys = elastic_material_keys;
+  return defaults;
+}
+
+/// What materials with a history ask of the splits and of the loading.
+void check_histories(const FractureCase& fracture, const ConfigTable& root) {
+  std::vector<EnergySplit> splits{fracture.model.split};
+  for (const RegionMaterial& region : fracture.materials.by_region)
+    if (region.split.is_chosen()) splits.push_back(region.split);
+  const auto unsuited = std::ranges::find_if(splits, [](const EnergySplit& split) { return !split.has_secant(); });
+  for (const RegionMaterial& region : fracture.materials.by_region) {
+    if (!region.material) continue;
+    const bool is_small_strain = !region.material->is_finite_strain();  // the others have splits of their own
+    if (is_small_strain && unsuited != splits.end())
+      throw region.where.error(unsuited_split(*region.material, *unsuited));
+    if (region.material->depends_on_rate() && !(fracture.loading.duration > 0.0))
+      throw region.where.error(
+          "a law that depends on the rate requires the time in which the load parameter grows by 1: duration = \"1 s\" "
+          "in "
+          "[loading]");
+    if (std::isfinite(fracture.loading.maximum_dissipation))
+      throw root.table("loading")
+          .at("maximum_dissipation")
+          .error(fmt::format("it cannot be combined with materials of the law \"{}\": their displacements are not "
+                             "proportional to the load",
+                             region.material->name()));
+  }
+}
+
+void check_time(const ConfigTable& table, const FractureModel& model) {
+  if (!(model.viscosity > 0.0)) return;
+  if (!table.has("duration"))
+    throw table.error(
+        "fracture.viscosity requires the time in which the load parameter grows by 1: duration = \"1 s\"");
+  if (table.has("maximum_dissipation"))
+    throw table.at("maximum_dissipation")
+        .error("it cannot be combined with fracture.viscosity: the load may decrease, time cannot");
+}
+
+LoadingSettings read_loading(const ConfigTable& root, const FractureModel& model) {
+  LoadingSettings loading;
+  if (!root.has("loading")) {
+    if (model.viscosity > 0.0) throw root.error("fracture.viscosity needs the table [loading] with a duration");
+    return loading;
+  }
+  const ConfigTable table = root.table("loading");
+  read_stored(table, loading);
+  if (!table.has("maximum_increment"))
+    loading.maximum_increment = std::max(loading.maximum_increment, loading.initial_increment);
+  if (loading.minimum_increment > loading.initial_increment || loading.initial_increment > loading.maximum_increment)
+    throw table.error(fmt::format("expected minimum <= initial <= maximum of the increments, found {}, {}, {}",
+                                  loading.minimum_increment, loading.initial_increment, loading.maximum_increment));
+  check_time(table, model);
+  return loading;
+}
+
+StaggeredSettings read_solver(const ConfigTable& root) {
+  StaggeredSettings settings;
+  if (!root.has("solver")) return settings;
+  const ConfigTable table = root.table("solver");
+  read_stored(table, settings);
+  if (table.has("linear")) settings.linear = &choose(table.at("linear"), linear_solvers(), "linear solver");
+  return settings;
+}
+
+void read_curve_patch(const ConfigTable& output, FractureCase& fracture) {
+  const ConfigTable curve = output.table("curve");
+  fracture.curve_patch = curve.at("patch");
+  fracture.output.curve.patch = curve.string("patch");
+  fracture.output.curve.component = curve.choice("component")[0] - 'x';
+}
+
+/// Names that the file uses against those that the mesh has; an empty list means that they are not known yet.
+void check_names(const FractureCase& fracture, std::span<const std::string> regions,
+                 std::span<const std::string> patches) {
+  if (!regions.empty())
+    for (const RegionMaterial& material : fracture.materials.by_region)
+      material.where.one_of(regions, "region of the mesh");
+  if (!regions.empty() && fracture.initial_damage)
+    for (const ConfigValue& region : fracture.initial_damage->regions) region.one_of(regions, "region of the mesh");
+  if (patches.empty() || fracture.box) return;
+  for (const BoundarySettings& boundary : fracture.boundary) boundary.patch.one_of(patches, "patch of the mesh");
+  fracture.curve_patch->one_of(patches, "patch of the mesh");
+}
+
+/// The displacement of the curve's patch along its component at load parameter 1 [m], where it is reached linearly and
+/// is not zero.
+std::optional<double> full_displacement(const FractureCase& fracture) {
+  const CurveSettings& curve = fracture.output.curve;
+  for (const BoundarySettings& boundary : fracture.boundary) {
+    if (boundary.condition.patch != curve.patch) continue;
+    const auto full = boundary.displacement_at_full_load[static_cast<std::size_t>(curve.component)];
+    if (full && *full != 0.0) return full;
+  }
+  return std::nullopt;
+}
+
+/// The load parameter at which the curve's patch has been displaced by `entry`.
+double load_at_displacement(const ConfigValue& entry, const FractureCase& fracture) {
+  if (fracture.box)
+    throw entry.error("give load parameters, as in 0.78: the points of the path are reached at 1, 2, ...");
+  if (const auto full = full_displacement(fracture)) return entry.quantity() / *full;
+  throw entry.error(
+      fmt::format("the displacement of patch \"{}\" along the curve's component is not prescribed by a "
+                  "plain quantity; give load parameters, as in 0.78",
+                  fracture.output.curve.patch));
+}
+
+std::vector<double> read_frames(const ConfigTable& output, const FractureCase& fracture) {
+  std::vector<double> loads;
+  const auto frames = output.find("frames_at");
+  if (!frames) return loads;
+  if (std::isfinite(fracture.loading.maximum_dissipation))
+    throw frames->error(
+        "with loading.maximum_dissipation the load may pass a value more than once; use frames_every = 10, for every "
+        "tenth step");
+  for (const ConfigValue& entry : frames->list()) {
+    const double load = entry.is_string() ? load_at_displacement(entry, fracture) : entry.number();
+    if (!(load > 0.0) || load > fracture.loading.end * (1.0 + 1e-12))
+      throw entry.error(fmt::format("this is at load parameter {:.6g}; the loading goes from 0 to {:.6g}", load,
+                                    fracture.loading.end));
+    loads.push_back(std::min(load, fracture.loading.end));
+  }
+  std::sort(loads.begin(), loads.end());
+  loads.erase(std::unique(loads.begin(), loads.end()), loads.end());
+  return loads;
+}
+
+void read_frames_of(const ConfigTable& output, FractureCase& fracture) {
+  fracture.loading.stops = read_frames(output, fracture);
+  fracture.output.frames = read_frame_settings(output, fracture.loading, full_displacement(fracture));
+  fracture.output.frames_every = static_cast<Index>(output.integer("frames_every", std::int64_t{0}));
+  if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
+}
+
+void read_output(const ConfigTable& root, FractureCase& fracture) {
+  const ConfigTable output = root.table("output");
+  read_curve_patch(output, fracture);
+  check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);  // the frames need the curve's patch
+  read_frames_of(output, fracture);
+  fracture.output.tips = read_energy_release(output);
+}
+
+/// Which traction-separation laws are recorded.
+void read_columns(const ConfigTable& root, FractureCase& fracture) {
+  std::vector<std::string> interfaces;
+  for (const InterfaceSettings& interface : fracture.interfaces) interfaces.push_back(interface.name);
+  fracture.cohesive =
+      read_cohesive(root, fracture.materials.bands, interfaces, Vector::Unit(fracture.output.curve.component));
+}
+
+std::vector<double> loads_to_try(const LoadingSettings& loading) {
+  std::vector<double> loads{0.0, loading.initial_increment, loading.end};
+  loads.insert(loads.end(), loading.stops.begin(), loading.stops.end());
+  return loads;
+}
+
+/// Expressions are evaluated once where and when they will be, so that one without a value is refused before a run has
+/// taken time, and the place of earlier results.
+void require_boundary_values(const FractureCase& fracture, const Mesh& mesh, std::span<const double> loads) {
+  for (const BoundarySettings& boundary : fracture.boundary) {
+    const BoundaryCondition& condition = boundary.condition;
+    const Patch& patch = mesh.patch(condition.patch);
+    for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
+      for (const double load : loads) {
+        if (condition.value) condition.value(mesh.face_centre[f], load);
+        if (condition.pressure) condition.pressure(mesh.face_centre[f], load);
+      }
+  }
+}
+
+/// What expands does so by [loads] alone.
+void give_heat(FractureCase& fracture) {
+  fracture.model.heat = fracture.heat->model;
+  const auto expands = [](const RegionMaterial& region) {
+    return !region.varies && !region.at(Vector::Zero()).expansion.isZero();
+  };
+  const auto found = std::ranges::find_if(fracture.materials.by_region, expands);
+  if (found == fracture.materials.by_region.end()) return;
+  fracture.materials.remarks.push_back(fmt::format(
+      "region \"{}\" expands by [loads] temperature_change alone: the temperatures of [heat] make no strains",
+      found->region));
+}
+
+}  // namespace
+
+FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+  root.with_keys(fracture_keys());
+  FractureCase fracture = read_body(root, case_directory, false);
+  fracture.boundary = read_boundary(root, fracture.materials);
+  fracture.model.loads = read_body_loads(root);
+  fracture.heat = read_heat(root, fracture.loading);
+  if (fracture.heat) give_heat(fracture);
+  for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
+  read_output(root, fracture);
+  read_columns(root, fracture);
+  return fracture;
+}
+
+FractureCase read_body(const ConfigTable& root, const std::filesystem::path& case_directory, bool may_be_elastic) {
+  FractureCase fracture;
+  fracture.title = root.line("title");
+  MaterialDefaults defaults =
+      may_be_elastic && !root.has("fracture") ? elastic(fracture.model) : read_fracture(root, fracture.model);
+  fracture.mesh = read_mesh_recipe(root.table("mesh"), {case_directory, defaults.ell});
+  defaults.bands = fracture.mesh.bands;
+  defaults.loads_from_start = !may_be_elastic && apply_from_start(root);
+  fracture.file = root;
+  fracture.materials = read_materials(root, defaults);
+  fracture.perturbation = read_perturbation(root);
+  fracture.initial_damage = read_initial_damage(root, fracture.model);
+  fracture.interfaces = read_interfaces(root, case_directory, fracture.data_files);
+  fracture.loading = read_loading(root, fracture.model);
+  check_histories(fracture, root);
+  fracture.staggered = read_solver(root);
+  return fracture;
+}
+
+void read_box_output(const ConfigTable& root, FractureCase& fracture) {
+  check_names(fracture, fracture.mesh.regions, {});
+  fracture.output.curve.component = fracture.box->component[0];
+  if (root.has("output")) read_frames_of(root.table("output"), fracture);
+  read_columns(root, fracture);
+}
+
+FractureModel model_on(const FractureCase& fracture, const Mesh& mesh) {
+  std::vector<std::string> patches;
+  for (const Patch& patch : mesh.patches) patches.push_back(patch.name);
+  check_names(fracture, mesh.region_names, patches);
+  const std::vector<double> loads = loads_to_try(fracture.loading);
+  require_boundary_values(fracture, mesh, loads);
+  for (const TipRegion& region : fracture.output.tips) require_ring(mesh, region);
+  FractureModel model = fracture.model;
+  place_materials(fracture.materials, mesh, model);
+  require_body_loads(*fracture.file, model, mesh, loads);
+  if (!fracture.output.tips.empty() && (model.has_body_force() || model.has_eigenstrain()))
+    throw InputError(
+        "[[output.energy_release_rate]] cannot be combined with body forces or eigenstrains: the integral over the "
+        "ring "
+        "does not have their part");
+  for (const TipRegion& region : fracture.output.tips)
+    if (region.reference_length > 0.0 && model.is_anisotropic())
+      throw InputError(fmt::format(
+          "[[output.energy_release_rate]] \"{}\": there are no stress intensities where elasticity depends on the "
+          "direction; leave out reference_length",
+          region.name));
+  if (const Perturbation& by = fracture.perturbation; by.part > 0.0) perturb_toughness(mesh, by.part, by.seed, model);
+  place_interfaces(fracture.interfaces, mesh, model);
+  if (fracture.initial_damage) model.initial_damage = damage_at_the_start(*fracture.initial_damage, model, mesh);
+  if (fracture.box) model.motion = fracture.box->motion(mesh, model);
+  return model;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,52 @@
+#include "cases/program/fracture/case/opened_case.h"
+
+#include "cases/program/fracture/case/experiment_case.h"
+#include "cases/program/input/case_files/case_override.h"
+#include "cases/program/studies/fit/curve_fit_case.h"
+#include "cases/program/studies/sweep/sweep_case.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+FractureCase read(const std::filesystem::path& where, const std::vector<std::string>& values) {
+  const CaseFile file = with_overrides(open_case(where), values);
+  const ConfigValue kind = file.config.root().at("kind");
+  if (kind.string() != "fracture") throw kind.error(fmt::format("\"{}\" is not \"fracture\"", kind.string()));
+  FractureCase fracture = read_fracture_case(file.config.root(), file.directory);
+  read_experiment(file.config.root(), file.directory);
+  read_curve_fit(file);
+  read_sweep(file);
+  file.config.reject_unknown_keys();
+  return fracture;
+}
+
+}  // namespace
+
+OpenedCase::OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values)
+    : settings_(read(where, values)),
+      mesh_(std::make_unique<const Mesh>(settings_.mesh.make())),
+      run_(std::make_unique<FractureRun>(*mesh_, model_on(settings_, *mesh_), settings_.staggered, settings_.loading)) {
+}
+
+Index OpenedCase::patch_number(std::string_view name) const {
+  const auto found = std::ranges::find(mesh_->patches, name, &Patch::name);
+  if (found != mesh_->patches.end()) return static_cast<Index>(found - mesh_->patches.begin());
+  std::vector<std::string_view> names;
+  for (const Patch& patch : mesh_->patches) names.push_back(patch.name);
+  throw InputError(fmt::format("the mesh has no patch \"{}\" (there are: {})", name, fmt::join(names, ", ")));
+}
+
+Vector OpenedCase::reaction(const StepReport& report, std::string_view patch) const {
+  return report.reaction[as_size(patch_number(patch))];
+}
+
+Vector OpenedCase::displacement(const StepReport& report, std::string_view patch) const {
+  return report.patch_displacement[as_size(patch_number(patch))];
+}
+
+}  // namespace pfdm

@@ -1,0 +1,77 @@
+#include "cases/program/fracture/page/fit_on_page.h"
+
+#include "cases/program/session/fit_verdict.h"
+#include "cases/program/session/report_parts.h"
+#include "postproc/files/csv_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace pfdm {
+namespace {
+
+/// "200 MPa", "392 J/m^2" (a quotient takes no prefix), 0.3 of what has no unit.
+std::string value_text(double value, const std::string& unit) {
+  if (unit.empty() || unit == "1") return shown(value);
+  return unit.find('/') == std::string::npos ? shown(value, unit) : fmt::format("{} {}", shown(value), unit);
+}
+
+std::string between_text(double lower, double upper, const std::string& unit) {
+  if (!std::isfinite(lower) || !std::isfinite(upper)) return "none";
+  return fmt::format("{} to {}", value_text(lower, unit), value_text(upper, unit));
+}
+
+std::string profile_text(const FittedParameter& p) {
+  if (!p.profile) return "none";
+  const auto end = [&](double value, bool open) { return value_text(value, p.unit) + (open ? " (the bound)" : ""); };
+  return fmt::format("{} to {}", end(p.profile->lower, p.profile->lower_open),
+                     end(p.profile->upper, p.profile->upper_open));
+}
+
+Chart curves_chart(const ExperimentMisfit& experiment, const CsvTable& curves) {
+  const std::vector<double>&u = curves.column("displacement_m"), &measured = curves.column("measured_force_N"),
+        &first = curves.column("first_force_N"), &fitted = curves.column("model_force_N");
+  const DisplayUnit x = common_unit({{u}}, "m"), y = common_unit({{measured, fitted}}, "N");
+  const std::vector<double> at = in_unit(u, x);
+  return {
+      .caption = fmt::format("Fit to \"{}\", rms misfit {:.2g} %", experiment.name, 100.0 * experiment.relative),
+      .x = {.title = fmt::format("displacement [{}]", x.name)},
+      .y = {.title = fmt::format("force [{}]", y.name)},
+      .series = {{.label = "measured", .x = at, .y = in_unit(measured, y), .style = SeriesStyle::points, .colour = 7},
+                 {.label = "first guess", .x = at, .y = in_unit(first, y), .style = SeriesStyle::dashed, .colour = 1},
+                 {.label = "fitted", .x = at, .y = in_unit(fitted, y), .colour = 0}}};
+}
+
+}  // namespace
+
+Table estimates_table(const FitReport& fit) {
+  const std::vector<FittedParameter>& parameters = fit.found.parameters;
+  const bool has_profiles = std::ranges::any_of(parameters, [](const auto& p) { return p.profile.has_value(); });
+  Table table{
+      .caption = fmt::format("Fit: {}", verdict_text(fit.found)),
+      .rows = {{"parameter", "first guess", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
+      .has_header = true};
+  if (has_profiles) table.rows.front().emplace_back("by profile likelihood");
+  for (const FittedParameter& p : parameters) {
+    table.rows.push_back({p.name, value_text(p.first_guess, p.unit), value_text(p.estimate, p.unit),
+                          between_text(p.lower, p.upper, p.unit)});
+    if (has_profiles) table.rows.back().push_back(profile_text(p));
+  }
+  return table;
+}
+
+std::vector<PageRow> fit_on_page(const FitReport& fit, const std::filesystem::path& results) {
+  std::vector<PageRow> rows{{.blocks = {estimates_table(fit)}}};
+  std::vector<PageBlock> charts;
+  std::set<std::string> seen;  // one file for all specimens
+  for (const ExperimentMisfit& experiment : fit.experiments)
+    if (!experiment.curve.empty() && seen.insert(experiment.curve).second)
+      charts.emplace_back(curves_chart(experiment, read_csv(results / experiment.curve)));
+  for (PageRow& row : in_pairs(std::move(charts))) rows.push_back(std::move(row));
+  return rows;
+}
+
+}  // namespace pfdm

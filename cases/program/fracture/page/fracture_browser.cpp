@@ -1,0 +1,132 @@
+#include "cases/program/fracture/page/fracture_browser.h"
+
+#include "cases/program/fracture/results/end_of_run.h"
+#include "cases/program/fracture/results/fracture_files.h"
+#include "physics/angle.h"
+#include "postproc/browser/body.h"
+#include "postproc/cohesive/cohesive_law.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> words_of_steps(const FractureCase& fracture, const CurveUnits& units,
+                                        const std::vector<CurveRow>& curve) {
+  std::vector<std::string> words;
+  for (const CurveRow& row : curve) {
+    std::string text = fmt::format("Step {} of {}, load {:.4g}", row.step, curve.back().step, row.load);
+    if (!fracture.box)
+      text = fmt::format("Step {} of {}: displacement {}, force {}", row.step, curve.back().step,
+                         shown_in(units.displacement, row.displacement),
+                         shown_in(units.force, row.force[fracture.output.curve.component]));
+    words.push_back(in_print(std::move(text)));
+  }
+  return words;
+}
+
+/// The areas as vectors nearly sum up to their sum.
+bool is_flat(const ColumnRecord& record) {
+  constexpr double flat_share = 0.999;
+  double whole = 0.0;
+  Vector sum = Vector::Zero();
+  for (const Place& place : record.places) {
+    whole += place.area;
+    sum += place.area * place.normal;
+  }
+  return record.kind == SurfaceKind::plane || sum.norm() > flat_share * whole;
+}
+
+/// How far each curved surface has debonded about its poles along the load and against it.
+std::vector<PageBlock> debonding_charts(const std::vector<CurveRow>& curve, const fs::path& results) {
+  std::vector<double> moved;
+  for (const CurveRow& row : curve) moved.push_back(row.displacement);
+  const DisplayUnit unit = common_unit({{moved}}, "m");
+  std::vector<PageBlock> charts;
+  for (const ColumnRecord& record : find_column_record(results)) {
+    const std::vector<Debonding> history = debonding_of(record);
+    if (is_flat(record) || history.size() != curve.size()) continue;
+    Series plus{.label = "pole along the load", .x = in_unit(moved, unit), .y = {}, .of_steps = true};
+    Series minus{.label = "pole against the load", .x = plus.x, .y = {}, .colour = 1};
+    for (const Debonding& d : history) {
+      plus.y.push_back(d.angle_plus / degree);
+      minus.y.push_back(d.angle_minus / degree);
+    }
+    charts.emplace_back(Chart{.caption = fmt::format("Debonding angle of \"{}\"", record.name),
+                              .x = {.title = fmt::format("displacement [{}]", unit.name)},
+                              .y = {.title = "angle of the debonded cap [°]", .from = 0.0},
+                              .series = {std::move(plus), std::move(minus)}});
+  }
+  return charts;
+}
+
+/// From 0 on, by what of the whole load and of the whole energy of cracks has come.
+std::vector<double> progress_of(const std::vector<CurveRow>& rows) {
+  const auto spent = [](const CurveRow& row) { return row.energy.fracture + row.energy.interface_dissipation; };
+  double most_moved = 0.0, most_spent = 0.0;
+  for (const CurveRow& row : rows) {
+    most_moved = std::max(most_moved, std::abs(row.load - rows.front().load));
+    most_spent = std::max(most_spent, spent(row) - spent(rows.front()));
+  }
+  std::vector<double> progress;
+  double way = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i > 0) {
+      if (most_moved > 0.0) way += std::abs(rows[i].load - rows[i - 1].load) / most_moved;
+      if (most_spent > 0.0) way += std::abs(spent(rows[i]) - spent(rows[i - 1])) / most_spent;
+    }
+    progress.push_back(way);
+  }
+  return progress;
+}
+
+int direction_of_load(const FractureCase& fracture) {
+  return fracture.box ? fracture.box->component[0] : fracture.output.curve.component;
+}
+
+/// None without frames, or where they do not say how points have moved.
+std::optional<Body> body_of(const FractureCase& fracture, const std::vector<CurveRow>& curve, const fs::path& results) {
+  if (!fs::exists(results / "mesh.vtu")) return std::nullopt;
+  BodySettings settings{.frames = {}, .mesh = results / "mesh.vtu"};
+  std::vector<CurveRow> rows;
+  for (const StoredStep& stored : stored_steps(results)) {
+    const auto row = std::ranges::find(curve, stored.step, &CurveRow::step);
+    if (row == curve.end()) continue;
+    settings.frames.push_back({.step = static_cast<Index>(row - curve.begin()), .file = stored.file});
+    rows.push_back(*row);
+  }
+  if (settings.frames.empty()) return std::nullopt;
+  settings.progress = progress_of(rows);
+  settings.cut_at = fracture.output.slices_through;
+  settings.component = direction_of_load(fracture);
+  return read_body(settings);
+}
+
+}  // namespace
+
+BrowserExtras fracture_extras(const FractureCase& fracture, const CaseFile& file, const std::string& hash,
+                              const fs::path& results) {
+  BrowserExtras extras{.hash = hash};
+  if (!has_results(results)) return extras;
+  const CurveUnits units = read_curve_units(file, fracture.output.curve);
+  const std::vector<CurveRow> curve = read_curve_record(results, hash);
+  if (auto summary = find_summary(results)) {
+    summary->figures = headlines(curve, fracture.output.curve.component);
+    for (std::string& sentence : as_sentences(what_happened(fracture, file, *summary, results)))
+      extras.headline.push_back(in_print(std::move(sentence)));
+    extras.figures = run_figures(fracture, units, *summary, results);
+  }
+  extras.steps = words_of_steps(fracture, units, curve);
+  if (!fracture.box) extras.more = debonding_charts(curve, results);
+  extras.body = body_of(fracture, curve, results);
+  extras.beside = {std::string(fracture.box ? "Mean stress against mean strain" : "Force against displacement"),
+                   "Figures"};
+  return extras;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,309 @@
+#include "cases/program/fracture/results/end_of_run.h"
+
+#include "cases/program/fracture/results/heat_results.h"
+#include "cases/program/fracture/results/mean_curve.h"
+#include "physics/quantity_text.h"
+#include "postproc/files/json.h"
+#include "postproc/page/display_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+const TomlValue* entry_named(const TomlValue* value, std::string_view key) {
+  const auto* table = value == nullptr ? nullptr : std::get_if<TomlTable>(&value->value);
+  if (table == nullptr) return nullptr;
+  const auto found = std::ranges::find(*table, key, &TomlEntry::key);
+  return found == table->end() ? nullptr : &found->value;
+}
+
+std::span<const TomlValue> elements_of(const TomlValue* value) {
+  const auto* array = value == nullptr ? nullptr : std::get_if<TomlArray>(&value->value);
+  return array == nullptr ? std::span<const TomlValue>() : std::span<const TomlValue>(*array);
+}
+
+std::string text_of(const TomlValue* value) {
+  const auto* text = value == nullptr ? nullptr : std::get_if<std::string>(&value->value);
+  return text == nullptr ? std::string() : *text;
+}
+
+/// The unit of "624 um", or of { expr = "...", unit = "um" }; empty if there is none.
+std::string unit_given(const TomlValue& value) {
+  if (const TomlValue* unit = entry_named(&value, "unit")) return text_of(unit);
+  try {
+    return std::string(unit_of(text_of(&value)));
+  } catch (const InputError&) {  // "free"
+    return {};
+  }
+}
+
+bool names_patch(const TomlValue& boundary, const std::string& patch) {
+  return text_of(entry_named(&boundary, "patch")) == patch ||
+         std::ranges::any_of(elements_of(entry_named(&boundary, "patches")),
+                             [&](const TomlValue& name) { return text_of(&name) == patch; });
+}
+
+/// Of the curve's patch and direction, or else the first that any patch has.
+std::string unit_of_displacement(const TomlValue& root, const CurveSettings& curve) {
+  std::string any;
+  for (const TomlValue& boundary : elements_of(entry_named(&root, "boundary"))) {
+    const auto components = elements_of(entry_named(&boundary, "displacement"));
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      std::string unit = unit_given(components[i]);
+      if (!is_unit_of(unit, dimension::length)) continue;
+      if (names_patch(boundary, curve.patch) && i == static_cast<std::size_t>(curve.component)) return unit;
+      if (any.empty()) any = unit;
+    }
+  }
+  return any;
+}
+
+std::string unit_of_force(const TomlValue& root) {
+  for (const TomlValue& specimen : elements_of(entry_named(entry_named(&root, "experiment"), "specimens")))
+    if (std::string unit = text_of(entry_named(entry_named(&specimen, "force"), "unit"));
+        is_unit_of(unit, dimension::force))
+      return unit;
+  return {};
+}
+
+CaseUnit case_unit(const std::string& name, const Dimension& of) {
+  if (name.empty()) return {.si_unit = std::string(of.si_unit)};
+  return {.name = name, .si_unit = std::string(of.si_unit), .in_si = unit_in_si(name, of)};
+}
+
+/// "154.6 and 157.1 um"
+std::string two_shown(const CaseUnit& unit, double a, std::string_view between, double b) {
+  std::string first = shown_in(unit, a);
+  const std::string second = shown_in(unit, b);
+  const std::string ending = second.substr(std::min(second.find(' '), second.size()));
+  if (first.ends_with(ending)) first.resize(first.size() - ending.size());
+  return fmt::format("{} {} {}", first, between, second);
+}
+
+/// Names of displacement and force among the figures, and their units; strain and stress of a box.
+struct Axes {
+  std::string x, x_unit, y, y_unit;
+  CaseUnit x_shown, y_shown;
+  std::string y_words;
+};
+
+Axes axes_of(const FractureCase& fracture, const CurveUnits& units) {
+  if (!fracture.box) return {"displacement", "_m", "force", "_N", units.displacement, units.force, "force"};
+  const std::string name(name_of_component(fracture.box->component));
+  return {"strain_" + name,     "", "stress_" + name, "_Pa", {.name = "-", .si_unit = "1"}, {.si_unit = "Pa"},
+          "mean stress " + name};
+}
+
+/// Of force over displacement; of a box of stress over strain.
+struct Peak {
+  double most, at, last, end;
+  bool is_end() const { return most == last && at == end; }
+};
+
+Peak peak_of(const RunSummary& summary, const FractureCase& fracture, const Axes& axes) {
+  const Headlines& f = *summary.figures;
+  if (!fracture.box) return {f.peak_force, f.displacement_at_peak, f.final_force, f.final_displacement};
+  return {
+      summary.other_figure(fmt::format("peak_{}_Pa", axes.y)), summary.other_figure(fmt::format("{}_at_peak", axes.x)),
+      summary.other_figure(fmt::format("final_{}_Pa", axes.y)), summary.other_figure(fmt::format("final_{}", axes.x))};
+}
+
+/// "greatest force 27.08 N at 624 um, the end of the curve"
+std::vector<std::string> lines_of_curve(const RunSummary& summary, const FractureCase& fracture,
+                                        const CurveUnits& units) {
+  if (!summary.figures) return {};
+  const Axes axes = axes_of(fracture, units);
+  const Peak peak = peak_of(summary, fracture, axes);
+  const std::string x = fracture.box ? axes.x + " = " : std::string();
+  std::string line = fmt::format("greatest {} {} at {}{}", axes.y_words, shown_in(axes.y_shown, peak.most), x,
+                                 shown_in(axes.x_shown, peak.at));
+  if (peak.is_end()) return {line + ", the end of the curve: it still rises there"};
+  return {fmt::format("{}; {} at the end, {}{}", line, shown_in(axes.y_shown, peak.last), x,
+                      shown_in(axes.x_shown, peak.end))};
+}
+
+/// Of a surface whose law is extracted, not given; none where it was never damaged.
+const nlohmann::ordered_json* strongest_law(const nlohmann::ordered_json& surface) {
+  if (surface.at("law_is_given").get<bool>()) return nullptr;
+  const nlohmann::ordered_json* strongest = nullptr;
+  for (const auto& law : surface.at("laws"))
+    if (number_of(law.at("strength_Pa")) > 0.0 &&
+        (strongest == nullptr || number_of(law.at("strength_Pa")) > number_of(strongest->at("strength_Pa"))))
+      strongest = &law;
+  return strongest;
+}
+
+std::string line_of_law(const nlohmann::ordered_json& surface) {
+  const nlohmann::ordered_json* strongest = strongest_law(surface);
+  if (strongest == nullptr) return {};
+  const auto number = [&](const char* key) { return number_of(strongest->at(key)); };
+  return fmt::format("law of \"{}\": largest normal traction {} at a separation of {}, surface energy {}{}",
+                     surface.at("name").get<std::string>(), shown_in({.si_unit = "Pa"}, number("strength_Pa")),
+                     shown_in({.si_unit = "m"}, number("critical_separation_m")),
+                     quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
+                     strongest->at("traced").get<bool>() ? "" : "; not seen down to zero traction");
+}
+
+/// What `of` says of each surface of cohesive.json; none if there is no such file.
+template <class T, class Of>
+std::vector<T> of_surfaces(const fs::path& results, const Of& of) {
+  const fs::path file = results / "cohesive.json";
+  if (!fs::exists(file)) return {};
+  return read_json(file, "file of cohesive laws", [&](const nlohmann::ordered_json& json) {
+    std::vector<T> all;
+    for (const auto& surface : json.at("surfaces"))
+      if (std::optional<T> one = of(surface)) all.push_back(std::move(*one));
+    return all;
+  });
+}
+
+/// Of the surfaces whose laws are extracted, not given.
+std::vector<std::string> lines_of_laws(const fs::path& results) {
+  return of_surfaces<std::string>(results, [](const nlohmann::ordered_json& surface) {
+    std::string line = line_of_law(surface);
+    return line.empty() ? std::nullopt : std::optional(std::move(line));
+  });
+}
+
+std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface) {
+  const nlohmann::ordered_json* law = strongest_law(surface);
+  if (law == nullptr) return std::nullopt;
+  const auto number = [&](const char* key) { return number_of(law->at(key)); };
+  return HeadFigure{.label = fmt::format("Strength of \"{}\"", surface.at("name").get<std::string>()),
+                    .value = shown_in({.si_unit = "Pa"}, number("strength_Pa")),
+                    .note = fmt::format("largest normal traction, at a separation of {}; surface energy {}{}",
+                                        shown_in({.si_unit = "m"}, number("critical_separation_m")),
+                                        quantity_text(number("surface_energy_J_per_m2"), "J/m^2"),
+                                        law->at("traced").get<bool>() ? "" : ", not seen down to zero traction")};
+}
+
+}  // namespace
+
+CurveUnits read_curve_units(const CaseFile& file, const CurveSettings& curve) {
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  return {.displacement = case_unit(unit_of_displacement(root, curve), dimension::length),
+          .force = case_unit(unit_of_force(root), dimension::force)};
+}
+
+std::string shown_in(const CaseUnit& unit, double si) {
+  if (unit.si_unit == "1") return shown(si);
+  if (!unit.name.empty()) return fmt::format("{} {}", shown(si / unit.in_si), unit.name);
+  return quantity_text(si, unit.si_unit);
+}
+
+std::string first_debonding_words(const RunSummary& summary, const FractureCase& fracture, const CurveUnits& units) {
+  const Axes axes = axes_of(fracture, units);
+  const auto figure = [&](const std::string& name) { return summary.other_figure("first_debonding_" + name); };
+  const double from = figure(axes.x + axes.x_unit), to = figure(axes.x + "_after" + axes.x_unit);
+  if (!std::isfinite(from) || !std::isfinite(to)) return {};
+  std::string words =
+      fmt::format("between {}{}, where the {} goes from {}", fracture.box ? axes.x + " = " : "",
+                  two_shown(axes.x_shown, from, "and", to), axes.y_words,
+                  two_shown(axes.y_shown, figure(axes.y + axes.y_unit), "to", figure(axes.y + "_after" + axes.y_unit)));
+  if (const double angle = figure("angle_deg"); std::isfinite(angle))
+    words += fmt::format(", at polar angles of {:.0f} to {:.0f} degrees; debonding angle {:.0f} degrees",
+                         figure("polar_angle_from_deg"), figure("polar_angle_to_deg"), angle);
+  return words;
+}
+
+std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& summary, const FractureCase& fracture) {
+  const Axes axes = axes_of(fracture, {});
+  const auto figure = [&](const std::string& name) { return summary.other_figure("first_debonding_" + name); };
+  const auto shown_between = [&](const std::string& name, const std::string& unit, const CaseUnit& si) {
+    const double from = figure(name + unit), to = figure(name + "_after" + unit);
+    const DisplayUnit in = display_unit(std::max(std::abs(from), std::abs(to)), si.si_unit == "1" ? "" : si.si_unit);
+    return si.si_unit == "1" ? fmt::format("{} to {}", shown(from), shown(to))
+                             : fmt::format("{} to {} {}", shown(in.factor * from), shown(in.factor * to), in.name);
+  };
+  if (!std::isfinite(figure(axes.x + axes.x_unit))) return {};
+  std::vector<std::vector<std::string>> rows{
+      {"first debonding", shown_between(axes.x, axes.x_unit, axes.x_shown)},
+      {fmt::format("its {}", fracture.box ? "stress" : "force"), shown_between(axes.y, axes.y_unit, axes.y_shown)}};
+  if (const double angle = figure("angle_deg"); std::isfinite(angle))
+    rows.push_back({"its debonding angle", fmt::format("{:.0f}°", angle)});
+  return rows;
+}
+
+std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
+                                       const fs::path& results) {
+  const CurveUnits units = read_curve_units(file, fracture.output.curve);
+  const auto surface = summary.other_texts.find("first_debonding_surface");
+  const bool has_debonded = surface != summary.other_texts.end();
+  std::vector<std::string> lines;
+  if (const auto heat = figure_of_hottest_place(fracture, summary))
+    lines.push_back(fmt::format("greatest temperature rise {} {}", heat->value, heat->note));
+  if (has_debonded)
+    lines.push_back(
+        fmt::format("first debonding of \"{}\" {}", surface->second, first_debonding_words(summary, fracture, units)));
+  for (std::string& line : lines_of_curve(summary, fracture, units)) lines.push_back(std::move(line));
+  if (!has_debonded && summary.other_figures.contains("first_debonding_load"))
+    lines.emplace_back("no debonding: every surface holds");
+  for (std::string& line : lines_of_laws(results)) lines.push_back(std::move(line));
+  return lines;
+}
+
+std::vector<std::string> as_sentences(std::vector<std::string> lines) {
+  for (std::string& line : lines) {
+    line.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(line.front())));
+    line += ".";
+  }
+  return lines;
+}
+
+std::string duration_words(double seconds) {
+  if (seconds < 10.0) return fmt::format("{:.2g} s", seconds);
+  return seconds < 600.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
+}
+
+std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUnits& units, const RunSummary& summary,
+                                    const fs::path& results) {
+  std::vector<HeadFigure> figures;
+  const Axes axes = axes_of(fracture, units);
+  const auto debonding = [&](const std::string& name) { return summary.other_figure("first_debonding_" + name); };
+  const double from = debonding(axes.x + axes.x_unit), to = debonding(axes.x + "_after" + axes.x_unit);
+  const auto surface = summary.other_texts.find("first_debonding_surface");
+  if (auto heat = figure_of_hottest_place(fracture, summary)) figures.push_back(std::move(*heat));
+  if (std::isfinite(from) && std::isfinite(to)) {
+    std::string note = fmt::format(
+        "{} from {}", axes.y_words,
+        two_shown(axes.y_shown, debonding(axes.y + axes.y_unit), "to", debonding(axes.y + "_after" + axes.y_unit)));
+    if (const double angle = debonding("angle_deg"); std::isfinite(angle))
+      note += fmt::format("; polar angles {:.0f} to {:.0f} degrees", debonding("polar_angle_from_deg"),
+                          debonding("polar_angle_to_deg"));
+    figures.push_back({.label = fmt::format("First debonding of \"{}\"",
+                                            surface == summary.other_texts.end() ? std::string() : surface->second),
+                       .value = two_shown(axes.x_shown, from, "to", to),
+                       .note = std::move(note)});
+  } else if (summary.other_figures.contains("first_debonding_load")) {
+    figures.push_back({.label = "Debonding", .value = "none", .note = "every surface holds"});
+  }
+  if (summary.figures) {
+    const Peak peak = peak_of(summary, fracture, axes);
+    figures.push_back(
+        {.label = fmt::format("Greatest {}", axes.y_words),
+         .value = shown_in(axes.y_shown, peak.most),
+         .note = fmt::format("at {}{}", fracture.box ? axes.x + " = " : "", shown_in(axes.x_shown, peak.at)) +
+                 (peak.is_end() ? ", the end of the curve" : "")});
+  }
+  for (HeadFigure& law : of_surfaces<HeadFigure>(results, figure_of_law)) figures.push_back(std::move(law));
+  figures.push_back(
+      {.label = "Run",
+       .value = summary.status,
+       .note = fmt::format("{} steps of {} cells in {} on {} thread{}", summary.steps, summary.cells,
+                           duration_words(summary.wall_seconds), summary.threads, summary.threads == 1 ? "" : "s")});
+  for (HeadFigure& figure : figures) {
+    figure.value = in_print(std::move(figure.value));
+    figure.note = in_print(std::move(figure.note));
+  }
+  return figures;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,54 @@
+#pragma once
+// What a run tells when it ends: the figures that one asks for first, in the units of the case.
+
+#include "cases/program/fracture/case/fracture_case.h"
+#include "cases/program/input/case_files/case_file.h"
+#include "postproc/browser/browser_page.h"
+#include "postproc/curves/summary.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+/// A unit in which the case gives something; without a name: SI with a prefix.
+struct CaseUnit {
+  std::string name{};
+  std::string si_unit;  ///< "m"
+  double in_si = 1.0;   ///< [si_unit]
+};
+
+struct CurveUnits {
+  CaseUnit displacement{.si_unit = "m"};  ///< in which the case prescribes it, of the curve's patch first
+  CaseUnit force{.si_unit = "N"};         ///< of the first measured curve of [experiment]
+};
+CurveUnits read_curve_units(const CaseFile& file, const CurveSettings& curve);
+
+/// "154.6 um", four digits.
+std::string shown_in(const CaseUnit& unit, double si);
+
+/// "between 154.6 and 157.1 um, where the force goes from 10.58 to 9.23 N, at polar angles of 147 to 180 degrees;
+/// debonding angle 33 degrees"; empty where the summary has none. Of a box strains and stresses.
+std::string first_debonding_words(const RunSummary& summary, const FractureCase& fracture, const CurveUnits& units);
+
+/// Rows of a page's table, name and value in SI with prefixes: displacement and force on both sides of the first
+/// debonding, and its angle; none where the summary has none.
+std::vector<std::vector<std::string>> first_debonding_rows(const RunSummary& summary, const FractureCase& fracture);
+
+/// A line each: greatest temperature rise, first debonding, greatest force, end of the curve, laws of bands that were
+/// extracted into `results`.
+std::vector<std::string> what_happened(const FractureCase& fracture, const CaseFile& file, const RunSummary& summary,
+                                       const std::filesystem::path& results);
+
+/// Lines as sentences.
+std::vector<std::string> as_sentences(std::vector<std::string> lines);
+
+/// "74 s", "12 min"
+std::string duration_words(double seconds);
+
+/// The same figures, each for itself: greatest temperature rise, first debonding, greatest force, laws, the run.
+std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUnits& units, const RunSummary& summary,
+                                    const std::filesystem::path& results);
+
+}  // namespace pfdm

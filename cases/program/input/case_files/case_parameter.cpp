@@ -1,0 +1,89 @@
+#include "cases/program/input/case_files/case_parameter.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+/// One value of the case, as it is written there.
+CaseParameter parameter_at(const std::string& key, const CaseFile& file) {
+  const TomlValue root = parse_toml(file.text, "case.toml");
+  const TomlValue& value = value_at(root, key);
+  CaseParameter parameter{.name = key, .keys = {key}, .ratios = {1.0}, .dimension = dimension::number, .unit = {}};
+  if (const auto* real = std::get_if<double>(&value.value)) {
+    parameter.value = *real;
+  } else if (const auto* whole = std::get_if<std::int64_t>(&value.value)) {
+    parameter.value = static_cast<double>(*whole);
+  } else if (const auto* text = std::get_if<std::string>(&value.value)) {
+    parameter.dimension = dimension_of(*text);
+    parameter.unit = unit_of(*text);
+    parameter.value = parse_quantity(*text, parameter.dimension);
+    parameter.zero_in_si = parse_quantity(fmt::format("0 {}", parameter.unit), parameter.dimension);
+    parameter.unit_in_si = unit_in_si(parameter.unit, parameter.dimension);
+  } else {
+    throw InputError(fmt::format("\"{}\" is {}, neither a quantity nor a number", key, shown(value)));
+  }
+  return parameter;
+}
+
+/// What is written into the file: a text with its unit, or a bare number.
+std::string piece_of_toml(const CaseParameter& parameter, double si) {
+  const std::string text = parameter.shown(si);
+  return parameter.unit.empty() ? text : fmt::format("\"{}\"", text);
+}
+
+}  // namespace
+
+std::string CaseParameter::shown(double si) const {
+  const double value_in_file = in_file_units(si);
+  return unit.empty() ? fmt::format("{:.8g}", value_in_file) : fmt::format("{:.8g} {}", value_in_file, unit);
+}
+
+CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file) {
+  const std::vector<ConfigValue> keys = key.is_list() ? key.list() : std::vector{key};
+  if (keys.empty()) throw key.error("expected a key of the case, as in \"materials.glass.young_modulus\"");
+  CaseParameter result = keys[0].in_context([&] { return parameter_at(keys[0].string(), file); });
+  for (std::size_t i = 1; i < keys.size(); ++i) {
+    const CaseParameter other = keys[i].in_context([&] { return parameter_at(keys[i].string(), file); });
+    if (other.dimension.name != result.dimension.name)
+      throw keys[i].error(fmt::format("this is {}, \"{}\" is {}; keys that keep a ratio must have the same dimension",
+                                      with_article(other.dimension.name), result.name,
+                                      with_article(result.dimension.name)));
+    if (result.value == 0.0) throw keys[0].error("the value of the first key is zero; no ratio to it can be kept");
+    result.keys.push_back(other.name);
+    result.ratios.push_back(other.value / result.value);
+  }
+  return result;
+}
+
+void require_named_once(const ConfigValue& key, std::span<const CaseParameter> parameters) {
+  for (const CaseParameter& other : parameters.first(parameters.size() - 1))
+    for (const std::string& name : parameters.back().keys)
+      if (std::ranges::count(other.keys, name) > 0) throw key.error(fmt::format("\"{}\" is named twice", name));
+}
+
+double read_parameter_value(const ConfigValue& value, const CaseParameter& parameter) {
+  return parameter.unit.empty() ? value.number() : value.quantity(parameter.dimension);
+}
+
+std::string shown(std::span<const CaseParameter> parameters, std::span<const double> values) {
+  std::vector<std::string> texts;
+  for (std::size_t j = 0; j < values.size(); ++j)
+    texts.push_back(fmt::format("{} = {}", parameters[j].short_name(), parameters[j].shown(values[j])));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+CaseFile with_values(const CaseFile& file, std::span<const CaseParameter> parameters, std::span<const double> values) {
+  std::string text = file.text;
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    for (std::size_t k = 0; k < parameters[j].keys.size(); ++k) {
+      const CaseParameter there = parameter_at(parameters[j].keys[k], file);
+      text = with_value(text, there.name, piece_of_toml(there, values[j] * parameters[j].ratios[k]));
+    }
+  return with_text(file, std::move(text));
+}
+
+}  // namespace pfdm

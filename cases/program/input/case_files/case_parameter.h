@@ -1,0 +1,46 @@
+#pragma once
+// Values of case.toml that a fit or a sweep changes, named by their keys.
+
+#include "cases/program/input/case_files/case_file.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct CaseParameter {
+  std::string name;               ///< the first of its keys
+  std::vector<std::string> keys;  ///< as in "materials.glass.young_modulus"; all keep their ratios
+  std::vector<double> ratios;     ///< of the keys' values to the first's
+  Dimension dimension{};
+  std::string unit;         ///< as in the file, "MPa"; empty of a bare number
+  double value = 0.0;       ///< in the file [dimension.si_unit]
+  double unit_in_si = 1.0;  ///< [dimension.si_unit]
+  double zero_in_si = 0.0;  ///< of the unit's scale; not zero of temperatures alone
+
+  double in_file_units(double si) const { return (si - zero_in_si) / unit_in_si; }
+  double in_si(double file) const { return file * unit_in_si + zero_in_si; }
+  /// The name without the table that all such keys are in: "glass.young_modulus".
+  std::string short_name() const { return name.substr(name.find('.') + 1); }
+  /// An SI value with the parameter's unit, "75 MPa", in the eight digits with which it is written into a case.
+  std::string shown(double si) const;
+};
+
+/// `key` is a key of `file`, or a list of keys whose values keep their ratios. Throws InputError if one is not there,
+/// or is neither a quantity nor a number.
+CaseParameter read_case_parameter(const ConfigValue& key, const CaseFile& file);
+
+/// Throws InputError if the last of the parameters, which `key` is, has a key that another one has as well.
+void require_named_once(const ConfigValue& key, std::span<const CaseParameter> parameters);
+
+/// A value of the parameter as it stands in the case, a quantity or a bare number [SI].
+double read_parameter_value(const ConfigValue& value, const CaseParameter& parameter);
+
+/// "glass.young_modulus = 70 GPa, ..."
+std::string shown(std::span<const CaseParameter> parameters, std::span<const double> values);
+
+/// The case with other values [SI], rounded to eight digits: two sets of values that differ by rounding are one case.
+CaseFile with_values(const CaseFile& file, std::span<const CaseParameter> parameters, std::span<const double> values);
+
+}  // namespace pfdm

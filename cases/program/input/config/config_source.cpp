@@ -1,0 +1,106 @@
+#include "cases/program/input/config/config_source.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace pfdm {
+namespace {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::optional<std::string> nearest(std::string_view word, std::span<const std::string> candidates) {
+  std::optional<std::string> best;
+  std::size_t smallest = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates)
+    if (const std::size_t distance = edit_distance(word, candidate);
+        distance < smallest && distance < candidate.size()) {
+      smallest = distance;
+      best = candidate;
+    }
+  return best;
+}
+
+void ConfigSource::Opened::require_named(std::string_view key) const {
+  if (!known().contains(std::string(key)))
+    throw std::logic_error(fmt::format("{}\"{}\" is asked for and not among the table's keys", place(), key));
+}
+
+std::string ConfigSource::place_of_table(const std::string& path) {
+  return path.empty() ? "" : fmt::format("[{}] ", path);
+}
+
+std::string ConfigSource::place_of_key(const std::string& path, std::string_view key) {
+  return fmt::format("{}{}", place_of_table(path), key);
+}
+
+std::string ConfigSource::subtable(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
+
+std::string ConfigSource::said_at(int line, const std::string& message) const {
+  return fmt::format("{}:{}: {}", file, line, message);
+}
+
+InputError ConfigSource::error_at(int line, const std::string& message) const {
+  return InputError(said_at(line, message));
+}
+
+void ConfigSource::remark_at(int line, const std::string& message) {
+  std::string remark = said_at(line, message);
+  if (std::ranges::count(remarks, remark) == 0) remarks.push_back(std::move(remark));
+}
+
+InputError ConfigSource::unknown_key(const Opened& table, const std::string& key, int line, bool list) const {
+  const std::vector<std::string> known(table.known().begin(), table.known().end());
+  const auto meant = nearest(key, known);
+  return error_at(line, fmt::format("{}\"{}\" is not known here{}{}", table.place(), key,
+                                    meant ? fmt::format("; did you mean \"{}\"?", *meant) : "",
+                                    list ? fmt::format(" (allowed: {})", fmt::join(known, ", ")) : ""));
+}
+
+InputError ConfigSource::idle_key(const Opened& table, const std::string& key, int line) const {
+  if (!table.allowed.contains(key)) return unknown_key(table, key, line, true);
+  return error_at(line, fmt::format("{}\"{}\" has no effect with the other settings of this case", table.place(), key));
+}
+
+void ConfigSource::reject_unknown_in(const TomlValue& value) const {
+  if (const auto* array = std::get_if<TomlArray>(&value.value))
+    for (const TomlValue& element : *array) reject_unknown_in(element);
+  const auto* table = std::get_if<TomlTable>(&value.value);
+  if (table == nullptr) return;
+  const auto looked_into = opened.find(table);
+  for (const auto& [key, entry] : *table) {
+    if (looked_into != opened.end() && !looked_into->second.asked_for.contains(key))
+      throw idle_key(looked_into->second, key, entry.key_line);
+    reject_unknown_in(entry);
+  }
+}
+
+const KeyType& due_of(const KeyType* type, KeyType::Kind kind, const std::string& place) {
+  const KeyType* const due = type != nullptr ? type->as(kind) : nullptr;
+  if (due == nullptr) throw std::logic_error(fmt::format("{}: its row says nothing of that kind", place));
+  return *due;
+}
+
+}  // namespace pfdm

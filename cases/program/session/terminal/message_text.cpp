@@ -1,0 +1,106 @@
+#include "cases/program/session/terminal/message_text.h"
+
+#include "postproc/files/utf8.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+bool continues(unsigned char byte) { return (byte & 0xC0U) == 0x80U; }
+
+std::string with_shown_bytes(std::string_view message) {
+  std::string text;
+  while (!message.empty()) {
+    const auto byte = static_cast<unsigned char>(message.front());
+    const std::size_t length = utf8_length(message);
+    if (byte == '\n' || byte == '\t')
+      text += ' ';
+    else if (length == 0 || byte < 0x20U || byte == 0x7FU)
+      text += fmt::format("\\x{:02x}", byte);
+    else
+      text += message.substr(0, length);
+    message.remove_prefix(std::max<std::size_t>(1, length));
+  }
+  return text;
+}
+
+/// Where no character is cut, at `at` or before.
+std::size_t border(std::string_view text, std::size_t at) {
+  while (at > 0 && at < text.size() && continues(static_cast<unsigned char>(text[at]))) --at;
+  return at;
+}
+
+std::string with_ends_kept(std::string_view text, std::size_t first, std::size_t last) {
+  return fmt::format("{} ... {} ({} bytes)", text.substr(0, border(text, first)),
+                     text.substr(border(text, text.size() - last)), text.size());
+}
+
+/// How long words may be, and paths.
+struct Lengths {
+  std::size_t word, path;
+  bool (*is_path)(std::string_view word);
+};
+
+std::string shortened_word(std::string_view word, const Lengths& lengths) {
+  const std::size_t longest = lengths.is_path(word) ? lengths.path : lengths.word;
+  return word.size() <= longest ? std::string(word) : with_ends_kept(word, longest / 3, longest / 3);
+}
+
+template <class Visit>
+void for_each_word(std::string_view text, const Visit& visit) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t blank = std::min(text.find(' ', at), text.size());
+    visit(text.substr(at, blank - at), blank < text.size());
+    at = blank + 1;
+  }
+}
+
+std::string with_short_words(std::string_view shown, const Lengths& lengths) {
+  std::string text;
+  for_each_word(shown, [&](std::string_view word, bool goes_on) {
+    text += shortened_word(word, lengths);
+    if (goes_on) text += ' ';
+  });
+  return text;
+}
+
+bool begins_at_the_root(std::string_view word) { return word.starts_with('/'); }
+bool has_a_slash(std::string_view word) { return word.find('/') != std::string_view::npos; }
+
+/// Bytes of the folders of files that a text names by their whole paths.
+std::size_t size_of_folders(std::string_view text) {
+  std::size_t sum = 0;
+  for_each_word(text, [&](std::string_view word, bool) { sum += begins_at_the_root(word) ? word.rfind('/') : 0; });
+  return sum;
+}
+
+/// Leaves out the last of "(allowed: a, b, c)", so many as are too long; the rest of the message stays.
+std::string with_short_list(const std::string& text, std::size_t longest) {
+  const std::size_t begin = std::min(text.find("(allowed: "), text.find("(available: ")), end = text.find(')', begin);
+  if (text.size() <= longest || end == std::string::npos) return text;
+  const std::string_view list = std::string_view(text).substr(begin, end - begin);
+  const std::size_t too_much = text.size() - longest + std::string_view(", ... 999 more").size();
+  const std::size_t cut = list.rfind(", ", list.size() - std::min(too_much, list.size()));
+  if (cut == std::string_view::npos) return text;
+  const std::string_view left_out = list.substr(cut + 2);
+  std::size_t n = 1;
+  for (std::size_t at = left_out.find(", "); at != std::string_view::npos; at = left_out.find(", ", at + 2)) ++n;
+  return fmt::format("{}{}, ... {} more{}", text.substr(0, begin), list.substr(0, cut), n, text.substr(end));
+}
+
+}  // namespace
+
+std::string message_text(std::string_view message) {
+  constexpr Lengths usual{120, 250, has_a_slash}, tight{45, 250, begins_at_the_root};
+  constexpr std::size_t longest = 290, longest_of_all = 2000, first_kept = 1400, last_kept = 500;
+  const std::string shown = with_shown_bytes(message);
+  std::string text = with_short_words(shown, usual);
+  if (text.size() > longest + size_of_folders(text)) text = with_short_words(shown, tight);
+  text = with_short_list(text, longest + size_of_folders(text));
+  return text.size() <= longest_of_all ? text : with_ends_kept(text, first_kept, last_kept);
+}
+
+}  // namespace pfdm

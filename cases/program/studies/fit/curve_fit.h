@@ -1,0 +1,33 @@
+#pragma once
+// pfdm fit of cases whose runs leave a curve: the values of the case with which its curve meets the measured ones.
+
+#include "cases/program/session/session.h"
+#include "cases/program/studies/fit/curve_fit_case.h"
+#include "cases/program/studies/fit/curve_model.h"
+#include "postproc/curves/measured_curve.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+struct CurveFitJob {
+  const CaseFile& file;
+  const CurveFitSettings& settings;
+  const std::vector<MeasuredCurve>& specimens;
+  double straight_from, straight_to;  ///< displacements between which the curves should be straight [m]
+  /// What the set-up adds to each specimen's curve, as a case says.
+  std::function<std::vector<SetUp>(const CaseFile&)> set_ups;
+  CurveModel::ReadCurve read_curve;
+  std::vector<CaseVariant> other_laws;  ///< that are tried where the residuals are more than noise
+  std::string name;
+  std::string hash;
+  std::string title;
+};
+
+/// Writes fit.json, fit_curve.csv and case.fitted.toml to session.results, the runs to runs/ there. Killed at any
+/// moment it continues, at the next call, with the runs that it left, to the same result.
+void fit_curve(const CurveFitJob& job, Session& session);
+
+}  // namespace pfdm

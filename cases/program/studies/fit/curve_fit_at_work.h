@@ -1,0 +1,111 @@
+#pragma once
+// One fit of a curve, from its first run to its files: what curve_fit.cpp does, and what curve_fit_doubts.cpp holds
+// against it.
+
+#include "cases/program/studies/fit/curve_fit.h"
+#include "cases/program/studies/fit/law_trial.h"
+#include "postproc/curves/curve_jumps.h"
+#include "postproc/curves/curve_misfit.h"
+#include "postproc/curves/fit_judgement.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pfdm {
+
+class CurveFit {
+ public:
+  CurveFit(const CurveFitJob& job, Session& session);
+  void run();
+
+ private:
+  /// A stage whose parameters are estimated, and all that its fit was made of.
+  struct DoneStage {
+    const CurveFitStage& stage;
+    const MeasuredPoints& points;
+    const FitProblem& problem;
+    const FitSettings& settings;
+    const FitResult& result;
+    std::optional<double> until;  ///< end of its runs [m]
+  };
+
+  static std::vector<CaseParameter> parameters_of(const CurveFitSettings& settings);
+  /// Where the stage cannot go on without an answer.
+  SampledCurve curve_at(const std::vector<double>& values, std::optional<double> until);
+  /// All values, with those of the stage's parameters in their places.
+  std::vector<double> with_stage(const CurveFitStage& stage, std::span<const double> of_stage) const;
+  /// What the set-up adds to each specimen's curve with these values.
+  std::vector<SetUp> set_ups_at(const std::vector<double>& values) const;
+  /// The least that the set-up may add, within the bounds.
+  std::vector<SetUp> least_set_ups() const;
+  /// A computed curve as each specimen's record would show it.
+  ModelCurves as_recorded_by_all(const SampledCurve& computed, const std::vector<double>& values) const;
+  /// How far a stage's runs have to go: a smaller offset or compliance on trial needs more of the computed curve.
+  std::optional<double> end_of_runs(const CurveFitStage& stage) const;
+  /// The same ones with all values of the set-up: the computed curve reaches them with each.
+  MeasuredPoints points_of(const CurveFitStage& stage, const SampledCurve& curve);
+  /// `model`: the case, or one with another law.
+  FitProblem problem_of(const CurveFitStage& stage, const MeasuredPoints& points, std::optional<double> until,
+                        CurveModel& model);
+  FitSettings settings_of(const CurveFitStage& stage, const MeasuredPoints& points);
+  FitStage fit_stage(const CurveFitStage& stage);
+  /// A fit, and the problem by which it can be doubted: the case itself, or with [fit] `coarse` what the coarse one is
+  /// mapped to.
+  struct FittedPoints {
+    FitResult result;
+    FitProblem problem;
+  };
+  /// `problem`: of the case itself.
+  FittedPoints fit_points(const CurveFitStage& stage, const MeasuredPoints& points, std::optional<double> until,
+                          const FitSettings& settings, const FitProblem& problem);
+  /// Moves the curves of the coarse case so that with these values they jump where the case itself does.
+  void align(const std::vector<double>& values, std::optional<double> until);
+  /// Of one model, with a sample of starts where the first guess leads nowhere.
+  FitResult fit_model(const FitProblem& problem, const MeasuredPoints& points, const FitSettings& settings);
+  /// Fits again, with each specimen weighted by its own scatter, where those differ.
+  void weigh_specimens(const CurveFitStage& stage, std::optional<double> until, const FitSettings& settings,
+                       MeasuredPoints& points, FittedPoints& fitted);
+  /// Fits again from the best of a sample, where the first guess has led nowhere. Returns whether that was better.
+  bool screen(const FitProblem& problem, const FitSettings& settings, double misfit, FitResult& result);
+  bool judge_stage(const DoneStage& done, FitFindings& found);
+  std::vector<CurveFitStage>::const_iterator last_stage_of(std::size_t parameter) const;
+
+  // Doubts, in curve_fit_doubts.cpp.
+
+  void doubt(const DoneStage& done, bool model_error, FitFindings& found);
+  /// One more reason where other parameters make up for a compliance of the set-up.
+  void try_compliance(const DoneStage& done, std::size_t k, FitFindings& found) const;
+  /// One more reason where another law, or an imperfect set-up, would explain most of what the model leaves. A straight
+  /// part that misses the origin is explanation enough: then no other law is tried.
+  bool suspect_law_or_set_up(const DoneStage& done, const SampledCurve& fitted, bool misses_origin, FitFindings& found);
+  std::optional<TriedLaw> other_law(const DoneStage& done);
+  /// Whether the offset of force that would explain the residuals best contradicts curves that begin unloaded.
+  bool preloads(const DoneStage& done, const std::vector<std::vector<double>>& errors) const;
+  /// A reason where an estimated offset of force contradicts a curve that begins unloaded.
+  void suspect_preload(FitFindings& found) const;
+  /// Reasons: straight parts beside the computed one, also where the residuals are too few to show it.
+  std::vector<std::string> missed_origins(const SampledCurve& fitted) const;
+  /// The residuals of the stage that ends the fit, of the case that [fit] `finer` makes.
+  std::optional<FinerModel> on_finer_model(const DoneStage& done);
+  /// Intervals by profile likelihood of the parameters that no later stage estimates anew.
+  void add_profiles(const DoneStage& done, FitFindings& found) const;
+  /// The residuals of each specimen, over its displacement.
+  std::vector<ResidualSeries> series_of(const MeasuredPoints& points, const std::vector<double>& residuals) const;
+
+  const CurveFitJob& job_;
+  Session& session_;
+  CaseRuns runs_;
+  std::vector<CaseParameter> parameters_;
+  CurveModel model_;
+  std::optional<CaseVariant> finer_, coarse_;
+  CaseRuns coarse_runs_;
+  std::optional<CurveModel> coarse_model_;
+  JumpAlignment alignment_;         // of its curves
+  std::vector<double> first_;       // of all parameters, the case's own [SI]
+  std::vector<double> values_;      // of all parameters, as known so far [SI]
+  std::vector<bool> is_of_set_up_;  // parameters of the measured curves: no run depends on them
+  std::vector<bool> is_estimated_;  // by an earlier stage
+};
+
+}  // namespace pfdm

@@ -1,0 +1,157 @@
+// What speaks against a fit of a curve, and the intervals of one that is sound.
+
+#include "cases/program/studies/fit/curve_fit_at_work.h"
+#include "cases/program/studies/fit/finer_case.h"
+#include "cases/program/studies/fit/interval_trial.h"
+#include "physics/quantity_text.h"
+#include "solver/calibration/calibration_statistics.h"
+#include "solver/calibration/profile_likelihood.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+/// Deviations at the ends of an interval by profile likelihood; nothing where the residuals are independent.
+std::optional<double> reach_of_interval(const FitFindings& found, std::size_t k) {
+  if (found.correlated.empty()) return std::nullopt;
+  const CorrelatedError& error = found.correlated[k];
+  return error.widening * student_95(std::min(error.freedom, 1e9));
+}
+
+}  // namespace
+
+void CurveFit::doubt(const DoneStage& done, bool model_error, FitFindings& found) {
+  for (std::size_t k = 0; k < done.stage.parameters.size(); ++k) try_compliance(done, k, found);
+  const SampledCurve fitted = curve_at(values_, done.until);
+  const std::vector<std::string> origins = missed_origins(fitted);
+  const bool is_tried = model_error && found.verdict != Verdict::failed;
+  if (!(is_tried && suspect_law_or_set_up(done, fitted, !origins.empty(), found)))
+    for (const std::string& origin : origins) question(found, origin);
+  suspect_preload(found);
+}
+
+void CurveFit::try_compliance(const DoneStage& done, std::size_t k, FitFindings& found) const {
+  const CaseParameter& parameter = parameters_[done.stage.parameters[k]];
+  if (!is_of_set_up_[done.stage.parameters[k]] || parameter.dimension.name != dimension::compliance.name) return;
+  std::vector<CaseParameter> of_stage;
+  for (const std::size_t j : done.stage.parameters) of_stage.push_back(parameters_[j]);
+  auto reason = doubt_of_interval({done.problem, done.settings, done.result, of_stage}, k, session_.log);
+  if (reason) question(found, std::move(*reason));
+}
+
+bool CurveFit::suspect_law_or_set_up(const DoneStage& done, const SampledCurve& fitted, bool misses_origin,
+                                     FitFindings& found) {
+  constexpr double telling_set_up = 0.5, telling_law = 0.8, alike = 1.2;  // of the rms
+  const double rms = done.result.rms;
+  const std::vector<std::vector<double>> errors = set_up_errors(as_recorded_by_all(fitted, values_), done.points);
+  const double left = rms_left_by(done.result.residuals, errors);
+  const bool is_set_up = left < telling_set_up * rms && !preloads(done, errors);
+  const auto law = misses_origin && !is_set_up ? std::nullopt : other_law(done);
+  if (law && law->rms < telling_law * rms && (!is_set_up || law->rms < alike * left)) {
+    question(found,
+             fmt::format("another law would explain more: with {}, all parameters estimated anew, the rms of the "
+                         "residuals falls from {:.3g} to {:.3g}",
+                         law->shown, rms, law->rms));
+    return true;
+  }
+  if (!is_set_up) return false;
+  question(found, fmt::format("an offset of force or displacement, or the compliance of the set-up, would explain most "
+                              "of the residuals: with them their rms falls from {:.3g} to {:.3g}; correct the measured "
+                              "curve for them, or estimate them (offset, force_offset and compliance of [experiment])",
+                              rms, left));
+  return true;
+}
+
+std::optional<TriedLaw> CurveFit::other_law(const DoneStage& done) {
+  std::vector<CaseVariant> laws;
+  for (const CaseVariant& law : job_.other_laws) try {
+      session_.read_case(with_values(law.file, parameters_, values_));
+      laws.push_back(law);
+    } catch (const InputError&) {  // a law that lacks keys, or that the case's own rules exclude
+    }
+  std::vector<CurveModel> models;
+  models.reserve(laws.size() + 1);
+  const auto problem_with = [&](const CaseFile& file) {
+    models.emplace_back(file, parameters_, job_.read_curve, runs_);
+    return problem_of(done.stage, done.points, done.until, models.back());
+  };
+  return best_other_law(laws, done.result, problem_with, done.settings, session_.log);
+}
+
+bool CurveFit::preloads(const DoneStage& done, const std::vector<std::vector<double>>& errors) const {
+  const double offset = explaining_force_offset(done.result.residuals, errors);
+  return std::ranges::any_of(job_.specimens,
+                             [&](const MeasuredCurve& s) { return contradicts_unloaded_start(s.curve, offset); });
+}
+
+void CurveFit::suspect_preload(FitFindings& found) const {
+  const std::vector<SetUp> set_ups = set_ups_at(values_);
+  for (std::size_t s = 0; s < job_.specimens.size(); ++s) {
+    const SampledCurve& curve = job_.specimens[s].curve;
+    const double offset = set_ups[s].force_offset;
+    if (set_ups[s] == job_.specimens[s].set_up || !contradicts_unloaded_start(curve, offset)) continue;
+    question(found, fmt::format("a force_offset of {} contradicts the first row of {}, {}: the specimen would "
+                                "have been loaded before; another law, or a force_offset that is given",
+                                quantity_text(offset, "N"), curve.name, quantity_text(curve.y.front(), "N", 3)));
+  }
+}
+
+std::vector<std::string> CurveFit::missed_origins(const SampledCurve& fitted) const {
+  std::vector<std::string> reasons;
+  const std::vector<SetUp> set_ups = set_ups_at(values_);
+  for (std::size_t s = 0; s < job_.specimens.size(); ++s) {
+    MeasuredCurve specimen = job_.specimens[s];
+    specimen.set_up = set_ups[s];
+    auto doubt = doubt_of_origin(specimen.of_specimen(), fitted, job_.straight_from, job_.straight_to);
+    if (doubt) reasons.push_back(std::move(*doubt));
+  }
+  return reasons;
+}
+
+std::optional<FinerModel> CurveFit::on_finer_model(const DoneStage& done) {
+  if (!finer_ || &done.stage != &job_.settings.stages.back()) return std::nullopt;
+  session_.log.say(fmt::format("  at the estimates with {}", finer_->shown));
+  CurveModel model(finer_->file, parameters_, job_.read_curve, runs_);
+  const auto curve = model.respond(values_, done.until);
+  auto residuals = curve ? residuals_of(as_recorded_by_all(*curve, values_), done.points) : std::nullopt;
+  if (residuals) return FinerModel{finer_->shown, std::move(*residuals)};
+  session_.log.warn(fmt::format("with {} the run does not converge, or not as far as the data go", finer_->shown));
+  return std::nullopt;
+}
+
+void CurveFit::add_profiles(const DoneStage& done, FitFindings& found) const {
+  for (std::size_t k = 0; k < done.stage.parameters.size(); ++k) {
+    const CaseParameter& parameter = parameters_[done.stage.parameters[k]];
+    if (&done.stage != &*last_stage_of(done.stage.parameters[k])) continue;
+    const ProfileSettings how{
+        .due = reach_of_interval(found, k), .trying = [&](std::size_t, double value) {
+          session_.log.say(fmt::format("  profile: {} = {}", parameter.short_name(), parameter.shown(value)));
+        }};
+    const ProfileInterval interval = profile_interval(done.problem, done.settings, done.result, k, how);
+    if (interval.better)
+      return question(found,
+                      fmt::format("the fit has ended beside the lowest residuals: they are smaller with {} = {}; "
+                                  "more starts may find them",
+                                  parameter.name, parameter.shown(interval.better->value)));
+    FittedProfile profile{.lower = interval.lower_95,
+                          .upper = interval.upper_95,
+                          .lower_open = interval.lower_open,
+                          .upper_open = interval.upper_open};
+    hold_move(found.parameters[k], profile.lower, profile.upper);
+    found.parameters[k].profile = profile;
+  }
+}
+
+std::vector<ResidualSeries> CurveFit::series_of(const MeasuredPoints& points,
+                                                const std::vector<double>& residuals) const {
+  std::vector<ResidualSeries> result;
+  for (const MeasuredCurve& specimen : job_.specimens)
+    result.push_back({.name = specimen.curve.name, .along = "displacement", .values = {}});
+  for (std::size_t i = 0; i < residuals.size(); ++i) result[points.points[i].specimen].values.push_back(residuals[i]);
+  return result;
+}
+
+}  // namespace pfdm

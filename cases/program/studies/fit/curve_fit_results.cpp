@@ -1,0 +1,149 @@
+#include "cases/program/studies/fit/curve_fit_results.h"
+
+#include "cases/program/session/fit_verdict.h"
+#include "physics/quantity_text.h"
+#include "postproc/curves/curve_misfit.h"
+#include "postproc/curves/fit_judgement.h"
+#include "postproc/files/atomic_file.h"
+#include "postproc/files/csv_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* fitted_curve_file = "fit_curve.csv";
+
+/// The worse of both verdicts, and the reasons of the earlier one.
+void take_doubts(const FitStage& earlier, FitFindings& whole) {
+  whole.verdict = std::max(whole.verdict, earlier.found.verdict);
+  for (const std::string& reason : earlier.found.reasons) {
+    std::string from = fmt::format("stage \"{}\": {}", earlier.name, reason);
+    if (std::ranges::count(whole.reasons, from) == 0) whole.reasons.push_back(std::move(from));
+  }
+}
+
+/// The last stage's result, to which the estimates of parameters that it left alone are added, from the last stage that
+/// had them; their correlation with the others is not known.
+FitFindings merged(const std::vector<FitStage>& stages) {
+  FitFindings whole = stages.back().found;
+  for (auto stage = stages.rbegin() + 1; stage != stages.rend(); ++stage)
+    for (const FittedParameter& p : stage->found.parameters) {
+      if (std::ranges::count(whole.parameters, p.name, &FittedParameter::name) > 0) continue;
+      whole.parameters.push_back(p);
+      take_doubts(*stage, whole);
+      const Eigen::Index n = whole.correlation.rows();
+      whole.correlation.conservativeResizeLike(Eigen::MatrixXd::Identity(n + 1, n + 1));
+      whole.warnings.push_back(fmt::format(
+          "{} was estimated in stage \"{}\"; the intervals of the others are conditional on it", p.name, stage->name));
+    }
+  if (!is_sound(whole.verdict)) withhold_intervals(whole);
+  return whole;
+}
+
+/// Computed curves at the points of their comparison, with the first guess beside.
+CsvTable curve_table(const CurveFitJob& job, const CurveFitFindings& found) {
+  std::vector<SampledCurve> measured;
+  for (const MeasuredCurve& specimen : found.specimens) measured.push_back(specimen.of_specimen());
+  const ComparedCurves compared = compare_curves(found.fitted_curve, measured);
+  CsvTable table;
+  table.comments.push_back(
+      fmt::format("fit of {}: force over displacement, measured (mean of {} specimens), computed "
+                  "with the first guess and with the estimates",
+                  job.name, found.specimens.size()));
+  table.add("displacement_m", compared.x);
+  table.add("measured_force_N", compared.measured);
+  if (!compared.deviation.empty()) table.add("measured_deviation_force_N", compared.deviation);
+  std::vector<double> first;
+  for (const double x : compared.x) first.push_back(found.first_curve.at(x));
+  table.add("first_force_N", std::move(first));
+  table.add("model_force_N", compared.model);
+  return table;
+}
+
+std::vector<ExperimentMisfit> misfits(const CurveFitFindings& found) {
+  std::vector<ExperimentMisfit> result;
+  const SampledCurve& computed = found.fitted_curve;
+  for (const MeasuredCurve& specimen : found.specimens) {
+    const SampledCurve model = as_recorded(computed, specimen.set_up);
+    const MeasuredPoints points = points_between({specimen}, computed.x.front(), computed.x.back(), {model.x.back()});
+    result.push_back(experiment_misfit(
+        specimen.curve.name, points.points.size(),
+        {.rms = rms_difference(model, points, 0), .rms_measured = points.rms, .quantity = "force", .unit = "N"},
+        fitted_curve_file));
+    result.back().preparation = specimen.treatment();
+  }
+  return result;
+}
+
+std::string end_text(const CaseParameter& p, double end, bool open) {
+  return fmt::format("{:.5g}{}", p.in_file_units(end), open ? " (the bound)" : "");
+}
+
+std::string profile_text(const CaseParameter& p, const FittedParameter& found) {
+  if (!found.profile) return "";
+  return fmt::format("; by profile likelihood between {} and {}",
+                     end_text(p, found.profile->lower, found.profile->lower_open),
+                     end_text(p, found.profile->upper, found.profile->upper_open));
+}
+
+void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& parameters, Log& log) {
+  log.say(fmt::format("rms residual of {} points {:.4g}, with the first guess {:.4g}", whole.n_residuals, whole.rms,
+                      *whole.first_rms));
+  for (const FittedParameter& found : whole.parameters) {
+    const CaseParameter& p = *std::ranges::find(parameters, found.name, &CaseParameter::name);
+    log.say(fmt::format("  {} = {:.5g} {}, {}{}{}, first guess {:.5g}", p.name, p.in_file_units(found.estimate), p.unit,
+                        interval_text(p.in_file_units(found.lower), p.in_file_units(found.upper), 0.95, 5),
+                        profile_text(p, found), moved_text(found), p.in_file_units(found.first_guess)));
+  }
+  for (std::size_t j = 0; j < whole.parameters.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i)
+      log.say(fmt::format("  correlation of {} and {}: {:.3f}", whole.parameters[i].name, whole.parameters[j].name,
+                          whole.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+}
+
+std::string counts_text(const RunCounts& runs) {
+  return fmt::format("{} runs made, {} reused, {} of them did not converge", runs.made, runs.reused, runs.failed);
+}
+
+}  // namespace
+
+void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Session& session) {
+  const fs::path& results = session.results;
+  const FitReport report{
+      .case_name = job.name,
+      .case_hash = job.hash,
+      .version = session.version,
+      .method = "force_displacement",
+      .wall_seconds = found.seconds,
+      .found = merged(found.stages),
+      .experiments = misfits(found),
+      .own = own_findings(FractureFindings{.earlier_stages = {found.stages.begin(), found.stages.end() - 1},
+                                           .runs = found.runs,
+                                           .coarse_runs = found.coarse_runs})};
+  write_csv(results / fitted_curve_file, curve_table(job, found));
+  const CaseFile fitted = with_values(job.file, found.parameters, found.values);
+  write_file(results / "case.fitted.toml",
+             fmt::format("# made by pfdm fit from the case {}: values that [[fit.parameters]] names are estimates\n",
+                         job.name) +
+                 moved(fitted, results));
+  write_fit_json(results / "fit.json", report);
+  for (const ExperimentMisfit& e : report.experiments)
+    for (const std::string& done : e.preparation) session.log.say(fmt::format("{}: {}", e.name, done));
+  say_estimates(report.found, found.parameters, session.log);
+  for (const ExperimentMisfit& e : report.experiments)
+    session.log.say(fmt::format("rms difference from {}: {}, {:.2f} % of its rms force", e.name,
+                                quantity_text(e.absolute->rms, "N"), 100.0 * e.relative));
+  session.log.say(fmt::format("{}{}; {:.1f} s; {}", counts_text(found.runs),
+                              found.coarse_runs ? ", of the coarse case " + counts_text(*found.coarse_runs) : "",
+                              found.seconds, report.found.message));
+  session.log.say(fmt::format("written to {}; run it with: pfdm run {}", results.string(),
+                              (results / "case.fitted.toml").string()));
+  say_verdict(report.found, session);
+}
+
+}  // namespace pfdm

@@ -1,0 +1,56 @@
+#include "cases/program/studies/sweep/shown_columns.h"
+
+#include "cases/program/session/report_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+/// Endings of columns' names, and the units that they stand for; the longest first.
+struct Ending {
+  std::string_view ending, unit;
+  bool takes_prefix;
+};
+constexpr Ending endings[] = {{"_N_per_m", "N/m", false}, {"_J_per_m2", "J/m²", false},
+                              {"_bytes", "B", true},      {"_m2", "m^2", true},
+                              {"_m3", "m^3", true},       {"_Pa", "Pa", true},
+                              {"_Hz", "Hz", true},        {"_deg", "°", false},
+                              {"_N", "N", true},          {"_J", "J", true},
+                              {"_m", "m", true},          {"_s", "s", true},
+                              {"_K", "K", false},         {"_kg", "kg", false}};
+
+constexpr std::string_view costs[] = {"threads",      "staggered_iterations", "krylov_iterations",
+                                      "wall_seconds", "cpu_seconds",          "peak_memory_bytes"};
+
+}  // namespace
+
+std::string ShownColumn::title() const { return fmt::format("{} [{}]", words, unit.empty() ? "-" : unit); }
+
+ShownColumn shown_column(const std::string& name, const std::vector<double>& values) {
+  const auto ending = std::ranges::find_if(endings, [&](const Ending& e) { return name.ends_with(e.ending); });
+  ShownColumn column{.words = name, .unit = {}, .values = values};
+  if (ending != std::end(endings)) {
+    column.words = name.substr(0, name.size() - ending->ending.size());
+    DisplayUnit unit{.factor = 1.0, .name = std::string(ending->unit)};
+    if (ending->takes_prefix) unit = common_unit(std::span(&values, 1), ending->unit);
+    column.unit = unit.name;
+    column.values = in_unit(values, unit);
+  }
+  std::ranges::replace(column.words, '_', ' ');
+  return column;
+}
+
+bool varies(const std::vector<double>& values) {
+  double least = INFINITY, most = -INFINITY;
+  for (const double value : values)
+    if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
+  return most - least > 1e-9 * std::max(std::abs(least), std::abs(most));
+}
+
+bool is_cost(std::string_view name) { return std::ranges::count(costs, name) > 0; }
+
+}  // namespace pfdm

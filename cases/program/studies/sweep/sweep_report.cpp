@@ -1,0 +1,142 @@
+#include "cases/program/studies/sweep/sweep_report.h"
+
+#include "cases/program/session/report_parts.h"
+#include "cases/program/studies/sweep/shown_columns.h"
+#include "cases/program/studies/sweep/sweep_runs.h"
+#include "postproc/curves/summary.h"
+#include "postproc/files/csv_table.h"
+#include "postproc/page/page_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace pfdm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_runs_shown = 40, most_figures = 6, most_columns = 3, most_series = 8;
+
+/// Figures that one asks for first; others that differ between the runs follow.
+constexpr std::string_view wanted_first[] = {"peak_force_N", "displacement_at_peak_m", "first_debonding_force_N",
+                                             "first_debonding_displacement_m", "initial_stiffness_N_per_m"};
+
+/// Numbers of columns: what the sweep changes, and figures that came out.
+struct SweepColumns {
+  std::vector<std::size_t> parameters, figures;
+};
+
+SweepColumns columns_of(const CsvTable& table) {
+  SweepColumns columns;
+  const std::size_t converged = table.find("converged");
+  for (std::size_t j = 1; j < converged; ++j) columns.parameters.push_back(j);
+  const auto add = [&](std::size_t j) {
+    if (columns.figures.size() < most_figures && varies(table.columns[j]) &&
+        std::ranges::count(columns.figures, j) == 0)
+      columns.figures.push_back(j);
+  };
+  for (const std::string_view name : wanted_first)
+    if (const auto found = std::ranges::find(table.names, name); found != table.names.end())
+      add(static_cast<std::size_t>(found - table.names.begin()));
+  for (std::size_t j = converged + 1; j < table.names.size(); ++j) add(j);
+  return columns;
+}
+
+Table runs_table(const CsvTable& table, const SweepColumns& columns) {
+  std::vector<std::size_t> all = columns.parameters;
+  all.insert(all.end(), columns.figures.begin(),
+             columns.figures.begin() + static_cast<std::ptrdiff_t>(std::min(columns.figures.size(), most_columns)));
+  const std::size_t n = std::min(table.n_rows(), most_runs_shown);
+  Table shown_table{.caption = n < table.n_rows()
+                                   ? fmt::format("{}, the first {} of {}", runs_caption, n, table.n_rows())
+                                   : std::string(runs_caption),
+                    .rows = {{"run"}},
+                    .has_header = true};
+  for (std::size_t i = 0; i < n; ++i) shown_table.rows.push_back({fmt::format("{}", i + 1)});
+  for (const std::size_t j : all) {
+    const ShownColumn column = shown_column(table.names[j], table.columns[j]);
+    shown_table.rows[0].push_back(column.title());
+    for (std::size_t i = 0; i < n; ++i) shown_table.rows[i + 1].push_back(shown(column.values[i]));
+  }
+  return shown_table;
+}
+
+/// The runs by the value of what is changed besides; of too many values, or none, all together.
+std::map<double, std::vector<std::size_t>> groups(const CsvTable& table, const SweepColumns& columns, std::size_t x) {
+  std::map<double, std::vector<std::size_t>> by_value;
+  const bool two = columns.parameters.size() == 2;
+  const std::size_t other = two && columns.parameters[0] == x ? columns.parameters[1] : columns.parameters[0];
+  for (std::size_t i = 0; i < table.n_rows(); ++i) by_value[two ? table.columns[other][i] : 0.0].push_back(i);
+  if (by_value.size() <= most_series) return by_value;
+  by_value.clear();
+  for (std::size_t i = 0; i < table.n_rows(); ++i) by_value[0.0].push_back(i);
+  return by_value;
+}
+
+Chart figure_chart(const CsvTable& table, const SweepColumns& columns, std::size_t x, std::size_t figure) {
+  const ShownColumn across = shown_column(table.names[x], table.columns[x]),
+                    up = shown_column(table.names[figure], table.columns[figure]);
+  Chart chart{.caption = up.words, .x = {.title = across.title()}, .y = {.title = up.title()}, .series = {}};
+  const auto by_value = groups(table, columns, x);
+  for (const auto& [value, runs] : by_value) {
+    std::vector<std::pair<double, double>> points;
+    for (const std::size_t i : runs)
+      if (std::isfinite(up.values[i])) points.emplace_back(across.values[i], up.values[i]);
+    std::ranges::sort(points);
+    Series series{.label = {}, .x = {}, .y = {}, .style = SeriesStyle::line_with_points};
+    if (by_value.size() > 1) {
+      const std::size_t other = columns.parameters[0] == x ? columns.parameters[1] : columns.parameters[0];
+      const ShownColumn column = shown_column(table.names[other], table.columns[other]);
+      series.label = fmt::format("{} {} {}", column.words, shown(column.values[runs.front()]), column.unit);
+    } else if (columns.parameters.size() > 1) {
+      series.style = SeriesStyle::points;
+    }
+    for (const auto& [at, y] : points) {
+      series.x.push_back(at);
+      series.y.push_back(y);
+    }
+    series.colour = static_cast<int>(chart.series.size());
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+}  // namespace
+
+ReportPage sweep_page(const fs::path& results, const std::string& title, const std::string& version) {
+  const CsvTable table = read_csv(results / sweep_file, {.has_gaps = true});
+  const SweepColumns columns = columns_of(table);
+  const auto converged = std::ranges::count(table.column("converged"), 1.0);
+  ReportPage page{
+      .title = title,
+      .subtitle = fmt::format("pfdm {}, sweep of {} runs, {} of them converged", version, table.n_rows(), converged),
+      .rows = {PageRow{.blocks = {runs_table(table, columns)}}}};
+  std::vector<PageBlock> charts;
+  for (const std::size_t figure : columns.figures)
+    for (const std::size_t x : columns.parameters)
+      if (varies(table.columns[x]) && charts.size() < most_figures)
+        charts.emplace_back(figure_chart(table, columns, x, figure));
+  for (PageRow& row : in_pairs(std::move(charts))) page.rows.push_back(std::move(row));
+  if (!table.comments.empty())
+    page.rows.push_back(
+        {.blocks = {TextBlock{.caption = "Folders, and runs that did not converge",
+                              .lines = {table.comments.begin(),
+                                        table.comments.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                                     table.comments.size(), most_runs_shown))}}}});
+  return page;
+}
+
+bool has_own_run(const fs::path& results) {
+  return fs::exists(results / summary_file) || fs::exists(results / "checkpoint.bin") ||
+         fs::exists(results / "fit.json");
+}
+
+void report_sweep(const std::string& title, Session& session) {
+  const fs::path folder = session.results / "report" / (has_own_run(session.results) ? "sweep" : "");
+  write_pages(folder, sweep_page(session.results, title, session.version), session, {.runs = sweep_runs(session)});
+}
+
+}  // namespace pfdm

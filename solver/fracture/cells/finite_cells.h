@@ -1,0 +1,145 @@
+#pragma once
+// The cells of a body at finite strain: hyperelastic laws (physics/materials/hyperelastic.h). Damage degrades the part
+// of the energy W that the split does not keep:
+//
+//   none, hybrid           W = g W(F)
+//   volumetric_deviatoric  W = g (W(F) - W_c) + W_c,  W_c = W(J^(1/3) 1) where J < 1, else 0
+//
+// `hybrid` is driven as volumetric_deviatoric, by W - W_c, and is not variational (Ambati, Gerasimov, De Lorenzis,
+// Comput. Mech. 55 (2015) 383).
+//
+// Broken cells may stretch without end or turn inside out:
+//
+// - The functions of J go on as parabolas below J = 0.1: W and its stress are finite for any F.
+// - W becomes mu/2 (F:F - 3), a network that keeps nothing but its shear modulus, times g. Its stress g mu F is linear,
+//   objective and has a positive definite tangent; at rest it pulls with g mu. (Wang, Lazarov, Sigmund, Jensen, Comput.
+//   Methods Appl. Mech. Engrg. 276 (2014) 453, blend to a linear energy likewise, but one that is not objective.) It
+//   does so between g = 3e-3 and 1e-4, in nearly incompressible materials between 2e-2 and 9e-4, along a function that
+//   keeps the energy convex in d in cells that are stretched to twice their length or more, d > 0.6, with the quadratic
+//   degradation; at smaller stretches it is not.
+// - Nearly incompressible materials cannot open a crack without moving their surroundings. The part of U that a
+//   pressure carries (hyperelastic.h) is lost faster than g, kappa -> g kappa/(1 + kappa/kappa_s (1 - g)^2) with
+//   kappa_s = 2.5 mu: a sound cell loses it as W, a broken one is compressible. (Li, Bouklas, Int. J. Solids Struct.
+//   182-183 (2020) 193, relax it by another power of 1 - d.) What is left of it is not convex in d at small d.
+// - What Newton's method cannot bridge of a change of the damage is halved (staggered.cpp).
+//
+// Stress, stored and driving energy of the mean gradient are derivatives of this one energy. It is not linear in g: the
+// damage equation takes its derivative at every d (driving_law.h). The driving energy of what the faces add is exact
+// where that is proportional to g.
+//
+// Plane stress: F has the stretch across the plate at which the damaged cell has no stress across it, and the tangent
+// is condensed accordingly. No pressure is needed.
+//
+// Cells that expand, swell or shrink (eigenstrains): F above is the elastic part F_e of F = F_e F*, and energies are J*
+// times those of F_e per reference volume (physics/materials/free_deformation.h). A cell's pressure acts as without, on
+// the volume J* J_e(q). With m = F*^-T N the acoustic tensor of the faces is J* (mu m.m + ...), by the mean of m.m.
+
+#include "mesh/mesh.h"
+#include "physics/materials/free_deformation.h"
+#include "physics/materials/hyperelastic.h"
+#include "solver/fracture/model/driving_law.h"
+#include "solver/fracture/model/fracture_model.h"
+#include "solver/fracture/model/state.h"
+#include "solver/momentum/solution/momentum_solver.h"
+
+#include <string_view>
+
+namespace pfdm {
+
+/// The energies of a cell at some displacements, each of which has its share by the damage [J/m^3].
+struct FiniteEnergies {
+  double moderate = 0.0, network = 0.0, pressure = 0.0;
+  double compression = 0.0;      ///< W_c, of the moderate one, where compression does not drive the damage
+  bool is_compressed = false;    ///< there, and J < 1
+  double faces = 0.0, of = 1.0;  ///< what the faces add, at the g with which the displacements were found
+  double moments = 0.0;          ///< likewise, of their moments where these do not drive the damage
+};
+
+/// What a split does at finite strain: a row of the table of those there are.
+struct FiniteSplit {
+  std::string_view name;
+  bool keeps_compression = false;  ///< from the degradation
+  bool driven_by_compression = true;
+};
+
+/// Throws InputError naming those there are.
+const FiniteSplit& finite_split(std::string_view name);
+
+class FiniteCells {
+ public:
+  FiniteCells(const Mesh& mesh, const FractureModel& model);
+
+  bool any() const { return material_.size() > 0; }
+  bool has_pressure(Index cell) const { return material_[cell]->pressure_modulus() > 0.0; }
+  /// At the displacement gradient H and the stiffness factor g. The faces are as stiff as `closure` says: 1 where J_e <
+  /// 1 and the split keeps the bulk modulus, 0 where J_e > 1.
+  FiniteLaw law(Index cell, const Tensor& H, double g, double closure, const FreeDeformation& free = {}) const;
+  /// The closure at the volume J_e, which changes over a range of J_e: the stiffness of the faces may not jump.
+  double closure(Index cell, const CellMechanics& mechanics) const;
+
+  /// By its mean gradient and what the tractions of its faces add (momentum.h); g: with which these were found.
+  FiniteEnergies energies(Index cell, const CellMechanics& mechanics, double g) const;
+  /// What a cell stores [J].
+  double stored_energy(Index cell, const FiniteEnergies& at, double g) const;
+  /// Its derivative by g, per volume, and that one's [J/m^3].
+  DrivingAt driving_energy(Index cell, const FiniteEnergies& at, double g) const;
+
+  /// The mean gradient H with the stretch across a plate at which it has no stress across it; else H.
+  Tensor thinned(Index cell, const CellMechanics& mechanics, double g) const;
+
+  /// Biot stress [Pa] of the undamaged material at the mean gradient; pressures that damage has relaxed count as they
+  /// are.
+  Tensor undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const;
+
+  /// The derivative of what a cell stores by F* at constant displacements, V dW/dF* [J], with its sign changed, by the
+  /// tractions as far as they are known: eigenstrains that grow by d eps* supply minus this times d eps*.
+  Tensor eigenstrain_moment(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
+
+  /// Cauchy stress [Pa] from the first Piola-Kirchhoff stress of the tractions, with that across a plane mesh.
+  Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
+
+ private:
+  // A function of the stiffness factor g, and its derivatives.
+  struct OfFactor {
+    double value = 1.0, slope = 0.0, curvature = 0.0;
+  };
+  static OfFactor sound_share(const HyperelasticMaterial& material, double g);
+  static OfFactor pressure_share(const HyperelasticMaterial& material, double g, const OfFactor& sound);
+  // What a cell of the factor g has of the energies below.
+  struct Shares {
+    OfFactor moderate, network, pressure;
+  };
+  Shares shares(Index cell, double g) const;
+  // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, and where the split asks for it W_c of W_m and whether J
+  // < 1.
+  struct Parts {
+    PotentialAt moderate, network, pressure{}, compression{};
+    bool is_compressed = false;
+  };
+  Parts parts(Index cell, const Tensor& H, double change) const;
+  Parts parts(Index cell, const Tensor& H) const { return parts(cell, H, volume_change(H)); }
+  Parts parts(Index cell, const CellMechanics& mechanics, const Tensor& H) const;
+  double beside_mean(Index cell, const CellMechanics& mechanics, const Parts& at, double g) const;
+  bool is_plane_stress() const { return !across_.isZero(); }
+  static FreeDeformation free_deformation(Index cell, const CellMechanics& mechanics);
+  Tensor elastic(const Tensor& H, const FreeDeformation& free) const;
+  Tensor thinned_elastic(Index cell, const CellMechanics& mechanics, double g) const;
+  FiniteLaw solid_law(Index cell, const Tensor& H, double g, double closure) const;
+  FiniteLaw plane_stress_law(Index cell, const Tensor& H, double g) const;
+  Tensor thinned(Index cell, const Tensor& H, double g) const;
+  Tensor true_deformation(Index cell, const Tensor& H, double g) const;
+  Tensor traction_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
+  bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
+  // What the split keeps of a cell's parts or energies is not degraded.
+  bool keeps(Index cell, const auto& at) const { return at.is_compressed && keeps_compression(cell); }
+  PotentialAt damaged(Index cell, const Parts& at, const Shares& by, double g) const;
+
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  CellField<const HyperelasticMaterial*> material_;  // empty at small strain
+  CellField<const FiniteSplit*> split_;              // likewise
+  Vector across_ = Vector::Zero();                   // normal of a plate in plane stress
+  Vector plane_normal_ = Vector::Zero();             // of a plane mesh
+};
+
+}  // namespace pfdm

@@ -1,0 +1,135 @@
+#include "solver/fracture/cells/material_cells.h"
+
+#include "physics/materials/small_strain_material.h"
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+// The output field of this name, which is added if there is none.
+OutputHistory& output_field(const HistoryField& field, std::size_t n_cells, std::vector<OutputHistory>& fields) {
+  const auto found = std::ranges::find(fields, field.name, &OutputHistory::name);
+  if (found != fields.end()) return *found;
+  OutputHistory& added = fields.emplace_back(OutputHistory{.name = std::string(field.name), .unit = field.unit});
+  if (field.size == 1)
+    added.scalar = CellField<double>(n_cells, 0.0);
+  else
+    added.tensor = CellField<Tensor>(n_cells, Tensor::Zero());
+  return added;
+}
+
+CellField<const Material*> materials_of(const Mesh& mesh, const FractureModel& model) {
+  const bool any = !model.is_finite_strain() && std::ranges::any_of(model.regions, [](const RegionModel& region) {
+    return region.material != nullptr;
+  });
+  CellField<const Material*> materials(any ? as_size(mesh.n_cells()) : 0, nullptr);
+  for (Index c = 0; c < materials.size(); ++c) materials[c] = model.in_cell(mesh, c).material.get();
+  return materials;
+}
+
+}  // namespace
+
+MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model)
+    : mesh_(mesh),
+      model_(model),
+      material_(materials_of(mesh, model)),
+      gaps_(mesh, material_, model.is_plane_stress()) {
+  any_ = material_.size() > 0;
+  if (!any_) return;
+  tangent_ = CellField<MandelMatrix>(as_size(mesh.n_cells()));
+  start_step(0.0);
+}
+
+void MaterialCells::start_step(double duration) {
+  duration_ = duration;
+  gaps_.start_step(duration);
+  parallel_for(any_ ? mesh_.n_cells() : 0, [&](Index c) {
+    if (has(c)) tangent_[c] = stiffness_matrix(gaps_.has(c) ? gaps_.elasticity(c) : material_[c]->elasticity());
+  });
+}
+
+double MaterialCells::advance(Index cell, const CellMechanics& mechanics, const CellHistories& from,
+                              CellHistories& to) {
+  const Material& material = *material_[cell];
+  Tensor strain = mechanics.reconstructed_strain[cell];
+  if (mechanics.eigenstrain.size() > 0) strain -= to_tensor(mechanics.eigenstrain[cell]);
+  const Mandel expected = linearised(cell, to)(to_mandel(strain));
+  const std::size_t n = material.history_size();
+  const MaterialResponse result =
+      material.update({from.gradient(cell), strain, duration_, law_numbers(cell, from)}, to.of(cell).first(n));
+  if (!result.solved) return std::numeric_limits<double>::quiet_NaN();
+  if (gaps_.has(cell)) gaps_.advance(cell, mechanics, gap_numbers(cell, from), to.of(cell).subspan(n));
+  to.gradient(cell) = strain;
+  tangent_[cell] = by_strain(result.tangent);
+  const Mandel stress = to_mandel(result.stress);
+  return (stress - expected).norm() * stress.norm() / (2.0 * material.elasticity().mu);
+}
+
+LinearStress MaterialCells::linearised(Index cell, const CellHistories& histories) const {
+  const MandelMatrix& T = tangent_[cell];
+  const Tensor strain = histories.gradient(cell);
+  return {T, to_mandel(material_[cell]->stress(strain, law_numbers(cell, histories))) - T * to_mandel(strain)};
+}
+
+IsotropicElasticity MaterialCells::beyond_elasticity(Index cell) const {
+  if (!gaps_.has(cell)) return {};
+  const IsotropicElasticity &now = gaps_.elasticity(cell), &at_once = material_[cell]->elasticity();
+  return {.lambda = now.lambda - at_once.lambda, .mu = now.mu - at_once.mu};
+}
+
+HistoryStress MaterialCells::history_stress(const CellHistories& histories) const {
+  const auto n = as_size(mesh_.n_cells());
+  HistoryStress history{.stress = CellField<LinearStress>(n)};
+  if (!gaps_.any()) return history;
+  history.sound = CellField<IsotropicElasticity>(n);
+  history.relaxes = CellField<char>(n, 0);
+  history.gaps.resize(mesh_.cell_faces.size());
+  parallel_for(mesh_.n_cells(), [&](Index c) {
+    history.sound[c] = model_.in_cell(mesh_, c).elasticity;
+    if (gaps_.has(c)) gaps_.tell(c, gap_numbers(c, histories), history);
+  });
+  return history;
+}
+
+MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories) const {
+  MaterialEnergy energy = material_[cell]->energy(histories.gradient(cell), law_numbers(cell, histories),
+                                                  model_.split_of(model_.in_cell(mesh_, cell)));
+  if (!gaps_.has(cell)) return energy;
+  const std::span<const double> gaps = gap_numbers(cell, histories);
+  energy.locked += gaps_.locked(gaps);
+  energy.dissipated += gaps_.dissipated(gaps);
+  return energy;
+}
+
+CellHistories MaterialCells::virgin_histories() const {
+  if (!any_) return {};
+  std::vector<std::size_t> sizes;
+  sizes.reserve(as_size(mesh_.n_cells()));
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    sizes.push_back(has(c) ? material_[c]->history_size() + gaps_.size(c) : 0);
+  CellHistories histories(sizes);
+  for (Index c = 0; c < mesh_.n_cells(); ++c)
+    if (has(c)) material_[c]->start(histories.of(c).first(material_[c]->history_size()));
+  return histories;
+}
+
+std::vector<OutputHistory> MaterialCells::output(const CellHistories& histories) const {
+  std::vector<OutputHistory> fields;
+  for (Index c = 0; any_ && c < mesh_.n_cells(); ++c) {
+    if (!has(c)) continue;
+    const std::span<const double> history = histories.of(c);
+    for (const HistoryField& field : material_[c]->history_fields()) {
+      OutputHistory& out = output_field(field, material_.size(), fields);
+      if (field.size == 1)
+        out.scalar[c] = history[field.first];
+      else
+        out.tensor[c] = to_tensor(Eigen::Map<const Mandel>(history.data() + field.first));
+    }
+  }
+  return fields;
+}
+
+}  // namespace pfdm

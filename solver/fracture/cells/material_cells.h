@@ -1,0 +1,62 @@
+#pragma once
+// The cells whose material is a law with a history (physics/materials/material.h). Damage degrades their effective
+// stress sigma_0(eps, history), which does not depend on damage: sigma = g sigma_0, plus the elastic stress that the
+// energy split keeps in compression. The law says which part of the stored energy drives damage (MaterialEnergy); the
+// rest, `idle`, becomes heat where damage frees it. So work = stored energy + surface energy + g times the dissipation
+// of the effective material + heat of what was idle. Strains are those less the eigenstrain.
+//
+// Within a load step each equilibrium is linear, with the stress linearised at the last strain eps_k by the consistent
+// tangent T: sigma_0 = sigma_0(eps_k) + T (eps - eps_k). The first of a step is elastic, as the load may reverse. The
+// strain is the least-squares one, which also enters the tractions of the faces: with any other, the converged solution
+// would depend on T, which changes with the direction of the increment, and the iteration would not converge.
+
+#include "mesh/mesh.h"
+#include "physics/elasticity/linear_stress.h"
+#include "solver/fracture/cells/relaxing_gaps.h"
+#include "solver/fracture/model/fracture_model.h"
+#include "solver/fracture/model/state.h"
+
+namespace pfdm {
+
+class MaterialCells {
+ public:
+  MaterialCells(const Mesh& mesh, const FractureModel& model);
+
+  bool any() const { return any_; }
+  bool has(Index cell) const { return any_ && material_[cell] != nullptr; }
+
+  /// At the beginning of a load step, which takes `duration` [s].
+  void start_step(double duration);
+  /// Takes a cell from its history at the start of the step to what it is strained by now. Returns the error [J/m^3] of
+  /// its energy density with the previous linearised stress; NaN if the material's step cannot be solved.
+  double advance(Index cell, const CellMechanics& mechanics, const CellHistories& from, CellHistories& to);
+  /// The undamaged stress about the cell's state.
+  LinearStress linearised(Index cell, const CellHistories& histories) const;
+  /// What the moduli that the gaps of a cell meet in the step are more than those of its elasticity, undamaged [Pa].
+  IsotropicElasticity beyond_elasticity(Index cell) const;
+  /// What the cells of relaxing materials remember, with room for the stress of every cell.
+  HistoryStress history_stress(const CellHistories& histories) const;
+  /// Of the undamaged material, with what the gaps of its faces have.
+  MaterialEnergy energy(Index cell, const CellHistories& histories) const;
+  CellHistories virgin_histories() const;
+  std::vector<OutputHistory> output(const CellHistories& histories) const;
+
+ private:
+  // Of the law alone, without those of the gaps.
+  std::span<const double> law_numbers(Index cell, const CellHistories& histories) const {
+    return histories.of(cell).first(material_[cell]->history_size());
+  }
+  std::span<const double> gap_numbers(Index cell, const CellHistories& histories) const {
+    return histories.of(cell).subspan(material_[cell]->history_size());
+  }
+
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  bool any_ = false;
+  double duration_ = 0.0;
+  CellField<const Material*> material_;  // null: elastic
+  RelaxingGaps gaps_;
+  CellField<MandelMatrix> tangent_;  // [Pa]; empty without such cells
+};
+
+}  // namespace pfdm

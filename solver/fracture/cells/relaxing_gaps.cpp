@@ -1,0 +1,152 @@
+#include "solver/fracture/cells/relaxing_gaps.h"
+
+#include "solver/momentum/body/momentum_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+// Places among a cell's numbers; the faces follow, each with its gap, what is left of it in the shear branches, and
+// along its normal in the bulk branches.
+constexpr std::size_t heat = 0, locked_energy = 1, faces_from = 2;
+
+struct Energy {
+  double locked = 0.0, heat = 0.0;  // [Pa]
+};
+
+// Of a branch whose spring had r_n and has r while the gap went from z_n to z.
+template <class Value, class Dot>
+Energy energy_of(const PronyBranch& branch, const PronyDecay& by, const Value& r_n, const Value& r, const Value& z_n,
+                 const Value& z, const Dot& dot) {
+  const Value dz = z - z_n;
+  const double gained = 2.0 * dot(dz, Value(by.phi * r_n + by.second * dz)) - dot(r, r) + dot(r_n, r_n);
+  return {.locked = 0.5 * branch.modulus * dot(r, Value(r - z)), .heat = 0.5 * branch.modulus * std::max(gained, 0.0)};
+}
+
+Eigen::Map<const Vector> vector_at(std::span<const double> numbers, std::size_t at) {
+  return Eigen::Map<const Vector>(numbers.data() + at);
+}
+
+}  // namespace
+
+bool gaps_relax(const Material& material, bool in_plane_stress) {
+  constexpr double most = 0.4 + 1e-6;  // Poisson's ratio
+  return material.relaxing() != nullptr && !in_plane_stress &&
+         stiffest_against_volume(material).poisson_ratio() <= most;
+}
+
+IsotropicElasticity stiffest_against_volume(const Material& material) {
+  const PronyLaw* law = material.relaxing();
+  IsotropicElasticity worst = material.elasticity();
+  if (law == nullptr) return worst;
+  const auto consider = [&](const IsotropicElasticity& at) {
+    if (at.poisson_ratio() > worst.poisson_ratio()) worst = at;
+  };
+  const IsotropicElasticity relaxed = material.relaxed_elasticity();
+  consider(relaxed);
+  const auto left = [](const std::vector<PronyBranch>& branches, double time) {
+    double sum = 0.0;
+    for (const PronyBranch& branch : branches) sum += branch.modulus * std::exp(-time / branch.time);
+    return sum;
+  };
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const auto* branches : {&law->shear, &law->bulk})
+    for (const PronyBranch& branch : *branches)
+      least = std::min(least, branch.time), most = std::max(most, branch.time);
+  constexpr double step = 1.3;
+  for (double time = 0.1 * least; time < 30.0 * most; time *= step) {
+    const double mu = relaxed.mu + left(law->shear, time), K = relaxed.bulk_modulus() + left(law->bulk, time);
+    consider({.lambda = K - 2.0 * mu / 3.0, .mu = mu});
+  }
+  return worst;
+}
+
+RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, bool in_plane_stress)
+    : mesh_(mesh) {
+  if (materials.size() == 0) return;
+  kind_ = CellField<Index>(as_size(materials.size()), -1);
+  for (Index c = 0; c < materials.size(); ++c) {
+    const Material* material = materials[c];
+    if (material == nullptr || !gaps_relax(*material, in_plane_stress)) continue;
+    const auto known = std::ranges::find(kinds_, material, &Kind::material);
+    kind_[c] = static_cast<Index>(known - kinds_.begin());
+    if (known == kinds_.end()) kinds_.push_back({.material = material, .law = material->relaxing()});
+  }
+  start_step(0.0);
+}
+
+void RelaxingGaps::start_step(double duration) {
+  for (Kind& kind : kinds_) {
+    kind.elasticity = elasticity_over(*kind.law, duration);
+    kind.shear.clear();
+    kind.bulk.clear();
+    for (const PronyBranch& branch : kind.law->shear) kind.shear.push_back(decay_over(duration / branch.time));
+    for (const PronyBranch& branch : kind.law->bulk) kind.bulk.push_back(decay_over(duration / branch.time));
+  }
+}
+
+std::size_t RelaxingGaps::size(Index cell) const {
+  if (!has(cell)) return 0;
+  const Kind& by = kind(cell);
+  return faces_from + mesh_.faces_of_cell(cell).size() * by.per_face();
+}
+
+void RelaxingGaps::tell(Index cell, std::span<const double> numbers, HistoryStress& history) const {
+  const Kind& by = kind(cell);
+  const std::size_t n_shear = by.law->shear.size(), n_bulk = by.law->bulk.size();
+  history.sound[cell] = by.elasticity;
+  history.relaxes[cell] = 1;
+  const auto faces = mesh_.faces_of_cell(cell);
+  const std::size_t first = as_size(mesh_.cell_face_offsets[as_size(cell)]);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const std::size_t at = faces_from + k * by.per_face();
+    const Vector z = vector_at(numbers, at);
+    GapStress& left = history.gaps[first + k];
+    for (std::size_t i = 0; i < n_shear; ++i)
+      left.shear += by.law->shear[i].modulus * (vector_at(numbers, at + 3 + 3 * i) - by.shear[i].phi * z);
+    const double along = z.dot(mesh_.face_area[faces[k]].normalized());
+    for (std::size_t j = 0; j < n_bulk; ++j)
+      left.bulk += by.law->bulk[j].modulus * (numbers[at + 3 + 3 * n_shear + j] - by.bulk[j].phi * along);
+  }
+}
+
+void RelaxingGaps::advance(Index cell, const CellMechanics& mechanics, std::span<const double> from,
+                           std::span<double> to) const {
+  const Kind& by = kind(cell);
+  const std::size_t n_shear = by.law->shear.size(), n_bulk = by.law->bulk.size();
+  Energy sum;
+  const auto add = [&](const Energy& of, double volume) {
+    sum.locked += of.locked * volume;
+    sum.heat += of.heat * volume;
+  };
+  const auto faces = mesh_.faces_of_cell(cell);
+  const std::size_t first = as_size(mesh_.cell_face_offsets[as_size(cell)]);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const FaceGap& gap = mechanics.gaps[first + k];
+    const std::size_t at = faces_from + k * by.per_face();
+    const Vector n = mesh_.face_area[faces[k]].normalized(), z_n = vector_at(from, at), z = gap.strain;
+    const auto dot = [&](const Vector& a, const Vector& b) {
+      return a.dot(momentum_faces::scale(gap.by_shear, 1.0, n, b));
+    };
+    Eigen::Map<Vector>(to.data() + at) = z;
+    for (std::size_t i = 0; i < n_shear; ++i) {
+      const Vector r_n = vector_at(from, at + 3 + 3 * i), r = by.shear[i].left * r_n + by.shear[i].phi * (z - z_n);
+      Eigen::Map<Vector>(to.data() + at + 3 + 3 * i) = r;
+      add(energy_of(by.law->shear[i], by.shear[i], r_n, r, z_n, z, dot), gap.volume);
+    }
+    for (std::size_t j = 0; j < n_bulk; ++j) {
+      const std::size_t place = at + 3 + 3 * n_shear + j;
+      const double r_n = from[place], a_n = z_n.dot(n), a = z.dot(n);
+      const double r = to[place] = by.bulk[j].left * r_n + by.bulk[j].phi * (a - a_n);
+      add(energy_of(by.law->bulk[j], by.bulk[j], r_n, r, a_n, a, [](double x, double y) { return x * y; }),
+          gap.by_bulk * gap.volume);
+    }
+  }
+  to[locked_energy] = sum.locked / mesh_.cell_volume[cell];
+  to[heat] = from[heat] + sum.heat / mesh_.cell_volume[cell];
+}
+
+}  // namespace pfdm

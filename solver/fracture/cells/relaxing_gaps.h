@@ -1,0 +1,68 @@
+#pragma once
+// What cells of relaxing materials (physics/materials/prony.h) remember of the gaps at their faces: what the strain
+// there differs from that of the cell by (CellMechanics::gaps). The law is linear, so that a gap z [-] is a strain that
+// it bears as any other: the traction of a branch is its modulus times r, r' + r/tau = z', and relaxes with it. A gap
+// that met the instantaneous moduli for ever would make a body that has relaxed too stiff.
+// Materials of nu above 0.4 at any time, and bodies in plane stress, have none of it (gaps_relax).
+//
+// Half the work of traction and gap is part of a cell's energy. Energies here are per volume of the cell [J/m^3].
+
+#include "mesh/mesh.h"
+#include "physics/materials/material.h"
+#include "physics/materials/prony.h"
+#include "solver/momentum/body/cell_mechanics.h"
+#include "solver/momentum/small_strain/history_stress.h"
+
+#include <span>
+#include <vector>
+
+namespace pfdm {
+
+/// Whether the gaps of a material relax: it does so itself, not in plane stress (history_tractions.h), and nu is at
+/// most 0.4 at all times, also where the shear has relaxed and the bulk has not. Above that, modes of coarse meshes
+/// grew in time (85 tetrahedra, nu = 0.46: by 150 % of the force within 400 relaxation times; at 0.3 and 0.4 forces
+/// were those of the relaxed elastic body).
+bool gaps_relax(const Material& material, bool in_plane_stress);
+
+/// The moduli of a relaxing material when its Poisson's ratio is greatest, after a strain that is held: at once, at
+/// last or between, where the shear has relaxed and the bulk has not. The elasticity of other materials.
+IsotropicElasticity stiffest_against_volume(const Material& material);
+
+class RelaxingGaps {
+ public:
+  /// Of the materials of the cells, null: elastic; empty: of all.
+  RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, bool in_plane_stress);
+
+  bool any() const { return !kinds_.empty(); }
+  bool has(Index cell) const { return any() && kind_[cell] >= 0; }
+  /// How many numbers a cell remembers.
+  std::size_t size(Index cell) const;
+  void start_step(double duration);  ///< [s]
+
+  /// Moduli that a change of strain meets in the step, undamaged.
+  const IsotropicElasticity& elasticity(Index cell) const { return kind(cell).elasticity; }
+  /// Writes what a cell remembers into a history with room for all cells.
+  void tell(Index cell, std::span<const double> numbers, HistoryStress& history) const;
+  /// From the numbers at the start of the step to those at the gaps of now.
+  void advance(Index cell, const CellMechanics& mechanics, std::span<const double> from, std::span<double> to) const;
+
+  /// What the gaps have made of heat since the virgin state, and what they store less half of their traction's work.
+  static double dissipated(std::span<const double> numbers) { return numbers[0]; }
+  static double locked(std::span<const double> numbers) { return numbers[1]; }
+
+ private:
+  struct Kind {
+    const Material* material;
+    const PronyLaw* law;
+    std::vector<PronyDecay> shear{}, bulk{};
+    IsotropicElasticity elasticity{};
+    std::size_t per_face() const { return 3 + 3 * law->shear.size() + law->bulk.size(); }
+  };
+  const Kind& kind(Index cell) const { return kinds_[as_size(kind_[cell])]; }
+
+  const Mesh& mesh_;
+  std::vector<Kind> kinds_;
+  CellField<Index> kind_;  // -1: none
+};
+
+}  // namespace pfdm

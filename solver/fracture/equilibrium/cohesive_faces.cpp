@@ -1,0 +1,304 @@
+#include "solver/fracture/equilibrium/cohesive_faces.h"
+
+#include "physics/elasticity/gradient_stress.h"
+#include "physics/error.h"
+#include "physics/quantity_text.h"
+#include "solver/momentum/finite_strain/finite_tractions.h"
+#include "solver/parallel.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace pfdm {
+namespace {
+
+constexpr double rigid_stiffness = 1e3;  // over that of the cells beside the face
+
+// w x v = across(n, v) dn, where n turns by dn = w x n.
+Tensor across(const Vector& n, const Vector& v) { return n.dot(v) * Tensor::Identity() - n * v.transpose(); }
+
+// Of c/|c|, by c.
+Tensor by_length(const Vector& c) {
+  const Vector n = c.normalized();
+  return (Tensor::Identity() - n * n.transpose()) / c.norm();
+}
+
+/// Without what softens: the symmetric part's negative eigenvalues are zero.
+Tensor convex_part(const Tensor& tangent) {
+  const Eigen::SelfAdjointEigenSolver<Tensor> solver(0.5 * (tangent + tangent.transpose()));
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
+}
+
+/// The separation with give T(separation) + separation = due, by damped Newton steps from `now`; nothing if they do not
+/// lead there.
+std::optional<Vector> separation_between(const InterfaceLaw& law, const InterfaceStrength& at, const Vector& n,
+                                         const InterfaceHistory& before, const Tensor& give, const Vector& due,
+                                         const Vector& now) {
+  constexpr int most_steps = 40, most_halvings = 12;
+  const double small = 1e-9 * (due.norm() + give.norm() * at.strength);
+  Vector separation = now;
+  InterfaceResponse response = law.respond(at, n, separation, before);
+  Vector miss = due - separation - give * response.traction;
+  for (int i = 0; i < most_steps && miss.norm() > small; ++i) {
+    const Vector step = (Tensor::Identity() + give * response.tangent).inverse() * miss;
+    double share = 1.0;
+    for (int halvings = 0; halvings <= most_halvings; ++halvings, share *= 0.5) {
+      const Vector tried = separation + share * step;
+      InterfaceResponse there = law.respond(at, n, tried, before);
+      const Vector left = due - tried - give * there.traction;
+      if (!(left.norm() < (1.0 - 0.1 * share) * miss.norm()) && halvings < most_halvings) continue;
+      separation = tried, miss = left, response = std::move(there);
+      break;
+    }
+  }
+  if (!(miss.norm() <= small)) return std::nullopt;
+  return separation;
+}
+
+}  // namespace
+
+CohesiveFaces::CohesiveFaces(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns)
+    : mesh_(mesh), model_(model) {
+  if (unknowns.split_faces.empty()) return;
+  std::set<Index> seen;
+  for (std::size_t s = 0; s < model.interfaces.size(); ++s)
+    for (std::size_t k = 0; k < model.interfaces[s].faces.size(); ++k) {
+      const Index f = model.interfaces[s].faces[k];
+      if (!seen.insert(f).second)
+        throw InputError(fmt::format(
+            "interface \"{}\": a face at ({:.4g}, {:.4g}, {:.4g}) m belongs to another one too",
+            model.interfaces[s].name, mesh.face_centre[f][0], mesh.face_centre[f][1], mesh.face_centre[f][2]));
+      add(s, model.interfaces[s], k);
+    }
+}
+
+void CohesiveFaces::add(std::size_t number, const CohesiveSurface& surface, std::size_t k) {
+  const Index f = surface.faces[k];
+  bond_.push_back(bond(f));
+  InterfaceStrength at = surface.at[k];
+  if (surface.law.law->has_rise() && !(at.stiffness > 0.0)) at.stiffness = rigid_stiffness * bond_.back();
+  const auto too_soft = [&](double strength, double toughness) {
+    return strength * strength >= 2.0 * at.stiffness * toughness;
+  };
+  if (surface.law.law->has_rise() &&
+      (too_soft(at.strength, at.toughness) ||
+       (surface.law.depends_on_mode() && too_soft(at.shear_strength, at.shear_toughness))))
+    throw InputError(
+        fmt::format("interface \"{}\": with the stiffness {} the rise to the strength takes more than the toughness; "
+                    "at least strength^2 / (2 toughness) = {}",
+                    surface.name, quantity_text(at.stiffness, "Pa/m"),
+                    quantity_text(0.5 * at.strength * at.strength / at.toughness, "Pa/m")));
+  faces_.push_back({.surface = number,
+                    .P = mesh_.owner[f],
+                    .N = mesh_.neighbour[f],
+                    .n = mesh_.face_area[f].normalized(),
+                    .area = mesh_.face_area[f].norm(),
+                    .at = at});
+}
+
+double CohesiveFaces::bond(Index face) const {
+  const Vector n = mesh_.face_area[face].normalized();
+  const auto softness = [&](Index c) {
+    const double h = std::abs((mesh_.face_centre[face] - mesh_.cell_centre[c]).dot(n));
+    return h / model_.in_cell(mesh_, c).elasticity.constrained_modulus();
+  };
+  return 1.0 / (softness(mesh_.owner[face]) + softness(mesh_.neighbour[face]));
+}
+
+Vector CohesiveFaces::normal(const Face& face, const MomentumOperator& balance) const {
+  if (balance.finite() == nullptr) return face.n;
+  const Vector c_P = balance.finite()->states().cofactors()[face.P] * face.n,
+               c_N = balance.finite()->states().cofactors()[face.N] * face.n;
+  return (c_P.normalized() + c_N.normalized()).normalized();
+}
+
+// The law is isotropic: if its normal alone turns by w, its traction changes by w x T - K (w x delta).
+void CohesiveFaces::turn(const Face& face, const MomentumOperator& balance, const Vector& separation,
+                         const InterfaceResponse& at, FaceSpring& spring) const {
+  const Vector c_P = balance.finite()->states().cofactors()[face.P] * face.n,
+               c_N = balance.finite()->states().cofactors()[face.N] * face.n;
+  const Vector sum = c_P.normalized() + c_N.normalized(), n = sum.normalized();
+  const Tensor by_sum = (across(n, at.traction) - at.tangent * across(n, separation)) * by_length(sum);
+  spring.turn_P = by_sum * by_length(c_P);
+  spring.turn_N = by_sum * by_length(c_N);
+  const auto change = [&](Index cell) {
+    const Tensor& F = balance.finite()->states().deformation()[cell];
+    return (cofactor_change(F, F - Tensor::Identity()) * face.n).eval();
+  };
+  spring.offset -= spring.turn_P * change(face.P) + spring.turn_N * change(face.N);
+}
+
+void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before, Way way,
+                              MomentumSolver& momentum) const {
+  std::vector<FaceSpring> springs(faces_.size());
+  parallel_for(static_cast<Index>(faces_.size()), [&](Index i) {
+    const auto k = as_size(i);
+    const Vector separation = momentum.balance().separation(k, u);
+    const Vector n = normal(faces_[k], momentum.balance());
+    const InterfaceResponse response = law(faces_[k]).respond(faces_[k].at, n, separation, before[k]);
+    const Tensor stiffness = way == Way::tangent ? response.tangent : convex_part(response.tangent);
+    springs[k] = {.stiffness = stiffness,
+                  .offset = response.traction - stiffness * separation,
+                  .secant = way == Way::tangent ? response.secant : stiffness};
+    if (way == Way::tangent && momentum.balance().finite() != nullptr)
+      turn(faces_[k], momentum.balance(), separation, response, springs[k]);
+  });
+  momentum.set_springs(std::move(springs), bond_);
+}
+
+// With the sides' tractions t_P, t_N and compliances c_P, c_N: T(delta) = T,
+//
+//   (c_P + c_N) T + delta = delta_0 + c_P t_P - c_N t_N,
+//
+// whose solution is unique where the law does not fall more steeply than the cells beside it unload.
+void CohesiveFaces::settle(const std::vector<InterfaceHistory>& before, const MomentumOperator& balance,
+                           std::vector<Vector>& u) const {
+  const std::vector<MomentumOperator::SplitSides> sides = balance.split_sides(u);
+  parallel_for(static_cast<Index>(faces_.size()), [&](Index i) {
+    const auto k = as_size(i);
+    const Face& face = faces_[k];
+    const MomentumOperator::SplitSides& s = sides[k];
+    const Tensor give = s.give + s.give_beyond;
+    const Vector now = balance.separation(k, u);
+    const Vector due = now + s.give * s.traction - s.give_beyond * s.traction_beyond;
+    const Vector n = normal(face, balance);
+    const auto separation = separation_between(law(face), face.at, n, before[k], give, due, now);
+    if (!separation) return;
+    const Vector traction = law(face).respond(face.at, n, *separation, before[k]).traction;
+    balance.part(k, s.give * (traction - s.traction), -(s.give_beyond * (traction + s.traction_beyond)), u);
+  });
+}
+
+double CohesiveFaces::advance(const MomentumOperator& balance, const std::vector<Vector>& u,
+                              const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const {
+  after.resize(faces_.size());
+  return parallel_sum(static_cast<Index>(faces_.size()), [&](Index i) {
+    const auto k = as_size(i);
+    const Face& face = faces_[k];
+    const InterfaceResponse response =
+        law(face).respond(face.at, normal(face, balance), balance.separation(k, u), before[k]);
+    after[k] = response.history;
+    return face.area * response.stored;
+  });
+}
+
+double CohesiveFaces::dissipated(const std::vector<InterfaceHistory>& from,
+                                 const std::vector<InterfaceHistory>& to) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < faces_.size(); ++k)
+    sum += faces_[k].area * (to[k].dissipated + to[k].rubbed - from[k].dissipated - from[k].rubbed);
+  return sum;
+}
+
+std::vector<double> CohesiveFaces::heat(const std::vector<InterfaceHistory>& from,
+                                        const std::vector<InterfaceHistory>& to, double debonding_share) const {
+  std::vector<double> made(faces_.size());
+  for (std::size_t k = 0; k < faces_.size(); ++k)
+    made[k] =
+        faces_[k].area * (to[k].rubbed - from[k].rubbed + debonding_share * (to[k].dissipated - from[k].dissipated));
+  return made;
+}
+
+bool CohesiveFaces::has_debonded(std::size_t k, const Vector& n, const Vector& separation,
+                                 const InterfaceHistory& history) const {
+  constexpr double most_of_it = 0.9;
+  return law(faces_[k]).damage(faces_[k].at, n, separation, history) >= most_of_it;
+}
+
+std::vector<char> CohesiveFaces::parted(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                        const std::vector<InterfaceHistory>& histories) const {
+  std::vector<char> parted(faces_.size(), 0);
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const Vector n = normal(faces_[k], balance), separation = balance.separation(k, u);
+    parted[k] = n.dot(separation) > 0.0 && has_debonded(k, n, separation, histories[k]) ? 1 : 0;
+  }
+  return parted;
+}
+
+std::vector<double> CohesiveFaces::debonded_areas(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                                  const std::vector<InterfaceHistory>& histories) const {
+  std::vector<double> areas(model_.interfaces.size(), 0.0);
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const Face& face = faces_[k];
+    const Vector n = normal(face, balance);
+    if (has_debonded(k, n, balance.separation(k, u), histories[k])) areas[face.surface] += face.area;
+  }
+  return areas;
+}
+
+double CohesiveFaces::dissipated_at(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                    const std::vector<InterfaceHistory>& from) const {
+  std::vector<InterfaceHistory> to;
+  advance(balance, u, from, to);
+  return dissipated(from, to);
+}
+
+double CohesiveFaces::dissipation_growth(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                         const std::vector<InterfaceHistory>& from,
+                                         const std::vector<Vector>& change) const {
+  return parallel_sum(static_cast<Index>(faces_.size()), [&](Index i) {
+    const auto k = as_size(i);
+    const Face& face = faces_[k];
+    const InterfaceResponse response = law(face).respond(face.at, face.n, balance.separation(k, u), from[k]);
+    return face.area * response.dissipation_slope.dot(balance.separation(k, change));
+  });
+}
+
+std::vector<OutputInterface> CohesiveFaces::output(const MomentumOperator& balance, const FractureState& state) const {
+  std::vector<OutputInterface> list;
+  std::size_t k = 0;
+  for (const CohesiveSurface& surface : model_.interfaces) {
+    const std::size_t n = surface.faces.size();
+    OutputInterface out{.name = surface.name,
+                        .faces = surface.faces,
+                        .separation = CellField<Vector>(n),
+                        .traction = CellField<Vector>(n),
+                        .opening = CellField<double>(n),
+                        .damage = CellField<double>(n),
+                        .dissipated = CellField<double>(n)};
+    for (Index i = 0; i < static_cast<Index>(n); ++i, ++k) {
+      const Face& face = faces_[k];
+      const Vector separation = balance.separation(k, state.displacement);
+      const double sign = surface.sign.empty() ? 1.0 : surface.sign[as_size(i)];
+      out.separation[i] = sign * separation;
+      const Vector along = normal(face, balance);
+      out.opening[i] = along.dot(separation);
+      out.dissipated[i] = state.interfaces[k].dissipated;
+      out.damage[i] = law(face).damage(face.at, along, separation, state.interfaces[k]);
+      out.traction[i] = sign * law(face).respond(face.at, along, separation, state.interfaces[k]).traction;
+    }
+    list.push_back(std::move(out));
+  }
+  return list;
+}
+
+std::vector<std::string> CohesiveFaces::warnings() const {
+  std::vector<double> worst(model_.interfaces.size(), 0.0);
+  std::vector<double> length(model_.interfaces.size(), 0.0);
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const Face& face = faces_[k];
+    const double ratio = law(face).steepest_fall(face.at) / bond_[k];
+    if (!(ratio > worst[face.surface])) continue;
+    worst[face.surface] = ratio;
+    const Index f = model_.interfaces[face.surface]
+                        .faces[k - static_cast<std::size_t>(std::ranges::find(faces_, face.surface, &Face::surface) -
+                                                            faces_.begin())];
+    length[face.surface] = (mesh_.cell_centre[mesh_.neighbour[f]] - mesh_.cell_centre[mesh_.owner[f]]).norm();
+  }
+  std::vector<std::string> lines;
+  for (std::size_t s = 0; s < worst.size(); ++s)
+    if (worst[s] > 1.0)
+      lines.push_back(fmt::format(
+          "interface \"{}\": the law softens faster than the cells beside it unload, {} from centre to centre; faces "
+          "would tear one by one, in jumps: at most {} resolves the law",
+          model_.interfaces[s].name, quantity_text(length[s], "m", 3), quantity_text(length[s] / worst[s], "m", 3)));
+  return lines;
+}
+
+}  // namespace pfdm

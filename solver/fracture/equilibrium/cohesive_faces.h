@@ -1,0 +1,92 @@
+#pragma once
+// Cohesive interfaces without thickness: interior faces of the mesh whose sides are independent (unknowns.h), joined by
+// a law of their separation (physics/interfaces/interface_law.h). Equilibrium: cohesive_newton.h.
+//
+// An interface that is rigid at first has the stiffness of the cells beside it, C^-1 = (h_P/M_P + h_N/M_N)^-1, times
+// 1000: it gives by a thousandth of what they do, and stiffens in compression likewise.
+//
+// Finite strain: separation and traction are those of a pair of points that were one, the traction per reference area.
+// The law sees them in a frame that follows the body; its normal n is the mean of the unit normals of both sides,
+// cof F N / |cof F N| with F of the cells beside the face (two arcs of one circle that have slid along each other then
+// touch, to the second order). Opened interfaces pull along their separation, and have no moment; the pressure of
+// closed ones does have one once they have slid, p |slip| per area, which nothing balances: contact is between points
+// that were one, and right as long as they stay neighbours. Separations and n are those about which the balance is
+// linearised.
+//
+// Where the law falls more steeply than C^-1 the two cells tear a face at a jump, whatever the load does elsewhere: the
+// solution of one face is unique, and the process zone resolved, only with smaller cells (warnings).
+
+#include "solver/fracture/model/fracture_model.h"
+#include "solver/fracture/model/state.h"
+#include "solver/momentum/solution/momentum_solver.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pfdm {
+
+class CohesiveFaces {
+ public:
+  /// Throws InputError for a face of two surfaces, one that is not interior, and a rise that takes all of the
+  /// toughness.
+  CohesiveFaces(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns);
+
+  bool any() const { return !faces_.empty(); }
+  std::vector<InterfaceHistory> virgin_histories() const { return std::vector<InterfaceHistory>(faces_.size()); }
+
+  enum class Way { tangent, convex };
+  /// Gives the momentum balance the laws about the displacements u, after `before`.
+  void linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before, Way way,
+                 MomentumSolver& momentum) const;
+  /// Moves the sides of each face to where its law and the cells beside it balance, everything else held.
+  void settle(const std::vector<InterfaceHistory>& before, const MomentumOperator& balance,
+              std::vector<Vector>& u) const;
+  /// Takes the histories from `before` to the displacements u. Returns the stored energy [J].
+  double advance(const MomentumOperator& balance, const std::vector<Vector>& u,
+                 const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
+  /// Energy dissipated from one state to the other [J].
+  double dissipated(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
+  /// What each face dissipates from one state to the other [J], of decohesion this share.
+  std::vector<double> heat(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to,
+                           double debonding_share) const;
+  /// Of each face, whether it has debonded and its sides do not touch.
+  std::vector<char> parted(const MomentumOperator& balance, const std::vector<Vector>& u,
+                           const std::vector<InterfaceHistory>& histories) const;
+  /// Of each surface, where nine tenths of the toughness, that of the mode in which the face is loaded, or more are
+  /// dissipated [m^2].
+  std::vector<double> debonded_areas(const MomentumOperator& balance, const std::vector<Vector>& u,
+                                     const std::vector<InterfaceHistory>& histories) const;
+  /// Energy dissipated from one state to that of the displacements u [J].
+  double dissipated_at(const MomentumOperator& balance, const std::vector<Vector>& u,
+                       const std::vector<InterfaceHistory>& from) const;
+  /// How it grows as the displacements u change by `change`, to first order and without friction [J].
+  double dissipation_growth(const MomentumOperator& balance, const std::vector<Vector>& u,
+                            const std::vector<InterfaceHistory>& from, const std::vector<Vector>& change) const;
+  std::vector<OutputInterface> output(const MomentumOperator& balance, const FractureState& state) const;
+  /// A line for each surface with cells too large for its law.
+  std::vector<std::string> warnings() const;
+
+ private:
+  struct Face {
+    std::size_t surface;
+    Index P, N;  // owner and neighbour
+    Vector n;    // from P to N
+    double area;
+    InterfaceStrength at;
+  };
+  void add(std::size_t number, const CohesiveSurface& surface, std::size_t k);
+  double bond(Index face) const;
+  Vector normal(const Face& face, const MomentumOperator& balance) const;
+  void turn(const Face& face, const MomentumOperator& balance, const Vector& separation, const InterfaceResponse& at,
+            FaceSpring& spring) const;
+  bool has_debonded(std::size_t k, const Vector& n, const Vector& separation, const InterfaceHistory& history) const;
+  const InterfaceLaw& law(const Face& face) const { return model_.interfaces[face.surface].law; }
+
+  const Mesh& mesh_;
+  const FractureModel& model_;
+  std::vector<Face> faces_;
+  std::vector<double> bond_;  // C^-1 of each [Pa/m]
+};
+
+}  // namespace pfdm

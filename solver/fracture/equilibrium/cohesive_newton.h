@@ -1,0 +1,37 @@
+#pragma once
+// Equilibrium with the laws of cohesive faces, by Newton's method: the laws are linearised about the last separation
+// within each linear solve, with the tangent, or while that leads astray (a jump) with its convex part, in which
+// nothing softens: each such step minimises a majorant of the energy, and faces break on from below until the rest of
+// them holds. In between every face is brought into balance with the cells beside it. A converged state does not depend
+// on any of this.
+
+#include "solver/fracture/equilibrium/cohesive_faces.h"
+
+#include <functional>
+
+namespace pfdm {
+
+/// Linearises the balance about the u that is solved for; empty at small strain.
+using CellLaws = std::function<void()>;
+
+/// Equilibrium with the laws of the faces at the load t: as MomentumSolver::solve, the residual being that with the
+/// laws at u. At finite strain a step is halved while a sound cell turns inside out, the residual is infinite if no
+/// equilibrium is found, and the balance is left linearised about u.
+Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before, double t,
+                             const MomentumSolver::Tolerance& tolerance, const CellLaws& cells,
+                             MomentumSolver& momentum, std::vector<Vector>& u);
+
+/// The same where a step may dissipate no more than so much: the load is an unknown then, at most `most_load`, and
+/// falls below that of the step before where the body snaps back. Each iteration solves the linearised equations at two
+/// loads; between and beyond them the solution is linear, and the next iterate is where on that line the faces
+/// dissipate what they may (dissipation as the control: Gutierrez, Commun. Numer. Meth. Engng 20 (2004) 19). Boundary
+/// values have to be proportional to the load.
+struct FacesPath {
+  double most_load;
+  double dissipation;  // [J]
+};
+Equilibrium follow_with_faces(const CohesiveFaces& faces, const std::vector<InterfaceHistory>& before,
+                              const FacesPath& path, const MomentumSolver::Tolerance& tolerance,
+                              MomentumSolver& momentum, double& load, std::vector<Vector>& u);
+
+}  // namespace pfdm

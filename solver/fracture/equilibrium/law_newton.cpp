@@ -1,0 +1,82 @@
+#include "solver/fracture/equilibrium/law_newton.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pfdm {
+namespace {
+
+constexpr Index most_law_steps = 40;
+constexpr double reduction_of_step = 1e-3;  // of the residual by one linear solve
+
+double work_along(const std::vector<Vector>& step, Index n_nodes, const std::vector<Vector>& force) {
+  return parallel_sum(n_nodes, [&](Index i) { return force[as_size(i)].dot(step[as_size(i)]); });
+}
+
+// The displacements of the state are those at the end of a step from `from`, where the unbalanced forces `rest` act.
+// Shortens a step that leads beyond the least energy along it, up to a place near that. Slopes are continuous, but
+// steep beyond a crack that closes: a place just before it would be left out of the next linearisation, and the next
+// step as short. The balance is linearised about the result.
+void search_line(const CellStiffness& stiffness, const std::vector<Vector>& from, const std::vector<Vector>& rest,
+                 MomentumSolver& momentum, FractureState& state) {
+  constexpr int most_tries = 16;
+  constexpr double near_enough = 0.2;  // of the work along the step
+  std::vector<Vector> step = state.displacement;
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] -= from[i];
+  const Index n = momentum.n_nodes();
+  const auto slope_at_state = [&] {
+    stiffness.set(state, momentum);
+    return work_along(step, n, momentum.unbalanced_forces(state.load, state.displacement));
+  };
+  const double work = work_along(step, n, rest);
+  double below = 0.0, at_below = work, above = 1.0, at_above = slope_at_state();
+  if (!(work > 0.0)) return;
+  double part = 1.0, now = at_above;
+  for (int tries = 0; tries < most_tries && (now < -near_enough * work || (now > near_enough * work && part < 1.0));
+       ++tries) {
+    part = below + (above - below) * std::clamp(at_below / (at_below - at_above), 0.02, 0.9);
+    parallel_for(static_cast<Index>(step.size()),
+                 [&](Index i) { state.displacement[as_size(i)] = from[as_size(i)] + part * step[as_size(i)]; });
+    now = slope_at_state();
+    // Illinois: an end that stays counts half the next time.
+    if (now > 0.0)
+      below = part, at_below = now, at_above *= 0.5;
+    else
+      above = part, at_above = now, at_below *= 0.5;
+  }
+}
+
+}  // namespace
+
+Equilibrium solve_with_laws(const CellStiffness& stiffness, const MomentumSolver::Tolerance& tolerance,
+                            MomentumSolver& momentum, FractureState& state) {
+  momentum.balance().prescribe(state.load, state.displacement);
+  stiffness.set(state, momentum);
+  Equilibrium total;
+  total.residual = total.initial_residual = momentum.residual(state.load, state.displacement);
+  const double target =
+      std::max(tolerance.floor, std::min(tolerance.ceiling, tolerance.reduction * total.initial_residual));
+  for (Index k = 0; k < most_law_steps && total.residual > target; ++k) {
+    const std::vector<Vector> from = state.displacement;
+    const std::vector<Vector> rest = momentum.unbalanced_forces(state.load, from);
+    const Equilibrium linear = momentum.solve(state.load,
+                                              {.reduction = reduction_of_step,
+                                               .ceiling = std::numeric_limits<double>::max(),
+                                               .floor = 0.5 * target,
+                                               .most_iterations = tolerance.most_iterations,
+                                               .good_enough = 0.0},
+                                              state.displacement);
+    total.iterations += linear.iterations;
+    ++total.newton_steps;
+    search_line(stiffness, from, rest, momentum, state);
+    total.residual = momentum.residual(state.load, state.displacement);
+    if (linear.iterations == 0) break;
+  }
+  total.converged = total.residual <= std::max(target, tolerance.good_enough);
+  return total;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,253 @@
+#include "solver/momentum/bending/bending_layers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+// A pair of opposite faces.
+struct OppositeFaces {
+  std::array<Index, 2> face{-1, -1};
+};
+
+bool touch(const Mesh& mesh, Index f, Index g) {
+  const auto a = mesh.points_of_face(f), b = mesh.points_of_face(g);
+  return std::any_of(a.begin(), a.end(), [&](Index p) { return std::find(b.begin(), b.end(), p) != b.end(); });
+}
+
+// A line of cells through opposite faces. Ends may be free, planes of symmetry, or neither: held, or beside other
+// cells.
+struct LayerLine {
+  double n = 0.0, length = 0.0;
+  int n_mirrors = 0, n_held = 0;
+
+  double times() const { return n_mirrors == 1 ? 2.0 : 1.0; }
+  // Cells between the free surfaces on both sides.
+  bool has_layers() const { return n_held == 0 && n_mirrors < 2; }
+};
+
+class LayerLines {
+ public:
+  LayerLines(const Mesh& mesh, const Unknowns& unknowns)
+      : mesh_(mesh), unknowns_(unknowns), ends_(ends()), pairs_(as_size(mesh.n_cells())) {
+    for (Index c = 0; c < mesh.n_cells(); ++c) {
+      lines_.emplace_back();
+      pairs_[as_size(c)] = pairs_of(c);
+    }
+    for (Index c = 0; c < mesh.n_cells(); ++c)
+      for (int axis = 0; axis < n_axes(c); ++axis)
+        if (lines_[as_size(c)][as_size(axis)].n == 0.0) walk(c, axis);
+  }
+
+  /// Three of a hexahedron, two in a plane mesh; one of a prism, across its triangles.
+  int n_axes(Index cell) const {
+    int n = 0;
+    for (const OppositeFaces& pair : pairs_[as_size(cell)]) n += pair.face[0] >= 0 ? 1 : 0;
+    return n;
+  }
+  const std::array<Index, 2>& faces(Index cell, int axis) const { return pairs_[as_size(cell)][as_size(axis)].face; }
+  const LayerLine& line(Index cell, int axis) const { return lines_[as_size(cell)][as_size(axis)]; }
+  /// Of the cells of one zone in the line, twice that where one of its ends is a plane of symmetry [m].
+  double zone_length(Index cell, int axis) const {
+    double sum = length(cell, axis);
+    std::array<Index, 2> ends = faces(cell, axis);
+    along_line(
+        mesh_, cell, faces(cell, axis),
+        [&](Index at, Index face) { return unknowns_.node_beside(mesh_, at, face) >= 0; },
+        [&](Index near, Index far) {
+          sum += (mesh_.face_centre[far] - mesh_.face_centre[near]).norm();
+          (near == ends[0] ? ends[0] : ends[1]) = far;
+        });
+    const auto is_mirror = [&](Index face) { return !mesh_.is_interior(face) && ends_[face] == End::mirror; };
+    return is_mirror(ends[0]) != is_mirror(ends[1]) ? 2.0 * sum : sum;
+  }
+  double length(Index cell, int axis) const {
+    const auto& [f, g] = pairs_[as_size(cell)][as_size(axis)].face;
+    return (mesh_.face_centre[g] - mesh_.face_centre[f]).norm();
+  }
+
+ private:
+  using Step = std::pair<Index, int>;
+
+  enum class End : char { free, mirror, held };
+
+  FaceField<End> ends() const {
+    FaceField<End> end(as_size(mesh_.n_faces()), End::free);
+    for (const PatchCondition& on : unknowns_.conditions) {
+      using Kind = BoundaryCondition::Kind;
+      const auto& held = on.condition.displacement_prescribed;
+      const auto is_held_along = [&](std::size_t i) {  // or nothing moves there: across a plane mesh
+        return held[i] || std::abs(unknowns_.plane_normal[static_cast<Eigen::Index>(i)]) > 0.999;
+      };
+      const bool is_held =
+          on.condition.kind == Kind::components && is_held_along(0) && is_held_along(1) && is_held_along(2);
+      if (on.condition.kind != Kind::symmetry && !is_held) continue;
+      const End kind = is_held ? End::held : End::mirror;
+      const Patch& patch = mesh_.patches[as_size(on.patch)];
+      for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) end[f] = kind;
+    }
+    return end;
+  }
+
+  // Those within the plane of a plane mesh first, the other one left out.
+  std::array<OppositeFaces, 3> pairs_of(Index cell) const {
+    std::array<OppositeFaces, 3> pairs;
+    std::size_t n = 0;
+    for (const Index f : mesh_.faces_of_cell(cell)) {
+      const Index g = opposite_face(mesh_, cell, f);
+      if (g < f || is_beside_plane(f) || is_beside_plane(g)) continue;
+      if (n < 3) pairs[n++].face = {f, g};
+    }
+    return pairs;
+  }
+  bool is_beside_plane(Index face) const { return !mesh_.is_interior(face) && unknowns_.node_of_face[face] < 0; }
+
+  void walk(Index cell, int axis) {
+    std::vector<Step> steps{{cell, axis}};
+    LayerLine line;
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+      const End end = follow(cell, pairs_[as_size(cell)][as_size(axis)].face[side], steps);
+      line.n_mirrors += end == End::mirror ? 1 : 0;
+      line.n_held += end == End::held ? 1 : 0;
+    }
+    for (const auto& [c, a] : steps) {
+      line.n += 1.0;
+      line.length += length(c, a);
+    }
+    for (const auto& [c, a] : steps) lines_[as_size(c)][as_size(a)] = line;
+  }
+
+  // Adds the cells beyond a face.
+  End follow(Index cell, Index face, std::vector<Step>& steps) const {
+    const Index first = cell;
+    while (mesh_.is_interior(face) && !unknowns_.is_split(face)) {
+      cell = mesh_.across(face, cell);
+      if (cell == first) return End::held;
+      const int axis = axis_of(cell, face);
+      if (axis < 0) return End::held;
+      steps.emplace_back(cell, axis);
+      const auto& ends = pairs_[as_size(cell)][as_size(axis)].face;
+      face = ends[0] == face ? ends[1] : ends[0];
+    }
+    return mesh_.is_interior(face) ? End::free : ends_[face];
+  }
+  int axis_of(Index cell, Index face) const {
+    for (int a = 0; a < n_axes(cell); ++a)
+      for (const Index f : pairs_[as_size(cell)][as_size(a)].face)
+        if (f == face) return a;
+    return -1;
+  }
+
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+  FaceField<End> ends_;
+  std::vector<std::array<OppositeFaces, 3>> pairs_;
+  std::vector<std::array<LayerLine, 3>> lines_;
+};
+
+constexpr double least_error = 0.005, least_slenderness = 3.0;
+
+bool is_lone(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {
+  return cells_through(mesh, unknowns, cell, faces) == 1;
+}
+
+// Cells in the line of a cell up to faces at which it ends.
+template <class Ends>
+Index count_through(const Mesh& mesh, Index cell, const std::array<Index, 2>& faces, const Ends& ends) {
+  Index n = 1;
+  along_line(mesh, cell, faces, ends, [&](Index, Index) { ++n; });
+  return n;
+}
+
+// see(cell with its faces, layers, nu) of the layers across each body that is long enough, at each of its cells, for
+// each direction in which it is.
+template <class See>
+void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
+  if (unknowns.motion.any() || !unknowns.periodic.empty()) return;
+  const LayerLines lines(mesh, unknowns);
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    for (int across = 0; across < lines.n_axes(c); ++across)
+      for (int along = 0; along < lines.n_axes(c); ++along) {
+        const LayerLine &layers = lines.line(c, across), &length = lines.line(c, along);
+        const double n = layers.times() * layers.n, thickness = layers.times() * layers.length;
+        if (across == along || !layers.has_layers()) continue;
+        if (length.times() * length.length < least_slenderness * thickness) continue;
+        see(BendingCell{.cell = c,
+                        .across = lines.faces(c, across),
+                        .along = lines.faces(c, along),
+                        .thickness = thickness,
+                        .zone_thickness = lines.zone_length(c, across)},
+            BendingLayers{.n = n,
+                          .thickness = thickness,
+                          .length = lines.length(c, along),
+                          .lone = layers.n > 1.0 && is_lone(mesh, unknowns, c, lines.faces(c, across))
+                                      ? lines.length(c, across)
+                                      : 0.0},
+            unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio());
+      }
+}
+
+}  // namespace
+
+Index opposite_face(const Mesh& mesh, Index cell, Index face) {
+  const CellShape shape = mesh.shape[cell];
+  if (shape != CellShape::hexahedron && shape != CellShape::wedge) return -1;
+  for (const Index f : mesh.faces_of_cell(cell))
+    if (!touch(mesh, f, face)) return f;
+  return -1;
+}
+
+std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unknowns) {
+  std::vector<BendingCell> cells;
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers&, double) { cells.push_back(in); });
+  return cells;
+}
+
+double BendingLayers::excess_of_lines(double nu) const {
+  const double at_most = std::min(nu, 0.45);
+  const double longer = std::max(0.0, length / thickness - 1.0);
+  return 0.05 * std::pow(longer, 1.3) * std::sqrt((1.0 - at_most) / (1.0 - 2.0 * at_most));
+}
+
+Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces) {
+  return count_through(mesh, cell, faces,
+                       [&](Index at, Index face) { return unknowns.node_beside(mesh, at, face) >= 0; });
+}
+
+bool has_lines(const Mesh& mesh, const Unknowns& unknowns, const BendingCell& in, LinesIn where) {
+  if (unknowns.is_axisymmetric() || (where == LinesIn::space && !unknowns.plane_normal.isZero())) return false;
+  return count_through(mesh, in.cell, in.across, [&](Index, Index face) { return unknowns.is_split(face); }) >= 2;
+}
+
+std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns, LinesIn where) {
+  std::vector<BendingCell> cells;
+  if (unknowns.is_axisymmetric() || (where == LinesIn::space && !unknowns.plane_normal.isZero())) return cells;
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
+    if (std::max(at.excess(nu), at.lack()) > least_error && has_lines(mesh, unknowns, in, where)) cells.push_back(in);
+  });
+  return cells;
+}
+
+std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
+  std::vector<char> bends(as_size(mesh.n_cells()), 0);
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
+    if (std::max(at.excess(nu), at.lack()) > least_error) bends[as_size(in.cell)] = 1;
+  });
+  return bends;
+}
+
+std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns,
+                                                  std::optional<LinesIn> lines) {
+  std::optional<BendingError> largest;
+  over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
+    const bool by_lines = lines && has_lines(mesh, unknowns, in, *lines);
+    const double error = by_lines ? at.excess_of_lines(nu) - at.lack_of_lines() : at.excess(nu) - at.lack();
+    if (!largest || std::abs(error) > std::abs(largest->error))
+      largest = {.cell = in.cell, .layers = at, .poisson_ratio = nu, .error = error, .has_lines = by_lines};
+  });
+  return largest;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,93 @@
+#pragma once
+// Where few layers of cells bend: lines of cells through opposite faces, and what gradients of one ring would make of
+// their bending.
+
+#include "mesh/mesh.h"
+#include "solver/momentum/body/unknowns.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace pfdm {
+
+/// Layers across a body at a cell, and the cell's longest edge along them.
+struct BendingLayers {
+  double n = 0.0;          ///< layers, twice as many where the last one lies on a plane of symmetry
+  double thickness = 0.0;  ///< of all of them [m]
+  double length = 0.0;     ///< of the cell along the layers [m]
+  double lone = 0.0;       ///< thickness of the cell if it is the only one of its material across, else 0 [m]
+
+  /// Bending stiffness with gradients of one ring over the exact one: 1.5 (1 - nu) (length/thickness)^2 too much, and
+  /// (3 - 2/n)/n^2 too little.
+  double excess(double nu) const { return 1.5 * (1.0 - nu) * length * length / (thickness * thickness); }
+  double lack() const { return n > 1.0 ? (3.0 - 2.0 / n) / (n * n) : 1.0; }
+  /// Likewise with gradients along lines of cells, in cells longer than the thickness: 0.05 (length/thickness - 1)^1.3
+  /// sqrt((1 - nu)/(1 - 2 nu)), nu at most 0.45, too much in cantilevers of an even number of cells, too little with an
+  /// odd one; and 0.7 (lone/thickness)^2 too little. Measured (test `bending`).
+  double excess_of_lines(double nu) const;
+  double lack_of_lines() const { return 0.7 * lone * lone / (thickness * thickness); }
+};
+
+/// The face of a hexahedron opposite to one of its faces, or a prism's other triangle; else -1.
+Index opposite_face(const Mesh& mesh, Index cell, Index face);
+
+/// Calls see(near face, far face) of every other cell in the line of a cell through these opposite faces, outwards, up
+/// to faces at which it ends: ends(cell before the face, face).
+template <class Ends, class See>
+void along_line(const Mesh& mesh, Index cell, const std::array<Index, 2>& faces, const Ends& ends, const See& see) {
+  for (Index face : faces)
+    for (Index at = cell; mesh.is_interior(face) && !ends(at, face);) {
+      at = mesh.across(face, at);
+      const Index far = opposite_face(mesh, at, face);
+      if (far < 0 || at == cell) break;
+      see(face, far);
+      face = far;
+    }
+}
+
+/// A cell of layers that bend: its two faces across which the layers lie one on another, and the two that the length of
+/// the body runs through.
+struct BendingCell {
+  Index cell = 0;
+  std::array<Index, 2> across{-1, -1}, along{-1, -1};
+  double thickness = 0.0;       ///< of all layers, of half models that of the whole body [m]
+  double zone_thickness = 0.0;  ///< likewise of those of the cell's own zone
+};
+
+/// All cells of bodies at least three times as long as thick, whatever the error; a cell of a plate is listed for both
+/// directions in which the plate is long. None in boxes that follow a mean strain.
+std::vector<BendingCell> cells_of_layers(const Mesh& mesh, const Unknowns& unknowns);
+
+/// Cells of one elastic zone in the line of a cell through two opposite faces, split faces being ends.
+Index cells_through(const Mesh& mesh, const Unknowns& unknowns, Index cell, const std::array<Index, 2>& faces);
+
+/// Where layers that bend have gradients along lines of cells (layer_gradients.h); not about an axis.
+enum class LinesIn { space, space_and_plane };
+
+/// Whether a cell has them: with at least two cells across, which may be of several zones that are bonded.
+bool has_lines(const Mesh& mesh, const Unknowns& unknowns, const BendingCell& in, LinesIn where);
+
+/// Those of cells_of_layers() that have lines and that gradients of one ring would bend with an error of more than half
+/// a per cent.
+std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unknowns, LinesIn where);
+
+/// Per cell, nonzero for hexahedra in bodies at least three times as long as thick whose layers would bend with an
+/// error of more than half a per cent. None in boxes that follow a mean strain.
+std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns);
+
+/// The error of bending at a cell.
+struct BendingError {
+  Index cell = 0;
+  BendingLayers layers;
+  double poisson_ratio = 0.0;
+  double error = 0.0;      ///< bending stiffness over the exact one, less 1
+  bool has_lines = false;  ///< by gradients along lines of cells, else of one ring
+};
+
+/// Where hexahedra in bodies at least three times as long as thick would bend with the largest error, of those that
+/// have lines in `lines`, if it is given, by these; empty without such bodies. None in boxes that follow a mean strain.
+std::optional<BendingError> largest_bending_error(const Mesh& mesh, const Unknowns& unknowns,
+                                                  std::optional<LinesIn> lines = std::nullopt);
+
+}  // namespace pfdm

@@ -1,0 +1,310 @@
+// How the lines of cells of layer_gradients.h are found.
+
+#include "solver/momentum/bending/layer_gradients.h"
+
+#include "solver/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+namespace pfdm {
+namespace {
+
+// Weights of values at `n` places in the mean over [-1/2, 1/2] of the polynomial through them (Lagrange; Gauss's rule
+// of two points is exact for cubics).
+std::array<double, 4> mean_weights(const std::array<double, 4>& places, std::size_t n) {
+  const double gauss = 0.5 / std::sqrt(3.0);
+  std::array<double, 4> weights{};
+  for (const double x : {-gauss, gauss})
+    for (std::size_t j = 0; j < n; ++j) {
+      double product = 0.5;
+      for (std::size_t m = 0; m < n; ++m)
+        if (m != j) product *= (x - places[m]) / (places[j] - places[m]);
+      weights[j] += product;
+    }
+  return weights;
+}
+
+using FacePair = std::array<Index, 2>;
+
+}  // namespace
+
+class LayerGradients::Maker {
+ public:
+  Maker(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
+        const std::vector<momentum_faces::Link>& links, OwnSides own, LayerGradients& made)
+      : mesh_(mesh),
+        unknowns_(unknowns),
+        links_(links),
+        has_all_sides_(own == OwnSides::surfaces_ends_and_interfaces),
+        made_(made),
+        sides_of_(as_size(mesh.n_cells())) {
+    for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[as_size(sides[k].cell)].emplace_back(sides[k].face, k);
+    made.sound_weights_.assign(links.size(), Tensor::Identity());
+    made.counting_ = CellField<double>(as_size(mesh.n_cells()), 1.0);
+    made.is_covered_ = CellField<char>(as_size(mesh.n_cells()), 0);
+    for (const momentum_faces::Link& link : links) made.cells_of_link_.push_back({link.P, link.N});
+    made.is_weighed_.assign(links.size(), 0);
+  }
+
+  // All directions in which a cell lies in layers that bend. A side that is across in one of them and along in another
+  // is across, whatever their order.
+  void add(std::span<const BendingCell> all) {
+    const Index cell = all.front().cell;
+    made_.cells_.push_back({.cell = cell, .first_line = made_.lines_.size(), .end_line = 0});
+    made_.is_covered_[cell] = 1;
+    has_line_.clear();
+    has_surface_.clear();
+    for (const BendingCell& in : all) {
+      add_line(cell, in.across);
+      add_line(cell, in.along);
+    }
+    made_.cells_.back().end_line = made_.lines_.size();
+    for (const BendingCell& in : all)
+      for (const Index face : in.along)
+        if (is_mirror(face)) add_mirror(cell, face);
+    for (const BendingCell& in : all)
+      for (const Index face : in.across) {
+        if (is_free(face) || unknowns_.is_split(face)) add_surface(cell, face);
+        if (has_all_sides_ && is_bonded(face)) add_bond(cell, face);
+      }
+    for (const BendingCell& in : all)
+      for (const Index face : in.along) {
+        if (const double part = part_of_end(all, face); has_all_sides_ && is_free(face) && part > 0.0)
+          add_surface(cell, face, part);
+        weigh_jump(in, face);
+      }
+  }
+
+ private:
+  // A cell beyond a face in its line, and that cell's far face; no cell where the face carries a node.
+  struct Step {
+    Index cell = -1, far = -1;
+  };
+  Step beyond(Index cell, Index face) const {
+    if (!mesh_.is_interior(face) || unknowns_.node_beside(mesh_, cell, face) >= 0) return {};
+    const Index other = mesh_.across(face, cell);
+    return {.cell = other, .far = opposite_face(mesh_, other, face)};
+  }
+  double length(Index f, Index g) const { return (mesh_.face_centre[g] - mesh_.face_centre[f]).norm(); }
+  Vector place(std::size_t unknown) const { return unknowns_.place(mesh_, static_cast<Index>(unknown)); }
+  std::optional<std::size_t> side_of(Index cell, Index face) const {
+    for (const auto& [f, side] : sides_of_[as_size(cell)])
+      if (f == face) return side;
+    return std::nullopt;
+  }
+  // On the surface of the body: components whose traction is prescribed, in plane meshes of those within the plane.
+  Tensor free_part(Index face) const {
+    const Index node = unknowns_.node_of_face[face];
+    if (mesh_.is_interior(face) || node < 0) return Tensor::Zero();
+    return unknowns_.free_within(node);
+  }
+  bool is_free(Index face) const { return !free_part(face).isZero(); }
+  bool is_mirror(Index face) const {
+    const Vector& across = unknowns_.plane_normal;
+    return is_free(face) && !(free_part(face) + across * across.transpose()).isIdentity();
+  }
+  bool is_bonded(Index face) const {
+    return mesh_.is_interior(face) && !unknowns_.is_split(face) && unknowns_.node_of_face[face] >= 0;
+  }
+
+  struct Place {
+    std::size_t from, to;  // outwards from the first cell of the line
+    double at;             // of the slope from that cell's centre, over its length
+    double at_held;        // likewise of the components that are held at a face whose others are free, else `at`
+    Index face;            // of these, else -1
+  };
+  // The slope at the face of a cell of the line: at the distance `x`, the face's distance from the cell's own centre
+  // being `half`, over the length of the first one. Nothing where the face carries neither a cell beyond nor a node.
+  std::optional<Place> slope_at(Index cell, Index face, double x, double half) const {
+    if (const Step next = beyond(cell, face); next.cell >= 0) return Place{as_size(cell), as_size(next.cell), x, x, -1};
+    const Index node = unknowns_.node_beside(mesh_, cell, face);
+    if (node < 0) return std::nullopt;
+    const double middle = x - half / 2.0, at = is_free(face) ? x : middle;
+    return is_mirror(face) ? Place{as_size(cell), as_size(node), at, middle, face}
+                           : Place{as_size(cell), as_size(node), at, at, -1};
+  }
+
+  // Slopes through a cell, those towards its first face at negative places, all along the line; empty where its own
+  // faces have none.
+  std::vector<Place> places_through(Index cell, const FacePair& faces) const {
+    const double unit = length(faces[0], faces[1]);
+    std::vector<Place> places;
+    for (const Index face : faces) {
+      const auto add = [&](Place place) {
+        if (face == faces[0]) place = {place.to, place.from, -place.at, -place.at_held, place.face};
+        places.push_back(place);
+      };
+      const std::optional<Place> here = slope_at(cell, face, 0.5, 0.5);
+      if (!here) return {};
+      add(*here);
+      const Step next = beyond(cell, face);
+      if (next.cell < 0 || next.far < 0) continue;
+      const double width = length(face, next.far) / unit;
+      if (const auto there = slope_at(next.cell, next.far, 0.5 + width, width / 2.0)) add(*there);
+    }
+    return places;
+  }
+
+  // Once for each pair of faces, though a plate is long in two directions.
+  void add_line(Index cell, const FacePair& faces) {
+    if (std::ranges::find(has_line_, faces[0]) != has_line_.end()) return;
+    has_line_.push_back(faces[0]);
+    const std::vector<Place> places = places_through(cell, faces);
+    if (places.empty()) return;
+    std::array<double, 4> at{};
+    for (std::size_t k = 0; k < places.size(); ++k) at[k] = places[k].at;
+    const std::array<double, 4> weights = mean_weights(at, places.size());
+    const std::size_t first = made_.slopes_.size();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Vector step = place(places[k].to) - place(places[k].from);
+      made_.slopes_.push_back({places[k].from, places[k].to, step, weights[k] / step.norm()});
+    }
+    const std::size_t first_held = made_.held_.size();
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (places[k].face < 0) continue;
+      std::array<double, 4> with_held = at;
+      with_held[k] = places[k].at_held;
+      HeldEnd end{.part = Tensor::Identity() - free_part(places[k].face),
+                  .weights = mean_weights(with_held, places.size())};
+      for (std::size_t m = 0; m < places.size(); ++m)
+        end.weights[m] = (end.weights[m] - weights[m]) / made_.slopes_[first + m].step.norm();
+      made_.held_.push_back(end);
+    }
+    const auto neighbour = [&](Index face) {
+      const Index next = beyond(cell, face).cell;
+      return next < 0 ? cell : next;
+    };
+    const Index before = neighbour(faces[0]), after = neighbour(faces[1]);
+    const double distance = (mesh_.cell_centre[after] - mesh_.cell_centre[before]).norm();
+    made_.lines_.push_back(
+        {.along = dual_of(cell, faces),
+         .first_slope = first,
+         .end_slope = made_.slopes_.size(),
+         .first_held = first_held,
+         .end_held = made_.held_.size(),
+         .before = before,
+         .after = after,
+         .spread = distance > 0.0 ? length(faces[0], faces[1]) / (std::sqrt(12.0) * distance) : 0.0});
+  }
+
+  // Takes the derivative along the line to the gradient, those along the faces being kept.
+  Vector dual_of(Index cell, const FacePair& faces) const {
+    const auto outwards = [&](Index f) -> Vector {
+      return (mesh_.owner[f] == cell ? 1.0 : -1.0) * mesh_.face_area[f].normalized();
+    };
+    const Vector line = (mesh_.face_centre[faces[1]] - mesh_.face_centre[faces[0]]).normalized();
+    const Vector normal = (outwards(faces[1]) - outwards(faces[0])).normalized();
+    return normal / normal.dot(line);
+  }
+
+  // `beside`: the cell from whose derivatives along the face, and the cell's own, those on it follow, by this part.
+  // `across`: components whose derivative across the face follows from `half_slopes`.
+  void add_side(Index cell, Index face, Index beside, double part, const std::vector<Slope>& half_slopes = {},
+                const Tensor& across = Tensor::Identity()) {
+    const auto side = side_of(cell, face);
+    if (beside < 0 || !side || std::ranges::find(has_surface_, face) != has_surface_.end()) return;
+    has_surface_.push_back(face);
+    const Vector& centre = mesh_.cell_centre[cell];
+    const Vector to_face = mesh_.face_centre[face] - centre, to_other = mesh_.cell_centre[beside] - centre;
+    const std::size_t first = made_.slopes_.size();
+    made_.slopes_.insert(made_.slopes_.end(), half_slopes.begin(), half_slopes.end());
+    made_.surfaces_.push_back({.cell = cell,
+                               .next = beside,
+                               .ratio = std::copysign(part * to_face.norm() / to_other.norm(), -to_face.dot(to_other)),
+                               .n = mesh_.face_area[face].normalized(),
+                               .side = *side,
+                               .first_slope = first,
+                               .end_slope = made_.slopes_.size(),
+                               .across = across,
+                               .along = to_face.normalized()});
+  }
+
+  // The next one inwards.
+  Index cell_behind(Index cell, Index face) const { return beyond(cell, opposite_face(mesh_, cell, face)).cell; }
+
+  void add_surface(Index cell, Index face, double part = 1.0) { add_side(cell, face, cell_behind(cell, face), part); }
+
+  // The components that are held at the end of a line have a slope across it.
+  void add_mirror(Index cell, Index face) {
+    add_side(cell, face, cell_behind(cell, face), 1.0, half_slopes(cell, face), Tensor::Identity() - free_part(face));
+  }
+
+  // At the free end of a line, by the thinnest of the layers that it ends: cells 1.5 times as long as these are thick
+  // would make a cantilever 2 % softer.
+  double part_of_end(std::span<const BendingCell> all, Index face) const {
+    double part = 1.0;
+    for (const BendingCell& in : all)
+      if (std::ranges::count(in.along, face) > 0)
+        part = std::min(part, 3.0 - 2.0 * length(in.along[0], in.along[1]) / in.thickness);
+    return part;
+  }
+
+  // Derivatives along it are those between both centres, but of much stiffer and much softer cells those of either side
+  // by itself: their slopes in the soft one have a kink at the interface where shear builds up.
+  void add_bond(Index cell, Index face) {
+    constexpr double most_alike = 3.0;
+    const Index other = mesh_.across(face, cell), next = cell_behind(cell, face);
+    const double here = shear_modulus(cell), there = shear_modulus(other);
+    const bool are_alike = std::max(here, there) <= most_alike * std::min(here, there);
+    add_side(cell, face, are_alike || next < 0 ? other : next, 1.0, half_slopes(cell, face));
+  }
+  double shear_modulus(Index cell) const { return unknowns_.sound[as_size(unknowns_.zone[cell])].mu; }
+
+  // Whose sum is what the slope towards a bonded or held face changes by from the middle of the half cell to the face,
+  // by that slope and the next one inwards.
+  std::vector<Slope> half_slopes(Index cell, Index face) const {
+    const Index opposite = opposite_face(mesh_, cell, face), next = beyond(cell, opposite).cell;
+    const Index inwards = next >= 0 ? next : unknowns_.node_beside(mesh_, cell, opposite);
+    if (inwards < 0) return {};
+    const Vector& centre = mesh_.cell_centre[cell];
+    const Vector near = mesh_.face_centre[face] - centre, far = place(as_size(inwards)) - centre;
+    const double at_near = near.norm() / 2.0, at_far = far.norm() / (is_free(opposite) ? 1.0 : 2.0);
+    const double part = at_near / (at_near + at_far);
+    const auto at = as_size(cell), node = as_size(unknowns_.node_beside(mesh_, cell, face));
+    return {{.from = at, .to = node, .step = near, .weight_over_length = part / near.norm()},
+            {.from = at, .to = as_size(inwards), .step = far, .weight_over_length = part / far.norm()}};
+  }
+
+  // Each cell of the face by half.
+  void weigh_jump(const BendingCell& in, Index face) {
+    constexpr double left = 0.04;
+    const auto side = side_of(in.cell, face);
+    if (!side || *side >= 2 * links_.size()) return;
+    const momentum_faces::Link& link = links_[*side / 2];
+    const double distance = (link.d_P - link.d_N).dot(link.n);
+    const double layer = length(in.across[0], in.across[1]), all = in.zone_thickness;
+    const double nu = unknowns_.sound[as_size(unknowns_.zone[in.cell])].poisson_ratio();
+    const double weight = std::min(1.0, left / (1.0 - nu) * layer * all / (distance * distance));
+    const Vector line = mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]];
+    const Vector within = (line - line.dot(link.n) * link.n).normalized();
+    made_.sound_weights_[*side / 2] -= 0.5 * (1.0 - weight) * within * within.transpose();
+    made_.is_weighed_[*side / 2] = 1;
+  }
+
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+  const std::vector<momentum_faces::Link>& links_;
+  bool has_all_sides_;
+  LayerGradients& made_;
+  std::vector<std::vector<std::pair<Index, std::size_t>>> sides_of_;
+  std::vector<Index> has_line_, has_surface_;  // faces of the last cell
+};
+
+LayerGradients::LayerGradients(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
+                               const std::vector<momentum_faces::Link>& links, const std::vector<BendingCell>& cells,
+                               OwnSides own)
+    : counts_(!cells.empty()) {
+  if (cells.empty()) return;
+  Maker maker(mesh, unknowns, sides, links, own, *this);
+  for (auto next = cells.begin(); next != cells.end();) {
+    const auto end = std::find_if(next, cells.end(), [&](const BendingCell& in) { return in.cell != next->cell; });
+    maker.add({next, end});
+    next = end;
+  }
+  weights_ = sound_weights_;
+}
+
+}  // namespace pfdm

@@ -1,0 +1,28 @@
+#pragma once
+// Eigenstrains eps* of the cells, one each (thermal expansion, misfit): the stress is C (eps - eps*), at finite
+// strain that of F (1 + eps*)^-1.
+
+#include "solver/momentum/body/unknowns.h"
+
+#include <optional>
+
+namespace pfdm {
+
+class CellEigenstrain {
+ public:
+  /// Those of the body at the load parameter t, or none. Returns whether they have changed.
+  bool set(const Mesh& mesh, const VolumeLoads& loads, std::optional<double> t);
+
+  bool any() const { return of_cell_.size() > 0; }
+  const CellField<Mandel>& all() const { return of_cell_; }  ///< [-]; empty: none
+  const Mandel& operator[](Index cell) const { return of_cell_[cell]; }
+  Tensor elastic_part(Index cell, const Tensor& strain) const {
+    return any() ? (strain - to_tensor(of_cell_[cell])).eval() : strain;
+  }
+
+ private:
+  std::optional<double> load_;  // parameter at which they are
+  CellField<Mandel> of_cell_;
+};
+
+}  // namespace pfdm

@@ -1,0 +1,70 @@
+#pragma once
+// Nearly incompressible cells carry a pressure: the part q of the mean stress beyond that of a moderate lambda_s is an
+// unknown of its own (a mixed form, as of Stokes' problem), because a reconstructed divergence times lambda locks or
+// oscillates as nu -> 1/2.
+//
+//   sigma = lambda_s tr(G) I + 2 mu sym(G) + q I,  lambda_s = 2.5 mu of the undamaged material,
+//   V q / (lambda - lambda_s) = sum over faces of u_f.S,
+//
+// with u_f the two-sided displacement of the face, at which the tractions of both its cells, q included, agree
+// (isotropic_tractions.h). The dependence of u_f on the difference of the two q suppresses oscillations, as the
+// pressure-weighted interpolation of Rhie and Chow (AIAA J. 21 (1983) 1525) does in collocated schemes for fluids: q is
+// extrapolated to the face by its least-squares gradient, so that only rough pressures are damped. Between cells of
+// different damage q may jump: there its gradient has a smaller weight. The fluxes u_f.S of two neighbours cancel on
+// their common face; a warped face requires an additional term, the flux of the gradient through its triangles.
+
+#include "solver/momentum/body/unknowns.h"
+#include "solver/scalar/gradient.h"
+
+#include <vector>
+
+namespace pfdm {
+
+/// The pressures of the cells for given unknowns, and their slopes.
+struct PressureField {
+  CellField<double> q;      ///< [Pa], positive in tension; zero in cells that have none; empty without any
+  CellField<Vector> slope;  ///< of q, times its weight [Pa/m]; likewise
+
+  /// q at the distance d from the cell's centre [Pa].
+  double at(Index cell, const Vector& d) const { return q.size() > 0 ? q[cell] + slope[cell].dot(d) : 0.0; }
+  double mean(Index cell) const { return q.size() > 0 ? q[cell] : 0.0; }
+};
+
+class CellPressure {
+ public:
+  /// lambda_s / mu. Measured on Goodier's sphere: 1.5 doubles the pole's error, 7 does so on polyhedra and takes up to
+  /// twice the iterations.
+  static constexpr double moderate_lambda = 2.5;
+
+  CellPressure(const Mesh& mesh, const Unknowns& unknowns);
+
+  bool any() const { return !unknowns_.pressure_cells.empty(); }
+  /// Reduces lambda to lambda_s in the moduli of the cells with a pressure, which carries the rest. In a damaged cell
+  /// both are the same fractions of lambda as in the undamaged one. g are the stiffness factors.
+  void take_over(CellField<IsotropicElasticity>& moduli, const CellField<double>& g);
+  /// The part of it that does not concern the moduli: at finite strain, whose laws know their own.
+  void weigh(const CellField<double>& g);
+  /// Pressures that are zero, for read().
+  PressureField field() const;
+  /// Those among the unknowns u, and their gradients.
+  void read(const std::vector<Vector>& u, PressureField& pressures) const;
+
+  /// lambda - lambda_s [Pa]; zero in cells that have none.
+  double modulus(Index cell) const { return any() ? modulus_[cell] : 0.0; }
+  /// Flux through a face's triangles beyond u_f.S at the displacement gradient G [m^3].
+  double flux_of_warp(Index face, const Tensor& G) const {
+    return warp_.size() > 0 ? G.cwiseProduct(warp_[face]).sum() : 0.0;
+  }
+
+ private:
+  double likeness(Index cell, const CellField<double>& g) const;
+
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+  Gradient gradient_;
+  CellField<double> modulus_;  // [Pa]; empty, as all fields below, without pressures
+  CellField<double> counts_;   // weight of its gradient: 1 among cells of equal damage, to 0
+  FaceField<Tensor> warp_;     // sum over its triangles of S_t (x) (x_t - x_f) [m^3]; empty where all faces are plane
+};
+
+}  // namespace pfdm

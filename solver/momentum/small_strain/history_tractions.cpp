@@ -1,0 +1,147 @@
+#include "solver/momentum/small_strain/history_tractions.h"
+
+#include "solver/momentum/small_strain/isotropic_sweep.h"
+
+namespace pfdm {
+namespace {
+
+// What the gradient of a bonded side is beyond that of the cell is a gap, too.
+struct StressByHistory {
+  const CellField<LinearStress>& stress;
+  const CellField<IsotropicElasticity>& moduli;
+  Vector operator()(Index cell, const Tensor& G, const Vector& n) const {
+    return to_tensor(stress[cell].C * to_mandel(symmetric_part(G))) * n;
+  }
+  Vector at_side(Index cell, const Tensor& G, const Tensor& at_side, const Vector& n) const {
+    return (*this)(cell, G, n) + IsotropicStress{moduli}(cell, at_side - G, n);
+  }
+};
+
+}  // namespace
+
+void HistoryTractions::set(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,
+                           HistoryStress history) {
+  set_moduli(moduli, g, history.sound);
+  stress_ = std::move(history.stress);
+  bear_gaps(history, g);
+  give_to_pressures();
+  parallel_for(stress_.size(), [&](Index c) {
+    if (eigenstrain_.any()) stress_[c].initial -= stress_[c].C * eigenstrain_[c];
+    if (!is_plane_stress()) return;
+    strain_across_[c] = strain_across(stress_[c], plane_normal());
+    stress_[c] = plane_stress(stress_[c], plane_normal());
+  });
+  cells_.weigh(g, part);
+  cells_.leave_out_third_order();
+  set_coefficients();
+}
+
+// Of the stress K tr eps + p_0 the pressures carry all but K_s tr eps.
+void HistoryTractions::give_to_pressures() {
+  if (!cells_.pressure().any()) return;
+  pressure_ = CellField<double>(as_size(stress_.size()), 0.0);
+  parallel_for(stress_.size(), [&](Index c) {
+    const double modulus = cells_.pressure().modulus(c);
+    if (!(modulus > 0.0)) return;
+    LinearStress& stress = stress_[c];
+    const double p = trace(stress.initial) / 3.0;
+    stress.initial -= p * mandel_identity();
+    stress.C.topLeftCorner<3, 3>().array() -= modulus;
+    pressure_[c] = p;
+  });
+}
+
+HistoryTractions::GapStiffness HistoryTractions::gap_stiffness(Index c, const HistoryStress& history) const {
+  if (history.relaxes[c] == 0) return {};
+  const IsotropicElasticity& sound = history.sound[c];
+  const double share = jump_modulus(c) / moduli()[c].constrained_modulus();
+  if (is_plane_stress()) return {share * plane_stress(sound).constrained_modulus() / sound.mu, 0.0};
+  return {share * 4.0 / 3.0, share};
+}
+
+// visit(place of the face in Mesh::cell_faces, force) of each face that bears a force.
+template <class Visit>
+void HistoryTractions::visit_sides(Index cell, const Visit& visit) const {
+  const Mesh& mesh = skeleton_.mesh;
+  const FaceSkeleton::SignedForce* next = skeleton_.forces_of(cell).data();
+  const std::size_t first = as_size(mesh.cell_face_offsets[as_size(cell)]);
+  const auto faces = mesh.faces_of_cell(cell);
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    if (skeleton_.force_of_face[faces[k]] >= 0) visit(first + k, faces[k], *next++);
+}
+
+void HistoryTractions::bear_gaps(const HistoryStress& history, const CellField<double>& g) {
+  gaps_ = {};
+  if (history.gaps.empty()) return;
+  gaps_ = CellField<GapStiffness>(as_size(stress_.size()));
+  initial_of_gaps_.assign(skeleton_.n_turns(), Vector::Zero());
+  parallel_for(stress_.size(), [&](Index c) {
+    gaps_[c] = gap_stiffness(c, history);
+    if (!(gaps_[c].by_shear > 0.0)) return;
+    visit_sides(c, [&](std::size_t at, Index f, const FaceSkeleton::SignedForce& on) {
+      const Vector n = skeleton_.mesh.face_area[f].normalized();
+      const GapStress& left = history.gaps[at];
+      initial_of_gaps_[skeleton_.turn_at(on)] =
+          g[c] * (momentum_faces::scale(gaps_[c].by_shear, 1.0, n, left.shear) + gaps_[c].by_bulk * left.bulk * n);
+    });
+  });
+}
+
+void HistoryTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) const {
+  sweep_faces(u, static_cast<IsotropicSweep&>(sweep), StressByHistory{stress_, moduli()});
+}
+
+// n leads outwards from P and from sides, into N.
+Vector HistoryTractions::initial_traction(Index cell, const Vector& n, std::size_t turn) const {
+  const Vector of_cell = initial_stress(cell) * n;
+  if (gaps_.size() == 0) return of_cell;
+  const bool is_N = !skeleton_.is_side(turn) && turn == FaceSkeleton::turn_N(turn / 2);
+  return of_cell + (is_N ? -1.0 : 1.0) * initial_of_gaps_[turn];
+}
+
+double HistoryTractions::free_volume_change(Index cell) const {
+  const double by_history = -pressure_[cell] / cells_.pressure().modulus(cell);
+  return eigenstrain_.any() ? by_history + trace(eigenstrain_[cell]) : by_history;
+}
+
+Vector HistoryTractions::own_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
+                                      const IsotropicSweep& s) const {
+  return traction(cell, n, d, turn, s, StressByHistory{stress_, moduli()});
+}
+
+double HistoryTractions::stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const {
+  if (is_plane_stress()) return 0.0;
+  const double by_strain = plane_normal().dot(to_tensor(stress_[cell](to_mandel(strain))) * plane_normal());
+  return by_strain + of(sweep).pressure.mean(cell);
+}
+
+void HistoryTractions::add_histories(const FaceMoves& moves, CellMechanics& result) const {
+  const IsotropicSweep& sweep = of(moves.sweep);
+  result.reconstructed_strain = CellField<Tensor>(as_size(stress_.size()));
+  if (gaps_.size() > 0) result.gaps.resize(skeleton_.mesh.cell_faces.size());
+  parallel_for(stress_.size(), [&](Index c) {
+    Tensor& strain = result.reconstructed_strain[c];
+    strain = symmetric_part(with_strain_across(c, sweep.gradients[c]));
+    if (const double modulus = cells_.pressure().modulus(c); modulus > 0.0) {
+      const double change = sweep.pressure.mean(c) / modulus + free_volume_change(c);
+      strain += (change - strain.trace()) / 3.0 * Tensor::Identity();
+    }
+    if (gaps_.size() > 0 && gaps_[c].by_shear > 0.0) add_gaps(c, moves, result);
+  });
+}
+
+void HistoryTractions::add_gaps(Index cell, const FaceMoves& moves, CellMechanics& result) const {
+  const Mesh& mesh = skeleton_.mesh;
+  visit_sides(cell, [&](std::size_t at, Index f, const FaceSkeleton::SignedForce& on) {
+    const std::size_t turn = skeleton_.turn_at(on);
+    const Vector d = mesh.face_centre[f] - mesh.cell_centre[cell], n = mesh.face_area[f].normalized();
+    const Vector move = moves.seen_from(cell, f) - moves.u[as_size(cell)];
+    const double h = std::abs(d.dot(n));
+    result.gaps[at] = {.strain = gap(cell, d, turn, move, moves.u, moves.sweep) / h,
+                       .volume = mesh.face_area[f].norm() * h,
+                       .by_shear = gaps_[cell].by_shear,
+                       .by_bulk = gaps_[cell].by_bulk};
+  });
+}
+
+}  // namespace pfdm

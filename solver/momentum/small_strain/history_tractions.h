@@ -1,0 +1,62 @@
+#pragma once
+// Tractions at small strain of bodies with a history (viscoelastic, plastic, endochronic cells), linearised within each
+// solve: sigma = C eps + sigma_0 of the cell's strain. The gaps at its faces, by which a, b and c act
+// (isotropic_tractions.h), are borne
+//
+// - elastically by plastic and endochronic cells: the converged solution does not depend on C, which may change with
+//   the direction of the strain increment;
+// - by relaxing materials, which are linear, as strains are: a, b and c are of the moduli that a change of strain
+//   meets in the step, and what is left of earlier gaps is an initial traction of the side (history_stress.h). A body
+//   that has relaxed is then the elastic one of the relaxed moduli with gradients of one ring. Not in plane stress: its
+//   modulus along a face's normal is not linear in mu, so that the parts of the branches do not add up.
+//
+// Nearly incompressible cells have a pressure (cell_pressure.h): of p = K tr eps + p_0, with K and p_0 of C and
+// sigma_0, it carries all but K_s tr eps, V (q - p_0)/(K - K_s) = sum u_f.S. Relaxing materials have none: with gaps
+// that relax beside pressures, rough modes of bonded discs grew in time. There are no faces of third order.
+
+#include "solver/momentum/small_strain/history_stress.h"
+#include "solver/momentum/small_strain/isotropic_tractions.h"
+
+namespace pfdm {
+
+class HistoryTractions final : public IsotropicTractions {
+ public:
+  HistoryTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain)
+      : IsotropicTractions(skeleton, cells, eigenstrain, false) {}
+
+  /// As IsotropicTractions::set(), with the history of the body.
+  void set(const CellField<IsotropicElasticity>& moduli, const CellField<double>& g, double part,
+           HistoryStress history);
+
+  void find_linear(const std::vector<Vector>& u, Sweep& sweep) const override;
+
+ private:
+  bool has_initial_stress() const override { return true; }
+  Tensor initial_stress(Index cell) const override { return to_tensor(stress_[cell].initial); }
+  Vector initial_traction(Index cell, const Vector& n, std::size_t turn) const override;
+  double free_volume_change(Index cell) const override;
+  Vector own_traction(Index cell, const Vector& n, const Vector& d, std::size_t turn,
+                      const IsotropicSweep& s) const override;
+  double stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const override;
+  void add_histories(const FaceMoves& moves, CellMechanics& result) const override;
+
+  void give_to_pressures();
+  void bear_gaps(const HistoryStress& history, const CellField<double>& g);
+  void add_gaps(Index cell, const FaceMoves& moves, CellMechanics& result) const;
+  template <class Visit>
+  void visit_sides(Index cell, const Visit& visit) const;
+
+  // Of a relaxing cell: the stiffness of its gaps along the normal of a face, over the shear and the bulk modulus. Zero
+  // of others.
+  struct GapStiffness {
+    double by_shear = 0.0, by_bulk = 0.0;
+  };
+  GapStiffness gap_stiffness(Index cell, const HistoryStress& history) const;
+
+  CellField<LinearStress> stress_;       // condensed in plane stress; less the pressure
+  CellField<double> pressure_;           // p_0 [Pa]; empty without pressures
+  CellField<GapStiffness> gaps_;         // empty without relaxing cells, as
+  std::vector<Vector> initial_of_gaps_;  // by turn, outwards from the cell [Pa]
+};
+
+}  // namespace pfdm

@@ -1,0 +1,69 @@
+#include "solver/momentum/small_strain/small_tractions.h"
+
+#include "solver/momentum/faces/polyhedral_jump.h"
+#include "solver/parallel.h"
+
+namespace pfdm {
+
+SmallTractions::SmallTractions(const FaceSkeleton& skeleton, CellReconstruction& cells,
+                               const CellEigenstrain& eigenstrain)
+    : FaceTractions(skeleton),
+      cells_(cells),
+      eigenstrain_(eigenstrain),
+      jump_share_(jump_shares(skeleton.mesh, skeleton.unknowns)) {}
+
+// A pressure carries what is beyond lambda_s; it hardly varies within a cell.
+IsotropicPart SmallTractions::with_jump_modulus(Index cell, const IsotropicElasticity& part) const {
+  IsotropicPart with{part, part};
+  if (part.lambda <= 0.0) return with;
+  with.jump.lambda = jump_share_[cell] * part.constrained_modulus() - 2.0 * part.mu;
+  if (cells_.pressure().modulus(cell) > 0.0)
+    with.jump.lambda = std::min(with.jump.lambda, CellPressure::moderate_lambda * part.mu);
+  return with;
+}
+
+void SmallTractions::finish_stress(Index c, const CellSums& sums, const Sweep& sweep, CellMechanics& result) const {
+  const double volume = skeleton_.mesh.cell_volume[c];
+  const Vector& normal = plane_normal();
+  Tensor moment = sums.moment;
+  result.stress[c] = symmetric_part((moment * skeleton_.closure[c]) / volume);
+  if (!skeleton_.unknowns.is_axisymmetric()) {
+    const Tensor across = stress_across(c, result.strain[c], sweep) * normal * normal.transpose();
+    result.stress[c] += across;
+    moment += volume * across;
+  }
+  if (!eigenstrain_.any()) return;
+  result.traction_moment[c] = to_mandel(symmetric_part(moment));
+  result.energy[c] -= 0.5 * result.traction_moment[c].dot(eigenstrain_[c]);
+}
+
+CellMechanics SmallTractions::mechanics(const std::vector<Vector>& u, bool with_gradient,
+                                        const CellField<IsotropicElasticity>& part) const {
+  const auto lease = sweep();
+  find(u, *lease);
+  FaceField<Vector> u_face = face_displacements(u, *lease);
+  const FaceMoves moves{.skeleton = skeleton_, .sweep = *lease, .u = u, .u_face = u_face};
+  const auto n = as_size(skeleton_.mesh.n_cells());
+  CellMechanics result{.strain = CellField<Tensor>(n),
+                       .eigenstrain = eigenstrain_.all(),
+                       .traction_moment = CellField<Mandel>(eigenstrain_.any() ? n : 0),
+                       .gradient = CellField<Tensor>(with_gradient ? n : 0),
+                       .stress = CellField<Tensor>(n),
+                       .energy = CellField<double>(n),
+                       .part_energy = CellField<double>(as_size(part.size()), 0.0)};
+  parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
+    const CellSums sums = sum_over_faces(c, moves, [](const auto*, const auto&, const auto&, const auto&) {});
+    const Tensor gradient =
+        with_strain_across(c, sums.gradient * skeleton_.closure[c].transpose() / skeleton_.mesh.cell_volume[c]);
+    result.strain[c] = symmetric_part(gradient);
+    result.energy[c] = sums.work;
+    if (part.size() > 0) result.part_energy[c] = energy_of_part(c, part[c], result.strain[c], moves);
+    if (with_gradient) result.gradient[c] = gradient;
+    finish_stress(c, sums, *lease, result);
+  });
+  add_histories(moves, result);
+  result.face_displacement = std::move(u_face);
+  return result;
+}
+
+}  // namespace pfdm

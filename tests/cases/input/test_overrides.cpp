@@ -1,0 +1,86 @@
+// --set KEY=VALUE.
+
+#include "cases/program/input/case_files/case_override.h"
+#include "tests/cases/temporary_case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace pfdm::this_file {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The value at `key` as TOML, of the bar with these words.
+std::string value_with(const std::vector<std::string>& words, const std::string& key) {
+  const TemporaryCase directory(bar_case());
+  const CaseFile file = with_overrides(open_case(directory.path()), words);
+  return written(value_at(parse_toml(file.text, "case.toml"), key));
+}
+
+TEST(Overrides, ReplaceTextsNumbersAndElements) {
+  EXPECT_EQ(value_with({"materials.concrete.young_modulus=40 GPa"}, "materials.concrete.young_modulus"), "\"40 GPa\"");
+  EXPECT_EQ(value_with({"materials.concrete.young_modulus = \"40 GPa\""}, "materials.concrete.young_modulus"),
+            "\"40 GPa\"");
+  EXPECT_EQ(value_with({"materials.concrete.poisson_ratio=0.3"}, "materials.concrete.poisson_ratio"), "0.3");
+  EXPECT_EQ(value_with({"mesh.x[0].cells=42"}, "mesh.x[0].cells"), "42");
+  EXPECT_EQ(value_with({"boundary[1].displacement[0]=0.02 mm"}, "boundary[1].displacement[0]"), "\"0.02 mm\"");
+  EXPECT_EQ(value_with({"title=12"}, "title"), "\"12\"");
+  EXPECT_EQ(value_with({"title=a=b"}, "title"), "\"a=b\"");
+  EXPECT_EQ(value_with({"mesh.x[0].cells=42", "mesh.x[0].cells=43"}, "mesh.x[0].cells"), "43");
+}
+
+TEST(Overrides, AddKeysThatTheFileLeavesOut) {
+  EXPECT_EQ(value_with({"fracture.residual_stiffness=1e-7"}, "fracture.residual_stiffness"), "1e-07");
+  EXPECT_EQ(value_with({"solver.maximum_iterations=7"}, "solver.maximum_iterations"), "7");
+  EXPECT_EQ(value_with({"solver.maximum_iterations=7", "solver.damage_tolerance=1e-3"}, "solver.damage_tolerance"),
+            "0.001");
+  EXPECT_EQ(value_with({"boundary[2].pressure=1 MPa"}, "boundary[2].pressure"), "\"1 MPa\"");
+  EXPECT_EQ(value_with({"boundary[1].traction=[\"free\", \"0 Pa\", \"free\"]"}, "boundary[1].traction[1]"), "\"0 Pa\"");
+}
+
+TEST(Overrides, DecideWhatRuns) {
+  const TemporaryCase directory(bar_case());
+  const std::string place = directory.path().string();
+  const Outcome whole = run({"run", place, "--set", "loading.end=0.5"});
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  EXPECT_THAT(whole.out, HasSubstr("complete at step 5, load 0.5"));
+  EXPECT_THAT(whole.out, HasSubstr("next: pfdm report " + place + " --set 'loading.end=0.5'"));
+  EXPECT_EQ(content_of(directory.path() / "case.toml"), bar_case());
+  EXPECT_EQ(run({"report", place, "--set", "loading.end=0.5"}).status, 0);
+}
+
+// Each takes one word: what follows is a further one, or the case.
+TEST(Overrides, MayBeRepeated) {
+  const TemporaryCase directory(bar_case());
+  const std::string place = directory.path().string();
+  const Outcome whole =
+      run({"run", "--set", "loading.end=0.5", "--set", "loading.initial_increment=0.05", place, "--quiet"});
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  const std::string ran = content_of(directory.path() / "results" / "case.toml");
+  EXPECT_THAT(ran, HasSubstr("end = 0.5"));
+  EXPECT_THAT(ran, HasSubstr("initial_increment = 0.05"));
+}
+
+void expect_refused_word(const std::string& word, const std::string& message) {
+  const TemporaryCase directory(bar_case());
+  const Outcome outcome = run({"check", directory.path().string(), "--set", word});
+  EXPECT_EQ(outcome.status, 2) << word;
+  EXPECT_THAT(outcome.err, HasSubstr(message));
+  EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+}
+
+TEST(Overrides, SayWhatIsWrong) {
+  expect_refused_word("loading.end", "--set loading.end: expected KEY=VALUE, as in");
+  expect_refused_word("=3", "expected KEY=VALUE");
+  expect_refused_word("mesh.x[3].cells=3", "--set mesh.x[3].cells: ");
+  expect_refused_word("mesh.x=3", "\"mesh.x\" is not a single value");
+  expect_refused_word("fracture.lenght=2 mm", "did you mean \"length\"?");
+  expect_refused_word("fracture.length=2 MPa", "case.toml with --set");
+  expect_refused_word("materials.concrete.young_modulus=30", "has no unit");
+}
+
+}  // namespace
+}  // namespace pfdm::this_file

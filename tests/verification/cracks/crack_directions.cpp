@@ -1,0 +1,344 @@
+// Surface energy of straight cracks at any angle to the rows of a mesh: their cells are broken, the damage beside them
+// takes the profile of least energy. In a continuous body it is Gc per area at every angle.
+
+#include "mesh/search/flat_surface.h"
+#include "physics/error.h"
+#include "solver/fracture/damage/damage_equation.h"
+#include "solver/fracture/fracture_run.h"
+
+#include "tests/verification/near_field.h"
+#include "tests/verification/support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace pfdm::verification::this_file {
+namespace {
+
+constexpr double Gc = 1.0;
+
+struct StraightCrack {
+  double angle = 0.0;   // to x, about z [degrees]
+  double offset = 0.0;  // from the middle of the unit square
+};
+
+FractureModel model_of(const std::string& law, double ell) {
+  FractureModel model;
+  model.regions = {{.elasticity = {}, .Gc = Gc, .ell = ell}};
+  model.crack = &crack_geometry(law);
+  model.degradation = degradation("quadratic");
+  model.split = energy_split("none");
+  return model;
+}
+
+// Surface energy per length and thickness about the middle of a crack through the unit square, over Gc: a mean with a
+// weight that falls to zero at its ends.
+double energy_of(const Mesh& mesh, double thickness, const FractureModel& model, const Vector& plane_normal,
+                 const StraightCrack& crack) {
+  const double angle = crack.angle * std::numbers::pi / 180.0;
+  const Vector along(std::cos(angle), std::sin(angle), 0.0), up(-along.y(), along.x(), 0.0);
+  const Vector middle = Vector(0.5, 0.5, 0.0) + crack.offset * up;
+  CellField<double> d(as_size(mesh.n_cells()), 0.0);
+  for (const Index c : cells_on(mesh, strip(middle - 2.0 * along, middle + 2.0 * along, Vector::UnitZ()))) d[c] = 1.0;
+  DamageEquation equation(mesh, model, plane_normal);
+  d = equation.relaxed(d);
+  equation.renewed_fracture_energy(d);
+  const CellField<double> density = equation.fracture_energy_density(d);
+  constexpr double half = 0.3, ramp = 0.15;
+  double energy = 0.0;
+  for (Index c = 0; c < mesh.n_cells(); ++c) {
+    const double at = std::abs(along.dot(mesh.cell_centre[c] - middle));
+    energy += std::clamp((half - at) / ramp, 0.0, 1.0) * density[c] * mesh.cell_volume[c];
+  }
+  return energy / (Gc * thickness * (2.0 * half - ramp));
+}
+
+struct Range {
+  double least = 1e300, most = 0.0;
+};
+
+// Over angles, each with the mean of two places between the cells.
+Range energies(const std::string& label, const Mesh& mesh, double thickness, const std::string& law, double h,
+               double n_cells_per_ell, const Vector& plane_normal, const std::vector<double>& angles) {
+  const FractureModel model = model_of(law, n_cells_per_ell * h);
+  Range range;
+  std::vector<std::pair<std::string, double>> row;
+  for (const double angle : angles) {
+    double mean = 0.0;
+    for (const double offset : {0.03, 0.37})
+      mean += energy_of(mesh, thickness, model, plane_normal, {.angle = angle, .offset = offset * h}) / 2.0;
+    row.emplace_back(fmt::format("{:g} degrees", angle), mean);
+    range.least = std::min(range.least, mean);
+    range.most = std::max(range.most, mean);
+  }
+  report_row(fmt::format("{}, {}, ell/h = {:g}", label, law, n_cells_per_ell), row);
+  return range;
+}
+
+const std::vector<double> some_angles{0.0, 10.0, 20.0, 30.0, 45.0};
+
+// A staircase of cells that meet at faces would cost h/(2 ell) more than a row (AT2).
+TEST(CrackDirections, CostTheSameOnHexahedra) {
+  constexpr Index n_cells = 61;
+  constexpr double h = 1.0 / n_cells;
+  BoxHexesSettings settings;
+  settings.axes = {{{{1.0, n_cells, 1.0}}, {{1.0, n_cells, 1.0}}, {{h, 1, 1.0}}}};
+  const Mesh mesh = make_box_hexes(settings);
+  for (const auto& [law, cells, most] : {std::tuple{"AT2", 2.0, 1.075},
+                                         {"AT2", 3.0, 1.045},
+                                         {"AT2", 4.0, 1.033},
+                                         {"AT1", 2.0, 1.06},
+                                         {"AT1", 3.0, 1.04},
+                                         {"AT1", 4.0, 1.03},
+                                         {"Wu", 2.0, 1.05},
+                                         {"Wu", 3.0, 1.04},
+                                         {"Wu", 4.0, 1.03}}) {
+    const Range range = energies("hexahedra", mesh, h, law, h, cells, Vector::UnitZ(), some_angles);
+    EXPECT_LE(range.most, most) << law << ", ell/h = " << cells;
+    EXPECT_GE(range.least, 0.98) << law << ", ell/h = " << cells;
+  }
+}
+
+TEST(CrackDirections, CostTheSameOnPrisms) {
+  constexpr Index n_cells = 45;
+  constexpr double h = 1.0 / n_cells;
+  const Mesh mesh = extruded_triangles(n_cells, {0.0, h});
+  for (const std::string law : {"AT2", "AT1", "Wu"}) {
+    const Range range = energies("prisms", mesh, h, law, h, 3.0, Vector::UnitZ(), {0.0, 20.0, 45.0, 70.0, 135.0});
+    EXPECT_LE(range.most, 1.06) << law;
+    EXPECT_GE(range.least, 0.94) << law;
+  }
+}
+
+TEST(CrackDirections, CostTheSameOnTetrahedraAndPolyhedra) {
+  constexpr double h = 1.0 / 20.0, thickness = 0.2;
+  ParticlesInBoxSettings settings;
+  settings.upper = {1.0, 1.0, thickness};
+  settings.boundary_size = h;
+  settings.size_far = h;
+  const Mesh mesh = make_particles_in_box(settings), dual = barycentric_dual(mesh);
+  for (const auto& [label, cells, most] : {std::tuple{"tetrahedra", &mesh, 1.03}, {"polyhedra", &dual, 1.1}}) {
+    const Range range = energies(label, *cells, thickness, "AT2", h, 3.0, Vector::Zero(), {0.0, 20.0, 45.0});
+    EXPECT_LE(range.most, most) << label;
+    EXPECT_LE(range.most, 1.02 * range.least) << label;
+  }
+}
+
+// Twice the energy of half a crack, whose cells have a face in a plane of symmetry: as a crack of [initial] there.
+TEST(CrackDirections, CostTheSameInAPlaneOfSymmetryOfTetrahedra) {
+  constexpr double h = 1.0 / 16.0, height = 1.0, side = 0.5;
+  ParticlesInBoxSettings settings;
+  settings.upper = {side, side, height};
+  settings.boundary_size = h;
+  settings.size_far = h;
+  const Mesh mesh = make_particles_in_box(settings);
+  for (const double cells : {2.0, 3.0}) {
+    FractureModel model = model_of("AT2", cells * h);
+    model.boundary = {symmetry_on("zmin")};
+    CellField<double> d(as_size(mesh.n_cells()), 0.0);
+    for (const Index c : cells_on(mesh, disc(Vector::Zero(), Vector::UnitZ(), 10.0))) d[c] = 1.0;
+    DamageEquation equation(mesh, model, Vector::Zero());
+    d = equation.relaxed(d);
+    const double energy = 2.0 * equation.renewed_fracture_energy(d) / (Gc * side * side);
+    report_row("tetrahedra beside a plane of symmetry", {{"ell/h", cells}, {"energy", energy}});
+    EXPECT_NEAR(energy, 1.0, 0.3 / cells);
+  }
+}
+
+// A crack of AT1 in 61 x 61 hexahedra, ell = 3 h, that follows a moving near field of mode I with G = Gc at an angle to
+// their rows. It ought to keep that direction and to spend Gc.
+struct Followed {
+  double direction = 0.0;  // from where the field began to the foremost broken cell [degrees]
+  double spent = 0.0;      // over Gc and the way of the field, after the first two ell
+  double lost = 0.0;       // likewise: work that is neither stored nor spent
+  Index iterations = 0;
+};
+
+Followed follow(double degrees) {
+  constexpr Index n_cells = 61;
+  constexpr double h = 1.0 / n_cells, ell = 3.0 * h, way = 7.0 * ell, step = ell;
+  const double angle = degrees * std::numbers::pi / 180.0;
+  const Vector along(std::cos(angle), std::sin(angle), 0.0), up(-along.y(), along.x(), 0.0);
+  const Vector begin = Vector(0.5, 0.5, 0.0) - 0.25 * along;
+  BoxHexesSettings settings;
+  settings.axes = {{{{1.0, n_cells, 1.0}}, {{1.0, n_cells, 1.0}}, {{h, 1, 1.0}}}};
+  const Mesh mesh = make_box_hexes(settings);
+  const IsotropicElasticity elasticity = from_young_poisson(1.0, 0.3);
+  FractureModel model = model_of("AT1", ell);
+  model.regions[0].elasticity = elasticity;
+  model.stiffness_by = StiffnessBy::mean;
+  model.boundary = {plane_on("zmin"), plane_on("zmax")};
+  const double K = std::sqrt(Gc / (1.0 - 0.3 * 0.3));
+  for (const char* side : {"xmin", "xmax", "ymin", "ymax"}) {
+    BoundaryCondition moving = displacement_on(side, {});
+    moving.value = [=](const Vector& x, double t) -> Vector {
+      const Vector from_tip = x - begin - t * way * along;
+      const Vector u = near_field(elasticity, Vector(from_tip.dot(along), from_tip.dot(up), 0.0), K);
+      return u.x() * along + u.y() * up;
+    };
+    model.boundary.push_back(moving);
+  }
+  CellField<double> d(as_size(mesh.n_cells()), 0.0);
+  for (const Index c : cells_on(mesh, strip(begin - 2.0 * along, begin, Vector::UnitZ()))) d[c] = 1.0;
+  model.initial_damage = DamageEquation(mesh, model, Vector::UnitZ()).relaxed(d);
+  FractureRun run(mesh, model, {},
+                  {.end = 1.0, .initial_increment = step / way, .maximum_increment = step / way, .stops = {}});
+  Followed result;
+  double first_load = 0.0;
+  EnergyAccount first;
+  const FractureState end = run_to_end(run, [&](const FractureState&, const StepReport& report) {
+    result.iterations += report.staggered_iterations;
+    if (first_load == 0.0 && report.load * way > 1.9 * ell) first_load = report.load, first = report.energy;
+    if (first_load == 0.0 || report.load == first_load) return;
+    const double all = Gc * h * way * (report.load - first_load);
+    const EnergyAccount& now = report.energy;
+    result.spent = (now.fracture - first.fracture) / all;
+    result.lost = (now.external_work - now.elastic - (first.external_work - first.elastic)) / all - result.spent;
+  });
+  const CellField<double> broken = run.output(end).damage;
+  Vector foremost = begin;
+  for (Index c = 0; c < mesh.n_cells(); ++c)
+    if (broken[c] > 0.95 && along.dot(mesh.cell_centre[c] - foremost) > 0.0) foremost = mesh.cell_centre[c];
+  foremost -= begin;
+  result.direction = std::atan2(foremost.y(), foremost.x()) * 180.0 / std::numbers::pi;
+  return result;
+}
+
+// By the cells' own damage one at 20 degrees turns to 7 and spends 1.085 Gc. Smaller angles remain too small.
+TEST(CrackDirections, GrowingCracksKeepTheirsByTheMeanDamage) {
+  for (const double angle : {20.0, 45.0}) {
+    const Followed crack = follow(angle);
+    report_row(fmt::format("{:g} degrees", angle), {{"direction", crack.direction},
+                                                    {"spent over Gc", crack.spent},
+                                                    {"lost", crack.lost},
+                                                    {"iterations", static_cast<double>(crack.iterations)}});
+    EXPECT_NEAR(crack.direction, angle, 3.0) << angle;
+    EXPECT_NEAR(crack.spent, 1.0, 0.06) << angle;
+    EXPECT_NEAR(crack.lost, 0.0, 0.03) << angle;
+  }
+}
+
+BoxHexesSettings cube(Index n) {
+  BoxHexesSettings settings;
+  settings.axes = {{{{1.0, n, 1.0}}, {{1.0, n, 1.0}}, {{1.0, n, 1.0}}}};
+  return settings;
+}
+
+// Unit cubes and squares of every shape of cell; hexahedra three times as long at one end.
+struct Shape {
+  std::string name;
+  Mesh mesh;
+};
+
+std::vector<Shape> meshes_of_every_shape() {
+  ParticlesInBoxSettings settings;
+  settings.upper = Vector::Ones();
+  settings.boundary_size = settings.size_far = 0.2;
+  Mesh tetrahedra = make_particles_in_box(settings), dual = barycentric_dual(tetrahedra);
+  BoxHexesSettings graded = cube(6);
+  graded.axes[0] = {{1.0, 6, 3.0}};
+  return {{"hexahedra", make_box_hexes(graded)},
+          {"prisms", extruded_triangles(8, {0.0, 0.12, 0.26, 0.4})},
+          {"tetrahedra", std::move(tetrahedra)},
+          {"polyhedra", std::move(dual)}};
+}
+
+TEST(VertexMeans, SpreadAsTheyAreTakenInEveryShape) {
+  for (const auto& [name, mesh] : meshes_of_every_shape()) {
+    std::vector<Index> cells;
+    for (Index c = 0; c < mesh.n_cells(); ++c)
+      if (c % 5 != 0) cells.push_back(c);
+    const VertexMeans means(mesh, cells);
+    CellField<double> v(as_size(mesh.n_cells())), w(as_size(mesh.n_cells()));
+    for (Index c = 0; c < mesh.n_cells(); ++c) {
+      v[c] = std::sin(3.0 * static_cast<double>(c));
+      w[c] = std::cos(7.0 * static_cast<double>(c));
+    }
+    const CellField<double> of_v = means.of(v), of_w = means.spread(w);
+    double left = 0.0, right = 0.0;
+    for (Index c = 0; c < mesh.n_cells(); ++c) {
+      left += of_v[c] * w[c];
+      right += v[c] * of_w[c];
+    }
+    EXPECT_NEAR(left, right, 1e-11) << name;
+  }
+}
+
+// Exact for linear fields but at the surface; there for fields without a slope across it, of polyhedra within 3 % of
+// what they vary by over a cell: their weights are limited.
+TEST(VertexMeans, AreExactForLinearFieldsInEveryShape) {
+  for (const auto& [name, mesh] : meshes_of_every_shape()) {
+    std::vector<Index> cells(as_size(mesh.n_cells()));
+    std::iota(cells.begin(), cells.end(), 0);
+    const VertexMeans means(mesh, cells);
+    std::vector<char> on_side(mesh.points.size(), 0), on_z(mesh.points.size(), 0);
+    for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f)
+      for (const Index p : mesh.points_of_face(f))
+        (std::abs(mesh.face_area[f].z()) > 0.9 * mesh.face_area[f].norm() ? on_z : on_side)[as_size(p)] = 1;
+    CellField<double> v(as_size(mesh.n_cells())), flat(as_size(mesh.n_cells()));
+    for (Index c = 0; c < mesh.n_cells(); ++c) {
+      v[c] = mesh.cell_centre[c].dot(Vector(0.2, 0.3, 0.4));
+      flat[c] = mesh.cell_centre[c].dot(Vector(0.2, 0.3, 0.0));
+    }
+    const CellField<double> of_v = means.of(v), of_flat = means.of(flat);
+    Index inner = 0, beside = 0;
+    for (Index c = 0; c < mesh.n_cells(); ++c) {
+      const auto is_on = [&](const std::vector<char>& surface) {
+        return std::ranges::any_of(mesh.points_of_cell(c), [&](Index p) { return surface[as_size(p)] != 0; });
+      };
+      if (is_on(on_side)) continue;
+      EXPECT_NEAR(of_flat[c], flat[c], is_on(on_z) && name == "polyhedra" ? 2e-3 : 1e-13) << name;
+      if (is_on(on_z)) {
+        ++beside;
+      } else {
+        ++inner;
+        EXPECT_NEAR(of_v[c], v[c], 1e-13) << name;
+      }
+    }
+    EXPECT_GT(inner, 0) << name;
+    EXPECT_GT(beside, 0) << name;
+  }
+}
+
+// D and its derivatives, by differences.
+TEST(MeanDamage, HasTheDerivativesItSays) {
+  const Mesh mesh = make_box_hexes(cube(5));
+  for (const std::string law : {"AT1", "AT2", "Wu"}) {
+    FractureModel model = model_of(law, 0.6);
+    model.stiffness_by = StiffnessBy::mean;
+    const StiffnessDamage by(mesh, model, Vector::Zero());
+    const auto middle = std::ranges::min_element(mesh.cell_centre.begin(), mesh.cell_centre.end(), {},
+                                                 [](const Vector& x) { return (x - Vector::Constant(0.5)).norm(); });
+    const auto c = static_cast<Index>(middle - mesh.cell_centre.begin());
+    for (const double x : {0.1, 0.5, 0.8}) {
+      constexpr double step = 1e-5;
+      const auto before = by.at(c, x - step), at = by.at(c, x), after = by.at(c, x + step);
+      EXPECT_NEAR(at.slope, (after.value - before.value) / (2.0 * step), 1e-6) << law;
+      EXPECT_NEAR(at.curvature, (after.slope - before.slope) / (2.0 * step), 1e-5) << law;
+    }
+    EXPECT_EQ(by.at(c, 1.0).value, 1.0);
+    EXPECT_LT(by.at(c, 0.1).value, 0.1 + 1e-4);
+    EXPECT_EQ(by.at(0, 1.0).slope, 0.0);  // of a mean, at the surface too
+  }
+}
+
+TEST(MeanDamage, IsRefusedWhereItHasNoEnergy) {
+  const Mesh mesh = make_box_hexes(cube(4));
+  FractureModel model = model_of("AT1", 0.5);
+  model.regions[0].elasticity = from_young_poisson(1.0, 0.3);
+  model.boundary = {displacement_on("xmin", [](const Vector&) { return Vector(Vector::Zero()); })};
+  model.stiffness_by = StiffnessBy::mean;
+  EXPECT_NO_THROW(FractureRun(mesh, model, {}, {}));
+  FractureModel rankine = model, history = model;
+  rankine.split = energy_split("rankine");
+  history.irreversibility = Irreversibility::history;
+  EXPECT_THROW(FractureRun(mesh, rankine, {}, {}), InputError);
+  EXPECT_THROW(FractureRun(mesh, history, {}, {}), InputError);
+}
+
+}  // namespace
+}  // namespace pfdm::verification::this_file
