@@ -22,9 +22,10 @@ class ThreadPool {
     stop();
     stopping_ = false;
     for (int i = 1; i < n; ++i) workers_.emplace_back([this, seen = loop_of(ticket_)] { work(seen); });
+    size_ = n;
   }
 
-  int size() const { return static_cast<int>(workers_.size()) + 1; }
+  int size() const { return size_; }
 
   void run(Index n_tasks, const std::function<void(Index)>& task) {
     const std::uint64_t loop = loop_of(ticket_);
@@ -90,6 +91,7 @@ class ThreadPool {
   }
 
   std::vector<std::thread> workers_;
+  std::atomic<int> size_{1};  // the thread that runs a loop is one of them
   std::mutex mutex_;
   std::condition_variable wake_;
   std::atomic<bool> stopping_{false};
@@ -104,14 +106,29 @@ ThreadPool& pool() {
   return instance;
 }
 
+// One loop at a time has the workers.
+std::atomic_flag has_workers = ATOMIC_FLAG_INIT;
+
+void take_workers() {
+  while (has_workers.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
+}
+void give_workers_back() { has_workers.clear(std::memory_order_release); }
+
 }  // namespace
 
-void set_threads(int n) { pool().resize(std::max(n, 1)); }
+void set_threads(int n) {
+  take_workers();
+  pool().resize(std::max(n, 1));
+  give_workers_back();
+}
 
 int n_threads() { return pool().size(); }
 
 void detail::run_tasks(Index n_tasks, const std::function<void(Index)>& task) {
-  if (n_tasks > 1 && pool().size() > 1) {
+  if (n_tasks > 1 && pool().size() > 1 && !has_workers.test_and_set(std::memory_order_acquire)) {
+    const struct Taken {
+      ~Taken() { give_workers_back(); }
+    } taken;
     pool().run(n_tasks, task);
     return;
   }

@@ -10,7 +10,8 @@
 
 namespace pfdm {
 
-/// Number of threads of all later loops, at least 1.
+/// Number of threads of all later loops, at least 1. One loop at a time has them: one that is begun beside it, or
+/// within one of its tasks, runs in the thread that began it, with the same result.
 void set_threads(int n);
 int n_threads();
 

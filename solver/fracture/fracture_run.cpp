@@ -38,6 +38,7 @@ struct Trial {
 }  // namespace
 
 struct FractureRun::Parts {
+  std::unique_ptr<const Mesh> own;  // null if the mesh is another's
   const Mesh& mesh;
   FractureModel model;
   LoadingSettings loading;
@@ -50,6 +51,10 @@ struct FractureRun::Parts {
   BodyHeat heat;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
+  Parts(std::unique_ptr<const Mesh> given_away, FractureModel fm, const StaggeredSettings& given, LoadingSettings l)
+      : Parts(*given_away, std::move(fm), given, std::move(l)) {
+    own = std::move(given_away);
+  }
   Parts(const Mesh& m, FractureModel fm, const StaggeredSettings& given, LoadingSettings l)
       : mesh(m),
         model(std::move(fm)),
@@ -249,6 +254,10 @@ struct FractureRun::Parts {
 
 FractureRun::FractureRun(const Mesh& mesh, FractureModel model, StaggeredSettings staggered, LoadingSettings loading)
     : parts_(std::make_unique<Parts>(mesh, std::move(model), staggered, std::move(loading))) {}
+
+FractureRun::FractureRun(Mesh&& mesh, FractureModel model, StaggeredSettings staggered, LoadingSettings loading)
+    : parts_(std::make_unique<Parts>(std::make_unique<const Mesh>(std::move(mesh)), std::move(model), staggered,
+                                     std::move(loading))) {}
 
 FractureRun::~FractureRun() = default;
 

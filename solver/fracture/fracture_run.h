@@ -20,8 +20,10 @@ namespace pfdm {
 
 class FractureRun {
  public:
-  /// Throws InputError for inconsistent input: a missing patch, a body free to move, a region without toughness.
+  /// Keeps a reference to the mesh, or a mesh of its own if it is given one away. Throws InputError for inconsistent
+  /// input: a missing patch, a body free to move, a region without toughness.
   FractureRun(const Mesh& mesh, FractureModel model, StaggeredSettings staggered, LoadingSettings loading);
+  FractureRun(Mesh&& mesh, FractureModel model, StaggeredSettings staggered, LoadingSettings loading);
   ~FractureRun();
 
   FractureState initial_state() const;

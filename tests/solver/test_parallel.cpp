@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 
 #include "solver/parallel.h"
 #include "tests/solver/solver_checks.h"
@@ -89,6 +90,31 @@ TEST_F(Parallel, ExceptionsPassThroughAndTheLoopsGoOnWorking) {
     }
     EXPECT_EQ(parallel_sum(3 * chunk_size, [](Index) { return 1.0; }), 3.0 * chunk_size);
   }
+}
+
+TEST_F(Parallel, SeveralCallersAtATimeGetTheSameSums) {
+  const auto term = [](Index i) { return std::sin(1.0 + i) * std::pow(10.0, i % 17); };
+  const Index n = 5 * chunk_size + 17;
+  set_threads(1);
+  const double expected = parallel_sum(n, term);
+  set_threads(3);
+  std::vector<int> right(3, 0);
+  std::vector<std::thread> callers;
+  for (int& count : right)
+    callers.emplace_back([&] {
+      for (int repeat = 0; repeat < 50; ++repeat) count += parallel_sum(n, term) == expected ? 1 : 0;
+    });
+  for (std::thread& caller : callers) caller.join();
+  EXPECT_EQ(right, std::vector<int>(3, 50));
+}
+
+TEST_F(Parallel, LoopsWithinLoopsAreDone) {
+  set_threads(3);
+  std::vector<double> sums(3 * as_size(chunk_size), 0.0);
+  parallel_for(static_cast<Index>(sums.size()), [&](Index i) {
+    if (i % chunk_size == 7) sums[as_size(i)] = parallel_sum(2 * chunk_size, [](Index) { return 1.0; });
+  });
+  EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), 0.0), 6.0 * chunk_size);
 }
 
 TEST_F(Parallel, AtLeastOneThread) {

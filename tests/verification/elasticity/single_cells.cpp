@@ -164,5 +164,25 @@ TEST(Columns, OneCellWideResistTorsion) {
   }
 }
 
+// A run that is given a mesh away keeps it; the stress is uniaxial.
+TEST(Columns, KeepAMeshThatIsGivenAway) {
+  const auto make = [] {
+    return make_box_hexes(
+        {.axes = {{{{side, 1, 1.0}}, {{2.0 * side, 3, 1.0}}, {{side, 1, 1.0}}}}, .regions = {}, .slits = {}});
+  };
+  const FractureModel model = elastic_model({material}, {symmetry_on("xmin"), symmetry_on("zmin"), symmetry_on("ymin"),
+                                                         displacement_on("ymax", [](const Vector&) -> Vector {
+                                                           return {0.0, 1e-6, 0.0};
+                                                         })});
+  const LoadingSettings loading{.initial_increment = 1.0, .maximum_increment = 1.0, .stops = {}};
+  const Mesh kept = make();
+  FractureRun by_reference(kept, model, {.equilibrium_tolerance = 1e-9}, loading);
+  FractureRun owner(make(), model, {.equilibrium_tolerance = 1e-9}, loading);
+  const auto stress_of = [](FractureRun& run) {
+    return run.output(run_to_end(run, [](const FractureState&, const StepReport&) {})).stress.values();
+  };
+  EXPECT_EQ(stress_of(owner), stress_of(by_reference));
+}
+
 }  // namespace
 }  // namespace pfdm::verification::this_file
