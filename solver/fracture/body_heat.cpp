@@ -10,7 +10,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double load_rounding = 1e-9;  // of a cycle
+constexpr double cycle_rounding = 1e-9;  // of a cycle
 
 }  // namespace
 
@@ -65,13 +65,13 @@ void BodyHeat::advance(const Staggered& staggered, const FractureState& from, do
   equation_->step(duration, made, to.heat.rise, to.heat.account);
   parallel_for(mesh_.n_cells(), [&](Index c) { to.heat.made[c] += made[c]; });
   for (std::size_t k = 0; k < transmittance.size(); ++k) to.heat.transmitted[k] += duration * transmittance[k];
-  if (to.load >= end_of_cycle(from.load) - load_rounding * model_.heat->cycle)
+  if (to.load >= end_of_cycle(from.load) - cycle_rounding * model_.heat->cycle)
     end_cycle(duration / (to.load - from.load) * model_.heat->cycle, to.heat);
 }
 
 double BodyHeat::end_of_cycle(double load) const {
   if (!any() || !(model_.heat->cycle > 0.0)) return std::numeric_limits<double>::infinity();
-  return model_.heat->cycle * (std::floor(load / model_.heat->cycle + load_rounding) + 1.0);
+  return model_.heat->cycle * (std::floor(load / model_.heat->cycle + cycle_rounding) + 1.0);
 }
 
 // `duration`: of a cycle [s].

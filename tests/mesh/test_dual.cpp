@@ -6,8 +6,8 @@
 #include "mesh/generators/particles_in_box.h"
 #include "mesh/patch_rules.h"
 #include "mesh/quality.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

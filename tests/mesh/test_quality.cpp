@@ -2,7 +2,7 @@
 
 #include "mesh/generators/box_hexes.h"
 #include "mesh/quality.h"
-#include "mesh_checks.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

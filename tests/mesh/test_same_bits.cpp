@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <numbers>
 
-#include "checksum.h"
 #include "mesh/dual.h"
 #include "mesh/generators/cylinder_sector.h"
 #include "mesh/generators/packed_spheres.h"
 #include "mesh/generators/sphere_sector.h"
-#include "mesh_checks.h"
+#include "tests/mesh/checksum.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

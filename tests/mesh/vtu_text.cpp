@@ -1,4 +1,4 @@
-#include "vtu_text.h"
+#include "tests/mesh/vtu_text.h"
 
 #include <algorithm>
 #include <fstream>

@@ -10,8 +10,8 @@
 namespace pfdm {
 namespace {
 
-constexpr double longest = 1.5;  // reach of a mean over that across
-constexpr double share = 0.85;   // of what the mean of a row of d = 1 has below 1: a growing crack costs Gc
+constexpr double longest = 1.5;     // reach of a mean over that across
+constexpr double row_share = 0.85;  // of what the mean of a row of d = 1 has below 1: a growing crack costs Gc
 constexpr double sharpness = 2.0;
 constexpr int largest_power = 64;
 constexpr int n_nodes = 64;  // of the table of a profile, up to one ell
@@ -102,7 +102,7 @@ StiffnessDamage::StiffnessDamage(const Mesh& mesh, const FractureModel& model, c
     const double h = thickness(all.covariance(i), plane_normal), ell = model.in_cell(mesh, c).ell;
     if (h == 0.0 || h > ell) continue;
     cells.push_back(c);
-    laws_[c] = {.broken = 1.0 - share * 0.5 * (1.0 - at_distance(row, h / ell)),
+    laws_[c] = {.broken = 1.0 - row_share * 0.5 * (1.0 - at_distance(row, h / ell)),
                 .power = std::clamp(static_cast<int>(std::lround(sharpness * ell / h)), 2, largest_power)};
   }
   means_ = VertexMeans(mesh, std::move(cells));

@@ -21,7 +21,7 @@ constexpr double bearable_rise = 1e-6;
 constexpr double shrinkage = 0.25, growth = 2.0, least_radius = 0.05, most_radius = 1.0;
 // Of the change by an iteration of the alternation: a shorter step is not worth while.
 constexpr double least_gain = 2.0;
-constexpr int most_tries = 3, most_wait = 16;
+constexpr int most_trials = 3, most_wait = 16;
 
 double largest_change(const CellField<double>& from, const CellField<double>& to) {
   return parallel_max(from.size(), [&](Index c) { return std::abs(to[c] - from[c]); });
@@ -164,7 +164,7 @@ void CoupledNewton::go(double share, const CellField<double>& lower, FractureSta
 CoupledNewton::Moved CoupledNewton::retreat(const Iterate& at, FractureState& state, CellField<double>& answer) {
   const double share = shrinkage * base_->share;
   radius_ = std::abs(share) * base_->direction.largest;
-  if (radius_ > least_gain * base_->change && base_->tries < most_tries) {
+  if (radius_ > least_gain * base_->change && base_->tries < most_trials) {
     go(share, at.lower, state);
     return Moved::on;
   }

@@ -11,7 +11,7 @@
 namespace pfdm {
 namespace {
 
-constexpr double alike = 0.05;  // of the ratios of parameters
+constexpr double alike_ratios = 0.05;  // of the ratios of parameters
 
 /// The model fitted to one record, if that leaves a third of `misfit`, or of the response, at most.
 std::optional<OutputErrorFit> by_itself(const VibrationRecord& record, double misfit, const MassMaterial& model,
@@ -33,8 +33,8 @@ VibrationRecord quarter_of(const VibrationRecord& r, Eigen::Index number) {
 /// All parameters that are in proportion to the mass are smaller by the same factor.
 std::optional<double> as_by_another_mass(const MassMaterial& one, const MassMaterial& other) {
   const double ratio = one.stiffness[0] / other.stiffness[0];
-  const auto is_same = [&](double a, double b) { return std::abs(a / b / ratio - 1.0) < alike; };
-  if (!(std::abs(ratio - 1.0) > alike) || !is_same(one.damping, other.damping)) return std::nullopt;
+  const auto is_same = [&](double a, double b) { return std::abs(a / b / ratio - 1.0) < alike_ratios; };
+  if (!(std::abs(ratio - 1.0) > alike_ratios) || !is_same(one.damping, other.damping)) return std::nullopt;
   return ratio;
 }
 

@@ -13,8 +13,6 @@ namespace pfdm {
 namespace {
 using Eigen::VectorXd;
 
-double rms(const VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
-
 TestLevel level_of(const VibrationRecord& r, const Spectra& s) {
   TestLevel level{.rms_base = rms(r.base),
                   .rms_relative = rms(r.relative),

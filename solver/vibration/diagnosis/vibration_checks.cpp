@@ -25,8 +25,6 @@ double quantile(VectorXd values, double part) {
 
 double median(const VectorXd& values) { return quantile(values, 0.5); }
 
-double rms(const VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
-
 void check_lengths(const RawRecord& r, Faults& faults) {
   if (r.base.size() != r.relative.size() || (r.time && r.time->size() != r.base.size()))
     faults.push_back(

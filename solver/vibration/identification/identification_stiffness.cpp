@@ -72,7 +72,9 @@ VectorXd plain_start(const Band& band, double mass) {
   Eigen::Index peak = 0;
   band.H.cwiseAbs().maxCoeff(&peak);
   const double omega = band.omega[peak];
-  return Eigen::Vector2d(std::log(mass * omega * omega), std::log(0.1 * mass * omega));
+  VectorXd start(2);
+  start << std::log(mass * omega * omega), std::log(0.1 * mass * omega);
+  return start;
 }
 
 /// The fit of one order less, a term of small weight added at several rates.

@@ -4,9 +4,13 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <limits>
 
 namespace pfdm {
+
+/// Root mean square.
+inline double rms(const Eigen::VectorXd& x) { return x.norm() / std::sqrt(static_cast<double>(x.size())); }
 
 /// What passes: everything from low to high [Hz]; beside it the gain falls to zero as a cosine squared, over `skirt` of
 /// the edge's frequency.

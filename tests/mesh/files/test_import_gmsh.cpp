@@ -8,8 +8,8 @@
 #include <set>
 
 #include "mesh/files/import_mesh.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

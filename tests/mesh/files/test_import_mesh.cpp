@@ -5,9 +5,9 @@
 #include "mesh/files/import_mesh.h"
 #include "mesh/generators/box_hexes.h"
 #include "mesh/generators/particles_in_box.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
-#include "vtu_text.h"
+#include "tests/mesh/mesh_checks.h"
+#include "tests/mesh/vtu_text.h"
 
 namespace pfdm::this_file {
 namespace {

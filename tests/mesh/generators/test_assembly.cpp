@@ -4,8 +4,8 @@
 
 #include "mesh/cell_ordering.h"
 #include "mesh/patch_rules.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

@@ -1,8 +1,8 @@
 #include <set>
 
 #include "mesh/generators/box_hexes.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

@@ -10,8 +10,8 @@
 #include "mesh/packing/shape_packing.h"
 #include "mesh/surfaces/particle_shape.h"
 #include "mesh/surfaces/sphere_refinement.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "mesh/packing/sphere_packing.h"
 #include "mesh/surfaces/sphere_refinement.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 #include <cmath>
 #include <map>

@@ -15,8 +15,8 @@
 #include "mesh/surfaces/sphere_refinement.h"
 #include "mesh/surfaces/surface_file.h"
 #include "mesh/surfaces/surface_remeshing.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

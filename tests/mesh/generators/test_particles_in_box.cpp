@@ -5,8 +5,8 @@
 #include "mesh/quality.h"
 #include "mesh/surfaces/size_field.h"
 #include "mesh/surfaces/triangle_surface.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

@@ -2,8 +2,8 @@
 #include <numbers>
 
 #include "mesh/generators/sphere_sector.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

@@ -12,9 +12,9 @@
 #include "mesh/files/field_file.h"
 #include "mesh/generators/box_hexes.h"
 #include "mesh/search/scattered_field.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
-#include "vtu_text.h"
+#include "tests/mesh/mesh_checks.h"
+#include "tests/mesh/vtu_text.h"
 
 namespace pfdm::this_file {
 namespace {

@@ -6,8 +6,8 @@
 #include "mesh/surfaces/box_surface.h"
 #include "mesh/surfaces/surface_checks.h"
 #include "mesh/surfaces/triangle_surface.h"
-#include "mesh_checks.h"
 #include "physics/error.h"
+#include "tests/mesh/mesh_checks.h"
 
 namespace pfdm::this_file {
 namespace {

@@ -164,7 +164,7 @@ TEST(Columns, OneCellWideResistTorsion) {
   }
 }
 
-// A run that is given a mesh away keeps it; the stress is uniaxial.
+// A run that is given a mesh away keeps it.
 TEST(Columns, KeepAMeshThatIsGivenAway) {
   const auto make = [] {
     return make_box_hexes(

@@ -5,6 +5,7 @@
 #include "cases/program/fracture/results/mean_curve.h"
 #include "cases/program/session/report_parts.h"
 #include "postproc/cohesive/cohesive_results.h"
+#include "postproc/cohesive/first_debonding.h"
 #include "postproc/curves/comparison_results.h"
 #include "postproc/exports/export_formats.h"
 #include "postproc/fields/checkpoint.h"

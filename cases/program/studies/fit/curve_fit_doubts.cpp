@@ -1,5 +1,6 @@
 // What speaks against a fit of a curve, and the intervals of one that is sound.
 
+#include "cases/program/session/runnable_case.h"
 #include "cases/program/studies/fit/curve_fit_at_work.h"
 #include "cases/program/studies/fit/finer_case.h"
 #include "cases/program/studies/fit/interval_trial.h"
