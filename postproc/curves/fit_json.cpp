@@ -36,8 +36,19 @@ Json to_json(const std::vector<FittedParameter>& parameters) {
                                 {"upper", p.profile->upper},
                                 {"lower_open", p.profile->lower_open},
                                 {"upper_open", p.profile->upper_open}};
+    if (p.posterior)
+      list.back()["posterior"] = {
+          {"median", p.posterior->median}, {"lower", p.posterior->lower}, {"upper", p.posterior->upper}};
   }
   return list;
+}
+
+Json to_json(const PosteriorFindings& posterior) {
+  return {{"file", posterior.file},
+          {"emulator_error", posterior.emulator_error},
+          {"effective_samples", posterior.effective},
+          {"evaluations", posterior.evaluations},
+          {"law_files", posterior.law_files}};
 }
 
 Json to_json(const std::vector<FitIteration>& iterations) {
@@ -63,6 +74,7 @@ Json to_json(const FitFindings& found) {
                {"start_rms_residual", start_rms},
                {"path", to_json(found.path)}};
   if (!found.finer.empty()) json["finer"] = found.finer;
+  if (found.posterior) json["posterior"] = to_json(*found.posterior);
   if (found.first_rms) json["first_guess_rms_residual"] = *found.first_rms;
   if (!found.screened.empty()) json["screened"] = to_json(found.screened);
   return json;
@@ -109,6 +121,23 @@ std::optional<FittedProfile> profile_in(const Json& parameter) {
                        .upper_open = p.at("upper_open")};
 }
 
+std::optional<PosteriorInterval> posterior_of(const Json& parameter) {
+  if (!parameter.contains("posterior")) return std::nullopt;
+  const Json& p = parameter.at("posterior");
+  return PosteriorInterval{
+      .median = number_of(p.at("median")), .lower = number_of(p.at("lower")), .upper = number_of(p.at("upper"))};
+}
+
+std::optional<PosteriorFindings> posterior_in(const Json& json) {
+  if (!json.contains("posterior")) return std::nullopt;
+  const Json& p = json.at("posterior");
+  return PosteriorFindings{.file = p.at("file"),
+                           .emulator_error = number_of(p.at("emulator_error")),
+                           .effective = number_of(p.at("effective_samples")),
+                           .evaluations = p.at("evaluations"),
+                           .law_files = p.at("law_files")};
+}
+
 std::vector<FittedParameter> parameters_in(const Json& list) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<FittedParameter> parameters;
@@ -122,6 +151,7 @@ std::vector<FittedParameter> parameters_in(const Json& list) {
                           .first_guess = number_of(p.at("first_guess")),
                           .at_bound = p.at("at_bound"),
                           .profile = profile_in(p),
+                          .posterior = posterior_of(p),
                           .moved_by_finer = p.contains("moved_by_finer") ? number_of(p.at("moved_by_finer")) : none});
   return parameters;
 }
@@ -152,7 +182,8 @@ FitReport report_in(const Json& json) {
                              .reasons = json.value("reasons", std::vector<std::string>{}),
                              .converged = json.at("converged"),
                              .message = json.at("message"),
-                             .parameters = parameters_in(json.at("parameters"))},
+                             .parameters = parameters_in(json.at("parameters")),
+                             .posterior = posterior_in(json)},
                    .experiments = {},
                    .own = {.kind = json.at("kind")}};
   for (const Json& e : json.at("experiments")) report.experiments.push_back(experiment_in(e));

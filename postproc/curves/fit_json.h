@@ -18,6 +18,11 @@ struct FittedProfile {
   bool lower_open = false, upper_open = false;  ///< the data allow everything up to the bound
 };
 
+/// Of the posterior of a parameter (solver/calibration/posterior.h): its median, and the ends of the interval.
+struct PosteriorInterval {
+  double median = 0.0, lower = 0.0, upper = 0.0;
+};
+
 struct FittedParameter {
   std::string name;
   std::string unit;
@@ -30,9 +35,19 @@ struct FittedParameter {
   bool at_bound = false;
   bool log_scale = false;
   std::optional<FittedProfile> profile = std::nullopt;
+  std::optional<PosteriorInterval> posterior = std::nullopt;
   double widened_by = 1.0;  ///< standard error and interval, for correlated residuals
   /// How far a finer discretisation moves the estimate, to first order; NaN: it was not tried.
   double moved_by_finer = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// What the posterior of all parameters together rests on.
+struct PosteriorFindings {
+  std::string file;                      ///< of samples
+  double emulator_error = 0.0;           ///< of the logarithm
+  double effective = 0.0;                ///< number of independent samples
+  int evaluations = 0;                   ///< of the model
+  std::vector<std::string> law_files{};  ///< of traction over separation, one for each interface
 };
 
 /// What a fit, or a stage of one, found.
@@ -54,6 +69,7 @@ struct FitFindings {
   std::vector<FitIteration> screened{};  ///< points of a sample
   /// By which the intervals of the parameters were widened; empty unless correlated residuals did so.
   std::vector<CorrelatedError> correlated{};
+  std::optional<PosteriorFindings> posterior = std::nullopt;
   std::string finer{};  ///< the finer discretisation; empty: none was tried
 };
 FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result);

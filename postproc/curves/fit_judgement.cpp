@@ -179,10 +179,12 @@ void question(FitFindings& found, std::string reason) {
 
 void withhold_intervals(FitFindings& found) {
   found.correlated.clear();
+  found.posterior.reset();
   for (FittedParameter& p : found.parameters) {
     p.standard_error = p.lower = p.upper = std::numeric_limits<double>::quiet_NaN();
     p.widened_by = 1.0;
     p.profile.reset();
+    p.posterior.reset();
   }
 }
 

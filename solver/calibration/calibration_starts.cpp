@@ -1,6 +1,7 @@
 #include "solver/calibration/calibration_starts.h"
 
 #include "physics/error.h"
+#include "solver/calibration/quasi_random.h"
 #include "solver/linear/dense_algebra.h"
 
 #include <algorithm>
@@ -37,28 +38,6 @@ Eigen::VectorXd point_about(const ScaledModel& model, const FitSettings& setting
     entry = low + share(j) * (high - low);
   }
   return u;
-}
-
-/// Digits of n in a base, behind the point in reverse: Halton's sequence, whose first points are those of any longer
-/// one (Halton, Numerische Mathematik 2 (1960) 84).
-double radical_inverse(int n, int base) {
-  double result = 0.0;
-  for (double digit = 1.0 / base; n > 0; n /= base, digit /= base) result += digit * (n % base);
-  return result;
-}
-
-bool is_prime(int n) {
-  for (int d = 2; d * d <= n; ++d)
-    if (n % d == 0) return false;
-  return true;
-}
-
-/// The first n prime numbers.
-std::vector<int> primes(std::size_t n) {
-  std::vector<int> result;
-  for (int candidate = 2; result.size() < n; ++candidate)
-    if (is_prime(candidate)) result.push_back(candidate);
-  return result;
 }
 
 /// The start, with what is not sampled rounded to least_step.

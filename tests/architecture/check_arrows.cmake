@@ -90,19 +90,19 @@ set(rooms
      cases/program/input"
     "cases/program/fracture/case: physics mesh mesh/files solver/heat solver/momentum solver/fracture postproc/files postproc/fields
      postproc/curves postproc/cohesive cases/program/input cases/program/session cases/program/studies cases/program/fracture/body"
-    "cases/program/fracture/results: physics mesh solver/heat solver/momentum solver/fracture postproc/files postproc/fields
+    "cases/program/fracture/outcome: physics mesh solver/heat solver/momentum solver/fracture postproc/files postproc/fields
      postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies cases/program/fracture/body cases/program/fracture/case"
     "cases/program/fracture/page: physics mesh solver/fracture postproc/files postproc/fields postproc/curves postproc/cohesive
      postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
-     cases/program/fracture/results"
+     cases/program/fracture/outcome"
     "cases/program/fracture/run: physics mesh solver/heat solver/fracture postproc/files postproc/fields postproc/curves
      postproc/cohesive postproc/page postproc/browser cases/program/input cases/program/session cases/program/studies cases/program/fracture/case
-     cases/program/fracture/results cases/program/fracture/page"
+     cases/program/fracture/outcome cases/program/fracture/page"
     "cases/program/fracture: physics mesh mesh/surfaces mesh/generators mesh/files solver/heat solver/momentum solver/fracture postproc/files
      postproc/fields postproc/curves postproc/cohesive postproc/exports postproc/page postproc/browser cases/program/input cases/program/session
      cases/program/studies cases/program/fracture/body cases/program/fracture/case
-     cases/program/fracture/results cases/program/fracture/page cases/program/fracture/run"
+     cases/program/fracture/outcome cases/program/fracture/page cases/program/fracture/run"
     "cases/cpp: physics mesh mesh/generators solver/fracture cases/program/fracture"
     "cases/program/plate: physics mesh solver solver/linear solver/scalar solver/momentum solver/dynamics solver/calibration
      postproc/files postproc/fields postproc/curves postproc/vibration postproc/page cases/program/input cases/program/session

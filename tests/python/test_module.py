@@ -224,6 +224,42 @@ class Fits(Folder):
         run = fit.case.run()
         self.assertEqual((run.folder, run.status), (self.folder / "results/fitted", "complete"))
         self.assertEqual(pfdm.Case(run.folder).results().folder, run.folder)
+        self.assertIsNone(fit.posterior)
+        self.assertEqual(fit.laws, [])
+
+    def test_have_samples_of_the_posterior(self):
+        curve = self.bar().run(self.folder / "truth").curve
+        stiffness = curve["force_x_N"][1] / curve["displacement_m"][1]
+        noise = numpy.random.default_rng(4).normal(0.0, 0.02, 41)
+        at = numpy.linspace(0.0, 4e-6, 41)
+        place = self.folder / "bar"
+        place.mkdir()
+        rows = "".join(f"{u},{stiffness * u + n}\n" for u, n in zip(at, noise))
+        (place / "data.csv").write_text("# SYNTHETIC, made by the test\nu_m,F_N\n" + rows)
+        (place / "case.toml").write_text((shipped / "bar_at2/case.toml").read_text() + """
+[experiment]
+stiffness_between = ["1 um", "3 um"]
+[[experiment.specimens]]
+name = "one"
+csv = "data.csv"
+displacement = { column = "u_m" }
+force = { column = "F_N" }
+[fit]
+intervals = "posterior"
+[[fit.parameters]]
+key = "materials.concrete.young_modulus"
+bounds = ["10 GPa", "90 GPa"]
+[[fit.stages]]
+name = "elastic"
+between = ["0 um", "4 um"]
+""")
+        fit = pfdm.Case(place, {"mesh.x[0].cells": 21, "fracture.length": "12 mm"}).fit()
+        self.assertTrue(fit.verdict.startswith("sound"), fit.reasons)
+        name = "materials.concrete.young_modulus"
+        samples, modulus = fit.posterior[name], fit.estimates.loc[name]
+        self.assertEqual(fit.posterior.attrs["units"], {name: "Pa"})
+        self.assertLess(abs(samples.mean() - modulus.estimate), 0.2 * modulus.standard_error)
+        self.assertLess(abs(samples.std() / modulus.standard_error - 1.0), 0.15)
 
 
 if __name__ == "__main__":

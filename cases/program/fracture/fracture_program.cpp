@@ -5,13 +5,14 @@
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/fracture/fracture_laws.h"
 #include "cases/program/fracture/other_laws.h"
+#include "cases/program/fracture/outcome/fracture_cohesive.h"
+#include "cases/program/fracture/outcome/fracture_comparison.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
+#include "cases/program/fracture/outcome/fracture_results.h"
+#include "cases/program/fracture/outcome/opening_law.h"
+#include "cases/program/fracture/outcome/recorded_steps.h"
 #include "cases/program/fracture/page/fracture_browser.h"
 #include "cases/program/fracture/page/fracture_report.h"
-#include "cases/program/fracture/results/fracture_cohesive.h"
-#include "cases/program/fracture/results/fracture_comparison.h"
-#include "cases/program/fracture/results/fracture_files.h"
-#include "cases/program/fracture/results/fracture_results.h"
-#include "cases/program/fracture/results/recorded_steps.h"
 #include "cases/program/fracture/run/running_case.h"
 #include "cases/program/fracture/run_estimate.h"
 #include "cases/program/input/case_files/kept_case.h"
@@ -240,6 +241,7 @@ void fit(const FractureProgram& program, Session& session) {
              .straight_to = experiment.stiffness_to,
              .set_ups = [](const CaseFile& file) { return read_set_ups(file.config.root()); },
              .read_curve = read,
+             .laws = opening_laws,
              .other_laws = with_other_laws(program.file),
              .name = program.name,
              .hash = program.hash,

@@ -1,6 +1,6 @@
 #include "cases/program/homogenization/debonding_case.h"
 
-#include "cases/program/fracture/results/mean_curve.h"
+#include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/homogenization/homogenization_keys.h"
 #include "solver/homogenization/mean_path.h"
 

@@ -1,8 +1,8 @@
 #include "cases/program/homogenization/homogenization_program.h"
 
 #include "cases/program/fracture/fracture_program.h"
-#include "cases/program/fracture/results/fracture_files.h"
-#include "cases/program/fracture/results/fracture_results.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
+#include "cases/program/fracture/outcome/fracture_results.h"
 #include "cases/program/homogenization/debonding_case.h"
 #include "cases/program/homogenization/homogenization_keys.h"
 #include "cases/program/homogenization/homogenization_report.h"

@@ -1,7 +1,7 @@
 #pragma once
 // homogenized.json and homogenized.csv: the effective stiffness and what goes with it.
 
-#include "cases/program/fracture/results/mean_curve.h"
+#include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/homogenization/homogenization_case.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "cases/program/plate/plate_program.h"
 
-#include "cases/program/fracture/results/fracture_results.h"
+#include "cases/program/fracture/outcome/fracture_results.h"
 #include "cases/program/plate/plate_fit.h"
 #include "cases/program/plate/plate_keys.h"
 #include "cases/program/plate/plate_report.h"

@@ -118,6 +118,23 @@ class Fit:
         names = list(self.estimates.index)
         return pandas.DataFrame(self.content["correlation"], index=names, columns=names)
 
+    @cached_property
+    def posterior(self) -> pandas.DataFrame | None:
+        """Samples of the posterior (`intervals = "posterior"` in [fit]): a row each, a column for each parameter that
+        the last stage estimates, in the units of `estimates`; None of a fit without it."""
+        if "posterior" not in self.content:
+            return None
+        table = read_table(self.folder / self.content["posterior"]["file"])
+        units = self.estimates.attrs["units"]
+        table.attrs["units"] = {name: units[name] for name in table.columns}
+        return table
+
+    @cached_property
+    def laws(self) -> list[pandas.DataFrame]:
+        """Of a fit with a posterior, traction over separation of each cohesive interface whose law is the same
+        everywhere: separation_m, traction_Pa of the estimates, median_, lower_ and upper_traction_Pa (95 %)."""
+        return [read_table(self.folder / file) for file in self.content.get("posterior", {}).get("law_files", [])]
+
     @property
     def case(self) -> Case:
         """The case with the estimates in place of the first guesses."""

@@ -12,7 +12,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Eigen::Index stretches = 40;
+constexpr Eigen::Index n_stretches = 40;
 constexpr int most_lost = 50;  // samples
 // The slow offset of a sample with a quadratic stiffness is lost in integration: a third of the base can stay.
 constexpr double less = 0.7;
@@ -34,9 +34,9 @@ MatrixXd terms_of_motion(const VibrationRecord& r, const PassBand& band, int sti
 
 /// Products of the terms with the base later by `shift` samples, a column for each window.
 MatrixXd products(const MatrixXd& A, const VectorXd& base, int shift) {
-  const Eigen::Index length = A.rows() / stretches;
-  MatrixXd result = MatrixXd::Zero(A.cols(), stretches);
-  for (Eigen::Index w = 0; w < stretches; ++w) {
+  const Eigen::Index length = A.rows() / n_stretches;
+  MatrixXd result = MatrixXd::Zero(A.cols(), n_stretches);
+  for (Eigen::Index w = 0; w < n_stretches; ++w) {
     const Eigen::Index begin = std::max<Eigen::Index>(w * length, -shift);
     const Eigen::Index end = std::min((w + 1) * length, base.size() - shift);
     if (end > begin)
@@ -47,7 +47,7 @@ MatrixXd products(const MatrixXd& A, const VectorXd& base, int shift) {
 
 /// The longer part, its base shifted if it is the later one.
 VibrationRecord part_of(const VibrationRecord& r, Eigen::Index from, int shift) {
-  const Eigen::Index margin = r.n() / stretches, n = r.n();
+  const Eigen::Index margin = r.n() / n_stretches, n = r.n();
   VibrationRecord part = r;
   if (2 * from > n) {
     const Eigen::Index length = from - margin;
@@ -65,7 +65,7 @@ VibrationRecord part_of(const VibrationRecord& r, Eigen::Index from, int shift) 
 }  // namespace
 
 std::optional<LostSamples> lost_samples(const VibrationRecord& r, int stiffness_order) {
-  if (r.n() < stretches * 4 * most_lost) return std::nullopt;
+  if (r.n() < n_stretches * 4 * most_lost) return std::nullopt;
   // The upper half of the band: low frequencies of z'' that are integrated twice are mostly noise.
   const PassBand band{.low = std::sqrt(r.band_low * r.band_high), .high = std::min(1.2 * r.band_high, 0.38 * r.rate)};
   const VectorXd base = filtered(r.base, r.rate, band);
@@ -82,10 +82,10 @@ std::optional<LostSamples> lost_samples(const VibrationRecord& r, int stiffness_
     if (shift == 0) continue;
     const MatrixXd moved = products(A, base, shift);
     VectorXd b = moved.rowwise().sum();
-    for (Eigen::Index w = 0; w < stretches; ++w) {
+    for (Eigen::Index w = 0; w < n_stretches; ++w) {
       if (const double there = left(b); there < least) {
         least = there;
-        const Eigen::Index first_sample = w * (r.n() / stretches);
+        const Eigen::Index first_sample = w * (r.n() / n_stretches);
         found = LostSamples{.time = static_cast<double>(first_sample) / r.rate, .number = shift};
       }
       b += as_recorded.col(w) - moved.col(w);

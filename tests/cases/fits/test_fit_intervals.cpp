@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -54,6 +55,16 @@ struct Line {
     for (std::size_t i = 0; i < u.size(); ++i)
       sum += std::pow((force[i] - slope * modulus * u[i] - mean) / deviation, 2);
     return sum;
+  }
+  /// Of the posterior of the modulus.
+  double quantile(double share) const {
+    constexpr double low = 10e9, step = 1e7;
+    std::vector<double> sums{0.0};
+    const double least = least_squares(33e9);
+    for (double modulus = low; modulus < 90e9; modulus += step)
+      sums.push_back(sums.back() + std::exp(0.5 * (least - least_squares(modulus))) * std::pow(33e9 / modulus, 2));
+    const auto at = std::ranges::lower_bound(sums, share * sums.back()) - sums.begin();
+    return low + step * static_cast<double>(at - 1);
   }
   double end_of_interval(double estimate, double beyond) const {
     const double least = least_squares(estimate);
@@ -107,12 +118,38 @@ TEST(FitIntervals, ByProfileLikelihoodAreThoseOfTheLine) {
   }
 }
 
+// Forces are slope E (u - offset). Over a uniform offset and a uniform logarithm of E the density of E is that of the
+// noise over E^2.
+TEST(FitIntervals, OfThePosteriorAreThoseOfTheLine) {
+  const TemporaryCase directory(case_with("intervals = \"posterior\""));
+  directory.write("data.csv", "displacement_m,force_N,deviation_N\n0,0,1\n1e-6,1,1\n");
+  const Line line = recorded(directory);
+  const Outcome outcome = run({"fit", directory.path().string()});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("; posterior: median "), std::string::npos) << outcome.out;
+  const auto fit = nlohmann::json::parse(content_of(directory.results() / "fit.json"));
+  ASSERT_EQ(fit["verdict"], "sound") << fit["reasons"];
+  const auto& modulus = fit["parameters"][0];
+  const double width = modulus["upper"].get<double>() - modulus["lower"].get<double>();
+  EXPECT_NEAR(modulus["posterior"]["median"].get<double>(), line.quantile(0.5), 0.03 * width);
+  EXPECT_NEAR(modulus["posterior"]["lower"].get<double>(), line.quantile(0.025), 0.06 * width);
+  EXPECT_NEAR(modulus["posterior"]["upper"].get<double>(), line.quantile(0.975), 0.06 * width);
+  EXPECT_LT(fit["posterior"]["emulator_error"].get<double>(), 0.03);
+  EXPECT_GT(fit["posterior"]["effective_samples"].get<double>(), 1000.0);
+  const CsvTable samples = read_csv(directory.results() / fit["posterior"]["file"].get<std::string>());
+  EXPECT_GE(samples.n_rows(), 4000u);
+  EXPECT_NO_THROW(samples.column("materials.concrete.young_modulus"));
+  EXPECT_NO_THROW(samples.column("experiment.offset"));
+  EXPECT_TRUE(fit["posterior"]["law_files"].empty());
+}
+
 TEST(FitIntervals, OfAnotherKindAreRefused) {
   const TemporaryCase directory(case_with("intervals = \"bayes\""));
   directory.write("data.csv", "displacement_m,force_N,deviation_N\n0,0,1\n1e-6,1,1\n");
   const Outcome outcome = run({"fit", directory.path().string()});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.err.find("\"bayes\" is not a kind of intervals (allowed: linear, profile)"), std::string::npos)
+  EXPECT_NE(outcome.err.find("\"bayes\" is not a kind of intervals (allowed: linear, profile, posterior)"),
+            std::string::npos)
       << outcome.err;
 }
 

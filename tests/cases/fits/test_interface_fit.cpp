@@ -145,6 +145,51 @@ TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
               HasSubstr("dissipated up to 1 of its toughness"));
 }
 
+// Each law of the posterior is a line from the strength to 2 toughness/strength: the band is that of the samples.
+TEST(InterfaceFit, HasALawWithABand) {
+  std::string text = with_fit(first_guess);
+  text.replace(text.find("\"profile\""), std::string("\"profile\"").size(), "\"posterior\"");
+  const TemporaryCase directory(text);
+  const Straight line = measure(directory);
+  ASSERT_EQ(run({"fit", directory.path().string()}).status, 0);
+  const auto fit = nlohmann::json::parse(content_of(directory.results() / "fit.json"));
+  ASSERT_EQ(fit["verdict"], "sound") << fit["reasons"];
+  const double due[] = {line.strength, line.toughness};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto& p = fit["parameters"][k];
+    const double width = p["upper"].get<double>() - p["lower"].get<double>();
+    EXPECT_NEAR(p["posterior"]["median"].get<double>(), due[k], 0.1 * width) << p["name"];
+    EXPECT_NEAR(p["posterior"]["lower"].get<double>(), p["lower"].get<double>(), 0.15 * width) << p["name"];
+    EXPECT_NEAR(p["posterior"]["upper"].get<double>(), p["upper"].get<double>(), 0.15 * width) << p["name"];
+  }
+  const CsvTable samples = read_csv(directory.results() / "fit_posterior.csv");
+  const std::vector<double>&strength = samples.column("interface[0].strength"),
+        &toughness = samples.column("interface[0].toughness");
+  ASSERT_EQ(fit["posterior"]["law_files"].size(), 1u);
+  const CsvTable law = read_csv(directory.results() / fit["posterior"]["law_files"][0].get<std::string>());
+  const std::vector<double>& separation = law.column("separation_m");
+  for (const std::size_t at : {separation.size() / 4, separation.size() / 2, 3 * separation.size() / 4}) {
+    std::vector<double> tractions;
+    for (std::size_t i = 0; i < strength.size(); ++i)
+      tractions.push_back(strength[i] * std::max(0.0, 1.0 - separation[at] * strength[i] / (2.0 * toughness[i])));
+    std::ranges::sort(tractions);
+    const double lower = tractions[tractions.size() / 40], upper = tractions[39 * tractions.size() / 40];
+    EXPECT_NEAR(law.column("lower_traction_Pa")[at], lower, 0.2 * (upper - lower)) << separation[at];
+    EXPECT_NEAR(law.column("upper_traction_Pa")[at], upper, 0.2 * (upper - lower)) << separation[at];
+    EXPECT_NEAR(law.column("traction_Pa")[at],
+                line.strength * (1.0 - separation[at] * line.strength / (2.0 * line.toughness)), 2e-3 * line.strength);
+  }
+  const ReportPage page = page_of(directory, fit["case_hash"]);
+  EXPECT_EQ(table_of(page, "Fit: sound").rows[0].back(), "posterior: median, interval");
+  std::vector<std::string> captions;
+  for (const PageRow& row : page.rows)
+    for (const PageBlock& block : row.blocks)
+      if (const auto* chart = std::get_if<Chart>(&block)) captions.push_back(chart->caption);
+  EXPECT_THAT(captions, testing::IsSupersetOf({testing::Eq("Law of the interface in opening, with its posterior"),
+                                               testing::Eq("Posterior of interface[0].strength [MPa]"),
+                                               testing::Eq("Posterior: samples")}));
+}
+
 // Blocks of half the cells and of stone that is 0.7 times as stiff lead the fit: by themselves they would be 3 % off.
 TEST(InterfaceFit, IsLedByACoarseCaseToTheSameLine) {
   std::string text = with_fit(first_guess);

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/page/fit_on_page.h"
 
+#include "cases/program/fracture/page/posterior_charts.h"
 #include "cases/program/session/fit_verdict.h"
 #include "cases/program/session/report_parts.h"
 #include "postproc/files/csv_table.h"
@@ -31,6 +32,12 @@ std::string profile_text(const FittedParameter& p) {
                      end(p.profile->upper, p.profile->upper_open));
 }
 
+std::string posterior_text(const FittedParameter& p) {
+  if (!p.posterior) return "none";
+  return fmt::format("{}, {}", value_text(p.posterior->median, p.unit),
+                     between_text(p.posterior->lower, p.posterior->upper, p.unit));
+}
+
 Chart curves_chart(const ExperimentMisfit& experiment, const CsvTable& curves) {
   const std::vector<double>&u = curves.column("displacement_m"), &measured = curves.column("measured_force_N"),
         &first = curves.column("first_force_N"), &fitted = curves.column("model_force_N");
@@ -55,10 +62,12 @@ Table estimates_table(const FitReport& fit) {
       .rows = {{"parameter", "first guess", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
       .has_header = true};
   if (has_profiles) table.rows.front().emplace_back("by profile likelihood");
+  if (fit.found.posterior) table.rows.front().emplace_back("posterior: median, interval");
   for (const FittedParameter& p : parameters) {
     table.rows.push_back({p.name, value_text(p.first_guess, p.unit), value_text(p.estimate, p.unit),
                           between_text(p.lower, p.upper, p.unit)});
     if (has_profiles) table.rows.back().push_back(profile_text(p));
+    if (fit.found.posterior) table.rows.back().push_back(posterior_text(p));
   }
   return table;
 }
@@ -70,6 +79,8 @@ std::vector<PageRow> fit_on_page(const FitReport& fit, const std::filesystem::pa
   for (const ExperimentMisfit& experiment : fit.experiments)
     if (!experiment.curve.empty() && seen.insert(experiment.curve).second)
       charts.emplace_back(curves_chart(experiment, read_csv(results / experiment.curve)));
+  if (fit.found.posterior)
+    for (Chart& chart : posterior_charts(fit, results)) charts.emplace_back(std::move(chart));
   for (PageRow& row : in_pairs(std::move(charts))) rows.push_back(std::move(row));
   return rows;
 }

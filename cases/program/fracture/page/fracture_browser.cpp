@@ -1,7 +1,7 @@
 #include "cases/program/fracture/page/fracture_browser.h"
 
-#include "cases/program/fracture/results/end_of_run.h"
-#include "cases/program/fracture/results/fracture_files.h"
+#include "cases/program/fracture/outcome/end_of_run.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
 #include "physics/angle.h"
 #include "postproc/browser/body.h"
 #include "postproc/cohesive/cohesive_law.h"

@@ -1,6 +1,6 @@
 #include "cases/program/fracture/page/fracture_pictures.h"
 
-#include "cases/program/fracture/results/fracture_files.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
 #include "cases/program/session/report_parts.h"
 #include "postproc/fields/field_slice.h"
 

@@ -1,6 +1,6 @@
 #include "cases/program/fracture/page/fracture_side_by_side.h"
 
-#include "cases/program/fracture/results/fracture_comparison.h"
+#include "cases/program/fracture/outcome/fracture_comparison.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/angle.h"
 #include "postproc/curves/comparison_results.h"

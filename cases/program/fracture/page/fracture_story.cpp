@@ -1,6 +1,6 @@
 #include "cases/program/fracture/page/fracture_story.h"
 
-#include "cases/program/fracture/results/end_of_run.h"
+#include "cases/program/fracture/outcome/end_of_run.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/interfaces/traction_separation.h"
 

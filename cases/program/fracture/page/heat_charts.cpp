@@ -1,6 +1,6 @@
 #include "cases/program/fracture/page/heat_charts.h"
 
-#include "cases/program/fracture/results/heat_results.h"
+#include "cases/program/fracture/outcome/heat_results.h"
 #include "cases/program/session/report_parts.h"
 #include "postproc/files/csv_table.h"
 

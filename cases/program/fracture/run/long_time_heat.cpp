@@ -1,6 +1,6 @@
 #include "cases/program/fracture/run/long_time_heat.h"
 
-#include "cases/program/fracture/results/heat_results.h"
+#include "cases/program/fracture/outcome/heat_results.h"
 #include "physics/quantity_text.h"
 #include "postproc/fields/vtu_writer.h"
 

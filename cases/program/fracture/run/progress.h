@@ -1,7 +1,7 @@
 #pragma once
 // How far a fracture run is: a line that is redrawn on a terminal, a line per step elsewhere.
 
-#include "cases/program/fracture/results/end_of_run.h"
+#include "cases/program/fracture/outcome/end_of_run.h"
 #include "cases/program/session/terminal/log.h"
 #include "postproc/cohesive/first_debonding.h"
 #include "solver/fracture/fracture_run.h"

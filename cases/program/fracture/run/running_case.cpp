@@ -1,7 +1,7 @@
 #include "cases/program/fracture/run/running_case.h"
 
-#include "cases/program/fracture/results/end_of_run.h"
-#include "cases/program/fracture/results/fracture_cohesive.h"
+#include "cases/program/fracture/outcome/end_of_run.h"
+#include "cases/program/fracture/outcome/fracture_cohesive.h"
 #include "cases/program/fracture/run/long_time_heat.h"
 #include "cases/program/fracture/run/progress.h"
 #include "cases/program/session/head_line.h"

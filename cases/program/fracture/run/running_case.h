@@ -3,7 +3,7 @@
 
 #include "cases/program/fracture/case/experiment_case.h"
 #include "cases/program/fracture/case/fracture_case.h"
-#include "cases/program/fracture/results/fracture_results.h"
+#include "cases/program/fracture/outcome/fracture_results.h"
 #include "cases/program/fracture/run/live_page.h"
 #include "cases/program/session/terminal/followed_rows.h"
 #include "cases/program/session/terminal/stopwatch.h"

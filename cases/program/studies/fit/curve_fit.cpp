@@ -279,7 +279,10 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   const DoneStage done{stage, points, problem, settings, result, until};
   const bool model_error = judge_stage(done, found.found);
   doubt(done, model_error, found.found);
-  if (job_.settings.profiles && is_sound(found.found.verdict)) add_profiles(done, found.found);
+  const bool is_last = &stage == &job_.settings.stages.back();
+  if (job_.settings.intervals == Intervals::profile && is_sound(found.found.verdict)) add_profiles(done, found.found);
+  if (job_.settings.intervals == Intervals::posterior && is_last && is_sound(found.found.verdict))
+    add_posterior(done, found.found);
   return found;
 }
 

@@ -12,6 +12,13 @@
 
 namespace pfdm {
 
+/// Traction [Pa] over separation [m] of an interface in opening.
+struct LawOfCase {
+  std::string name;                          ///< of the interface
+  double end = 0.0;                          ///< where hardly anything is left of it [m]
+  std::function<double(double)> traction{};  ///< at a separation
+};
+
 struct CurveFitJob {
   const CaseFile& file;
   const CurveFitSettings& settings;
@@ -20,14 +27,17 @@ struct CurveFitJob {
   /// What the set-up adds to each specimen's curve, as a case says.
   std::function<std::vector<SetUp>(const CaseFile&)> set_ups;
   CurveModel::ReadCurve read_curve;
+  /// Of a case's interfaces whose law is the same everywhere; none without such.
+  std::function<std::vector<LawOfCase>(const CaseFile&)> laws;
   std::vector<CaseVariant> other_laws;  ///< that are tried where the residuals are more than noise
   std::string name;
   std::string hash;
   std::string title;
 };
 
-/// Writes fit.json, fit_curve.csv and case.fitted.toml to session.results, the runs to runs/ there. Killed at any
-/// moment it continues, at the next call, with the runs that it left, to the same result.
+/// Writes fit.json, fit_curve.csv, with a posterior fit_posterior.csv and fit_law_N.csv, and case.fitted.toml to
+/// session.results, the runs to runs/ there. Killed at any moment it continues, at the next call, with the runs that it
+/// left, to the same result.
 void fit_curve(const CurveFitJob& job, Session& session);
 
 }  // namespace pfdm

@@ -90,6 +90,11 @@ class CurveFit {
   std::optional<FinerModel> on_finer_model(const DoneStage& done);
   /// Intervals by profile likelihood of the parameters that no later stage estimates anew.
   void add_profiles(const DoneStage& done, FitFindings& found) const;
+  /// Of the parameters of the last stage, with its files; in curve_fit_posterior.cpp.
+  void add_posterior(const DoneStage& done, FitFindings& found) const;
+  /// Writes how the law of each interface varies over these samples of a stage's parameters; the names of the files.
+  std::vector<std::string> write_law_bands(const CurveFitStage& stage,
+                                           const std::vector<std::vector<double>>& samples) const;
   /// The residuals of each specimen, over its displacement.
   std::vector<ResidualSeries> series_of(const MeasuredPoints& points, const std::vector<double>& residuals) const;
 

@@ -139,7 +139,10 @@ std::optional<CurveFitSettings> read_curve_fit(const CaseFile& file) {
   finer_case(fit, file);  // whether they make sense
   coarse_case(fit, file);
   CurveFitSettings settings{.parameters = {}, .stages = {}, .solver = read_settings(fit), .where = fit};
-  settings.profiles = fit.choice("intervals", "linear") == "profile";
+  const std::string intervals = fit.choice("intervals", "linear");
+  settings.intervals = intervals == "profile"     ? Intervals::profile
+                       : intervals == "posterior" ? Intervals::posterior
+                                                  : Intervals::linear;
   settings.parameters = read_fit_parameters(fit, file);
   const CurveFitStage whole = whole_stage(fit, settings.parameters);
   for (const ConfigTable& table : fit.tables("stages"))

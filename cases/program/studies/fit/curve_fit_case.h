@@ -24,12 +24,15 @@ struct CurveFitStage {
   int screened = 0;                     ///< FitSettings::screened
 };
 
+/// What a sound fit has beside the linear intervals.
+enum class Intervals { linear, profile, posterior };
+
 struct CurveFitSettings {
   std::vector<CurveFitParameter> parameters;
   std::vector<CurveFitStage> stages;  ///< one at least
   FitSettings solver;
-  bool profiles = false;  ///< intervals by profile likelihood beside the linear ones
-  ConfigTable where;      ///< [fit], for messages
+  Intervals intervals = Intervals::linear;
+  ConfigTable where;  ///< [fit], for messages
 };
 
 /// [[fit.parameters]], of any kind of case. Throws InputError that names file and line.

@@ -91,14 +91,21 @@ std::string profile_text(const CaseParameter& p, const FittedParameter& found) {
                      end_text(p, found.profile->upper, found.profile->upper_open));
 }
 
+std::string posterior_text(const CaseParameter& p, const FittedParameter& found) {
+  if (!found.posterior) return "";
+  return fmt::format("; posterior: median {:.5g}, between {:.5g} and {:.5g}", p.in_file_units(found.posterior->median),
+                     p.in_file_units(found.posterior->lower), p.in_file_units(found.posterior->upper));
+}
+
 void say_estimates(const FitFindings& whole, const std::vector<CaseParameter>& parameters, Log& log) {
   log.say(fmt::format("rms residual of {} points {:.4g}, with the first guess {:.4g}", whole.n_residuals, whole.rms,
                       *whole.first_rms));
   for (const FittedParameter& found : whole.parameters) {
     const CaseParameter& p = *std::ranges::find(parameters, found.name, &CaseParameter::name);
-    log.say(fmt::format("  {} = {:.5g} {}, {}{}{}, first guess {:.5g}", p.name, p.in_file_units(found.estimate), p.unit,
-                        interval_text(p.in_file_units(found.lower), p.in_file_units(found.upper), 0.95, 5),
-                        profile_text(p, found), moved_text(found), p.in_file_units(found.first_guess)));
+    log.say(fmt::format("  {} = {:.5g} {}, {}{}{}{}, first guess {:.5g}", p.name, p.in_file_units(found.estimate),
+                        p.unit, interval_text(p.in_file_units(found.lower), p.in_file_units(found.upper), 0.95, 5),
+                        profile_text(p, found), posterior_text(p, found), moved_text(found),
+                        p.in_file_units(found.first_guess)));
   }
   for (std::size_t j = 0; j < whole.parameters.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)

@@ -1,4 +1,4 @@
-#include "cases/program/fracture/results/heat_results.h"
+#include "cases/program/fracture/outcome/heat_results.h"
 
 #include "physics/quantity_text.h"
 

@@ -1,7 +1,7 @@
-#include "cases/program/fracture/results/end_of_run.h"
+#include "cases/program/fracture/outcome/end_of_run.h"
 
-#include "cases/program/fracture/results/heat_results.h"
-#include "cases/program/fracture/results/mean_curve.h"
+#include "cases/program/fracture/outcome/heat_results.h"
+#include "cases/program/fracture/outcome/mean_curve.h"
 #include "physics/quantity_text.h"
 #include "postproc/files/json.h"
 #include "postproc/page/display_unit.h"

@@ -1,8 +1,8 @@
-#include "cases/program/fracture/results/recorded_steps.h"
+#include "cases/program/fracture/outcome/recorded_steps.h"
 
-#include "cases/program/fracture/results/energy_release_table.h"
-#include "cases/program/fracture/results/fracture_files.h"
-#include "cases/program/fracture/results/mean_curve.h"
+#include "cases/program/fracture/outcome/energy_release_table.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
+#include "cases/program/fracture/outcome/mean_curve.h"
 #include "postproc/files/csv_table.h"
 
 #include <fmt/format.h>

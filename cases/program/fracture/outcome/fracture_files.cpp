@@ -1,8 +1,8 @@
-#include "cases/program/fracture/results/fracture_files.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
 
-#include "cases/program/fracture/results/energy_release_table.h"
-#include "cases/program/fracture/results/heat_results.h"
-#include "cases/program/fracture/results/mean_curve.h"
+#include "cases/program/fracture/outcome/energy_release_table.h"
+#include "cases/program/fracture/outcome/heat_results.h"
+#include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/session/report_parts.h"
 #include "postproc/cohesive/cohesive_results.h"
 #include "postproc/cohesive/first_debonding.h"

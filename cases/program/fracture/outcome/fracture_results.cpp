@@ -1,8 +1,8 @@
-#include "cases/program/fracture/results/fracture_results.h"
+#include "cases/program/fracture/outcome/fracture_results.h"
 
-#include "cases/program/fracture/results/fracture_files.h"
-#include "cases/program/fracture/results/heat_results.h"
-#include "cases/program/fracture/results/mean_curve.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
+#include "cases/program/fracture/outcome/heat_results.h"
+#include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/session/earlier_results.h"
 #include "mesh/quality.h"
 #include "postproc/fields/checkpoint.h"

@@ -1,4 +1,4 @@
-#include "cases/program/fracture/results/energy_release_table.h"
+#include "cases/program/fracture/outcome/energy_release_table.h"
 
 #include <fmt/format.h>
 

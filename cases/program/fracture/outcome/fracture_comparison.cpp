@@ -1,6 +1,6 @@
-#include "cases/program/fracture/results/fracture_comparison.h"
+#include "cases/program/fracture/outcome/fracture_comparison.h"
 
-#include "cases/program/fracture/results/fracture_files.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
 #include "physics/angle.h"
 #include "physics/quantity_text.h"
 #include "postproc/cohesive/cohesive_law.h"

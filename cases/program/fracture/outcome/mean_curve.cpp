@@ -1,4 +1,4 @@
-#include "cases/program/fracture/results/mean_curve.h"
+#include "cases/program/fracture/outcome/mean_curve.h"
 
 #include "physics/elasticity/mandel.h"
 #include "postproc/files/csv_table.h"

@@ -1,6 +1,6 @@
-#include "cases/program/fracture/results/law_source.h"
+#include "cases/program/fracture/outcome/law_source.h"
 
-#include "cases/program/fracture/results/fracture_files.h"
+#include "cases/program/fracture/outcome/fracture_files.h"
 #include "physics/error.h"
 #include "postproc/curves/fit_json.h"
 

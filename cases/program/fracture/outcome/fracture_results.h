@@ -3,7 +3,7 @@
 // all functions throw ComputationError where they cannot be written.
 
 #include "cases/program/fracture/case/fracture_case.h"
-#include "cases/program/fracture/results/energy_release_table.h"
+#include "cases/program/fracture/outcome/energy_release_table.h"
 #include "cases/program/session/terminal/stopwatch.h"
 #include "mesh/mesh.h"
 #include "postproc/cohesive/column_record.h"

@@ -1,5 +1,6 @@
-#include "cases/program/fracture/results/interface_chart.h"
+#include "cases/program/fracture/outcome/interface_chart.h"
 
+#include "cases/program/fracture/outcome/opening_law.h"
 #include "postproc/page/display_unit.h"
 
 #include <fmt/format.h>
@@ -13,34 +14,11 @@ namespace pfdm {
 namespace {
 
 constexpr std::size_t most_states = 1500;
-constexpr double end_of_law = 0.01;  // part of the strength at which the chart ends
 constexpr double beyond_end = 1.2;
-constexpr double rigid = 1e6;    // over strength^2 / (2 toughness)
-constexpr double furthest = 50;  // toughness over strength
 
 struct FaceState {
   double separation, traction;  // [m], [Pa]
 };
-
-bool is_uniform(const InterfaceSettings& interface) {
-  const auto varies = [](const std::optional<Parameter>& parameter) { return parameter && parameter->varies; };
-  return !interface.strength.varies && !interface.toughness.varies && !varies(interface.shear_strength) &&
-         !varies(interface.shear_toughness) && !interface.strength_scatter && !interface.toughness_scatter;
-}
-
-InterfaceStrength everywhere(const InterfaceSettings& interface) {
-  const auto value = [](const std::optional<Parameter>& parameter) {
-    return parameter ? parameter->at(Vector::Zero()) : 0.0;
-  };
-  InterfaceStrength at{.strength = interface.strength.at(Vector::Zero()),
-                       .toughness = interface.toughness.at(Vector::Zero()),
-                       .shear_strength = value(interface.shear_strength),
-                       .shear_toughness = value(interface.shear_toughness),
-                       .stiffness = interface.stiffness};
-  if (interface.law.law->has_rise() && !(at.stiffness > 0.0))
-    at.stiffness = rigid * 0.5 * at.strength * at.strength / at.toughness;
-  return at;
-}
 
 /// lambda and S lambda (physics/interfaces/interface_law.h) of a face that is open; nothing of a closed one, where
 /// contact acts besides.
@@ -65,24 +43,6 @@ std::vector<FaceState> states_of(const InterfaceLaw& law, const ColumnRecord& re
   std::vector<FaceState> some;
   for (std::size_t i = 0; i < most_states; ++i) some.push_back(states[i * states.size() / most_states]);
   return some;
-}
-
-double traction_along(const InterfaceLaw& law, const InterfaceStrength& at, const Vector& direction, double size) {
-  return law.respond(at, Vector::UnitX(), size * direction, {}).traction.norm();
-}
-
-/// Where hardly anything is left of it [m].
-double end_along(const InterfaceLaw& law, const InterfaceStrength& at, const Vector& direction) {
-  constexpr int samples = 2000;
-  const double longest = furthest * std::max(at.toughness, at.shear_toughness) / at.strength;
-  double most = 0.0, end = 0.0;
-  for (int i = 1; i <= samples; ++i) {
-    const double size = longest * std::pow(double(i) / samples, 3.0);
-    const double T = traction_along(law, at, direction, size);
-    most = std::max(most, T);
-    if (T > end_of_law * most) end = size;
-  }
-  return end;
 }
 
 struct LawCurve {
@@ -127,7 +87,7 @@ double largest_of(const std::vector<FaceState>& states, double FaceState::*value
 Chart interface_chart(const InterfaceSettings& interface, const ColumnRecord& record) {
   const InterfaceLaw& law = interface.law;
   const bool uniform = is_uniform(interface);
-  const InterfaceStrength at = uniform ? everywhere(interface) : InterfaceStrength{};
+  const InterfaceStrength at = uniform ? strength_everywhere(interface) : InterfaceStrength{};
   std::vector<LawCurve> curves;
   double end = std::numeric_limits<double>::infinity();
   if (uniform) {
@@ -165,7 +125,7 @@ GivenFigures given_figures(const InterfaceSettings& interface) {
   GivenFigures figures{.law = std::string(interface.law.law->name),
                        .mixed_mode = std::string(interface.law.mixed_mode->name)};
   if (!is_uniform(interface)) return figures;
-  const InterfaceStrength at = everywhere(interface);
+  const InterfaceStrength at = strength_everywhere(interface);
   figures.strength = at.strength;
   figures.toughness = at.toughness;
   figures.shear_strength =

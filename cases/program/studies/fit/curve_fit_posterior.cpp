@@ -1,0 +1,111 @@
+// The posterior of a fit of a curve: samples of the parameters, and what they make of the laws of interfaces.
+
+#include "cases/program/studies/fit/curve_fit_at_work.h"
+#include "postproc/files/csv_table.h"
+#include "solver/calibration/posterior.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pfdm {
+namespace {
+
+constexpr const char* samples_file = "fit_posterior.csv";
+constexpr double noticeable_error = 0.3;  // of the logarithm of the posterior
+constexpr double lowest = 0.025, highest = 0.975;
+
+double mean_widening(const FitFindings& found) {
+  double sum = 0.0;
+  for (const FittedParameter& p : found.parameters) sum += p.widened_by;
+  return sum / static_cast<double>(found.parameters.size());
+}
+
+CsvTable table_of(const Posterior& posterior, const std::vector<FittedParameter>& parameters, const std::string& name) {
+  CsvTable table;
+  table.comments.push_back(fmt::format("posterior of the fit of {}: {} samples, as good as {:.0f} independent ones",
+                                       name, posterior.samples.size(), posterior.effective));
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    table.comments.push_back(fmt::format("{} [{}]", parameters[k].name, parameters[k].unit));
+    std::vector<double> values;
+    for (const std::vector<double>& sample : posterior.samples) values.push_back(sample[k]);
+    table.add(parameters[k].name, std::move(values));
+  }
+  return table;
+}
+
+double quantile(std::vector<double>& values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+}  // namespace
+
+void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) const {
+  const PosteriorSettings how{.widening = mean_widening(found), .running = [this](int points) {
+                                session_.log.say(fmt::format("  posterior: {} points about the estimates", points));
+                              }};
+  const Posterior sampled = posterior(done.problem, done.result, how);
+  for (std::size_t k = 0; k < found.parameters.size(); ++k) {
+    PosteriorInterval interval{.median = sampled.quantile(k, 0.5),
+                               .lower = sampled.quantile(k, lowest),
+                               .upper = sampled.quantile(k, highest)};
+    hold_move(found.parameters[k], interval.lower, interval.upper);
+    found.parameters[k].posterior = interval;
+  }
+  write_csv(session_.results / samples_file, table_of(sampled, found.parameters, job_.name));
+  found.posterior = PosteriorFindings{.file = samples_file,
+                                      .emulator_error = sampled.emulator_error,
+                                      .effective = sampled.effective,
+                                      .evaluations = sampled.evaluations,
+                                      .law_files = write_law_bands(done.stage, sampled.samples)};
+  if (sampled.emulator_error > noticeable_error)
+    found.warnings.push_back(fmt::format(
+        "the posterior rests on polynomials that miss its logarithm by {:.2g}: the curve is rough, or jumps, "
+        "within the intervals; it is wider than with an exact model",
+        sampled.emulator_error));
+  if (sampled.is_cut)
+    found.warnings.emplace_back(
+        "the posterior goes on beyond the points at which the model was run: its ends are too near");
+}
+
+std::vector<std::string> CurveFit::write_law_bands(const CurveFitStage& stage,
+                                                   const std::vector<std::vector<double>>& samples) const {
+  constexpr std::size_t n_laws = 200, n_separations = 200;
+  if (!job_.laws) return {};
+  const std::vector<LawOfCase> fitted = job_.laws(with_values(job_.file, parameters_, values_));
+  if (fitted.empty()) return {};
+  std::vector<std::vector<LawOfCase>> drawn;
+  for (std::size_t i = 0; i < std::min(n_laws, samples.size()); ++i)
+    drawn.push_back(job_.laws(with_values(
+        job_.file, parameters_, with_stage(stage, samples[i * samples.size() / std::min(n_laws, samples.size())]))));
+  std::vector<std::string> files;
+  for (std::size_t law = 0; law < fitted.size(); ++law) {
+    CsvTable table;
+    table.comments.push_back(
+        fmt::format("law of \"{}\" in opening: of the estimates, and quantiles over {} samples of the "
+                    "posterior at each separation",
+                    fitted[law].name, drawn.size()));
+    std::vector<double> x, estimate, lower, median, upper;
+    for (std::size_t i = 0; i <= n_separations; ++i) {
+      x.push_back(fitted[law].end * std::pow(double(i) / double(n_separations), 2.0));
+      estimate.push_back(fitted[law].traction(x.back()));
+      std::vector<double> values;
+      for (const std::vector<LawOfCase>& laws : drawn) values.push_back(laws[law].traction(x.back()));
+      lower.push_back(quantile(values, lowest));
+      median.push_back(quantile(values, 0.5));
+      upper.push_back(quantile(values, highest));
+    }
+    table.add("separation_m", std::move(x));
+    table.add("traction_Pa", std::move(estimate));
+    table.add("median_traction_Pa", std::move(median));
+    table.add("lower_traction_Pa", std::move(lower));
+    table.add("upper_traction_Pa", std::move(upper));
+    files.push_back(fmt::format("fit_law_{}.csv", law));
+    write_csv(session_.results / files.back(), table);
+  }
+  return files;
+}
+
+}  // namespace pfdm

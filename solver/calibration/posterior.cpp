@@ -1,0 +1,344 @@
+#include "solver/calibration/posterior.h"
+
+#include "physics/error.h"
+#include "solver/calibration/calibration_statistics.h"
+#include "solver/calibration/held_parameter.h"
+#include "solver/calibration/quasi_random.h"
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+#include <boost/math/special_functions/erf.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+namespace pfdm {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double reach_of_first = 3.5;  // of the first points, in standard errors
+constexpr double beyond = 1.2;          // how much farther than the points the emulator is believed
+
+/// All products of up to `degree` coordinates.
+VectorXd monomials(const VectorXd& z, int degree) {
+  std::vector<double> all{1.0};
+  struct Product {
+    double value;
+    Eigen::Index last;
+  };
+  std::vector<Product> products{{1.0, 0}};
+  for (int d = 0; d < degree; ++d) {
+    std::vector<Product> next;
+    for (const Product& p : products)
+      for (Eigen::Index j = p.last; j < z.size(); ++j) next.push_back({p.value * z[j], j});
+    for (const Product& p : next) all.push_back(p.value);
+    products = std::move(next);
+  }
+  return VectorXd::Map(all.data(), std::ssize(all));
+}
+
+/// Points of the model, their residuals, and polynomials through them.
+class Emulator {
+ public:
+  explicit Emulator(Eigen::Index n_coordinates) : n_coordinates_(n_coordinates) {}
+
+  void add(const VectorXd& z, const std::vector<double>& residuals) {
+    points_.push_back(z);
+    residuals_.emplace_back(VectorXd::Map(residuals.data(), std::ssize(residuals)));
+  }
+  std::size_t n_points() const { return points_.size(); }
+  /// Farthest from the estimates, of each coordinate.
+  VectorXd reach() const {
+    VectorXd most = VectorXd::Zero(n_coordinates_);
+    for (const VectorXd& z : points_) most = most.cwiseMax(z.cwiseAbs());
+    return most;
+  }
+
+  /// `variance`: of the noise.
+  void fit(double variance) {
+    degree_ = 2;
+    const auto n = std::ssize(points_);
+    if (n >= 3 * monomials(VectorXd::Zero(n_coordinates_), 3).size() / 2) degree_ = 3;
+    const Eigen::Index q = monomials(points_.front(), degree_).size(), m = residuals_.front().size();
+    MatrixXd A(n, q), R(n, m);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      A.row(i) = monomials(points_[static_cast<std::size_t>(i)], degree_).transpose();
+      R.row(i) = residuals_[static_cast<std::size_t>(i)].transpose();
+    }
+    MatrixXd normal = A.transpose() * A;
+    normal.diagonal().array() += 1e-10 * normal.diagonal().maxCoeff();
+    const MatrixXd inverse = normal.ldlt().solve(MatrixXd::Identity(q, q));
+    const MatrixXd C = inverse * (A.transpose() * R);
+    const VectorXd leverage = (A * inverse).cwiseProduct(A).rowwise().sum();
+    const MatrixXd misses =
+        (1.0 - leverage.array()).max(1e-3).inverse().matrix().asDiagonal() * (R - A * C);  // one left out
+    const VectorXd weight =
+        (1.0 + misses.colwise().squaredNorm().transpose().array() / (static_cast<double>(n) * variance)).inverse();
+    squares_ = C * weight.asDiagonal() * C.transpose();
+    given_ = R.rowwise().squaredNorm();
+    left_out_ = (R - misses).rowwise().squaredNorm();
+  }
+
+  /// Sum of squares of the residuals, each over 1 + its own error over the noise.
+  double sum_of_squares(const VectorXd& z) const {
+    const VectorXd phi = monomials(z, degree_);
+    return phi.dot(squares_ * phi);
+  }
+  /// Sums of squares of the points, of plain residuals, and each by the polynomials through the others.
+  const VectorXd& given() const { return given_; }
+  const VectorXd& left_out() const { return left_out_; }
+
+ private:
+  Eigen::Index n_coordinates_;
+  int degree_ = 2;
+  std::vector<VectorXd> points_, residuals_;
+  MatrixXd squares_;
+  VectorXd given_, left_out_;
+};
+
+class Sampler {
+ public:
+  Sampler(const FitProblem& problem, const FitResult& result, const PosteriorSettings& how)
+      : problem_(problem), how_(how), engine_(how.seed), emulator_(std::ssize(problem.parameters)) {
+    const Eigen::LLT<MatrixXd> factor(result.covariance);
+    const auto k = std::ssize(problem.parameters);
+    if (result.covariance.rows() != k || !result.covariance.allFinite() || factor.info() != Eigen::Success)
+      throw ComputationError("the data do not determine all parameters: their posterior has no end");
+    axes_ = factor.matrixL();
+    centre_ = VectorXd(k);
+    for (Eigen::Index j = 0; j < k; ++j) centre_[j] = in_fit(j, result.estimates[static_cast<std::size_t>(j)].value);
+    n_residuals_ = static_cast<double>(result.residuals.size());
+    variance_ = problem.noise_is_known ? 1.0 : result.sum_of_squares / std::max(1.0, n_residuals_ - double(k));
+  }
+
+  Posterior sample() {
+    run(first_points());
+    for (int batch = 1;; ++batch) {
+      emulator_.fit(variance_);
+      walk();
+      found_.emulator_error = error_of_logarithm();
+      const bool is_enough = found_.emulator_error < how_.enough && !found_.is_cut;
+      if (is_enough || batch >= how_.most_batches) break;
+      run(drawn_points());
+    }
+    found_.samples.reserve(chain_.size());
+    for (const VectorXd& z : chain_) found_.samples.push_back(values_at(z));
+    return found_;
+  }
+
+ private:
+  std::size_t n_in_batch() const {
+    const auto k = problem_.parameters.size();
+    return (k + 1) * (k + 2);  // twice the coefficients of a polynomial of second degree
+  }
+
+  double in_fit(Eigen::Index j, double value) const {
+    return problem_.parameters[static_cast<std::size_t>(j)].log_scale ? std::log(value) : value;
+  }
+  std::vector<double> values_at(const VectorXd& z) const {
+    const VectorXd x = centre_ + axes_ * z;
+    std::vector<double> values(problem_.parameters.size());
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      const double at = x[static_cast<Eigen::Index>(j)];
+      values[j] = problem_.parameters[j].log_scale ? std::exp(at) : at;
+    }
+    return values;
+  }
+  bool is_within_bounds(const std::vector<double>& values) const {
+    for (std::size_t j = 0; j < values.size(); ++j)
+      if (values[j] < problem_.parameters[j].lower || values[j] > problem_.parameters[j].upper) return false;
+    return true;
+  }
+
+  // Normally distributed, evenly: Halton's points. Along each axis the farthest is as far as the posterior goes if the
+  // model is linear.
+  std::vector<VectorXd> first_points() const {
+    std::vector<VectorXd> points{VectorXd::Zero(centre_.size())};
+    const std::vector<int> bases = primes(problem_.parameters.size());
+    VectorXd most = VectorXd::Constant(centre_.size(), 1e-300);
+    for (std::size_t n = 1; n < n_in_batch(); ++n) {
+      VectorXd z(centre_.size());
+      for (Eigen::Index j = 0; j < z.size(); ++j)
+        z[j] =
+            std::numbers::sqrt2 *
+            boost::math::erf_inv(2.0 * radical_inverse(static_cast<int>(n), bases[static_cast<std::size_t>(j)]) - 1.0);
+      most = most.cwiseMax(z.cwiseAbs());
+      points.push_back(z);
+    }
+    const double freedom = n_residuals_ - static_cast<double>(centre_.size());
+    const double tails = problem_.noise_is_known ? 1.0 : student_95(std::max(1.0, freedom)) / student_95(1e9);
+    for (VectorXd& z : points) z = within_bounds(reach_of_first * how_.widening * tails * z.cwiseQuotient(most));
+    return points;
+  }
+  // Farther out where that would go on.
+  std::vector<VectorXd> drawn_points() {
+    constexpr double farther = 1.3;
+    std::vector<VectorXd> points;
+    for (std::size_t i = 0; i < n_in_batch(); ++i) {
+      const VectorXd& z = chain_[static_cast<std::size_t>(uniform() * static_cast<double>(chain_.size()))];
+      points.push_back(within_bounds(found_.is_cut ? farther * z : z));
+    }
+    return points;
+  }
+  // Nearer to the estimates, as far as needed.
+  VectorXd within_bounds(VectorXd z) const {
+    constexpr int most_halvings = 30;
+    for (int i = 0; i < most_halvings && !is_within_bounds(values_at(z)); ++i) z *= 0.7;
+    return z;
+  }
+
+  void run(const std::vector<VectorXd>& points) {
+    if (how_.running) how_.running(static_cast<int>(points.size()));
+    std::vector<std::vector<double>> values;
+    for (const VectorXd& z : points) values.push_back(values_at(z));
+    if (problem_.prepare) problem_.prepare(values);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ++found_.evaluations;
+      if (const auto residuals = problem_.residuals(values[i])) emulator_.add(points[i], *residuals);
+    }
+    if (3 * emulator_.n_points() < 2 * static_cast<std::size_t>(found_.evaluations))
+      throw ComputationError(fmt::format("the posterior: the model converges at {} of {} points about the estimates",
+                                         emulator_.n_points(), found_.evaluations));
+    reach_ = beyond * emulator_.reach();
+  }
+
+  double logarithm_of(double sum_of_squares) const {
+    const double w = how_.widening * how_.widening;
+    if (problem_.noise_is_known) return -0.5 * sum_of_squares / w;
+    return -0.5 * n_residuals_ / w * std::log(sum_of_squares);
+  }
+  double logarithm(const VectorXd& z) const {
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    if ((z.array().abs() > reach_.array()).any()) return none;
+    const std::vector<double> values = values_at(z);
+    if (!is_within_bounds(values)) return none;
+    double sum = logarithm_of(std::max(emulator_.sum_of_squares(z), 1e-300));
+    for (std::size_t j = 0; j < values.size(); ++j) sum -= 0.5 * prior_term(problem_.parameters[j], values[j]);
+    return sum;
+  }
+
+  // Of the points that are within some standard errors: differences count, not a constant.
+  double error_of_logarithm() const {
+    constexpr double far = 8.0;  // below the largest logarithm
+    std::vector<double> given, errors;
+    for (Eigen::Index i = 0; i < emulator_.given().size(); ++i) {
+      given.push_back(logarithm_of(std::max(emulator_.given()[i], 1e-300)));
+      errors.push_back(logarithm_of(std::max(emulator_.left_out()[i], 1e-300)) - given.back());
+    }
+    const double best = std::ranges::max(given);
+    double n = 0.0, sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (given[i] < best - far) continue;
+      n += 1.0, sum += errors[i], squares += errors[i] * errors[i];
+    }
+    if (2.0 * n < static_cast<double>(n_in_batch())) return std::numeric_limits<double>::infinity();  // too few to tell
+    return std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n)));
+  }
+
+  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
+  double normal() { return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(2.0 * std::numbers::pi * uniform()); }
+
+  struct Walker {
+    VectorXd z;
+    double logarithm;
+  };
+
+  std::vector<Walker> start(std::size_t n) {
+    std::vector<Walker> walkers;
+    constexpr int most_tried = 1000;
+    for (std::size_t i = 0; i < n; ++i) {
+      VectorXd z = VectorXd::Zero(centre_.size());
+      for (int tried = 0; tried < most_tried; ++tried) {
+        for (double& entry : z) entry = normal();
+        if (std::isfinite(logarithm(z))) break;
+        z *= 0.1;
+      }
+      walkers.push_back({z, logarithm(z)});
+    }
+    return walkers;
+  }
+
+  // One half of the walkers after the other, each along the line to one of the other half.
+  void step(std::vector<Walker>& walkers) {
+    const std::size_t half = walkers.size() / 2;
+    const auto dimension = static_cast<double>(centre_.size());
+    for (std::size_t i = 0; i < walkers.size(); ++i) {
+      const std::size_t other = (i < half ? half : 0) + static_cast<std::size_t>(uniform() * static_cast<double>(half));
+      const double stretch = std::pow(1.0 + uniform(), 2) / 2.0;
+      const VectorXd z = walkers[other].z + stretch * (walkers[i].z - walkers[other].z);
+      const double at = logarithm(z);
+      if (std::log(1.0 - uniform()) < (dimension - 1.0) * std::log(stretch) + at - walkers[i].logarithm)
+        walkers[i] = {z, at};
+    }
+  }
+
+  void walk() {
+    constexpr int warm_up = 400;
+    const std::size_t n_walkers = std::max<std::size_t>(40, 4 * problem_.parameters.size());
+    const std::size_t kept_of_each = (static_cast<std::size_t>(how_.samples) + n_walkers - 1) / n_walkers;
+    std::vector<Walker> walkers = start(n_walkers);
+    for (int i = 0; i < warm_up; ++i) step(walkers);
+    chain_.clear();
+    constexpr int apart = 25;  // steps between samples
+    for (std::size_t kept = 0; kept < kept_of_each; ++kept) {
+      for (int i = 0; i < apart; ++i) step(walkers);
+      for (const Walker& w : walkers) chain_.push_back(w.z);
+    }
+    std::size_t edge = 0;
+    for (const VectorXd& z : chain_) edge += (z.array().abs() > 0.95 * reach_.array()).any() ? 1 : 0;
+    found_.is_cut = static_cast<double>(edge) > 0.01 * static_cast<double>(chain_.size());
+    found_.effective = effective_number();
+  }
+
+  // By how much means over stretches of the chain vary, against those of as many independent samples.
+  double effective_number() const {
+    constexpr std::size_t n_stretches = 20;
+    const std::size_t length = chain_.size() / n_stretches;
+    const auto n = static_cast<double>(chain_.size());
+    double least = n;
+    for (Eigen::Index j = 0; j < centre_.size(); ++j) {
+      double mean = 0.0, squares = 0.0, of_stretches = 0.0;
+      for (const VectorXd& z : chain_) mean += z[j] / n;
+      for (const VectorXd& z : chain_) squares += std::pow(z[j] - mean, 2) / n;
+      for (std::size_t s = 0; s < n_stretches; ++s) {
+        double of_stretch = 0.0;
+        for (std::size_t i = 0; i < length; ++i) of_stretch += chain_[s * length + i][j] / static_cast<double>(length);
+        of_stretches += std::pow(of_stretch - mean, 2) / static_cast<double>(n_stretches - 1);
+      }
+      least = std::min(least, n * squares / std::max(static_cast<double>(length) * of_stretches, squares));
+    }
+    return least;
+  }
+
+  const FitProblem& problem_;
+  const PosteriorSettings& how_;
+  std::mt19937_64 engine_;
+  MatrixXd axes_;            // of the linear interval's ellipsoid, a standard error long
+  VectorXd centre_, reach_;  // in what is fitted; of the emulator, along the axes
+  double n_residuals_ = 0.0, variance_ = 1.0;
+  Emulator emulator_;
+  std::vector<VectorXd> chain_;
+  Posterior found_;
+};
+
+}  // namespace
+
+double Posterior::quantile(std::size_t k, double share) const {
+  std::vector<double> values;
+  values.reserve(samples.size());
+  for (const std::vector<double>& sample : samples) values.push_back(sample[k]);
+  const auto at = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+Posterior posterior(const FitProblem& problem, const FitResult& result, const PosteriorSettings& how) {
+  return Sampler(problem, result, how).sample();
+}
+
+}  // namespace pfdm
