@@ -57,7 +57,8 @@ CellMechanics unknown_mechanics(std::size_t n_cells, std::size_t n_parts) {
 }  // namespace
 
 // Where lines of cells count, the mean gradient is theirs, from which the tractions are computed. The gradient varies
-// along the lines, by h^2/12 times the square of its slope, and so much more energy is in the cell.
+// along the lines, by h^2/12 times the square of its slope, and so much more energy is in the cell, in place of what
+// tractions, face displacements and moments have.
 void FiniteTractions::find_within_layers(const CellField<Tensor>& gradients, CellMechanics& result) const {
   const LayerGradients& layers = cells_.layers();
   if (!layers.any()) return;
@@ -71,6 +72,7 @@ void FiniteTractions::find_within_layers(const CellField<Tensor>& gradients, Cel
     result.gradient[c] += counts * (gradients[c] - result.gradient[c]);
     result.strain[c] = symmetric_part(result.gradient[c]);
     result.energy[c] += counts * (within - result.energy[c]);
+    result.moment_work[c] *= 1.0 - counts;
   });
 }
 
@@ -117,8 +119,8 @@ CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
     if (pressure_.any()) result.moderate_stress[c] = (sums.moment - pressed) * closure / volume;
     result.energy[c] = sums.work - by_pressure - 0.5 * contract(sums.moment - pressed, gradient);
   });
-  find_within_layers(s.gradients, result);
   add_work_of_moments(result);
+  find_within_layers(s.gradients, result);
   result.face_displacement = std::move(u_face);
   return result;
 }
