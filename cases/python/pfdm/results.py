@@ -132,7 +132,8 @@ class Fit:
     @cached_property
     def laws(self) -> list[pandas.DataFrame]:
         """Of a fit with a posterior, traction over separation of each cohesive interface whose law is the same
-        everywhere: separation_m, traction_Pa of the estimates, median_, lower_ and upper_traction_Pa (95 %)."""
+        everywhere: columns separation_m, traction_Pa (of the estimates), median_traction_Pa, lower_traction_Pa,
+        upper_traction_Pa (95 %)."""
         return [read_table(self.folder / file) for file in self.content.get("posterior", {}).get("law_files", [])]
 
     @property

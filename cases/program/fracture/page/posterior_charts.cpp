@@ -74,7 +74,7 @@ Chart law_chart(const CsvTable& table) {
                       .x = at,
                       .y = in_unit(lower, y),
                       .style = SeriesStyle::band,
-                      .colour = 0,
+                      .colour = 7,
                       .upper = in_unit(upper, y)},
                      {.label = "estimates", .x = at, .y = in_unit(estimate, y), .colour = 0}}};
 }

@@ -73,6 +73,7 @@ void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) const {
 std::vector<std::string> CurveFit::write_law_bands(const CurveFitStage& stage,
                                                    const std::vector<std::vector<double>>& samples) const {
   constexpr std::size_t n_laws = 200, n_separations = 200;
+  constexpr double beyond_end = 1.15;
   if (!job_.laws) return {};
   const std::vector<LawOfCase> fitted = job_.laws(with_values(job_.file, parameters_, values_));
   if (fitted.empty()) return {};
@@ -89,7 +90,7 @@ std::vector<std::string> CurveFit::write_law_bands(const CurveFitStage& stage,
                     fitted[law].name, drawn.size()));
     std::vector<double> x, estimate, lower, median, upper;
     for (std::size_t i = 0; i <= n_separations; ++i) {
-      x.push_back(fitted[law].end * std::pow(double(i) / double(n_separations), 2.0));
+      x.push_back(beyond_end * fitted[law].end * std::pow(double(i) / double(n_separations), 2.0));
       estimate.push_back(fitted[law].traction(x.back()));
       std::vector<double> values;
       for (const std::vector<LawOfCase>& laws : drawn) values.push_back(laws[law].traction(x.back()));
