@@ -74,6 +74,7 @@ Json to_json(const FitFindings& found) {
                {"start_rms_residual", start_rms},
                {"path", to_json(found.path)}};
   if (!found.finer.empty()) json["finer"] = found.finer;
+  if (!found.sensitivity_file.empty()) json["sensitivity_file"] = found.sensitivity_file;
   if (found.posterior) json["posterior"] = to_json(*found.posterior);
   if (found.first_rms) json["first_guess_rms_residual"] = *found.first_rms;
   if (!found.screened.empty()) json["screened"] = to_json(found.screened);
@@ -183,7 +184,8 @@ FitReport report_in(const Json& json) {
                              .converged = json.at("converged"),
                              .message = json.at("message"),
                              .parameters = parameters_in(json.at("parameters")),
-                             .posterior = posterior_in(json)},
+                             .posterior = posterior_in(json),
+                             .sensitivity_file = json.value("sensitivity_file", "")},
                    .experiments = {},
                    .own = {.kind = json.at("kind")}};
   for (const Json& e : json.at("experiments")) report.experiments.push_back(experiment_in(e));

@@ -70,6 +70,7 @@ struct FitFindings {
   /// By which the intervals of the parameters were widened; empty unless correlated residuals did so.
   std::vector<CorrelatedError> correlated{};
   std::optional<PosteriorFindings> posterior = std::nullopt;
+  std::string sensitivity_file{};  ///< by how much each parameter moves each part of the curve; empty: none
   std::string finer{};  ///< the finer discretisation; empty: none was tried
 };
 FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result);

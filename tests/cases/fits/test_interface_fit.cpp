@@ -113,6 +113,18 @@ TEST(InterfaceFit, FindsTheLineThatTheLawIsAndExportsIt) {
     EXPECT_LT(p["profile"]["lower"].get<double>(), due[k]);
     EXPECT_GT(p["profile"]["upper"].get<double>(), due[k]);
   }
+  // Which parameter moves which part of the curve.
+  const auto force_of = [](double u, double strength, double toughness) {
+    const double compliance = 2e-3 / 1e9, final_opening = 2.0 * toughness / strength;
+    const double opening = (u - compliance * strength) / (1.0 - compliance * strength / final_opening);
+    return 1e-6 * strength * (1.0 - opening / final_opening);
+  };
+  const CsvTable changes = read_csv(directory.results() / fit["sensitivity_file"].get<std::string>());
+  for (const std::size_t at : {std::size_t{10}, std::size_t{40}, std::size_t{70}}) {
+    const double u = changes.column("displacement_m")[at], here = force_of(u, due[0], due[1]);
+    EXPECT_NEAR(changes.column("change_by_0_N")[at], force_of(u, 1.01 * due[0], due[1]) - here, 3e-4) << u;
+    EXPECT_NEAR(changes.column("change_by_1_N")[at], force_of(u, due[0], 1.01 * due[1]) - here, 3e-4) << u;
+  }
   // The page of a fit without a run.
   const ReportPage page = page_of(directory, fit["case_hash"]);
   EXPECT_THAT(page.subtitle, HasSubstr("fitted, not run"));

@@ -52,6 +52,24 @@ Chart curves_chart(const ExperimentMisfit& experiment, const CsvTable& curves) {
                  {.label = "fitted", .x = at, .y = in_unit(fitted, y), .colour = 0}}};
 }
 
+/// By how much each parameter moves each part of the curve; the table's comments say how far it is moved.
+Chart sensitivity_chart(const CsvTable& table) {
+  const std::size_t n = table.columns.size() - 1;
+  const std::vector<double>& displacement = table.columns.front();
+  std::vector<std::vector<double>> changes(table.columns.begin() + 1, table.columns.end());
+  const DisplayUnit x = common_unit({{displacement}}, "m"), y = common_unit(changes, "N");
+  Chart chart{.caption = "What determines what: change of the computed force",
+              .x = {.title = fmt::format("displacement [{}]", x.name)},
+              .y = {.title = fmt::format("change of the force [{}]", y.name)},
+              .series = {}};
+  for (std::size_t k = 0; k < n; ++k)
+    chart.series.push_back({.label = table.comments[table.comments.size() - n + k],
+                            .x = in_unit(displacement, x),
+                            .y = in_unit(changes[k], y),
+                            .colour = static_cast<int>(k)});
+  return chart;
+}
+
 }  // namespace
 
 Table estimates_table(const FitReport& fit) {
@@ -79,6 +97,8 @@ std::vector<PageRow> fit_on_page(const FitReport& fit, const std::filesystem::pa
   for (const ExperimentMisfit& experiment : fit.experiments)
     if (!experiment.curve.empty() && seen.insert(experiment.curve).second)
       charts.emplace_back(curves_chart(experiment, read_csv(results / experiment.curve)));
+  if (const std::string& file = fit.found.sensitivity_file; !file.empty())
+    charts.emplace_back(sensitivity_chart(read_csv(results / file)));
   if (fit.found.posterior)
     for (Chart& chart : posterior_charts(fit, results)) charts.emplace_back(std::move(chart));
   for (PageRow& row : in_pairs(std::move(charts))) rows.push_back(std::move(row));

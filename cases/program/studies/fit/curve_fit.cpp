@@ -280,6 +280,7 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   const bool model_error = judge_stage(done, found.found);
   doubt(done, model_error, found.found);
   const bool is_last = &stage == &job_.settings.stages.back();
+  if (is_last) found.found.sensitivity_file = write_sensitivity(done, found.found);
   if (job_.settings.intervals == Intervals::profile && is_sound(found.found.verdict)) add_profiles(done, found.found);
   if (job_.settings.intervals == Intervals::posterior && is_last && is_sound(found.found.verdict))
     add_posterior(done, found.found);

@@ -90,6 +90,9 @@ class CurveFit {
   std::optional<FinerModel> on_finer_model(const DoneStage& done);
   /// Intervals by profile likelihood of the parameters that no later stage estimates anew.
   void add_profiles(const DoneStage& done, FitFindings& found) const;
+  /// Writes by how much each parameter of the last stage moves the computed curve at the points of the first specimen;
+  /// the name of the file. In curve_fit_sensitivity.cpp.
+  std::string write_sensitivity(const DoneStage& done, const FitFindings& found) const;
   /// Of the parameters of the last stage, with its files; in curve_fit_posterior.cpp.
   void add_posterior(const DoneStage& done, FitFindings& found) const;
   /// Writes how the law of each interface varies over these samples of a stage's parameters; the names of the files.

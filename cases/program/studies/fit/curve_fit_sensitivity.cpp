@@ -1,0 +1,56 @@
+// Which parameter of a fit moves which part of the curve: the derivatives at the estimates, as changes of the force.
+
+#include "cases/program/studies/fit/curve_fit_at_work.h"
+#include "physics/quantity_text.h"
+#include "postproc/files/csv_table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace pfdm {
+namespace {
+
+constexpr const char* sensitivity_file = "fit_sensitivity.csv";
+constexpr double share = 0.01;
+
+/// By which a parameter is moved: a hundredth of it; of one that may be zero or negative its standard error.
+struct Move {
+  double by = 0.0;  ///< in what is fitted: its logarithm on a logarithmic scale
+  std::string told;
+};
+
+Move move_of(const FittedParameter& p, double standard_error) {
+  if (p.log_scale) return {share, fmt::format("+{:g} % of {}", 100.0 * share, p.name)};
+  return {standard_error, fmt::format("{} + {}", p.name, quantity_text(standard_error, p.unit))};
+}
+
+}  // namespace
+
+std::string CurveFit::write_sensitivity(const DoneStage& done, const FitFindings& found) const {
+  CsvTable table;
+  table.comments.push_back(fmt::format(
+      "fit of {}: by how much the computed force changes at the measured points of the first specimen, with",
+      job_.name));
+  std::vector<double> x;
+  for (const MeasuredPoints::Point& point : done.points.points)
+    if (point.specimen == 0) x.push_back(point.x);
+  table.add("displacement_m", x);
+  for (std::size_t k = 0; k < found.parameters.size(); ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    const double error = std::sqrt(std::max(0.0, done.result.covariance(column, column)));
+    const Move move = move_of(found.parameters[k], error);
+    table.comments.push_back(move.told);
+    std::vector<double> changes;
+    for (Eigen::Index i = 0; i < done.result.derivatives.rows(); ++i) {
+      const MeasuredPoints::Point& point = done.points.points[static_cast<std::size_t>(i)];
+      if (point.specimen == 0)
+        changes.push_back(move.by * done.points.scale(point) * done.result.derivatives(i, column));
+    }
+    table.add(fmt::format("change_by_{}_N", k), std::move(changes));
+  }
+  write_csv(session_.results / sensitivity_file, table);
+  return sensitivity_file;
+}
+
+}  // namespace pfdm
