@@ -41,6 +41,16 @@ int estimated_runs(const CurveFitSettings& fit) {
   return runs;
 }
 
+/// Of the intervals beside the linear ones, of the last stage: glass_bead_calibration 124 by profiles, 80 at most for
+/// its posterior.
+int estimated_runs_of_intervals(const CurveFitSettings& fit) {
+  const auto k = static_cast<int>(fit.stages.back().parameters.size());
+  const int each = fit.solver.differences == Differences::central ? 2 : 1;
+  constexpr int by_end = 7, batches = 4;
+  if (fit.intervals == Intervals::profile) return 2 * by_end * k * (1 + each * (k - 1));
+  return fit.intervals == Intervals::posterior ? batches * (k + 1) * (k + 2) : 0;
+}
+
 /// The first guess, and the points of a stage: bar_fit 7, glass_bead_fit 8.
 int estimated_led_runs(const CurveFitSettings& fit) {
   int runs = 1;
@@ -73,10 +83,12 @@ std::string time_words(const Mesh& mesh, const FractureModel& model, const Loadi
 std::string fit_words(const CurveFitSettings& fit) {
   constexpr int as_often =
       2;  // as a fit that no coarse case leads: 148 runs for 53 of bar_fit, 75 for 29 of glass_bead_fit
+  const int intervals = estimated_runs_of_intervals(fit);
+  const std::string finer = fit.where.has("finer") ? ", and one of the case that [fit] finer makes" : "";
   if (fit.where.has("coarse"))
-    return fmt::format("pfdm fit would make some {} runs, led by some {} of the case that [fit] coarse makes",
-                       estimated_led_runs(fit), as_often * estimated_runs(fit));
-  return fmt::format("pfdm fit would make some {} runs", estimated_runs(fit));
+    return fmt::format("pfdm fit would make some {} runs, led by some {} of the case that [fit] coarse makes{}",
+                       estimated_led_runs(fit), as_often * estimated_runs(fit) + intervals, finer);
+  return fmt::format("pfdm fit would make some {} runs{}", estimated_runs(fit) + intervals, finer);
 }
 
 }  // namespace pfdm
