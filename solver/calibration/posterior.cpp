@@ -14,6 +14,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -328,13 +329,17 @@ class Sampler {
 
 }  // namespace
 
+double quantile(std::vector<double> values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
 double Posterior::quantile(std::size_t k, double share) const {
   std::vector<double> values;
   values.reserve(samples.size());
   for (const std::vector<double>& sample : samples) values.push_back(sample[k]);
-  const auto at = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
+  return pfdm::quantile(std::move(values), share);
 }
 
 Posterior posterior(const FitProblem& problem, const FitResult& result, const PosteriorSettings& how) {

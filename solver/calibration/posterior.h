@@ -29,6 +29,9 @@ struct PosteriorSettings {
   std::function<void(int points)> running = {};  ///< before each batch
 };
 
+/// The value that this share of the values, one at least, does not exceed.
+double quantile(std::vector<double> values, double share);
+
 struct Posterior {
   std::vector<std::vector<double>> samples;  ///< parameters, in the order of the problem
   double emulator_error = 0.0;  ///< rms of that of the logarithm of the posterior, at points left out of the emulator
@@ -36,8 +39,7 @@ struct Posterior {
   bool is_cut = false;          ///< it reaches to where the emulator has no points
   int evaluations = 0;
 
-  /// The value that this share of the samples of parameter k does not exceed.
-  double quantile(std::size_t k, double share) const;
+  double quantile(std::size_t k, double share) const;  ///< of the samples of parameter k
 };
 
 /// Of a fit that determines all its parameters. Throws ComputationError where it does not, or where the model does not

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pfdm {
 namespace {
@@ -32,12 +33,6 @@ CsvTable table_of(const Posterior& posterior, const std::vector<FittedParameter>
     table.add(parameters[k].name, std::move(values));
   }
   return table;
-}
-
-double quantile(std::vector<double>& values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
 }
 
 }  // namespace
