@@ -4,6 +4,7 @@
 #include "solver/calibration/calibration_statistics.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,21 +103,29 @@ double reach_towards_finer(const FittedParameter& p) {
   return p.moved_by_finer < 0.0 ? p.estimate - p.lower : p.upper - p.estimate;
 }
 
-/// Of a move that is noticeable; one that is larger than the interval of the noise is a reason.
-void tell_move(FitFindings& found, const FittedParameter& p) {
-  const double errors = std::abs(p.moved_by_finer) / p.standard_error;
-  if (!(errors > noticeable_move)) return;
-  const std::string told =
-      fmt::format("with {} {} would be {}, {:+.2g} %: a shift of {:.2g} standard errors", found.finer, p.name,
-                  with_unit(p.estimate + p.moved_by_finer, p.unit), 100.0 * p.moved_by_finer / p.estimate, errors);
-  if (is_sound(found.verdict) && std::abs(p.moved_by_finer) > reach_towards_finer(p)) {
-    found.verdict = Verdict::discretised;
-    found.reasons.push_back(told +
-                            ", more than what the noise leaves open; with the values of [fit] `finer` in the "
-                            "case itself it is less");
-  } else {
-    found.warnings.push_back(told);
+/// One line of all moves that are noticeable: a warning, or a reason where one is larger than the interval of the
+/// noise.
+void tell_moves(FitFindings& found) {
+  std::vector<std::string> moved, larger;
+  for (const FittedParameter& p : found.parameters) {
+    const double errors = std::abs(p.moved_by_finer) / p.standard_error;
+    if (!(errors > noticeable_move)) continue;
+    moved.push_back(fmt::format("{} would be {} ({:+.2g} %, {:.2g} standard errors)", p.name,
+                                with_unit(p.estimate + p.moved_by_finer, p.unit), 100.0 * p.moved_by_finer / p.estimate,
+                                errors));
+    if (std::abs(p.moved_by_finer) > reach_towards_finer(p)) larger.push_back(p.name);
   }
+  if (moved.empty()) return;
+  const std::string told = fmt::format("with {} {}", found.finer, fmt::join(moved, ", "));
+  if (!is_sound(found.verdict) || larger.empty()) {
+    found.warnings.push_back(told);
+    return;
+  }
+  found.verdict = Verdict::discretised;
+  found.reasons.push_back(
+      fmt::format("{}: more than what the noise leaves open of {}. With a mesh or steps as fine as those in the case "
+                  "itself it is less",
+                  told, fmt::join(larger, ", ")));
 }
 
 void add_moves(FitFindings& found, const JudgedData& data) {
@@ -126,9 +135,9 @@ void add_moves(FitFindings& found, const JudgedData& data) {
     FittedParameter& p = found.parameters[j];
     const double move = moves[static_cast<Eigen::Index>(j)];
     p.moved_by_finer = p.log_scale ? p.estimate * std::expm1(move) : move;
-    tell_move(found, p);
-    hold_move(p, p.lower, p.upper);
   }
+  tell_moves(found);
+  for (FittedParameter& p : found.parameters) hold_move(p, p.lower, p.upper);
 }
 
 }  // namespace

@@ -73,8 +73,10 @@ def fit_with_noise(options, folder, curve, seed, threads):
         shutil.copytree(options.case, case, ignore=shutil.ignore_patterns("results"))
         (case / "results").mkdir()
         (case / "results/runs").symlink_to(folder / "results/runs")
-        text = (case / "case.toml").read_text(encoding="utf-8")  # profiles take runs, and are not counted here
-        (case / "case.toml").write_text(text.replace('intervals = "profile"', 'intervals = "linear"'), encoding="utf-8")
+        text = (case / "case.toml").read_text(encoding="utf-8")
+        # Profiles and posteriors take runs, and the mesh is that of the truth: neither is counted here.
+        text = re.sub('intervals = "(profile|posterior)"', 'intervals = "linear"', re.sub("(?m)^finer = .*$", "", text))
+        (case / "case.toml").write_text(text, encoding="utf-8")
     script = pathlib.Path(__file__).parents[2] / "postproc/plots/make_synthetic.py"
     subprocess.run([sys.executable, script, curve, f"force_{options.component}_N", "force_N", ", ".join(options.truth),
                     "--spacing", str(options.spacing), "--seed", str(seed),

@@ -67,7 +67,7 @@ void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) const {
 
 std::vector<std::string> CurveFit::write_law_bands(const CurveFitStage& stage,
                                                    const std::vector<std::vector<double>>& samples) const {
-  constexpr std::size_t n_laws = 200, n_separations = 200;
+  constexpr std::size_t n_laws = 1000, n_separations = 200;
   constexpr double beyond_end = 1.15;
   if (!job_.laws) return {};
   const std::vector<LawOfCase> fitted = job_.laws(with_values(job_.file, parameters_, values_));
