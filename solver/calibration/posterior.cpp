@@ -242,7 +242,10 @@ class Sampler {
   }
 
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
-  double normal() { return std::sqrt(-2.0 * std::log(1.0 - uniform())) * std::cos(2.0 * std::numbers::pi * uniform()); }
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));  // first, whatever the compiler
+    return radius * std::cos(2.0 * std::numbers::pi * uniform());
+  }
 
   struct Walker {
     VectorXd z;
@@ -253,12 +256,13 @@ class Sampler {
     std::vector<Walker> walkers;
     constexpr int most_tried = 1000;
     for (std::size_t i = 0; i < n; ++i) {
-      VectorXd z = VectorXd::Zero(centre_.size());
-      for (int tried = 0; tried < most_tried; ++tried) {
+      VectorXd z(centre_.size());
+      bool is_possible = false;
+      for (int tried = 0; tried < most_tried && !is_possible; ++tried) {
         for (double& entry : z) entry = normal();
-        if (std::isfinite(logarithm(z))) break;
-        z *= 0.1;
+        is_possible = std::isfinite(logarithm(z));
       }
+      if (!is_possible) z.setZero();
       walkers.push_back({z, logarithm(z)});
     }
     return walkers;

@@ -281,9 +281,12 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   doubt(done, model_error, found.found);
   const bool is_last = &stage == &job_.settings.stages.back();
   if (is_last) found.found.sensitivity_file = write_sensitivity(done, found.found);
-  if (job_.settings.intervals == Intervals::profile && is_sound(found.found.verdict)) add_profiles(done, found.found);
-  if (job_.settings.intervals == Intervals::posterior && is_last && is_sound(found.found.verdict))
-    add_posterior(done, found.found);
+  if (is_sound(found.found.verdict)) try {
+      if (job_.settings.intervals == Intervals::profile) add_profiles(done, found.found);
+      if (job_.settings.intervals == Intervals::posterior && is_last) add_posterior(done, found.found);
+    } catch (const ComputationError& error) {
+      found.found.warnings.push_back(fmt::format("linear intervals only: {}", error.what()));
+    }
   return found;
 }
 

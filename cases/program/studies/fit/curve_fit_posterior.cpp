@@ -55,7 +55,10 @@ void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) const {
                                       .effective = sampled.effective,
                                       .evaluations = sampled.evaluations,
                                       .law_files = write_law_bands(done.stage, sampled.samples)};
-  if (sampled.emulator_error > noticeable_error)
+  if (!std::isfinite(sampled.emulator_error))
+    found.warnings.emplace_back(
+        "the posterior rests on polynomials of which too few points are near the estimates to tell how good they are");
+  else if (sampled.emulator_error > noticeable_error)
     found.warnings.push_back(fmt::format(
         "the posterior rests on polynomials that miss its logarithm by {:.2g}: the curve is rough, or jumps, "
         "within the intervals; it is wider than with an exact model",
