@@ -277,7 +277,8 @@ double FiniteCells::beside_mean(Index cell, const CellMechanics& mechanics, cons
 FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics, double g) const {
   const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
   const double volume = free_deformation(cell, mechanics).volume();
-  const double V = mesh_.cell_volume[cell], moments = mechanics.moment_work[cell];
+  const double V = mesh_.cell_volume[cell],
+               moments = mechanics.moment_work.size() > 0 ? mechanics.moment_work[cell] : 0.0;
   const bool drive = has_pressure(cell) || !model_.in_cell(mesh_, cell).damageable;
   return {.moderate = volume * at.moderate.energy,
           .network = volume * at.network.energy,

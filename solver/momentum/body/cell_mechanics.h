@@ -32,7 +32,7 @@ struct CellMechanics {
   /// displacements differ by from those of the mean gradient, 1/2 sum A t.(u_f - u_c - gradient d).
   CellField<double> energy;
   /// At finite strain, beside it: half the work of the moment of a cell's tractions about its centre, at its rotation
-  /// beyond that of the whole body [J]; zero where it is not counted.
+  /// beyond that of the whole body [J]; zero where it is not counted; empty: nowhere.
   CellField<double> moment_work{};
   /// Of a part of the stiffness: its share in `energy`, per volume [J/m^3],
   ///
