@@ -109,26 +109,30 @@ ThreadPool& pool() {
 // One loop at a time has the workers.
 std::atomic_flag has_workers = ATOMIC_FLAG_INIT;
 
-void take_workers() {
-  while (has_workers.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
-}
-void give_workers_back() { has_workers.clear(std::memory_order_release); }
+// That has them, until its end.
+struct WorkersTaken {
+  WorkersTaken() = default;
+  WorkersTaken(const WorkersTaken&) = delete;
+  WorkersTaken& operator=(const WorkersTaken&) = delete;
+  ~WorkersTaken() { has_workers.clear(std::memory_order_release); }
+};
+bool take_workers() { return !has_workers.test_and_set(std::memory_order_acquire); }
 
 }  // namespace
 
 void set_threads(int n) {
-  take_workers();
-  pool().resize(std::max(n, 1));
-  give_workers_back();
+  n = std::max(n, 1);
+  if (n == pool().size()) return;
+  while (!take_workers()) std::this_thread::yield();
+  const WorkersTaken taken;
+  pool().resize(n);
 }
 
 int n_threads() { return pool().size(); }
 
 void detail::run_tasks(Index n_tasks, const std::function<void(Index)>& task) {
-  if (n_tasks > 1 && pool().size() > 1 && !has_workers.test_and_set(std::memory_order_acquire)) {
-    const struct Taken {
-      ~Taken() { give_workers_back(); }
-    } taken;
+  if (n_tasks > 1 && pool().size() > 1 && take_workers()) {
+    const WorkersTaken taken;
     pool().run(n_tasks, task);
     return;
   }

@@ -167,7 +167,8 @@ void Parser::add_case_options() {
       .add_option("--curve-to", line.curve_to,
                   "also write each row of force_displacement.csv here, as to a script's pipe, when its step is done")
       ->type_name("FILE");
-  command("fit").add_flag("--strict", line.strict, "end with status 1 if the verdict on the fit is not \"sound\"");
+  command("fit").add_flag("--strict", line.strict,
+                          "end with status 1 if the verdict on the fit is none of the sound ones");
   command("sweep").add_flag("--slurm", line.slurm, "submit the missing runs to Slurm, or collect them");
   command("sweep")
       .add_option("--prepared", line.prepared, "run this one of the runs that --slurm has prepared")

@@ -64,8 +64,8 @@ class Emulator {
   void fit(double variance) {
     degree_ = 2;
     const auto n = std::ssize(points_);
-    if (n >= 3 * monomials(VectorXd::Zero(n_coordinates_), 3).size() / 2) degree_ = 3;
-    const Eigen::Index q = monomials(points_.front(), degree_).size(), m = residuals_.front().size();
+    if (n >= 3 * n_monomials(3) / 2) degree_ = 3;
+    const Eigen::Index q = n_monomials(degree_), m = residuals_.front().size();
     MatrixXd A(n, q), R(n, m);
     for (Eigen::Index i = 0; i < n; ++i) {
       A.row(i) = monomials(points_[static_cast<std::size_t>(i)], degree_).transpose();
@@ -95,6 +95,8 @@ class Emulator {
   const VectorXd& left_out() const { return left_out_; }
 
  private:
+  Eigen::Index n_monomials(int degree) const { return monomials(VectorXd::Zero(n_coordinates_), degree).size(); }
+
   Eigen::Index n_coordinates_;
   int degree_ = 2;
   std::vector<VectorXd> points_, residuals_;
@@ -109,12 +111,14 @@ class Sampler {
     const Eigen::LLT<MatrixXd> factor(result.covariance);
     const auto k = std::ssize(problem.parameters);
     if (result.covariance.rows() != k || !result.covariance.allFinite() || factor.info() != Eigen::Success)
-      throw ComputationError("the data do not determine all parameters: their posterior has no end");
+      throw NoConvergence(
+          "the data do not determine all parameters, or one is at a bound: there is no posterior of all");
     axes_ = factor.matrixL();
     centre_ = VectorXd(k);
     for (Eigen::Index j = 0; j < k; ++j) centre_[j] = in_fit(j, result.estimates[static_cast<std::size_t>(j)].value);
     n_residuals_ = static_cast<double>(result.residuals.size());
-    variance_ = problem.noise_is_known ? 1.0 : result.sum_of_squares / std::max(1.0, n_residuals_ - double(k));
+    freedom_ = std::max(1.0, n_residuals_ - static_cast<double>(k));
+    variance_ = problem.noise_is_known ? 1.0 : result.sum_of_squares / freedom_;
   }
 
   Posterior sample() {
@@ -156,24 +160,25 @@ class Sampler {
     return true;
   }
 
-  // Normally distributed, evenly: Halton's points. Along each axis the farthest is as far as the posterior goes if the
-  // model is linear.
+  // Normally distributed, evenly: Halton's points, each with the one opposite. Along each axis the farthest ones are as
+  // far as the posterior goes if the model is linear.
   std::vector<VectorXd> first_points() const {
     std::vector<VectorXd> points{VectorXd::Zero(centre_.size())};
     const std::vector<int> bases = primes(problem_.parameters.size());
     VectorXd most = VectorXd::Constant(centre_.size(), 1e-300);
-    for (std::size_t n = 1; n < n_in_batch(); ++n) {
+    for (int n = 2; points.size() < n_in_batch(); ++n) {  // the first one is the middle of an axis
       VectorXd z(centre_.size());
       for (Eigen::Index j = 0; j < z.size(); ++j)
-        z[j] =
-            std::numbers::sqrt2 *
-            boost::math::erf_inv(2.0 * radical_inverse(static_cast<int>(n), bases[static_cast<std::size_t>(j)]) - 1.0);
+        z[j] = std::numbers::sqrt2 *
+               boost::math::erf_inv(2.0 * radical_inverse(n, bases[static_cast<std::size_t>(j)]) - 1.0);
       most = most.cwiseMax(z.cwiseAbs());
       points.push_back(z);
+      points.push_back(-z);
     }
-    const double freedom = n_residuals_ - static_cast<double>(centre_.size());
-    const double tails = problem_.noise_is_known ? 1.0 : student_95(std::max(1.0, freedom)) / student_95(1e9);
-    for (VectorXd& z : points) z = within_bounds(reach_of_first * how_.widening * tails * z.cwiseQuotient(most));
+    const double w = how_.widening;
+    const double tails =
+        problem_.noise_is_known ? 1.0 : student_95(std::max(1.0, freedom_ / (w * w))) / student_95(1e9);
+    for (VectorXd& z : points) z = within_bounds(reach_of_first * w * tails * z.cwiseQuotient(most));
     return points;
   }
   // Farther out where that would go on.
@@ -200,18 +205,26 @@ class Sampler {
     if (problem_.prepare) problem_.prepare(values);
     for (std::size_t i = 0; i < points.size(); ++i) {
       ++found_.evaluations;
-      if (const auto residuals = problem_.residuals(values[i])) emulator_.add(points[i], *residuals);
+      if (const auto residuals = problem_.residuals(values[i]))
+        emulator_.add(points[i], *residuals);
+      else
+        ++found_.failures;
     }
-    if (3 * emulator_.n_points() < 2 * static_cast<std::size_t>(found_.evaluations))
-      throw ComputationError(fmt::format("the posterior: the model converges at {} of {} points about the estimates",
-                                         emulator_.n_points(), found_.evaluations));
+    if (3 * found_.failures > found_.evaluations)
+      throw NoConvergence(fmt::format("the posterior: the model converges at {} of {} points about the estimates",
+                                      emulator_.n_points(), found_.evaluations));
     reach_ = beyond * emulator_.reach();
   }
 
+  // Where the noise is not known, Student's t with the degrees of freedom that correlation leaves.
+  double exponent() const {
+    const double w = how_.widening;
+    return freedom_ / (w * w) + static_cast<double>(centre_.size());
+  }
   double logarithm_of(double sum_of_squares) const {
-    const double w = how_.widening * how_.widening;
-    if (problem_.noise_is_known) return -0.5 * sum_of_squares / w;
-    return -0.5 * n_residuals_ / w * std::log(sum_of_squares);
+    const double w = how_.widening;
+    if (problem_.noise_is_known) return -0.5 * sum_of_squares / (w * w);
+    return -0.5 * exponent() * std::log(sum_of_squares);
   }
   double logarithm(const VectorXd& z) const {
     constexpr double none = -std::numeric_limits<double>::infinity();
@@ -259,7 +272,8 @@ class Sampler {
       VectorXd z(centre_.size());
       bool is_possible = false;
       for (int tried = 0; tried < most_tried && !is_possible; ++tried) {
-        for (double& entry : z) entry = normal();
+        const double nearer = std::pow(0.9, tried / 10);  // where bounds are narrow
+        for (double& entry : z) entry = nearer * normal();
         is_possible = std::isfinite(logarithm(z));
       }
       if (!is_possible) z.setZero();
@@ -315,6 +329,7 @@ class Sampler {
         for (std::size_t i = 0; i < length; ++i) of_stretch += chain_[s * length + i][j] / static_cast<double>(length);
         of_stretches += std::pow(of_stretch - mean, 2) / static_cast<double>(n_stretches - 1);
       }
+      if (!(squares > 0.0)) return 0.0;
       least = std::min(least, n * squares / std::max(static_cast<double>(length) * of_stretches, squares));
     }
     return least;
@@ -325,7 +340,7 @@ class Sampler {
   std::mt19937_64 engine_;
   MatrixXd axes_;            // of the linear interval's ellipsoid, a standard error long
   VectorXd centre_, reach_;  // in what is fitted; of the emulator, along the axes
-  double n_residuals_ = 0.0, variance_ = 1.0;
+  double n_residuals_ = 0.0, freedom_ = 1.0, variance_ = 1.0;
   Emulator emulator_;
   std::vector<VectorXd> chain_;
   Posterior found_;

@@ -197,7 +197,7 @@ TEST(InterfaceFit, HasALawWithABand) {
   for (const PageRow& row : page.rows)
     for (const PageBlock& block : row.blocks)
       if (const auto* chart = std::get_if<Chart>(&block)) captions.push_back(chart->caption);
-  EXPECT_THAT(captions, testing::IsSupersetOf({testing::Eq("Law of the interface in opening, with its posterior"),
+  EXPECT_THAT(captions, testing::IsSupersetOf({testing::Eq("Law of \"glue\" in opening, with its posterior"),
                                                testing::Eq("Posterior of interface[0].strength [MPa]"),
                                                testing::Eq("Posterior: samples")}));
 }

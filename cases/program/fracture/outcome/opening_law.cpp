@@ -2,6 +2,8 @@
 
 #include "cases/program/fracture/case/run_keys.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -60,6 +62,8 @@ std::vector<LawOfCase> opening_laws(const CaseFile& file) {
        read_interfaces(file.config.root().with_keys(fracture_keys()), file.directory, data_files)) {
     if (!is_uniform(interface)) continue;
     const InterfaceStrength at = strength_everywhere(interface);
+    if (interface.law.law->has_rise() && !(at.strength * at.strength < 2.0 * at.stiffness * at.toughness))
+      throw InputError(fmt::format("{}: the straight rise of the law takes all of the toughness", interface.name));
     laws.push_back({.name = interface.name,
                     .end = end_along(interface.law, at, Vector::UnitX()),
                     .traction = [law = interface.law, at](double separation) {

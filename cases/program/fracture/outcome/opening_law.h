@@ -20,7 +20,7 @@ double traction_along(const InterfaceLaw& law, const InterfaceStrength& at, cons
 /// The separation at which hardly anything is left of the traction [m].
 double end_along(const InterfaceLaw& law, const InterfaceStrength& at, const Vector& direction);
 
-/// In opening, of the case's uniform interfaces.
+/// In opening, of the case's uniform interfaces. Throws InputError for values that a run refuses.
 std::vector<LawOfCase> opening_laws(const CaseFile& file);
 
 }  // namespace pfdm

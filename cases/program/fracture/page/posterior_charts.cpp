@@ -67,7 +67,9 @@ Chart law_chart(const CsvTable& table) {
         &lower = table.column("lower_traction_Pa"), &upper = table.column("upper_traction_Pa");
   const DisplayUnit x = common_unit({{s}}, "m"), y = common_unit({{estimate, upper}}, "Pa");
   const std::vector<double> at = in_unit(s, x);
-  return {.caption = "Law of the interface in opening, with its posterior",
+  const std::string& comment = table.comments.front();  // law of "NAME" in opening: ...
+  const std::size_t end = comment.find(" in opening");
+  return {.caption = fmt::format("L{} in opening, with its posterior", comment.substr(1, end - 1)),
           .x = {.title = fmt::format("separation [{}]", x.name), .from = 0.0},
           .y = {.title = fmt::format("traction [{}]", y.name), .from = 0.0},
           .series = {{.label = "95 % of the posterior",

@@ -75,6 +75,7 @@ void CurveFit::run() {
                                .fitted_curve = fitted,
                                .specimens = specimens,
                                .runs = counts_of(runs_),
+                               .tables = tables_,
                                .coarse_runs = coarse_ ? std::optional(counts_of(coarse_runs_)) : std::nullopt,
                                .seconds = watch.seconds()};
   write_curve_fit(job_, found, session_);
@@ -280,12 +281,12 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   const bool model_error = judge_stage(done, found.found);
   doubt(done, model_error, found.found);
   const bool is_last = &stage == &job_.settings.stages.back();
-  if (is_last) found.found.sensitivity_file = write_sensitivity(done, found.found);
+  if (is_last) found.found.sensitivity_file = add_sensitivity(done, found.found);
   if (is_sound(found.found.verdict)) try {
       if (job_.settings.intervals == Intervals::profile) add_profiles(done, found.found);
       if (job_.settings.intervals == Intervals::posterior && is_last) add_posterior(done, found.found);
-    } catch (const ComputationError& error) {
-      found.found.warnings.push_back(fmt::format("linear intervals only: {}", error.what()));
+    } catch (const NoConvergence& error) {
+      found.found.warnings.push_back(fmt::format("without a posterior: {}", error.what()));
     }
   return found;
 }

@@ -7,7 +7,9 @@
 #include "postproc/curves/curve_jumps.h"
 #include "postproc/curves/curve_misfit.h"
 #include "postproc/curves/fit_judgement.h"
+#include "postproc/files/csv_table.h"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -90,14 +92,15 @@ class CurveFit {
   std::optional<FinerModel> on_finer_model(const DoneStage& done);
   /// Intervals by profile likelihood of the parameters that no later stage estimates anew.
   void add_profiles(const DoneStage& done, FitFindings& found) const;
-  /// Writes by how much each parameter of the last stage moves the computed curve at the points of the first specimen;
-  /// the name of the file. In curve_fit_sensitivity.cpp.
-  std::string write_sensitivity(const DoneStage& done, const FitFindings& found) const;
-  /// Of the parameters of the last stage, with its files; in curve_fit_posterior.cpp.
-  void add_posterior(const DoneStage& done, FitFindings& found) const;
-  /// Writes how the law of each interface varies over these samples of a stage's parameters; the names of the files.
-  std::vector<std::string> write_law_bands(const CurveFitStage& stage,
-                                           const std::vector<std::vector<double>>& samples) const;
+  /// A table of how much each parameter of the last stage moves the computed curve at the points of the first specimen;
+  /// the name of its file, empty without such points. In curve_fit_sensitivity.cpp.
+  std::string add_sensitivity(const DoneStage& done, const FitFindings& found);
+  /// Of the parameters of the last stage, with its tables; in curve_fit_posterior.cpp. Throws NoConvergence.
+  void add_posterior(const DoneStage& done, FitFindings& found);
+  /// Tables of how the law of each interface varies over these samples of a stage's parameters; the names of their
+  /// files.
+  std::vector<std::string> add_law_bands(const CurveFitStage& stage, const std::vector<std::vector<double>>& samples,
+                                         std::vector<std::string>& warnings);
   /// The residuals of each specimen, over its displacement.
   std::vector<ResidualSeries> series_of(const MeasuredPoints& points, const std::vector<double>& residuals) const;
 
@@ -109,11 +112,12 @@ class CurveFit {
   std::optional<CaseVariant> finer_, coarse_;
   CaseRuns coarse_runs_;
   std::optional<CurveModel> coarse_model_;
-  JumpAlignment alignment_;         // of its curves
-  std::vector<double> first_;       // of all parameters, the case's own [SI]
-  std::vector<double> values_;      // of all parameters, as known so far [SI]
-  std::vector<bool> is_of_set_up_;  // parameters of the measured curves: no run depends on them
-  std::vector<bool> is_estimated_;  // by an earlier stage
+  JumpAlignment alignment_;                 // of its curves
+  std::vector<double> first_;               // of all parameters, the case's own [SI]
+  std::vector<double> values_;              // of all parameters, as known so far [SI]
+  std::vector<bool> is_of_set_up_;          // parameters of the measured curves: no run depends on them
+  std::vector<bool> is_estimated_;          // by an earlier stage
+  std::map<std::string, CsvTable> tables_;  // that go with fit.json, by the names of their files
 };
 
 }  // namespace pfdm

@@ -1,6 +1,7 @@
 // The posterior of a fit of a curve: samples of the parameters, and what they make of the laws of interfaces.
 
 #include "cases/program/studies/fit/curve_fit_at_work.h"
+#include "physics/error.h"
 #include "postproc/files/csv_table.h"
 #include "solver/calibration/posterior.h"
 
@@ -8,12 +9,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
 
 constexpr const char* samples_file = "fit_posterior.csv";
 constexpr double noticeable_error = 0.3;  // of the logarithm of the posterior
+constexpr double least_effective = 400.0;
 constexpr double lowest = 0.025, highest = 0.975;
 
 double mean_widening(const FitFindings& found) {
@@ -35,9 +38,33 @@ CsvTable table_of(const Posterior& posterior, const std::vector<FittedParameter>
   return table;
 }
 
+void warn_of(const Posterior& sampled, std::vector<std::string>& warnings) {
+  if (!std::isfinite(sampled.emulator_error))
+    warnings.emplace_back(
+        "the posterior rests on polynomials of which too few points are near the estimates to tell how good they are");
+  else if (sampled.emulator_error > noticeable_error)
+    warnings.push_back(
+        fmt::format("the posterior rests on polynomials that miss its logarithm by {:.2g}: the curve is rough, or "
+                    "jumps, within the "
+                    "intervals; what they miss counts as noise",
+                    sampled.emulator_error));
+  if (sampled.failures > 0)
+    warnings.push_back(
+        fmt::format("the model does not converge at {} of the {} points on which the posterior rests; "
+                    "there it is extrapolated from the others",
+                    sampled.failures, sampled.evaluations));
+  if (sampled.is_cut)
+    warnings.emplace_back("the posterior goes on beyond the points at which the model was run: its ends are too near");
+  if (sampled.effective < least_effective)
+    warnings.push_back(
+        fmt::format("the samples of the posterior are as good as {:.0f} independent ones, too few for its "
+                    "ends",
+                    sampled.effective));
+}
+
 }  // namespace
 
-void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) const {
+void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) {
   const PosteriorSettings how{.widening = mean_widening(found), .running = [this](int points) {
                                 session_.log.say(fmt::format("  posterior: {} points about the estimates", points));
                               }};
@@ -49,36 +76,34 @@ void CurveFit::add_posterior(const DoneStage& done, FitFindings& found) const {
     hold_move(found.parameters[k], interval.lower, interval.upper);
     found.parameters[k].posterior = interval;
   }
-  write_csv(session_.results / samples_file, table_of(sampled, found.parameters, job_.name));
+  tables_[samples_file] = table_of(sampled, found.parameters, job_.name);
   found.posterior = PosteriorFindings{.file = samples_file,
                                       .emulator_error = sampled.emulator_error,
                                       .effective = sampled.effective,
                                       .evaluations = sampled.evaluations,
-                                      .law_files = write_law_bands(done.stage, sampled.samples)};
-  if (!std::isfinite(sampled.emulator_error))
-    found.warnings.emplace_back(
-        "the posterior rests on polynomials of which too few points are near the estimates to tell how good they are");
-  else if (sampled.emulator_error > noticeable_error)
-    found.warnings.push_back(fmt::format(
-        "the posterior rests on polynomials that miss its logarithm by {:.2g}: the curve is rough, or jumps, "
-        "within the intervals; it is wider than with an exact model",
-        sampled.emulator_error));
-  if (sampled.is_cut)
-    found.warnings.emplace_back(
-        "the posterior goes on beyond the points at which the model was run: its ends are too near");
+                                      .law_files = add_law_bands(done.stage, sampled.samples, found.warnings)};
+  warn_of(sampled, found.warnings);
 }
 
-std::vector<std::string> CurveFit::write_law_bands(const CurveFitStage& stage,
-                                                   const std::vector<std::vector<double>>& samples) const {
+std::vector<std::string> CurveFit::add_law_bands(const CurveFitStage& stage,
+                                                 const std::vector<std::vector<double>>& samples,
+                                                 std::vector<std::string>& warnings) {
   constexpr std::size_t n_laws = 1000, n_separations = 200;
   constexpr double beyond_end = 1.15;
   if (!job_.laws) return {};
   const std::vector<LawOfCase> fitted = job_.laws(with_values(job_.file, parameters_, values_));
   if (fitted.empty()) return {};
   std::vector<std::vector<LawOfCase>> drawn;
-  for (std::size_t i = 0; i < std::min(n_laws, samples.size()); ++i)
-    drawn.push_back(job_.laws(with_values(
-        job_.file, parameters_, with_stage(stage, samples[i * samples.size() / std::min(n_laws, samples.size())]))));
+  const std::size_t n = std::min(n_laws, samples.size());
+  for (std::size_t i = 0; i < n; ++i) try {
+      drawn.push_back(
+          job_.laws(with_values(job_.file, parameters_, with_stage(stage, samples[i * samples.size() / n]))));
+    } catch (const InputError&) {  // values that a run refuses
+    }
+  if (drawn.size() < n)
+    warnings.push_back(fmt::format("the band of the law leaves out {} of {} samples, whose values a run refuses",
+                                   n - drawn.size(), n));
+  if (drawn.empty()) return {};
   std::vector<std::string> files;
   for (std::size_t law = 0; law < fitted.size(); ++law) {
     CsvTable table;
@@ -102,7 +127,7 @@ std::vector<std::string> CurveFit::write_law_bands(const CurveFitStage& stage,
     table.add("lower_traction_Pa", std::move(lower));
     table.add("upper_traction_Pa", std::move(upper));
     files.push_back(fmt::format("fit_law_{}.csv", law));
-    write_csv(session_.results / files.back(), table);
+    tables_[files.back()] = std::move(table);
   }
   return files;
 }

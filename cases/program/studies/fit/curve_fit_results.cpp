@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace pfdm {
 namespace {
@@ -117,6 +118,22 @@ std::string counts_text(const RunCounts& runs) {
   return fmt::format("{} runs made, {} reused, {} of them did not converge", runs.made, runs.reused, runs.failed);
 }
 
+/// Those of what withheld intervals leave out are not written, and those of earlier fits go.
+void write_tables(const std::map<std::string, CsvTable>& tables, const FitFindings& whole, const fs::path& results) {
+  std::set<std::string> kept{whole.sensitivity_file};
+  if (whole.posterior) {
+    kept.insert(whole.posterior->file);
+    kept.insert(whole.posterior->law_files.begin(), whole.posterior->law_files.end());
+  }
+  for (const auto& [file, table] : tables)
+    if (kept.contains(file)) write_csv(results / file, table);
+  for (const fs::directory_entry& entry : fs::directory_iterator(results)) {
+    const std::string file = entry.path().filename().string();
+    const bool is_table = file == "fit_posterior.csv" || (file.starts_with("fit_law_") && file.ends_with(".csv"));
+    if (is_table && !kept.contains(file)) fs::remove(entry.path());
+  }
+}
+
 }  // namespace
 
 void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Session& session) {
@@ -138,6 +155,7 @@ void write_curve_fit(const CurveFitJob& job, const CurveFitFindings& found, Sess
              fmt::format("# made by pfdm fit from the case {}: values that [[fit.parameters]] names are estimates\n",
                          job.name) +
                  moved(fitted, results));
+  write_tables(found.tables, report.found, results);
   write_fit_json(results / "fit.json", report);
   for (const ExperimentMisfit& e : report.experiments)
     for (const std::string& done : e.preparation) session.log.say(fmt::format("{}: {}", e.name, done));

@@ -3,7 +3,10 @@
 
 #include "cases/program/studies/fit/curve_fit.h"
 #include "postproc/curves/fit_json.h"
+#include "postproc/files/csv_table.h"
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace pfdm {
@@ -16,7 +19,8 @@ struct CurveFitFindings {
   SampledCurve fitted_curve;
   std::vector<MeasuredCurve> specimens;  ///< with the set-up as estimated
   RunCounts runs;
-  std::optional<RunCounts> coarse_runs;  ///< with [fit] `coarse`
+  const std::map<std::string, CsvTable>& tables;  ///< by the names of their files
+  std::optional<RunCounts> coarse_runs;           ///< with [fit] `coarse`
   double seconds = 0.0;
 };
 

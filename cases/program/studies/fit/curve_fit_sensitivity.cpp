@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -14,7 +16,8 @@ namespace {
 constexpr const char* sensitivity_file = "fit_sensitivity.csv";
 constexpr double share = 0.01;
 
-/// By which a parameter is moved: a hundredth of it; of one that may be zero or negative its standard error.
+/// By which a parameter is moved: a hundredth of it; of one that may be zero or negative its standard error, or where
+/// that is not known a hundredth of its first guess, which scales it.
 struct Move {
   double by = 0.0;  ///< in what is fitted: its logarithm on a logarithmic scale
   std::string told;
@@ -22,12 +25,14 @@ struct Move {
 
 Move move_of(const FittedParameter& p, double standard_error) {
   if (p.log_scale) return {share, fmt::format("+{:g} % of {}", 100.0 * share, p.name)};
-  return {standard_error, fmt::format("{} + {}", p.name, quantity_text(standard_error, p.unit))};
+  const bool is_known = standard_error > 0.0 && std::isfinite(standard_error);
+  const double by = is_known ? standard_error : share * std::max(std::abs(p.first_guess), std::abs(p.estimate));
+  return {by, fmt::format("{} + {}", p.name, quantity_text(by, p.unit))};
 }
 
 }  // namespace
 
-std::string CurveFit::write_sensitivity(const DoneStage& done, const FitFindings& found) const {
+std::string CurveFit::add_sensitivity(const DoneStage& done, const FitFindings& found) {
   CsvTable table;
   table.comments.push_back(fmt::format(
       "fit of {}: by how much the computed force changes at the measured points of the first specimen, with",
@@ -35,11 +40,11 @@ std::string CurveFit::write_sensitivity(const DoneStage& done, const FitFindings
   std::vector<double> x;
   for (const MeasuredPoints::Point& point : done.points.points)
     if (point.specimen == 0) x.push_back(point.x);
+  if (x.empty()) return "";
   table.add("displacement_m", x);
   for (std::size_t k = 0; k < found.parameters.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
-    const double error = std::sqrt(std::max(0.0, done.result.covariance(column, column)));
-    const Move move = move_of(found.parameters[k], error);
+    const Move move = move_of(found.parameters[k], std::sqrt(done.result.covariance(column, column)));
     table.comments.push_back(move.told);
     std::vector<double> changes;
     for (Eigen::Index i = 0; i < done.result.derivatives.rows(); ++i) {
@@ -49,7 +54,7 @@ std::string CurveFit::write_sensitivity(const DoneStage& done, const FitFindings
     }
     table.add(fmt::format("change_by_{}_N", k), std::move(changes));
   }
-  write_csv(session_.results / sensitivity_file, table);
+  tables_[sensitivity_file] = std::move(table);
   return sensitivity_file;
 }
 
