@@ -173,7 +173,7 @@ class Sampler {
                boost::math::erf_inv(2.0 * radical_inverse(n, bases[static_cast<std::size_t>(j)]) - 1.0);
       most = most.cwiseMax(z.cwiseAbs());
       points.push_back(z);
-      points.push_back(-z);
+      points.emplace_back(-z);
     }
     const double w = how_.widening;
     const double tails =
@@ -201,6 +201,7 @@ class Sampler {
   void run(const std::vector<VectorXd>& points) {
     if (how_.running) how_.running(static_cast<int>(points.size()));
     std::vector<std::vector<double>> values;
+    values.reserve(points.size());
     for (const VectorXd& z : points) values.push_back(values_at(z));
     if (problem_.prepare) problem_.prepare(values);
     for (std::size_t i = 0; i < points.size(); ++i) {

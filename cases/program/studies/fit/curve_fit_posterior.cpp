@@ -116,6 +116,7 @@ std::vector<std::string> CurveFit::add_law_bands(const CurveFitStage& stage,
       x.push_back(beyond_end * fitted[law].end * std::pow(double(i) / double(n_separations), 2.0));
       estimate.push_back(fitted[law].traction(x.back()));
       std::vector<double> values;
+      values.reserve(drawn.size());
       for (const std::vector<LawOfCase>& laws : drawn) values.push_back(laws[law].traction(x.back()));
       lower.push_back(quantile(values, lowest));
       median.push_back(quantile(values, 0.5));
