@@ -71,7 +71,7 @@ struct FitFindings {
   std::vector<CorrelatedError> correlated{};
   std::optional<PosteriorFindings> posterior = std::nullopt;
   std::string sensitivity_file{};  ///< by how much each parameter moves each part of the curve; empty: none
-  std::string finer{};  ///< the finer discretisation; empty: none was tried
+  std::string finer{};             ///< the finer discretisation; empty: none was tried
 };
 FitFindings findings_of(const std::vector<FitParameter>& parameters, const FitResult& result);
 
