@@ -123,13 +123,13 @@ void orient_outwards(std::vector<Polygon>& faces, const std::vector<Vector>& poi
 }
 
 void add_standard_cell(HalfFaces& halves, Index cell, CellShape shape, std::span<const Index> points) {
-  if (static_cast<Index>(points.size()) != points_per_cell(shape))
+  if (count_of(points) != points_per_cell(shape))
     throw InputError(
         fmt::format("cell {} has {} points; its shape requires {}", cell, points.size(), points_per_cell(shape)));
   for (const LocalFace& local : local_faces(shape)) {
     std::array<Index, 4> face{};
     const std::size_t n = local[3] < 0 ? 3 : 4;
-    for (std::size_t i = 0; i < n; ++i) face[i] = points[static_cast<std::size_t>(local[i])];
+    for (std::size_t i = 0; i < n; ++i) face[i] = points[local[i]];
     halves.add(cell, std::span(face).first(n));
   }
 }
@@ -152,7 +152,7 @@ double signed_cell_volume(const std::vector<Vector>& points, CellShape shape, st
   for (const LocalFace& local : local_faces(shape)) {
     Polygon& face = faces.emplace_back();
     for (const Index i : local)
-      if (i >= 0) face.push_back(cell[static_cast<std::size_t>(i)]);
+      if (i >= 0) face.push_back(cell[i]);
   }
   return signed_volume(faces, points);
 }
@@ -163,7 +163,7 @@ HalfFaces half_faces(const CellSoup& soup) {
   halves.offsets.reserve(soup.shape.size() * 5 + 1);
   halves.points.reserve(soup.cell_points.size() * 3);
   std::size_t polyhedron = 0;
-  for (Index c = 0; c < static_cast<Index>(soup.shape.size()); ++c) {
+  for (Index c = 0; c < count_of(soup.shape); ++c) {
     if (soup.shape[c] == CellShape::polyhedron) {
       std::vector<Polygon> faces = unpack_polyhedron(soup.polyhedron_faces[polyhedron++], c, soup.points.size());
       orient_outwards(faces, soup.points, c);
@@ -184,7 +184,7 @@ std::vector<FacePair> pair_half_faces(const HalfFaces& halves, Index n_points) {
     return std::span<Index>{sorted.data() + first, static_cast<std::size_t>(halves.offsets[h + 1] - first)};
   };
   // Half-faces in buckets by their smallest point: a bucket holds a few dozens, so sorting inside is cheap.
-  std::vector<Index> bucket_start(static_cast<std::size_t>(n_points) + 1, 0);
+  std::vector<Index> bucket_start(n_points + 1, 0);
   for (Index h = 0; h < halves.size(); ++h) {
     std::sort(key(h).begin(), key(h).end());
     ++bucket_start[key(h)[0] + 1];
@@ -219,11 +219,11 @@ std::vector<FacePair> pair_half_faces(const HalfFaces& halves, Index n_points) {
 
 void list_faces_of_cells(Mesh& mesh) {
   std::vector<Index>& offsets = mesh.cell_face_offsets;
-  offsets.assign(static_cast<std::size_t>(mesh.n_cells()) + 1, 0);
+  offsets.assign(mesh.n_cells() + 1, 0);
   for (const Index c : mesh.owner) ++offsets[c + 1];
   for (const Index c : mesh.neighbour) ++offsets[c + 1];
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  mesh.cell_faces.resize(static_cast<std::size_t>(offsets.back()));
+  mesh.cell_faces.resize(offsets.back());
   std::vector<Index> fill(offsets.begin(), offsets.end() - 1);
   for (Index f = 0; f < mesh.n_faces(); ++f) {
     mesh.cell_faces[fill[mesh.owner[f]]++] = f;

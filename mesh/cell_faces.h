@@ -17,9 +17,9 @@ struct HalfFaces {
   void add(Index of_cell, std::span<const Index> of_face) {
     cell.push_back(of_cell);
     points.insert(points.end(), of_face.begin(), of_face.end());
-    offsets.push_back(static_cast<Index>(points.size()));
+    offsets.push_back(count_of(points));
   }
-  Index size() const { return static_cast<Index>(cell.size()); }
+  Index size() const { return count_of(cell); }
   std::span<const Index> points_of(Index half_face) const {
     const Index first = offsets[half_face];
     return {points.data() + first, static_cast<std::size_t>(offsets[half_face + 1] - first)};

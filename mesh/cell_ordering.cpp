@@ -84,12 +84,12 @@ std::vector<Index> cuthill_mckee_component(CellGraph& graph, Index seed) {
 std::vector<Index> reverse_cuthill_mckee(Index n, const std::vector<std::pair<Index, Index>>& neighbours) {
   CellGraph graph(n, neighbours);
   std::vector<Index> order;
-  order.reserve(static_cast<std::size_t>(n));
-  std::vector<bool> placed(static_cast<std::size_t>(n), false);
+  order.reserve(n);
+  std::vector<bool> placed(n, false);
   for (Index seed = 0; seed < n; ++seed) {
-    if (placed[static_cast<std::size_t>(seed)]) continue;
+    if (placed[seed]) continue;
     for (const Index c : cuthill_mckee_component(graph, seed)) {
-      placed[static_cast<std::size_t>(c)] = true;
+      placed[c] = true;
       order.push_back(c);
     }
   }

@@ -59,7 +59,7 @@ class DualBuilder {
 
   std::size_t corner(Index cell, Index point) const {
     const auto points = primal_.points_of_cell(cell);
-    return as_size(primal_.cell_offsets[as_size(cell)]) +
+    return as_size(primal_.cell_offsets[cell]) +
            static_cast<std::size_t>(std::find(points.begin(), points.end(), point) - points.begin());
   }
   Index dual_cell(Index cell, Index point) const { return dual_of_corner_[corner(cell, point)]; }
@@ -74,10 +74,10 @@ class DualBuilder {
     }
     dual_of_corner_.resize(primal_.cell_points.size());
     for (Index c = 0; c < primal_.n_cells(); ++c)
-      for (auto i = as_size(primal_.cell_offsets[as_size(c)]); i < as_size(primal_.cell_offsets[as_size(c) + 1]); ++i) {
+      for (std::size_t i = primal_.cell_offsets[c]; i < as_size(primal_.cell_offsets[c + 1]); ++i) {
         const std::size_t least = corners.least_with(i);
         if (least == i) {
-          dual_of_corner_[i] = static_cast<Index>(region_of_dual_.size());
+          dual_of_corner_[i] = count_of(region_of_dual_);
           region_of_dual_.push_back(primal_.region[c]);
         } else {
           dual_of_corner_[i] = dual_of_corner_[least];
@@ -97,7 +97,7 @@ class DualBuilder {
     });
     for (const auto& [points, in_cell] : all) {
       if (edges_.empty() || edges_.back() != points) edges_.push_back(points);
-      at_edges_.push_back({static_cast<Index>(edges_.size()) - 1, in_cell.cell, in_cell.faces});
+      at_edges_.push_back({count_of(edges_) - 1, in_cell.cell, in_cell.faces});
     }
   }
 
@@ -108,13 +108,13 @@ class DualBuilder {
 
   Vector mean(std::span<const Index> points) const {
     Vector sum = Vector::Zero();
-    for (const Index p : points) sum += primal_.points[as_size(p)];
+    for (const Index p : points) sum += primal_.points[p];
     return sum / static_cast<double>(points.size());
   }
 
   // Vertices, middles of edges, of faces and of cells, in this order.
-  Index n_vertices() const { return static_cast<Index>(primal_.points.size()); }
-  Index n_edges() const { return static_cast<Index>(edges_.size()); }
+  Index n_vertices() const { return count_of(primal_.points); }
+  Index n_edges() const { return count_of(edges_); }
   Index middle_of_edge(Index edge) const { return n_vertices() + edge; }
   Index middle_of_face(Index face) const { return n_vertices() + n_edges() + face; }
   Index middle_of_cell(Index cell) const { return n_vertices() + n_edges() + primal_.n_faces() + cell; }
@@ -175,18 +175,18 @@ class DualBuilder {
       const Index next = primal_.across(face, cell);
       i = static_cast<std::size_t>(std::ranges::find(around, next, &EdgeInCell::cell) - around.begin());
     }
-    const auto [low, high] = edges_[as_size(edge)];
-    if (doubled_area(loop, middle_of_edge(edge)).dot(soup_.points[as_size(high)] - soup_.points[as_size(low)]) < 0.0)
+    const auto [low, high] = edges_[edge];
+    if (doubled_area(loop, middle_of_edge(edge)).dot(soup_.points[high] - soup_.points[low]) < 0.0)
       std::ranges::reverse(loop);
     const Index cell = around[start].cell;
     add_face(loop, dual_cell(cell, low), dual_cell(cell, high), -1, middle_of_edge(edge));
   }
 
   Vector doubled_area(const std::vector<Index>& loop, Index apex) const {
-    const Vector& o = soup_.points[as_size(apex)];
+    const Vector& o = soup_.points[apex];
     Vector sum = Vector::Zero();
     for (std::size_t i = 0; i < loop.size(); ++i)
-      sum += (soup_.points[as_size(loop[i])] - o).cross(soup_.points[as_size(loop[(i + 1) % loop.size()])] - o);
+      sum += (soup_.points[loop[i]] - o).cross(soup_.points[loop[(i + 1) % loop.size()]] - o);
     return sum;
   }
 
@@ -264,7 +264,7 @@ class DualBuilder {
     std::vector<std::vector<Index>> points(region_of_dual_.size());
     for (Index h = 0; h < table_.halves.size(); ++h) {
       const auto of_face = table_.halves.points_of(h);
-      auto& of_cell = points[as_size(table_.halves.cell[as_size(h)])];
+      auto& of_cell = points[table_.halves.cell[h]];
       of_cell.insert(of_cell.end(), of_face.begin(), of_face.end());
     }
     for (std::size_t c = 0; c < points.size(); ++c) {

@@ -3,12 +3,14 @@
 
 #include "physics/tensor.h"
 
+#include <concepts>
 #include <cstddef>
 #include <vector>
 
 namespace pfdm {
 
-constexpr std::size_t as_size(Index i) { return static_cast<std::size_t>(i); }
+/// An index as a size, where the two are compared. Subscripts and lengths need no such word.
+constexpr std::size_t as_size(std::integral auto i) { return static_cast<std::size_t>(i); }
 
 /// Zero, also for Eigen's types, which leave T{} uninitialised.
 template <class T>
@@ -23,12 +25,12 @@ template <class T, class Place>
 class Field {
  public:
   Field() = default;
-  explicit Field(std::size_t n, const T& value = zero_of<T>()) : values_(n, value) {}
+  explicit Field(std::integral auto n, const T& value = zero_of<T>()) : values_(as_size(n), value) {}
   explicit Field(std::vector<T> values) : values_(std::move(values)) {}
 
-  T& operator[](Index i) { return values_[static_cast<std::size_t>(i)]; }
-  const T& operator[](Index i) const { return values_[static_cast<std::size_t>(i)]; }
-  Index size() const { return static_cast<Index>(values_.size()); }
+  T& operator[](std::integral auto i) { return values_[i]; }
+  const T& operator[](std::integral auto i) const { return values_[i]; }
+  Index size() const { return count_of(values_); }
   T* data() { return values_.data(); }
   const T* data() const { return values_.data(); }
   auto begin() { return values_.begin(); }

@@ -60,7 +60,7 @@ class BoundaryEdges {
     return nearest;
   }
 
-  const Vector& point(Index p) const { return mesh_.points[as_size(p)]; }
+  const Vector& point(Index p) const { return mesh_.points[p]; }
 
   const Mesh& mesh_;
   std::map<Index, std::set<Index>> ends_;
@@ -75,7 +75,7 @@ void require_no_hanging_points(const Mesh& mesh) {
           throw InputError(fmt::format(
               "cells do not match: the point at {} is a hanging node on the edge from {} to {} of another cell; "
               "refined and coarse cells must be joined by cells that share their faces",
-              place(mesh.points[as_size(*p)]), place(mesh.points[as_size(a)]), place(mesh.points[as_size(b)])));
+              place(mesh.points[*p]), place(mesh.points[a]), place(mesh.points[b])));
 }
 
 void require_no_split_quadrilaterals(const Mesh& mesh) {

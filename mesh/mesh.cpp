@@ -51,7 +51,7 @@ void copy_cells(Mesh& mesh, const CellSoup& soup, const std::vector<Index>& orde
     mesh.region.values().push_back(soup.region[old]);
     mesh.cell_points.insert(mesh.cell_points.end(), soup.cell_points.begin() + soup.cell_offsets[old],
                             soup.cell_points.begin() + soup.cell_offsets[old + 1]);
-    mesh.cell_offsets.push_back(static_cast<Index>(mesh.cell_points.size()));
+    mesh.cell_offsets.push_back(count_of(mesh.cell_points));
   }
 }
 
@@ -124,7 +124,7 @@ void store_faces(Mesh& mesh, std::vector<PlacedFace>& faces, const FaceTable& ta
     if (face.apex >= 0) mesh.face_apex.values().push_back(face.apex);
     const auto ids = table.halves.points_of(face.half_face);
     mesh.face_points.insert(mesh.face_points.end(), ids.begin(), ids.end());
-    mesh.face_offsets.push_back(static_cast<Index>(mesh.face_points.size()));
+    mesh.face_offsets.push_back(count_of(mesh.face_points));
   }
   Index next = mesh.n_interior_faces();
   for (Patch& patch : mesh.patches) {
@@ -154,9 +154,9 @@ void check_cells(const Mesh& mesh, const std::vector<Index>& order) {
 
 }  // namespace
 
-const Patch& Mesh::patch(const std::string& name) const {
+Index Mesh::patch_index(const std::string& name) const {
   const auto found = std::ranges::find(patches, name, &Patch::name);
-  if (found != patches.end()) return *found;
+  if (found != patches.end()) return static_cast<Index>(found - patches.begin());
   std::vector<std::string> names;
   for (const Patch& p : patches) names.push_back(p.name);
   throw InputError(fmt::format("unknown patch \"{}\"; available: {}", name, fmt::join(names, ", ")));
@@ -172,23 +172,23 @@ void CellSoup::add_cell(CellShape cell_shape, std::span<const Index> ids, Index 
   shape.push_back(cell_shape);
   region.push_back(cell_region);
   cell_points.insert(cell_points.end(), ids.begin(), ids.end());
-  cell_offsets.push_back(static_cast<Index>(cell_points.size()));
+  cell_offsets.push_back(count_of(cell_points));
 }
 
 Mesh assemble_mesh(CellSoup soup, const std::vector<PatchRule>& rules) {
   check_soup(soup);
-  if (static_cast<Index>(soup.polyhedron_faces.size()) != std::ranges::count(soup.shape, CellShape::polyhedron))
+  if (count_of(soup.polyhedron_faces) != std::ranges::count(soup.shape, CellShape::polyhedron))
     throw InputError("the lists of cells have different lengths");
   FaceTable table;
   table.halves = half_faces(soup);
-  table.pairs = pair_half_faces(table.halves, static_cast<Index>(soup.points.size()));
+  table.pairs = pair_half_faces(table.halves, count_of(soup.points));
   claim_boundary(table, soup.points, rules);
   return assemble_from_faces(std::move(soup), table);
 }
 
 Mesh assemble_from_faces(CellSoup soup, const FaceTable& table) {
   check_soup(soup);
-  const std::vector<Index> order = order_for_locality(table.halves, table.pairs, static_cast<Index>(soup.shape.size()));
+  const std::vector<Index> order = order_for_locality(table.halves, table.pairs, count_of(soup.shape));
   std::vector<PlacedFace> faces = place_faces(table, order);
   Mesh mesh;
   copy_cells(mesh, soup, order);

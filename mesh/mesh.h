@@ -58,7 +58,8 @@ struct Mesh {
   Index across(Index face, Index cell) const { return owner[face] == cell ? neighbour[face] : owner[face]; }
 
   /// Throws InputError naming the patches there are.
-  const Patch& patch(const std::string& name) const;
+  Index patch_index(const std::string& name) const;
+  const Patch& patch(const std::string& name) const { return patches[patch_index(name)]; }
   /// Throws InputError naming the regions there are.
   Index region_index(const std::string& name) const;
 

@@ -110,7 +110,7 @@ CellQuality cell_quality(const Mesh& mesh) {
 
 MeshQuality mesh_quality(const Mesh& mesh) {
   MeshQuality quality;
-  quality.n_points = static_cast<Index>(mesh.points.size());
+  quality.n_points = count_of(mesh.points);
   quality.n_faces = mesh.n_faces();
   quality.n_cells = mesh.n_cells();
   count_cells(mesh, quality);

@@ -11,6 +11,12 @@ using Index = std::int32_t;
 using Vector = Eigen::Vector3d;
 using Tensor = Eigen::Matrix3d;
 
+/// Number of values of a container, as an index.
+template <class Container>
+constexpr Index count_of(const Container& values) {
+  return static_cast<Index>(values.size());
+}
+
 inline Tensor symmetric_part(const Tensor& a) { return 0.5 * (a + a.transpose()); }
 
 inline Tensor deviator(const Tensor& a) { return a - (a.trace() / 3.0) * Tensor::Identity(); }

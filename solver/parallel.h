@@ -41,13 +41,13 @@ void parallel_for(Index n, const Body& body) {
 /// Sum of term(i) over [0, n), of any type with +=.
 template <class T = double, class Term>
 T parallel_sum(Index n, const Term& term, T zero = T{}, Index grain = chunk_size) {
-  std::vector<T> partial(static_cast<std::size_t>((n + grain - 1) / grain), zero);
+  std::vector<T> partial((n + grain - 1) / grain, zero);
   parallel_chunks(
       n,
       [&](Index begin, Index end) {
         T sum = zero;
         for (Index i = begin; i < end; ++i) sum += term(i);
-        partial[static_cast<std::size_t>(begin / grain)] = sum;
+        partial[begin / grain] = sum;
       },
       grain);
   T total = zero;
@@ -58,11 +58,11 @@ T parallel_sum(Index n, const Term& term, T zero = T{}, Index grain = chunk_size
 /// Largest term(i), at least `least`.
 template <class Term>
 double parallel_max(Index n, const Term& term, double least = 0.0) {
-  std::vector<double> partial(static_cast<std::size_t>((n + chunk_size - 1) / chunk_size), least);
+  std::vector<double> partial((n + chunk_size - 1) / chunk_size, least);
   parallel_chunks(n, [&](Index begin, Index end) {
     double largest = least;
     for (Index i = begin; i < end; ++i) largest = std::max(largest, static_cast<double>(term(i)));
-    partial[static_cast<std::size_t>(begin / chunk_size)] = largest;
+    partial[begin / chunk_size] = largest;
   });
   return partial.empty() ? least : *std::max_element(partial.begin(), partial.end());
 }

@@ -49,7 +49,7 @@ Mesh bar() {
   }
   for (Index i = 0; i < n; ++i) {  // a hexahedron in VTK's order: the four points of one end, then those of the other
     std::array<Index, 8> points{};
-    for (Index k = 0; k < 8; ++k) points[as_size(k)] = 4 * i + k;
+    for (Index k = 0; k < 8; ++k) points[k] = 4 * i + k;
     soup.add_cell(CellShape::hexahedron, points, 0);
   }
   const auto plane = [](int axis, double at) {
@@ -96,7 +96,7 @@ FractureModel model() {
 int main() {
   const Mesh mesh = bar();
   FractureRun run(mesh, model(), {}, {.initial_increment = 0.01, .maximum_increment = 0.01});
-  const auto right = static_cast<std::size_t>(&mesh.patch("right") - mesh.patches.data());
+  const auto right = mesh.patch_index("right");
 
   FractureState state = run.initial_state();
   double greatest = 0.0, work = 0.0, force = 0.0, moved = 0.0;

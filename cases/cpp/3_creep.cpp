@@ -113,7 +113,7 @@ int main() {
                           .duration = hold,
                           .is_proportional = false};
   FractureRun run(mesh, model(), {}, loading);
-  const auto end = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+  const auto end = mesh.patch_index("xmax");
 
   FractureState state = run.initial_state();
   double error = 0.0;

@@ -89,7 +89,7 @@ std::optional<std::string> nearest_case(const fs::path& where, const fs::path& c
   for (const fs::path& directory : cases) names.push_back(directory.filename().string());
   const auto name = nearest(plain.filename().string(), names);
   if (!name) return std::nullopt;
-  const fs::path& found = cases[static_cast<std::size_t>(std::ranges::find(names, *name) - names.begin())];
+  const fs::path& found = cases[std::ranges::find(names, *name) - names.begin()];
   const fs::path seen = fs::proximate(found);
   return (!seen.empty() && *seen.begin() != ".." ? seen : found).string();
 }

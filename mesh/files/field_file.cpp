@@ -41,7 +41,7 @@ MeshFile with_corners_alone(const MeshFile& file) {
     const bool is_higher = row != std::end(higher_order) && row->n <= n;
     linear.cell_type.push_back(is_higher ? row->linear_type : file.cell_type[c]);
     linear.cell_points.insert(linear.cell_points.end(), begin, begin + (is_higher ? row->n : n));
-    linear.cell_offsets.push_back(static_cast<Index>(linear.cell_points.size()));
+    linear.cell_offsets.push_back(count_of(linear.cell_points));
   }
   return linear;
 }
@@ -81,14 +81,14 @@ FieldFile field_of(MeshFile file, const FileArray& array, int component, double 
   if (component >= array.n_components)
     throw InputError(
         fmt::format("the array has {} component{}", array.n_components, array.n_components > 1 ? "s" : ""));
-  const auto n_points = static_cast<Index>(file.points.size());
+  const auto n_points = count_of(file.points);
   file = with_corners_alone(file);
   std::array<bool, 3> varies{true, true, true};
   Vector fixed = Vector::Zero();
   if (const auto axis = flat_along(file)) {
-    const double depth = size_of(file.points), level = file.points[as_size(file.cell_points.front())][*axis];
+    const double depth = size_of(file.points), level = file.points[file.cell_points.front()][*axis];
     extrude(file, *axis, depth);
-    varies[static_cast<std::size_t>(*axis)] = false;
+    varies[*axis] = false;
     fixed[*axis] = scale * (level + 0.5 * depth);
   }
   Volumes volumes = volumes_of(file, scale);

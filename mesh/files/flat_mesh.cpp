@@ -14,8 +14,7 @@ constexpr int vtk_first_volume = 10, vtk_hexahedron = 12, vtk_wedge = 13, vtk_po
 bool is_flat_face(int type) { return type == vtk_triangle || (type >= vtk_polygon && type <= vtk_quadrilateral); }
 
 std::span<const Index> points_of_flat_cell(const MeshFile& file, Index cell) {
-  const std::size_t from = as_size(file.cell_offsets[as_size(cell)]),
-                    to = as_size(file.cell_offsets[as_size(cell) + 1]);
+  const std::size_t from = file.cell_offsets[cell], to = as_size(file.cell_offsets[cell + 1]);
   return std::span(file.cell_points).subspan(from, to - from);
 }
 
@@ -23,7 +22,7 @@ std::span<const Index> points_of_flat_cell(const MeshFile& file, Index cell) {
 std::vector<Index> points_around_face(const MeshFile& file, Index cell) {
   const auto given = points_of_flat_cell(file, cell);
   std::vector<Index> ids(given.begin(), given.end());
-  if (file.cell_type[as_size(cell)] == vtk_pixel) std::swap(ids[2], ids[3]);
+  if (file.cell_type[cell] == vtk_pixel) std::swap(ids[2], ids[3]);
   return ids;
 }
 
@@ -32,7 +31,7 @@ class Extrusion {
   Extrusion(const MeshFile& flat, Index n_points) : flat_(flat), n_points_(n_points) {}
 
   void add(Index cell, MeshFile& layer) const {
-    const int type = flat_.cell_type[as_size(cell)];
+    const int type = flat_.cell_type[cell];
     if (!is_flat_face(type) && type != vtk_line) {
       const auto same = points_of_flat_cell(flat_, cell);
       return put(type, {same.begin(), same.end()}, layer);
@@ -51,7 +50,7 @@ class Extrusion {
   static void put(int type, const std::vector<Index>& ids, MeshFile& layer) {
     layer.cell_type.push_back(type);
     layer.cell_points.insert(layer.cell_points.end(), ids.begin(), ids.end());
-    layer.cell_offsets.push_back(static_cast<Index>(layer.cell_points.size()));
+    layer.cell_offsets.push_back(count_of(layer.cell_points));
   }
 
   const MeshFile& flat_;
@@ -80,7 +79,7 @@ std::optional<int> flat_along(const MeshFile& file) {
     if (file.cell_type[c] >= vtk_first_volume) return std::nullopt;
     if (!is_flat_face(file.cell_type[c])) continue;
     for (const Index p : points_of_flat_cell(file, static_cast<Index>(c))) {
-      const Vector& x = file.points[as_size(p)];
+      const Vector& x = file.points[p];
       if (!box) box = {x, x};
       box = {box->first.cwiseMin(x), box->second.cwiseMax(x)};
     }
@@ -95,13 +94,13 @@ std::optional<int> flat_along(const MeshFile& file) {
 
 void extrude(MeshFile& file, int axis, double thickness) {
   const MeshFile flat = file;
-  const auto n = static_cast<Index>(flat.points.size());
+  const auto n = count_of(flat.points);
   for (const Vector& x : flat.points) file.points.push_back(x + thickness * Vector::Unit(axis));
   file.cell_type.clear();
   file.cell_points.clear();
   file.cell_offsets = {0};
   const Extrusion extrusion(flat, n);
-  for (Index c = 0; c < static_cast<Index>(flat.cell_type.size()); ++c) extrusion.add(c, file);
+  for (Index c = 0; c < count_of(flat.cell_type); ++c) extrusion.add(c, file);
   file.region_names = flat.patch_names;
   file.patch_names = flat.line_names;
 }

@@ -123,7 +123,7 @@ class GmshReader {
   void add_node(std::uint64_t number, const Vector& x) {
     if (file_.points.size() >= static_cast<std::size_t>(std::numeric_limits<Index>::max()))
       throw in_.error_in_file("it has too many nodes to number");
-    if (!node_.emplace(number, static_cast<Index>(file_.points.size())).second)
+    if (!node_.emplace(number, count_of(file_.points)).second)
       throw in_.error(fmt::format("node {} is listed twice", number));
     file_.points.push_back(x);
   }
@@ -177,7 +177,7 @@ class GmshReader {
       file_.cell_points.push_back(found->second);
     }
     file_.cell_type.push_back(type.vtk);
-    file_.cell_offsets.push_back(static_cast<Index>(file_.cell_points.size()));
+    file_.cell_offsets.push_back(count_of(file_.cell_points));
     file_.cell_number.push_back(static_cast<std::int64_t>(number));
     physical_.push_back(group);
     entity_.push_back(entity);
@@ -189,13 +189,13 @@ class GmshReader {
     std::vector<Index> key(file_.cell_points.end() - (file_.cell_offsets.back() - *(file_.cell_offsets.end() - 2)),
                            file_.cell_points.end());
     std::ranges::sort(key);
-    const auto [place, is_new] = cell_of_points_.emplace(std::move(key), static_cast<Index>(physical_.size()) - 1);
-    const Index group = physical_.back(), other = physical_[as_size(place->second)];
+    const auto [place, is_new] = cell_of_points_.emplace(std::move(key), count_of(physical_) - 1);
+    const Index group = physical_.back(), other = physical_[place->second];
     if (!is_new && other != group)
       throw in_.error_in_file(
           fmt::format("its {} element {} is in {} and, as {}, in {}; it may be in one physical group only",
-                      dimension == 3 ? "volume" : "surface", file_.cell_number[as_size(place->second)],
-                      called(dimension, other), file_.cell_number.back(), called(dimension, group)));
+                      dimension == 3 ? "volume" : "surface", file_.cell_number[place->second], called(dimension, other),
+                      file_.cell_number.back(), called(dimension, group)));
   }
 
   void read_elements_22() {

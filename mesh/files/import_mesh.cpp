@@ -95,11 +95,9 @@ class Importer {
   }
 
   // What the file calls a cell.
-  std::int64_t number_of(Index cell) const {
-    return file_.cell_number.empty() ? cell : file_.cell_number[as_size(cell)];
-  }
+  std::int64_t number_of(Index cell) const { return file_.cell_number.empty() ? cell : file_.cell_number[cell]; }
 
-  Index n_cells() const { return static_cast<Index>(file_.cell_type.size()); }
+  Index n_cells() const { return count_of(file_.cell_type); }
 
   bool is_volume(Index cell) const {
     const int type = file_.cell_type[cell];
@@ -178,14 +176,14 @@ class Importer {
     std::vector<Vector> used;
     for (std::size_t p = 0; p < number.size(); ++p) {
       if (number[p] < 0) continue;
-      number[p] = static_cast<Index>(used.size());
+      number[p] = count_of(used);
       used.push_back(soup_.points[p]);
     }
     for (Index& p : new_point_) p = number[p];
     soup_.points = std::move(used);
   }
 
-  Index point(Index in_file) const { return new_point_.at(static_cast<std::size_t>(in_file)); }
+  Index point(Index in_file) const { return new_point_.at(in_file); }
 
   std::vector<Index> points_of(Index cell) const {
     std::vector<Index> ids;
@@ -214,7 +212,7 @@ class Importer {
   }
 
   void put_in_order(Index cell, CellShape shape, std::vector<Index>& ids) const {
-    if (static_cast<Index>(ids.size()) != points_per_cell(shape))
+    if (count_of(ids) != points_per_cell(shape))
       throw error(fmt::format("its cell {} has {} points", number_of(cell), ids.size()));
     if (file_.cell_type[cell] == vtk_voxel) {
       std::swap(ids[2], ids[3]);

@@ -100,10 +100,9 @@ void copy_cells(MeshFile& file, vtkUnstructuredGrid& grid) {
     const bool is_prism = type == VTK_PENTAGONAL_PRISM || type == VTK_HEXAGONAL_PRISM;
     file.cell_type.push_back(is_prism ? VTK_POLYHEDRON : type);
     for (vtkIdType i = 0; i < n; ++i) file.cell_points.push_back(point_number(grid, ids[i], c));
-    file.cell_offsets.push_back(static_cast<Index>(file.cell_points.size()));
+    file.cell_offsets.push_back(count_of(file.cell_points));
     if (type == VTK_POLYHEDRON) file.polyhedron_faces.push_back(face_stream(grid, c));
-    if (is_prism)
-      file.polyhedron_faces.push_back(faces_of_prism(std::span(file.cell_points).last(static_cast<std::size_t>(n))));
+    if (is_prism) file.polyhedron_faces.push_back(faces_of_prism(std::span(file.cell_points).last(n)));
   }
 }
 

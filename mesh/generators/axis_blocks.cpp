@@ -15,7 +15,7 @@ namespace {
 void append_block(std::vector<double>& nodes, const AxisBlock& block) {
   const double start = nodes.back();
   const double growth = block.n > 1 ? portable::pow(block.ratio, 1.0 / (block.n - 1)) : 1.0;
-  std::vector<double> ends(static_cast<std::size_t>(block.n));
+  std::vector<double> ends(block.n);
   double sum = 0.0;
   for (Index i = 0; i < block.n; ++i) ends[i] = (sum += portable::pow(growth, i));
   for (Index i = 0; i + 1 < block.n; ++i) nodes.push_back(start + block.length * ends[i] / sum);

@@ -24,8 +24,7 @@ class BoxGrid {
   explicit BoxGrid(const BoxHexesSettings& settings) {
     double cells = 1.0;
     for (std::size_t a = 0; a < 3; ++a) {
-      nodes_[a] = axis_nodes(settings.origin[static_cast<Index>(a)], settings.axes[a],
-                             fmt::format("the box along {}", "xyz"[a]));
+      nodes_[a] = axis_nodes(settings.origin[a], settings.axes[a], fmt::format("the box along {}", "xyz"[a]));
       cells *= static_cast<double>(nodes_[a].size());
     }
     if (cells * 24.0 > std::numeric_limits<Index>::max())
@@ -33,7 +32,7 @@ class BoxGrid {
     require_memory(bytes_of_a_cell * cells, fmt::format("the box of about {:.3g} cells", cells));
   }
 
-  Index n_cells(std::size_t axis) const { return static_cast<Index>(nodes_[axis].size()) - 1; }
+  Index n_cells(std::size_t axis) const { return count_of(nodes_[axis]) - 1; }
   const std::vector<double>& nodes(std::size_t axis) const { return nodes_[axis]; }
   Vector lower() const { return {nodes_[0].front(), nodes_[1].front(), nodes_[2].front()}; }
   Vector upper() const { return {nodes_[0].back(), nodes_[1].back(), nodes_[2].back()}; }
@@ -152,7 +151,7 @@ GridSlit on_grid(const Slit& slit, const BoxGrid& grid) {
   GridSlit result;
   int n_normals = 0;
   for (std::size_t a = 0; a < 3; ++a) {
-    const double lower = slit.lower[static_cast<Index>(a)], upper = slit.upper[static_cast<Index>(a)];
+    const double lower = slit.lower[a], upper = slit.upper[a];
     if (!(upper >= lower - rounding))
       throw InputError(
           fmt::format("slit \"{}\": its lower corner lies above its upper one along {}", slit.name, "xyz"[a]));
@@ -205,7 +204,7 @@ class SlitPoints {
 
   void add(const Position& p, const Slit& slit, std::vector<Vector>& points) {
     const bool opens = slits_.back().opens(p, grid_);
-    const Copy copy{slits_.size() - 1, opens ? static_cast<Index>(points.size()) : -1};
+    const Copy copy{slits_.size() - 1, opens ? count_of(points) : -1};
     if (!copies_.emplace(grid_.id(p[0], p[1], p[2]), copy).second)
       throw InputError(fmt::format("slit \"{}\" meets another slit", slit.name));
     if (opens) points.push_back(grid_.node(p[0], p[1], p[2]));
@@ -250,15 +249,15 @@ std::vector<PatchRule> patches_of(const BoxHexesSettings& settings, const BoxGri
 // Points that no cell has go.
 void drop_unused_points(CellSoup& soup) {
   std::vector<Index> number(soup.points.size(), -1);
-  for (const Index p : soup.cell_points) number[as_size(p)] = 0;
+  for (const Index p : soup.cell_points) number[p] = 0;
   Index n_used = 0;
   for (std::size_t p = 0; p < number.size(); ++p) {
     if (number[p] < 0) continue;
-    soup.points[as_size(n_used)] = soup.points[p];
+    soup.points[n_used] = soup.points[p];
     number[p] = n_used++;
   }
-  soup.points.resize(as_size(n_used));
-  for (Index& p : soup.cell_points) p = number[as_size(p)];
+  soup.points.resize(n_used);
+  for (Index& p : soup.cell_points) p = number[p];
 }
 
 }  // namespace

@@ -80,17 +80,17 @@ class RolledGrid {
   void add_cell(Index cell, const Rolling& rolled);
 
   Index number(Index point, const Rolling& rolled) {
-    Index& n = number_[as_size(point)];
+    Index& n = number_[point];
     if (n >= 0) return n;
-    n = static_cast<Index>(soup_.points.size());
-    soup_.points.push_back(rolled(flat_.points[as_size(point)]));
+    n = count_of(soup_.points);
+    soup_.points.push_back(rolled(flat_.points[point]));
     return n;
   }
 
   // The points of a face without those that fall on others.
   std::vector<Index> points_of(Index face) const {
     std::set<Index> points;
-    for (const Index p : flat_.points_of_face(face)) points.insert(number_[as_size(p)]);
+    for (const Index p : flat_.points_of_face(face)) points.insert(number_[p]);
     return {points.begin(), points.end()};
   }
 
@@ -103,10 +103,10 @@ class RolledGrid {
 
 void RolledGrid::add_cell(Index cell, const Rolling& rolled) {
   const auto p = flat_.points_of_cell(cell);
-  const bool on_axis = flat_.points[as_size(p[0])].x() == 0.0;
+  const bool on_axis = flat_.points[p[0]].x() == 0.0;
   if (on_axis) {
-    number_[as_size(p[3])] = number(p[0], rolled);
-    number_[as_size(p[7])] = number(p[4], rolled);
+    number_[p[3]] = number(p[0], rolled);
+    number_[p[7]] = number(p[4], rolled);
   }
   std::array<Index, 8> n;
   std::ranges::transform(p, n.begin(), [&](Index point) { return number(point, rolled); });

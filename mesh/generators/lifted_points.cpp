@@ -26,8 +26,8 @@ class Star {
   bool is_lifted() const {
     double nearest = std::numeric_limits<double>::infinity(), sum = 0.0;
     for (const Index t : cells_)
-      for (const Index p : mesh_.tetrahedra[as_size(t)]) {
-        const double distance = (mesh_.points[as_size(p)] - mesh_.points[as_size(centre_)]).norm();
+      for (const Index p : mesh_.tetrahedra[t]) {
+        const double distance = (mesh_.points[p] - mesh_.points[centre_]).norm();
         if (p != centre_) nearest = std::min(nearest, distance);
         sum += distance;
       }
@@ -37,7 +37,7 @@ class Star {
   // Steps along the edges, the diagonals of sides and those of a cube, halved where none is better.
   void settle() {
     constexpr double least_step = 1e-3;
-    Vector at = mesh_.points[as_size(centre_)];
+    Vector at = mesh_.points[centre_];
     double best = worst_shape(at);
     const double size = extent();
     for (double step = 0.5 * size; step > least_step * size;) {
@@ -53,7 +53,7 @@ class Star {
       if (next == at) step *= 0.5;
       at = next;
     }
-    mesh_.points[as_size(centre_)] = at;
+    mesh_.points[centre_] = at;
   }
 
  private:
@@ -62,8 +62,8 @@ class Star {
     for (const Index t : cells_) {
       std::array<Vector, 4> x;
       for (std::size_t i = 0; i < 4; ++i) {
-        const Index p = mesh_.tetrahedra[as_size(t)][i];
-        x[i] = p == centre_ ? at : mesh_.points[as_size(p)];
+        const Index p = mesh_.tetrahedra[t][i];
+        x[i] = p == centre_ ? at : mesh_.points[p];
       }
       worst = std::min(worst, shape(x));
     }
@@ -73,8 +73,7 @@ class Star {
   double extent() const {
     double most = 0.0;
     for (const Index t : cells_)
-      for (const Index p : mesh_.tetrahedra[as_size(t)])
-        most = std::max(most, (mesh_.points[as_size(p)] - mesh_.points[as_size(centre_)]).norm());
+      for (const Index p : mesh_.tetrahedra[t]) most = std::max(most, (mesh_.points[p] - mesh_.points[centre_]).norm());
     return most;
   }
 
@@ -89,7 +88,7 @@ void settle_lifted_points(std::size_t first, TetgenOutput& mesh) {
   std::vector<std::vector<Index>> cells(mesh.points.size() - first);  // around each of those points
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
     for (const Index p : mesh.tetrahedra[t])
-      if (as_size(p) >= first) cells[as_size(p) - first].push_back(static_cast<Index>(t));
+      if (as_size(p) >= first) cells[p - first].push_back(static_cast<Index>(t));
   for (std::size_t i = 0; i < cells.size(); ++i) {
     Star star(static_cast<Index>(first + i), cells[i], mesh);
     if (star.is_lifted()) star.settle();

@@ -204,7 +204,7 @@ class Builder {
 
   Index add_surface(const std::string& name, const TriangleSurface& surface) {
     TriangleSurface& all = input_.surfaces;
-    const auto first = static_cast<Index>(all.points.size());
+    const auto first = count_of(all.points);
     all.points.insert(all.points.end(), surface.points.begin(), surface.points.end());
     for (const Triangle& t : surface.triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
     surfaces_.push_back({name, surface});
@@ -219,7 +219,7 @@ class Builder {
     first.push_back(add_surface(name, body.surface(0.0)));
     input_.seeds.push_back({body.inside(), region(p.region)});
     if (p.n_layers > 0) {
-      first.resize(as_size(p.n_layers) + 1);
+      first.resize(p.n_layers + 1);
       first.back() = add_surface("the layers of " + name, body.surface(p.layer_thickness));
       input_.holes.push_back(body.point(0, 0.5 * p.layer_thickness));
     }
@@ -271,14 +271,14 @@ class Builder {
     const Particle& p = settings_.particles[i];
     std::vector<Index>& first = first_[i];
     for (Index k = 1; k < p.n_layers; ++k) {
-      first[as_size(k)] = static_cast<Index>(soup_.points.size());
+      first[k] = count_of(soup_.points);
       for (std::size_t x = 0; x < bodies_[i].n_points(); ++x)
         soup_.points.push_back(bodies_[i].point(x, p.layer_thickness * k / p.n_layers));
     }
     for (Index k = 0; k < p.n_layers; ++k)
       for (const auto& [a, b, c] : bodies_[i].triangles()) {
-        const Index in = first[as_size(k)];
-        const Index out = first[as_size(k) + 1];
+        const Index in = first[k];
+        const Index out = first[k + 1];
         soup_.add_cell(CellShape::wedge, std::array{in + a, in + c, in + b, out + a, out + c, out + b},
                        region(p.layer_region));
       }

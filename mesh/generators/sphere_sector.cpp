@@ -30,8 +30,8 @@ class SectorGrid {
     place_points();
   }
 
-  Index n_radial() const { return static_cast<Index>(radii_.size()) - 1; }
-  Index n_polar() const { return static_cast<Index>(polar_.size()) - 1; }
+  Index n_radial() const { return count_of(radii_) - 1; }
+  Index n_polar() const { return count_of(polar_) - 1; }
   const std::vector<Vector>& points() const { return points_; }
   bool is_half() const { return polar_.back() < pi; }
 
@@ -74,13 +74,13 @@ class SectorGrid {
     else if (on_axis(node.polar) && node.side == 1)
       id = ids_[slot({node.radial, node.polar, 0})];
     else {
-      id = static_cast<Index>(points_.size());
+      id = count_of(points_);
       points_.push_back(position(node));
     }
   }
 
   Vector position(const Node& node) const {
-    const double r = radii_[as_size(node.radial)], theta = polar_[as_size(node.polar)];
+    const double r = radii_[node.radial], theta = polar_[node.polar];
     const double phi = node.side == 0 ? -half_azimuth_ : half_azimuth_;
     const bool quarter = node.polar == n_polar() && is_half();
     const double s = on_axis(node.polar) ? 0.0 : portable::sin(theta), c = quarter ? 0.0 : portable::cos(theta);

@@ -26,10 +26,10 @@ struct Nearest {
 };
 
 Nearest nearest_of(const std::array<Vector, 4>& points, const std::array<int, 4>& chosen, int n) {
-  const Vector& first = points[as_size(chosen[0])];
+  const Vector& first = points[chosen[0]];
   if (n == 1) return {first, true};
   Tensor edges = Tensor::Zero();  // of the columns that stay zero the share is zero too
-  for (int k = 1; k < n; ++k) edges.col(k - 1) = points[as_size(chosen[as_size(k)])] - first;
+  for (int k = 1; k < n; ++k) edges.col(k - 1) = points[chosen[k]] - first;
   const Vector share = edges.colPivHouseholderQr().solve(-first);
   if (share.minCoeff() < 0.0 || share.sum() > 1.0) return {};
   return {first + edges * share, true};
@@ -45,7 +45,7 @@ Vector reduce(Simplex& simplex) {
     std::array<int, 4> chosen{};
     int n = 0;
     for (int k = 0; k < simplex.n; ++k)
-      if ((set >> static_cast<unsigned>(k) & 1U) != 0U) chosen[as_size(n++)] = k;
+      if ((set >> static_cast<unsigned>(k) & 1U) != 0U) chosen[n++] = k;
     const Nearest nearest = nearest_of(simplex.points, chosen, n);
     if (!nearest.is_within || !(nearest.point.squaredNorm() < least)) continue;
     least = nearest.point.squaredNorm();
@@ -54,7 +54,7 @@ Vector reduce(Simplex& simplex) {
     n_kept = n;
   }
   std::array<Vector, 4> points;
-  for (int k = 0; k < n_kept; ++k) points[as_size(k)] = simplex.points[as_size(kept[as_size(k)])];
+  for (int k = 0; k < n_kept; ++k) points[k] = simplex.points[kept[k]];
   simplex = {points, n_kept};
   return best;
 }
@@ -95,7 +95,7 @@ bool are_apart(const PlacedHull& a, const PlacedHull& b, double distance) {
     if (gap > 0.0 && gap >= distance * length) return true;
     // No nearer point: the distance is the length, which is not less than it has to be.
     if (k > 0 && length * length - gap <= rounding * length * length) return true;
-    simplex.points[as_size(simplex.n++)] = support;
+    simplex.points[simplex.n++] = support;
     nearest = reduce(simplex);
     if (simplex.n == 4 || nearest.squaredNorm() <= rounding * rounding * support.squaredNorm()) return false;
   }

@@ -21,7 +21,7 @@ double height(const FlatSurface& surface, const Vector& x) { return surface.norm
 bool has_boundary_face_in(const Mesh& mesh, const FlatSurface& surface, Index cell, double tolerance) {
   return std::ranges::any_of(mesh.faces_of_cell(cell), [&](Index f) {
     return !mesh.is_interior(f) && std::ranges::all_of(mesh.points_of_face(f), [&](Index p) {
-      return std::abs(height(surface, mesh.points[as_size(p)])) <= tolerance;
+      return std::abs(height(surface, mesh.points[p])) <= tolerance;
     });
   });
 }
@@ -29,8 +29,8 @@ bool has_boundary_face_in(const Mesh& mesh, const FlatSurface& surface, Index ce
 bool goes_through(const Mesh& mesh, const FlatSurface& surface, Index cell) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const Index p : mesh.points_of_cell(cell)) {
-    least = std::min(least, height(surface, mesh.points[as_size(p)]));
-    most = std::max(most, height(surface, mesh.points[as_size(p)]));
+    least = std::min(least, height(surface, mesh.points[p]));
+    most = std::max(most, height(surface, mesh.points[p]));
   }
   const double tolerance = rounding * (most - least);
   if (least > tolerance || most < -tolerance) return false;
@@ -42,7 +42,7 @@ bool goes_through(const Mesh& mesh, const FlatSurface& surface, Index cell) {
 class Thinning {
  public:
   Thinning(const Mesh& mesh, const FlatSurface& surface, const std::vector<Index>& cells)
-      : mesh_(mesh), surface_(surface), on_(as_size(mesh.n_cells()), 0) {
+      : mesh_(mesh), surface_(surface), on_(mesh.n_cells(), 0) {
     for (const Index c : cells) {
       on_[c] = 1;
       size_ = std::max(size_, std::cbrt(mesh.cell_volume[c]));

@@ -62,7 +62,7 @@ KnownPlaces::KnownPlaces(const CellSoup& soup)
       first_face_(soup.shape.size() + 1, 0),
       tree_({}),
       point_tree_({}) {
-  for (const Index cell : faces_.cell) ++first_face_[as_size(cell) + 1];
+  for (const Index cell : faces_.cell) ++first_face_[cell + 1];
   for (std::size_t c = 1; c < first_face_.size(); ++c) first_face_[c] += first_face_[c - 1];
   measure_cells();
   list_cells_of_points();
@@ -72,16 +72,16 @@ KnownPlaces::KnownPlaces(const CellSoup& soup)
   tree_ = BoxTree(std::move(cells));
   std::vector<Box> places;
   for (Index p = 0; p < n_points(); ++p) {
-    if (first_of_point_[as_size(p)] == first_of_point_[as_size(p) + 1]) continue;  // of no cell
+    if (first_of_point_[p] == first_of_point_[p + 1]) continue;  // of no cell
     point_of_box_.push_back(p);
-    places.push_back({points_[as_size(p)], points_[as_size(p)]});
+    places.push_back({points_[p], points_[p]});
   }
   point_tree_ = BoxTree(std::move(places));
 }
 
 std::vector<Index> KnownPlaces::points_of_cell(Index cell) const {
   std::vector<Index> points;
-  for (Index f = first_face_[as_size(cell)]; f < first_face_[as_size(cell) + 1]; ++f)
+  for (Index f = first_face_[cell]; f < first_face_[cell + 1]; ++f)
     for (const Index p : faces_.points_of(f)) points.push_back(p);
   std::ranges::sort(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -90,24 +90,24 @@ std::vector<Index> KnownPlaces::points_of_cell(Index cell) const {
 
 Vector KnownPlaces::middle_of_face(Index face) const {
   Vector sum = Vector::Zero();
-  for (const Index p : faces_.points_of(face)) sum += points_[as_size(p)];
+  for (const Index p : faces_.points_of(face)) sum += points_[p];
   return sum / static_cast<double>(faces_.points_of(face).size());
 }
 
 // The volume's centroid, by the tetrahedra over the faces' fans.
 void KnownPlaces::measure_cells() {
-  for (Index c = 0; c + 1 < static_cast<Index>(first_face_.size()); ++c) {
+  for (Index c = 0; c + 1 < count_of(first_face_); ++c) {
     const std::vector<Index> corners = points_of_cell(c);
     Vector middle = Vector::Zero();
-    for (const Index p : corners) middle += points_[as_size(p)];
+    for (const Index p : corners) middle += points_[p];
     middle /= static_cast<double>(corners.size());
     double six_volumes = 0.0;
     Vector moment = Vector::Zero();
-    for (Index f = first_face_[as_size(c)]; f < first_face_[as_size(c) + 1]; ++f) {
+    for (Index f = first_face_[c]; f < first_face_[c + 1]; ++f) {
       const auto ring = faces_.points_of(f);
       const Vector apex = middle_of_face(f) - middle;
       for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Vector a = points_[as_size(ring[i])] - middle, b = points_[as_size(ring[(i + 1) % ring.size()])] - middle;
+        const Vector a = points_[ring[i]] - middle, b = points_[ring[(i + 1) % ring.size()]] - middle;
         const double six = a.cross(b).dot(apex);
         six_volumes += six;
         moment += six * 0.25 * (a + b + apex);
@@ -122,13 +122,13 @@ void KnownPlaces::list_cells_of_points() {
   first_of_point_.assign(points_.size() + 1, 0);
   for (int pass = 0; pass < 2; ++pass) {
     std::vector<Index> next(first_of_point_.begin(), first_of_point_.end() - 1);
-    if (pass == 1) cells_of_point_.resize(as_size(first_of_point_.back()));
+    if (pass == 1) cells_of_point_.resize(first_of_point_.back());
     for (Index c = 0; c < n_cells(); ++c)
       for (const Index p : points_of_cell(c)) {
         if (pass == 0)
-          ++first_of_point_[as_size(p) + 1];
+          ++first_of_point_[p + 1];
         else
-          cells_of_point_[as_size(next[as_size(p)]++)] = c;
+          cells_of_point_[next[p]++] = c;
       }
     for (std::size_t p = 1; pass == 0 && p < first_of_point_.size(); ++p) first_of_point_[p] += first_of_point_[p - 1];
   }
@@ -137,23 +137,22 @@ void KnownPlaces::list_cells_of_points() {
 std::vector<Box> KnownPlaces::boxes() const {
   std::vector<Box> boxes;
   for (Index c = 0; c < n_cells(); ++c) {
-    Box box{middle_[as_size(c)], middle_[as_size(c)]};
-    for (const Index p : points_of_cell(c))
-      box = {box.low.cwiseMin(points_[as_size(p)]), box.high.cwiseMax(points_[as_size(p)])};
+    Box box{middle_[c], middle_[c]};
+    for (const Index p : points_of_cell(c)) box = {box.low.cwiseMin(points_[p]), box.high.cwiseMax(points_[p])};
     boxes.push_back(box);
   }
   return boxes;
 }
 
 void KnownPlaces::look_in(Index cell, const Vector& x, Found& best) const {
-  const Vector& middle = middle_[as_size(cell)];
-  for (Index f = first_face_[as_size(cell)]; f < first_face_[as_size(cell) + 1]; ++f) {
+  const Vector& middle = middle_[cell];
+  for (Index f = first_face_[cell]; f < first_face_[cell + 1]; ++f) {
     const auto ring = faces_.points_of(f);
     const Vector apex = middle_of_face(f);
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Index a = ring[i], b = ring[(i + 1) % ring.size()];
-      const Vector& at_a = points_[as_size(a)];
-      const Vector& at_b = points_[as_size(b)];
+      const Vector& at_a = points_[a];
+      const Vector& at_b = points_[b];
       Tensor edges;
       edges << at_a - middle, at_b - middle, apex - middle;
       const double six_volumes = edges.determinant();
@@ -199,8 +198,8 @@ Interpolation KnownPlaces::from_points(const Vector& x) const {
 std::vector<Index> KnownPlaces::neighbours(Index cell) const {
   std::vector<Index> cells;
   for (const Index p : points_of_cell(cell))
-    for (Index i = first_of_point_[as_size(p)]; i < first_of_point_[as_size(p) + 1]; ++i)
-      if (cells_of_point_[as_size(i)] != cell) cells.push_back(cells_of_point_[as_size(i)]);
+    for (Index i = first_of_point_[p]; i < first_of_point_[p + 1]; ++i)
+      if (cells_of_point_[i] != cell) cells.push_back(cells_of_point_[i]);
   std::ranges::sort(cells);
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;
@@ -208,17 +207,17 @@ std::vector<Index> KnownPlaces::neighbours(Index cell) const {
 
 Interpolation KnownPlaces::from_cells(const Vector& x) const {
   const Found found = find(x);
-  const Vector& centre = centroid_[as_size(found.cell)];
+  const Vector& centre = centroid_[found.cell];
   const std::vector<Index> around = neighbours(found.cell);
   Tensor sum = Tensor::Zero();
   for (const Index n : around) {
-    const Vector d = (centroid_[as_size(n)] - centre).normalized();
+    const Vector d = (centroid_[n] - centre).normalized();
     sum += d * d.transpose();
   }
   const Vector along = inverse_of_span(sum) * (found.place - centre);
   Interpolation result{.known = {found.cell}, .weight = {1.0}, .outside = found.distance};
   for (const Index n : around) {
-    const Vector d = centroid_[as_size(n)] - centre;
+    const Vector d = centroid_[n] - centre;
     const double weight = d.dot(along) / d.squaredNorm();
     result.known.push_back(n);
     result.weight.push_back(weight);
@@ -231,8 +230,8 @@ Interpolation KnownPlaces::from_one_point(const Vector& x) const {
   Index nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   point_tree_.search(x, [&](Index box) {
-    const Index p = point_of_box_[as_size(box)];
-    if (const double distance = (x - points_[as_size(p)]).norm(); distance < least) least = distance, nearest = p;
+    const Index p = point_of_box_[box];
+    if (const double distance = (x - points_[p]).norm(); distance < least) least = distance, nearest = p;
     return least;
   });
   return {.known = {nearest}, .weight = {1.0}, .outside = find(x).distance};
@@ -245,10 +244,10 @@ Interpolation KnownPlaces::from_one_cell(const Vector& x) const {
 
 Interpolation KnownField::at(Vector x, bool nearest) const {
   for (Eigen::Index a = 0; a < 3; ++a)
-    if (!varies[static_cast<std::size_t>(a)]) x[a] = fixed[a];
+    if (!varies[a]) x[a] = fixed[a];
   Interpolation found = nearest ? (at_points ? places.from_one_point(x) : places.from_one_cell(x))
                                 : (at_points ? places.from_points(x) : places.from_cells(x));
-  for (Index& known : found.known) known = entry[as_size(known)];
+  for (Index& known : found.known) known = entry[known];
   return found;
 }
 

@@ -38,8 +38,8 @@ class KnownPlaces {
   Interpolation from_one_cell(const Vector& x) const;
 
   const Box& around() const { return around_; }
-  Index n_points() const { return static_cast<Index>(points_.size()); }
-  Index n_cells() const { return static_cast<Index>(middle_.size()); }
+  Index n_points() const { return count_of(points_); }
+  Index n_cells() const { return count_of(middle_); }
 
  private:
   struct Found;  // the place in a cell that is nearest to x

@@ -54,7 +54,7 @@ CellSoup wedges_between(const std::vector<Vector>& points, int across, double he
   CellSoup soup;
   soup.points = points;
   for (const Vector& x : points) soup.points.push_back(x + height * Vector::Unit(across));
-  const auto n = static_cast<Index>(points.size());
+  const auto n = count_of(points);
   for (const auto& face : delaunay.finite_face_handles()) {
     const Index a = face->vertex(0)->info(), b = face->vertex(1)->info(), c = face->vertex(2)->info();
     soup.add_cell(CellShape::wedge, std::array{a, b, c, a + n, b + n, c + n}, 0);
@@ -65,16 +65,16 @@ CellSoup wedges_between(const std::vector<Vector>& points, int across, double he
 /// Hexahedra between points that rise along an axis, of this height and width.
 CellSoup intervals_between(const std::vector<Vector>& points, int axis, double height) {
   std::vector<Index> order = counted_from_zero(points.size());
-  std::ranges::sort(order, {}, [&](Index i) { return points[as_size(i)][axis]; });
+  std::ranges::sort(order, {}, [&](Index i) { return points[i][axis]; });
   CellSoup soup;
   const int first = (axis + 1) % 3, second = (axis + 2) % 3;
   for (const auto& [up, on] : {std::pair{0.0, 0.0}, {height, 0.0}, {height, height}, {0.0, height}})
     for (const Vector& x : points) soup.points.push_back(x + up * Vector::Unit(first) + on * Vector::Unit(second));
-  const auto n = static_cast<Index>(points.size());
+  const auto n = count_of(points);
   std::size_t n_alike = 0;
   for (std::size_t i = 1; i < order.size(); ++i) {
     const Index a = order[i - 1], b = order[i];
-    if (!(points[as_size(a)][axis] < points[as_size(b)][axis])) ++n_alike;
+    if (!(points[a][axis] < points[b][axis])) ++n_alike;
     soup.add_cell(CellShape::hexahedron, std::array{a, a + n, a + 2 * n, a + 3 * n, b, b + n, b + 2 * n, b + 3 * n}, 0);
   }
   require_distinct(points.size() - n_alike, points.size());
@@ -94,7 +94,7 @@ KnownField scattered_field(const std::vector<Vector>& points, const std::array<b
   std::vector<Vector> within = points;
   for (Vector& x : within)
     for (std::size_t a = 0; a < 3; ++a)
-      if (!varies[a]) x[static_cast<Eigen::Index>(a)] = 0.0;
+      if (!varies[a]) x[a] = 0.0;
   const double height = within.empty() ? 0.0 : size_of(within);
   if (within.size() < 2 || !(height > 0.0)) throw InputError("two points or more are needed, at places of their own");
   KnownField field{.places = KnownPlaces(cells_between(within, varies, height)),
@@ -102,7 +102,7 @@ KnownField scattered_field(const std::vector<Vector>& points, const std::array<b
                    .entry = {},
                    .varies = varies,
                    .fixed = Vector::Constant(0.5 * height)};
-  for (Index p = 0; p < field.places.n_points(); ++p) field.entry.push_back(p % static_cast<Index>(points.size()));
+  for (Index p = 0; p < field.places.n_points(); ++p) field.entry.push_back(p % count_of(points));
   return field;
 }
 

@@ -68,7 +68,7 @@ class SurfaceBuilder {
 
  private:
   Index point(const std::array<std::size_t, 3>& at) {
-    const auto [entry, is_new] = ids_.try_emplace(at, static_cast<Index>(surface_.points.size()));
+    const auto [entry, is_new] = ids_.try_emplace(at, count_of(surface_.points));
     if (is_new) surface_.points.emplace_back(nodes_[0][at[0]], nodes_[1][at[1]], nodes_[2][at[2]]);
     return entry->second;
   }
@@ -92,8 +92,7 @@ class SurfaceBuilder {
 BoxNodes uniform_box_nodes(const Vector& lower, const Vector& upper, double size) {
   BoxNodes nodes;
   for (int axis = 0; axis < 3; ++axis)
-    nodes[static_cast<std::size_t>(axis)] =
-        nodes_from_sizes(lower[axis], upper[axis], std::vector<double>(n_samples + 1, size));
+    nodes[axis] = nodes_from_sizes(lower[axis], upper[axis], std::vector<double>(n_samples + 1, size));
   return nodes;
 }
 
@@ -104,7 +103,7 @@ BoxNodes graded_box_nodes(const Vector& lower, const Vector& upper, const SizeFi
     for (int i = 0; i <= n_samples; ++i) {
       const double x = lower[axis] + (upper[axis] - lower[axis]) * i / n_samples;
       const double h = smallest_size(lower, upper, size, axis, x);
-      sizes[static_cast<std::size_t>(axis)].push_back(h);
+      sizes[axis].push_back(h);
       smallest = std::min(smallest, h);
     }
   BoxNodes nodes;

@@ -21,7 +21,7 @@ struct Corners {
 };
 
 Corners corners_of(const TriangleSurface& surface, const Triangle& t) {
-  return {surface.points[as_size(t[0])], surface.points[as_size(t[1])], surface.points[as_size(t[2])]};
+  return {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]};
 }
 
 // Moeller, Trumbore, J. Graphics Tools 2 (1997) 21; infinity where the line misses the triangle.
@@ -82,10 +82,10 @@ std::vector<Vector> offset_directions(const TriangleSurface& surface) {
   for (const Triangle& t : surface.triangles) {
     const Vector normal = corners_of(surface, t).area().normalized();
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto at = [&](std::size_t j) -> const Vector& { return surface.points[as_size(t[j % 3])]; };
+      const auto at = [&](std::size_t j) -> const Vector& { return surface.points[t[j % 3]]; };
       const double weight = angle_at(at(i), at(i + 1), at(i + 2));
-      moment[as_size(t[i])] += weight * normal * normal.transpose();
-      sum[as_size(t[i])] += weight * normal;
+      moment[t[i]] += weight * normal * normal.transpose();
+      sum[t[i]] += weight * normal;
     }
   }
   std::vector<Vector> offsets;

@@ -18,7 +18,7 @@ class Bisection {
 
   Vector middle(std::size_t t) const {
     Vector sum = Vector::Zero();
-    for (const Index p : sphere_.triangles[t]) sum += sphere_.points[as_size(p)];
+    for (const Index p : sphere_.triangles[t]) sum += sphere_.points[p];
     return sum.normalized();
   }
 
@@ -54,7 +54,7 @@ class Bisection {
 
   Rank rank(std::size_t t, std::size_t edge) const {
     const auto [a, b] = ends(t, edge);
-    const Vector along = sphere_.points[as_size(std::max(a, b))] - sphere_.points[as_size(std::min(a, b))];
+    const Vector along = sphere_.points[std::max(a, b)] - sphere_.points[std::min(a, b)];
     return {along.squaredNorm(), std::min(a, b), std::max(a, b)};
   }
 
@@ -70,7 +70,7 @@ class Bisection {
   }
 
   Index add_middle(Index a, Index b) {
-    sphere_.points.push_back((sphere_.points[as_size(a)] + sphere_.points[as_size(b)]).normalized());
+    sphere_.points.push_back((sphere_.points[a] + sphere_.points[b]).normalized());
     return static_cast<Index>(sphere_.points.size() - 1);
   }
 
@@ -103,7 +103,7 @@ TriangleSurface refined_sphere(TriangleSurface sphere, const std::function<doubl
 double enclosed_volume(const TriangleSurface& surface) {
   double volume = 0.0;
   for (const auto& [a, b, c] : surface.triangles)
-    volume += surface.points[as_size(a)].dot(surface.points[as_size(b)].cross(surface.points[as_size(c)])) / 6.0;
+    volume += surface.points[a].dot(surface.points[b].cross(surface.points[c])) / 6.0;
   return volume;
 }
 

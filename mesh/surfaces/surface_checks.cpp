@@ -42,7 +42,7 @@ const std::string& surface_of_face(const std::vector<NamedSurface>& surfaces, st
 void append(CgalMesh& mesh, const NamedSurface& named) {
   std::vector<CgalMesh::Vertex_index> vertices;
   for (const Vector& x : named.surface.points) vertices.push_back(mesh.add_vertex({x[0], x[1], x[2]}));
-  const auto vertex = [&](Index i) { return vertices.at(static_cast<std::size_t>(i)); };
+  const auto vertex = [&](Index i) { return vertices.at(i); };
   for (const Triangle& t : named.surface.triangles)
     if (mesh.add_face(vertex(t[0]), vertex(t[1]), vertex(t[2])) == CgalMesh::null_face())
       throw InputError(

@@ -64,7 +64,7 @@ class PointMerger {
  private:
   Index number(const Vector& x) {
     const std::array<double, 3> key{x[0] + 0.0, x[1] + 0.0, x[2] + 0.0};  // -0 becomes 0
-    const auto [entry, is_new] = numbers_.try_emplace(key, static_cast<Index>(surface_.points.size()));
+    const auto [entry, is_new] = numbers_.try_emplace(key, count_of(surface_.points));
     if (is_new) surface_.points.push_back(x);
     return entry->second;
   }
@@ -164,7 +164,7 @@ TriangleSurface read_obj(const std::filesystem::path& path, const std::string& c
     while (words >> word) {
       const Index p = obj_point(word, points.size(), lines);
       used.insert(p);
-      polygon.push_back(points[as_size(p)]);
+      polygon.push_back(points[p]);
     }
     if (polygon.size() < 3) throw lines.error(fmt::format("a face has {} points; it needs three", polygon.size()));
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) merger.add_triangle({polygon[0], polygon[i], polygon[i + 1]});
@@ -178,8 +178,8 @@ void check_areas(const std::filesystem::path& path, const TriangleSurface& surfa
   if (surface.triangles.empty()) throw InputError(fmt::format("the surface {} has no triangles", path.string()));
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
-    const Vector ab = surface.points[as_size(b)] - surface.points[as_size(a)];
-    const Vector ac = surface.points[as_size(c)] - surface.points[as_size(a)];
+    const Vector ab = surface.points[b] - surface.points[a];
+    const Vector ac = surface.points[c] - surface.points[a];
     if (!(ab.cross(ac).norm() > 1e-12 * (ab.squaredNorm() + ac.squaredNorm())))
       throw InputError(fmt::format("the surface {}: its triangle {} has no area: its corners are equal or on a line",
                                    path.string(), t + 1));

@@ -47,7 +47,7 @@ class Subdivision {
     for (auto& [corner, weight] : key)
       if (weight == 0) corner = -1;
     std::ranges::sort(key);
-    const auto [entry, is_new] = ids_.try_emplace(key, static_cast<Index>(surface_.points.size()));
+    const auto [entry, is_new] = ids_.try_emplace(key, count_of(surface_.points));
     if (is_new) surface_.points.push_back(position(key));
     return entry->second;
   }
@@ -67,7 +67,7 @@ class Subdivision {
   Vector position(const LatticeKey& key) const {
     Vector sum = Vector::Zero();
     for (const auto& [corner, weight] : key)
-      if (corner >= 0) sum += weight * corners_[static_cast<std::size_t>(corner)];
+      if (corner >= 0) sum += weight * corners_[corner];
     return sum.normalized();
   }
 

@@ -51,7 +51,7 @@ PrincipalAxes axes_in_plane(const Tensor& a) {
   if (axes[1].first < axes[0].first) std::swap(axes[0], axes[1]);
   PrincipalAxes sorted;
   for (Index i = 0; i < 3; ++i) {
-    const auto& [value, direction] = axes[static_cast<std::size_t>(i)];
+    const auto& [value, direction] = axes[i];
     sorted.value[i] = value;
     sorted.direction.col(i) = direction;
   }

@@ -27,11 +27,11 @@ class PointParts {
     std::unordered_map<std::uint64_t, Index> parted;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       Index& point = body_.corners[i];
-      Index& seen = first[as_size(point)];
+      Index& seen = first[point];
       if (seen < 0) seen = corners[i];
       if (seen == corners[i]) continue;
       const auto key = (static_cast<std::uint64_t>(point) << 32U) | static_cast<std::uint32_t>(corners[i]);
-      const auto [found, is_new] = parted.try_emplace(key, static_cast<Index>(first.size()));
+      const auto [found, is_new] = parted.try_emplace(key, count_of(first));
       if (is_new) {
         split(point);
         first.push_back(corners[i]);
@@ -40,16 +40,16 @@ class PointParts {
     }
     std::vector<Vector> displacement;
     for (const Index in_frame : first)
-      displacement.push_back(in_frame < 0 ? Vector(Vector::Zero()) : moved.at(as_size(in_frame)));
+      displacement.push_back(in_frame < 0 ? Vector(Vector::Zero()) : moved.at(in_frame));
     body_.displacement.push_back(std::move(displacement));
   }
 
  private:
   /// In the frames so far both parts have moved alike.
   void split(Index point) {
-    body_.points.push_back(Vector(body_.points[as_size(point)]));
-    body_.place.push_back(Index{body_.place[as_size(point)]});
-    for (std::vector<Vector>& frame : body_.displacement) frame.push_back(Vector(frame[as_size(point)]));
+    body_.points.push_back(Vector(body_.points[point]));
+    body_.place.push_back(Index{body_.place[point]});
+    for (std::vector<Vector>& frame : body_.displacement) frame.push_back(Vector(frame[point]));
   }
 
   Body& body_;
@@ -58,7 +58,7 @@ class PointParts {
 std::vector<double> of_cells(const std::vector<double>& values, const std::vector<Index>& cells) {
   std::vector<double> chosen;
   chosen.reserve(cells.size());
-  for (const Index cell : cells) chosen.push_back(values[as_size(cell)]);
+  for (const Index cell : cells) chosen.push_back(values[cell]);
   return chosen;
 }
 
@@ -93,17 +93,17 @@ void take_mesh(Body& body, const StoredCells& mesh, const std::vector<Index>& ce
   const std::vector<std::uint8_t> shapes = mesh.shapes();
   const std::vector<double> regions = mesh.values("material");
   for (const Index cell : cells) {
-    body.shape.push_back(shapes[as_size(cell)]);
-    body.region.push_back(static_cast<std::uint8_t>(std::min(255.0, regions[as_size(cell)])));
+    body.shape.push_back(shapes[cell]);
+    body.region.push_back(static_cast<std::uint8_t>(std::min(255.0, regions[cell])));
     mesh.append_corners(cell, body.corners, body.faces);
   }
   const std::vector<Vector> points = mesh.points();
   std::vector<Index> number(points.size(), -1);
   for (Index& corner : body.corners) {
-    Index& mine = number[as_size(corner)];
+    Index& mine = number[corner];
     if (mine < 0) {
-      mine = static_cast<Index>(body.points.size());
-      body.points.push_back(points[as_size(corner)]);
+      mine = count_of(body.points);
+      body.points.push_back(points[corner]);
       body.place.push_back(mine);
     }
     corner = mine;
@@ -133,14 +133,13 @@ int flat_axis_of(const Body& body) {
   const Vector middle = 0.5 * (lower + upper) + 1e-6 * (upper - lower);
   for_each_cell(body, [&](std::size_t, std::span<const Index> corners) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto at = [&](Index p) { return body.points[as_size(p)][static_cast<Eigen::Index>(axis)]; };
+      const auto at = [&](Index p) { return body.points[p][axis]; };
       const auto [low, high] = std::ranges::minmax(corners, {}, at);
-      flat[axis] = flat[axis] && at(low) <= middle[static_cast<Eigen::Index>(axis)] &&
-                   at(high) >= middle[static_cast<Eigen::Index>(axis)];
+      flat[axis] = flat[axis] && at(low) <= middle[axis] && at(high) >= middle[axis];
     }
   });
   for (const int axis : {2, 1, 0})
-    if (flat[static_cast<std::size_t>(axis)]) return axis;
+    if (flat[axis]) return axis;
   return -1;
 }
 

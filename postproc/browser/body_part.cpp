@@ -63,7 +63,7 @@ void each_cell(const std::vector<std::uint8_t>& shapes, const std::vector<Index>
   for (std::size_t cell = 0; cell < shapes.size(); ++cell) {
     std::size_t n = shapes[cell];
     if (n == 0)
-      for (Index rest = faces[face++]; rest > 0; --rest) n += as_size(faces[face++]);
+      for (Index rest = faces[face++]; rest > 0; --rest) n += faces[face++];
     see(cell, std::span(corners).subspan(at, n));
     at += n;
   }
@@ -83,7 +83,7 @@ void for_each_face(const std::vector<std::uint8_t>& shapes, const std::vector<In
   for (std::size_t cell = 0; cell < shapes.size(); ++cell) {
     if (shapes[cell] == 0) {
       for (Index rest = faces[face++]; rest > 0; --rest) {
-        const std::size_t n = as_size(faces[face++]);
+        const std::size_t n = faces[face++];
         see(cell, std::span(corners).subspan(at, n));
         at += n;
       }
@@ -91,7 +91,7 @@ void for_each_face(const std::vector<std::uint8_t>& shapes, const std::vector<In
     }
     for (const std::vector<int>& of : faces_of(shapes[cell])) {
       rim.clear();
-      for (const int k : of) rim.push_back(corners[at + static_cast<std::size_t>(k)]);
+      for (const int k : of) rim.push_back(corners[at + k]);
       see(cell, rim);
     }
     at += shapes[cell];
@@ -101,7 +101,7 @@ void for_each_face(const std::vector<std::uint8_t>& shapes, const std::vector<In
 BodyPart part_of(const StoredCells& mesh, const std::vector<Vector>& points, const Vector& cut_at, Index most) {
   BodyPart part;
   if (mesh.n_cells() <= most) {
-    part.cells.resize(as_size(mesh.n_cells()));
+    part.cells.resize(mesh.n_cells());
     std::iota(part.cells.begin(), part.cells.end(), Index{0});
     return part;
   }
@@ -114,7 +114,7 @@ BodyPart part_of(const StoredCells& mesh, const std::vector<Vector>& points, con
   for_each_face(shapes, corners, faces, [&](std::size_t cell, std::span<const Index>) { seen[cell] |= lone[f++]; });
   each_cell(shapes, corners, faces, [&](std::size_t cell, std::span<const Index> of) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const auto at = [&](Index p) { return points[as_size(p)][axis]; };
+      const auto at = [&](Index p) { return points[p][axis]; };
       const auto [low, high] = std::ranges::minmax(of, {}, at);
       if (at(low) <= cut_at[axis] && at(high) >= cut_at[axis]) seen[cell] = 1;
     }
@@ -122,9 +122,9 @@ BodyPart part_of(const StoredCells& mesh, const std::vector<Vector>& points, con
   std::vector<std::uint8_t> chosen_shapes;
   std::vector<Index> chosen_corners, chosen_faces;
   for (Index cell = 0; cell < mesh.n_cells(); ++cell) {
-    if (seen[as_size(cell)] == 0) continue;
+    if (seen[cell] == 0) continue;
     part.cells.push_back(cell);
-    chosen_shapes.push_back(shapes[as_size(cell)]);
+    chosen_shapes.push_back(shapes[cell]);
     mesh.append_corners(cell, chosen_corners, chosen_faces);
   }
   const std::vector<std::uint8_t> lone_in_part = lone_faces(chosen_shapes, chosen_corners, chosen_faces);

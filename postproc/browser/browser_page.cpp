@@ -148,7 +148,7 @@ Json json_of(const std::vector<NamedBody>& bodies, std::vector<PagePart>& parts)
     std::vector<Index> kept;
     Json body = body_json(one.body, parts, room / bodies.size(), &kept);
     Json at = Json::array();
-    for (const Index frame : kept) at.push_back(number(one.at[as_size(frame)]));
+    for (const Index frame : kept) at.push_back(number(one.at[frame]));
     list.push_back({{"name", one.name}, {"steps", one.steps}, {"at", std::move(at)}, {"body", std::move(body)}});
   }
   return list;

@@ -29,7 +29,7 @@ std::vector<Index> connected_parts(const Mesh& mesh, const std::vector<Index>& f
   std::map<std::size_t, Index> number;
   std::vector<Index> parts;
   for (std::size_t i = 0; i < faces.size(); ++i)
-    parts.push_back(number.try_emplace(sets.least_with(i), static_cast<Index>(number.size())).first->second);
+    parts.push_back(number.try_emplace(sets.least_with(i), count_of(number)).first->second);
   return parts;
 }
 
@@ -191,7 +191,7 @@ std::vector<ColumnSet> interface_columns(const Mesh& mesh, const std::string& ba
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Index owner = mesh.owner[faces[i]];
     const Index into = mesh.region[owner] == inside ? owner : mesh.neighbour[faces[i]];
-    sets[as_size(parts[i])].columns.push_back(column_from_face(mesh, faces[i], into, longest, axis));
+    sets[parts[i]].columns.push_back(column_from_face(mesh, faces[i], into, longest, axis));
   }
   return sets;
 }
@@ -215,8 +215,7 @@ std::vector<ColumnSample> sample_columns(const Mesh& mesh, const FractureModel& 
                                          const ColumnSet& set) {
   if (set.is_cohesive) return sample_faces(mesh, model, output, set);
   std::vector<ColumnSample> samples(set.columns.size());
-  parallel_for(static_cast<Index>(samples.size()),
-               [&](Index i) { samples[as_size(i)] = sample(mesh, model, output, set.columns[as_size(i)]); });
+  parallel_for(count_of(samples), [&](Index i) { samples[i] = sample(mesh, model, output, set.columns[i]); });
   return samples;
 }
 

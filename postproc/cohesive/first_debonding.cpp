@@ -21,7 +21,7 @@ double damage_of_column(const Column& column, const CellField<double>& damage) {
 std::vector<double> damage_of_faces(const ColumnSet& set, const OutputFields& output) {
   const OutputInterface& now = *std::ranges::find(output.interfaces, set.name, &OutputInterface::name);
   std::vector<double> values;
-  for (std::size_t k = 0; k < set.columns.size(); ++k) values.push_back(now.damage[static_cast<Index>(k)]);
+  for (std::size_t k = 0; k < set.columns.size(); ++k) values.push_back(now.damage[k]);
   return values;
 }
 

@@ -129,7 +129,7 @@ CurveFigures figures_of(const SampledCurve& curve, double from, double to, doubl
   const auto peak = std::max_element(part.y.begin(), part.y.end());
   CurveFigures figures;
   figures.peak_force = *peak;
-  figures.displacement_at_peak = part.x[static_cast<std::size_t>(peak - part.y.begin())];
+  figures.displacement_at_peak = part.x[peak - part.y.begin()];
   for (std::size_t i = 1; i < part.x.size(); ++i)
     figures.work += 0.5 * (part.y[i] + part.y[i - 1]) * (part.x[i] - part.x[i - 1]);
   figures.initial_stiffness = slope_of(part, stiffness_from, stiffness_to);

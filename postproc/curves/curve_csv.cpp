@@ -69,8 +69,8 @@ std::string curve_line(const CurveRow& r) {
 
 CurveRow curve_row(const StepReport& report, Index patch, int component) {
   CurveRow row = curve_row(report);
-  row.displacement = report.patch_displacement[as_size(patch)][component];
-  row.force = report.reaction[as_size(patch)];
+  row.displacement = report.patch_displacement[patch][component];
+  row.force = report.reaction[patch];
   return row;
 }
 

@@ -133,7 +133,7 @@ void add_moves(FitFindings& found, const JudgedData& data) {
   found.finer = data.finer->what;
   for (std::size_t j = 0; j < found.parameters.size(); ++j) {
     FittedParameter& p = found.parameters[j];
-    const double move = moves[static_cast<Eigen::Index>(j)];
+    const double move = moves[j];
     p.moved_by_finer = p.log_scale ? p.estimate * std::expm1(move) : move;
   }
   tell_moves(found);

@@ -57,7 +57,7 @@ Vector gradient_of(const Mesh& mesh, const FaceField<double>& q, Index c) {
 }
 
 FaceField<double> weights(const Mesh& mesh, const TipRegion& region, const Vector& tip) {
-  FaceField<double> q(as_size(mesh.n_faces()));
+  FaceField<double> q(mesh.n_faces());
   parallel_for(mesh.n_faces(), [&](Index f) { q[f] = weight_at(region, tip, mesh.face_centre[f]); });
   return q;
 }
@@ -96,7 +96,7 @@ bool is_mirror(const BoundaryCondition& condition, const Vector& normal, const V
   if (condition.kind != BoundaryCondition::Kind::components) return false;
   if (condition.pressure || (condition.value && !condition.value(x, 1.0).isZero())) return false;
   for (Index i = 0; i < 3; ++i)
-    if (condition.displacement_prescribed[as_size(i)] != (std::abs(normal[i]) > 0.5)) return false;
+    if (condition.displacement_prescribed[i] != (std::abs(normal[i]) > 0.5)) return false;
   return normal.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
 }
 
@@ -195,7 +195,7 @@ Vector crack_tip(const Mesh& mesh, const CellField<double>& damage, const TipReg
 EnergyRelease energy_release_rate(const Mesh& mesh, const OutputFields& output, const TipRegion& region) {
   EnergyRelease result{.tip = crack_tip(mesh, output.damage, region)};
   const FaceField<double> q = weights(mesh, region, result.tip);
-  CellField<double> release(as_size(mesh.n_cells()), 0.0);
+  CellField<double> release(mesh.n_cells(), 0.0);
   parallel_for(mesh.n_cells(), [&](Index c) {
     const Vector gradient = gradient_of(mesh, q, c);
     if (gradient.squaredNorm() == 0.0) return;
@@ -219,7 +219,7 @@ StressIntensity stress_intensity(const Mesh& mesh, const FractureModel& model, c
   const EnergyRelease release = energy_release_rate(mesh, output, region);
   if (std::isnan(release.G)) return {none, none, none, ""};
   const FaceField<double> q = weights(mesh, region, release.tip);
-  CellField<Vector> gradient(as_size(mesh.n_cells()));
+  CellField<Vector> gradient(mesh.n_cells());
   parallel_for(mesh.n_cells(), [&](Index c) { gradient[c] = gradient_of(mesh, q, c); });
   std::variant<Crack, std::string_view> found = crack_between(mesh, model, region, q, gradient, release.tip);
   if (const auto* why = std::get_if<std::string_view>(&found)) return {none, none, none, *why};

@@ -29,20 +29,20 @@ class CellsOfPoints {
         for (const Index f : mesh.faces_of_cell(c)) visit(mesh.face_apex[f], c);
       }
     };
-    for_each([&](Index p, Index) { ++offsets_[as_size(p) + 1]; });
+    for_each([&](Index p, Index) { ++offsets_[p + 1]; });
     for (std::size_t p = 1; p < offsets_.size(); ++p) offsets_[p] += offsets_[p - 1];
     std::vector<std::size_t> end(offsets_.begin(), offsets_.end() - 1);
     cells_.resize(offsets_.back());
     for_each([&](Index p, Index c) {
-      std::size_t& at = end[as_size(p)];
-      if (at == offsets_[as_size(p)] || cells_[at - 1] != c) cells_[at++] = c;  // once, though an apex of many faces
+      std::size_t& at = end[p];
+      if (at == offsets_[p] || cells_[at - 1] != c) cells_[at++] = c;  // once, though an apex of many faces
     });
     ends_ = std::move(end);
   }
 
   std::span<const Index> operator[](Index point) const {
-    const std::size_t begin = offsets_[as_size(point)];
-    return {cells_.data() + begin, ends_[as_size(point)] - begin};
+    const std::size_t begin = offsets_[point];
+    return {cells_.data() + begin, ends_[point] - begin};
   }
 
  private:
@@ -98,7 +98,7 @@ void hold_point(const BoundaryCondition& condition, const Vector& x, const Vecto
   if (condition.kind != Kind::components || std::ranges::count(condition.displacement_prescribed, true) == 0) return;
   const auto value = prescribed_value(condition, x, load);
   for (Index i = 0; value && i < 3; ++i)
-    if (condition.displacement_prescribed[as_size(i)]) held.along(Vector::Unit(i), (*value)[i]);
+    if (condition.displacement_prescribed[i]) held.along(Vector::Unit(i), (*value)[i]);
 }
 
 std::map<Index, Held> held_points(const Mesh& mesh, const std::vector<BoundaryCondition>& boundary, double load) {
@@ -109,9 +109,8 @@ std::map<Index, Held> held_points(const Mesh& mesh, const std::vector<BoundaryCo
     seen.assign(seen.size(), false);
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
       const auto hold = [&](Index p) {
-        if (!seen[as_size(p)])
-          hold_point(condition, mesh.points[as_size(p)], mesh.face_area[f].normalized(), load, held[p]);
-        seen[as_size(p)] = true;
+        if (!seen[p]) hold_point(condition, mesh.points[p], mesh.face_area[f].normalized(), load, held[p]);
+        seen[p] = true;
       };
       for (const Index p : mesh.points_of_face(f)) hold(p);
       if (mesh.face_apex.size() > 0) hold(mesh.face_apex[f]);
@@ -123,32 +122,27 @@ std::map<Index, Held> held_points(const Mesh& mesh, const std::vector<BoundaryCo
 class PointMover {
  public:
   PointMover(const Mesh& mesh, const OutputFields& output)
-      : mesh_(mesh),
-        output_(output),
-        cells_(mesh),
-        is_cohesive_(as_size(mesh.n_faces())),
-        at_cohesive_(mesh.points.size()) {
+      : mesh_(mesh), output_(output), cells_(mesh), is_cohesive_(mesh.n_faces()), at_cohesive_(mesh.points.size()) {
     for (const OutputInterface& interface : output.interfaces)
       for (const Index f : interface.faces) {
-        is_cohesive_[as_size(f)] = true;
-        for (const Index p : mesh.points_of_face(f)) at_cohesive_[as_size(p)] = true;
-        if (mesh.face_apex.size() > 0) at_cohesive_[as_size(mesh.face_apex[f])] = true;
+        is_cohesive_[f] = true;
+        for (const Index p : mesh.points_of_face(f)) at_cohesive_[p] = true;
+        if (mesh.face_apex.size() > 0) at_cohesive_[mesh.face_apex[f]] = true;
       }
   }
 
   SplitPoints move() const {
-    const auto n_points = static_cast<Index>(mesh_.points.size());
+    const auto n_points = count_of(mesh_.points);
     SplitPoints split;
-    split.displacement.assign(as_size(n_points), Vector::Zero());
-    std::vector<char> may_part(as_size(n_points), 0);
+    split.displacement.assign(n_points, Vector::Zero());
+    std::vector<char> may_part(n_points, 0);
     parallel_for(n_points, [&](Index p) {
       const std::span<const Index> around = cells_[p];
-      may_part[as_size(p)] =
-          at_cohesive_[as_size(p)] || std::ranges::any_of(around, [&](Index c) { return is_broken(c); });
-      if (!may_part[as_size(p)]) split.displacement[as_size(p)] = mean(p, around);
+      may_part[p] = at_cohesive_[p] || std::ranges::any_of(around, [&](Index c) { return is_broken(c); });
+      if (!may_part[p]) split.displacement[p] = mean(p, around);
     });
     for (Index p = 0; p < n_points; ++p)
-      if (may_part[as_size(p)]) part(p, split);
+      if (may_part[p]) part(p, split);
     return split;
   }
 
@@ -161,7 +155,7 @@ class PointMover {
     Vector sum = Vector::Zero(), low = Vector::Constant(std::numeric_limits<double>::infinity()), high = -low;
     double weights = 0.0, most_damage = 0.0;
     for (const Index c : cells) {
-      const Vector from_centre = mesh_.points[as_size(point)] - mesh_.cell_centre[c];
+      const Vector from_centre = mesh_.points[point] - mesh_.cell_centre[c];
       const double sound = 1.0 - output_.damage[c];
       const double weight = (sound * sound + 1e-6) / from_centre.norm();
       sum += weight * (output_.displacement[c] + output_.gradient[c] * from_centre);
@@ -198,7 +192,7 @@ class PointMover {
     const std::span<const Index> around = cells_[point];
     for (std::size_t i = 0; i < around.size(); ++i)
       for (const Index f : mesh_.faces_of_cell(around[i])) {
-        if (!mesh_.is_interior(f) || is_cohesive_[as_size(f)] || !has_point(mesh_, f, point)) continue;
+        if (!mesh_.is_interior(f) || is_cohesive_[f] || !has_point(mesh_, f, point)) continue;
         const auto j = std::ranges::lower_bound(around, mesh_.across(f, around[i])) - around.begin();
         visit(i, static_cast<std::size_t>(j));
       }
@@ -210,8 +204,7 @@ class PointMover {
     constexpr auto none = static_cast<std::size_t>(-1);
     std::vector<std::size_t> side(around.size(), none);
     for (std::size_t s = 0; s < sides.size(); ++s)
-      for (const Index c : sides[s])
-        side[static_cast<std::size_t>(std::ranges::lower_bound(around, c) - around.begin())] = s;
+      for (const Index c : sides[s]) side[std::ranges::lower_bound(around, c) - around.begin()] = s;
     for (bool grows = true; grows;) {
       grows = false;
       const std::vector<std::size_t> before = side;
@@ -228,7 +221,7 @@ class PointMover {
   // The first side keeps the point.
   void part(Index point, SplitPoints& split) const {
     const std::vector<Cells> sides = sound_sides(point);
-    Vector& here = split.displacement[as_size(point)];
+    Vector& here = split.displacement[point];
     here = sides.empty() ? mean(point, cells_[point]) : mean(point, sides[0]);
     if (sides.size() < 2) return;
     const std::vector<std::size_t> side = side_of_cells(point, sides);
@@ -253,7 +246,7 @@ SplitPoints point_displacement(const Mesh& mesh, const std::vector<BoundaryCondi
                                const OutputFields& output, double load) {
   SplitPoints split = PointMover(mesh, output).move();
   const std::map<Index, Held> held = held_points(mesh, boundary, load);
-  for (const auto& [point, hold] : held) split.displacement[as_size(point)] = hold(split.displacement[as_size(point)]);
+  for (const auto& [point, hold] : held) split.displacement[point] = hold(split.displacement[point]);
   for (std::size_t k = 0; k < split.copies.size(); ++k)
     if (const auto found = held.find(split.copies[k].point); found != held.end())
       split.displacement[mesh.points.size() + k] = found->second(split.displacement[mesh.points.size() + k]);

@@ -27,8 +27,7 @@ Section swept_by_face(const Mesh& mesh, Index face, const Plane& plane, double t
   const Vector middle = fan_middle(mesh, face);
   Section swept;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::array<Vector, 3> corners{mesh.points[as_size(points[i])],
-                                        mesh.points[as_size(points[(i + 1) % points.size()])], middle};
+    const std::array<Vector, 3> corners{mesh.points[points[i]], mesh.points[points[(i + 1) % points.size()]], middle};
     Vector up = origin, down = origin;  // where the triangle's outline passes to the plane's upper side, and back
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector &a = corners[k], &b = corners[(k + 1) % 3];
@@ -63,7 +62,7 @@ Section faces_in_plane(const Mesh& mesh, Index cell, const Plane& plane, double 
   for (const Index face : mesh.faces_of_cell(cell)) {
     const auto is_on = [&](const Vector& x) { return std::abs(plane.distance(x)) <= tolerance; };
     const bool in_plane = is_on(fan_middle(mesh, face)) && std::ranges::all_of(mesh.points_of_face(face), [&](Index p) {
-                            return is_on(mesh.points[as_size(p)]);
+                            return is_on(mesh.points[p]);
                           });
     if (!in_plane) continue;
     section.area += (mesh.is_interior(face) ? 0.5 : 1.0) * mesh.face_area[face].norm();
@@ -81,7 +80,7 @@ Section section_of_cell(const Mesh& mesh, Index cell, const Vector& point, const
     lowest = std::min(lowest, plane.distance(x));
     highest = std::max(highest, plane.distance(x));
   };
-  for (const Index p : mesh.points_of_cell(cell)) reach(mesh.points[as_size(p)]);
+  for (const Index p : mesh.points_of_cell(cell)) reach(mesh.points[p]);
   for (const Index face : mesh.faces_of_cell(cell)) reach(fan_middle(mesh, face));
   const double tolerance = on_plane * std::cbrt(mesh.cell_volume[cell]);
   if (lowest > tolerance || highest < -tolerance) return {};

@@ -34,7 +34,7 @@ StoredCells::~StoredCells() = default;
 Index StoredCells::n_cells() const { return data_->n_cells(); }
 
 std::vector<Vector> StoredCells::points() const {
-  std::vector<Vector> points(static_cast<std::size_t>(data_->grid()->GetNumberOfPoints()));
+  std::vector<Vector> points(data_->grid()->GetNumberOfPoints());
   for (std::size_t i = 0; i < points.size(); ++i) data_->grid()->GetPoint(static_cast<vtkIdType>(i), points[i].data());
   return points;
 }
@@ -96,14 +96,14 @@ bool StoredCells::has(const std::string& field) const {
 
 std::vector<double> StoredCells::values(const std::string& field, int component) const {
   vtkDataArray* array = data_->required(data_->grid()->GetCellData(), field, component);
-  std::vector<double> values(static_cast<std::size_t>(n_cells()));
+  std::vector<double> values(n_cells());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = array->GetComponent(static_cast<vtkIdType>(i), component);
   return values;
 }
 
 std::vector<Vector> StoredCells::displacement() const {
   vtkDataArray* array = data_->required(data_->grid()->GetPointData(), "displacement", 2);
-  std::vector<Vector> values(static_cast<std::size_t>(data_->grid()->GetNumberOfPoints()));
+  std::vector<Vector> values(data_->grid()->GetNumberOfPoints());
   for (std::size_t i = 0; i < values.size(); ++i) array->GetTuple(static_cast<vtkIdType>(i), values[i].data());
   return values;
 }

@@ -46,28 +46,26 @@ int vtk_cell_type(CellShape shape) {
 bool goes_as_triangles(const Mesh& mesh, Index face) {
   if (mesh.face_apex.size() == 0) return false;
   const auto points = mesh.points_of_face(face);
-  const Vector& apex = mesh.points[as_size(mesh.face_apex[face])];
+  const Vector& apex = mesh.points[mesh.face_apex[face]];
   double area = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i)
-    area += 0.5 * (mesh.points[as_size(points[i])] - apex)
-                      .cross(mesh.points[as_size(points[(i + 1) % points.size()])] - apex)
-                      .norm();
+    area += 0.5 * (mesh.points[points[i]] - apex).cross(mesh.points[points[(i + 1) % points.size()]] - apex).norm();
   return area > (1.0 + 1e-9) * mesh.face_area[face].norm();
 }
 
 // The points that the file needs: those of the cells and the apexes of triangles.
 struct GridPoints {
-  explicit GridPoints(const Mesh& mesh) : number(mesh.points.size(), -1), as_triangles(as_size(mesh.n_faces())) {
-    for (const Index p : mesh.cell_points) number[as_size(p)] = 0;
+  explicit GridPoints(const Mesh& mesh) : number(mesh.points.size(), -1), as_triangles(mesh.n_faces()) {
+    for (const Index p : mesh.cell_points) number[p] = 0;
     for (Index f = 0; f < mesh.n_faces(); ++f) {
-      as_triangles[as_size(f)] = goes_as_triangles(mesh, f);
-      if (as_triangles[as_size(f)]) number[as_size(mesh.face_apex[f])] = 0;
+      as_triangles[f] = goes_as_triangles(mesh, f);
+      if (as_triangles[f]) number[mesh.face_apex[f]] = 0;
     }
     points->SetDataTypeToDouble();
     for (std::size_t p = 0; p < number.size(); ++p)
       if (number[p] == 0) number[p] = points->InsertNextPoint(mesh.points[p].data());
   }
-  vtkIdType operator[](Index point) const { return number[as_size(point)]; }
+  vtkIdType operator[](Index point) const { return number[point]; }
 
   vtkNew<vtkPoints> points;
   std::vector<vtkIdType> number;
@@ -92,7 +90,7 @@ FaceStream face_stream(const Mesh& mesh, const GridPoints& number, Index cell) {
       stream.entries.insert(stream.entries.end(), points.begin(), points.end());
       ++stream.n_faces;
     };
-    if (!number.as_triangles[as_size(face)]) {
+    if (!number.as_triangles[face]) {
       add(rim);
       continue;
     }
@@ -320,7 +318,7 @@ void add_points(vtkUnstructuredGrid& frame, const SplitPoints& split, const std:
                                  number.size(), split.copies.size()));
   if (!split.copies.empty()) {
     PointSplitter splitter(frame);
-    for (const PointCopy& copy : split.copies) splitter.split(number[as_size(copy.point)], copy.cells);
+    for (const PointCopy& copy : split.copies) splitter.split(number[copy.point], copy.cells);
     splitter.finish();
   }
   frame.GetPointData()->AddArray(displacement_array(split, number));
@@ -356,8 +354,8 @@ VtuWriter::VtuWriter(const Mesh& mesh, const std::vector<Index>& faces, VtuSetti
   for (const Index face : faces) {
     rim.clear();
     for (const Index p : mesh.points_of_face(face)) {
-      vtkIdType& number = grid_->number[as_size(p)];
-      if (number < 0) number = points->InsertNextPoint(mesh.points[as_size(p)].data());
+      vtkIdType& number = grid_->number[p];
+      if (number < 0) number = points->InsertNextPoint(mesh.points[p].data());
       rim.push_back(number);
     }
     grid.InsertNextCell(VTK_POLYGON, static_cast<vtkIdType>(rim.size()), rim.data());

@@ -98,7 +98,7 @@ void write_all(int descriptor, std::string_view content, const fs::path& path) {
     const ssize_t n = ::write(descriptor, content.data(), content.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) throw_cannot_write(path, errno);
-    content.remove_prefix(static_cast<std::size_t>(n));
+    content.remove_prefix(n);
   }
 }
 

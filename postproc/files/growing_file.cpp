@@ -30,7 +30,7 @@ int write_at(const Descriptor& file, std::string_view content, off_t place) {
     const ssize_t n = ::pwrite(file.get(), content.data(), content.size(), place);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return errno;
-    content.remove_prefix(static_cast<std::size_t>(n));
+    content.remove_prefix(n);
     place += n;
   }
   return 0;

@@ -18,7 +18,7 @@ std::vector<double> column(const HistoryResult& history, const std::function<dou
 void add_components(CsvTable& table, const HistoryResult& history, std::string_view name, std::string_view unit,
                     const std::function<const Mandel&(const HistoryPoint&)>& tensor) {
   for (int k = 0; k < n_components; ++k)
-    table.add(fmt::format("{}_{}{}", name, component_names[static_cast<std::size_t>(k)], unit),
+    table.add(fmt::format("{}_{}{}", name, component_names[k], unit),
               column(history, [&](const HistoryPoint& p) { return tensor(p)[k] / mandel_factor(k); }));
 }
 
@@ -81,7 +81,7 @@ std::map<std::string, double> history_figures(const EndochronicLaw& law, const H
     const auto range =
         std::ranges::minmax(column(history, [k](const HistoryPoint& p) { return p.stress[k] / mandel_factor(k); }));
     if (std::max(-range.min, range.max) < 1e-6 * largest) continue;
-    const auto name = component_names[static_cast<std::size_t>(k)];
+    const auto name = component_names[k];
     figures[fmt::format("largest_stress_{}_Pa", name)] = range.max;
     figures[fmt::format("least_stress_{}_Pa", name)] = range.min;
   }

@@ -75,7 +75,7 @@ bool is_number(hid_t type) {
 std::optional<Eigen::Index> vector_length(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 1) return std::nullopt;
-  std::vector<hsize_t> sides(static_cast<std::size_t>(rank));
+  std::vector<hsize_t> sides(rank);
   H5Sget_simple_extent_dims(space, sides.data(), nullptr);
   hsize_t length = 1;
   for (const hsize_t side : sides) {

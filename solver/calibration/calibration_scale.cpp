@@ -38,14 +38,14 @@ double ScaledModel::natural(std::size_t j, double u) const {
 
 Eigen::VectorXd ScaledModel::from(const std::vector<double>& parameters) const {
   Eigen::VectorXd u(static_cast<Eigen::Index>(n_parameters()));
-  for (std::size_t j = 0; j < n_parameters(); ++j) u[static_cast<Eigen::Index>(j)] = scaled(j, parameters[j]);
+  for (std::size_t j = 0; j < n_parameters(); ++j) u[j] = scaled(j, parameters[j]);
   return u;
 }
 
 std::optional<std::vector<double>> ScaledModel::within_bounds(const Eigen::VectorXd& u) const {
   for (std::size_t j = 0; j < n_parameters(); ++j) {
     const auto [lower, upper] = bounds(j);
-    const double value = u[static_cast<Eigen::Index>(j)];
+    const double value = u[j];
     if (value < lower || value > upper) return std::nullopt;
   }
   return natural(u);
@@ -60,13 +60,13 @@ Eigen::VectorXd ScaledModel::first() const {
 Eigen::VectorXd ScaledModel::start() const {
   Eigen::VectorXd u = first();
   for (std::size_t j = 0; j < n_parameters(); ++j)
-    if (const auto& start = problem_.parameters[j].start) u[static_cast<Eigen::Index>(j)] = scaled(j, *start);
+    if (const auto& start = problem_.parameters[j].start) u[j] = scaled(j, *start);
   return u;
 }
 
 std::vector<double> ScaledModel::natural(const Eigen::VectorXd& u) const {
   std::vector<double> parameters;
-  for (std::size_t j = 0; j < n_parameters(); ++j) parameters.push_back(natural(j, u[static_cast<Eigen::Index>(j)]));
+  for (std::size_t j = 0; j < n_parameters(); ++j) parameters.push_back(natural(j, u[j]));
   return parameters;
 }
 
@@ -89,7 +89,7 @@ std::optional<std::vector<double>> ScaledModel::evaluated(const Residuals& model
     throw ComputationError(fmt::format("the number of the model's residuals changed from {} to {}", before, r->size()));
   for (std::size_t j = 0; j < n_parameters(); ++j)
     if (const auto& prior = problem_.parameters[j].prior)
-      r->push_back((u[static_cast<Eigen::Index>(j)] - scaled(j, prior->mean)) * scale_[j] / prior->standard_deviation);
+      r->push_back((u[j] - scaled(j, prior->mean)) * scale_[j] / prior->standard_deviation);
   return r;
 }
 
@@ -111,8 +111,7 @@ std::optional<Eigen::MatrixXd> ScaledModel::given_jacobian(const Eigen::VectorXd
   const auto given = problem_.jacobian(parameters);
   if (!given || !given->allFinite()) return std::nullopt;
   Eigen::MatrixXd J = *given;
-  for (std::size_t j = 0; j < n_parameters(); ++j)
-    J.col(static_cast<Eigen::Index>(j)) *= is_log(j) ? parameters[j] : scale_[j];
+  for (std::size_t j = 0; j < n_parameters(); ++j) J.col(j) *= is_log(j) ? parameters[j] : scale_[j];
   for (std::size_t j = 0; j < n_parameters(); ++j)
     if (const auto& prior = problem_.parameters[j].prior) {
       J.conservativeResize(J.rows() + 1, Eigen::NoChange);
@@ -132,7 +131,7 @@ void ScaledModel::prepare(const std::vector<Eigen::VectorXd>& points) const {
 
 std::optional<Eigen::VectorXd> ScaledModel::moved(const Eigen::VectorXd& u, std::size_t j, double sign) const {
   Eigen::VectorXd result = u;
-  double& entry = result[static_cast<Eigen::Index>(j)];
+  double& entry = result[j];
   entry += sign * step_of(entry);
   const auto [lower, upper] = bounds(j);
   return entry > upper || entry < lower ? std::nullopt : std::optional(result);
@@ -141,7 +140,7 @@ std::optional<Eigen::VectorXd> ScaledModel::moved(const Eigen::VectorXd& u, std:
 /// Central where both sides can be evaluated, else to the side that can.
 std::optional<Eigen::VectorXd> ScaledModel::difference(const Residuals& model, const Eigen::VectorXd& u,
                                                        const std::vector<double>& here, std::size_t j) const {
-  const double h = step_of(u[static_cast<Eigen::Index>(j)]);
+  const double h = step_of(u[j]);
   const auto side = [&](double sign) {
     const auto there = moved(u, j, sign);
     return there ? evaluated(model, *there) : std::nullopt;
@@ -183,8 +182,7 @@ std::optional<Eigen::MatrixXd> ScaledModel::differences(const Residuals& model, 
   std::vector<std::optional<Eigen::VectorXd>> columns(n_parameters());
   const auto n = static_cast<Index>(n_parameters());
   const auto body = [&](Index begin, Index end) {
-    for (Index j = begin; j < end; ++j)
-      columns[static_cast<std::size_t>(j)] = difference(model, u, *here, static_cast<std::size_t>(j));
+    for (Index j = begin; j < end; ++j) columns[j] = difference(model, u, *here, static_cast<std::size_t>(j));
   };
   if (settings_.side_by_side)
     parallel_chunks(n, body, 1);
@@ -193,7 +191,7 @@ std::optional<Eigen::MatrixXd> ScaledModel::differences(const Residuals& model, 
   Eigen::MatrixXd J(static_cast<Eigen::Index>(here->size()), static_cast<Eigen::Index>(n_parameters()));
   for (std::size_t j = 0; j < n_parameters(); ++j) {
     if (!columns[j]) return std::nullopt;
-    J.col(static_cast<Eigen::Index>(j)) = *columns[j];
+    J.col(j) = *columns[j];
   }
   return J;
 }

@@ -19,7 +19,7 @@ using Set = std::vector<bool>;  // entries that may be positive
 Eigen::VectorXd solve_within(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Set& free) {
   Eigen::MatrixXd part(A.rows(), 0);
   for (Eigen::Index j = 0; j < A.cols(); ++j)
-    if (free[static_cast<std::size_t>(j)]) {
+    if (free[j]) {
       part.conservativeResize(Eigen::NoChange, part.cols() + 1);
       part.col(part.cols() - 1) = A.col(j);
     }
@@ -27,7 +27,7 @@ Eigen::VectorXd solve_within(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
   if (part.cols() == 0) return all;
   const Eigen::VectorXd x = least_squares(part, b);
   for (Eigen::Index j = 0, k = 0; j < A.cols(); ++j)
-    if (free[static_cast<std::size_t>(j)]) all[j] = x[k++];
+    if (free[j]) all[j] = x[k++];
   return all;
 }
 
@@ -37,13 +37,13 @@ void approach(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, Eigen::VectorX
     const Eigen::VectorXd wanted = solve_within(A, b, free);
     double length = 1.0;
     for (Eigen::Index j = 0; j < A.cols(); ++j)
-      if (free[static_cast<std::size_t>(j)] && wanted[j] <= 0.0) length = std::min(length, x[j] / (x[j] - wanted[j]));
+      if (free[j] && wanted[j] <= 0.0) length = std::min(length, x[j] / (x[j] - wanted[j]));
     x += length * (wanted - x);
     if (length == 1.0) return;
     const double zero = 1e-14 * x.lpNorm<Eigen::Infinity>();
     for (Eigen::Index j = 0; j < A.cols(); ++j)
-      if (free[static_cast<std::size_t>(j)] && x[j] <= zero) {
-        free[static_cast<std::size_t>(j)] = false;
+      if (free[j] && x[j] <= zero) {
+        free[j] = false;
         x[j] = 0.0;
       }
   }
@@ -53,19 +53,19 @@ void approach(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, Eigen::VectorX
 
 Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(A.cols());
-  Set free(static_cast<std::size_t>(A.cols()), false);
+  Set free(A.cols(), false);
   const Eigen::VectorXd size = A.colwise().norm();
   for (Eigen::Index turn = 0; turn < 3 * A.cols(); ++turn) {
     const Eigen::VectorXd gain = A.transpose() * (b - A * x);
     Eigen::Index best = -1;
     double largest = 1e-12 * b.norm();
     for (Eigen::Index j = 0; j < A.cols(); ++j)
-      if (!free[static_cast<std::size_t>(j)] && size[j] > 0.0 && gain[j] / size[j] > largest) {
+      if (!free[j] && size[j] > 0.0 && gain[j] / size[j] > largest) {
         largest = gain[j] / size[j];
         best = j;
       }
     if (best < 0) break;
-    free[static_cast<std::size_t>(best)] = true;
+    free[best] = true;
     approach(A, b, x, free);
   }
   return x;

@@ -33,7 +33,7 @@ Eigen::VectorXd point_about(const ScaledModel& model, const FitSettings& setting
   Eigen::VectorXd u = start;
   for (std::size_t j = 0; j < model.n_parameters(); ++j) {
     if (!model.problem().parameters[j].is_sampled) continue;
-    double& entry = u[static_cast<Eigen::Index>(j)];
+    double& entry = u[j];
     const auto [low, high] = range_about(model, settings, j, entry);
     entry = low + share(j) * (high - low);
   }
@@ -104,7 +104,7 @@ Eigen::VectorXd stepped(const ScaledModel& model, const Slope& slope, double rad
   Eigen::VectorXd u = slope.candidate->u - solve_symmetric(damped, slope.gradient);
   for (std::size_t j = 0; j < model.n_parameters(); ++j) {
     const auto [lower, upper] = model.bounds(j);
-    double& entry = u[static_cast<Eigen::Index>(j)];
+    double& entry = u[j];
     entry = std::clamp(entry, lower, upper);
   }
   return u;

@@ -30,7 +30,7 @@ std::vector<std::size_t> visible_parameters(const ScaledModel& model, const Eige
   const double largest = J.colwise().norm().maxCoeff();
   for (std::size_t j = 0; j < model.n_parameters(); ++j) {
     const std::string& name = model.problem().parameters[j].name;
-    if (!(J.col(static_cast<Eigen::Index>(j)).norm() > unseen * largest))
+    if (!(J.col(j).norm() > unseen * largest))
       result.warnings.push_back(
           fmt::format("the data do not determine {}: it has no influence on the residuals", name));
     else if (result.estimates[j].at_bound)
@@ -50,8 +50,7 @@ Eigen::MatrixXd inverse_normal(const ScaledModel& model, const Eigen::MatrixXd& 
   const auto n = static_cast<Eigen::Index>(visible.size());
   if (n == 0) return Eigen::MatrixXd::Zero(0, 0);
   Eigen::MatrixXd A(J.rows(), n);
-  for (Eigen::Index k = 0; k < n; ++k)
-    A.col(k) = J.col(static_cast<Eigen::Index>(visible[static_cast<std::size_t>(k)]));
+  for (Eigen::Index k = 0; k < n; ++k) A.col(k) = J.col(visible[k]);
   const Eigen::VectorXd size = A.colwise().norm();
   A = A * size.cwiseInverse().asDiagonal();
   const SingularValues svd = singular_values(A);
@@ -66,8 +65,8 @@ Eigen::MatrixXd inverse_normal(const ScaledModel& model, const Eigen::MatrixXd& 
     std::vector<std::size_t> together;
     for (Eigen::Index i = 0; i < n; ++i)
       if (std::abs(v[i]) > 0.1) {
-        together.push_back(visible[static_cast<std::size_t>(i)]);
-        undetermined[visible[static_cast<std::size_t>(i)]] = true;
+        together.push_back(visible[i]);
+        undetermined[visible[i]] = true;
       }
     result.warnings.push_back(
         fmt::format("the data determine only a combination of {}", fmt::join(names_of(model, together), ", ")));
@@ -147,7 +146,7 @@ void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResul
   const std::vector<double> values = model.natural(u);
   for (std::size_t j = 0; j < k; ++j) {
     result.estimates[j].value = values[j];
-    result.estimates[j].at_bound = side_of_bound(u[static_cast<Eigen::Index>(j)], model.bounds(j)) != 0;
+    result.estimates[j].at_bound = side_of_bound(u[j], model.bounds(j)) != 0;
   }
   const std::vector<std::size_t> visible = visible_parameters(model, *J, result);
   std::vector<bool> undetermined(k, false);

@@ -188,8 +188,7 @@ std::vector<double> explained_by(const std::vector<double>& values, const std::v
   std::vector<double> coefficients(columns.size(), 0.0);
   if (columns.empty() || values.size() < columns.size()) return coefficients;
   Eigen::MatrixXd A(std::ssize(values), std::ssize(columns));
-  for (Eigen::Index j = 0; j < A.cols(); ++j)
-    A.col(j) = Eigen::VectorXd::Map(columns[static_cast<std::size_t>(j)].data(), A.rows());
+  for (Eigen::Index j = 0; j < A.cols(); ++j) A.col(j) = Eigen::VectorXd::Map(columns[j].data(), A.rows());
   Eigen::VectorXd::Map(coefficients.data(), A.cols()) =
       scaled_least_squares(A, Eigen::VectorXd::Map(values.data(), A.rows()));
   return coefficients;

@@ -164,15 +164,13 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, const VectorXd& 
 /// Which entries are at a bound beyond which the sum of squares decreases.
 std::vector<bool> pressed_at_bounds(const LeastSquaresProblem& problem, const VectorXd& x, std::vector<bool> held) {
   std::vector<int> sides(held.size(), 0);
-  for (std::size_t j = 0; j < problem.bounds.size(); ++j)
-    sides[j] = side_of_bound(x[static_cast<Eigen::Index>(j)], problem.bounds[j]);
+  for (std::size_t j = 0; j < problem.bounds.size(); ++j) sides[j] = side_of_bound(x[j], problem.bounds[j]);
   if (std::ranges::count(sides, 0) == std::ssize(sides)) return std::vector<bool>(held.size(), false);
   const auto r = problem.residuals(x);
   const auto J = problem.jacobian(x);
   if (!r || !J) return held;
   const VectorXd gradient = J->transpose() * *r;
-  for (std::size_t j = 0; j < held.size(); ++j)
-    held[j] = sides[j] != 0 && sides[j] * gradient[static_cast<Eigen::Index>(j)] < 0.0;
+  for (std::size_t j = 0; j < held.size(); ++j) held[j] = sides[j] != 0 && sides[j] * gradient[j] < 0.0;
   return held;
 }
 
@@ -190,7 +188,7 @@ LeastSquaresResult minimise(const LeastSquaresProblem& problem, const VectorXd& 
   FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres would report every step at which the model fails
   LeastSquaresProblem whole = problem;
   if (!whole.jacobian) whole.jacobian = [&](const VectorXd& x) { return central_differences(problem, x); };
-  std::vector<bool> held(static_cast<std::size_t>(start.size()), false);
+  std::vector<bool> held(start.size(), false);
   LeastSquaresResult result = minimise(whole, start, held, settings);
   for (std::size_t turn = 0; turn < 2 * held.size() && std::isfinite(result.cost); ++turn) {
     std::vector<bool> now = pressed_at_bounds(whole, result.x, held);

@@ -72,7 +72,7 @@ class Correction {
 
 MatrixXd side_by_side(const std::vector<VectorXd>& columns) {
   MatrixXd all(columns.front().size(), std::ssize(columns));
-  for (std::size_t k = 0; k < columns.size(); ++k) all.col(static_cast<Eigen::Index>(k)) = columns[k];
+  for (std::size_t k = 0; k < columns.size(); ++k) all.col(k) = columns[k];
   return all;
 }
 

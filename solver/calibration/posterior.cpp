@@ -68,8 +68,8 @@ class Emulator {
     const Eigen::Index q = n_monomials(degree_), m = residuals_.front().size();
     MatrixXd A(n, q), R(n, m);
     for (Eigen::Index i = 0; i < n; ++i) {
-      A.row(i) = monomials(points_[static_cast<std::size_t>(i)], degree_).transpose();
-      R.row(i) = residuals_[static_cast<std::size_t>(i)].transpose();
+      A.row(i) = monomials(points_[i], degree_).transpose();
+      R.row(i) = residuals_[i].transpose();
     }
     MatrixXd normal = A.transpose() * A;
     normal.diagonal().array() += 1e-10 * normal.diagonal().maxCoeff();
@@ -115,7 +115,7 @@ class Sampler {
           "the data do not determine all parameters, or one is at a bound: there is no posterior of all");
     axes_ = factor.matrixL();
     centre_ = VectorXd(k);
-    for (Eigen::Index j = 0; j < k; ++j) centre_[j] = in_fit(j, result.estimates[static_cast<std::size_t>(j)].value);
+    for (Eigen::Index j = 0; j < k; ++j) centre_[j] = in_fit(j, result.estimates[j].value);
     n_residuals_ = static_cast<double>(result.residuals.size());
     freedom_ = std::max(1.0, n_residuals_ - static_cast<double>(k));
     variance_ = problem.noise_is_known ? 1.0 : result.sum_of_squares / freedom_;
@@ -143,13 +143,13 @@ class Sampler {
   }
 
   double in_fit(Eigen::Index j, double value) const {
-    return problem_.parameters[static_cast<std::size_t>(j)].log_scale ? std::log(value) : value;
+    return problem_.parameters[j].log_scale ? std::log(value) : value;
   }
   std::vector<double> values_at(const VectorXd& z) const {
     const VectorXd x = centre_ + axes_ * z;
     std::vector<double> values(problem_.parameters.size());
     for (std::size_t j = 0; j < values.size(); ++j) {
-      const double at = x[static_cast<Eigen::Index>(j)];
+      const double at = x[j];
       values[j] = problem_.parameters[j].log_scale ? std::exp(at) : at;
     }
     return values;
@@ -169,8 +169,7 @@ class Sampler {
     for (int n = 2; points.size() < n_in_batch(); ++n) {  // the first one is the middle of an axis
       VectorXd z(centre_.size());
       for (Eigen::Index j = 0; j < z.size(); ++j)
-        z[j] = std::numbers::sqrt2 *
-               boost::math::erf_inv(2.0 * radical_inverse(n, bases[static_cast<std::size_t>(j)]) - 1.0);
+        z[j] = std::numbers::sqrt2 * boost::math::erf_inv(2.0 * radical_inverse(n, bases[j]) - 1.0);
       most = most.cwiseMax(z.cwiseAbs());
       points.push_back(z);
       points.emplace_back(-z);
@@ -352,7 +351,7 @@ class Sampler {
 double quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
+  return values[at];
 }
 
 double Posterior::quantile(std::size_t k, double share) const {

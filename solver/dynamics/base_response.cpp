@@ -102,7 +102,7 @@ CellField<double> strain_power(const VibratingBody& body, const Eigen::VectorXcd
   using Wanted = MomentumOperator::Wanted;
   const CellMechanics re = body.balance().mechanics(as_vectors(u.real()), Wanted::without_gradient);
   const CellMechanics im = body.balance().mechanics(as_vectors(u.imag()), Wanted::without_gradient);
-  CellField<double> power(as_size(body.mesh().n_cells()));
+  CellField<double> power(body.mesh().n_cells());
   for (Index c = 0; c < power.size(); ++c) power[c] = 2.0 * (re.energy[c] + im.energy[c]) / body.mesh().cell_volume[c];
   return power;
 }

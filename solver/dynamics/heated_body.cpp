@@ -7,7 +7,7 @@
 namespace pfdm {
 namespace {
 
-CellField<double> uniform(const Mesh& mesh, double value) { return CellField<double>(as_size(mesh.n_cells()), value); }
+CellField<double> uniform(const Mesh& mesh, double value) { return CellField<double>(mesh.n_cells(), value); }
 
 double over_volume(const Mesh& mesh, const CellField<double>& density) {
   return parallel_sum(mesh.n_cells(), [&](Index c) { return mesh.cell_volume[c] * density[c]; });

@@ -19,7 +19,7 @@ void KrylovSpace::take_away_locked(Eigen::VectorXd& v) const {
 // Gram-Schmidt, twice: once leaves the rounding of large components.
 bool KrylovSpace::extend() {
   const Eigen::Index m = projected_;
-  Eigen::VectorXd next = body_.inertial_answer(vectors_[static_cast<std::size_t>(m)]);
+  Eigen::VectorXd next = body_.inertial_answer(vectors_[m]);
   const double size = std::sqrt(body_.inner(next, next));
   H_.conservativeResizeLike(Eigen::MatrixXd::Zero(m + 1, m + 1));
   if (m > 0) H_(m, m - 1) = remainder_;
@@ -27,8 +27,8 @@ bool KrylovSpace::extend() {
     take_away_locked(next);
     const Eigen::VectorXd weighted = body_.mass().cwiseProduct(next);
     Eigen::VectorXd part(m + 1);
-    for (Eigen::Index j = 0; j <= m; ++j) part[j] = vectors_[static_cast<std::size_t>(j)].dot(weighted);
-    for (Eigen::Index j = 0; j <= m; ++j) next -= part[j] * vectors_[static_cast<std::size_t>(j)];
+    for (Eigen::Index j = 0; j <= m; ++j) part[j] = vectors_[j].dot(weighted);
+    for (Eigen::Index j = 0; j <= m; ++j) next -= part[j] * vectors_[j];
     H_.col(m) += part;
   }
   ++projected_;
@@ -42,7 +42,7 @@ Eigen::MatrixXd KrylovSpace::projection() const { return H_; }
 
 Eigen::VectorXd KrylovSpace::combined(const Eigen::VectorXd& weights) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(body_.size());
-  for (Eigen::Index j = 0; j < weights.size(); ++j) sum += weights[j] * vectors_[static_cast<std::size_t>(j)];
+  for (Eigen::Index j = 0; j < weights.size(); ++j) sum += weights[j] * vectors_[j];
   return sum;
 }
 

@@ -26,7 +26,7 @@ class KrylovSpace {
 
   /// sum_j weights_j v_j over the first vectors; weights real.
   Eigen::VectorXd combined(const Eigen::VectorXd& weights) const;
-  const Eigen::VectorXd& vector(Eigen::Index j) const { return vectors_[static_cast<std::size_t>(j)]; }
+  const Eigen::VectorXd& vector(Eigen::Index j) const { return vectors_[j]; }
 
  private:
   void take_away_locked(Eigen::VectorXd& v) const;

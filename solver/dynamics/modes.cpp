@@ -33,12 +33,12 @@ struct RitzPairs {
 RitzPairs ritz_pairs(const KrylovSpace& space, int count) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(space.projection());
   const Eigen::VectorXcd& values = solver.eigenvalues();
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::vector<Eigen::Index> order(values.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, [&](Eigen::Index a, Eigen::Index b) { return values[a].real() > values[b].real(); });
   RitzPairs pairs;
   for (int k = 0; k < count; ++k) {
-    const Eigen::Index i = order[static_cast<std::size_t>(k)];
+    const Eigen::Index i = order[k];
     Eigen::VectorXcd vector = solver.eigenvectors().col(i);
     Eigen::Index largest = 0;
     vector.cwiseAbs().maxCoeff(&largest);

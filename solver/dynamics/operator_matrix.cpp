@@ -11,11 +11,11 @@ namespace {
 // The cells within some number of faces of a cell.
 class Surroundings {
  public:
-  explicit Surroundings(const Mesh& mesh) : mesh_(mesh), seen_(as_size(mesh.n_cells()), -1) {}
+  explicit Surroundings(const Mesh& mesh) : mesh_(mesh), seen_(mesh.n_cells(), -1) {}
 
   const std::vector<Index>& of(Index cell, int reach) {
     found_.assign(1, cell);
-    seen_[as_size(cell)] = ++round_;
+    seen_[cell] = ++round_;
     std::size_t begin = 0;
     for (int ring = 0; ring < reach; ++ring) {
       const std::size_t end = found_.size();
@@ -23,7 +23,7 @@ class Surroundings {
         for (const Index f : mesh_.faces_of_cell(found_[begin])) {
           if (!mesh_.is_interior(f)) continue;
           const Index other = mesh_.across(f, found_[begin]);
-          if (std::exchange(seen_[as_size(other)], round_) != round_) found_.push_back(other);
+          if (std::exchange(seen_[other], round_) != round_) found_.push_back(other);
         }
     }
     return found_;
@@ -46,12 +46,12 @@ struct Group {
 
 // The unknowns whose rows a cell owns.
 std::vector<std::vector<Index>> rows_by_cell(const Mesh& mesh, const Unknowns& unknowns) {
-  std::vector<std::vector<Index>> rows(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) rows[as_size(c)].push_back(c);
+  std::vector<std::vector<Index>> rows(mesh.n_cells());
+  for (Index c = 0; c < mesh.n_cells(); ++c) rows[c].push_back(c);
   for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k)
-    rows[as_size(mesh.owner[unknowns.face_of_node[k]])].push_back(unknowns.n_cells + static_cast<Index>(k));
+    rows[mesh.owner[unknowns.face_of_node[k]]].push_back(unknowns.n_cells + static_cast<Index>(k));
   for (std::size_t k = 0; k < unknowns.pressure_cells.size(); ++k)
-    rows[as_size(unknowns.pressure_cells[k])].push_back(unknowns.n_nodes() + static_cast<Index>(k));
+    rows[unknowns.pressure_cells[k]].push_back(unknowns.n_nodes() + static_cast<Index>(k));
   return rows;
 }
 
@@ -78,15 +78,15 @@ std::vector<Group> groups_of(const Mesh& mesh, const Unknowns& unknowns, int rea
 
 // Lists of entries of the group; those of one list act on different rows.
 std::vector<std::vector<std::size_t>> colours_of(const Group& group, Surroundings& around, Index n_cells) {
-  std::vector<std::vector<std::size_t>> in_cell(as_size(n_cells));
-  for (std::size_t k = 0; k < group.cells.size(); ++k) in_cell[as_size(group.cells[k])].push_back(k);
+  std::vector<std::vector<std::size_t>> in_cell(n_cells);
+  for (std::size_t k = 0; k < group.cells.size(); ++k) in_cell[group.cells[k]].push_back(k);
   std::vector<Index> colour_of(group.cells.size(), -1);
   std::vector<std::vector<std::size_t>> colours;
   std::vector<std::size_t> taken_by;  // entry that found the colour taken last
   for (std::size_t k = 0; k < group.cells.size(); ++k) {
     for (const Index c : around.of(group.cells[k], 2 * group.reach))
-      for (const std::size_t other : in_cell[as_size(c)])
-        if (colour_of[other] >= 0) taken_by[as_size(colour_of[other])] = k;
+      for (const std::size_t other : in_cell[c])
+        if (colour_of[other] >= 0) taken_by[colour_of[other]] = k;
     std::size_t colour = 0;
     while (colour < colours.size() && taken_by[colour] == k) ++colour;
     if (colour == colours.size()) {
@@ -107,7 +107,7 @@ class Probe {
         balance_(balance),
         around_(mesh),
         rows_(rows_by_cell(mesh, unknowns)),
-        x_(as_size(unknowns.n_unknowns()), Vector::Zero()),
+        x_(unknowns.n_unknowns(), Vector::Zero()),
         image_(x_.size(), Vector::Zero()) {}
 
   Eigen::SparseMatrix<double> matrix(int reach) {
@@ -125,9 +125,9 @@ class Probe {
     const Index first = unknowns_.n_nodes(), end = unknowns_.n_unknowns();
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    for (Index i = 0; i < first; ++i) x_[as_size(i)] = Vector(uniform(engine), uniform(engine), uniform(engine));
+    for (Index i = 0; i < first; ++i) x_[i] = Vector(uniform(engine), uniform(engine), uniform(engine));
     double largest = error_now(K);
-    for (Index i = first; i < end; ++i) x_[as_size(i)] = uniform(engine) * Vector::UnitX();
+    for (Index i = first; i < end; ++i) x_[i] = uniform(engine) * Vector::UnitX();
     if (end > first) largest = std::max(largest, error_now(K));
     return largest;
   }
@@ -150,12 +150,12 @@ class Probe {
       reached.clear();
       for (const std::size_t k : colour) reached.push_back(around_.of(group.cells[k], group.reach));
       for (int component = 0; component < group.n_components; ++component) {
-        for (const std::size_t k : colour) x_[as_size(group.unknowns[k])][component] = 1.0;
+        for (const std::size_t k : colour) x_[group.unknowns[k]][component] = 1.0;
         balance_.apply(x_, image_);
         for (std::size_t j = 0; j < colour.size(); ++j) {
           const Index unknown = group.unknowns[colour[j]];
-          x_[as_size(unknown)][component] = 0.0;
-          for (const Index c : reached[j]) add_column(3 * unknown + component, rows_[as_size(c)]);
+          x_[unknown][component] = 0.0;
+          for (const Index c : reached[j]) add_column(3 * unknown + component, rows_[c]);
         }
       }
     }
@@ -164,8 +164,7 @@ class Probe {
   void add_column(Index column, const std::vector<Index>& rows) {
     for (const Index row : rows)
       for (Index k = 0; k < 3; ++k)
-        if (const double value = image_[as_size(row)][k]; value != 0.0)
-          entries_.emplace_back(3 * row + k, column, value);
+        if (const double value = image_[row][k]; value != 0.0) entries_.emplace_back(3 * row + k, column, value);
   }
 
   const Mesh& mesh_;

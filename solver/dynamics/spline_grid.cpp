@@ -10,9 +10,9 @@ SplineGrid::SplineGrid(const Vector& lower, const Vector& upper, Index wanted, I
   const Vector extent = upper - lower;
   const auto set = [&](double width) {
     for (std::size_t a = 0; a < 3; ++a) {
-      const double length = extent[static_cast<Index>(a)];
+      const double length = extent[a];
       const Index n = std::max<Index>(1, static_cast<Index>(std::lround(length / width)));
-      axes_[a] = {.from = lower[static_cast<Index>(a)], .width = length / n, .n = n};
+      axes_[a] = {.from = lower[a], .width = length / n, .n = n};
     }
   };
   double width = extent.minCoeff();
@@ -28,7 +28,7 @@ SplineGrid::SplineGrid(const Vector& lower, const Vector& upper, Index wanted, I
 Index SplineGrid::box_of(const Vector& x) const {
   Index box = 0;
   for (std::size_t a = 3; a-- > 0;) {
-    const double at = std::floor((x[static_cast<Index>(a)] - axes_[a].from) / axes_[a].width);
+    const double at = std::floor((x[a] - axes_[a].from) / axes_[a].width);
     box = box * axes_[a].n + static_cast<Index>(std::clamp(at, 0.0, axes_[a].n - 1.0));
   }
   return box;
@@ -42,8 +42,7 @@ std::array<Index, SplineGrid::n_per_box> SplineGrid::functions_of(Index box) con
   const auto [i, j, k] = place_of(box);
   std::array<Index, n_per_box> functions{};
   for (Index m = 0; m < n_per_box; ++m)
-    functions[static_cast<std::size_t>(m)] =
-        ((k + m / 9) * (axes_[1].n + 2) + j + m / 3 % 3) * (axes_[0].n + 2) + i + m % 3;
+    functions[m] = ((k + m / 9) * (axes_[1].n + 2) + j + m / 3 % 3) * (axes_[0].n + 2) + i + m % 3;
   return functions;
 }
 
@@ -51,7 +50,7 @@ SplineGrid::OnAxes SplineGrid::on_axes(Index box, const Vector& x) const {
   const std::array<Index, 3> place = place_of(box);
   OnAxes on{};
   for (std::size_t a = 0; a < 3; ++a) {
-    const double h = axes_[a].width, t = (x[static_cast<Index>(a)] - axes_[a].from) / h - place[a];
+    const double h = axes_[a].width, t = (x[a] - axes_[a].from) / h - place[a];
     on.value[a] = {0.5 * (1.0 - t) * (1.0 - t), 0.5 + t - t * t, 0.5 * t * t};
     on.slope[a] = {(t - 1.0) / h, (1.0 - 2.0 * t) / h, t / h};
   }

@@ -22,11 +22,11 @@ constexpr std::size_t n_local = SplineGrid::n_per_box;
 struct ByBox {
   std::vector<Index> offsets, items;
 
-  ByBox(Index n_boxes, const std::vector<Index>& box_of) : offsets(as_size(n_boxes) + 1, 0), items(box_of.size()) {
-    for (const Index box : box_of) ++offsets[as_size(box) + 1];
+  ByBox(Index n_boxes, const std::vector<Index>& box_of) : offsets(n_boxes + 1, 0), items(box_of.size()) {
+    for (const Index box : box_of) ++offsets[box + 1];
     for (std::size_t b = 0; b < as_size(n_boxes); ++b) offsets[b + 1] += offsets[b];
     std::vector<Index> next(offsets.begin(), offsets.end() - 1);
-    for (std::size_t i = 0; i < box_of.size(); ++i) items[as_size(next[as_size(box_of[i])]++)] = static_cast<Index>(i);
+    for (std::size_t i = 0; i < box_of.size(); ++i) items[next[box_of[i]]++] = static_cast<Index>(i);
   }
 };
 
@@ -44,8 +44,8 @@ class SplineSpace {
               std::min(unknowns.n_nodes() / nodes_per_function, most_functions), most_functions),
         box_of_node_(boxes_of(places_)),
         nodes_(grid_.n_boxes(), box_of_node_),
-        of_box_(as_size(grid_.n_boxes())),
-        forces_(as_size(grid_.n_functions())),
+        of_box_(grid_.n_boxes()),
+        forces_(grid_.n_functions()),
         amplitudes_(forces_.size()) {
     is_ready_ = !cholesky_.factor(stiffness());
   }
@@ -54,19 +54,18 @@ class SplineSpace {
     if (!is_ready_) return;
     gather(r);
     cholesky_.solve(forces_, amplitudes_);
-    parallel_for(static_cast<Index>(places_.size()), [&](Index node) {
-      const Index box = box_of_node_[as_size(node)];
-      const auto value = grid_.values(box, places_[as_size(node)]);
+    parallel_for(count_of(places_), [&](Index node) {
+      const Index box = box_of_node_[node];
+      const auto value = grid_.values(box, places_[node]);
       const auto function = grid_.functions_of(box);
-      for (std::size_t m = 0; m < n_local; ++m)
-        z[as_size(node)] += share * value[m] * amplitudes_[as_size(function[m])];
+      for (std::size_t m = 0; m < n_local; ++m) z[node] += share * value[m] * amplitudes_[function[m]];
     });
   }
 
  private:
   std::vector<Vector> places() const {
     std::vector<Vector> places;
-    places.reserve(as_size(unknowns_.n_nodes()));
+    places.reserve(unknowns_.n_nodes());
     for (Index c = 0; c < mesh_.n_cells(); ++c) places.push_back(mesh_.cell_centre[c]);
     for (const Index f : unknowns_.face_of_node) places.push_back(mesh_.face_centre[f]);
     return places;
@@ -91,10 +90,10 @@ class SplineSpace {
         grid_.n_boxes(),
         [&](Index begin, Index end) {
           for (Index box = begin; box < end; ++box) {
-            auto& sums = of_box_[as_size(box)];
+            auto& sums = of_box_[box];
             sums.fill(Vector::Zero());
-            for (Index k = nodes_.offsets[as_size(box)]; k < nodes_.offsets[as_size(box) + 1]; ++k) {
-              const auto node = as_size(nodes_.items[as_size(k)]);
+            for (Index k = nodes_.offsets[box]; k < nodes_.offsets[box + 1]; ++k) {
+              const std::size_t node = nodes_.items[k];
               const auto value = grid_.values(box, places_[node]);
               for (std::size_t m = 0; m < n_local; ++m) sums[m] += value[m] * r[node];
             }
@@ -104,7 +103,7 @@ class SplineSpace {
     std::ranges::fill(forces_, Vector::Zero());
     for (Index box = 0; box < grid_.n_boxes(); ++box) {
       const auto function = grid_.functions_of(box);
-      for (std::size_t m = 0; m < n_local; ++m) forces_[as_size(function[m])] += of_box_[as_size(box)][m];
+      for (std::size_t m = 0; m < n_local; ++m) forces_[function[m]] += of_box_[box][m];
     }
   }
 
@@ -133,7 +132,7 @@ class SplineSpace {
 
   // What holds a face pulls at its cell.
   void add_held(Index box, Index node, const CellField<IsotropicElasticity>& moduli, BoxMatrix& matrix) const {
-    const auto k = as_size(node - unknowns_.n_cells);
+    const std::size_t k = node - unknowns_.n_cells;
     const Index f = unknowns_.face_of_node[k], cell = mesh_.owner[f];
     const Tensor held = Tensor::Identity() - unknowns_.free_directions[k];
     if (held.isZero() || mesh_.is_interior(f)) return;
@@ -141,22 +140,22 @@ class SplineSpace {
     const double h = std::abs((mesh_.face_centre[f] - mesh_.cell_centre[cell]).dot(n)), A = mesh_.face_area[f].norm();
     const IsotropicElasticity& C = moduli[cell];
     const Tensor pull = A / h * held * (C.mu * Tensor::Identity() + (C.lambda + C.mu) * n * n.transpose()) * held;
-    const auto value = grid_.values(box, places_[as_size(node)]);
+    const auto value = grid_.values(box, places_[node]);
     for (std::size_t j = 0, at = 0; j < n_local; ++j)
       for (std::size_t i = 0; i <= j; ++i, ++at) matrix[at] += value[i] * value[j] * pull;
   }
 
   BlockTriplets stiffness() const {
     const CellField<IsotropicElasticity> C = moduli();
-    std::vector<BoxMatrix> of_box(as_size(grid_.n_boxes()));
+    std::vector<BoxMatrix> of_box(grid_.n_boxes());
     parallel_chunks(
         grid_.n_boxes(),
         [&](Index begin, Index end) {
           for (Index box = begin; box < end; ++box) {
-            BoxMatrix& matrix = of_box[as_size(box)];
+            BoxMatrix& matrix = of_box[box];
             matrix.fill(Tensor::Zero());
-            for (Index k = nodes_.offsets[as_size(box)]; k < nodes_.offsets[as_size(box) + 1]; ++k) {
-              const Index node = nodes_.items[as_size(k)];
+            for (Index k = nodes_.offsets[box]; k < nodes_.offsets[box + 1]; ++k) {
+              const Index node = nodes_.items[k];
               if (node < unknowns_.n_cells)
                 add_strains(box, node, C[node], matrix);
               else
@@ -170,18 +169,18 @@ class SplineSpace {
 
   BlockTriplets assembled(const std::vector<BoxMatrix>& of_box) const {
     BlockTriplets matrix;
-    matrix.diagonal.assign(as_size(grid_.n_functions()), Tensor::Zero());
+    matrix.diagonal.assign(grid_.n_functions(), Tensor::Zero());
     std::vector<std::vector<BlockTriplets::Entry>> rows(matrix.diagonal.size());
     for (Index box = 0; box < grid_.n_boxes(); ++box) {
       const auto function = grid_.functions_of(box);
       for (std::size_t j = 0, at = 0; j < n_local; ++j)
         for (std::size_t i = 0; i <= j; ++i, ++at) {
-          const Tensor& block = of_box[as_size(box)][at];
+          const Tensor& block = of_box[box][at];
           if (i == j) {
-            matrix.diagonal[as_size(function[i])] += block;
+            matrix.diagonal[function[i]] += block;
             continue;
           }
-          auto& row = rows[as_size(function[i])];
+          auto& row = rows[function[i]];
           const auto found = std::ranges::find(row, function[j], &BlockTriplets::Entry::column);
           if (found != row.end())
             found->value += block;

@@ -26,10 +26,10 @@ constexpr Index most_factored = 10000;  // cells
 class Step {
  public:
   Step(const Mesh& mesh, const HeatedMaterial& material, std::vector<DiffusionBoundary> boundary, double dt)
-      : field_(as_size(mesh.n_cells()), 0.0), dt_(dt) {
+      : field_(mesh.n_cells(), 0.0), dt_(dt) {
     constexpr double precision = 1e-11;
-    const CellField<double> conductivity(as_size(mesh.n_cells()), material.conductivity),
-        capacity(as_size(mesh.n_cells()), material.capacity);
+    const CellField<double> conductivity(mesh.n_cells(), material.conductivity),
+        capacity(mesh.n_cells(), material.capacity);
     if (mesh.n_cells() <= most_factored) {
       factored_.emplace(mesh, conductivity, capacity, std::move(boundary), dt, precision);
       return;
@@ -77,7 +77,7 @@ std::vector<SurfaceTemperature> surface_under_steady_source(const Mesh& mesh, co
   body.step(dt);
   const VectorXd first = as_vector(body.rise());
   const double norm = first.norm();
-  std::vector<SurfaceTemperature> surface(static_cast<std::size_t>(n));
+  std::vector<SurfaceTemperature> surface(n);
   Step step(mesh, material, boundary, dt);
   const auto most = static_cast<Eigen::Index>(n);
   MatrixXd V(first.size(), 0), H = MatrixXd::Zero(most + 1, most), weights;
@@ -106,11 +106,11 @@ std::vector<SurfaceTemperature> surface_under_steady_source(const Mesh& mesh, co
     V.conservativeResize(Eigen::NoChange, m + 1);
     V.col(m) = next / rest;
   }
-  CellField<double> rise(as_size(mesh.n_cells()), 0.0);
+  CellField<double> rise(mesh.n_cells(), 0.0);
   for (Eigen::Index k = 0; k < weights.cols(); ++k) {
     const VectorXd there = V.leftCols(weights.rows()) * weights.col(k);
     for (Index c = 0; c < rise.size(); ++c) rise[c] = there[c];
-    surface[static_cast<std::size_t>(k)] = body.surface(patch, rise);
+    surface[k] = body.surface(patch, rise);
   }
   return surface;
 }

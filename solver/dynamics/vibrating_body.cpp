@@ -19,14 +19,14 @@ Eigen::VectorXd masses(const Mesh& mesh, const Unknowns& unknowns, const std::ve
     if (!(rho > 0.0)) throw InputError(fmt::format("the density has to be positive, found {:.4g} kg/m^3", rho));
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(3 * Eigen::Index{unknowns.n_unknowns()});
   for (Index c = 0; c < mesh.n_cells(); ++c)
-    mass.segment<3>(3 * Eigen::Index{c}).setConstant(density[as_size(mesh.region[c])] * mesh.cell_volume[c]);
+    mass.segment<3>(3 * Eigen::Index{c}).setConstant(density[mesh.region[c]] * mesh.cell_volume[c]);
   return mass;
 }
 
 // Of a momentum balance or its solver.
 template <class Balance>
 void set_stiffness(const Mesh& mesh, const Unknowns& unknowns, Balance& balance) {
-  balance.set_moduli(unknowns.sound_moduli(), CellField<double>(as_size(mesh.n_cells()), 1.0));
+  balance.set_moduli(unknowns.sound_moduli(), CellField<double>(mesh.n_cells(), 1.0));
 }
 
 bool is_factored(const Mesh& mesh, const VibrationSettings& settings) {
@@ -72,7 +72,7 @@ Eigen::VectorXd VibratingBody::answer(Eigen::VectorXd force) const {
 
 Eigen::VectorXd VibratingBody::iterative_answer(const Eigen::VectorXd& force) const {
   std::vector<Vector> on_nodes = as_vectors(force), u(on_nodes.size(), Vector::Zero());
-  on_nodes.resize(as_size(unknowns_.n_nodes()));
+  on_nodes.resize(unknowns_.n_nodes());
   solver_->set_body_force(std::move(on_nodes));
   const Equilibrium done = solver_->solve(0.0, {.ceiling = settings_.tolerance, .floor = settings_.tolerance}, u);
   ++n_solutions_;
@@ -91,7 +91,7 @@ Eigen::VectorXd VibratingBody::rigid(const Vector& direction) const {
 }
 
 std::vector<Vector> as_vectors(const Eigen::VectorXd& u) {
-  std::vector<Vector> vectors(static_cast<std::size_t>(u.size() / 3));
+  std::vector<Vector> vectors(u.size() / 3);
   for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = u.segment<3>(3 * static_cast<Eigen::Index>(i));
   return vectors;
 }

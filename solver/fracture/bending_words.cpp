@@ -66,8 +66,8 @@ std::optional<std::string> bending_warning(const Mesh& mesh, const FractureModel
   return fmt::format(
       "region \"{}\": {:g} layer{} of hexahedra {} long across {}: where they bend, their stiffness is about {:.0f} % "
       "{}",
-      mesh.region_names[as_size(mesh.region[worst->cell])], at.n, at.n == 1.0 ? "" : "s",
-      quantity_text(at.length, "m", 3), quantity_text(at.thickness, "m", 3), 100.0 * std::abs(worst->error),
+      mesh.region_names[mesh.region[worst->cell]], at.n, at.n == 1.0 ? "" : "s", quantity_text(at.length, "m", 3),
+      quantity_text(at.thickness, "m", 3), 100.0 * std::abs(worst->error),
       words_on(*worst, why.empty() ? "one cell across" : why));
 }
 

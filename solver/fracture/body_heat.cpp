@@ -17,8 +17,8 @@ constexpr double cycle_rounding = 1e-9;  // of a cycle
 BodyHeat::BodyHeat(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal)
     : mesh_(mesh), model_(model) {
   if (!model.heat) return;
-  HeatBody body{.conductivity = CellField<double>(as_size(mesh.n_cells())),
-                .capacity = CellField<double>(as_size(mesh.n_cells())),
+  HeatBody body{.conductivity = CellField<double>(mesh.n_cells()),
+                .capacity = CellField<double>(mesh.n_cells()),
                 .boundary = model.heat->boundary,
                 .plane_normal = plane_normal};
   for (Index c = 0; c < mesh.n_cells(); ++c) {
@@ -35,7 +35,7 @@ HeatState BodyHeat::start(double duration) const {
   if (!any()) return {};
   std::size_t n_faces = 0;
   for (const CohesiveSurface& surface : model_.interfaces) n_faces += surface.faces.size();
-  const auto n = as_size(mesh_.n_cells());
+  const std::size_t n = mesh_.n_cells();
   return {.rise = CellField<double>(n, 0.0),
           .made = CellField<double>(n, 0.0),
           .cycle = {},
@@ -56,7 +56,7 @@ void BodyHeat::advance(const Staggered& staggered, const FractureState& from, do
   const std::vector<double> transmittance =
       this->transmittance(staggered.faces().parted(staggered.balance(), to.displacement, to.interfaces));
   equation_->set_transmittance(transmittance);
-  CellField<double> made(as_size(mesh_.n_cells()));
+  CellField<double> made(mesh_.n_cells());
   parallel_for(mesh_.n_cells(), [&](Index c) {
     made[c] = staggered.stiffness().plastic_dissipation(c, from, to) +
               staggered.damage_equation().viscous_dissipation(c, to.damage[c]);
@@ -82,7 +82,7 @@ void BodyHeat::end_cycle(double duration, HeatState& heat) const {
     const double whole = sum([&](Index c) { return std::abs(heat.made[c]); });
     heat.cycle_change = change > 0.0 ? change / whole : 0.0;
   }
-  heat.cycle = std::exchange(heat.made, CellField<double>(as_size(mesh_.n_cells()), 0.0));
+  heat.cycle = std::exchange(heat.made, CellField<double>(mesh_.n_cells(), 0.0));
   heat.cycle_transmittance = std::exchange(heat.transmitted, std::vector<double>(heat.transmitted.size(), 0.0));
   for (double& of_face : heat.cycle_transmittance) of_face /= duration;
 }
@@ -101,7 +101,7 @@ std::vector<HeatRow> BodyHeat::warm_by_cycles(const HeatState& heat, double time
   CellField<double> power = heat.cycle;
   for (double& q : power) q /= model_.heat->cycle * heat.duration;
   equation_->set_transmittance(heat.cycle_transmittance);
-  rise = CellField<double>(as_size(mesh_.n_cells()), 0.0);
+  rise = CellField<double>(mesh_.n_cells(), 0.0);
   return equation_->under_steady_source(power, time, n, rise);
 }
 

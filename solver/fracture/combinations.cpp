@@ -48,7 +48,7 @@ void require_path(const Mesh& mesh, const FractureModel& m, const Unknowns& unkn
         "dissipation control (loading.maximum_dissipation) requires a path of one point: mean strains and stresses "
         "proportional to t");
   for (const PatchCondition& on : unknowns.conditions) {
-    const Patch& patch = mesh.patches[as_size(on.patch)];
+    const Patch& patch = mesh.patches[on.patch];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
       if (!is_proportional(on.condition, mesh.face_centre[f], loading.end))
         throw InputError(
@@ -288,7 +288,7 @@ void require_heat(const Mesh& mesh, const FractureModel& m, const LoadingSetting
       throw InputError(fmt::format(
           "heat ([heat]) requires conductivity, specific_heat and density of each material; region \"{}\" has {} "
           "W/(m K), {} J/(kg K) and {} kg/m^3",
-          mesh.region_names[as_size(mesh.region[c])], region.conductivity, region.specific_heat, region.density));
+          mesh.region_names[mesh.region[c]], region.conductivity, region.specific_heat, region.density));
   }
 }
 

@@ -34,7 +34,7 @@ std::string most_distorted(const Mesh& mesh, const MomentumOperator& balance, co
   return fmt::format(
       "The cell at {} in region \"{}\" is distorted most: J = {:.3g}, principal stretches "
       "{:.3g}, {:.3g}, {:.3g}",
-      point_text(x, 4), mesh.region_names[as_size(mesh.region[worst])], F.determinant(), stretches[0], stretches[1],
+      point_text(x, 4), mesh.region_names[mesh.region[worst]], F.determinant(), stretches[0], stretches[1],
       stretches[2]);
 }
 
@@ -48,7 +48,7 @@ bool has_tractions(const Mesh& mesh, const FractureModel& model) {
       for (const double t : {0.5, 1.0}) {
         const Vector value = on.value(mesh.face_centre[f], t);
         for (std::size_t i = 0; i < 3; ++i)
-          if (!on.displacement_prescribed[i] && value[static_cast<Index>(i)] != 0.0) return true;
+          if (!on.displacement_prescribed[i] && value[i] != 0.0) return true;
       }
     return false;
   });

@@ -234,7 +234,7 @@ struct FractureRun::Parts {
   }
 
   void show_finite_strain(const CellMechanics& mechanics, const FractureState& state, OutputFields& fields) {
-    fields.deformation_gradient = CellField<Tensor>(as_size(mesh.n_cells()));
+    fields.deformation_gradient = CellField<Tensor>(mesh.n_cells());
     parallel_for(mesh.n_cells(), [&](Index c) {
       const Tensor F = Tensor::Identity() + staggered.stiffness().thinned_gradient(c, mechanics, state);
       fields.deformation_gradient[c] = F;
@@ -247,7 +247,7 @@ struct FractureRun::Parts {
     std::vector<Vector> sums(mesh.patches.size(), Vector::Zero());
     for (std::size_t p = 0; p < mesh.patches.size(); ++p)
       for (Index f = 0; f < mesh.patches[p].n_faces; ++f)
-        sums[p] += boundary_force[as_size(mesh.patches[p].first_face + f - mesh.n_interior_faces())];
+        sums[p] += boundary_force[mesh.patches[p].first_face + f - mesh.n_interior_faces()];
     return sums;
   }
 };
@@ -262,16 +262,16 @@ FractureRun::FractureRun(Mesh&& mesh, FractureModel model, StaggeredSettings sta
 FractureRun::~FractureRun() = default;
 
 FractureState FractureRun::initial_state() const {
-  const auto n = as_size(parts_->mesh.n_cells());
+  const std::size_t n = parts_->mesh.n_cells();
   FractureState state;
   state.increment = parts_->loading.initial_increment;
-  state.displacement.assign(as_size(parts_->unknowns.n_unknowns()), Vector::Zero());
+  state.displacement.assign(parts_->unknowns.n_unknowns(), Vector::Zero());
   state.damage = parts_->model.initial_damage.size() > 0 ? parts_->model.initial_damage : CellField<double>(n, 0.0);
   state.driving_energy = CellField<double>(n, 0.0);
   state.closure = CellField<double>(n, 0.0);
   state.histories = parts_->staggered.stiffness().materials().virgin_histories();
   state.interfaces = parts_->staggered.faces().virgin_histories();
-  state.boundary_force.assign(as_size(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces()), Vector::Zero());
+  state.boundary_force.assign(parts_->mesh.n_faces() - parts_->mesh.n_interior_faces(), Vector::Zero());
   state.heat = parts_->heat.start(parts_->loading.duration);
   return state;
 }
@@ -311,7 +311,7 @@ OutputFields FractureRun::output(const FractureState& state) {
   staggered.degrade(state);
   const CellMechanics mechanics = staggered.momentum().balance().mechanics(state.displacement);
   const Mesh& mesh = parts_->mesh;
-  CellField<double> density(as_size(mesh.n_cells()));
+  CellField<double> density(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c)
     density[c] = staggered.stiffness().stored_energy(c, mechanics, state) / mesh.cell_volume[c];
   OutputFields fields{.displacement = CellField<Vector>(

@@ -85,7 +85,7 @@ std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model)
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const RegionModel& region = model.in_cell(mesh, c);
     if (!region.damageable) continue;
-    Sizes& of_region = sizes[as_size(mesh.region[c])];
+    Sizes& of_region = sizes[mesh.region[c]];
     if (const double h = thickness(mesh, c); h / region.ell > of_region.thickness / of_region.ell)
       of_region.thickness = h, of_region.ell = region.ell;
     of_region.n_too_thick += is_too_thick(thickness(mesh, c), region.ell) ? 1 : 0;
@@ -188,7 +188,7 @@ ResolutionWords resolution_words(const Mesh& mesh, const FractureModel& model, s
     add_words_on_strength(mesh.region_names[r], model.regions[r], words);
   }
   for (const Band& band : bands) {
-    const auto r = as_size(mesh.region_index(band.region));
+    const std::size_t r = mesh.region_index(band.region);
     if (model.regions[r].damageable)
       add_words_on_band(band, sizes[r], model, model.regions[r].ell, corrects_toughness, words);
   }
@@ -209,7 +209,7 @@ std::vector<std::string> CoarseCells::look(const CellField<double>& damage) {
   constexpr double cracked = 0.5;
   std::vector<std::string> warnings;
   for (const Index c : cells_) {
-    const auto r = as_size(mesh_.region[c]);
+    const std::size_t r = mesh_.region[c];
     if (told_[r] || !(damage[c] > cracked)) continue;
     told_[r] = true;
     const Vector x = without_rounding(mesh_.cell_centre[c]);
@@ -253,7 +253,7 @@ void CoarseCells::look_at_neighbours(const CellField<double>& damage, std::vecto
     const Index one = mesh_.owner[f], other = mesh_.neighbour[f];
     const RegionModel &here = model_.in_cell(mesh_, one), &there = model_.in_cell(mesh_, other);
     const double ell = std::min(here.ell, there.ell);
-    const auto r = as_size(mesh_.region[damage[one] > damage[other] ? one : other]);
+    const std::size_t r = mesh_.region[damage[one] > damage[other] ? one : other];
     if (told_[r] || !here.damageable || !there.damageable || !(spacing(f) > largest_drop * ell)) continue;
     if (!is_steepest(f, one) || !is_steepest(f, other)) continue;
     if (!(spacing(f) > widest_in_ell * ell) && !is_narrow(damage[one] > damage[other] ? one : other, f, damage))
@@ -279,7 +279,7 @@ std::string direction_remark(const Mesh& mesh, const FractureModel& model) {
   std::vector<Hexahedra> regions(model.regions.size());
   const auto is_interior = [&](Index f) { return mesh.is_interior(f); };
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    Hexahedra& region = regions[as_size(mesh.region[c])];
+    Hexahedra& region = regions[mesh.region[c]];
     ++region.n_cells;
     if (!model.in_cell(mesh, c).damageable || mesh.shape[c] != CellShape::hexahedron) continue;
     if (std::ranges::count_if(mesh.faces_of_cell(c), is_interior) < in_a_plane) continue;

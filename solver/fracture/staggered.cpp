@@ -31,7 +31,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
       way_(stiffness_.descends() ? Relaxation::Way::momentum : Relaxation::Way::secant),
       has_newton_(way_ == Relaxation::Way::momentum && !stiffness_.depends_on_strain() && !faces_.any() &&
                   !model.has_eigenstrain() && CoupledNewton::suits(mesh, unknowns)),
-      psi_plus_(as_size(mesh.n_cells())) {}
+      psi_plus_(mesh.n_cells()) {}
 
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
                                   const IterationWatch& watch) {
@@ -98,14 +98,13 @@ double Staggered::work(const FractureState& from, double t, const std::vector<Ve
   for (Index f = mesh_.n_interior_faces(); f < mesh_.n_faces(); ++f) {
     const Index node = unknowns_.node_of_face[f];
     if (node < 0) continue;
-    const auto k = as_size(f - mesh_.n_interior_faces());
-    work +=
-        0.5 * (from.boundary_force[k] + force[k]).dot(displacement[as_size(node)] - from.displacement[as_size(node)]);
+    const std::size_t k = f - mesh_.n_interior_faces();
+    work += 0.5 * (from.boundary_force[k] + force[k]).dot(displacement[node] - from.displacement[node]);
   }
   if (const auto& body = unknowns_.loads.force)
     work += parallel_sum(mesh_.n_cells(), [&](Index c) {
       const Vector before = from.step > 0 ? body(mesh_, c, from.load) : Vector::Zero();
-      const Vector moved = displacement[as_size(c)] - from.displacement[as_size(c)];
+      const Vector moved = displacement[c] - from.displacement[c];
       return 0.5 * mesh_.cell_volume[c] * (before + body(mesh_, c, t)).dot(moved);
     });
   return work;
@@ -192,7 +191,7 @@ StrengthDrive Staggered::strength_drive_of(const FractureState& state) {
 double Staggered::drive(const FractureState& start, FractureState& state, double scale) {
   const bool history = model_.irreversibility == Irreversibility::history;
   if (strength_.force.size() > 0) {
-    CellField<double> force(as_size(mesh_.n_cells()));
+    CellField<double> force(mesh_.n_cells());
     parallel_for(mesh_.n_cells(), [&](Index c) { force[c] = scale * strength_.force[c]; });
     damage_.set_driving_force(std::move(force));
   }
@@ -212,7 +211,7 @@ ResidualShare Staggered::residual_share(const FractureState& state, const Energi
   constexpr double falls = 3.0;
   double prescribed = 0.0;
   for (std::size_t k = 0; k < unknowns_.face_of_node.size(); ++k) {
-    const Vector& u = state.displacement[as_size(unknowns_.n_cells) + k];
+    const Vector& u = state.displacement[unknowns_.n_cells + k];
     prescribed = std::max(prescribed, (u - unknowns_.free_directions[k] * u).norm());
   }
   for (std::size_t i = 0; i < force.size(); ++i) {

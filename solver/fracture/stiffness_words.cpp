@@ -40,7 +40,7 @@ std::optional<std::string> of_volume(const Mesh& mesh, const FractureModel& mode
       "region \"{}\" is nearly incompressible (nu = {:.5g}), and {} cells have no pressure unknown {}: where it is "
       "confined the body is too stiff (a bonded disc of hexahedra by 0.5 % at nu = 0.49, by 20 % at 0.4997); compare a "
       "finer mesh, or lower materials.NAME.poisson_ratio",
-      mesh.region_names[as_size(mesh.region[worst])], most, n_without, why_without(model, model.in_cell(mesh, worst)));
+      mesh.region_names[mesh.region[worst]], most, n_without, why_without(model, model.in_cell(mesh, worst)));
 }
 
 // Where gaps do not relax, they meet the instantaneous moduli, however far the body has relaxed.

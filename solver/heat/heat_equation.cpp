@@ -19,7 +19,7 @@ constexpr double precision = 1e-10;            // of a stage's rises, relative
 }  // namespace
 
 HeatEquation::HeatEquation(const Mesh& mesh, HeatBody body)
-    : mesh_(mesh), body_(std::move(body)), source_(as_size(mesh.n_cells()), 0.0) {
+    : mesh_(mesh), body_(std::move(body)), source_(mesh.n_cells(), 0.0) {
   for (std::size_t k = 0; k < body_.interfaces.size(); ++k)
     transmittance_.push_back(transmittance(k, std::numeric_limits<double>::infinity()));
   build();
@@ -56,7 +56,7 @@ void HeatEquation::build() {
       .plane_normal = body_.plane_normal,
       .precision = precision,
   };
-  if (!body_.interfaces.empty()) problem.resistance = FaceField<double>(as_size(mesh_.n_faces()), 0.0);
+  if (!body_.interfaces.empty()) problem.resistance = FaceField<double>(mesh_.n_faces(), 0.0);
   constexpr double rounding = 1e-12;
   for (std::size_t k = 0; k < body_.interfaces.size(); ++k) {
     const double whole = 1.0 / transmittance_[k], own = whole - resistance_beside(k);

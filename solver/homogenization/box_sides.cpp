@@ -110,7 +110,7 @@ std::vector<PeriodicFaces> match_opposite_sides(const Mesh& mesh, const BoxSides
   std::vector<PeriodicFaces> pairs;
   const double alike = side_tolerance * (sides.upper - sides.lower).minCoeff();
   for (int axis = 0; axis < 3; ++axis) {
-    const std::vector<Index>&low = sides.faces[as_size(2 * axis)], &high = sides.faces[as_size(2 * axis + 1)];
+    const std::vector<Index>&low = sides.faces[2 * axis], &high = sides.faces[2 * axis + 1];
     const FacesByPlace places(mesh, high, axis, alike);
     for (const Index face : low) {
       const Index image = places.find(mesh.face_centre[face]);
@@ -121,8 +121,8 @@ std::vector<PeriodicFaces> match_opposite_sides(const Mesh& mesh, const BoxSides
             "the faces of {} and {} do not match: that of {} at ({:.4g}, {:.4g}, {:.4g}) m has no translate on the "
             "other side; periodic boundary conditions need a mesh whose opposite sides are cut alike, the others do "
             "not",
-            side_names[as_size(2 * axis)], side_names[as_size(2 * axis + 1)], side_names[as_size(2 * axis)],
-            mesh.face_centre[face][0], mesh.face_centre[face][1], mesh.face_centre[face][2]));
+            side_names[2 * axis], side_names[2 * axis + 1], side_names[2 * axis], mesh.face_centre[face][0],
+            mesh.face_centre[face][1], mesh.face_centre[face][2]));
       pairs.push_back({face, image});
     }
   }

@@ -41,8 +41,8 @@ ElasticBody body_of(const Mesh& mesh, const LinearComposite& composite, const Bo
 
 CellField<IsotropicElasticity> moduli_of(const Mesh& mesh, const LinearComposite& composite) {
   if (composite.cells.size() > 0) return composite.cells;
-  CellField<IsotropicElasticity> moduli(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) moduli[c] = composite.elasticity[as_size(mesh.region[c])];
+  CellField<IsotropicElasticity> moduli(mesh.n_cells());
+  for (Index c = 0; c < mesh.n_cells(); ++c) moduli[c] = composite.elasticity[mesh.region[c]];
   return moduli;
 }
 
@@ -56,7 +56,7 @@ class BoxInLoadCases {
         unknowns_(place_unknowns(mesh, body_of(mesh, composite, sides_, loading_))),
         moduli_(moduli_of(mesh, composite)),
         solver_(mesh, unknowns_, settings.linear) {
-    solver_.set_moduli(moduli_, CellField<double>(as_size(mesh.n_cells()), 1.0));
+    solver_.set_moduli(moduli_, CellField<double>(mesh.n_cells(), 1.0));
   }
 
   LoadCase solve(std::size_t k);
@@ -83,17 +83,16 @@ class BoxInLoadCases {
 
 // Unit stress; the supports carry what falls on them.
 std::vector<Vector> BoxInLoadCases::forces_on_sides(std::size_t k) const {
-  std::vector<Vector> force(as_size(unknowns_.n_nodes()), Vector::Zero());
+  std::vector<Vector> force(unknowns_.n_nodes(), Vector::Zero());
   for (const Index face : sides_.all()) {
     const Index node = unknowns_.node_of_face[face];
-    force[as_size(node)] =
-        unknowns_.free_directions[as_size(node - unknowns_.n_cells)] * (unit(k) * mesh_.face_area[face]);
+    force[node] = unknowns_.free_directions[node - unknowns_.n_cells] * (unit(k) * mesh_.face_area[face]);
   }
   return force;
 }
 
 std::vector<Vector> BoxInLoadCases::first_guess(std::size_t k) const {
-  if (loading_.by_traction) return std::vector<Vector>(as_size(unknowns_.n_unknowns()), Vector::Zero());
+  if (loading_.by_traction) return std::vector<Vector>(unknowns_.n_unknowns(), Vector::Zero());
   return unknowns_.moved_with_box(mesh_, static_cast<double>(k));
 }
 
@@ -127,7 +126,7 @@ void BoxInLoadCases::average(const std::vector<Vector>& u, LoadCase& result) con
 std::vector<double> BoxInLoadCases::energies(const std::vector<Vector>& u) const {
   const CellMechanics cells = solver_.balance().mechanics(u, MomentumOperator::Wanted::without_gradient);
   std::vector<double> sum(mesh_.region_names.size(), 0.0);
-  for (Index c = 0; c < mesh_.n_cells(); ++c) sum[as_size(mesh_.region[c])] += cells.energy[c];
+  for (Index c = 0; c < mesh_.n_cells(); ++c) sum[mesh_.region[c]] += cells.energy[c];
   return sum;
 }
 
@@ -191,13 +190,12 @@ Homogenized homogenize(const Mesh& mesh, const LinearComposite& composite, const
   result.volume = box.volume();
   result.n_unknowns = box.n_unknowns();
   result.fraction.assign(mesh.region_names.size(), 0.0);
-  for (Index c = 0; c < mesh.n_cells(); ++c)
-    result.fraction[as_size(mesh.region[c])] += mesh.cell_volume[c] / result.volume;
+  for (Index c = 0; c < mesh.n_cells(); ++c) result.fraction[mesh.region[c]] += mesh.cell_volume[c] / result.volume;
   MandelMatrix stresses, strains;
   for (std::size_t k = 0; k < 6; ++k) {
     LoadCase& one = result.cases[k] = box.solve(k);
-    stresses.col(static_cast<Index>(k)) = one.stress;
-    strains.col(static_cast<Index>(k)) = one.strain;
+    stresses.col(k) = one.stress;
+    strains.col(k) = one.strain;
     if (solved) solved(k, one);
   }
   const MandelMatrix by_strain = strains.inverse(), C = stresses * by_strain;

@@ -57,7 +57,7 @@ struct BlockMatrix {
   std::vector<Block> inverse_diagonal;
   std::vector<Block> row_sum;  ///< diagonal and blocks together
 
-  Index n_rows() const { return static_cast<Index>(diagonal.size()); }
+  Index n_rows() const { return count_of(diagonal); }
 };
 
 }  // namespace pfdm

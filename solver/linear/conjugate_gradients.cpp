@@ -14,26 +14,25 @@ constexpr Index factor_block = 8192;  // rows that one incomplete factorisation 
 
 }  // namespace
 
-SymmetricCoupling::SymmetricCoupling(Index n, std::span<const Pair> pairs)
-    : rows_(as_size(n)), total_(as_size(n), 0.0) {
-  std::vector<std::vector<std::pair<Index, double>>> across(as_size(n));
+SymmetricCoupling::SymmetricCoupling(Index n, std::span<const Pair> pairs) : rows_(n), total_(n, 0.0) {
+  std::vector<std::vector<std::pair<Index, double>>> across(n);
   for (const Pair& pair : pairs) {
-    across[as_size(pair.i)].emplace_back(pair.j, pair.coefficient);
-    across[as_size(pair.j)].emplace_back(pair.i, pair.coefficient);
+    across[pair.i].emplace_back(pair.j, pair.coefficient);
+    across[pair.j].emplace_back(pair.i, pair.coefficient);
   }
   columns_.reserve(2 * pairs.size());
   coefficients_.reserve(2 * pairs.size());
   for (Index i = 0; i < n; ++i) {
-    auto& entries = across[as_size(i)];
+    auto& entries = across[i];
     std::sort(entries.begin(), entries.end());
     const Index block_begin = i / factor_block * factor_block, block_end = block_begin + factor_block;
-    Row& row = rows_[as_size(i)];
+    Row& row = rows_[i];
     const auto reached = [this] { return static_cast<std::int32_t>(columns_.size()); };
     row.begin = row.below = row.diagonal = row.above = reached();
     for (const auto& [column, coefficient] : entries) {
       columns_.push_back(static_cast<std::int32_t>(column));
       coefficients_.push_back(coefficient);
-      total_[as_size(i)] += coefficient;
+      total_[i] += coefficient;
       if (column < block_begin) row.below = reached();
       if (column < i) row.diagonal = reached();
       if (column < block_end) row.above = reached();
@@ -50,14 +49,13 @@ void ConjugateGradients::factor(const std::vector<double>& diagonal, const Held&
       coupling_.n(),
       [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
-          if (held[as_size(i)] != 0) continue;
-          const auto& row = coupling_.rows_[as_size(i)];
+          if (held[i] != 0) continue;
+          const auto& row = coupling_.rows_[i];
           for (auto k = row.below; k < row.diagonal; ++k)
-            if (const auto j = as_size(columns[as_size(k)]); held[j] == 0)
-              pivots_[as_size(i)] -= coefficients[as_size(k)] * coefficients[as_size(k)] / pivots_[j];
+            if (const std::size_t j = columns[k]; held[j] == 0)
+              pivots_[i] -= coefficients[k] * coefficients[k] / pivots_[j];
         }
-        for (Index i = begin; i < end; ++i)
-          pivots_[as_size(i)] = held[as_size(i)] != 0 ? 0.0 : 1.0 / pivots_[as_size(i)];
+        for (Index i = begin; i < end; ++i) pivots_[i] = held[i] != 0 ? 0.0 : 1.0 / pivots_[i];
       },
       factor_block);
 }
@@ -66,25 +64,23 @@ void ConjugateGradients::factor(const std::vector<double>& diagonal, const Held&
 double ConjugateGradients::precondition(const std::vector<double>& r, std::vector<double>& z) const {
   const auto& coefficients = coupling_.coefficients_;
   const auto& columns = coupling_.columns_;
-  std::vector<double> products(as_size(coupling_.n() / factor_block + 1), 0.0);
+  std::vector<double> products(coupling_.n() / factor_block + 1, 0.0);
   parallel_chunks(
       coupling_.n(),
       [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
-          const auto& row = coupling_.rows_[as_size(i)];
-          double sum = r[as_size(i)];
-          for (auto k = row.below; k < row.diagonal; ++k)
-            sum += coefficients[as_size(k)] * z[as_size(columns[as_size(k)])];
-          z[as_size(i)] = sum * pivots_[as_size(i)];
+          const auto& row = coupling_.rows_[i];
+          double sum = r[i];
+          for (auto k = row.below; k < row.diagonal; ++k) sum += coefficients[k] * z[columns[k]];
+          z[i] = sum * pivots_[i];
         }
         double product = 0.0;
         for (Index i = end - 1; i >= begin; --i) {
-          const auto& row = coupling_.rows_[as_size(i)];
+          const auto& row = coupling_.rows_[i];
           double sum = 0.0;
-          for (auto k = row.diagonal; k < row.above; ++k)
-            sum += coefficients[as_size(k)] * z[as_size(columns[as_size(k)])];
-          z[as_size(i)] += sum * pivots_[as_size(i)];
-          product += r[as_size(i)] * z[as_size(i)];
+          for (auto k = row.diagonal; k < row.above; ++k) sum += coefficients[k] * z[columns[k]];
+          z[i] += sum * pivots_[i];
+          product += r[i] * z[i];
         }
         products[as_size(begin / factor_block)] = product;
       },
@@ -95,28 +91,28 @@ double ConjugateGradients::precondition(const std::vector<double>& r, std::vecto
 Index ConjugateGradients::solve(const std::vector<double>& diagonal, const Held& held, const Tolerance& tolerance,
                                 std::vector<double>& r, std::vector<double>& x) {
   const Index n = coupling_.n();
-  double largest = parallel_max(n, [&](Index i) { return std::abs(r[as_size(i)]) / diagonal[as_size(i)]; });
+  double largest = parallel_max(n, [&](Index i) { return std::abs(r[i]) / diagonal[i]; });
   const double target = std::max(tolerance.least, tolerance.reduction * largest);
   if (largest <= tolerance.least) return 0;
   factor(diagonal, held);
-  std::vector<double> z(as_size(n)), p(as_size(n), 0.0), q(as_size(n), 0.0);
+  std::vector<double> z(n), p(n, 0.0), q(n, 0.0);
   double rho_before = 0.0;
   Index iterations = 0;
   for (; iterations < tolerance.most_iterations && largest > target; ++iterations) {
     const double rho = precondition(r, z);
     const double beta = iterations == 0 ? 0.0 : rho / rho_before;
     rho_before = rho;
-    parallel_for(n, [&](Index i) { p[as_size(i)] = z[as_size(i)] + beta * p[as_size(i)]; });
+    parallel_for(n, [&](Index i) { p[i] = z[i] + beta * p[i]; });
     const double curvature = parallel_sum(n, [&](Index i) {
-      if (held[as_size(i)] != 0) return 0.0;
-      q[as_size(i)] = diagonal[as_size(i)] * p[as_size(i)] - coupling_.times(i, p.data());
-      return p[as_size(i)] * q[as_size(i)];
+      if (held[i] != 0) return 0.0;
+      q[i] = diagonal[i] * p[i] - coupling_.times(i, p.data());
+      return p[i] * q[i];
     });
     const double alpha = rho / curvature;
     largest = parallel_max(n, [&](Index i) {
-      x[as_size(i)] += alpha * p[as_size(i)];
-      r[as_size(i)] -= alpha * q[as_size(i)];
-      return std::abs(r[as_size(i)]) / diagonal[as_size(i)];
+      x[i] += alpha * p[i];
+      r[i] -= alpha * q[i];
+      return std::abs(r[i]) / diagonal[i];
     });
   }
   return iterations;

@@ -24,18 +24,18 @@ class SymmetricCoupling {
   };
   SymmetricCoupling(Index n, std::span<const Pair> pairs);
 
-  Index n() const { return static_cast<Index>(rows_.size()); }
-  double total(Index row) const { return total_[as_size(row)]; }  ///< sum of c_ij over j
+  Index n() const { return count_of(rows_); }
+  double total(Index row) const { return total_[row]; }  ///< sum of c_ij over j
   /// Sum of c_ij x_j over j.
   double times(Index row, const double* x) const {
-    const Row& r = rows_[as_size(row)];
+    const Row& r = rows_[row];
     double sum = 0.0;
-    for (auto k = r.begin; k < r.end; ++k) sum += coefficients_[as_size(k)] * x[columns_[as_size(k)]];
+    for (auto k = r.begin; k < r.end; ++k) sum += coefficients_[k] * x[columns_[k]];
     return sum;
   }
   /// The j of a row, ascending.
   std::span<const std::int32_t> columns(Index row) const {
-    const Row& r = rows_[as_size(row)];
+    const Row& r = rows_[row];
     return {columns_.data() + r.begin, columns_.data() + r.end};
   }
 

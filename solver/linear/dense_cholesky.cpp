@@ -54,11 +54,11 @@ void DenseCholesky::reduce_behind(Index first, Index end) {
 
 void DenseCholesky::solve(std::vector<double>& b) const {
   for (Index k = 0; k < n_; ++k) {
-    b[as_size(k)] /= column(k)[k];
-    subtract(b[as_size(k)], column(k), b.data(), k + 1, n_);
+    b[k] /= column(k)[k];
+    subtract(b[k], column(k), b.data(), k + 1, n_);
   }
   for (Index k = n_ - 1; k >= 0; --k)
-    b[as_size(k)] = (b[as_size(k)] - ordered_dot(column(k) + k + 1, b.data() + k + 1, n_ - k - 1)) / column(k)[k];
+    b[k] = (b[k] - ordered_dot(column(k) + k + 1, b.data() + k + 1, n_ - k - 1)) / column(k)[k];
 }
 
 }  // namespace pfdm

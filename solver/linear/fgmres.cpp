@@ -29,27 +29,26 @@ struct Basis {
 
   // Projections of `image` on v_0 ... v_{k-1}, in one pass.
   Eigen::VectorXd project(Index k) const {
-    return parallel_sum<Eigen::VectorXd>(
-        (size + block - 1) / block,
-        [&](Index b) {
-          Eigen::VectorXd sum = Eigen::VectorXd::Zero(k);
-          const Index from = b * block, length = std::min(block, size - from);
-          const Eigen::Map<const Eigen::VectorXd> w(image[as_size(from)].data(), 3 * length);
-          const Stretch rounded = w.cast<Real>();
-          for (Index j = 0; j < k; ++j)
-            sum[j] = ordered_dot(v[as_size(j)][as_size(from)].data(), rounded.data(), 3 * length);
-          return sum;
-        },
-        Eigen::VectorXd::Zero(k), blocks_per_task);
+    return parallel_sum<Eigen::VectorXd>((size + block - 1) / block,
+                                         [&](Index b) {
+                                           Eigen::VectorXd sum = Eigen::VectorXd::Zero(k);
+                                           const Index from = b * block, length = std::min(block, size - from);
+                                           const Eigen::Map<const Eigen::VectorXd> w(image[from].data(), 3 * length);
+                                           const Stretch rounded = w.cast<Real>();
+                                           for (Index j = 0; j < k; ++j)
+                                             sum[j] = ordered_dot(v[j][from].data(), rounded.data(), 3 * length);
+                                           return sum;
+                                         },
+                                         Eigen::VectorXd::Zero(k), blocks_per_task);
   }
 
   // image -= sum_j h_j v_j; returns its squared norm.
   double subtract(const Eigen::VectorXd& h) {
     const auto subtract_block = [&](Index b) {
       const Index from = b * block, length = std::min(block, size - from);
-      Eigen::Map<Eigen::VectorXd> w(image[as_size(from)].data(), 3 * length);
+      Eigen::Map<Eigen::VectorXd> w(image[from].data(), 3 * length);
       for (Index j = 0; j < h.size(); ++j)
-        w -= h[j] * Eigen::Map<const Stretch>(v[as_size(j)][as_size(from)].data(), 3 * length).template cast<double>();
+        w -= h[j] * Eigen::Map<const Stretch>(v[j][from].data(), 3 * length).template cast<double>();
       return ordered_dot(w.data(), w.data(), 3 * length);
     };
     return parallel_sum((size + block - 1) / block, subtract_block, 0.0, blocks_per_task);
@@ -71,7 +70,7 @@ struct Hessenberg {
   void append(Index k, const Eigen::VectorXd& column, double below) {
     R.col(k).head(k + 1) = column;
     R(k + 1, k) = below;
-    for (Index j = 0; j < k; ++j) R.col(k).applyOnTheLeft(j, j + 1, rotations[as_size(j)].adjoint());
+    for (Index j = 0; j < k; ++j) R.col(k).applyOnTheLeft(j, j + 1, rotations[j].adjoint());
     Eigen::JacobiRotation<double> rotation;
     rotation.makeGivens(R(k, k), R(k + 1, k));
     R.col(k).applyOnTheLeft(k, k + 1, rotation.adjoint());
@@ -84,30 +83,26 @@ template <class Real>
 double start(const KrylovProblem& problem, const std::vector<Vector>& b, const std::vector<Vector>& x,
              Basis<Real>& basis) {
   problem.apply(x, basis.image);
-  parallel_for(basis.size, [&](Index i) {
-    basis.image[as_size(i)] = problem.scale[as_size(i)] * (b[as_size(i)] - basis.image[as_size(i)]);
-  });
-  return std::sqrt(parallel_sum(basis.size, [&](Index i) { return basis.image[as_size(i)].squaredNorm(); }));
+  parallel_for(basis.size, [&](Index i) { basis.image[i] = problem.scale[i] * (b[i] - basis.image[i]); });
+  return std::sqrt(parallel_sum(basis.size, [&](Index i) { return basis.image[i].squaredNorm(); }));
 }
 
 // One Arnoldi step; returns h_{k+1,k}.
 template <class Real>
 double extend(const KrylovProblem& problem, Basis<Real>& basis, Index k, Eigen::VectorXd& h) {
-  const auto n = as_size(basis.size);
-  parallel_for(basis.size, [&](Index i) {
-    basis.image[as_size(i)] = basis.v[as_size(k)][as_size(i)].template cast<double>() / problem.scale[as_size(i)];
-  });
+  const std::size_t n = basis.size;
+  parallel_for(basis.size, [&](Index i) { basis.image[i] = basis.v[k][i].template cast<double>() / problem.scale[i]; });
   problem.precondition(basis.image, basis.work);
   Basis<Real>::push(basis.z, k, n);
   parallel_for(basis.size, [&](Index i) {
-    auto& z = basis.z[as_size(k)][as_size(i)];
-    z = basis.work[as_size(i)].template cast<Real>();
-    basis.work[as_size(i)] = z.template cast<double>();
+    auto& z = basis.z[k][i];
+    z = basis.work[i].template cast<Real>();
+    basis.work[i] = z.template cast<double>();
   });
   problem.apply(basis.work, basis.image);
   const double before = parallel_sum(basis.size, [&](Index i) {
-    basis.image[as_size(i)] *= problem.scale[as_size(i)];
-    return basis.image[as_size(i)].squaredNorm();
+    basis.image[i] *= problem.scale[i];
+    return basis.image[i].squaredNorm();
   });
   h = basis.project(k + 1);
   double after = basis.subtract(h);
@@ -123,9 +118,7 @@ double extend(const KrylovProblem& problem, Basis<Real>& basis, Index k, Eigen::
 template <class Real>
 void normalise(Basis<Real>& basis, Index k, double norm) {
   Basis<Real>::push(basis.v, k, as_size(basis.size));
-  parallel_for(basis.size, [&](Index i) {
-    basis.v[as_size(k)][as_size(i)] = (basis.image[as_size(i)] / norm).template cast<Real>();
-  });
+  parallel_for(basis.size, [&](Index i) { basis.v[k][i] = (basis.image[i] / norm).template cast<Real>(); });
 }
 
 template <class Real>
@@ -133,7 +126,7 @@ void add_combination(const Basis<Real>& basis, const Hessenberg& hessenberg, Ind
   const Eigen::VectorXd y =
       hessenberg.R.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(hessenberg.rhs.head(k));
   parallel_for(basis.size, [&](Index i) {
-    for (Index j = 0; j < k; ++j) x[as_size(i)] += y[j] * basis.z[as_size(j)][as_size(i)].template cast<double>();
+    for (Index j = 0; j < k; ++j) x[i] += y[j] * basis.z[j][i].template cast<double>();
   });
 }
 
@@ -182,8 +175,7 @@ KrylovResult solve_with(const KrylovProblem& problem, const std::vector<Vector>&
 }  // namespace
 
 double scaled_norm(const std::vector<Vector>& v, const std::vector<double>& scale) {
-  return std::sqrt(parallel_sum(static_cast<Index>(v.size()),
-                                [&](Index i) { return (scale[as_size(i)] * v[as_size(i)]).squaredNorm(); }));
+  return std::sqrt(parallel_sum(count_of(v), [&](Index i) { return (scale[i] * v[i]).squaredNorm(); }));
 }
 
 KrylovResult solve_fgmres(const KrylovProblem& problem, const std::vector<Vector>& b, std::vector<Vector>& x,

@@ -18,38 +18,37 @@ constexpr Index group_size = 1024;  // rows of one smoothing task
 // Groups of consecutive rows, coloured so that groups of one colour are not coupled.
 std::vector<std::vector<Index>> colour_groups(const BlockMatrix& matrix) {
   const Index n_groups = (matrix.n_rows() + group_size - 1) / group_size;
-  std::vector<Index> colour(as_size(n_groups), -1);
+  std::vector<Index> colour(n_groups, -1);
   std::vector<std::vector<Index>> by_colour;
   std::vector<Index> taken;
   for (Index group = 0; group < n_groups; ++group) {
     taken.clear();
     for (Index i = group * group_size; i < std::min(matrix.n_rows(), (group + 1) * group_size); ++i)
-      for (Index k = matrix.offsets[as_size(i)]; k < matrix.offsets[as_size(i) + 1]; ++k) {
-        const Index other = matrix.columns[as_size(k)] / group_size;
-        if (other != group && colour[as_size(other)] >= 0) taken.push_back(colour[as_size(other)]);
+      for (Index k = matrix.offsets[i]; k < matrix.offsets[i + 1]; ++k) {
+        const Index other = matrix.columns[k] / group_size;
+        if (other != group && colour[other] >= 0) taken.push_back(colour[other]);
       }
     Index c = 0;
     while (std::find(taken.begin(), taken.end(), c) != taken.end()) ++c;
-    colour[as_size(group)] = c;
+    colour[group] = c;
     if (as_size(c) == by_colour.size()) by_colour.emplace_back();
-    by_colour[as_size(c)].push_back(group);
+    by_colour[c].push_back(group);
   }
   return by_colour;
 }
 
 Lane off_diagonal_product(const BlockMatrix& a, Index i, const std::vector<Lane>& x) {
   Lane sum = Lane::Zero();
-  for (Index k = a.offsets[as_size(i)]; k < a.offsets[as_size(i) + 1]; ++k)
-    sum += a.blocks[as_size(k)] * x[as_size(a.columns[as_size(k)])];
+  for (Index k = a.offsets[i]; k < a.offsets[i + 1]; ++k) sum += a.blocks[k] * x[a.columns[k]];
   return sum;
 }
 
 void smooth_row(const BlockMatrix& a, Index i, const std::vector<Lane>& b, std::vector<Lane>& x) {
-  x[as_size(i)] = a.inverse_diagonal[as_size(i)] * Lane(b[as_size(i)] - off_diagonal_product(a, i, x));
+  x[i] = a.inverse_diagonal[i] * Lane(b[i] - off_diagonal_product(a, i, x));
 }
 
 void for_groups(const std::vector<Index>& groups, const auto& body) {
-  detail::run_tasks(static_cast<Index>(groups.size()), [&](Index k) { body(groups[as_size(k)]); });
+  detail::run_tasks(count_of(groups), [&](Index k) { body(groups[k]); });
 }
 
 void sweep_forward(const BlockMatrix& a, const std::vector<std::vector<Index>>& groups_by_colour,
@@ -73,23 +72,21 @@ void sweep_backward(const BlockMatrix& a, const std::vector<std::vector<Index>>&
 // By differences, so that what moves as a whole is not lost in rounding.
 void multiply(const BlockMatrix& a, const std::vector<Lane>& x, std::vector<Lane>& y) {
   parallel_for(a.n_rows(), [&](Index i) {
-    const Lane own = x[as_size(i)];
-    Lane sum = a.row_sum[as_size(i)] * own;
-    for (Index k = a.offsets[as_size(i)]; k < a.offsets[as_size(i) + 1]; ++k)
-      sum += a.blocks[as_size(k)] * Lane(x[as_size(a.columns[as_size(k)])] - own);
-    y[as_size(i)] = sum;
+    const Lane own = x[i];
+    Lane sum = a.row_sum[i] * own;
+    for (Index k = a.offsets[i]; k < a.offsets[i + 1]; ++k) sum += a.blocks[k] * Lane(x[a.columns[k]] - own);
+    y[i] = sum;
   });
 }
 
 double dot(const std::vector<Lane>& a, const std::vector<Lane>& b) {
-  return parallel_sum(static_cast<Index>(a.size()),
-                      [&](Index i) { return double((a[as_size(i)] * b[as_size(i)]).sum()); });
+  return parallel_sum(count_of(a), [&](Index i) { return double((a[i] * b[i]).sum()); });
 }
 
 // y += factor x.
 void add(double factor, const std::vector<Lane>& x, std::vector<Lane>& y) {
   const auto f = static_cast<float>(factor);
-  parallel_for(static_cast<Index>(x.size()), [&](Index i) { y[as_size(i)] += f * x[as_size(i)]; });
+  parallel_for(count_of(x), [&](Index i) { y[i] += f * x[i]; });
 }
 
 }  // namespace
@@ -127,7 +124,7 @@ void Multigrid::set_up_work_space() {
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
     Level& level = levels_[l];
     level.groups_by_colour = colour_groups(level.matrix);
-    const auto n = as_size(level.matrix.n_rows()), n_coarse = as_size(levels_[l + 1].matrix.n_rows());
+    const std::size_t n = level.matrix.n_rows(), n_coarse = as_size(levels_[l + 1].matrix.n_rows());
     level.residual.resize(n);
     level.coarse_b.resize(n_coarse);
     level.coarse_x.resize(n_coarse);
@@ -149,10 +146,10 @@ void Multigrid::factor_coarsest() {
       for (Index i = 0; i < 3; ++i) dense[as_size(3 * column + j) * as_size(n) + as_size(3 * row + i)] += block(i, j);
   };
   for (Index i = 0; i < last.n_rows(); ++i) {
-    add_block(i, i, to_tensor(last.row_sum[as_size(i)]));
-    for (Index k = last.offsets[as_size(i)]; k < last.offsets[as_size(i) + 1]; ++k) {
-      const Tensor block = to_tensor(last.blocks[as_size(k)]);
-      add_block(i, last.columns[as_size(k)], block);
+    add_block(i, i, to_tensor(last.row_sum[i]));
+    for (Index k = last.offsets[i]; k < last.offsets[i + 1]; ++k) {
+      const Tensor block = to_tensor(last.blocks[k]);
+      add_block(i, last.columns[k], block);
       add_block(i, i, -block);
     }
   }
@@ -185,11 +182,10 @@ void Multigrid::cycle(std::size_t l, const std::vector<Lane>& b, std::vector<Lan
   multiply(a, x, level.residual);
   std::fill(level.coarse_b.begin(), level.coarse_b.end(), Lane::Zero());
   for (std::size_t i = 0; i < b.size(); ++i)
-    if (const Index to = level.aggregates.of_row[i]; to >= 0) level.coarse_b[as_size(to)] += b[i] - level.residual[i];
+    if (const Index to = level.aggregates.of_row[i]; to >= 0) level.coarse_b[to] += b[i] - level.residual[i];
   k_cycle(l + 1, level.coarse_b, level.coarse_x);
   parallel_for(a.n_rows(), [&](Index i) {
-    if (const Index from = level.aggregates.of_row[as_size(i)]; from >= 0)
-      x[as_size(i)] += level.coarse_x[as_size(from)];
+    if (const Index from = level.aggregates.of_row[i]; from >= 0) x[i] += level.coarse_x[from];
   });
   for (int s = 0; s < sweeps; ++s) sweep_backward(a, level.groups_by_colour, b, x);
 }

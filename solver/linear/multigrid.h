@@ -16,7 +16,7 @@ class Multigrid {
 
   /// One cycle: x approximates A^-1 b.
   void apply(const std::vector<Lane>& b, std::vector<Lane>& x);
-  Index n_levels() const { return static_cast<Index>(levels_.size()); }
+  Index n_levels() const { return count_of(levels_); }
 
  private:
   struct Level {

@@ -40,9 +40,9 @@ std::vector<std::vector<BlockEntry>> columns_of(const BlockTriplets& matrix) {
   std::vector<std::vector<BlockEntry>> columns(matrix.diagonal.size());
   for (const auto& [row, column, value] : matrix.off_diagonal) {
     if (row < column)
-      columns[as_size(column)].push_back({row, value});
+      columns[column].push_back({row, value});
     else
-      columns[as_size(row)].push_back({column, value.transpose()});
+      columns[row].push_back({column, value.transpose()});
   }
   for (auto& column : columns)
     std::sort(column.begin(), column.end(), [](const BlockEntry& a, const BlockEntry& b) { return a.row < b.row; });
@@ -52,21 +52,21 @@ std::vector<std::vector<BlockEntry>> columns_of(const BlockTriplets& matrix) {
 UpperTriangle upper_triangle(const BlockTriplets& matrix) {
   UpperTriangle upper;
   upper.scale = scale_of(matrix);
-  const auto n = static_cast<Index>(matrix.diagonal.size());
+  const auto n = count_of(matrix.diagonal);
   for (Index i = 0; i < 3 * n && !upper.faulty; ++i)
-    if (!(upper.scale[as_size(i)] > 0.0) || !std::isfinite(upper.scale[as_size(i)])) upper.faulty = i / 3;
+    if (!(upper.scale[i] > 0.0) || !std::isfinite(upper.scale[i])) upper.faulty = i / 3;
   if (upper.faulty) return upper;
   const auto columns = columns_of(matrix);
   const auto put = [&](Index row, Index column, double value) {
     if (value == 0.0) return;
     upper.rows.push_back(static_cast<int>(row));
-    upper.values.push_back(value * upper.scale[as_size(row)] * upper.scale[as_size(column)]);
+    upper.values.push_back(value * upper.scale[row] * upper.scale[column]);
   };
   for (Index j = 0; j < n; ++j)
     for (Index b = 0; b < 3; ++b) {
-      for (const auto& [row, value] : columns[as_size(j)])
+      for (const auto& [row, value] : columns[j])
         for (Index a = 0; a < 3; ++a) put(3 * row + a, 3 * j + b, value(a, b));
-      for (Index a = 0; a <= b; ++a) put(3 * j + a, 3 * j + b, matrix.diagonal[as_size(j)](a, b));
+      for (Index a = 0; a <= b; ++a) put(3 * j + a, 3 * j + b, matrix.diagonal[j](a, b));
       upper.offsets.push_back(static_cast<int>(upper.rows.size()));
     }
   return upper;
@@ -167,7 +167,7 @@ void SparseCholesky::solve(const std::vector<Vector>& b, std::vector<Vector>& x)
   Data& d = *data_;
   const std::vector<double>& scale = d.matrix.scale;
   d.b.resize(scale.size());
-  for (std::size_t i = 0; i < scale.size(); ++i) d.b[i] = scale[i] * b[i / 3][static_cast<Index>(i % 3)];
+  for (std::size_t i = 0; i < scale.size(); ++i) d.b[i] = scale[i] * b[i / 3][i % 3];
   cholmod_dense right{};
   right.nrow = right.d = right.nzmax = scale.size();
   right.ncol = 1;
@@ -176,7 +176,7 @@ void SparseCholesky::solve(const std::vector<Vector>& b, std::vector<Vector>& x)
   right.dtype = CHOLMOD_DOUBLE;
   cholmod_solve2(CHOLMOD_A, d.factor, &right, nullptr, &d.x, nullptr, &d.y, &d.e, &d.common);
   const auto* const answer = static_cast<const double*>(d.x->x);
-  for (std::size_t i = 0; i < scale.size(); ++i) x[i / 3][static_cast<Index>(i % 3)] = scale[i] * answer[i];
+  for (std::size_t i = 0; i < scale.size(); ++i) x[i / 3][i % 3] = scale[i] * answer[i];
 }
 
 Index SparseCholesky::n_orderings() const { return data_->n_orderings; }

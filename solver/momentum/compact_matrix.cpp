@@ -19,9 +19,9 @@ void decouple(const Vector& n, BlockTriplets& matrix) {
 
 // Row of each node: that of an image is the one of its node.
 std::vector<Index> rows(const Unknowns& unknowns) {
-  std::vector<Index> row(as_size(unknowns.n_nodes()));
+  std::vector<Index> row(unknowns.n_nodes());
   std::iota(row.begin(), row.end(), Index{0});
-  for (const PeriodicNodes& pair : unknowns.periodic) row[as_size(pair.image)] = pair.node;
+  for (const PeriodicNodes& pair : unknowns.periodic) row[pair.image] = pair.node;
   return row;
 }
 
@@ -29,8 +29,8 @@ void add_links(const FaceSkeleton& skeleton, const FaceTractions& tractions, Blo
   for (std::size_t i = 0; i < skeleton.links.size(); ++i) {
     const momentum_faces::Link& link = skeleton.links[i];
     const Tensor c = tractions.compact_link(i);
-    matrix.diagonal[as_size(link.P)] += c;
-    matrix.diagonal[as_size(link.N)] += c;
+    matrix.diagonal[link.P] += c;
+    matrix.diagonal[link.N] += c;
     matrix.off_diagonal.push_back({link.P, link.N, -c});
   }
 }
@@ -41,11 +41,11 @@ void add_sides(const FaceSkeleton& skeleton, const FaceTractions& tractions, Blo
     const momentum_faces::Side& side = skeleton.sides[i];
     const Tensor a = tractions.compact_side(i);
     const Tensor& is_free = skeleton.unknowns.free_directions[skeleton.number_of(side.node)];
-    const Index node = row[as_size(side.node)];
-    matrix.diagonal[as_size(side.cell)] += a;
-    matrix.diagonal[as_size(node)] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);
+    const Index node = row[side.node];
+    matrix.diagonal[side.cell] += a;
+    matrix.diagonal[node] += is_free * a * is_free + a.trace() / 3.0 * (Tensor::Identity() - is_free);
     if (!is_free.isZero()) matrix.off_diagonal.push_back({side.cell, node, -a * is_free});
-    if (node != side.node) matrix.diagonal[as_size(side.node)] = a.trace() / 3.0 * Tensor::Identity();
+    if (node != side.node) matrix.diagonal[side.node] = a.trace() / 3.0 * Tensor::Identity();
   }
 }
 
@@ -53,8 +53,8 @@ void add_sides(const FaceSkeleton& skeleton, const FaceTractions& tractions, Blo
 void add_sector(const FaceSkeleton& skeleton, const FaceTractions& tractions, BlockTriplets& matrix) {
   const Vector& r = skeleton.unknowns.radial;
   for (Index c = 0; c < skeleton.sector_area.size(); ++c)
-    matrix.diagonal[as_size(c)] += skeleton.sector_area[c].norm() * tractions.hoop_modulus(c) /
-                                   r.dot(skeleton.mesh.cell_centre[c]) * r * r.transpose();
+    matrix.diagonal[c] += skeleton.sector_area[c].norm() * tractions.hoop_modulus(c) /
+                          r.dot(skeleton.mesh.cell_centre[c]) * r * r.transpose();
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void add_sector(const FaceSkeleton& skeleton, const FaceTractions& tractions, Bl
 BlockTriplets MomentumOperator::compact_matrix() const {
   const Unknowns& unknowns = skeleton_->unknowns;
   BlockTriplets matrix;
-  matrix.diagonal.assign(as_size(unknowns.n_nodes()), Tensor::Zero());
+  matrix.diagonal.assign(unknowns.n_nodes(), Tensor::Zero());
   matrix.off_diagonal.reserve(skeleton_->n_forces());
   add_links(*skeleton_, *tractions_, matrix);
   add_sides(*skeleton_, *tractions_, matrix);

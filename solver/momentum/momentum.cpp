@@ -70,12 +70,12 @@ double MomentumOperator::energy_if_held() const {
   const Unknowns& unknowns = skeleton_->unknowns;
   if (finite_ != nullptr)
     return parallel_sum(eigenstrain().size(), [&](Index c) {
-      IsotropicElasticity sound = unknowns.sound[as_size(unknowns.zone[c])];
+      IsotropicElasticity sound = unknowns.sound[unknowns.zone[c]];
       sound.lambda = std::min(sound.lambda, CellPressure::moderate_lambda * sound.mu);
       return 2.0 * mesh.cell_volume[c] * energy_density(sound, to_tensor(eigenstrain()[c]));
     });
   const CellMechanics held =
-      mechanics(std::vector<Vector>(as_size(unknowns.n_unknowns()), Vector::Zero()), Wanted::without_gradient);
+      mechanics(std::vector<Vector>(unknowns.n_unknowns(), Vector::Zero()), Wanted::without_gradient);
   return parallel_sum(held.eigenstrain.size(),
                       [&](Index c) { return std::abs(held.traction_moment[c].dot(held.eigenstrain[c])); });
 }
@@ -122,13 +122,13 @@ void MomentumOperator::take_away_constant_forces(std::vector<Vector>& load) cons
 void MomentumOperator::take_away_pressure_forces(const std::vector<Vector>& q, std::vector<Vector>& r) const {
   const std::vector<Index>& cells = skeleton_->unknowns.pressure_cells;
   const Index n_nodes = skeleton_->unknowns.n_nodes();
-  CellField<double> tension(as_size(skeleton_->mesh.n_cells()), 0.0);
-  for (std::size_t k = 0; k < cells.size(); ++k) tension[cells[k]] = q[as_size(n_nodes) + k][0];
+  CellField<double> tension(skeleton_->mesh.n_cells(), 0.0);
+  for (std::size_t k = 0; k < cells.size(); ++k) tension[cells[k]] = q[n_nodes + k][0];
   const auto forces = sweep();
   tractions_->find_pressure_forces(tension, *forces);
   std::vector<Vector> of_pressures(r.size());
   skeleton_->sum_forces(*forces, of_pressures);
-  parallel_for(n_nodes, [&](Index i) { r[as_size(i)] -= of_pressures[as_size(i)]; });
+  parallel_for(n_nodes, [&](Index i) { r[i] -= of_pressures[i]; });
 }
 
 }  // namespace pfdm

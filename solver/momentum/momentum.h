@@ -95,8 +95,8 @@ class MomentumOperator {
   std::vector<SplitSides> split_sides(const std::vector<Vector>& u) const;
   /// Moves the sides of split face number k.
   void part(std::size_t k, const Vector& move, const Vector& move_beyond, std::vector<Vector>& u) const {
-    u[as_size(skeleton_->split_faces[k].node)] += move;
-    u[as_size(skeleton_->split_faces[k].beyond)] += move_beyond;
+    u[skeleton_->split_faces[k].node] += move;
+    u[skeleton_->split_faces[k].beyond] += move_beyond;
   }
 
   /// out = A u, [N]: minus the sum of forces on each cell; the free part of the forces on each face node; for each

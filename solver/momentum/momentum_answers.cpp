@@ -14,10 +14,9 @@ SpareSweeps::Lease MomentumOperator::forces_of(const std::vector<Vector>& u) con
 std::vector<Vector> MomentumOperator::boundary_forces(const std::vector<Vector>& u) const {
   const auto forces = forces_of(u);
   const Index first = skeleton_->mesh.n_interior_faces(), n = skeleton_->mesh.n_faces();
-  std::vector<Vector> boundary(as_size(n - first), Vector::Zero());
+  std::vector<Vector> boundary(n - first, Vector::Zero());
   for (Index f = first; f < n; ++f)
-    if (const Index force = skeleton_->force_of_face[f]; force >= 0)
-      boundary[as_size(f - first)] = forces->force[as_size(force)];
+    if (const Index force = skeleton_->force_of_face[f]; force >= 0) boundary[f - first] = forces->force[force];
   return boundary;
 }
 
@@ -29,17 +28,17 @@ std::vector<std::pair<Index, Vector>> MomentumOperator::interface_tractions(cons
   for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k)
     if (const Index f = unknowns.face_of_node[k];
         mesh.is_interior(f) && skeleton_->number_of(unknowns.node_of_face[f]) == k)
-      tractions.emplace_back(f, forces->force[as_size(skeleton_->force_of_face[f])] / mesh.face_area[f].norm());
+      tractions.emplace_back(f, forces->force[skeleton_->force_of_face[f]] / mesh.face_area[f].norm());
   return tractions;
 }
 
 FaceField<Vector> MomentumOperator::tractions(const std::vector<Vector>& u) const {
   const auto forces = forces_of(u);
   const Mesh& mesh = skeleton_->mesh;
-  FaceField<Vector> traction(as_size(mesh.n_faces()));
+  FaceField<Vector> traction(mesh.n_faces());
   parallel_for(mesh.n_faces(), [&](Index f) {
     if (const Index force = skeleton_->force_of_face[f]; force >= 0)
-      traction[f] = forces->force[as_size(force)] / mesh.face_area[f].norm();
+      traction[f] = forces->force[force] / mesh.face_area[f].norm();
   });
   return traction;
 }
@@ -53,7 +52,7 @@ std::vector<Vector> MomentumOperator::patch_displacements(const std::vector<Vect
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
       const Index node = skeleton_->unknowns.node_of_face[f];
       if (node < 0) continue;
-      mean[p] += mesh.face_area[f].norm() * u[as_size(node)];
+      mean[p] += mesh.face_area[f].norm() * u[node];
       area += mesh.face_area[f].norm();
     }
     if (area > 0.0) mean[p] /= area;
@@ -64,15 +63,15 @@ std::vector<Vector> MomentumOperator::patch_displacements(const std::vector<Vect
 std::vector<MomentumOperator::SplitSides> MomentumOperator::split_sides(const std::vector<Vector>& u) const {
   const auto forces = forces_of(u);
   std::vector<SplitSides> all(skeleton_->split_faces.size());
-  parallel_for(static_cast<Index>(all.size()), [&](Index k) {
+  parallel_for(count_of(all), [&](Index k) {
     const auto of_node = [&](Index node, Vector& traction, Tensor& give) {
-      const std::size_t i = as_size(skeleton_->first_side_of_node[skeleton_->number_of(node)]);
+      const std::size_t i = skeleton_->first_side_of_node[skeleton_->number_of(node)];
       traction = forces->force[skeleton_->links.size() + i] / skeleton_->sides[i].area;
       give = tractions_->softness_of_side(i);
     };
-    SplitSides& sides = all[as_size(k)];
-    of_node(skeleton_->split_faces[as_size(k)].node, sides.traction, sides.give);
-    of_node(skeleton_->split_faces[as_size(k)].beyond, sides.traction_beyond, sides.give_beyond);
+    SplitSides& sides = all[k];
+    of_node(skeleton_->split_faces[k].node, sides.traction, sides.give);
+    of_node(skeleton_->split_faces[k].beyond, sides.traction_beyond, sides.give_beyond);
   });
   return all;
 }

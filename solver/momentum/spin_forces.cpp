@@ -31,7 +31,7 @@ void SpinForces::add(const FaceTractions& tractions, const CellField<Tensor>& gr
                      std::vector<Vector>& out) const {
   const Unknowns& unknowns = skeleton_.unknowns;
   if (unknowns.spin_holds.empty()) return;
-  std::vector<Vector> forces(as_size(unknowns.n_unknowns()), Vector::Zero());
+  std::vector<Vector> forces(unknowns.n_unknowns(), Vector::Zero());
   for (const SpinHold& hold : unknowns.spin_holds) {
     const double beyond = hold.beyond >= 0 ? contract(hold.of_cell, gradients[hold.beyond]) : 0.0;
     resist(hold, tractions, contract(hold.of_cell, gradients[hold.cell]) - beyond, forces);
@@ -53,9 +53,7 @@ void SpinForces::add_free_part(std::vector<Vector>& forces, std::vector<Vector>&
   const Unknowns& unknowns = skeleton_.unknowns;
   skeleton_.keep_in_plane(forces);
   for (Index i = 0; i < unknowns.n_nodes(); ++i)
-    out[as_size(i)] += i < unknowns.n_cells
-                           ? forces[as_size(i)]
-                           : (unknowns.free_directions[skeleton_.number_of(i)] * forces[as_size(i)]).eval();
+    out[i] += i < unknowns.n_cells ? forces[i] : (unknowns.free_directions[skeleton_.number_of(i)] * forces[i]).eval();
 }
 
 }  // namespace pfdm

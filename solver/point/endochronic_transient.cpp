@@ -24,9 +24,9 @@ Mandel elastic_strain(const IsotropicElasticity& c, const Mandel& stress) {
 void complete_by_incompressibility(Mandel& plastic, const std::array<bool, 6>& known) {
   double sum = 0.0;
   int unknown = 0;
-  for (int k = 0; k < 3; ++k) known[static_cast<std::size_t>(k)] ? sum += plastic[k] : ++unknown;
+  for (int k = 0; k < 3; ++k) known[k] ? sum += plastic[k] : ++unknown;
   for (int k = 0; k < 3; ++k)
-    if (!known[static_cast<std::size_t>(k)]) plastic[k] = -sum / unknown;
+    if (!known[k]) plastic[k] = -sum / unknown;
 }
 
 /// Stresses of the terms after an increment of plastic strain during dz.
@@ -165,7 +165,7 @@ PlasticHistory plastic_history(const IsotropicElasticity& elasticity, const Mate
     for (const LoadSegment::Condition& condition : experiment.loading.conditions) {
       const int k = followed_strain(condition);
       if (k < 0) continue;
-      known[static_cast<std::size_t>(k)] = true;
+      known[k] = true;
       plastic[k] = condition.values[i] / condition.condition.on_strain[k] - elastic[k];
     }
     complete_by_incompressibility(plastic, known);
@@ -202,8 +202,7 @@ Kernel first_kernel(const EndochronicLaw& law, const std::vector<MaterialExperim
   const Eigen::VectorXd C = non_negative_least_squares(A, measured);
   Kernel kernel;
   for (std::size_t i = 0; i < grid.size(); ++i)
-    if (C[static_cast<Eigen::Index>(i)] > 1e-6 * C.maxCoeff())
-      kernel.push_back({C[static_cast<Eigen::Index>(i)], grid[i]});
+    if (C[i] > 1e-6 * C.maxCoeff()) kernel.push_back({C[i], grid[i]});
   if (kernel.empty()) kernel.push_back({law.elasticity.mu, grid[grid.size() / 2]});
   return gathered(std::move(kernel), static_cast<std::size_t>(n_terms));
 }

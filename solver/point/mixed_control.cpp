@@ -23,7 +23,7 @@ struct Rows {
 Rows rows_of(const EndochronicLaw& law, const Conditions& conditions) {
   Rows rows;
   for (int k = 0; k < n_components; ++k) {
-    const ControlCondition& condition = conditions[static_cast<std::size_t>(k)];
+    const ControlCondition& condition = conditions[k];
     rows.scale[k] = 2.0 * law.elasticity.mu * condition.on_stress.norm() + condition.on_strain.norm();
     rows.on_stress.row(k) = condition.on_stress.transpose() / rows.scale[k];
     rows.on_strain.row(k) = condition.on_strain.transpose() / rows.scale[k];
@@ -202,8 +202,7 @@ class SegmentRunner {
   bool take(std::size_t i, double done, double part) {
     Mandel change;
     for (std::size_t k = 0; k < 6; ++k)
-      change[static_cast<Eigen::Index>(k)] =
-          target(k, i, done + part) - value_of(conditions_[k], point_.stress, point_.state.strain);
+      change[k] = target(k, i, done + part) - value_of(conditions_[k], point_.stress, point_.state.strain);
     const double dt = part * (segment_.times[i + 1] - segment_.times[i]);
     ControlledStep step =
         controlled_step(law_, point_.state, conditions_, change, dt, settings_, dt * last_strain_rate_);

@@ -50,11 +50,11 @@ class BoundedNewton {
         u_(u),
         n_(u.size()),
         linear_(flux.coupling()),
-        held_(as_size(n_), 0),
-        diagonal_(as_size(n_)),
-        damped_(as_size(n_)),
-        residual_(as_size(n_)),
-        step_(as_size(n_)) {}
+        held_(n_, 0),
+        diagonal_(n_),
+        damped_(n_),
+        residual_(n_),
+        step_(n_) {}
 
   /// Changes u.
   ScalarSolution solve(const ScalarTolerance& tolerance) {
@@ -74,26 +74,25 @@ class BoundedNewton {
     constexpr Index patience = 8;       // before steps are damped
     account_.converged = false;
     double target = 0.0;  // of the step that each cell would still take
-    parallel_for(n_, [&](Index c) { held_[as_size(c)] = local_.is_free(c) ? 0 : 1; });
+    parallel_for(n_, [&](Index c) { held_[c] = local_.is_free(c) ? 0 : 1; });
     for (Index change = 0; change < most_changes; ++change) {
       parallel_for(n_, [&](Index c) {
-        diagonal_[as_size(c)] = damped_[as_size(c)] = diagonal(c);
-        residual_[as_size(c)] = local_.is_free(c) ? -balance(c) : 0.0;
+        diagonal_[c] = damped_[c] = diagonal(c);
+        residual_[c] = local_.is_free(c) ? -balance(c) : 0.0;
       });
       if (tolerance.damps && change >= patience) damp();
       choose_active();
       parallel_for(n_, [&](Index c) {
-        residual_[as_size(c)] = held_[as_size(c)] != 0 ? 0.0 : -balance(c);
-        step_[as_size(c)] = 0.0;
+        residual_[c] = held_[c] != 0 ? 0.0 : -balance(c);
+        step_[c] = 0.0;
       });
-      const double wanted =
-          parallel_max(n_, [&](Index c) { return std::abs(residual_[as_size(c)]) / diagonal_[as_size(c)]; });
+      const double wanted = parallel_max(n_, [&](Index c) { return std::abs(residual_[c]) / diagonal_[c]; });
       if (change == 0) target = std::max(tolerance.reduction * wanted, tolerance.least_step);
       account_.converged = wanted <= target;
       if (account_.converged) return;
       account_.krylov_iterations +=
           linear_.solve(damped_, held_, {.least = 0.1 * tolerance.least_step}, residual_, step_);
-      parallel_for(n_, [&](Index c) { u_[c] += step_[as_size(c)]; });
+      parallel_for(n_, [&](Index c) { u_[c] += step_[c]; });
       ++account_.active_set_iterations;
     }
   }
@@ -112,9 +111,8 @@ class BoundedNewton {
   // Newton's steps can go to and fro between two sides of the solution for ever. A cell whose residual changes sign
   // takes the larger diagonal of both sides, half of it in the next iteration, and so on.
   void damp() {
-    before_.resize(as_size(n_));
-    parallel_for(n_, [&](Index c) {
-      const auto i = as_size(c);
+    before_.resize(n_);
+    parallel_for(n_, [&](Index i) {
       Before& before = before_[i];
       const bool overshot = residual_[i] * before.residual < 0.0;
       before.damped = overshot ? std::max({before.damped, before.diagonal, diagonal_[i]}) : 0.5 * before.damped;
@@ -128,12 +126,11 @@ class BoundedNewton {
   void choose_active() {
     parallel_for(n_, [&](Index c) {
       if (!local_.is_free(c)) return;
-      const double wanted = u_[c] + residual_[as_size(c)] / damped_[as_size(c)];
-      held_[as_size(c)] = wanted < local_.lower(c) ? -1 : (wanted > local_.upper(c) ? 1 : 0);
+      const double wanted = u_[c] + residual_[c] / damped_[c];
+      held_[c] = wanted < local_.lower(c) ? -1 : (wanted > local_.upper(c) ? 1 : 0);
     });
     parallel_for(n_, [&](Index c) {
-      if (local_.is_free(c) && held_[as_size(c)] != 0)
-        u_[c] = held_[as_size(c)] < 0 ? local_.lower(c) : local_.upper(c);
+      if (local_.is_free(c) && held_[c] != 0) u_[c] = held_[c] < 0 ? local_.lower(c) : local_.upper(c);
     });
   }
 

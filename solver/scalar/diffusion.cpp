@@ -23,7 +23,7 @@ void require_positive(const CellField<double>& field, const Mesh& mesh, std::str
 
 // Into each cell from the patches whose flux is given [W].
 CellField<double> inflow_of(const Mesh& mesh, const std::vector<DiffusionBoundary>& boundary) {
-  CellField<double> inflow(as_size(mesh.n_cells()), 0.0);
+  CellField<double> inflow(mesh.n_cells(), 0.0);
   for (const DiffusionBoundary& on : boundary) {
     if (on.kind != Kind::flux) continue;
     const Patch& patch = mesh.patch(on.patch);

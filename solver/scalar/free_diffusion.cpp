@@ -20,7 +20,7 @@ std::vector<DiffusionBoundary> homogeneous(std::vector<DiffusionBoundary> bounda
 FreeDiffusion::FreeDiffusion(const Mesh& mesh, const CellField<double>& conductivity, const CellField<double>& capacity,
                              std::vector<DiffusionBoundary> boundary, double dt, double precision)
     : flux_(mesh, {.conductance = conductivity, .exchanges = exchanges_of(mesh, homogeneous(std::move(boundary)))}),
-      stored_(as_size(mesh.n_cells())),
+      stored_(mesh.n_cells()),
       precision_(precision) {
   for (Index c = 0; c < mesh.n_cells(); ++c) stored_[c] = capacity[c] * mesh.cell_volume[c] / dt;
   factors_.compute(two_point_part());

@@ -61,10 +61,10 @@ class Neighbourhood {
 
 std::vector<Vector> node_positions(const Mesh& mesh, const GradientSettings& settings) {
   std::vector<Vector> position(mesh.cell_centre.begin(), mesh.cell_centre.end());
-  for (Index c = 0; c < settings.shift.size(); ++c) position[as_size(c)] += settings.shift[c];
+  for (Index c = 0; c < settings.shift.size(); ++c) position[c] += settings.shift[c];
   for (const FaceField<Index>* nodes : {&settings.node_of_face, &settings.neighbour_node})
     for (Index f = 0; f < nodes->size(); ++f) {
-      const auto node = as_size((*nodes)[f]);
+      const std::size_t node = (*nodes)[f];
       if ((*nodes)[f] < 0) continue;
       if (position.size() <= node) position.resize(node + 1);
       position[node] = mesh.face_centre[f];
@@ -76,20 +76,20 @@ std::vector<Vector> node_positions(const Mesh& mesh, const GradientSettings& set
 
 Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
     : node_(node_positions(mesh, settings)),
-      wide_(as_size(mesh.n_cells())),
-      polyhedron_(as_size(mesh.n_cells())),
-      g_(as_size(mesh.n_cells()), 1.0),
+      wide_(mesh.n_cells()),
+      polyhedron_(mesh.n_cells()),
+      g_(mesh.n_cells(), 1.0),
       plane_normal_(settings.plane_normal) {
   const Neighbourhood neighbourhood(mesh, settings);
   offsets_.push_back(0);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    if (!settings.wanted.empty() && settings.wanted[as_size(c)] == 0) {
+    if (!settings.wanted.empty() && settings.wanted[c] == 0) {
       offsets_.push_back(sample_.size());
       continue;
     }
     const bool wide = mesh.shape[c] == CellShape::tetrahedron;
-    wide_[as_size(c)] = wide;
-    polyhedron_[as_size(c)] = mesh.shape[c] == CellShape::polyhedron;
+    wide_[c] = wide;
+    polyhedron_[c] = mesh.shape[c] == CellShape::polyhedron;
     constexpr int most_rings = 5;
     int n_rings = wide ? 2 : 1;
     std::vector<Index> samples = neighbourhood.around(c, n_rings);
@@ -99,7 +99,7 @@ Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
       throw InputError(
           fmt::format("the gradient of cell {} at ({:.4g}, {:.4g}, {:.4g}) m cannot be reconstructed: the cell has too "
                       "few neighbours of its own material; refine the mesh there",
-                      c, node_[as_size(c)][0], node_[as_size(c)][1], node_[as_size(c)][2]));
+                      c, node_[c][0], node_[c][1], node_[c][2]));
     sample_.insert(sample_.end(), samples.begin(), samples.end());
     offsets_.push_back(sample_.size());
   }
@@ -110,7 +110,7 @@ Gradient::Gradient(const Mesh& mesh, const GradientSettings& settings)
 bool Gradient::has_full_rank(Index cell, const std::vector<Index>& samples) const {
   Tensor moment = plane_normal_ * plane_normal_.transpose();
   for (const Index s : samples) {
-    const Vector d = (node_[as_size(s)] - node_[as_size(cell)]).normalized();
+    const Vector d = (node_[s] - node_[cell]).normalized();
     moment += d * d.transpose();
   }
   constexpr double least = 1e-3;
@@ -122,20 +122,20 @@ bool Gradient::has_full_rank(Index cell, const std::vector<Index>& samples) cons
 
 double Gradient::trust(Index cell, Index neighbour, const CellField<double>& g) const {
   const double ratio = g[neighbour] / g[cell];
-  if (polyhedron_[as_size(cell)]) return std::min(ratio, 1.0 / ratio);
+  if (polyhedron_[cell]) return std::min(ratio, 1.0 / ratio);
   return std::min(1.0, ratio);
 }
 
 void Gradient::build(Index cell, const CellField<double>* g) {
-  const Vector here = node_[as_size(cell)];
+  const Vector here = node_[cell];
   Tensor moment = Tensor::Zero();
   double trace = 0.0;
   for (std::size_t s = begin(cell); s < end(cell); ++s) {
     const Index j = sample_[s];
-    const Vector d = node_[as_size(j)] - here;
+    const Vector d = node_[j] - here;
     const double length2 = d.squaredNorm();
     double weight = 1.0 / length2;
-    if (!wide_[as_size(cell)]) weight /= std::sqrt(length2);
+    if (!wide_[cell]) weight /= std::sqrt(length2);
     trace += weight * length2;
     constexpr double least = 1e-9;
     if (j < n_cells()) weight *= (g != nullptr ? trust(cell, j, *g) : 1.0) + least;

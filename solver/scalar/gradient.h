@@ -45,8 +45,8 @@ class Gradient {
   void spread(Index cell, const Tensor& B, std::vector<Vector>& v) const {
     for (std::size_t s = begin(cell); s < end(cell); ++s) {
       const Vector force = B * coefficient_[s];
-      v[static_cast<std::size_t>(sample_[s])] += force;
-      v[static_cast<std::size_t>(cell)] -= force;
+      v[sample_[s]] += force;
+      v[cell] -= force;
     }
   }
 
@@ -56,11 +56,11 @@ class Gradient {
     return gradient;
   }
 
-  Index n_cells() const { return static_cast<Index>(offsets_.size()) - 1; }
+  Index n_cells() const { return count_of(offsets_) - 1; }
 
  private:
-  std::size_t begin(Index cell) const { return offsets_[static_cast<std::size_t>(cell)]; }
-  std::size_t end(Index cell) const { return offsets_[static_cast<std::size_t>(cell) + 1]; }
+  std::size_t begin(Index cell) const { return offsets_[cell]; }
+  std::size_t end(Index cell) const { return offsets_[cell + 1]; }
   void build(Index cell, const CellField<double>* g);
   double trust(Index cell, Index neighbour, const CellField<double>& g) const;
   bool has_full_rank(Index cell, const std::vector<Index>& samples) const;

@@ -25,7 +25,7 @@ bool is_smooth(const Mesh& mesh, const CellField<double>& conductance, Index a, 
 
 // Cells that may enter each other's gradient of u: those connected by faces without a kink.
 CellField<Index> smooth_zones(const Mesh& mesh, const CellField<double>& conductance) {
-  CellField<Index> zone(as_size(mesh.n_cells()), -1);
+  CellField<Index> zone(mesh.n_cells(), -1);
   std::vector<Index> front;
   for (Index first = 0; first < mesh.n_cells(); ++first) {
     if (zone[first] >= 0) continue;
@@ -81,14 +81,14 @@ SymmetricCoupling coupling_of(const Mesh& mesh, const std::vector<TwoPointFlux::
 TwoPointFlux::TwoPointFlux(const Mesh& mesh, Medium medium)
     : mesh_(mesh),
       medium_(std::move(medium)),
-      exchanged_(as_size(mesh.n_cells()), 0.0),
+      exchanged_(mesh.n_cells(), 0.0),
       coupling_((build_links(), coupling_of(mesh, links_))),
       gradient_(build_gradient()),
-      gradients_(as_size(mesh.n_cells()), Vector::Zero()),
-      range_(as_size(mesh.n_cells()), std::numeric_limits<double>::infinity()),
+      gradients_(mesh.n_cells(), Vector::Zero()),
+      range_(mesh.n_cells(), std::numeric_limits<double>::infinity()),
       correction_(links_.size(), 0.0),
       exchange_correction_(medium_.exchanges.size(), 0.0),
-      deferred_(as_size(mesh.n_cells()), 0.0) {
+      deferred_(mesh.n_cells(), 0.0) {
   build_exchanges();
 }
 
@@ -140,24 +140,24 @@ void TwoPointFlux::build_exchanges() {
     const double coefficient = mesh_.face_area[exchange.face].norm() / resistance;
     exchange_coefficient_.push_back(coefficient);
     exchanged_[c] += coefficient;
-    deferred_[as_size(c)] += coefficient * exchange.value;
+    deferred_[c] += coefficient * exchange.value;
   }
 }
 
 // Across them cells do not enter each other's gradient.
 FaceField<char> TwoPointFlux::kinks() const {
   if (medium_.resistance.size() == 0) return medium_.cut;
-  FaceField<char> kinks(as_size(mesh_.n_faces()), 0);
+  FaceField<char> kinks(mesh_.n_faces(), 0);
   for (Index f = 0; f < mesh_.n_interior_faces(); ++f) kinks[f] = is_cut(f) || resistance_of(f) > 0.0 ? 1 : 0;
   return kinks;
 }
 
 Gradient TwoPointFlux::build_gradient() const {
-  std::vector<char> wanted(as_size(mesh_.n_cells()), 0);
+  std::vector<char> wanted(mesh_.n_cells(), 0);
   for (const Link& link : links_)
-    if (link.corrected) wanted[as_size(link.P)] = wanted[as_size(link.N)] = 1;
+    if (link.corrected) wanted[link.P] = wanted[link.N] = 1;
   for (const Exchange& exchange : medium_.exchanges)
-    if (exchange.corrected) wanted[as_size(exchange.cell)] = 1;
+    if (exchange.corrected) wanted[exchange.cell] = 1;
   return Gradient(mesh_, {.zone = smooth_zones(mesh_, medium_.conductance),
                           .node_of_face = {},
                           .cut = kinks(),
@@ -173,45 +173,45 @@ Gradient TwoPointFlux::build_gradient() const {
 // the corner of a front the gradients overshoot, and an active set would not converge.
 void TwoPointFlux::renew_correction(const CellField<double>& u) {
   parallel_for(mesh_.n_cells(), [&](Index c) {
-    gradients_[as_size(c)] = gradient_.of(u.data(), c);
+    gradients_[c] = gradient_.of(u.data(), c);
     if (!medium_.limited) return;
     double least = u[c], most = u[c];
     for (const std::int32_t neighbour : coupling_.columns(c)) {
       least = std::min(least, u[neighbour]);
       most = std::max(most, u[neighbour]);
     }
-    range_[as_size(c)] = most - least;
+    range_[c] = most - least;
   });
-  parallel_for(static_cast<Index>(links_.size()), [&](Index i) {
-    const Link& link = links_[as_size(i)];
+  parallel_for(count_of(links_), [&](Index i) {
+    const Link& link = links_[i];
     if (!link.corrected) return;
     const Vector n = unit_normal(mesh_, link.face);
-    const double beyond = gradients_[as_size(link.N)].dot(within_face(link.face, link.N, n)) -
-                          gradients_[as_size(link.P)].dot(within_face(link.face, link.P, n));
-    const double most = std::min(range_[as_size(link.P)], range_[as_size(link.N)]);
-    correction_[as_size(i)] = link.coefficient * std::clamp(beyond, -most, most);
+    const double beyond = gradients_[link.N].dot(within_face(link.face, link.N, n)) -
+                          gradients_[link.P].dot(within_face(link.face, link.P, n));
+    const double most = std::min(range_[link.P], range_[link.N]);
+    correction_[i] = link.coefficient * std::clamp(beyond, -most, most);
   });
   std::fill(deferred_.begin(), deferred_.end(), 0.0);
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    deferred_[as_size(links_[i].P)] += correction_[i];
-    deferred_[as_size(links_[i].N)] -= correction_[i];
+    deferred_[links_[i].P] += correction_[i];
+    deferred_[links_[i].N] -= correction_[i];
   }
   for (std::size_t k = 0; k < medium_.exchanges.size(); ++k) {
     const Exchange& exchange = medium_.exchanges[k];
     const Index c = exchange.cell;
     if (exchange.corrected) {
       const Vector across = within_face(exchange.face, c, unit_normal(mesh_, exchange.face));
-      const double most = range_[as_size(c)];
-      exchange_correction_[k] = -exchange_coefficient_[k] * std::clamp(gradients_[as_size(c)].dot(across), -most, most);
+      const double most = range_[c];
+      exchange_correction_[k] = -exchange_coefficient_[k] * std::clamp(gradients_[c].dot(across), -most, most);
     }
-    deferred_[as_size(c)] += exchange_coefficient_[k] * exchange.value + exchange_correction_[k];
+    deferred_[c] += exchange_coefficient_[k] * exchange.value + exchange_correction_[k];
   }
 }
 
 double TwoPointFlux::energy(Index i, const CellField<double>& u) const {
-  const Link& link = links_[as_size(i)];
+  const Link& link = links_[i];
   const double jump = u[link.N] - u[link.P];
-  return 0.5 * jump * (link.coefficient * jump + correction_[as_size(i)]);
+  return 0.5 * jump * (link.coefficient * jump + correction_[i]);
 }
 
 double TwoPointFlux::exchange_flux(std::size_t k, const CellField<double>& u) const {

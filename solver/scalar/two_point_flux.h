@@ -41,7 +41,7 @@ class TwoPointFlux {
 
   /// Flux out of a cell plus `local`, with the deferred correction of the last u.
   double balance(Index cell, const CellField<double>& u, double local) const {
-    return local + diagonal(cell) * u[cell] - coupling_.times(cell, u.data()) - deferred_[as_size(cell)];
+    return local + diagonal(cell) * u[cell] - coupling_.times(cell, u.data()) - deferred_[cell];
   }
   double diagonal(Index cell) const { return exchanged_[cell] + coupling_.total(cell); }  ///< d balance/d u_cell
   double exchanged(Index cell) const { return exchanged_[cell]; }                         ///< part of it by exchanges

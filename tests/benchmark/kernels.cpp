@@ -66,9 +66,9 @@ FractureModel pulled(const Mesh& mesh) {
 struct Momentum {
   explicit Momentum(const Mesh& mesh)
       : model(pulled(mesh)), unknowns(place_unknowns(mesh, elastic_body(model))), solver(mesh, unknowns) {
-    CellField<IsotropicElasticity> moduli(as_size(mesh.n_cells()));
-    for (Index c = 0; c < mesh.n_cells(); ++c) moduli[c] = model.regions[as_size(mesh.region[c])].elasticity;
-    solver.set_moduli(moduli, CellField<double>(as_size(mesh.n_cells()), 1.0));
+    CellField<IsotropicElasticity> moduli(mesh.n_cells());
+    for (Index c = 0; c < mesh.n_cells(); ++c) moduli[c] = model.regions[mesh.region[c]].elasticity;
+    solver.set_moduli(moduli, CellField<double>(mesh.n_cells(), 1.0));
   }
   FractureModel model;
   Unknowns unknowns;
@@ -83,7 +83,7 @@ void memory_bandwidth(benchmark::State& state) {
     parallel_chunks(
         n,
         [&](Index begin, Index end) {
-          for (Index i = begin; i < end; ++i) a[as_size(i)] = b[as_size(i)] + 0.5 * c[as_size(i)];
+          for (Index i = begin; i < end; ++i) a[i] = b[i] + 0.5 * c[i];
         },
         n / 16);
     benchmark::ClobberMemory();
@@ -95,7 +95,7 @@ void traction_operator(benchmark::State& state) {
   set_threads(static_cast<int>(state.range(0)));
   const Mesh& mesh = mesh_of(usual);
   Momentum momentum(mesh);
-  std::vector<Vector> u(as_size(momentum.unknowns.n_unknowns()), Vector::Ones()), force(u.size());
+  std::vector<Vector> u(momentum.unknowns.n_unknowns(), Vector::Ones()), force(u.size());
   for ([[maybe_unused]] const auto step : state) momentum.solver.balance().apply(u, force);
   state.counters["cells"] = mesh.n_cells();
 }
@@ -107,7 +107,7 @@ void elastic_solve(benchmark::State& state) {
   Index iterations = 0;
   for ([[maybe_unused]] const auto step : state) {
     Momentum momentum(mesh);
-    std::vector<Vector> u(as_size(momentum.unknowns.n_unknowns()), Vector::Zero());
+    std::vector<Vector> u(momentum.unknowns.n_unknowns(), Vector::Zero());
     const Equilibrium equilibrium = momentum.solver.solve(1.0, {.reduction = 0.0, .ceiling = 1e-8, .floor = 1e-8}, u);
     if (!equilibrium.converged) state.SkipWithError("no equilibrium");
     iterations = equilibrium.iterations;
@@ -122,7 +122,7 @@ void damage_solve(benchmark::State& state) {
   const Mesh& mesh = mesh_of(usual);
   const FractureModel model = pulled(mesh);
   DamageEquation equation(mesh, model, Vector::Zero());
-  const CellField<double> zero(as_size(mesh.n_cells()), 0.0);
+  const CellField<double> zero(mesh.n_cells(), 0.0);
   CellField<double> psi = zero;
   for (Index c = 0; c < mesh.n_cells(); ++c) psi[c] = 200.0 * std::pow(mesh.cell_centre[c].norm(), -6.0);
   for ([[maybe_unused]] const auto step : state) {
@@ -140,7 +140,7 @@ void meshing(benchmark::State& state) {
 
 void frame_writing(benchmark::State& state) {
   const Mesh& mesh = mesh_of(usual);
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   OutputFields output{.displacement = CellField<Vector>(n),
                       .damage = CellField<double>(n, 0.0),
                       .stress = CellField<Tensor>(n),

@@ -67,13 +67,13 @@ inline Index bandwidth(const Mesh& mesh) {
 
 // Every cell closes, has its centre inside, and its faces know it; boundary faces are all in one patch each.
 inline void expect_sound(const Mesh& mesh) {
-  std::vector<int> cells_of_face(static_cast<std::size_t>(mesh.n_faces()), 0);
+  std::vector<int> cells_of_face(mesh.n_faces(), 0);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     Vector sum = Vector::Zero();
     double size = 0.0;
     double volume = 0.0;  // by the divergence of x/3
     for (const Index f : mesh.faces_of_cell(c)) {
-      ++cells_of_face[static_cast<std::size_t>(f)];
+      ++cells_of_face[f];
       ASSERT_TRUE(mesh.owner[f] == c || (mesh.is_interior(f) && mesh.neighbour[f] == c));
       const Vector outward = mesh.owner[f] == c ? mesh.face_area[f] : Vector(-mesh.face_area[f]);
       sum += outward;
@@ -86,7 +86,7 @@ inline void expect_sound(const Mesh& mesh) {
     EXPECT_NEAR(volume, mesh.cell_volume[c], 1e-10 * mesh.cell_volume[c]) << "cell " << c;
   }
   for (Index f = 0; f < mesh.n_faces(); ++f) {
-    EXPECT_EQ(cells_of_face[static_cast<std::size_t>(f)], mesh.is_interior(f) ? 2 : 1);
+    EXPECT_EQ(cells_of_face[f], mesh.is_interior(f) ? 2 : 1);
     if (mesh.is_interior(f)) {
       EXPECT_LT(mesh.owner[f], mesh.neighbour[f]);
     }

@@ -79,7 +79,7 @@ TEST(Dual, HasACellForEachVertexOfEachRegion) {
     for (Index c = 0; c < primal.n_cells(); ++c)
       if (primal.region[c] == primal.region_index(region))
         vertices.insert(primal.points_of_cell(c).begin(), primal.points_of_cell(c).end());
-    EXPECT_EQ(count_in(dual, region), static_cast<Index>(vertices.size())) << region;
+    EXPECT_EQ(count_in(dual, region), count_of(vertices)) << region;
   }
   EXPECT_EQ(count_in(dual, "interface"), (10 * subdivision * subdivision + 2) * (n_layers + 1));
 }
@@ -92,7 +92,7 @@ TEST(Dual, HasAFaceForEachVertexBetweenRegions) {
     const Index P = dual.owner[f], N = dual.neighbour[f];
     if (dual.region[P] == dual.region[N]) continue;
     ++between[std::minmax(dual.region[P], dual.region[N])].first;
-    radius = std::max(radius, dual.points[as_size(dual.face_apex[f])].norm());
+    radius = std::max(radius, dual.points[dual.face_apex[f]].norm());
   }
   ASSERT_EQ(between.size(), 2u);
   for (const auto& [regions, count] : between) EXPECT_EQ(count.first, 10 * subdivision * subdivision + 2);

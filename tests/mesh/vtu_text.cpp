@@ -26,10 +26,10 @@ void write_cells(std::ostream& out, const std::vector<VtuText::Cell>& cells) {
   std::vector<int> types;
   for (const VtuText::Cell& cell : cells) {
     connectivity.insert(connectivity.end(), cell.points.begin(), cell.points.end());
-    offsets.push_back(static_cast<Index>(connectivity.size()));
+    offsets.push_back(count_of(connectivity));
     types.push_back(cell.type);
     faces.insert(faces.end(), cell.faces.begin(), cell.faces.end());
-    face_offsets.push_back(cell.faces.empty() ? -1 : static_cast<Index>(faces.size()));
+    face_offsets.push_back(cell.faces.empty() ? -1 : count_of(faces));
   }
   write_array(out, "type=\"Int32\" Name=\"connectivity\"", connectivity);
   write_array(out, "type=\"Int32\" Name=\"offsets\"", offsets);
@@ -92,12 +92,12 @@ VtuText vtu_text(const Mesh& mesh) {
 VtuText vtu_text_of_polyhedra(const Mesh& mesh) {
   VtuText text = vtu_text(mesh);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    VtuText::Cell& cell = text.cells[static_cast<std::size_t>(c)];
+    VtuText::Cell& cell = text.cells[c];
     cell.type = 42;
     cell.faces = {static_cast<Index>(mesh.faces_of_cell(c).size())};
     for (const Index f : mesh.faces_of_cell(c)) {
       const auto ids = mesh.points_of_face(f);
-      cell.faces.push_back(static_cast<Index>(ids.size()));
+      cell.faces.push_back(count_of(ids));
       cell.faces.insert(cell.faces.end(), ids.begin(), ids.end());
     }
   }

@@ -9,7 +9,7 @@
 namespace pfdm::test {
 
 inline OutputFields sound_fields(const Mesh& mesh) {
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   return {.displacement = CellField<Vector>(n),
           .damage = CellField<double>(n),
           .stress = CellField<Tensor>(n),

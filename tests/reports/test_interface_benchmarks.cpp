@@ -23,7 +23,7 @@ TEST(ReportedInterfaces, OfTwoInclusionsDebondBySmithAndFerrantesLaw) {
   const auto force_at = [&](double displacement) {
     const auto near = std::ranges::min_element(u, {}, [&](double x) { return std::abs(x - displacement); });
     EXPECT_NEAR(*near, displacement, 1e-9);
-    return F[static_cast<std::size_t>(near - u.begin())];
+    return F[near - u.begin()];
   };
   EXPECT_NEAR(force_at(10e-6), 17.96, 0.003 * 17.96);
   EXPECT_NEAR(force_at(16e-6), 24.33, 0.003 * 24.33);

@@ -238,7 +238,7 @@ inline MaterialExperiment tension_test(const std::vector<double>& strain, std::v
   MaterialExperiment experiment{.name = "independent", .loading = {}, .channels = {}};
   for (std::size_t i = 0; i < strain.size(); ++i) experiment.loading.times.push_back(0.01 * static_cast<double>(i));
   for (int k = 0; k < 6; ++k) {
-    auto& condition = experiment.loading.conditions[static_cast<std::size_t>(k)];
+    auto& condition = experiment.loading.conditions[k];
     condition.pace = Pace::follow;
     condition.values.assign(strain.size(), 0.0);
     if (k == 0) {

@@ -19,8 +19,8 @@ inline LoadSegment strain_paths(const std::array<Path, 6>& strain, int n, double
   LoadSegment segment;
   for (int i = 0; i <= n; ++i) segment.times.push_back(end * i / n);
   for (int k = 0; k < n_components; ++k) {
-    const Path& path = strain[static_cast<std::size_t>(k)];
-    auto& condition = segment.conditions[static_cast<std::size_t>(k)];
+    const Path& path = strain[k];
+    auto& condition = segment.conditions[k];
     condition.condition = path ? on_strain(k) : on_stress(k);
     condition.pace = Pace::follow;
     for (const double t : segment.times) condition.values.push_back(path ? path(t) : 0.0);

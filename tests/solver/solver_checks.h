@@ -50,7 +50,7 @@ class RandomNumbers {
     return a;
   }
   CellField<double> field(Index n, double low, double high) {
-    CellField<double> result(as_size(n));
+    CellField<double> result(n);
     for (double& value : result) value = between(low, high);
     return result;
   }

@@ -19,8 +19,8 @@ TEST_F(Parallel, VisitsEveryItemOnce) {
     set_threads(threads);
     EXPECT_EQ(n_threads(), threads);
     for (const Index n : sizes) {
-      std::vector<std::atomic<int>> visits(as_size(n));
-      parallel_for(n, [&](Index i) { ++visits[as_size(i)]; });
+      std::vector<std::atomic<int>> visits(n);
+      parallel_for(n, [&](Index i) { ++visits[i]; });
       for (const auto& count : visits) ASSERT_EQ(count, 1) << n << " items, " << threads << " threads";
     }
   }
@@ -32,9 +32,9 @@ TEST_F(Parallel, LoopsThatFollowEachOtherAtOnceKeepTheirTasksApart) {
     set_threads(threads);
     for (int loop = 0; loop < 2000; ++loop) {
       const Index n = 1 + loop % 5;
-      std::vector<int> done(as_size(n), -1);
-      detail::run_tasks(n, [&](Index i) { done[as_size(i)] = loop + i; });
-      for (Index i = 0; i < n; ++i) ASSERT_EQ(done[as_size(i)], loop + i) << threads << " threads";
+      std::vector<int> done(n, -1);
+      detail::run_tasks(n, [&](Index i) { done[i] = loop + i; });
+      for (Index i = 0; i < n; ++i) ASSERT_EQ(done[i], loop + i) << threads << " threads";
     }
   }
 }
@@ -111,8 +111,8 @@ TEST_F(Parallel, SeveralCallersAtATimeGetTheSameSums) {
 TEST_F(Parallel, LoopsWithinLoopsAreDone) {
   set_threads(3);
   std::vector<double> sums(3 * as_size(chunk_size), 0.0);
-  parallel_for(static_cast<Index>(sums.size()), [&](Index i) {
-    if (i % chunk_size == 7) sums[as_size(i)] = parallel_sum(2 * chunk_size, [](Index) { return 1.0; });
+  parallel_for(count_of(sums), [&](Index i) {
+    if (i % chunk_size == 7) sums[i] = parallel_sum(2 * chunk_size, [](Index) { return 1.0; });
   });
   EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), 0.0), 6.0 * chunk_size);
 }

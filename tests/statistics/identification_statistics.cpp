@@ -128,8 +128,7 @@ Samples prony(const Samples& g, int order, double rate) {
   Eigen::MatrixXd basis(g.size(), 2 * std::ssize(alphas));
   for (Eigen::Index i = 0; i < std::ssize(alphas); ++i)
     for (Eigen::Index k = 0; k < g.size(); ++k) {
-      const std::complex<double> decay =
-          std::exp(-alphas[static_cast<std::size_t>(i)] * (static_cast<double>(k) / rate));
+      const std::complex<double> decay = std::exp(-alphas[i] * (static_cast<double>(k) / rate));
       basis(k, 2 * i) = decay.real(), basis(k, 2 * i + 1) = -decay.imag();
     }
   const Eigen::VectorXd x = scaled_least_squares(basis, g);

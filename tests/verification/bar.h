@@ -175,7 +175,7 @@ inline BarState Bar::state_of(const FractureState& state, double force, double f
 }
 
 inline StepSeen Bar::recorder(std::vector<BarState>& states) const {
-  const auto pulled = static_cast<std::size_t>(&mesh_.patch("xmax") - mesh_.patches.data());
+  const auto pulled = mesh_.patch_index("xmax");
   return [this, pulled, &states](const FractureState& state, const StepReport& report) {
     for (const std::string& remark : report.remarks) ADD_FAILURE() << remark;
     if (report.step == 0) return;
@@ -242,7 +242,7 @@ inline std::vector<BarState> Bar::run_reversibly(const std::vector<Leg>& legs) c
       const std::vector<Vector> forces = solver.momentum().balance().boundary_forces(state.displacement);
       double force = 0.0;
       for (Index f = pulled.first_face; f < pulled.first_face + pulled.n_faces; ++f)
-        force += forces[as_size(f - mesh_.n_interior_faces())][0];
+        force += forces[f - mesh_.n_interior_faces()][0];
       states.push_back(state_of(state, force, solver.damage_equation().fracture_energy(state.damage)));
     }
   }

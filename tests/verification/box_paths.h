@@ -22,7 +22,7 @@ inline MeanPath strains(const std::vector<std::pair<std::size_t, std::vector<dou
 }
 
 inline void load(FractureModel& model, const Mesh& mesh, const MeanPath& path, const char* loading) {
-  CellField<IsotropicElasticity> cells(as_size(mesh.n_cells()));
+  CellField<IsotropicElasticity> cells(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) cells[c] = model.in_cell(mesh, c).elasticity;
   model.motion = motion_along(path, mesh, homogenization_loading(loading), reuss_estimate(mesh, cells));
 }

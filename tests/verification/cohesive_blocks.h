@@ -48,10 +48,6 @@ inline Mesh two_blocks(Index n) {
   return make_box_hexes(box);
 }
 
-inline std::size_t mesh_patch(const Mesh& mesh, const std::string& name) {
-  return static_cast<std::size_t>(&mesh.patch(name) - mesh.patches.data());
-}
-
 inline constexpr InterfaceStrength glued{.strength = strength,
                                          .toughness = toughness,
                                          .shear_strength = 3e6,

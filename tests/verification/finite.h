@@ -25,9 +25,7 @@ struct Drawn {
   StepReport report;
   Index krylov_iterations = 0;
 
-  const Vector& force(const Mesh& mesh, const char* patch) const {
-    return report.reaction[static_cast<std::size_t>(&mesh.patch(patch) - mesh.patches.data())];
-  }
+  const Vector& force(const Mesh& mesh, const char* patch) const { return report.reaction[mesh.patch_index(patch)]; }
 };
 
 inline Drawn draw(const Mesh& mesh, const FractureModel& model, Index steps, double tolerance = 1e-8) {
@@ -68,21 +66,18 @@ inline Mesh mapped_box(const std::array<Index, 3>& n, const std::function<Vector
         if (cells == BoxCells::prisms) {
           for (const auto& [a, b] : {std::pair{2, 1}, {3, 2}})
             soup.add_cell(CellShape::wedge,
-                          std::array{points[0], points[as_size(a)], points[as_size(b)], points[4],
-                                     points[as_size(a) + 4], points[as_size(b) + 4]},
-                          0);
+                          std::array{points[0], points[a], points[b], points[4], points[a + 4], points[b + 4]}, 0);
           continue;
         }
         for (const auto& [a, b] : {std::pair{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}})  // about the diagonal 0 6
-          soup.add_cell(CellShape::tetrahedron,
-                        std::array{points[0], points[as_size(a)], points[as_size(b)], points[6]}, 0);
+          soup.add_cell(CellShape::tetrahedron, std::array{points[0], points[a], points[b], points[6]}, 0);
       }
   std::vector<PatchRule> rules;
   for (Index axis = 0; axis < 3; ++axis)
     for (const double side : {0.0, 1.0})
       rules.push_back({std::string(1, "xyz"[axis]) + (side == 0.0 ? "min" : "max"),
                        [=](const Vector&, const Vector&, std::span<const Index> points) {
-                         return std::ranges::all_of(points, [&](Index p) { return place[as_size(p)][axis] == side; });
+                         return std::ranges::all_of(points, [&](Index p) { return place[p][axis] == side; });
                        }});
   return assemble_mesh(std::move(soup), rules);
 }

@@ -90,16 +90,16 @@ std::unique_ptr<ElasticSolution> solve_elastic(const Mesh& mesh, const FractureM
   const std::clock_t start = std::clock();
   solution->unknowns = place_unknowns(mesh, elastic_body(model));
   solution->solver = std::make_unique<MomentumSolver>(mesh, solution->unknowns);
-  CellField<IsotropicElasticity> moduli(as_size(mesh.n_cells()));
-  const CellField<double> factors = g.size() > 0 ? g : CellField<double>(as_size(mesh.n_cells()), 1.0);
+  CellField<IsotropicElasticity> moduli(mesh.n_cells());
+  const CellField<double> factors = g.size() > 0 ? g : CellField<double>(mesh.n_cells(), 1.0);
   std::vector<Vector> force_on_cells;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    moduli[c] = model.split.secant(model.regions[as_size(mesh.region[c])].elasticity, factors[c], closure);
+    moduli[c] = model.split.secant(model.regions[mesh.region[c]].elasticity, factors[c], closure);
     if (body_force) force_on_cells.emplace_back(mesh.cell_volume[c] * body_force(mesh.cell_centre[c]));
   }
   solution->solver->set_moduli(moduli, factors);
   solution->solver->set_body_force(std::move(force_on_cells));
-  solution->u.assign(as_size(solution->unknowns.n_unknowns()), Vector::Zero());
+  solution->u.assign(solution->unknowns.n_unknowns(), Vector::Zero());
   solution->equilibrium =
       solution->solver->solve(1.0, {.reduction = 0.0, .ceiling = residual, .floor = residual}, solution->u);
   solution->cpu_seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
@@ -132,7 +132,7 @@ double relative_stress_error(const Mesh& mesh, const CellField<Tensor>& stress, 
 
 double displacement_error(const Mesh& mesh, const ElasticSolution& solution, const DisplacementField& exact) {
   return relative_error(
-      mesh, [&](Index c) { return solution.u[as_size(c)]; }, [&](Index c) { return exact(mesh.cell_centre[c]); },
+      mesh, [&](Index c) { return solution.u[c]; }, [&](Index c) { return exact(mesh.cell_centre[c]); },
       [](Index) { return true; });
 }
 
@@ -161,7 +161,7 @@ double energy_imbalance(const Mesh& mesh, const ElasticSolution& solution) {
   double half_work = 0.0;
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const Index node = solution.unknowns.node_of_face[mesh.n_interior_faces() + static_cast<Index>(k)];
-    if (node >= 0) half_work += 0.5 * forces[k].dot(solution.u[as_size(node)]);
+    if (node >= 0) half_work += 0.5 * forces[k].dot(solution.u[node]);
   }
   const auto& energy = solution.cells.energy;
   return std::abs(std::accumulate(energy.begin(), energy.end(), 0.0) - half_work) / half_work;
@@ -191,7 +191,7 @@ Mesh extruded_triangles(Index n, const std::vector<double>& levels) {
       soup.points.emplace_back(double(i) / n + wobble * std::sin(37.0 * k), double(j) / n + wobble * std::sin(91.0 * k),
                                z);
     }
-  const auto n_layers = static_cast<Index>(levels.size()) - 1;
+  const auto n_layers = count_of(levels) - 1;
   for (Index layer = 0; layer < n_layers; ++layer)
     for (Index square = 0; square < n * n; ++square) {
       const Index a = layer * plane + square / n * row + square % n, b = a + 1, c = b + row, d = a + row;

@@ -70,7 +70,7 @@ void warn_of_interfaces(const FractureRun& run, Log& log) {
 
 void say_regions(const Mesh& mesh, Log& log) {
   std::vector<Index> cells(mesh.region_names.size());
-  for (const Index region : mesh.region) ++cells[as_size(region)];
+  for (const Index region : mesh.region) ++cells[region];
   for (std::size_t i = 0; i < cells.size(); ++i)
     log.say(fmt::format("  region {:<16} {:>9} cells", mesh.region_names[i], cells[i]));
 }

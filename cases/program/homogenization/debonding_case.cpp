@@ -79,7 +79,7 @@ MeanPath read_path(const ConfigValue& value, std::array<int, 2>& component) {
 }
 
 BoxMotion motion_of(const MeanPath& path, const Loading& loading, const Mesh& mesh, const FractureModel& model) {
-  CellField<IsotropicElasticity> cells(as_size(mesh.n_cells()));
+  CellField<IsotropicElasticity> cells(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) cells[c] = model.in_cell(mesh, c).elasticity;
   return motion_along(path, mesh, loading, reuss_estimate(mesh, cells));
 }

@@ -62,7 +62,7 @@ LinearComposite composite_on(const HomogenizationCase& homogenization, const Mes
   ElasticBody body = elastic_body(model);
   LinearComposite composite{.elasticity = std::move(body.elasticity), .zone = std::move(body.zone)};
   if (model.cells.size() == 0) return composite;
-  composite.cells = CellField<IsotropicElasticity>(as_size(mesh.n_cells()));
+  composite.cells = CellField<IsotropicElasticity>(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) composite.cells[c] = model.cells[c].elasticity;
   return composite;
 }
@@ -74,7 +74,7 @@ std::vector<Phase> phases_of(const HomogenizationCase& homogenization, const Mes
     const auto named = std::ranges::find(homogenization.materials.by_name, material.name, &NamedElasticity::material);
     if (!named->elasticity) return {};
     double fraction = 0.0;
-    for (const std::string& region : material.regions) fraction += result.fraction[as_size(mesh.region_index(region))];
+    for (const std::string& region : material.regions) fraction += result.fraction[mesh.region_index(region)];
     phases.push_back({fraction, *named->elasticity});
     sum += fraction;
   }

@@ -75,7 +75,7 @@ void write_summary_of(const HomogenizationProgram& program, const Session& sessi
   summary.threads = session.threads;
   summary.cells = mesh.n_cells();
   summary.unknowns = result.n_unknowns;
-  summary.steps = static_cast<Index>(result.cases.size());
+  summary.steps = count_of(result.cases);
   for (const LoadCase& one : result.cases) summary.krylov_iterations += one.iterations;
   summary.wall_seconds = seconds;
   summary.cpu_seconds = cpu_seconds();

@@ -19,8 +19,7 @@ std::vector<MandelMatrix> stiffness_by_material(const HomogenizationCase& homoge
   std::vector<MandelMatrix> parts;
   for (const CompositeMaterial& material : homogenization.by_name) {
     parts.emplace_back(MandelMatrix::Zero());
-    for (const std::string& region : material.regions)
-      parts.back() += result.of_region[as_size(mesh.region_index(region))];
+    for (const std::string& region : material.regions) parts.back() += result.of_region[mesh.region_index(region)];
   }
   return parts;
 }
@@ -70,7 +69,7 @@ CsvTable load_cases(const Homogenized& result) {
     for (int k = 0; k < n_components; ++k) {
       std::vector<double> values;
       for (const LoadCase& one : result.cases) values.push_back((one.*of)[k] / mandel_factor(k));
-      table.add(fmt::format("{}_{}{}", what, component_names[as_size(k)], unit), std::move(values));
+      table.add(fmt::format("{}_{}{}", what, component_names[k], unit), std::move(values));
     }
   return table;
 }
@@ -93,7 +92,7 @@ EffectiveMaterial effective_material(const HomogenizationCase& homogenization, c
   for (std::size_t m = 0; m < parts.size(); ++m) {
     const CompositeMaterial& one = homogenization.by_name[m];
     double fraction = 0.0;
-    for (const std::string& region : one.regions) fraction += result.fraction[as_size(mesh.region_index(region))];
+    for (const std::string& region : one.regions) fraction += result.fraction[mesh.region_index(region)];
     material.fraction.push_back(fraction);
     material.energy_share.push_back(parts[m].trace() / all);
     if (!one.density) material.density.reset();

@@ -125,7 +125,7 @@ std::vector<BoundaryCondition> read_supports(const ConfigTable& root, const Mesh
       if (type == "clamped") condition.displacement_prescribed = {true, true, true};
       if (type == "pinned")
         for (Index axis = 0; axis < 3; ++axis)
-          condition.displacement_prescribed[as_size(axis)] = std::abs(direction[axis]) > 0.5;
+          condition.displacement_prescribed[axis] = std::abs(direction[axis]) > 0.5;
       supports.push_back(condition);
     }
   }

@@ -157,7 +157,7 @@ void add_motion(const PlateCase& c, const CsvTable& response, double driven, Tab
   const std::vector<double>& f = response.column("frequency_Hz");
   const auto nearest = std::ranges::min_element(f, {}, [&](double at) { return std::abs(at - driven); }) - f.begin();
   for (const ResponsePoint& point : c.points) {
-    const double H1 = response.column(point.name + "_H1_magnitude")[static_cast<std::size_t>(nearest)];
+    const double H1 = response.column(point.name + "_H1_magnitude")[nearest];
     table.rows.push_back({fmt::format("acceleration there, {}", point.name),
                           fmt::format("{:.2f} g0 (H1 {:.2f})", H1 * c.excitation.level / 9.80665, H1)});
   }

@@ -81,9 +81,9 @@ PlateFrames::PlateFrames(std::filesystem::path folder, const Mesh& mesh)
     : folder_(std::move(folder)),
       writer_(mesh, {.time_unit = "s"}),
       series_((make_folder(folder_ / "fields"), folder_ / "fields.pvd")),
-      real_(as_size(mesh.n_cells()), Vector::Zero()),
+      real_(mesh.n_cells(), Vector::Zero()),
       imaginary_(real_),
-      deflection_(as_size(mesh.n_cells()), 0.0) {}
+      deflection_(mesh.n_cells(), 0.0) {}
 
 void PlateFrames::set_motion(const Eigen::VectorXcd& u, const Vector& direction) {
   std::complex<double> largest = 0.0;

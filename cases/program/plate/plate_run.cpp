@@ -19,7 +19,7 @@ constexpr double two_pi = 2.0 * std::numbers::pi;
 // Of the frequency response, in equal ratios.
 std::vector<double> frequencies_of(const PlateCase& c) {
   std::vector<double> frequencies;
-  frequencies.reserve(static_cast<std::size_t>(c.n_frequencies));
+  frequencies.reserve(c.n_frequencies);
   for (int i = 0; i < c.n_frequencies; ++i)
     frequencies.push_back(c.from * std::pow(c.to / c.from, static_cast<double>(i) / (c.n_frequencies - 1)));
   return frequencies;
@@ -151,7 +151,7 @@ std::vector<PlateRun::Part> PlateRun::parts(double frequency) const {
 // What the operator is not symmetric by, the strain energy's heat and the mechanical power differ by; the latter
 // counts.
 PlateRun::Heat PlateRun::heat_of(const std::vector<Part>& all, double temperature) const {
-  Heat heat{.source = CellField<double>(as_size(mesh_.n_cells()), 0.0)};
+  Heat heat{.source = CellField<double>(mesh_.n_cells(), 0.0)};
   double by_strain = 0.0;
   for (const Part& part : all) {
     const Harmonic harmonic = at(part.frequency, temperature);

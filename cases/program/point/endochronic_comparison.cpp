@@ -17,7 +17,7 @@ namespace {
 
 /// "stress_xx_Pa" or "strain_xx", and what it is along a history.
 std::string column_name(bool is_stress, int component) {
-  const auto name = component_names[static_cast<std::size_t>(component)];
+  const auto name = component_names[component];
   return is_stress ? fmt::format("stress_{}_Pa", name) : fmt::format("strain_{}", name);
 }
 

@@ -46,8 +46,8 @@ MeasuredColumn read_measured(const std::string& key, const ConfigValue& value, c
 /// One component has two names in shear, strain_xy and gamma_xy. `seen`: the pairs of indices before.
 void require_once(int pair, const ConfigValue& value, std::vector<int>& seen) {
   if (std::ranges::count(seen, pair) > 0)
-    throw value.error(fmt::format("the component {} is given twice: strain and gamma are the same strain",
-                                  component_names[static_cast<std::size_t>(pair)]));
+    throw value.error(
+        fmt::format("the component {} is given twice: strain and gamma are the same strain", component_names[pair]));
   seen.push_back(pair);
 }
 
@@ -57,16 +57,15 @@ LoadSegment read_followed(const ConfigTable& followed, const CsvTable& file, std
   LoadSegment segment;
   segment.times = std::move(times);
   for (int k = 0; k < n_components; ++k) {
-    auto& condition = segment.conditions[static_cast<std::size_t>(k)];
-    const std::string key = fmt::format("stress_{}", component_names[static_cast<std::size_t>(k)]);
+    auto& condition = segment.conditions[k];
+    const std::string key = fmt::format("stress_{}", component_names[k]);
     condition = {controlled_component(key).condition, Pace::follow, std::vector<double>(segment.times.size(), 0.0)};
   }
   std::vector<int> seen;
   for (const auto& [key, value] : followed.entries()) {
     MeasuredColumn column = read_measured(key, value, file, is_stress, false);
     require_once(column.component.pair, value, seen);
-    segment.conditions[static_cast<std::size_t>(column.component.pair)] = {column.component.condition, Pace::follow,
-                                                                           std::move(column.values)};
+    segment.conditions[column.component.pair] = {column.component.condition, Pace::follow, std::move(column.values)};
   }
   if (followed.entries().empty())
     throw followed.error(
@@ -85,9 +84,9 @@ MaterialExperiment::Channel read_channel(const std::string& key, const ConfigVal
 /// A stress that was measured where the strain is free would be that of another test.
 void require_strains_of(const MaterialExperiment& experiment, const ConfigTable& stresses) {
   for (const MaterialExperiment::Channel& channel : experiment.channels)
-    if (experiment.loading.conditions[static_cast<std::size_t>(channel.component)].condition.on_strain.isZero())
+    if (experiment.loading.conditions[channel.component].condition.on_strain.isZero())
       throw stresses.error(fmt::format("stress_{} was measured, but [fit.experiments.strain] does not name its strain",
-                                       component_names[static_cast<std::size_t>(channel.component)]));
+                                       component_names[channel.component]));
 }
 
 /// Of a law without rates the order of the rows is enough.

@@ -28,7 +28,7 @@ std::vector<ResidualSeries> series_of(const EndochronicFit& fit, const std::vect
       const auto end = at + std::ssize(channel.values);
       result.push_back(
           {.name = fmt::format("{}, {}_{}", experiment.name, experiment.follows_stress ? "strain" : "stress",
-                               component_names[static_cast<std::size_t>(channel.component)]),
+                               component_names[channel.component]),
            .along = "time",
            .values = {at, end}});
       at = end;

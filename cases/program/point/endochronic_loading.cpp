@@ -59,7 +59,7 @@ void read_components(Draft& draft) {
     LoadSegment::Condition condition{.condition = component.condition, .pace = Pace::ramp, .values = {}};
     read_control_value(value, component.is_stress, draft.segment.times, draft.directory, draft.files, condition);
     draft.conditions.push_back(std::move(condition));
-    draft.named[static_cast<std::size_t>(component.pair)] = true;
+    draft.named[component.pair] = true;
   }
 }
 
@@ -74,7 +74,7 @@ void read_linear_condition(Draft& draft, const ConfigTable& table) {
     const double factor = modulus ? value.quantity(dimension::stress) : value.number();
     condition.condition.on_stress += factor * component.condition.on_stress;
     condition.condition.on_strain += factor * component.condition.on_strain;
-    draft.named[static_cast<std::size_t>(component.pair)] = true;
+    draft.named[component.pair] = true;
   }
   if (const auto change = table.find("change"))
     read_control_value(*change, has_stress, draft.segment.times, draft.directory, draft.files, condition);
@@ -94,7 +94,7 @@ void complete(Draft& draft) {
   if (draft.table.has("free")) {
     for (const ConfigValue& entry : draft.table.at("free").list()) {
       const std::string name = entry.choice();
-      draft.named[static_cast<std::size_t>(std::ranges::find(component_names, name) - component_names.begin())] = true;
+      draft.named[std::ranges::find(component_names, name) - component_names.begin()] = true;
     }
   }
   for (std::size_t k = 0; k < 6; ++k) {
@@ -127,7 +127,7 @@ LoadSegment read_segment(const ConfigTable& table, const EndochronicLaw& law, co
 
 ControlledComponent controlled_component(std::string_view name) {
   for (int k = 0; k < n_components; ++k) {
-    const std::string_view component = component_names[static_cast<std::size_t>(k)];
+    const std::string_view component = component_names[k];
     const Mandel unit = Mandel::Unit(k) / mandel_factor(k);
     if (name == fmt::format("stress_{}", component)) return {{unit, Mandel::Zero()}, k, true};
     if (name == fmt::format("strain_{}", component)) return {{Mandel::Zero(), unit}, k, false};

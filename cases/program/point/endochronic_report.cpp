@@ -74,7 +74,7 @@ std::vector<std::string_view> prescribed(const EndochronicLoading& loading, bool
   std::vector<std::string_view> components;
   for (int k = 0; k < n_components; ++k)
     if (std::ranges::any_of(loading.segments, [&](const auto& segment) { return prescribes(segment, k, is_stress); }))
-      components.push_back(component_names[static_cast<std::size_t>(k)]);
+      components.push_back(component_names[k]);
   return components;
 }
 

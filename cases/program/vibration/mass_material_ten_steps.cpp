@@ -66,7 +66,7 @@ void write_iterations(const fs::path& path, const TenSteps& steps) {
   const auto n = static_cast<Eigen::Index>(steps.iterations.size());
   const auto column = [&](auto value) {
     VectorXd values(n);
-    for (Eigen::Index i = 0; i < n; ++i) values[i] = value(steps.iterations[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < n; ++i) values[i] = value(steps.iterations[i]);
     return values;
   };
   SignalTable table{.remark = fmt::format("{}: {}", remark, steps.settled ? "settled" : "not settled"),
@@ -84,7 +84,7 @@ void write_series(const fs::path& path, const TenSteps& steps) {
   const auto n = static_cast<Eigen::Index>(steps.series.size());
   const auto column = [&](auto value) {
     VectorXd values(n);
-    for (Eigen::Index i = 0; i < n; ++i) values[i] = value(steps.series[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < n; ++i) values[i] = value(steps.series[i]);
     return values;
   };
   write_signals_csv(

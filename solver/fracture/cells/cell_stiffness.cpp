@@ -11,7 +11,7 @@ CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model)
     : mesh_(mesh), model_(model), materials_(mesh, model), finite_(mesh, model), is_isotropic_(model.is_isotropic()) {
   if (!model.is_anisotropic()) return;
   std::map<const MandelMatrix*, std::shared_ptr<const AnisotropicElasticity>> known;
-  anisotropy_ = CellField<std::shared_ptr<const AnisotropicElasticity>>(as_size(mesh.n_cells()));
+  anisotropy_ = CellField<std::shared_ptr<const AnisotropicElasticity>>(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const MandelMatrix* C = model.in_cell(mesh, c).stiffness.get();
     if (C == nullptr) continue;
@@ -22,7 +22,7 @@ CellStiffness::CellStiffness(const Mesh& mesh, const FractureModel& model)
 
 void CellStiffness::start_step(double duration) {
   materials_.start_step(duration);
-  const auto n = as_size(mesh_.n_cells());
+  const std::size_t n = mesh_.n_cells();
   closing_ = CellField<float>(n, 0.0F);
   turns_ = CellField<Index>(n, 0);
 }
@@ -40,7 +40,7 @@ double CellStiffness::factor(Index cell, double d) const {
 }
 
 CellField<double> CellStiffness::factors(const FractureState& state) const {
-  CellField<double> g(as_size(mesh_.n_cells()));
+  CellField<double> g(mesh_.n_cells());
   parallel_for(mesh_.n_cells(), [&](Index c) { g[c] = factor(c, seen(c, state)); });
   return g;
 }
@@ -55,7 +55,7 @@ Tensor CellStiffness::thinned_gradient(Index cell, const CellMechanics& mechanic
 }
 
 void CellStiffness::set(const FractureState& state, MomentumSolver& momentum) const {
-  const auto n = as_size(mesh_.n_cells());
+  const std::size_t n = mesh_.n_cells();
   const CellField<double> g = factors(state);
   momentum.set_eigenstrain(state.step > 0 ? std::optional(state.load) : std::nullopt);
   if (finite_.any()) {
@@ -98,7 +98,7 @@ bool CellStiffness::depends_on_strain() const {
 
 // The secant moduli are linear in g.
 CellField<IsotropicElasticity> CellStiffness::degradable_part(const FractureState& state) const {
-  CellField<IsotropicElasticity> part(as_size(mesh_.n_cells()), {});
+  CellField<IsotropicElasticity> part(mesh_.n_cells(), {});
   parallel_for(mesh_.n_cells(), [&](Index c) {
     if (!has_degradable_part(c) || !split(c).has_secant() || anisotropy(c) != nullptr) return;
     const EnergySplit& law = split(c);
@@ -176,7 +176,7 @@ FiniteEnergies CellStiffness::finite_energies(Index cell, const CellMechanics& m
 
 CellField<FiniteEnergies> CellStiffness::finite_energies(const CellMechanics& mechanics,
                                                          const FractureState& state) const {
-  CellField<FiniteEnergies> energies(as_size(mesh_.n_cells()));
+  CellField<FiniteEnergies> energies(mesh_.n_cells());
   parallel_for(mesh_.n_cells(), [&](Index c) { energies[c] = finite_energies(c, mechanics, state); });
   return energies;
 }
@@ -217,7 +217,7 @@ double CellStiffness::residual_energy(Index cell, double psi_plus, const Fractur
 CellField<Mandel> CellStiffness::eigenstrain_moments(const CellMechanics& mechanics, const FractureState& state,
                                                      const Vector& plane_normal) const {
   if (!finite_.any()) return mechanics.traction_moment;
-  CellField<Mandel> moments(as_size(mechanics.eigenstrain.size()));
+  CellField<Mandel> moments(mechanics.eigenstrain.size());
   parallel_for(moments.size(), [&](Index c) {
     moments[c] = to_mandel(finite_.eigenstrain_moment(c, mechanics, factor(c, state.damage[c]), plane_normal));
   });

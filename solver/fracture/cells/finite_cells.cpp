@@ -70,7 +70,7 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(m
       plane_normal_ = mesh.face_area[mesh.patch(on.patch).first_face].normalized();
       if (on.kind == Kind::plane_stress) across_ = plane_normal_;
     }
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   material_ = CellField<const HyperelasticMaterial*>(n, nullptr);
   split_ = CellField<const FiniteSplit*>(n, all_splits);
   for (Index c = 0; c < mesh.n_cells(); ++c) {

@@ -39,7 +39,7 @@ MaterialCells::MaterialCells(const Mesh& mesh, const FractureModel& model)
       gaps_(mesh, material_, model.is_plane_stress()) {
   any_ = material_.size() > 0;
   if (!any_) return;
-  tangent_ = CellField<MandelMatrix>(as_size(mesh.n_cells()));
+  tangent_ = CellField<MandelMatrix>(mesh.n_cells());
   start_step(0.0);
 }
 
@@ -81,7 +81,7 @@ IsotropicElasticity MaterialCells::beyond_elasticity(Index cell) const {
 }
 
 HistoryStress MaterialCells::history_stress(const CellHistories& histories) const {
-  const auto n = as_size(mesh_.n_cells());
+  const std::size_t n = mesh_.n_cells();
   HistoryStress history{.stress = CellField<LinearStress>(n)};
   if (!gaps_.any()) return history;
   history.sound = CellField<IsotropicElasticity>(n);
@@ -107,7 +107,7 @@ MaterialEnergy MaterialCells::energy(Index cell, const CellHistories& histories)
 CellHistories MaterialCells::virgin_histories() const {
   if (!any_) return {};
   std::vector<std::size_t> sizes;
-  sizes.reserve(as_size(mesh_.n_cells()));
+  sizes.reserve(mesh_.n_cells());
   for (Index c = 0; c < mesh_.n_cells(); ++c)
     sizes.push_back(has(c) ? material_[c]->history_size() + gaps_.size(c) : 0);
   CellHistories histories(sizes);

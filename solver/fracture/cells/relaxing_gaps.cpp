@@ -67,7 +67,7 @@ IsotropicElasticity stiffest_against_volume(const Material& material) {
 RelaxingGaps::RelaxingGaps(const Mesh& mesh, const CellField<const Material*>& materials, bool in_plane_stress)
     : mesh_(mesh) {
   if (materials.size() == 0) return;
-  kind_ = CellField<Index>(as_size(materials.size()), -1);
+  kind_ = CellField<Index>(materials.size(), -1);
   for (Index c = 0; c < materials.size(); ++c) {
     const Material* material = materials[c];
     if (material == nullptr || !gaps_relax(*material, in_plane_stress)) continue;
@@ -100,7 +100,7 @@ void RelaxingGaps::tell(Index cell, std::span<const double> numbers, HistoryStre
   history.sound[cell] = by.elasticity;
   history.relaxes[cell] = 1;
   const auto faces = mesh_.faces_of_cell(cell);
-  const std::size_t first = as_size(mesh_.cell_face_offsets[as_size(cell)]);
+  const std::size_t first = mesh_.cell_face_offsets[cell];
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const std::size_t at = faces_from + k * by.per_face();
     const Vector z = vector_at(numbers, at);
@@ -123,7 +123,7 @@ void RelaxingGaps::advance(Index cell, const CellMechanics& mechanics, std::span
     sum.heat += of.heat * volume;
   };
   const auto faces = mesh_.faces_of_cell(cell);
-  const std::size_t first = as_size(mesh_.cell_face_offsets[as_size(cell)]);
+  const std::size_t first = mesh_.cell_face_offsets[cell];
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const FaceGap& gap = mechanics.gaps[first + k];
     const std::size_t at = faces_from + k * by.per_face();

@@ -58,7 +58,7 @@ class RelaxingGaps {
     IsotropicElasticity elasticity{};
     std::size_t per_face() const { return 3 + 3 * law->shear.size() + law->bulk.size(); }
   };
-  const Kind& kind(Index cell) const { return kinds_[as_size(kind_[cell])]; }
+  const Kind& kind(Index cell) const { return kinds_[kind_[cell]]; }
 
   const Mesh& mesh_;
   std::vector<Kind> kinds_;

@@ -8,7 +8,7 @@ StrengthDrive strength_drive(const Mesh& mesh, const FractureModel& model, const
                              const CellMechanics& mechanics, const FractureState& state,
                              const CellField<double>& psi_plus) {
   if (!model.has_strength()) return {};
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   StrengthDrive drive{.force = CellField<double>(n, 0.0), .closed = CellField<double>(n, 0.0)};
   parallel_for(mesh.n_cells(), [&](Index c) {
     const RegionModel& region = model.in_cell(mesh, c);

@@ -11,13 +11,13 @@ namespace pfdm {
 namespace {
 
 CellField<char> damageable_cells(const Mesh& mesh, const FractureModel& model) {
-  CellField<char> damageable(as_size(mesh.n_cells()));
+  CellField<char> damageable(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) damageable[c] = model.in_cell(mesh, c).damageable ? 1 : 0;
   return damageable;
 }
 
 CellField<double> energy_density(const Mesh& mesh, const FractureModel& model) {
-  CellField<double> density(as_size(mesh.n_cells()), 0.0);
+  CellField<double> density(mesh.n_cells(), 0.0);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (const RegionModel& region = model.in_cell(mesh, c); region.damageable)
       density[c] = region.surface_toughness() / (model.crack->c0 * region.ell);
@@ -26,11 +26,11 @@ CellField<double> energy_density(const Mesh& mesh, const FractureModel& model) {
 
 // The damage is zero at the faces of undamageable cells. Cohesive faces let no damage through, and set none.
 TwoPointFlux::Medium medium_of(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal) {
-  TwoPointFlux::Medium medium{.conductance = CellField<double>(as_size(mesh.n_cells()), 0.0),
+  TwoPointFlux::Medium medium{.conductance = CellField<double>(mesh.n_cells(), 0.0),
                               .plane_normal = plane_normal,
                               .shift = damage_points(mesh, model),
                               .limited = true};
-  if (!model.interfaces.empty()) medium.cut = FaceField<char>(as_size(mesh.n_faces()), 0);
+  if (!model.interfaces.empty()) medium.cut = FaceField<char>(mesh.n_faces(), 0);
   for (const CohesiveSurface& surface : model.interfaces)
     for (const Index f : surface.faces) medium.cut[f] = 1;
   for (Index c = 0; c < mesh.n_cells(); ++c)
@@ -106,7 +106,7 @@ double DamageEquation::local_curvature(Index cell, double d, double psi) const {
 void DamageEquation::linearise_drive(const CellField<double>& psi_plus, const CellField<double>& d) {
   if (!stiffness_damage_.any()) return;
   constexpr double least_curvature = 0.2;  // of that at a fixed dD/dx: where the energy is not convex in d
-  const auto n = as_size(mesh_.n_cells());
+  const std::size_t n = mesh_.n_cells();
   const CellField<double> mean = stiffness_damage_.means(d);
   CellField<double> slope(n, 0.0), bound(n, 0.0);
   drive_.curvature = CellField<double>(n, 0.0);
@@ -187,7 +187,7 @@ ScalarSolution DamageEquation::solve(const DrivingLaw& psi_plus, const CellField
 CellField<double> DamageEquation::relaxed(const CellField<double>& given) {
   constexpr Index most_turns = 100;  // of the deferred correction, and of an active set far from its solution
   constexpr double precision = 1e-6;
-  const CellField<double> no_energy(as_size(mesh_.n_cells()), 0.0);
+  const CellField<double> no_energy(mesh_.n_cells(), 0.0);
   CellField<double> d = given;
   for (Index turn = 0; turn < most_turns; ++turn) {
     const CellField<double> before = d;
@@ -204,12 +204,11 @@ double DamageEquation::local_energy(Index c, double d) const {
 
 double DamageEquation::fracture_energy(const CellField<double>& d) const {
   const double local = parallel_sum(mesh_.n_cells(), [&](Index c) { return local_energy(c, d[c]); });
-  return local + parallel_sum(static_cast<Index>(flux_.links().size()), [&](Index i) { return flux_.energy(i, d); });
+  return local + parallel_sum(count_of(flux_.links()), [&](Index i) { return flux_.energy(i, d); });
 }
 
 double DamageEquation::unevenness(const CellField<double>& d) const {
-  const double gradient =
-      parallel_sum(static_cast<Index>(flux_.links().size()), [&](Index i) { return flux_.energy(i, d); });
+  const double gradient = parallel_sum(count_of(flux_.links()), [&](Index i) { return flux_.energy(i, d); });
   const double square =
       parallel_sum(mesh_.n_cells(), [&](Index c) { return mesh_.cell_volume[c] * density_[c] * d[c] * d[c]; });
   return square > 0.0 ? gradient / square : 0.0;
@@ -224,7 +223,7 @@ bool DamageEquation::softens(Index cell, double d, double psi_plus) const {
 }
 
 CellField<double> DamageEquation::fracture_energy_density(const CellField<double>& d) const {
-  CellField<double> energy(as_size(mesh_.n_cells()));
+  CellField<double> energy(mesh_.n_cells());
   for (Index c = 0; c < mesh_.n_cells(); ++c) energy[c] = local_energy(c, d[c]);
   for (std::size_t i = 0; i < flux_.links().size(); ++i) {
     const double half = 0.5 * flux_.energy(static_cast<Index>(i), d);

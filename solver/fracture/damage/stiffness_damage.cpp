@@ -25,7 +25,7 @@ std::array<double, n_nodes + 1> profile(const CrackGeometry& crack) {
   int next = 1;
   for (int i = 0; i < n && next <= n_nodes; ++i) {
     s += 1.0 / (n * std::sqrt(crack.alpha(1.0 - (i + 0.5) / n)));
-    for (; next <= n_nodes && s * n_nodes >= next; ++next) d[as_size(next)] = 1.0 - (i + 1.0) / n;
+    for (; next <= n_nodes && s * n_nodes >= next; ++next) d[next] = 1.0 - (i + 1.0) / n;
   }
   return d;
 }
@@ -67,17 +67,16 @@ std::vector<Index> cells_between(const Mesh& mesh, const FractureModel& model) {
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const bool fits = may_be_averaged(mesh, model, c) && (shift.size() == 0 || shift[c].isZero());
     for (const Index p : mesh.points_of_cell(c)) {
-      Index& there = region[as_size(p)];
+      Index& there = region[p];
       there = fits && (there == none || there == mesh.region[c]) ? mesh.region[c] : mixed;
     }
   }
   for (const CohesiveSurface& surface : model.interfaces)
     for (const Index f : surface.faces)
-      for (const Index p : mesh.points_of_face(f)) region[as_size(p)] = mixed;
+      for (const Index p : mesh.points_of_face(f)) region[p] = mixed;
   std::vector<Index> cells;
   for (Index c = 0; c < mesh.n_cells(); ++c)
-    if (std::ranges::none_of(mesh.points_of_cell(c), [&](Index p) { return region[as_size(p)] == mixed; }))
-      cells.push_back(c);
+    if (std::ranges::none_of(mesh.points_of_cell(c), [&](Index p) { return region[p] == mixed; })) cells.push_back(c);
   return cells;
 }
 
@@ -93,7 +92,7 @@ double power(double x, int m) {
 StiffnessDamage::StiffnessDamage(const Mesh& mesh, const FractureModel& model, const Vector& plane_normal)
     : means_(mesh, {}) {
   if (model.stiffness_by == StiffnessBy::cell) return;
-  laws_ = CellField<Law>(as_size(mesh.n_cells()));
+  laws_ = CellField<Law>(mesh.n_cells());
   const VertexMeans all(mesh, cells_between(mesh, model));
   const std::array<double, n_nodes + 1> row = profile(*model.crack);
   std::vector<Index> cells;
@@ -121,8 +120,8 @@ StiffnessDamage::At StiffnessDamage::at(Index cell, double mean) const {
 
 CellField<double> StiffnessDamage::of(const CellField<double>& d) const {
   CellField<double> D = means(d);
-  parallel_for(static_cast<Index>(means_.cells().size()), [&](Index i) {
-    const Index c = means_.cells()[as_size(i)];
+  parallel_for(count_of(means_.cells()), [&](Index i) {
+    const Index c = means_.cells()[i];
     D[c] = at(c, D[c]).value;
   });
   return D;

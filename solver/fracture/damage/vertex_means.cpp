@@ -57,19 +57,19 @@ Tensor mirrored(const Tensor& moment, const Normals& across) {
 }  // namespace
 
 VertexMeans::VertexMeans(const Mesh& mesh, std::vector<Index> cells)
-    : mesh_(&mesh), cells_(std::move(cells)), is_averaged_(as_size(mesh.n_cells()), 0) {
+    : mesh_(&mesh), cells_(std::move(cells)), is_averaged_(mesh.n_cells(), 0) {
   std::vector<Index> vertex_of_point(mesh.points.size(), -1), points;
   for (const Index c : cells_) {
     is_averaged_[c] = 1;
     for (const Index p : mesh.points_of_cell(c)) {
-      if (vertex_of_point[as_size(p)] >= 0) continue;
-      vertex_of_point[as_size(p)] = static_cast<Index>(points.size());
+      if (vertex_of_point[p] >= 0) continue;
+      vertex_of_point[p] = count_of(points);
       points.push_back(p);
     }
   }
   weigh_cells_around_vertices(points, vertex_of_point);
   weigh_vertices(vertex_of_point);
-  cells_of_vertex_transposed_ = cells_of_vertex_.transposed(as_size(mesh.n_cells()));
+  cells_of_vertex_transposed_ = cells_of_vertex_.transposed(mesh.n_cells());
   vertices_transposed_ = vertices_of_cell_.transposed(points.size());
 }
 
@@ -78,13 +78,13 @@ void VertexMeans::weigh_cells_around_vertices(const std::vector<Index>& points,
   std::vector<std::vector<Index>> cells(points.size());
   for (Index c = 0; c < mesh_->n_cells(); ++c)
     for (const Index p : mesh_->points_of_cell(c))
-      if (const Index v = vertex_of_point[as_size(p)]; v >= 0) cells[as_size(v)].push_back(c);
+      if (const Index v = vertex_of_point[p]; v >= 0) cells[v].push_back(c);
   std::vector<Normals> across(points.size());
   for (Index f = mesh_->n_interior_faces(); f < mesh_->n_faces(); ++f)
     for (const Index p : mesh_->points_of_face(f))
-      if (const Index v = vertex_of_point[as_size(p)]; v >= 0) across[as_size(v)].add(mesh_->face_area[f].normalized());
+      if (const Index v = vertex_of_point[p]; v >= 0) across[v].add(mesh_->face_area[f].normalized());
   for (std::size_t v = 0; v < points.size(); ++v) {
-    const Vector x = mesh_->points[as_size(points[v])];
+    const Vector x = mesh_->points[points[v]];
     std::vector<Vector> r;
     for (const Index c : cells[v]) r.push_back(across[v].along(mesh_->cell_centre[c] - x));
     const std::vector<double> weights = weights_of(r, across[v]);
@@ -105,12 +105,11 @@ void VertexMeans::weigh_cells_around_vertices(const std::vector<Index>& points,
 void VertexMeans::weigh_vertices(const std::vector<Index>& vertex_of_point) {
   for (const Index c : cells_) {
     std::vector<Vector> r;
-    for (const Index p : mesh_->points_of_cell(c))
-      r.push_back(places_[as_size(vertex_of_point[as_size(p)])] - mesh_->cell_centre[c]);
+    for (const Index p : mesh_->points_of_cell(c)) r.push_back(places_[vertex_of_point[p]] - mesh_->cell_centre[c]);
     const std::vector<double> weights = weights_of(r, {});
     std::size_t k = 0;
     for (const Index p : mesh_->points_of_cell(c))
-      vertices_of_cell_.parts.push_back({vertex_of_point[as_size(p)], weights[k++]});
+      vertices_of_cell_.parts.push_back({vertex_of_point[p], weights[k++]});
     vertices_of_cell_.offset.push_back(vertices_of_cell_.parts.size());
   }
 }
@@ -118,30 +117,30 @@ void VertexMeans::weigh_vertices(const std::vector<Index>& vertex_of_point) {
 VertexMeans::Parts VertexMeans::Parts::transposed(std::size_t n_columns) const {
   Parts result;
   result.offset.assign(n_columns + 1, 0);
-  for (const Part& part : parts) ++result.offset[as_size(part.of) + 1];
+  for (const Part& part : parts) ++result.offset[part.of + 1];
   for (std::size_t i = 0; i < n_columns; ++i) result.offset[i + 1] += result.offset[i];
   result.parts.resize(parts.size());
   std::vector<std::size_t> next(result.offset.begin(), result.offset.end() - 1);
   for (std::size_t i = 0; i + 1 < offset.size(); ++i)
     for (std::size_t k = offset[i]; k < offset[i + 1]; ++k)
-      result.parts[next[as_size(parts[k].of)]++] = {static_cast<Index>(i), parts[k].weight};
+      result.parts[next[parts[k].of]++] = {static_cast<Index>(i), parts[k].weight};
   return result;
 }
 
 template <class Value>
 double VertexMeans::Parts::row(Index i, const Value& value) const {
   double sum = 0.0;
-  for (std::size_t k = offset[as_size(i)]; k < offset[as_size(i) + 1]; ++k) sum += parts[k].weight * value(parts[k].of);
+  for (std::size_t k = offset[i]; k < offset[i + 1]; ++k) sum += parts[k].weight * value(parts[k].of);
   return sum;
 }
 
 CellField<double> VertexMeans::of(const CellField<double>& v) const {
   CellField<double> mean = v;
   std::vector<double> at_vertex(places_.size());
-  parallel_for(static_cast<Index>(at_vertex.size()),
-               [&](Index i) { at_vertex[as_size(i)] = cells_of_vertex_.row(i, [&](Index c) { return v[c]; }); });
-  parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
-    mean[cells_[as_size(i)]] = vertices_of_cell_.row(i, [&](Index vertex) { return at_vertex[as_size(vertex)]; });
+  parallel_for(count_of(at_vertex),
+               [&](Index i) { at_vertex[i] = cells_of_vertex_.row(i, [&](Index c) { return v[c]; }); });
+  parallel_for(count_of(cells_), [&](Index i) {
+    mean[cells_[i]] = vertices_of_cell_.row(i, [&](Index vertex) { return at_vertex[vertex]; });
   });
   return mean;
 }
@@ -149,12 +148,11 @@ CellField<double> VertexMeans::of(const CellField<double>& v) const {
 CellField<double> VertexMeans::spread(const CellField<double>& v) const {
   CellField<double> sum = v;
   std::vector<double> at_vertex(places_.size());
-  parallel_for(static_cast<Index>(at_vertex.size()), [&](Index i) {
-    at_vertex[as_size(i)] = vertices_transposed_.row(i, [&](Index k) { return v[cells_[as_size(k)]]; });
-  });
+  parallel_for(count_of(at_vertex),
+               [&](Index i) { at_vertex[i] = vertices_transposed_.row(i, [&](Index k) { return v[cells_[k]]; }); });
   parallel_for(mesh_->n_cells(), [&](Index c) {
     const double own = is_averaged_[c] != 0 ? 0.0 : v[c];
-    sum[c] = own + cells_of_vertex_transposed_.row(c, [&](Index vertex) { return at_vertex[as_size(vertex)]; });
+    sum[c] = own + cells_of_vertex_transposed_.row(c, [&](Index vertex) { return at_vertex[vertex]; });
   });
   return sum;
 }
@@ -163,8 +161,8 @@ Tensor VertexMeans::covariance(std::size_t i) const {
   Tensor sum = Tensor::Zero();
   for (std::size_t k = vertices_of_cell_.offset[i]; k < vertices_of_cell_.offset[i + 1]; ++k) {
     const auto [vertex, weight] = vertices_of_cell_.parts[k];
-    const Vector r = places_[as_size(vertex)] - mesh_->cell_centre[cells_[i]];
-    sum += weight * (r * r.transpose() + around_vertex_[as_size(vertex)]);
+    const Vector r = places_[vertex] - mesh_->cell_centre[cells_[i]];
+    sum += weight * (r * r.transpose() + around_vertex_[vertex]);
   }
   return sum;
 }

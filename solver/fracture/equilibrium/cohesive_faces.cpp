@@ -137,8 +137,7 @@ void CohesiveFaces::turn(const Face& face, const MomentumOperator& balance, cons
 void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<InterfaceHistory>& before, Way way,
                               MomentumSolver& momentum) const {
   std::vector<FaceSpring> springs(faces_.size());
-  parallel_for(static_cast<Index>(faces_.size()), [&](Index i) {
-    const auto k = as_size(i);
+  parallel_for(count_of(faces_), [&](Index k) {
     const Vector separation = momentum.balance().separation(k, u);
     const Vector n = normal(faces_[k], momentum.balance());
     const InterfaceResponse response = law(faces_[k]).respond(faces_[k].at, n, separation, before[k]);
@@ -160,8 +159,7 @@ void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<In
 void CohesiveFaces::settle(const std::vector<InterfaceHistory>& before, const MomentumOperator& balance,
                            std::vector<Vector>& u) const {
   const std::vector<MomentumOperator::SplitSides> sides = balance.split_sides(u);
-  parallel_for(static_cast<Index>(faces_.size()), [&](Index i) {
-    const auto k = as_size(i);
+  parallel_for(count_of(faces_), [&](Index k) {
     const Face& face = faces_[k];
     const MomentumOperator::SplitSides& s = sides[k];
     const Tensor give = s.give + s.give_beyond;
@@ -178,8 +176,7 @@ void CohesiveFaces::settle(const std::vector<InterfaceHistory>& before, const Mo
 double CohesiveFaces::advance(const MomentumOperator& balance, const std::vector<Vector>& u,
                               const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const {
   after.resize(faces_.size());
-  return parallel_sum(static_cast<Index>(faces_.size()), [&](Index i) {
-    const auto k = as_size(i);
+  return parallel_sum(count_of(faces_), [&](Index k) {
     const Face& face = faces_[k];
     const InterfaceResponse response =
         law(face).respond(face.at, normal(face, balance), balance.separation(k, u), before[k]);
@@ -242,8 +239,7 @@ double CohesiveFaces::dissipated_at(const MomentumOperator& balance, const std::
 double CohesiveFaces::dissipation_growth(const MomentumOperator& balance, const std::vector<Vector>& u,
                                          const std::vector<InterfaceHistory>& from,
                                          const std::vector<Vector>& change) const {
-  return parallel_sum(static_cast<Index>(faces_.size()), [&](Index i) {
-    const auto k = as_size(i);
+  return parallel_sum(count_of(faces_), [&](Index k) {
     const Face& face = faces_[k];
     const InterfaceResponse response = law(face).respond(face.at, face.n, balance.separation(k, u), from[k]);
     return face.area * response.dissipation_slope.dot(balance.separation(k, change));
@@ -265,7 +261,7 @@ std::vector<OutputInterface> CohesiveFaces::output(const MomentumOperator& balan
     for (Index i = 0; i < static_cast<Index>(n); ++i, ++k) {
       const Face& face = faces_[k];
       const Vector separation = balance.separation(k, state.displacement);
-      const double sign = surface.sign.empty() ? 1.0 : surface.sign[as_size(i)];
+      const double sign = surface.sign.empty() ? 1.0 : surface.sign[i];
       out.separation[i] = sign * separation;
       const Vector along = normal(face, balance);
       out.opening[i] = along.dot(separation);
@@ -286,9 +282,8 @@ std::vector<std::string> CohesiveFaces::warnings() const {
     const double ratio = law(face).steepest_fall(face.at) / bond_[k];
     if (!(ratio > worst[face.surface])) continue;
     worst[face.surface] = ratio;
-    const Index f = model_.interfaces[face.surface]
-                        .faces[k - static_cast<std::size_t>(std::ranges::find(faces_, face.surface, &Face::surface) -
-                                                            faces_.begin())];
+    const auto first = std::ranges::find(faces_, face.surface, &Face::surface) - faces_.begin();
+    const Index f = model_.interfaces[face.surface].faces[k - first];
     length[face.surface] = (mesh_.cell_centre[mesh_.neighbour[f]] - mesh_.cell_centre[mesh_.owner[f]]).norm();
   }
   std::vector<std::string> lines;

@@ -76,8 +76,7 @@ void shorten(const std::vector<Vector>& from, const CellLaws& cells, MomentumSol
   constexpr int most_halvings = 8;
   cells();
   for (int k = 0; k < most_halvings && inverts(momentum.balance()); ++k) {
-    parallel_for(static_cast<Index>(u.size()),
-                 [&](Index i) { u[as_size(i)] = 0.5 * (from[as_size(i)] + u[as_size(i)]); });
+    parallel_for(count_of(u), [&](Index i) { u[i] = 0.5 * (from[i] + u[i]); });
     cells();
   }
 }
@@ -144,8 +143,7 @@ struct SolutionLine {
   std::vector<Vector> at(double t) const { return combined(u, t - load, slope); }
   static std::vector<Vector> combined(const std::vector<Vector>& a, double factor, const std::vector<Vector>& b) {
     std::vector<Vector> sum(a.size());
-    parallel_for(static_cast<Index>(a.size()),
-                 [&](Index i) { sum[as_size(i)] = a[as_size(i)] + factor * b[as_size(i)]; });
+    parallel_for(count_of(a), [&](Index i) { sum[i] = a[i] + factor * b[i]; });
     return sum;
   }
 };
@@ -166,8 +164,7 @@ struct PathFollower {
     line.slope = line.u;
     const double apart = load_apart * line.load;
     const Index iterations = momentum.solve(line.load + apart, inner, line.slope).iterations;
-    parallel_for(static_cast<Index>(line.u.size()),
-                 [&](Index i) { line.slope[as_size(i)] = (line.slope[as_size(i)] - line.u[as_size(i)]) / apart; });
+    parallel_for(count_of(line.u), [&](Index i) { line.slope[i] = (line.slope[i] - line.u[i]) / apart; });
     return iterations;
   }
 

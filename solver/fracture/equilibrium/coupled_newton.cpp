@@ -51,30 +51,30 @@ struct CoupledNewton::System {
         n_cells(newton.mesh_.n_cells()),
         n_u(state.displacement.size()),
         g_prime(damage.stiffness_slopes(state.damage)),
-        root(as_size(n_cells), 1.0),
-        diagonal(as_size(n_cells), 1.0),
-        r_d(as_size(n_cells)),
-        z_d(as_size(n_cells)),
-        held(as_size(n_cells), 1),
+        root(n_cells, 1.0),
+        diagonal(n_cells, 1.0),
+        r_d(n_cells),
+        z_d(n_cells),
+        held(n_cells, 1),
         by_damage(damage.coupling()),
-        dd(as_size(n_cells)),
-        dg(as_size(n_cells)),
-        energy(as_size(n_cells)),
-        by_mean(as_size(n_cells)),
+        dd(n_cells),
+        dg(n_cells),
+        energy(n_cells),
+        by_mean(n_cells),
         u(n_u),
         force(n_u) {
     parallel_for(n_cells, [&](Index c) {
       if (!damage.is_damageable(c)) return;
-      diagonal[as_size(c)] = damage.diagonal(c, state.damage[c], state.driving_energy[c]);
-      root[c] = std::sqrt(diagonal[as_size(c)]);
-      held[as_size(c)] = answer[c] > at.lower[c] && answer[c] < 1.0 ? 0 : 1;
+      diagonal[c] = damage.diagonal(c, state.damage[c], state.driving_energy[c]);
+      root[c] = std::sqrt(diagonal[c]);
+      held[c] = answer[c] > at.lower[c] && answer[c] < 1.0 ? 0 : 1;
     });
   }
 
   std::size_t size() const { return n_u + as_size((n_cells + 2) / 3); }
   double& of(std::vector<Vector>& x, Index c) const { return x[n_u + as_size(c / 3)][c % 3]; }
   double of(const std::vector<Vector>& x, Index c) const { return x[n_u + as_size(c / 3)][c % 3]; }
-  bool is_held(Index c) const { return held[as_size(c)] != 0; }
+  bool is_held(Index c) const { return held[c] != 0; }
 
   void apply(const std::vector<Vector>& x, std::vector<Vector>& y) {
     std::copy_n(x.begin(), n_u, u.begin());
@@ -88,7 +88,7 @@ struct CoupledNewton::System {
     std::copy(force.begin(), force.end(), y.begin());
     y.back().setZero();  // the last vector may have room for more cells than there are
     parallel_for(n_cells, [&](Index c) {
-      const double own = diagonal[as_size(c)] - damage.mean_diagonal(c);
+      const double own = diagonal[c] - damage.mean_diagonal(c);
       const double fluxes = own * dd[c] - damage.coupling().times(c, dd.data());
       of(y, c) = is_held(c) ? of(x, c) : (fluxes + drive[c]) / root[c];
     });
@@ -96,21 +96,21 @@ struct CoupledNewton::System {
 
   void precondition(const std::vector<Vector>& r, std::vector<Vector>& z) {
     parallel_for(n_cells, [&](Index c) {
-      r_d[as_size(c)] = is_held(c) ? 0.0 : of(r, c) * root[c];
-      z_d[as_size(c)] = 0.0;
+      r_d[c] = is_held(c) ? 0.0 : of(r, c) * root[c];
+      z_d[c] = 0.0;
     });
     const ConjugateGradients::Tolerance tolerance{
         .reduction = damage_reduction, .least = 0.0, .most_iterations = most_damage_iterations};
     by_damage.solve(diagonal, held, tolerance, r_d, z_d);
     z.back().setZero();
-    parallel_for(n_cells, [&](Index c) { dd[c] = z_d[as_size(c)]; });
+    parallel_for(n_cells, [&](Index c) { dd[c] = z_d[c]; });
     const CellField<double> mean = damage.stiffness_damage().means(dd);
     parallel_for(n_cells, [&](Index c) {
       dg[c] = g_prime[c] * mean[c];
-      of(z, c) = is_held(c) ? of(r, c) : z_d[as_size(c)] * root[c];
+      of(z, c) = is_held(c) ? of(r, c) : z_d[c] * root[c];
     });
     coupling.apply(dg, force);
-    parallel_for(static_cast<Index>(n_u), [&](Index i) { force[as_size(i)] = r[as_size(i)] - force[as_size(i)]; });
+    parallel_for(count_of(force), [&](Index i) { force[i] = r[i] - force[i]; });
     momentum.precondition(force, u);
     std::copy(u.begin(), u.end(), z.begin());
   }
@@ -141,10 +141,9 @@ CoupledNewton::Direction CoupledNewton::solve(const Iterate& at, const FractureS
   const auto target = [](double initial) { return reduction * initial; };
   krylov_iterations_ = solve_fgmres(problem, b, x, target, most_iterations).iterations;
   Direction direction{.u = {x.begin(), x.begin() + static_cast<std::ptrdiff_t>(system.n_u)},
-                      .d = CellField<double>(as_size(system.n_cells))};
+                      .d = CellField<double>(system.n_cells)};
   for (Index c = 0; c < system.n_cells; ++c) direction.d[c] = system.of(x, c) / system.root[c];
-  direction.slope =
-      -parallel_sum(static_cast<Index>(x.size()), [&](Index i) { return b[as_size(i)].dot(x[as_size(i)]); });
+  direction.slope = -parallel_sum(count_of(x), [&](Index i) { return b[i].dot(x[i]); });
   direction.largest = parallel_max(system.n_cells, [&](Index c) { return std::abs(direction.d[c]); });
   return direction;
 }
@@ -154,9 +153,7 @@ void CoupledNewton::go(double share, const CellField<double>& lower, FractureSta
   base_->share = share;
   ++base_->tries;
   const Direction& direction = base_->direction;
-  parallel_for(static_cast<Index>(base_->u.size()), [&](Index i) {
-    state.displacement[as_size(i)] = base_->u[as_size(i)] + share * direction.u[as_size(i)];
-  });
+  parallel_for(count_of(base_->u), [&](Index i) { state.displacement[i] = base_->u[i] + share * direction.u[i]; });
   parallel_for(base_->d.size(),
                [&](Index c) { state.damage[c] = std::clamp(base_->d[c] + share * direction.d[c], lower[c], 1.0); });
 }

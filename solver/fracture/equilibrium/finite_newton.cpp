@@ -15,7 +15,7 @@ constexpr double linear_reduction = 0.02;  // of the residual by one linear solv
 constexpr double little_descent = 1.0 - 1e-4;
 
 double work(const std::vector<Vector>& force, const std::vector<Vector>& step, Index n_nodes) {
-  return parallel_sum(n_nodes, [&](Index i) { return force[as_size(i)].dot(step[as_size(i)]); });
+  return parallel_sum(n_nodes, [&](Index i) { return force[i].dot(step[i]); });
 }
 
 /// Finds the part of a Newton step that may be taken.
@@ -54,8 +54,7 @@ struct LineSearch {
     const double before = residual;
     double part = 1.0;
     for (Index cuts = 0; cuts <= most_cuts; ++cuts, part *= 0.5) {
-      parallel_for(static_cast<Index>(step.size()),
-                   [&](Index i) { state.displacement[as_size(i)] = from[as_size(i)] + part * step[as_size(i)]; });
+      parallel_for(count_of(step), [&](Index i) { state.displacement[i] = from[i] + part * step[i]; });
       stiffness.set(state, momentum);
       if (inverts(momentum.balance())) continue;
       residual = momentum.residual(state.load, state.displacement);

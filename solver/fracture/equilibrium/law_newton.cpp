@@ -13,7 +13,7 @@ constexpr Index most_law_steps = 40;
 constexpr double reduction_of_step = 1e-3;  // of the residual by one linear solve
 
 double work_along(const std::vector<Vector>& step, Index n_nodes, const std::vector<Vector>& force) {
-  return parallel_sum(n_nodes, [&](Index i) { return force[as_size(i)].dot(step[as_size(i)]); });
+  return parallel_sum(n_nodes, [&](Index i) { return force[i].dot(step[i]); });
 }
 
 // The displacements of the state are those at the end of a step from `from`, where the unbalanced forces `rest` act.
@@ -38,8 +38,7 @@ void search_line(const CellStiffness& stiffness, const std::vector<Vector>& from
   for (int tries = 0; tries < most_tries && (now < -near_enough * work || (now > near_enough * work && part < 1.0));
        ++tries) {
     part = below + (above - below) * std::clamp(at_below / (at_below - at_above), 0.02, 0.9);
-    parallel_for(static_cast<Index>(step.size()),
-                 [&](Index i) { state.displacement[as_size(i)] = from[as_size(i)] + part * step[as_size(i)]; });
+    parallel_for(count_of(step), [&](Index i) { state.displacement[i] = from[i] + part * step[i]; });
     now = slope_at_state();
     // Illinois: an end that stays counts half the next time.
     if (now > 0.0)

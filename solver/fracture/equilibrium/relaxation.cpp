@@ -33,9 +33,8 @@ CellField<double> Relaxation::next(const CellField<double>& d, const CellField<d
 // Renews the increments and the cells' own factors; returns the increments of the iteration before, zero at first.
 CellField<double> Relaxation::renew_increment(const CellField<double>& d, const CellField<double>& answer) {
   const Index n = d.size();
-  if (increment_.size() != n)
-    increment_ = CellField<double>(as_size(n), 0.0), share_ = CellField<double>(as_size(n), 1.0);
-  CellField<double> before = std::exchange(increment_, CellField<double>(as_size(n)));
+  if (increment_.size() != n) increment_ = CellField<double>(n, 0.0), share_ = CellField<double>(n, 1.0);
+  CellField<double> before = std::exchange(increment_, CellField<double>(n));
   parallel_for(n, [&](Index c) {
     increment_[c] = answer[c] - d[c];
     const bool turned = increment_[c] * before[c] < 0.0;
@@ -48,7 +47,7 @@ CellField<double> Relaxation::accelerated(const CellField<double>& d, const Cell
                                           const CellField<double>& lower) {
   const Index n = d.size();
   renew_increment(d, answer);
-  CellField<double> relaxed(as_size(n));
+  CellField<double> relaxed(n);
   parallel_for(n, [&](Index c) { relaxed[c] = d[c] + share_[c] * increment_[c]; });
   CellField<double> result = relaxed;
   if (relaxed_.size() == n) {
@@ -85,7 +84,7 @@ CellField<double> Relaxation::over_relaxed(const CellField<double>& d, const Cel
     // An increment that does not decrease gets the largest factor.
     factor_ = along > 0.0 ? std::clamp(factor_ * along / square, least_factor, largest_factor_) : largest_factor_;
   }
-  CellField<double> result(as_size(n));
+  CellField<double> result(n);
   parallel_for(n, [&](Index c) {
     const double step = increment_[c] * before[c] < 0.0 ? share_[c] : factor_ * share_[c];
     result[c] = std::clamp(d[c] + step * increment_[c], lower[c], 1.0);
@@ -98,7 +97,7 @@ CellField<double> Relaxation::over_relaxed(const CellField<double>& d, const Cel
 
 std::optional<double> Progress::of_step(const CellField<double>& from, const CellField<double>& to) {
   const Index n = from.size();
-  if (steps_ == 0) begin_ = from, way_ = 0.0, sum_ = CellField<double>(as_size(n), 0.0);
+  if (steps_ == 0) begin_ = from, way_ = 0.0, sum_ = CellField<double>(n, 0.0);
   parallel_for(n, [&](Index c) { sum_[c] += to[c]; });
   way_ += parallel_sum(n, [&](Index c) { return std::abs(to[c] - from[c]); });
   if (++steps_ < stretch_) return std::nullopt;
@@ -108,7 +107,7 @@ std::optional<double> Progress::of_step(const CellField<double>& from, const Cel
 }
 
 CellField<double> Progress::mean() const {
-  CellField<double> result(as_size(sum_.size()));
+  CellField<double> result(sum_.size());
   for (Index c = 0; c < sum_.size(); ++c) result[c] = sum_[c] / stretch_;
   return result;
 }

@@ -31,19 +31,17 @@ struct CellHistories {
     return histories;
   }
 
-  Eigen::Map<Tensor> gradient(Index cell) { return Eigen::Map<Tensor>(values.data() + first[as_size(cell)]); }
-  Eigen::Map<const Tensor> gradient(Index cell) const {
-    return Eigen::Map<const Tensor>(values.data() + first[as_size(cell)]);
-  }
+  Eigen::Map<Tensor> gradient(Index cell) { return Eigen::Map<Tensor>(values.data() + first[cell]); }
+  Eigen::Map<const Tensor> gradient(Index cell) const { return Eigen::Map<const Tensor>(values.data() + first[cell]); }
   /// The numbers of the cell's law, then those of its gaps.
   std::span<double> of(Index cell) { return std::span(values).subspan(begin(cell), size(cell)); }
   std::span<const double> of(Index cell) const { return std::span(values).subspan(begin(cell), size(cell)); }
   friend bool operator==(const CellHistories&, const CellHistories&) = default;
 
  private:
-  bool has(Index cell) const { return first[as_size(cell) + 1] > first[as_size(cell)]; }
-  std::size_t begin(Index cell) const { return first[as_size(cell)] + (has(cell) ? n_gradient : 0); }
-  std::size_t size(Index cell) const { return first[as_size(cell) + 1] - begin(cell); }
+  bool has(Index cell) const { return first[cell + 1] > first[cell]; }
+  std::size_t begin(Index cell) const { return first[cell] + (has(cell) ? n_gradient : 0); }
+  std::size_t size(Index cell) const { return first[cell + 1] - begin(cell); }
 };
 
 }  // namespace pfdm

@@ -57,10 +57,10 @@ auto by_cell(const FractureModel& model, Value RegionModel::*member) {
   };
   auto kept = std::make_shared<Kept>();
   for (const RegionModel& region : model.regions) kept->regions.push_back(region.*member);
-  kept->cells = CellField<Value>(as_size(model.cells.size()));
+  kept->cells = CellField<Value>(model.cells.size());
   for (Index c = 0; c < model.cells.size(); ++c) kept->cells[c] = model.cells[c].*member;
   return [kept = std::shared_ptr<const Kept>(kept)](const Mesh& mesh, Index cell) -> const Value& {
-    return kept->cells.size() > 0 ? kept->cells[cell] : kept->regions[as_size(mesh.region[cell])];
+    return kept->cells.size() > 0 ? kept->cells[cell] : kept->regions[mesh.region[cell]];
   };
 }
 
@@ -102,10 +102,10 @@ std::function<std::optional<IsotropicElasticity>(const Mesh&, Index)> volume_ela
   constexpr double differs = 1e-9;
   std::vector<std::optional<IsotropicElasticity>> regions;
   for (const RegionModel& region : model.regions) regions.push_back(volume_elasticity(region));
-  CellField<std::optional<IsotropicElasticity>> cells(as_size(model.cells.size()));
+  CellField<std::optional<IsotropicElasticity>> cells(model.cells.size());
   for (Index c = 0; c < model.cells.size(); ++c) cells[c] = volume_elasticity(model.cells[c]);
   return [regions, cells](const Mesh& mesh, Index c) {
-    const auto& region = regions[as_size(mesh.region[c])];
+    const auto& region = regions[mesh.region[c]];
     if (cells.size() == 0) return region;
     const auto& own = cells[c];
     const bool varies = !own || !region || std::abs(own->poisson_ratio() - region->poisson_ratio()) > differs;

@@ -101,7 +101,7 @@ struct FractureModel {
   CellField<double> initial_damage{};
 
   const RegionModel& in_cell(const Mesh& mesh, Index cell) const {
-    return cells.size() > 0 ? cells[cell] : regions[as_size(mesh.region[cell])];
+    return cells.size() > 0 ? cells[cell] : regions[mesh.region[cell]];
   }
   const EnergySplit& split_of(const RegionModel& region) const {
     return region.split.is_chosen() ? region.split : split;

@@ -46,16 +46,16 @@ std::optional<Index> face_at_side(const Mesh& mesh, const CohesiveSurface& surfa
 
 /// Whether some part of the box, along whose faces nothing separates, is held on all sides that are held at all.
 bool is_whole(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns) {
-  DisjointSets parts(as_size(mesh.n_cells()));
-  std::vector<bool> separates(as_size(mesh.n_interior_faces()), false);
-  for (const Index f : unknowns.split_faces) separates[as_size(f)] = true;
+  DisjointSets parts(mesh.n_cells());
+  std::vector<bool> separates(mesh.n_interior_faces(), false);
+  for (const Index f : unknowns.split_faces) separates[f] = true;
   for (Index f = 0; f < mesh.n_interior_faces(); ++f)
-    if (!separates[as_size(f)]) parts.join(as_size(mesh.owner[f]), as_size(mesh.neighbour[f]));
+    if (!separates[f]) parts.join(mesh.owner[f], as_size(mesh.neighbour[f]));
   std::map<std::size_t, std::set<unsigned>> sides;  // of each part
   std::set<unsigned> all;
   for (const HeldFace& held : model.motion.held) {
     const unsigned side = side_of_box(mesh, held.face);
-    sides[parts.least_with(as_size(mesh.owner[held.face]))].insert(side);
+    sides[parts.least_with(mesh.owner[held.face])].insert(side);
     all.insert(side);
   }
   return std::ranges::any_of(sides, [&](const auto& part) { return part.second == all; });

@@ -14,7 +14,7 @@ bool is_symmetry_plane(const Mesh& mesh, const BoundaryCondition& condition, Ind
   constexpr double parallel = 1.0 - 1e-8;
   const Vector n = mesh.face_area[face].normalized();
   for (std::size_t i = 0; i < 3; ++i)
-    if (condition.displacement_prescribed[i] != (std::abs(n[static_cast<Index>(i)]) > parallel)) return false;
+    if (condition.displacement_prescribed[i] != (std::abs(n[i]) > parallel)) return false;
   return true;
 }
 
@@ -37,7 +37,7 @@ CellField<Vector> damage_points(const Mesh& mesh, const FractureModel& model) {
       if (!model.in_cell(mesh, c).damageable || !is_symmetry_plane(mesh, condition, f)) continue;
       const Vector n = mesh.face_area[f].normalized();
       if (!has_opposite_face(mesh, c, n)) continue;
-      if (shift.size() == 0) shift = CellField<Vector>(as_size(mesh.n_cells()), Vector::Zero());
+      if (shift.size() == 0) shift = CellField<Vector>(mesh.n_cells(), Vector::Zero());
       const double to_plane = (mesh.face_centre[f] - mesh.cell_centre[c]).dot(n);
       if (to_plane > 0.5 * model.in_cell(mesh, c).ell) continue;
       if (shift[c].dot(n) < 0.5 * to_plane) shift[c] += to_plane * n;  // once, if several faces lie in the plane

@@ -15,7 +15,7 @@ double uniform_number(std::uint64_t seed, std::uint64_t counter) {
 }  // namespace
 
 void perturb_toughness(const Mesh& mesh, double part, std::uint64_t seed, FractureModel& model) {
-  CellField<RegionModel> cells(as_size(mesh.n_cells()));
+  CellField<RegionModel> cells(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     cells[c] = model.in_cell(mesh, c);
     if (cells[c].damageable) cells[c].Gc *= 1.0 + part * (2.0 * uniform_number(seed, as_size(c)) - 1.0);

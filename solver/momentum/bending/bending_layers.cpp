@@ -31,24 +31,24 @@ struct LayerLine {
 class LayerLines {
  public:
   LayerLines(const Mesh& mesh, const Unknowns& unknowns)
-      : mesh_(mesh), unknowns_(unknowns), ends_(ends()), pairs_(as_size(mesh.n_cells())) {
+      : mesh_(mesh), unknowns_(unknowns), ends_(ends()), pairs_(mesh.n_cells()) {
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       lines_.emplace_back();
-      pairs_[as_size(c)] = pairs_of(c);
+      pairs_[c] = pairs_of(c);
     }
     for (Index c = 0; c < mesh.n_cells(); ++c)
       for (int axis = 0; axis < n_axes(c); ++axis)
-        if (lines_[as_size(c)][as_size(axis)].n == 0.0) walk(c, axis);
+        if (lines_[c][axis].n == 0.0) walk(c, axis);
   }
 
   /// Three of a hexahedron, two in a plane mesh; one of a prism, across its triangles.
   int n_axes(Index cell) const {
     int n = 0;
-    for (const OppositeFaces& pair : pairs_[as_size(cell)]) n += pair.face[0] >= 0 ? 1 : 0;
+    for (const OppositeFaces& pair : pairs_[cell]) n += pair.face[0] >= 0 ? 1 : 0;
     return n;
   }
-  const std::array<Index, 2>& faces(Index cell, int axis) const { return pairs_[as_size(cell)][as_size(axis)].face; }
-  const LayerLine& line(Index cell, int axis) const { return lines_[as_size(cell)][as_size(axis)]; }
+  const std::array<Index, 2>& faces(Index cell, int axis) const { return pairs_[cell][axis].face; }
+  const LayerLine& line(Index cell, int axis) const { return lines_[cell][axis]; }
   /// Of the cells of one zone in the line, twice that where one of its ends is a plane of symmetry [m].
   double zone_length(Index cell, int axis) const {
     double sum = length(cell, axis);
@@ -64,7 +64,7 @@ class LayerLines {
     return is_mirror(ends[0]) != is_mirror(ends[1]) ? 2.0 * sum : sum;
   }
   double length(Index cell, int axis) const {
-    const auto& [f, g] = pairs_[as_size(cell)][as_size(axis)].face;
+    const auto& [f, g] = pairs_[cell][axis].face;
     return (mesh_.face_centre[g] - mesh_.face_centre[f]).norm();
   }
 
@@ -74,18 +74,18 @@ class LayerLines {
   enum class End : char { free, mirror, held };
 
   FaceField<End> ends() const {
-    FaceField<End> end(as_size(mesh_.n_faces()), End::free);
+    FaceField<End> end(mesh_.n_faces(), End::free);
     for (const PatchCondition& on : unknowns_.conditions) {
       using Kind = BoundaryCondition::Kind;
       const auto& held = on.condition.displacement_prescribed;
       const auto is_held_along = [&](std::size_t i) {  // or nothing moves there: across a plane mesh
-        return held[i] || std::abs(unknowns_.plane_normal[static_cast<Eigen::Index>(i)]) > 0.999;
+        return held[i] || std::abs(unknowns_.plane_normal[i]) > 0.999;
       };
       const bool is_held =
           on.condition.kind == Kind::components && is_held_along(0) && is_held_along(1) && is_held_along(2);
       if (on.condition.kind != Kind::symmetry && !is_held) continue;
       const End kind = is_held ? End::held : End::mirror;
-      const Patch& patch = mesh_.patches[as_size(on.patch)];
+      const Patch& patch = mesh_.patches[on.patch];
       for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) end[f] = kind;
     }
     return end;
@@ -108,7 +108,7 @@ class LayerLines {
     std::vector<Step> steps{{cell, axis}};
     LayerLine line;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-      const End end = follow(cell, pairs_[as_size(cell)][as_size(axis)].face[side], steps);
+      const End end = follow(cell, pairs_[cell][axis].face[side], steps);
       line.n_mirrors += end == End::mirror ? 1 : 0;
       line.n_held += end == End::held ? 1 : 0;
     }
@@ -116,7 +116,7 @@ class LayerLines {
       line.n += 1.0;
       line.length += length(c, a);
     }
-    for (const auto& [c, a] : steps) lines_[as_size(c)][as_size(a)] = line;
+    for (const auto& [c, a] : steps) lines_[c][a] = line;
   }
 
   // Adds the cells beyond a face.
@@ -128,14 +128,14 @@ class LayerLines {
       const int axis = axis_of(cell, face);
       if (axis < 0) return End::held;
       steps.emplace_back(cell, axis);
-      const auto& ends = pairs_[as_size(cell)][as_size(axis)].face;
+      const auto& ends = pairs_[cell][axis].face;
       face = ends[0] == face ? ends[1] : ends[0];
     }
     return mesh_.is_interior(face) ? End::free : ends_[face];
   }
   int axis_of(Index cell, Index face) const {
     for (int a = 0; a < n_axes(cell); ++a)
-      for (const Index f : pairs_[as_size(cell)][as_size(a)].face)
+      for (const Index f : pairs_[cell][a].face)
         if (f == face) return a;
     return -1;
   }
@@ -185,7 +185,7 @@ void over_layers(const Mesh& mesh, const Unknowns& unknowns, const See& see) {
                           .lone = layers.n > 1.0 && is_lone(mesh, unknowns, c, lines.faces(c, across))
                                       ? lines.length(c, across)
                                       : 0.0},
-            unknowns.sound[as_size(unknowns.zone[c])].poisson_ratio());
+            unknowns.sound[unknowns.zone[c]].poisson_ratio());
       }
 }
 
@@ -231,9 +231,9 @@ std::vector<BendingCell> cells_with_lines(const Mesh& mesh, const Unknowns& unkn
 }
 
 std::vector<char> bending_cells(const Mesh& mesh, const Unknowns& unknowns) {
-  std::vector<char> bends(as_size(mesh.n_cells()), 0);
+  std::vector<char> bends(mesh.n_cells(), 0);
   over_layers(mesh, unknowns, [&](const BendingCell& in, const BendingLayers& at, double nu) {
-    if (std::max(at.excess(nu), at.lack()) > least_error) bends[as_size(in.cell)] = 1;
+    if (std::max(at.excess(nu), at.lack()) > least_error) bends[in.cell] = 1;
   });
   return bends;
 }

@@ -24,8 +24,8 @@ void over_face(const Mesh& mesh, Index face, const Add& add) {
   const auto points = mesh.points_of_face(face);
   const Vector &centre = mesh.face_centre[face], n = mesh.face_area[face].normalized();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector& a = mesh.points[as_size(points[i])];
-    const Vector& b = mesh.points[as_size(points[(i + 1) % points.size()])];
+    const Vector& a = mesh.points[points[i]];
+    const Vector& b = mesh.points[points[(i + 1) % points.size()]];
     const double third = (a - centre).cross(b - centre).dot(n) / 6.0;
     add((a + b) / 2.0, third);
     add((a + centre) / 2.0, third);
@@ -45,7 +45,7 @@ Functionals functionals_of(const Mesh& mesh, const CubicFaces::Side& side, const
   Functionals at_face;
   double area = 0.0;
   over_face(mesh, side.face, [&](const Vector& x, double weight) {
-    for (int a = 0; a < 3; ++a) at_face.slope[as_size(a)] += weight * derivative(to_units * (x - centre), a);
+    for (int a = 0; a < 3; ++a) at_face.slope[a] += weight * derivative(to_units * (x - centre), a);
     area += weight;
   });
   for (Row& slope : at_face.slope) slope /= area;
@@ -146,11 +146,11 @@ Wanted wanted_monomials(const Mesh& mesh, const Unknowns& unknowns, Index cell, 
     int n_surfaces = 0;
     bool is_within = true;
     for (std::size_t a = 0; a < 3; ++a) {
-      if (powers[as_size(k)][a] == 0) continue;
+      if (powers[k][a] == 0) continue;
       n_surfaces += has_node[a] ? 1 : 0;
       is_within = is_within && !is_across[a];
     }
-    wanted[as_size(k)] = is_within && (degree(k) < 3 || n_surfaces < 2);
+    wanted[k] = is_within && (degree(k) < 3 || n_surfaces < 2);
   }
   return wanted;
 }
@@ -197,22 +197,22 @@ CubicFaces::CubicFaces(const Mesh& mesh, const Unknowns& unknowns, const std::ve
   if (unknowns.plane_normal.isZero() || unknowns.is_axisymmetric()) return;
   const std::vector<char> bends = bending_cells(mesh, unknowns);
   if (std::none_of(bends.begin(), bends.end(), [](char b) { return b != 0; })) return;
-  std::vector<std::vector<std::size_t>> of_cell(as_size(mesh.n_cells()));
-  for (std::size_t k = 0; k < sides.size(); ++k) of_cell[as_size(sides[k].cell)].push_back(k);
-  has_fit_ = CellField<char>(as_size(mesh.n_cells()), 0);
+  std::vector<std::vector<std::size_t>> of_cell(mesh.n_cells());
+  for (std::size_t k = 0; k < sides.size(); ++k) of_cell[sides[k].cell].push_back(k);
+  has_fit_ = CellField<char>(mesh.n_cells(), 0);
   FitSurroundings around(mesh, unknowns);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    if (bends[as_size(c)] == 0) continue;
+    if (bends[c] == 0) continue;
     if (const auto local = fit_of(mesh, unknowns, c, around)) {
       has_fit_[c] = 1;
       cells_.push_back({.cell = c,
                         .first_sample = samples_.size(),
                         .n_samples = local->samples.size(),
                         .first_side = side_numbers_.size(),
-                        .n_sides = of_cell[as_size(c)].size(),
+                        .n_sides = of_cell[c].size(),
                         .first_coefficient = coefficients_.size()});
       samples_.insert(samples_.end(), local->samples.begin(), local->samples.end());
-      for (const std::size_t k : of_cell[as_size(c)]) {
+      for (const std::size_t k : of_cell[c]) {
         side_numbers_.push_back(k);
         to_face_.push_back(mesh.face_centre[sides[k].face] - mesh.cell_centre[c]);
         add_coefficients(functionals_of(mesh, sides[k], local->to_units), local->fit, local->to_units, coefficients_);
@@ -223,8 +223,8 @@ CubicFaces::CubicFaces(const Mesh& mesh, const Unknowns& unknowns, const std::ve
 
 void CubicFaces::weigh(const CellField<double>& g) {
   constexpr double steepness = 4.0;
-  parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
-    Cell& fit = cells_[as_size(i)];
+  parallel_for(count_of(cells_), [&](Index i) {
+    Cell& fit = cells_[i];
     double least = g[fit.cell], most = least;
     for (std::size_t s = fit.first_sample; s < fit.first_sample + fit.n_samples; ++s) {
       if (samples_[s] >= n_cells_) continue;
@@ -241,14 +241,13 @@ void CubicFaces::leave_out() {
 
 void CubicFaces::read(const std::vector<Vector>& u, const CellField<Tensor>& gradients,
                       std::vector<Change>& changes) const {
-  parallel_chunks(static_cast<Index>(cells_.size()), [&](Index begin, Index end) {
+  parallel_chunks(count_of(cells_), [&](Index begin, Index end) {
     std::vector<Wide> moved;  // samples against the cell
     for (Index i = begin; i < end; ++i) {
-      const Cell& fit = cells_[as_size(i)];
-      const Vector& here = u[as_size(fit.cell)];
+      const Cell& fit = cells_[i];
+      const Vector& here = u[fit.cell];
       if (moved.size() < fit.n_samples) moved.resize(fit.n_samples, Wide::Zero());
-      for (std::size_t s = 0; s < fit.n_samples; ++s)
-        moved[s].head<3>() = u[as_size(samples_[fit.first_sample + s])] - here;
+      for (std::size_t s = 0; s < fit.n_samples; ++s) moved[s].head<3>() = u[samples_[fit.first_sample + s]] - here;
       const Tensor& G = gradients[fit.cell];
       const Coefficient* by = &coefficients_[fit.first_coefficient];
       for (std::size_t k = fit.first_side; k < fit.first_side + fit.n_sides; ++k, by += fit.n_samples) {
@@ -258,10 +257,10 @@ void CubicFaces::read(const std::vector<Vector>& u, const CellField<Tensor>& gra
         Wide rise = Wide::Zero();
         std::array<Wide, 3> slope{rise, rise, rise};
         for (std::size_t s = 0; s < fit.n_samples; ++s) {
-          for (int a = 0; a < 3; ++a) slope[as_size(a)] += by[s].gradient[a] * moved[s];
+          for (int a = 0; a < 3; ++a) slope[a] += by[s].gradient[a] * moved[s];
           rise += by[s].value * moved[s];
         }
-        for (int a = 0; a < 3; ++a) change.gradient.col(a) = slope[as_size(a)].head<3>();
+        for (int a = 0; a < 3; ++a) change.gradient.col(a) = slope[a].head<3>();
         change.gradient = fit.weight * (change.gradient - G);
         change.rise = fit.weight * (rise.head<3>() - G * to_face_[k]);
       }

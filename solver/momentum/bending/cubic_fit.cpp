@@ -15,14 +15,14 @@ double power(double x, int n) { return n == 0 ? 1.0 : (n == 1 ? x : (n == 2 ? x 
 }  // namespace
 
 int degree(int k) {
-  const auto& p = powers[as_size(k)];
+  const auto& p = powers[k];
   return p[0] + p[1] + p[2];
 }
 
 Row monomials(const Vector& x) {
   Row row;
   for (int k = 0; k < n_monomials; ++k) {
-    const auto& p = powers[as_size(k)];
+    const auto& p = powers[k];
     row[k] = power(x[0], p[0]) * power(x[1], p[1]) * power(x[2], p[2]);
   }
   return row;
@@ -33,7 +33,7 @@ Row derivative(const Vector& x, int a) {
   for (int k = 0; k < n_monomials; ++k) {
     double value = 1.0;
     for (int b = 0; b < 3; ++b) {
-      const int p = powers[as_size(k)][as_size(b)];
+      const int p = powers[k][b];
       value *= b != a ? power(x[b], p) : (p == 0 ? 0.0 : p * power(x[b], p - 1));
     }
     row[k] = value;
@@ -51,14 +51,14 @@ CubicFit::CubicFit(const std::vector<Vector>& places, const cubic::Wanted& wante
   Eigen::MatrixXd A(m, n_monomials);
   Eigen::VectorXd weight(m);
   for (Eigen::Index j = 0; j < m; ++j) {
-    const Vector& place = places[static_cast<std::size_t>(j)];
+    const Vector& place = places[j];
     weight[j] = std::pow(place.norm(), -3.0);
     A.row(j) = weight[j] * cubic::monomials(place);
   }
   orthogonalise(A, wanted);
   Eigen::MatrixXd X = Q_.leftCols(n_).transpose() * weight.asDiagonal();
   R_.topLeftCorner(n_, n_).triangularView<Eigen::Upper>().solveInPlace(X);
-  for (Eigen::Index i = 0; i < n_; ++i) solution_.row(kept_[static_cast<std::size_t>(i)]) = X.row(i);
+  for (Eigen::Index i = 0; i < n_; ++i) solution_.row(kept_[i]) = X.row(i);
 }
 
 // A column that is almost a combination of those before is left out.
@@ -67,7 +67,7 @@ void CubicFit::orthogonalise(const Eigen::MatrixXd& A, const cubic::Wanted& want
   Q_.resize(A.rows(), n_monomials);
   R_ = Eigen::MatrixXd::Zero(n_monomials, n_monomials);
   for (int k = 0; k < n_monomials; ++k) {
-    if (!wanted[as_size(k)]) continue;
+    if (!wanted[k]) continue;
     Eigen::VectorXd column = A.col(k), along = Eigen::VectorXd::Zero(n_);
     for (int pass = 0; pass < 2; ++pass) {
       const Eigen::VectorXd more = Q_.leftCols(n_).transpose() * column;

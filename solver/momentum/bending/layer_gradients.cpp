@@ -12,8 +12,8 @@ double LayerGradients::least_factor_ratio(const Cell& in, const CellField<double
   for (std::size_t k = lines_[in.first_line].first_slope; k < lines_[in.end_line - 1].end_slope; ++k)
     for (const std::size_t at : {slopes_[k].from, slopes_[k].to})
       if (at < as_size(g.size())) {
-        least = std::min(least, g[static_cast<Index>(at)]);
-        most = std::max(most, g[static_cast<Index>(at)]);
+        least = std::min(least, g[at]);
+        most = std::max(most, g[at]);
       }
   return least / most;
 }
@@ -25,23 +25,23 @@ double LayerGradients::part_of(double factor_ratio) {
 
 void LayerGradients::weigh(const CellField<double>& g) {
   counts_ = !cells_.empty();
-  parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
-    Cell& in = cells_[as_size(i)];
+  parallel_for(count_of(cells_), [&](Index i) {
+    Cell& in = cells_[i];
     if (in.first_line == in.end_line) return;
     in.weight = part_of(least_factor_ratio(in, g));
     counting_[in.cell] = in.weight;
   });
-  parallel_for(static_cast<Index>(surfaces_.size()), [&](Index i) {
-    Surface& at = surfaces_[as_size(i)];
+  parallel_for(count_of(surfaces_), [&](Index i) {
+    Surface& at = surfaces_[i];
     const double here = g[at.cell], there = g[at.next];
     at.weight =
         std::min({counting_[at.cell], counting_[at.next], part_of(std::min(here, there) / std::max(here, there))});
   });
-  parallel_for(static_cast<Index>(weights_.size()), [&](Index i) {
-    const auto& [P, N] = cells_of_link_[as_size(i)];
-    if (is_weighed_[as_size(i)] == 0) return;
+  parallel_for(count_of(weights_), [&](Index i) {
+    const auto& [P, N] = cells_of_link_[i];
+    if (is_weighed_[i] == 0) return;
     const double counts = std::min(counting_[P], counting_[N]);
-    weights_[as_size(i)] = counts * sound_weights_[as_size(i)] + (1.0 - counts) * Tensor::Identity();
+    weights_[i] = counts * sound_weights_[i] + (1.0 - counts) * Tensor::Identity();
   });
 }
 
@@ -53,8 +53,8 @@ std::vector<std::size_t> LayerGradients::surface_sides() const {
 
 void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gradients,
                              std::vector<Tensor>& changes) const {
-  parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
-    const Cell& in = cells_[as_size(i)];
+  parallel_for(count_of(cells_), [&](Index i) {
+    const Cell& in = cells_[i];
     if (in.weight == 0.0) return;
     Tensor& G = gradients[in.cell];
     const Tensor of_one_ring = G;
@@ -72,8 +72,8 @@ void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gr
       G += in.weight * change * line.along.transpose();
     }
   });
-  parallel_for(static_cast<Index>(surfaces_.size()), [&](Index i) {
-    const Surface& at = surfaces_[as_size(i)];
+  parallel_for(count_of(surfaces_), [&](Index i) {
+    const Surface& at = surfaces_[i];
     const Tensor more = at.weight * at.ratio * (gradients[at.cell] - gradients[at.next]);
     Tensor& change = changes[at.side];
     change = more - more * at.n * at.n.transpose();

@@ -69,7 +69,7 @@ class LayerGradients {
   /// What the gradient of a cell varies by along one of its lines: the root of the mean square of that over the cell
   /// [-].
   Tensor spread(Index line, const CellField<Tensor>& gradients) const {
-    const Line& on = lines_[as_size(line)];
+    const Line& on = lines_[line];
     return on.spread * (gradients[on.after] - gradients[on.before]);
   }
   /// Calls see(cell, how much its lines count, the first of its lines, the one behind the last) of all cells with
@@ -140,8 +140,8 @@ class LayerGradients {
 
 template <class See>
 void LayerGradients::each_cell(const See& see) const {
-  parallel_for(static_cast<Index>(cells_.size()), [&](Index i) {
-    const Cell& in = cells_[as_size(i)];
+  parallel_for(count_of(cells_), [&](Index i) {
+    const Cell& in = cells_[i];
     see(in.cell, in.weight, static_cast<Index>(in.first_line), static_cast<Index>(in.end_line));
   });
 }

@@ -40,11 +40,11 @@ class LayerGradients::Maker {
         links_(links),
         has_all_sides_(own == OwnSides::surfaces_ends_and_interfaces),
         made_(made),
-        sides_of_(as_size(mesh.n_cells())) {
-    for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[as_size(sides[k].cell)].emplace_back(sides[k].face, k);
+        sides_of_(mesh.n_cells()) {
+    for (std::size_t k = 0; k < sides.size(); ++k) sides_of_[sides[k].cell].emplace_back(sides[k].face, k);
     made.sound_weights_.assign(links.size(), Tensor::Identity());
-    made.counting_ = CellField<double>(as_size(mesh.n_cells()), 1.0);
-    made.is_covered_ = CellField<char>(as_size(mesh.n_cells()), 0);
+    made.counting_ = CellField<double>(mesh.n_cells(), 1.0);
+    made.is_covered_ = CellField<char>(mesh.n_cells(), 0);
     for (const momentum_faces::Link& link : links) made.cells_of_link_.push_back({link.P, link.N});
     made.is_weighed_.assign(links.size(), 0);
   }
@@ -91,7 +91,7 @@ class LayerGradients::Maker {
   double length(Index f, Index g) const { return (mesh_.face_centre[g] - mesh_.face_centre[f]).norm(); }
   Vector place(std::size_t unknown) const { return unknowns_.place(mesh_, static_cast<Index>(unknown)); }
   std::optional<std::size_t> side_of(Index cell, Index face) const {
-    for (const auto& [f, side] : sides_of_[as_size(cell)])
+    for (const auto& [f, side] : sides_of_[cell])
       if (f == face) return side;
     return std::nullopt;
   }
@@ -251,7 +251,7 @@ class LayerGradients::Maker {
     const bool are_alike = std::max(here, there) <= most_alike * std::min(here, there);
     add_side(cell, face, are_alike || next < 0 ? other : next, 1.0, half_slopes(cell, face));
   }
-  double shear_modulus(Index cell) const { return unknowns_.sound[as_size(unknowns_.zone[cell])].mu; }
+  double shear_modulus(Index cell) const { return unknowns_.sound[unknowns_.zone[cell]].mu; }
 
   // Whose sum is what the slope towards a bonded or held face changes by from the middle of the half cell to the face,
   // by that slope and the next one inwards.
@@ -260,10 +260,10 @@ class LayerGradients::Maker {
     const Index inwards = next >= 0 ? next : unknowns_.node_beside(mesh_, cell, opposite);
     if (inwards < 0) return {};
     const Vector& centre = mesh_.cell_centre[cell];
-    const Vector near = mesh_.face_centre[face] - centre, far = place(as_size(inwards)) - centre;
+    const Vector near = mesh_.face_centre[face] - centre, far = place(inwards) - centre;
     const double at_near = near.norm() / 2.0, at_far = far.norm() / (is_free(opposite) ? 1.0 : 2.0);
     const double part = at_near / (at_near + at_far);
-    const auto at = as_size(cell), node = as_size(unknowns_.node_beside(mesh_, cell, face));
+    const std::size_t at = cell, node = as_size(unknowns_.node_beside(mesh_, cell, face));
     return {{.from = at, .to = node, .step = near, .weight_over_length = part / near.norm()},
             {.from = at, .to = as_size(inwards), .step = far, .weight_over_length = part / far.norm()}};
   }
@@ -276,7 +276,7 @@ class LayerGradients::Maker {
     const momentum_faces::Link& link = links_[*side / 2];
     const double distance = (link.d_P - link.d_N).dot(link.n);
     const double layer = length(in.across[0], in.across[1]), all = in.zone_thickness;
-    const double nu = unknowns_.sound[as_size(unknowns_.zone[in.cell])].poisson_ratio();
+    const double nu = unknowns_.sound[unknowns_.zone[in.cell]].poisson_ratio();
     const double weight = std::min(1.0, left / (1.0 - nu) * layer * all / (distance * distance));
     const Vector line = mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]];
     const Vector within = (line - line.dot(link.n) * link.n).normalized();

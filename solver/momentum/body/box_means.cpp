@@ -10,8 +10,8 @@ BoxMeans box_means(const Mesh& mesh, const Unknowns& unknowns, const std::vector
   double volume = 0.0;
   for (const Index face : sides) {
     const Vector from_centre = mesh.face_centre[face] - centre;
-    moment += boundary_force[as_size(face - mesh.n_interior_faces())] * from_centre.transpose();
-    motion += u[as_size(unknowns.node_of_face[face])] * mesh.face_area[face].transpose();
+    moment += boundary_force[face - mesh.n_interior_faces()] * from_centre.transpose();
+    motion += u[unknowns.node_of_face[face]] * mesh.face_area[face].transpose();
     volume += mesh.face_area[face].dot(from_centre) / 3.0;
   }
   const auto symmetric_mean = [&](const Tensor& sum) -> Tensor { return (0.5 / volume) * (sum + sum.transpose()); };

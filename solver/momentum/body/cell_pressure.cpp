@@ -17,21 +17,21 @@ CellField<Index> pressed_zones(const Unknowns& unknowns) {
 }
 
 std::vector<char> with_pressure(const Mesh& mesh, const Unknowns& unknowns) {
-  std::vector<char> has(as_size(mesh.n_cells()), 0);
-  for (const Index c : unknowns.pressure_cells) has[as_size(c)] = 1;
+  std::vector<char> has(mesh.n_cells(), 0);
+  for (const Index c : unknowns.pressure_cells) has[c] = 1;
   return has;
 }
 
 FaceField<char> split_faces(const Mesh& mesh, const Unknowns& unknowns) {
   if (unknowns.split_faces.empty()) return {};
-  FaceField<char> cut(as_size(mesh.n_faces()), 0);
+  FaceField<char> cut(mesh.n_faces(), 0);
   for (const Index f : unknowns.split_faces) cut[f] = 1;
   return cut;
 }
 
 FaceField<Tensor> warps(const Mesh& mesh) {
   constexpr double negligible = 1e-12;
-  FaceField<Tensor> warp(as_size(mesh.n_faces()));
+  FaceField<Tensor> warp(mesh.n_faces());
   bool any = false;
   for (Index f = 0; f < mesh.n_faces(); ++f) {
     warp[f] = face_warp(mesh, f);
@@ -52,7 +52,7 @@ CellPressure::CellPressure(const Mesh& mesh, const Unknowns& unknowns)
                        .wanted = with_pressure(mesh, unknowns),
                        .zero_if_deficient = true}) {
   if (!any()) return;
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   modulus_ = CellField<double>(n, 0.0);
   counts_ = CellField<double>(n, 1.0);
   warp_ = warps(mesh);
@@ -92,11 +92,10 @@ PressureField CellPressure::field() const {
 
 void CellPressure::read(const std::vector<Vector>& u, PressureField& pressures) const {
   const std::vector<Index>& cells = unknowns_.pressure_cells;
-  const auto first = as_size(unknowns_.n_nodes());
-  parallel_for(static_cast<Index>(cells.size()),
-               [&](Index k) { pressures.q[cells[as_size(k)]] = u[first + as_size(k)][0]; });
-  parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
-    const Index c = cells[as_size(k)];
+  const std::size_t first = unknowns_.n_nodes();
+  parallel_for(count_of(cells), [&](Index k) { pressures.q[cells[k]] = u[first + k][0]; });
+  parallel_for(count_of(cells), [&](Index k) {
+    const Index c = cells[k];
     pressures.slope[c] = counts_[c] * gradient_.of(pressures.q.data(), c);
   });
 }

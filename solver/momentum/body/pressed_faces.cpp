@@ -15,7 +15,7 @@ PressedFaces::PressedFaces(const Mesh& mesh, const Unknowns& unknowns) : mesh_(&
   std::vector<Index> number_of_point(mesh.points.size(), -1);
   for (std::size_t k = 0; k < unknowns.conditions.size(); ++k) {
     if (!unknowns.conditions[k].condition.pressure) continue;
-    const Patch& patch = mesh.patches[as_size(unknowns.conditions[k].patch)];
+    const Patch& patch = mesh.patches[unknowns.conditions[k].patch];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) add_face(k, f, number_of_point);
   }
   if (!faces_.empty()) hold_points(number_of_point);
@@ -24,14 +24,14 @@ PressedFaces::PressedFaces(const Mesh& mesh, const Unknowns& unknowns) : mesh_(&
 void PressedFaces::add_face(std::size_t condition, Index face, std::vector<Index>& number_of_point) {
   Face at{.condition = condition, .face = face, .node = unknowns_->node_of_face[face], .area = mesh_->face_area[face]};
   for (const Index p : mesh_->points_of_face(face)) {
-    Index& number = number_of_point[as_size(p)];
+    Index& number = number_of_point[p];
     if (number < 0) {
-      number = static_cast<Index>(points_.size());
+      number = count_of(points_);
       points_.push_back({.point = p});
     }
-    points_[as_size(number)].corners.push_back(
-        {.cell = mesh_->owner[face], .node = at.node, .d = mesh_->points[as_size(p)] - mesh_->face_centre[face]});
-    at.points.push_back(as_size(number));
+    points_[number].corners.push_back(
+        {.cell = mesh_->owner[face], .node = at.node, .d = mesh_->points[p] - mesh_->face_centre[face]});
+    at.points.push_back(number);
   }
   faces_.push_back(std::move(at));
 }
@@ -39,11 +39,11 @@ void PressedFaces::add_face(std::size_t condition, Index face, std::vector<Index
 void PressedFaces::hold_points(const std::vector<Index>& number_of_point) {
   for (const PatchCondition& on : unknowns_->conditions) {
     if (!is_a_mirror(on.condition)) continue;
-    const Patch& patch = mesh_->patches[as_size(on.patch)];
+    const Patch& patch = mesh_->patches[on.patch];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
       for (const Index p : mesh_->points_of_face(f)) {
-        if (number_of_point[as_size(p)] < 0) continue;
-        Tensor& free = points_[as_size(number_of_point[as_size(p)])].free;
+        if (number_of_point[p] < 0) continue;
+        Tensor& free = points_[number_of_point[p]].free;
         const Vector n = free * mesh_->face_area[f].normalized();
         constexpr double sine = 1e-3;  // below it the plane is one that it is held in already
         if (n.norm() > sine) free -= n * n.transpose() / n.squaredNorm();
@@ -52,7 +52,7 @@ void PressedFaces::hold_points(const std::vector<Index>& number_of_point) {
 }
 
 void PressedFaces::add_forces(double t, std::vector<Vector>& load) const {
-  for (const Face& at : faces_) load[as_size(at.node)] -= free_part(at, pressure_on(at, t) * at.area);
+  for (const Face& at : faces_) load[at.node] -= free_part(at, pressure_on(at, t) * at.area);
 }
 
 void PressedFaces::weigh(Point& point, const CellField<double>& g) const {
@@ -64,14 +64,13 @@ void PressedFaces::weigh(Point& point, const CellField<double>& g) const {
 Vector PressedFaces::move(const Point& point, const std::vector<Vector>& u, const CellField<Tensor>& gradients) {
   Vector sum = Vector::Zero();
   for (const Corner& corner : point.corners)
-    sum += corner.weight * (u[as_size(corner.node)] + gradients[corner.cell] * corner.d);
+    sum += corner.weight * (u[corner.node] + gradients[corner.cell] * corner.d);
   return point.free * sum;
 }
 
 std::vector<Vector> PressedFaces::moves(const std::vector<Vector>& u, const CellField<Tensor>& gradients) const {
   std::vector<Vector> moves(points_.size());
-  parallel_for(static_cast<Index>(points_.size()),
-               [&](Index i) { moves[as_size(i)] = move(points_[as_size(i)], u, gradients); });
+  parallel_for(count_of(points_), [&](Index i) { moves[i] = move(points_[i], u, gradients); });
   return moves;
 }
 
@@ -90,8 +89,7 @@ void PressedFaces::linearise(double t, const std::vector<Vector>& u, const CellF
   follows_ = true;
   for (Point& point : points_) weigh(point, g);
   const std::vector<Vector> moved = moves(u, gradients);
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    points_[i].place = mesh_->points[as_size(points_[i].point)] + moved[i];
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].place = mesh_->points[points_[i].point] + moved[i];
   for (Face& at : faces_) {
     at.pressure = pressure_on(at, t);
     at.initial_turn = turn(at, moved);
@@ -105,14 +103,14 @@ void PressedFaces::add_turn(const std::vector<Vector>& u, const CellField<Tensor
                             std::vector<Vector>& out) const {
   if (faces_.empty() || !follows_) return;
   const std::vector<Vector> moved = moves(u, gradients);
-  parallel_for(static_cast<Index>(faces_.size()), [&](Index i) {
-    const Face& at = faces_[as_size(i)];
-    out[as_size(at.node)] += turn(at, moved);
+  parallel_for(count_of(faces_), [&](Index i) {
+    const Face& at = faces_[i];
+    out[at.node] += turn(at, moved);
   });
 }
 
 void PressedFaces::add_initial_turn(std::vector<Vector>& load) const {
-  for (const Face& at : faces_) load[as_size(at.node)] += at.initial_turn;
+  for (const Face& at : faces_) load[at.node] += at.initial_turn;
 }
 
 }  // namespace pfdm

@@ -56,7 +56,7 @@ class PressedFaces {
   std::vector<Vector> moves(const std::vector<Vector>& u, const CellField<Tensor>& gradients) const;
   Vector turn(const Face& at, const std::vector<Vector>& moves) const;
   Vector free_part(const Face& at, const Vector& force) const {
-    return unknowns_->free_directions[as_size(at.node - unknowns_->n_cells)] * force;
+    return unknowns_->free_directions[at.node - unknowns_->n_cells] * force;
   }
   double pressure_on(const Face& at, double t) const {
     return unknowns_->conditions[at.condition].condition.pressure(mesh_->face_centre[at.face], t);

@@ -31,12 +31,12 @@ struct Part {
 
 // Of each boundary face the one that moves as it does, or -1.
 std::vector<Index> periodic_partners(const Mesh& mesh, const Unknowns& unknowns) {
-  std::vector<Index> partner(as_size(mesh.n_faces()), -1);
-  const auto face_of = [&](Index node) { return unknowns.face_of_node[as_size(node - unknowns.n_cells)]; };
+  std::vector<Index> partner(mesh.n_faces(), -1);
+  const auto face_of = [&](Index node) { return unknowns.face_of_node[node - unknowns.n_cells]; };
   for (const PeriodicNodes& pair : unknowns.periodic) {
     const Index face = face_of(pair.node), image = face_of(pair.image);
-    partner[as_size(face)] = image;
-    partner[as_size(image)] = face;
+    partner[face] = image;
+    partner[image] = face;
   }
   return partner;
 }
@@ -50,15 +50,15 @@ class Parts {
  public:
   Parts(const Mesh& mesh, const CellField<double>& damage, const std::vector<Index>& partner, Placement& placed)
       : mesh_(mesh), damage_(damage), partner_(partner), placed_(placed) {
-    placed.part = CellField<Index>(as_size(mesh.n_cells()), -1);
-    placed.shift = CellField<Vector>(as_size(mesh.n_cells()), Vector::Zero());
+    placed.part = CellField<Index>(mesh.n_cells(), -1);
+    placed.shift = CellField<Vector>(mesh.n_cells(), Vector::Zero());
   }
 
   std::vector<Part> find() {
     std::vector<Part> parts;
     for (Index first = 0; first < mesh_.n_cells(); ++first) {
       if (!is_left(first)) continue;
-      const auto number = static_cast<Index>(parts.size());
+      const auto number = count_of(parts);
       Part& part = parts.emplace_back();
       add(first, Vector::Zero(), number, part);
       for (std::size_t i = 0; i < part.cells.size();) {
@@ -85,7 +85,7 @@ class Parts {
   void cross_sides(Index number, Part& part) {
     for (const Index cell : part.cells)
       for (const Index f : mesh_.faces_of_cell(cell)) {
-        const Index image = partner_[as_size(f)];
+        const Index image = partner_[f];
         if (image < 0 || !is_left(mesh_.owner[image])) continue;
         add(mesh_.owner[image], placed_.shift[cell] + mesh_.face_centre[f] - mesh_.face_centre[image], number, part);
         return;
@@ -118,7 +118,7 @@ Motion motion_at(const Part& part, const Vector& x) {
 void resist_spins(const Unknowns& unknowns, const CellField<Index>& part_of, std::vector<Part>& parts) {
   for (const SpinHold& hold : unknowns.spin_holds)
     if (const Index part = part_of[hold.cell]; part >= 0)
-      parts[as_size(part)].form.bottomRightCorner<3, 3>() += hold.lever * hold.lever.transpose();
+      parts[part].form.bottomRightCorner<3, 3>() += hold.lever * hold.lever.transpose();
 }
 
 void resist(Part& part, const Vector& x, const Tensor& prescribed) {
@@ -131,13 +131,13 @@ void resist_by_foundations(const Mesh& mesh, const Unknowns& unknowns, const Pla
                            std::vector<Part>& parts) {
   for (const PatchCondition& on : unknowns.conditions) {
     if (on.condition.kind != BoundaryCondition::Kind::elastic_foundation) continue;
-    const Patch& patch = mesh.patches[as_size(on.patch)];
+    const Patch& patch = mesh.patches[on.patch];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
       const Index c = mesh.owner[f], part = placed.part[c];
       if (part < 0) continue;
       const FoundationStiffness k = on.condition.foundation(mesh.face_centre[f]);
       const FoundationStiffness held{.across = k.across > 0.0 ? 1.0 : 0.0, .along = k.along > 0.0 ? 1.0 : 0.0};
-      resist(parts[as_size(part)], mesh.face_centre[f] + placed.shift[c], held.tensor(mesh.face_area[f].normalized()));
+      resist(parts[part], mesh.face_centre[f] + placed.shift[c], held.tensor(mesh.face_area[f].normalized()));
     }
   }
 }
@@ -194,8 +194,8 @@ std::string describe(const Mesh& mesh, const Part& part, std::size_t n_parts, bo
   if (n_parts == 1) return "the body can still move rigidly";
   return fmt::format("{} {} parts, and the one around {} (region \"{}\", {} of {} cells) can still move rigidly",
                      cracked ? "the initial damage cuts the body into" : "the cells of the mesh form", n_parts,
-                     point_text(part.origin), mesh.region_names[as_size(mesh.region[part.cells.front()])],
-                     part.cells.size(), mesh.n_cells());
+                     point_text(part.origin), mesh.region_names[mesh.region[part.cells.front()]], part.cells.size(),
+                     mesh.n_cells());
 }
 
 }  // namespace
@@ -208,14 +208,14 @@ void require_held(const Mesh& mesh, const Unknowns& unknowns, const CellField<do
   for (Part& part : parts) place_and_measure(mesh, placed.shift, part);
   for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k) {
     const Index face = unknowns.face_of_node[k], part = placed.part[mesh.owner[face]];
-    if (part >= 0) resist(parts[as_size(part)], place(face), Tensor::Identity() - unknowns.free_directions[k]);
+    if (part >= 0) resist(parts[part], place(face), Tensor::Identity() - unknowns.free_directions[k]);
   }
   resist_by_foundations(mesh, unknowns, placed, parts);
   resist_spins(unknowns, placed.part, parts);
   for (Index face = mesh.n_interior_faces(); face < mesh.n_faces(); ++face) {
-    const Index image = partner[as_size(face)], part = placed.part[mesh.owner[face]];
+    const Index image = partner[face], part = placed.part[mesh.owner[face]];
     if (image > face && part >= 0 && part == placed.part[mesh.owner[image]])
-      resist_apart(parts[as_size(part)], place(face), place(image));
+      resist_apart(parts[part], place(face), place(image));
   }
   if (damage.size() > 0)
     std::erase_if(parts, [&](const Part& part) {

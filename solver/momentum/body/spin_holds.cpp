@@ -18,8 +18,7 @@ Tensor cross_matrix(const Vector& b) {
 }
 
 Tensor prescribed_on(const Unknowns& unknowns, Index node) {
-  return node < 0 ? Tensor::Zero()
-                  : Tensor(Tensor::Identity() - unknowns.free_directions[as_size(node - unknowns.n_cells)]);
+  return node < 0 ? Tensor::Zero() : Tensor(Tensor::Identity() - unknowns.free_directions[node - unknowns.n_cells]);
 }
 
 // Projector onto the rotations of a cell that no face resists; zero almost everywhere.
@@ -46,7 +45,7 @@ Tensor unseen_spins(const Mesh& mesh, const Unknowns& unknowns, Index c) {
 
 class Holds {
  public:
-  Holds(const Mesh& mesh, const Unknowns& unknowns) : mesh_(mesh), unknowns_(unknowns), free_(as_size(mesh.n_cells())) {
+  Holds(const Mesh& mesh, const Unknowns& unknowns) : mesh_(mesh), unknowns_(unknowns), free_(mesh.n_cells()) {
     parallel_for(mesh.n_cells(), [&](Index c) { free_[c] = unseen_spins(mesh, unknowns, c); });
   }
 

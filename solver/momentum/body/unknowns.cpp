@@ -17,8 +17,8 @@ namespace {
 constexpr double nearly_incompressible = 0.47;
 
 CellField<Index> elastic_zones(const Mesh& mesh, const ElasticBody& body) {
-  CellField<Index> zone(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) zone[c] = body.zone[as_size(mesh.region[c])];
+  CellField<Index> zone(mesh.n_cells());
+  for (Index c = 0; c < mesh.n_cells(); ++c) zone[c] = body.zone[mesh.region[c]];
   return zone;
 }
 
@@ -28,9 +28,8 @@ std::vector<PatchCondition> conditions_by_patch(const Mesh& mesh, const ElasticB
     conditions.push_back({static_cast<Index>(p), {.patch = mesh.patches[p].name, .value = {}}});
   std::vector<bool> said(mesh.patches.size(), false);
   for (const BoundaryCondition& condition : body.boundary) {
-    const Patch& patch = mesh.patch(condition.patch);
-    const auto p = static_cast<std::size_t>(&patch - mesh.patches.data());
-    if (said[p]) throw InputError(fmt::format("patch \"{}\" has two boundary conditions", patch.name));
+    const Index p = mesh.patch_index(condition.patch);
+    if (said[p]) throw InputError(fmt::format("patch \"{}\" has two boundary conditions", condition.patch));
     said[p] = true;
     conditions[p].condition = condition;
   }
@@ -47,7 +46,7 @@ Vector plane_patch_normal(const Mesh& mesh, const Patch& patch, std::string_view
 }
 
 void add_plane(const Mesh& mesh, const PatchCondition& on, Unknowns& unknowns) {
-  const Patch& patch = mesh.patches[as_size(on.patch)];
+  const Patch& patch = mesh.patches[on.patch];
   const Vector normal = plane_patch_normal(mesh, patch, "plane");
   const bool is_first = unknowns.plane_normal.isZero();
   if (!is_first && std::abs(normal.dot(unknowns.plane_normal)) < 1.0 - 1e-8)
@@ -68,7 +67,7 @@ Tensor free_directions(const BoundaryCondition& condition, const Vector& face_ar
     return Tensor::Identity() - n * n.transpose();
   }
   Vector is_free;
-  for (int i = 0; i < 3; ++i) is_free[i] = condition.displacement_prescribed[static_cast<std::size_t>(i)] ? 0.0 : 1.0;
+  for (int i = 0; i < 3; ++i) is_free[i] = condition.displacement_prescribed[i] ? 0.0 : 1.0;
   return is_free.asDiagonal();
 }
 
@@ -76,15 +75,15 @@ Tensor free_directions(const BoundaryCondition& condition, const Vector& face_ar
 // too.
 void require_front_and_back(const Mesh& mesh, const Unknowns& unknowns) {
   if (unknowns.plane_normal.isZero()) return;
-  std::vector<const PatchCondition*> of_face(as_size(mesh.n_faces()), nullptr);
+  std::vector<const PatchCondition*> of_face(mesh.n_faces(), nullptr);
   for (const PatchCondition& on : unknowns.conditions) {
-    const Patch& patch = mesh.patches[as_size(on.patch)];
+    const Patch& patch = mesh.patches[on.patch];
     std::fill_n(of_face.begin() + patch.first_face, patch.n_faces, &on);
   }
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     Index front = 0, back = 0;
     for (const Index f : mesh.faces_of_cell(c))
-      if (of_face[as_size(f)] != nullptr && is_front_or_back(of_face[as_size(f)]->condition))
+      if (of_face[f] != nullptr && is_front_or_back(of_face[f]->condition))
         ++(mesh.face_area[f].dot(unknowns.plane_normal) > 0.0 ? front : back);
     if (front > 0 && back > 0) continue;
     const Vector& x = mesh.cell_centre[c];
@@ -123,8 +122,8 @@ void place_sector(const std::vector<Vector>& normals, Unknowns& unknowns) {
 void place_pressures(const Mesh& mesh, const ElasticBody& body, Unknowns& unknowns) {
   if (unknowns.plane_stress || !body.has_pressure) return;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const auto by = body.volume_elasticity ? body.volume_elasticity(mesh, c)
-                                           : std::optional(unknowns.sound[as_size(unknowns.zone[c])]);
+    const auto by =
+        body.volume_elasticity ? body.volume_elasticity(mesh, c) : std::optional(unknowns.sound[unknowns.zone[c]]);
     if (!by || !is_nearly_incompressible(*by)) continue;
     unknowns.pressure_cells.push_back(c);
     unknowns.pressure_elasticity.push_back(*by);
@@ -136,7 +135,7 @@ template <class AddNode>
 void split(const Mesh& mesh, const std::vector<Index>& faces, Unknowns& unknowns, const AddNode& add_node) {
   if (faces.empty()) return;
   unknowns.split_faces = faces;
-  unknowns.neighbour_node = FaceField<Index>(as_size(mesh.n_faces()), -1);
+  unknowns.neighbour_node = FaceField<Index>(mesh.n_faces(), -1);
   for (const Index f : faces) {
     if (unknowns.node_of_face[f] < 0) add_node(f, Tensor::Identity());
     unknowns.neighbour_node[f] = unknowns.n_nodes();
@@ -169,7 +168,7 @@ Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   unknowns.sound = body.elasticity;
   unknowns.loads = body.loads;
   unknowns.conditions = conditions_by_patch(mesh, body);
-  unknowns.node_of_face = FaceField<Index>(static_cast<std::size_t>(mesh.n_faces()), -1);
+  unknowns.node_of_face = FaceField<Index>(mesh.n_faces(), -1);
   const auto add_node = [&](Index face, const Tensor& directions) {
     unknowns.node_of_face[face] = unknowns.n_nodes();
     unknowns.face_of_node.push_back(face);
@@ -180,7 +179,7 @@ Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
   split(mesh, body.split_faces, unknowns, add_node);
   std::vector<Vector> sector_normals;
   for (const PatchCondition& on : unknowns.conditions) {
-    const Patch& patch = mesh.patches[static_cast<std::size_t>(on.patch)];
+    const Patch& patch = mesh.patches[on.patch];
     if (on.condition.kind == BoundaryCondition::Kind::axisymmetric) {
       sector_normals.push_back(sector_normal(mesh, patch));
       continue;
@@ -202,14 +201,14 @@ Unknowns place_floating_unknowns(const Mesh& mesh, const ElasticBody& body) {
 }
 
 CellField<IsotropicElasticity> Unknowns::sound_moduli() const {
-  CellField<IsotropicElasticity> moduli(as_size(n_cells));
-  for (Index c = 0; c < n_cells; ++c) moduli[c] = sound[as_size(zone[c])];
+  CellField<IsotropicElasticity> moduli(n_cells);
+  for (Index c = 0; c < n_cells; ++c) moduli[c] = sound[zone[c]];
   return moduli;
 }
 
 std::vector<Vector> Unknowns::moved_with_box(const Mesh& mesh, double t) const {
-  std::vector<Vector> u(as_size(n_unknowns()), Vector::Zero());
-  for (Index i = 0; i < n_nodes(); ++i) u[as_size(i)] = motion.displacement(place(mesh, i), t);
+  std::vector<Vector> u(n_unknowns(), Vector::Zero());
+  for (Index i = 0; i < n_nodes(); ++i) u[i] = motion.displacement(place(mesh, i), t);
   return u;
 }
 

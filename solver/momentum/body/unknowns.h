@@ -107,9 +107,9 @@ struct Unknowns {
   std::vector<IsotropicElasticity> pressure_elasticity{};
 
   bool is_axisymmetric() const { return radial != Vector::Zero(); }
-  Index n_nodes() const { return n_cells + static_cast<Index>(face_of_node.size()); }
+  Index n_nodes() const { return n_cells + count_of(face_of_node); }
   Vector place(const Mesh& mesh, Index node) const {
-    return node < n_cells ? mesh.cell_centre[node] : mesh.face_centre[face_of_node[as_size(node - n_cells)]];
+    return node < n_cells ? mesh.cell_centre[node] : mesh.face_centre[face_of_node[node - n_cells]];
   }
   /// Whether both sides of a face have nodes of their own.
   bool is_split(Index face) const { return neighbour_node.size() > 0 && neighbour_node[face] >= 0; }
@@ -120,22 +120,22 @@ struct Unknowns {
   /// Free directions of a face node, that across a plane or sectional mesh left out: whatever is prescribed along it,
   /// nothing moves there.
   Tensor free_within(Index node) const {
-    const Tensor& all = free_directions[as_size(node - n_cells)];
+    const Tensor& all = free_directions[node - n_cells];
     return all - all * plane_normal * plane_normal.transpose();
   }
   /// Whether a face node with this normal is held across its face, and free in some direction within it.
   bool glides(Index node, const Vector& normal) const {
     constexpr double rounding = 1e-9;
-    return !free_within(node).isZero() && (free_directions[as_size(node - n_cells)] * normal).norm() < rounding;
+    return !free_within(node).isZero() && (free_directions[node - n_cells] * normal).norm() < rounding;
   }
-  Index first_strain() const { return n_nodes() + static_cast<Index>(pressure_cells.size()); }
-  Index n_unknowns() const { return first_strain() + static_cast<Index>(motion.free_strains.size()); }  ///< vectors
+  Index first_strain() const { return n_nodes() + count_of(pressure_cells); }
+  Index n_unknowns() const { return first_strain() + count_of(motion.free_strains); }  ///< vectors
   bool has_free_strains() const { return !motion.free_strains.empty(); }
   /// The sum of the free strains among the unknowns u.
   Tensor free_strain(const std::vector<Vector>& u) const {
     Tensor sum = Tensor::Zero();
     for (std::size_t k = 0; k < motion.free_strains.size(); ++k)
-      sum += u[as_size(first_strain()) + k][0] * motion.free_strains[k].direction;
+      sum += u[first_strain() + k][0] * motion.free_strains[k].direction;
     return sum;
   }
   /// Elasticity of each cell's zone, without damage.

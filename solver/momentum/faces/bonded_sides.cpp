@@ -18,13 +18,13 @@ class FacesOfPoints {
  public:
   FacesOfPoints(const Mesh& mesh, const Patch& patch) : mesh_(mesh), faces_(mesh.points.size()) {
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
-      for (const Index p : mesh.points_of_face(f)) faces_[as_size(p)].push_back(f);
+      for (const Index p : mesh.points_of_face(f)) faces_[p].push_back(f);
   }
 
   std::vector<Index> around(Index face) const {
     std::vector<Index> all;
     for (const Index p : mesh_.points_of_face(face))
-      for (const Index f : faces_[as_size(p)])
+      for (const Index f : faces_[p])
         if (f != face) all.push_back(f);
     std::ranges::sort(all);
     const auto rest = std::ranges::unique(all);
@@ -55,29 +55,29 @@ Tensor pseudo_inverse(const Tensor& moment) {
 BondedSides::BondedSides(const Mesh& mesh, const Unknowns& unknowns, const std::vector<momentum_faces::Side>& sides,
                          const std::function<bool(Index cell)>& may_be) {
   if (unknowns.pressure_cells.empty()) return;
-  std::vector<char> has_pressure(as_size(mesh.n_cells()), 0);
-  for (const Index c : unknowns.pressure_cells) has_pressure[as_size(c)] = may_be(c) ? 1 : 0;
+  std::vector<char> has_pressure(mesh.n_cells(), 0);
+  for (const Index c : unknowns.pressure_cells) has_pressure[c] = may_be(c) ? 1 : 0;
   number_.assign(sides.size(), -1);
   if (unknowns.is_axisymmetric()) {
     radial_ = unknowns.radial, across_ = unknowns.plane_normal;
     hoop_ = across_ * across_.transpose();
   }
-  std::vector<Index> side_of_face(as_size(mesh.n_faces()), -1);
+  std::vector<Index> side_of_face(mesh.n_faces(), -1);
   for (std::size_t i = 0; i < sides.size(); ++i)
-    if (!mesh.is_interior(sides[i].face) && has_pressure[as_size(sides[i].cell)] != 0 && has_opposite(mesh, sides[i]) &&
+    if (!mesh.is_interior(sides[i].face) && has_pressure[sides[i].cell] != 0 && has_opposite(mesh, sides[i]) &&
         unknowns.free_within(sides[i].node).isZero())
-      side_of_face[as_size(sides[i].face)] = static_cast<Index>(i);
+      side_of_face[sides[i].face] = static_cast<Index>(i);
   for (const Patch& patch : mesh.patches) {
     const Index end = patch.first_face + patch.n_faces;
     if (std::all_of(side_of_face.begin() + patch.first_face, side_of_face.begin() + end, [](Index i) { return i < 0; }))
       continue;
     const FacesOfPoints faces(mesh, patch);
     for (Index f = patch.first_face; f < end; ++f) {
-      const Index i = side_of_face[as_size(f)];
+      const Index i = side_of_face[f];
       if (i < 0) continue;
-      number_[as_size(i)] = static_cast<Index>(size());
-      side_.push_back(as_size(i));
-      add(mesh, unknowns, sides[as_size(i)], faces.around(f));
+      number_[i] = static_cast<Index>(size());
+      side_.push_back(i);
+      add(mesh, unknowns, sides[i], faces.around(f));
     }
   }
   if (size() == 0) number_.clear();

@@ -35,10 +35,10 @@ class BondedSides {
   /// H of number k.
   Tensor gradient(std::size_t k, const std::vector<Vector>& u, const Tensor& in_cell) const {
     Tensor gradient = in_cell;
-    const Vector& here = u[as_size(node_[k])];
+    const Vector& here = u[node_[k]];
     for (std::size_t s = offsets_[k]; s < offsets_[k + 1]; ++s) {
       const Sample& of = samples_[s];
-      gradient.noalias() += (u[as_size(of.node)] - here - in_cell * of.d) * of.coefficient.transpose();
+      gradient.noalias() += (u[of.node] - here - in_cell * of.d) * of.coefficient.transpose();
     }
     if (!radius_.empty()) gradient += (radial_.dot(here) / radius_[k] - across_.dot(in_cell * across_)) * hoop_;
     return gradient;

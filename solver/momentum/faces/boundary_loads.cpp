@@ -9,7 +9,7 @@ BoundaryLoads::BoundaryLoads(const FaceSkeleton& skeleton)
   const Mesh& mesh = skeleton.mesh;
   for (const PatchCondition& on : skeleton.unknowns.conditions) {
     if (on.condition.kind != BoundaryCondition::Kind::elastic_foundation) continue;
-    const Patch& patch = mesh.patches[as_size(on.patch)];
+    const Patch& patch = mesh.patches[on.patch];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
       const Tensor K = on.condition.foundation(mesh.face_centre[f]).tensor(mesh.face_area[f].normalized());
       supports_.push_back({skeleton.unknowns.node_of_face[f], mesh.face_area[f].norm() * K});
@@ -19,17 +19,17 @@ BoundaryLoads::BoundaryLoads(const FaceSkeleton& skeleton)
 
 void BoundaryLoads::add_response(const std::vector<Vector>& u, const CellField<Tensor>& gradients,
                                  std::vector<Vector>& out) const {
-  for (const Support& at : supports_) out[as_size(at.node)] += at.stiffness * u[as_size(at.node)];
+  for (const Support& at : supports_) out[at.node] += at.stiffness * u[at.node];
   pressed_faces_.add_turn(u, gradients, out);
 }
 
 void BoundaryLoads::add_to(BlockTriplets& matrix) const {
-  for (const Support& at : supports_) matrix.diagonal[as_size(at.node)] += at.stiffness;
+  for (const Support& at : supports_) matrix.diagonal[at.node] += at.stiffness;
 }
 
 double BoundaryLoads::stored(const std::vector<Vector>& u) const {
   double energy = 0.0;
-  for (const Support& at : supports_) energy += 0.5 * u[as_size(at.node)].dot(at.stiffness * u[as_size(at.node)]);
+  for (const Support& at : supports_) energy += 0.5 * u[at.node].dot(at.stiffness * u[at.node]);
   return energy;
 }
 
@@ -39,11 +39,11 @@ void BoundaryLoads::add_tractions(double t, std::vector<Vector>& load) const {
   for (const PatchCondition& on : unknowns.conditions) {
     const BoundaryCondition& condition = on.condition;
     if (condition.kind != BoundaryCondition::Kind::components || !condition.value) continue;
-    const Patch& patch = mesh.patches[as_size(on.patch)];
+    const Patch& patch = mesh.patches[on.patch];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
       const Index node = unknowns.node_of_face[f];
-      load[as_size(node)] = unknowns.free_directions[skeleton_.number_of(node)] *
-                            condition.value(mesh.face_centre[f], t) * mesh.face_area[f].norm();
+      load[node] = unknowns.free_directions[skeleton_.number_of(node)] * condition.value(mesh.face_centre[f], t) *
+                   mesh.face_area[f].norm();
     }
   }
 }
@@ -51,16 +51,15 @@ void BoundaryLoads::add_tractions(double t, std::vector<Vector>& load) const {
 std::vector<Vector> BoundaryLoads::forces(double t) const {
   const Mesh& mesh = skeleton_.mesh;
   const Unknowns& unknowns = skeleton_.unknowns;
-  std::vector<Vector> load(as_size(unknowns.n_unknowns()), Vector::Zero());
+  std::vector<Vector> load(unknowns.n_unknowns(), Vector::Zero());
   add_tractions(t, load);
   pressed_faces_.add_forces(t, load);
   if (const auto& force = unknowns.loads.force)
-    parallel_for(mesh.n_cells(), [&](Index c) { load[as_size(c)] += mesh.cell_volume[c] * force(mesh, c, t); });
+    parallel_for(mesh.n_cells(), [&](Index c) { load[c] += mesh.cell_volume[c] * force(mesh, c, t); });
   const BoxMotion& motion = unknowns.motion;
   for (std::size_t k = 0; k < motion.free_strains.size(); ++k)
     if (motion.free_strains[k].stress)
-      load[as_size(unknowns.first_strain()) + k] =
-          motion.size.prod() * motion.free_strains[k].stress(t) * Vector::UnitX();
+      load[unknowns.first_strain() + k] = motion.size.prod() * motion.free_strains[k].stress(t) * Vector::UnitX();
   skeleton_.keep_in_plane(load);
   return load;
 }
@@ -71,12 +70,12 @@ void BoundaryLoads::prescribe(double t, std::vector<Vector>& u) const {
   for (const PatchCondition& on : unknowns.conditions) {
     const BoundaryCondition& condition = on.condition;
     if (is_front_or_back(condition)) continue;
-    const Patch& patch = mesh.patches[as_size(on.patch)];
+    const Patch& patch = mesh.patches[on.patch];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
       const Index node = unknowns.node_of_face[f];
       const Tensor& is_free = unknowns.free_directions[skeleton_.number_of(node)];
       const Vector value = condition.value ? condition.value(mesh.face_centre[f], t) : Vector::Zero();
-      u[as_size(node)] = is_free * u[as_size(node)] + (Tensor::Identity() - is_free) * value;
+      u[node] = is_free * u[node] + (Tensor::Identity() - is_free) * value;
     }
   }
   move_box(t, u);
@@ -93,18 +92,17 @@ void BoundaryLoads::move_box(double t, std::vector<Vector>& u) const {
     return motion.displacement ? (free + motion.displacement(x, t)).eval() : free;
   };
   for (const HeldFace& held : motion.held) {
-    Vector& here = u[as_size(unknowns.node_of_face[held.face])];
+    Vector& here = u[unknowns.node_of_face[held.face]];
     here += held.directions * (of_body(mesh.face_centre[held.face]) - here);
   }
   for (const PeriodicNodes& pair : unknowns.periodic)
-    u[as_size(pair.image)] =
-        u[as_size(pair.node)] + of_body(unknowns.place(mesh, pair.image)) - of_body(unknowns.place(mesh, pair.node));
+    u[pair.image] = u[pair.node] + of_body(unknowns.place(mesh, pair.image)) - of_body(unknowns.place(mesh, pair.node));
 }
 
 Vector BoundaryLoads::prescribed_at(Index face, const Vector& x, double t) const {
   const Unknowns& unknowns = skeleton_.unknowns;
   for (const PatchCondition& on : unknowns.conditions) {
-    const Patch& patch = skeleton_.mesh.patches[as_size(on.patch)];
+    const Patch& patch = skeleton_.mesh.patches[on.patch];
     const bool is_here = face >= patch.first_face && face < patch.first_face + patch.n_faces;
     if (is_here && on.condition.value && on.condition.kind == BoundaryCondition::Kind::components)
       return on.condition.value(x, t);

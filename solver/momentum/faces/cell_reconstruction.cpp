@@ -59,7 +59,7 @@ void CellReconstruction::find_gradients(const std::vector<Vector>& u, CellField<
   parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
     gradients[c] = gradient_.of(u.data(), c);
     if (unknowns.is_axisymmetric())
-      gradients[c] += (r.dot(u[as_size(c)]) / r.dot(skeleton_.mesh.cell_centre[c])) * across * across.transpose();
+      gradients[c] += (r.dot(u[c]) / r.dot(skeleton_.mesh.cell_centre[c])) * across * across.transpose();
   });
 }
 

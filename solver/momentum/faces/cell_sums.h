@@ -41,12 +41,12 @@ CellSums sum_over_faces(Index cell, const FaceMoves& moves, const Also& also) {
   const FaceSkeleton::SignedForce* next = skeleton.forces_of(cell).data();
   for (const Index f : mesh.faces_of_cell(cell)) {
     const Vector area = (mesh.owner[f] == cell ? 1.0 : -1.0) * mesh.face_area[f];
-    const Vector move = moves.seen_from(cell, f) - moves.u[as_size(cell)];
+    const Vector move = moves.seen_from(cell, f) - moves.u[cell];
     sums.gradient += move * area.transpose();
     const bool has_node_or_link = skeleton.force_of_face[f] >= 0;
     if (!has_node_or_link && !skeleton.unknowns.is_axisymmetric()) continue;
     const FaceSkeleton::SignedForce* on = has_node_or_link ? next++ : nullptr;
-    const Vector force = on != nullptr ? (on->sign * moves.sweep.force[as_size(on->force)]).eval()
+    const Vector force = on != nullptr ? (on->sign * moves.sweep.force[on->force]).eval()
                                        : (moves.sweep.sector_stress[cell] * area).eval();
     const Vector arm = mesh.face_centre[f] - mesh.cell_centre[cell];
     sums.moment += force * arm.transpose();

@@ -8,7 +8,7 @@ using momentum_faces::Side;
 namespace {
 
 CellField<Tensor> closures(const Mesh& mesh) {
-  CellField<Tensor> closure(as_size(mesh.n_cells()));
+  CellField<Tensor> closure(mesh.n_cells());
   parallel_for(mesh.n_cells(), [&](Index c) {
     Tensor K = Tensor::Zero();
     for (const Index f : mesh.faces_of_cell(c)) {
@@ -23,10 +23,10 @@ CellField<Tensor> closures(const Mesh& mesh) {
 // Of axisymmetric meshes; empty of others.
 CellField<Vector> sector_areas(const Mesh& mesh, const Unknowns& unknowns) {
   if (!unknowns.is_axisymmetric()) return {};
-  CellField<Vector> area(as_size(mesh.n_cells()), Vector::Zero());
+  CellField<Vector> area(mesh.n_cells(), Vector::Zero());
   for (const PatchCondition& on : unknowns.conditions) {
     if (on.condition.kind != BoundaryCondition::Kind::axisymmetric) continue;
-    const Patch& patch = mesh.patches[as_size(on.patch)];
+    const Patch& patch = mesh.patches[on.patch];
     for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f)
       area[mesh.owner[f]] += mesh.face_area[f];
   }
@@ -38,7 +38,7 @@ CellField<Vector> sector_areas(const Mesh& mesh, const Unknowns& unknowns) {
 FaceSkeleton::FaceSkeleton(const Mesh& of, const Unknowns& placed)
     : mesh(of),
       unknowns(placed),
-      force_of_face(as_size(of.n_faces()), -1),
+      force_of_face(of.n_faces(), -1),
       first_side_of_node(placed.face_of_node.size(), -1),
       second_side_of_node(placed.face_of_node.size(), -1),
       closure(closures(of)),
@@ -72,7 +72,7 @@ void FaceSkeleton::add_links() {
   for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
     if (unknowns.node_of_face[f] >= 0) continue;
     const Index P = mesh.owner[f], N = mesh.neighbour[f];
-    force_of_face[f] = static_cast<Index>(links.size());
+    force_of_face[f] = count_of(links);
     links.push_back({.face = f,
                      .P = P,
                      .N = N,
@@ -91,7 +91,7 @@ void FaceSkeleton::add_sides() {
                      .area = mesh.face_area[f].norm(),
                      .n = sign * mesh.face_area[f].normalized(),
                      .d = mesh.face_centre[f] - mesh.cell_centre[cell]});
-    return static_cast<Index>(sides.size()) - 1;
+    return count_of(sides) - 1;
   };
   for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k) {
     const Index f = unknowns.face_of_node[k], node = unknowns.n_cells + static_cast<Index>(k);
@@ -100,7 +100,7 @@ void FaceSkeleton::add_sides() {
       continue;
     }
     first_side_of_node[k] = add(node, f, mesh.owner[f], 1.0);
-    force_of_face[f] = static_cast<Index>(links.size()) + first_side_of_node[k];
+    force_of_face[f] = count_of(links) + first_side_of_node[k];
     const bool shared = mesh.is_interior(f) && unknowns.node_beside(mesh, mesh.neighbour[f], f) == node;
     if (shared) second_side_of_node[k] = add(node, f, mesh.neighbour[f], -1.0);
   }
@@ -124,9 +124,9 @@ void FaceSkeleton::list_forces_of_cells() {
       } else if (node < 0) {
         cell_forces_.push_back({force, -1.0});
       } else {
-        const std::size_t k = as_size(node - unknowns.n_cells);
+        const std::size_t k = node - unknowns.n_cells;
         const Index side = second_side_of_node[k] >= 0 ? second_side_of_node[k] : first_side_of_node[k];
-        cell_forces_.push_back({static_cast<Index>(links.size()) + side, 1.0});
+        cell_forces_.push_back({count_of(links) + side, 1.0});
       }
     }
     cell_offsets_.push_back(cell_forces_.size());
@@ -136,16 +136,15 @@ void FaceSkeleton::list_forces_of_cells() {
 void FaceSkeleton::sum_forces(const FaceForces& forces, std::vector<Vector>& out) const {
   parallel_for(mesh.n_cells(), [&](Index c) {
     Vector sum = Vector::Zero();
-    for (const SignedForce& on : forces_of(c)) sum += on.sign * forces.force[as_size(on.force)];
+    for (const SignedForce& on : forces_of(c)) sum += on.sign * forces.force[on.force];
     if (sector_area.size() > 0) sum += forces.sector_stress[c] * sector_area[c];
-    out[as_size(c)] = -sum;
+    out[c] = -sum;
   });
   const std::size_t n_links = links.size();
-  parallel_for(static_cast<Index>(first_side_of_node.size()), [&](Index k) {
-    Vector sum = forces.force[n_links + as_size(first_side_of_node[as_size(k)])];
-    if (const Index second = second_side_of_node[as_size(k)]; second >= 0)
-      sum += forces.force[n_links + as_size(second)];
-    out[as_size(unknowns.n_cells + k)] = unknowns.free_directions[as_size(k)] * sum;
+  parallel_for(count_of(first_side_of_node), [&](Index k) {
+    Vector sum = forces.force[n_links + first_side_of_node[k]];
+    if (const Index second = second_side_of_node[k]; second >= 0) sum += forces.force[n_links + second];
+    out[unknowns.n_cells + k] = unknowns.free_directions[k] * sum;
   });
   gather_from_images(out);
   work_on_free_strains(forces, out);
@@ -155,13 +154,13 @@ void FaceSkeleton::sum_forces(const FaceForces& forces, std::vector<Vector>& out
 void FaceSkeleton::keep_in_plane(std::vector<Vector>& v) const {
   const Vector& n = unknowns.plane_normal;
   if (n.isZero()) return;
-  parallel_for(unknowns.n_nodes(), [&](Index i) { v[as_size(i)] -= n.dot(v[as_size(i)]) * n; });
+  parallel_for(unknowns.n_nodes(), [&](Index i) { v[i] -= n.dot(v[i]) * n; });
 }
 
 void FaceSkeleton::gather_from_images(std::vector<Vector>& forces) const {
   for (const PeriodicNodes& pair : unknowns.periodic) {
-    forces[as_size(pair.node)] += forces[as_size(pair.image)];
-    forces[as_size(pair.image)].setZero();
+    forces[pair.node] += forces[pair.image];
+    forces[pair.image].setZero();
   }
 }
 
@@ -169,9 +168,7 @@ void FaceSkeleton::gather_from_images(std::vector<Vector>& forces) const {
 void FaceSkeleton::work_on_free_strains(const FaceForces& forces, std::vector<Vector>& out) const {
   const BoxMotion& motion = unknowns.motion;
   if (!unknowns.has_free_strains()) return;
-  const auto force_on = [&](Index node) {
-    return forces.force[links.size() + as_size(first_side_of_node[number_of(node)])];
-  };
+  const auto force_on = [&](Index node) { return forces.force[links.size() + first_side_of_node[number_of(node)]]; };
   Tensor moment = Tensor::Zero();
   for (const HeldFace& held : motion.held) {
     const Index node = unknowns.node_of_face[held.face];
@@ -183,11 +180,11 @@ void FaceSkeleton::work_on_free_strains(const FaceForces& forces, std::vector<Ve
   for (const PeriodicNodes& pair : unknowns.periodic)
     moment += force_on(pair.image) * (unknowns.place(mesh, pair.image) - unknowns.place(mesh, pair.node)).transpose();
   for (std::size_t k = 0; k < motion.free_strains.size(); ++k)
-    out[as_size(unknowns.first_strain()) + k] = contract(motion.free_strains[k].direction, moment) * Vector::UnitX();
+    out[unknowns.first_strain() + k] = contract(motion.free_strains[k].direction, moment) * Vector::UnitX();
 }
 
 void FaceSkeleton::move_images(std::vector<Vector>& v) const {
-  for (const PeriodicNodes& pair : unknowns.periodic) v[as_size(pair.image)] = v[as_size(pair.node)];
+  for (const PeriodicNodes& pair : unknowns.periodic) v[pair.image] = v[pair.node];
 }
 
 }  // namespace pfdm

@@ -49,17 +49,17 @@ struct FaceSkeleton {
   bool is_side(std::size_t turn) const { return turn >= 2 * links.size(); }
   std::size_t force_at(std::size_t turn) const { return is_side(turn) ? turn - links.size() : turn / 2; }
   std::size_t turn_at(const SignedForce& on) const {
-    const auto i = as_size(on.force);
+    const std::size_t i = on.force;
     return i >= links.size() ? turn_of_side(i - links.size()) : (on.sign > 0.0 ? turn_P(i) : turn_N(i));
   }
   /// In the order of the cell's faces, without those of plane and axisymmetric patches.
   std::span<const SignedForce> forces_of(Index cell) const {
-    return {cell_forces_.data() + cell_offsets_[as_size(cell)], cell_forces_.data() + cell_offsets_[as_size(cell) + 1]};
+    return {cell_forces_.data() + cell_offsets_[cell], cell_forces_.data() + cell_offsets_[cell + 1]};
   }
   /// Sum of what leaves a cell through its faces, given in the order of the forces.
   double out_of(Index cell, const std::vector<double>& flux) const {
     double sum = 0.0;
-    for (const SignedForce& on : forces_of(cell)) sum += on.sign * flux[as_size(on.force)];
+    for (const SignedForce& on : forces_of(cell)) sum += on.sign * flux[on.force];
     return sum;
   }
   std::size_t number_of(Index face_node) const { return as_size(face_node - unknowns.n_cells); }

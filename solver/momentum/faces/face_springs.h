@@ -30,7 +30,7 @@ class FaceSprings {
   /// Displacement of the neighbour's side of split face number k, less that of the owner's [m].
   Vector separation(std::size_t k, const std::vector<Vector>& u) const {
     const momentum_faces::SplitFace& face = skeleton_.split_faces[k];
-    return u[as_size(face.beyond)] - u[as_size(face.node)];
+    return u[face.beyond] - u[face.node];
   }
   /// A K delta per split face, on the owner's side [N].
   std::vector<Vector> forces(const std::vector<Vector>& u) const;

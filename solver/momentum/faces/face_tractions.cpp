@@ -19,12 +19,12 @@ std::unique_ptr<Sweep> SpareSweeps::pop() {
 
 FaceField<Vector> FaceTractions::face_displacements(const std::vector<Vector>& u, const Sweep& sweep) const {
   const Unknowns& unknowns = skeleton_.unknowns;
-  FaceField<Vector> u_face(as_size(skeleton_.mesh.n_faces()), Vector::Zero());
-  parallel_for(static_cast<Index>(skeleton_.links.size()),
-               [&](Index i) { u_face[skeleton_.links[as_size(i)].face] = link_displacement(as_size(i), u, sweep); });
+  FaceField<Vector> u_face(skeleton_.mesh.n_faces(), Vector::Zero());
+  parallel_for(count_of(skeleton_.links),
+               [&](Index i) { u_face[skeleton_.links[i].face] = link_displacement(i, u, sweep); });
   for (std::size_t k = 0; k < unknowns.face_of_node.size(); ++k) {
     const Index node = unknowns.n_cells + static_cast<Index>(k), face = unknowns.face_of_node[k];
-    if (unknowns.node_of_face[face] == node) u_face[face] = u[as_size(node)];
+    if (unknowns.node_of_face[face] == node) u_face[face] = u[node];
   }
   return u_face;
 }

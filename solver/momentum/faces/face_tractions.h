@@ -17,8 +17,8 @@ namespace pfdm {
 struct Sweep : FaceForces {
   explicit Sweep(const FaceSkeleton& skeleton)
       : FaceForces{.force = std::vector<Vector>(skeleton.n_forces()),
-                   .sector_stress = CellField<double>(as_size(skeleton.sector_area.size()), 0.0)},
-        gradients(as_size(skeleton.mesh.n_cells())) {}
+                   .sector_stress = CellField<double>(skeleton.sector_area.size(), 0.0)},
+        gradients(skeleton.mesh.n_cells()) {}
   virtual ~Sweep() = default;
   Sweep(const Sweep&) = delete;
   Sweep& operator=(const Sweep&) = delete;

@@ -12,8 +12,8 @@ Vector triangle(const Vector& a, const Vector& b, const Vector& apex) { return 0
 }  // namespace
 
 void MovedFaces::weigh(const CellField<double>& g) {
-  parallel_for(static_cast<Index>(corners_.size()), [&](Index k) {
-    const Corner& corner = corners_[as_size(k)];
+  parallel_for(count_of(corners_), [&](Index k) {
+    const Corner& corner = corners_[k];
     const auto normalise = [&](std::size_t begin, std::size_t end) {
       double sum = 0.0;
       for (std::size_t s = begin; s < end; ++s) sum += samples_[s].weight;
@@ -35,8 +35,8 @@ Vector MovedFaces::mean(const Field& by, std::size_t begin, std::size_t end) con
   Vector sum = Vector::Zero();
   for (std::size_t s = begin; s < end; ++s) {
     const Sample& of = samples_[s];
-    const Tensor& H = of.bonded < 0 ? by.gradients[of.cell] : by.bonded_gradients[as_size(of.bonded)];
-    sum += of.weight * (by.u[as_size(of.node)] + H * of.d);
+    const Tensor& H = of.bonded < 0 ? by.gradients[of.cell] : by.bonded_gradients[of.bonded];
+    sum += of.weight * (by.u[of.node] + H * of.d);
   }
   return sum;
 }
@@ -45,20 +45,20 @@ Vector MovedFaces::mean(const Field& by, std::size_t begin, std::size_t end) con
 Vector MovedFaces::held(const Field& by, const Hold& hold) const {
   if (!hold.glides) return mean(by, hold.begin, hold.end) / hold.sum;
   Vector sum = Vector::Zero();
-  for (std::size_t s = hold.begin; s < hold.end; ++s) sum += samples_[s].weight * by.u[as_size(samples_[s].node)];
+  for (std::size_t s = hold.begin; s < hold.end; ++s) sum += samples_[s].weight * by.u[samples_[s].node];
   return sum / hold.sum;
 }
 
 void MovedFaces::move(const Field& by, std::vector<Vector>& moves) const {
   moves.resize(corners_.size());
-  parallel_for(static_cast<Index>(corners_.size()), [&](Index k) {
-    const Corner& corner = corners_[as_size(k)];
+  parallel_for(count_of(corners_), [&](Index k) {
+    const Corner& corner = corners_[k];
     Vector u = mean(by, corner.begin, corner.end);
     for (std::size_t h = corner.first_hold; h < corner.end_of_holds; ++h) {
       const Hold& hold = holds_[h];
       u += hold.directions * (held(by, hold) - u);
     }
-    moves[as_size(k)] = turns_.empty() ? u : (turns_[as_size(k)] * u).eval();
+    moves[k] = turns_.empty() ? u : (turns_[k] * u).eval();
   });
 }
 
@@ -68,16 +68,16 @@ void MovedFaces::each_triangle(const Loop& loop, const std::vector<Vector>& move
   const std::size_t n = loop.end - loop.begin;
   Vector apex = Vector::Zero(), apex_move = Vector::Zero();
   if (loop.apex >= 0) {
-    apex = at(loop.apex), apex_move = moves[as_size(loop.apex)];
+    apex = at(loop.apex), apex_move = moves[loop.apex];
   } else {
     for (std::size_t k = loop.begin; k < loop.end; ++k) {
       apex += at(loop_corners_[k]) / double(n);
-      apex_move += moves[as_size(loop_corners_[k])] / double(n);
+      apex_move += moves[loop_corners_[k]] / double(n);
     }
   }
   for (std::size_t k = 0; k < n; ++k) {
     const Index a = loop_corners_[loop.begin + k], b = loop_corners_[loop.begin + (k + 1) % n];
-    f(at(a), at(b), apex, moves[as_size(a)], moves[as_size(b)], apex_move, loop.begin + k);
+    f(at(a), at(b), apex, moves[a], moves[b], apex_move, loop.begin + k);
   }
 }
 
@@ -87,7 +87,7 @@ Vector MovedFaces::area_change(const Loop& loop, const std::vector<Vector>& move
   Vector change = Vector::Zero();
   for (std::size_t k = 0; k < n; ++k) {
     const Index a = loop_corners_[loop.begin + k], b = loop_corners_[loop.begin + (k + 1) % n];
-    change += moves[as_size(a)].cross(place_in(loop, b)) + place_in(loop, a).cross(moves[as_size(b)]);
+    change += moves[a].cross(place_in(loop, b)) + place_in(loop, a).cross(moves[b]);
   }
   return (0.5 / loop.size) * change;
 }
@@ -97,9 +97,9 @@ Vector MovedFaces::area_change(std::size_t i, const std::vector<Vector>& moves) 
 }
 
 double MovedFaces::section_change(Index cell, const std::vector<Vector>& moves) const {
-  const Index k = section_of_cell_[as_size(cell)];
+  const Index k = section_of_cell_[cell];
   if (k < 0) return 0.0;
-  const Loop& loop = sections_[as_size(k)];
+  const Loop& loop = sections_[k];
   return loop.area.normalized().dot(area_change(loop, moves));
 }
 
@@ -113,15 +113,15 @@ void MovedFaces::place(const std::vector<Vector>& moves) {
           place_in(loop, loop_corners_[loop.begin + k]).cross(place_in(loop, loop_corners_[loop.begin + (k + 1) % n]));
     if (n > 0) loop.area = (0.5 / loop.size) * area;
   };
-  parallel_for(static_cast<Index>(loops_.size()), [&](Index i) { find_area(loops_[as_size(i)]); });
-  parallel_for(static_cast<Index>(sections_.size()), [&](Index i) { find_area(sections_[as_size(i)]); });
+  parallel_for(count_of(loops_), [&](Index i) { find_area(loops_[i]); });
+  parallel_for(count_of(sections_), [&](Index i) { find_area(sections_[i]); });
 }
 
 void MovedFaces::follow(const std::vector<Vector>& u_face) {
-  parallel_for(static_cast<Index>(loops_.size()), [&](Index i) {
-    Loop& loop = loops_[as_size(i)];
+  parallel_for(count_of(loops_), [&](Index i) {
+    Loop& loop = loops_[i];
     if (loop.begin == loop.end) return;
-    loop.gap = u_face[as_size(i)];
+    loop.gap = u_face[i];
     each_triangle(
         loop, at_, [&](Index c) { return place_in(loop, c); },
         [&](const auto&, const auto&, const auto&, const Vector& a, const Vector& b, const Vector& apex,
@@ -153,7 +153,7 @@ double MovedFaces::swept(std::size_t i, const std::vector<Vector>& moves, const 
   double between = 0.0;
   Vector gap = u_face;
   each_triangle(
-      loop, moves, [&](Index c) -> Vector { return corners_[as_size(c)].point - loop.centre; },
+      loop, moves, [&](Index c) -> Vector { return corners_[c].point - loop.centre; },
       [&](const Vector& A, const Vector& B, const Vector& C, const Vector& a, const Vector& b, const Vector& c,
           std::size_t t) {
         const Vector mean = (a + b + c) / 3.0, end = triangle(A + a, B + b, C + c);

@@ -71,8 +71,8 @@ class MovedFaces {
   double swept(std::size_t i, const std::vector<Vector>& moves, const Vector& u_face) const;
   /// The area of a cell's section, over the undeformed one, of axisymmetric meshes; and its change.
   double section(Index cell) const {
-    const Index k = section_of_cell_[as_size(cell)];
-    return k < 0 ? 0.0 : sections_[as_size(k)].area.norm();
+    const Index k = section_of_cell_[cell];
+    return k < 0 ? 0.0 : sections_[k].area.norm();
   }
   double section_change(Index cell, const std::vector<Vector>& moves) const;
 
@@ -106,9 +106,7 @@ class MovedFaces {
   friend class MovedFacesBuilder;
   Vector mean(const Field& by, std::size_t begin, std::size_t end) const;
   Vector held(const Field& by, const Hold& hold) const;
-  Vector place_in(const Loop& loop, Index corner) const {
-    return corners_[as_size(corner)].point + at_[as_size(corner)] - loop.centre;
-  }
+  Vector place_in(const Loop& loop, Index corner) const { return corners_[corner].point + at_[corner] - loop.centre; }
   Vector area_change(const Loop& loop, const std::vector<Vector>& moves) const;
   void each_triangle(const Loop& loop, const std::vector<Vector>& moves, const auto& at, const auto& f) const;
 

@@ -13,20 +13,20 @@ namespace {
 // and interfaces that hold, are one corner.
 class PointsOfCells {
  public:
-  PointsOfCells(const Mesh& mesh, const Unknowns& unknowns) : offsets_(as_size(mesh.n_cells()) + 1, 0) {
-    std::vector<char> has(as_size(mesh.n_cells()), 0);
-    for (const Index c : unknowns.pressure_cells) has[as_size(c)] = 1;
+  PointsOfCells(const Mesh& mesh, const Unknowns& unknowns) : offsets_(mesh.n_cells() + 1, 0) {
+    std::vector<char> has(mesh.n_cells(), 0);
+    for (const Index c : unknowns.pressure_cells) has[c] = 1;
     for (Index c = 0; c < mesh.n_cells(); ++c) {
-      if (has[as_size(c)] != 0) add(mesh, c);
-      offsets_[as_size(c) + 1] = points_.size();
+      if (has[c] != 0) add(mesh, c);
+      offsets_[c + 1] = points_.size();
     }
     together_.resize(points_.size());
     std::iota(together_.begin(), together_.end(), std::size_t{0});
   }
 
-  bool has(Index cell) const { return offsets_[as_size(cell) + 1] > offsets_[as_size(cell)]; }
-  std::size_t begin(Index cell) const { return offsets_[as_size(cell)]; }
-  std::size_t end(Index cell) const { return offsets_[as_size(cell) + 1]; }
+  bool has(Index cell) const { return offsets_[cell + 1] > offsets_[cell]; }
+  std::size_t begin(Index cell) const { return offsets_[cell]; }
+  std::size_t end(Index cell) const { return offsets_[cell + 1]; }
   Index point(std::size_t slot) const { return points_[slot]; }
 
   void unite(Index P, Index N, Index point) {
@@ -99,7 +99,7 @@ class MovedFacesBuilder {
 
   // Held across itself alone: where it is held along itself, too, its displacement may vary along it.
   bool is_on_roller(const MovedFaces::Place& place) const {
-    const Tensor& free = unknowns_.free_directions[as_size(place.node - unknowns_.n_cells)];
+    const Tensor& free = unknowns_.free_directions[place.node - unknowns_.n_cells];
     const Vector n = mesh_.face_area[place.face].normalized(), &across = unknowns_.plane_normal;
     const double n_held = 3.0 - free.trace() - (across.isZero() ? 0.0 : 1.0 - across.dot(free * across));
     return unknowns_.glides(place.node, n) && n_held < 1.5;
@@ -107,10 +107,10 @@ class MovedFacesBuilder {
 
   // Both sides of an interface that holds have one node.
   void unite_across_nodes() {
-    std::vector<Index> cell_at(as_size(unknowns_.n_nodes() - unknowns_.n_cells), -1);
+    std::vector<Index> cell_at(unknowns_.n_nodes() - unknowns_.n_cells, -1);
     for (const MovedFaces::Place& place : places_) {
       if (place.node < 0) continue;
-      Index& first = cell_at[as_size(place.node - unknowns_.n_cells)];
+      Index& first = cell_at[place.node - unknowns_.n_cells];
       if (first >= 0) unite(first, place.cell, place.face);
       first = place.cell;
     }
@@ -124,8 +124,8 @@ class MovedFacesBuilder {
       for (std::size_t s = points_.begin(c); s < points_.end(c); ++s) {
         const std::size_t root = points_.root(s);
         if (root == s) {
-          corner_of_slot_.push_back(static_cast<Index>(faces_.corners_.size()));
-          faces_.corners_.push_back({.point = mesh_.points[as_size(points_.point(s))]});
+          corner_of_slot_.push_back(count_of(faces_.corners_));
+          faces_.corners_.push_back({.point = mesh_.points[points_.point(s)]});
         } else {
           corner_of_slot_.push_back(corner_of_slot_[root]);
         }
@@ -144,23 +144,20 @@ class MovedFacesBuilder {
   void gather_from_cells() {
     for (Index c = 0; c < mesh_.n_cells(); ++c)
       for (std::size_t s = points_.begin(c); s < points_.end(c); ++s)
-        from_cells_[as_size(corner_of_slot_[s])].push_back(
-            {.node = c,
-             .cell = c,
-             .bonded = -1,
-             .d = within(mesh_.points[as_size(points_.point(s))] - mesh_.cell_centre[c])});
+        from_cells_[corner_of_slot_[s]].push_back(
+            {.node = c, .cell = c, .bonded = -1, .d = within(mesh_.points[points_.point(s)] - mesh_.cell_centre[c])});
   }
 
   void gather_from_nodes() {
     for (const MovedFaces::Place& place : places_) {
       if (place.node < 0 || !points_.has(place.cell)) continue;
-      const Tensor held = Tensor::Identity() - unknowns_.free_directions[as_size(place.node - unknowns_.n_cells)];
+      const Tensor held = Tensor::Identity() - unknowns_.free_directions[place.node - unknowns_.n_cells];
       for (const Index p : points_and_apex(mesh_, place.face))
-        from_nodes_[as_size(corner(place.cell, p))].push_back(
+        from_nodes_[corner(place.cell, p)].push_back(
             {.sample = {.node = place.node,
                         .cell = place.cell,
                         .bonded = bonded_.number(place.side),
-                        .d = within(mesh_.points[as_size(p)] - mesh_.face_centre[place.face])},
+                        .d = within(mesh_.points[p] - mesh_.face_centre[place.face])},
              .held = held,
              .glides = is_on_roller(place)});
     }
@@ -203,7 +200,7 @@ class MovedFacesBuilder {
     const Vector apex = fan_middle(mesh_, face);
     for (std::size_t i = 0; i < points.size(); ++i) {
       faces_.loop_corners_.push_back(corner(cell, points[i]));
-      const Vector &a = mesh_.points[as_size(points[i])], &b = mesh_.points[as_size(points[(i + 1) % points.size()])];
+      const Vector &a = mesh_.points[points[i]], &b = mesh_.points[points[(i + 1) % points.size()]];
       faces_.shares_.push_back(0.5 * (a - apex).cross(b - apex).dot(normal) / loop.size);
     }
     if (mesh_.face_apex.size() > 0) loop.apex = corner(cell, mesh_.face_apex[face]);
@@ -212,15 +209,15 @@ class MovedFacesBuilder {
   }
 
   void add_sections() {
-    faces_.section_of_cell_.assign(as_size(mesh_.n_cells()), -1);
+    faces_.section_of_cell_.assign(mesh_.n_cells(), -1);
     for (const PatchCondition& on : unknowns_.conditions) {
       if (on.condition.kind != BoundaryCondition::Kind::axisymmetric) continue;
-      const Patch& patch = mesh_.patches[as_size(on.patch)];
+      const Patch& patch = mesh_.patches[on.patch];
       for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
         const Index c = mesh_.owner[f];
-        Index& section = faces_.section_of_cell_[as_size(c)];
+        Index& section = faces_.section_of_cell_[c];
         if (section >= 0 || !points_.has(c)) continue;
-        section = static_cast<Index>(faces_.sections_.size());
+        section = count_of(faces_.sections_);
         faces_.sections_.push_back(loop(f, c));
       }
     }

@@ -18,9 +18,9 @@ constexpr double slip_share = 0.05;
 }  // namespace
 
 CellField<double> jump_shares(const Mesh& mesh, const Unknowns& unknowns) {
-  CellField<double> share(as_size(mesh.n_cells()), 1.0);
+  CellField<double> share(mesh.n_cells(), 1.0);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const IsotropicElasticity& sound = unknowns.sound[as_size(unknowns.zone[c])];
+    const IsotropicElasticity& sound = unknowns.sound[unknowns.zone[c]];
     const IsotropicElasticity seen = unknowns.plane_stress ? plane_stress(sound) : sound;
     if (mesh.shape[c] == CellShape::polyhedron)
       share[c] = std::min(1.0, (moderate_lambda + 2.0) * seen.mu / seen.constrained_modulus());
@@ -35,7 +35,7 @@ void PolyhedralJump::renew(const CellField<IsotropicElasticity>& moduli,
   const Unknowns& unknowns = skeleton_.unknowns;
   parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
     if (skeleton_.mesh.shape[c] != CellShape::polyhedron) return;
-    const IsotropicElasticity& sound = undamaged.size() > 0 ? undamaged[c] : unknowns.sound[as_size(unknowns.zone[c])];
+    const IsotropicElasticity& sound = undamaged.size() > 0 ? undamaged[c] : unknowns.sound[unknowns.zone[c]];
     const double stiffer = moduli[c].bulk_modulus() * sound.mu / (sound.bulk_modulus() * moduli[c].mu);
     liquidity_[c] = std::max(0.0, 1.0 - 1.0 / stiffer);
   });
@@ -72,7 +72,7 @@ double PolyhedralJump::bending_part(const momentum_faces::Link& link) const {
   const double across = (link.d_P - link.d_N).dot(link.n);
   const double flatness = std::min(thickness(link.P), thickness(link.N)) / across;
   const Unknowns& unknowns = skeleton_.unknowns;
-  const IsotropicElasticity& sound = unknowns.sound[as_size(unknowns.zone[link.P])];
+  const IsotropicElasticity& sound = unknowns.sound[unknowns.zone[link.P]];
   return std::min(1.0, both / (1.0 - sound.poisson_ratio()) * flatness * flatness);
 }
 

@@ -25,7 +25,7 @@ class PolyhedralJump {
  public:
   /// `shares` as above. For use while both exist.
   PolyhedralJump(const FaceSkeleton& skeleton, const CellField<double>& shares)
-      : skeleton_(skeleton), share_(shares), liquidity_(as_size(skeleton.mesh.n_cells()), 0.0) {}
+      : skeleton_(skeleton), share_(shares), liquidity_(skeleton.mesh.n_cells(), 0.0) {}
 
   /// For the moduli of the cells, before plane stress or pressures change them; `sound`: undamaged ones, empty: those
   /// of the zones.

@@ -33,23 +33,22 @@ void FiniteTractions::set(const FiniteLawAt& law, const CellField<double>& g, co
   pressure_.linearise(s);
   set_face_tensors();
   find_changes(s);
-  parallel_for(static_cast<Index>(link_tensors_.size()), [&](Index i) { turn_link(as_size(i), u, s); });
-  parallel_for(static_cast<Index>(side_tensors_.size()), [&](Index i) { turn_side(as_size(i), u, s); });
+  parallel_for(count_of(link_tensors_), [&](Index i) { turn_link(i, u, s); });
+  parallel_for(count_of(side_tensors_), [&](Index i) { turn_side(i, u, s); });
   find_initial_sector_stress(s);
   if (pressure_.any()) linearise_volumes(u, s);
 }
 
 void FiniteTractions::set_face_tensors() {
-  parallel_for(static_cast<Index>(link_tensors_.size()), [&](Index i) {
-    const Link& link = skeleton_.links[as_size(i)];
+  parallel_for(count_of(link_tensors_), [&](Index i) {
+    const Link& link = skeleton_.links[i];
     const double h_P = link.h_P(), h_N = link.h_N();
     const Tensor a = states_.acoustic(link.P, link.n) / h_P, b = states_.acoustic(link.N, link.n) / h_N;
     const Tensor softness = (a + b).inverse(), weight = b * softness;
-    link_tensors_[as_size(i)] = {.weight = weight, .c = states_.jump_tensor(link, h_P, h_N), .softness = softness};
+    link_tensors_[i] = {.weight = weight, .c = states_.jump_tensor(link, h_P, h_N), .softness = softness};
   });
-  parallel_for(static_cast<Index>(side_tensors_.size()), [&](Index i) {
-    side_tensors_[as_size(i)] = states_.side_acoustic(as_size(i)) / skeleton_.sides[as_size(i)].h();
-  });
+  parallel_for(count_of(side_tensors_),
+               [&](Index i) { side_tensors_[i] = states_.side_acoustic(i) / skeleton_.sides[i].h(); });
 }
 
 void FiniteTractions::find_initial_sector_stress(const FiniteSweep& s) {
@@ -85,8 +84,7 @@ void FiniteTractions::turn_link(std::size_t i, const std::vector<Vector>& u, con
   const LinkTensors& by = link_tensors_[i];
   const CellField<Tensor>& F = states_.deformation();
   const std::size_t P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
-  const Vector jump =
-      u[as_size(link.N)] + s.gradients[link.N] * link.d_N - u[as_size(link.P)] - s.gradients[link.P] * link.d_P;
+  const Vector jump = u[link.N] + s.gradients[link.N] * link.d_N - u[link.P] - s.gradients[link.P] * link.d_P;
   const Vector step = true_traction(link.N, link.n, link.d_N, N, s) - true_traction(link.P, link.n, link.d_P, P, s);
   if (weights_.turns(i)) weights_.linearise(i, F[link.P], F[link.N], by.c, jump);
   const Vector weighed = weights_.weigh(i, jump);
@@ -123,20 +121,19 @@ void FiniteTractions::turn_jump(std::size_t i, const Vector& jump, const FiniteS
 void FiniteTractions::turn_side(std::size_t i, const std::vector<Vector>& u, const FiniteSweep& s) {
   const Side& side = skeleton_.sides[i];
   const std::size_t turn = skeleton_.turn_of_side(i);
-  const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - rise(side.cell, side.d, turn, s);
+  const Vector gap = u[side.node] - u[side.cell] - rise(side.cell, side.d, turn, s);
   face_turns_[turn] = face_turn(side.cell, side.n, side.d, turn, states_.side_push(i) / side.h(), gap, s);
 }
 
 void FiniteTractions::linearise_volumes(const std::vector<Vector>& u, FiniteSweep& s) {
   find_linear(u, s);
   std::vector<Vector> u_face(skeleton_.n_forces());
-  const std::size_t n_links = skeleton_.links.size();
-  parallel_for(static_cast<Index>(n_links), [&](Index index) {
-    const std::size_t i = as_size(index);
+  const Index n_links = count_of(skeleton_.links);
+  parallel_for(n_links, [&](Index i) {
     const Vector jump = face_turns_[FaceSkeleton::turn_N(i)].initial - face_turns_[FaceSkeleton::turn_P(i)].initial;
     u_face[i] = s.moved[i] + link_tensors_[i].softness * jump;
   });
-  for (std::size_t i = 0; i < skeleton_.sides.size(); ++i) u_face[n_links + i] = u[as_size(skeleton_.sides[i].node)];
+  for (std::size_t i = 0; i < skeleton_.sides.size(); ++i) u_face[n_links + i] = u[skeleton_.sides[i].node];
   pressure_.linearise_volumes(u, u_face, s);
 }
 

@@ -28,8 +28,8 @@ void add_moments(const Mesh& mesh, const std::vector<Index>& of_cells, const Cel
     volume += mesh.cell_volume[c];
   }
   const Tensor R_0 = polar_parts(whole / volume).R;
-  parallel_for(static_cast<Index>(of_cells.size()), [&](Index k) {
-    const Index c = of_cells[as_size(k)];
+  parallel_for(count_of(of_cells), [&](Index k) {
+    const Index c = of_cells[k];
     const Tensor R = polar_parts(Tensor::Identity() + cells.gradient[c]).R;
     const Tensor moment = skew_part(stress[c] * R.transpose());
     cells.moment_work[c] = 0.5 * mesh.cell_volume[c] * contract(moment, skew_part(R * R_0.transpose()));
@@ -41,7 +41,7 @@ std::vector<Vector> moves_of_faces(const FaceSkeleton& skeleton, const std::vect
                                    const FaceField<Vector>& u_face) {
   std::vector<Vector> moves;
   for (const momentum_faces::Link& link : skeleton.links) moves.push_back(u_face[link.face]);
-  for (const momentum_faces::Side& side : skeleton.sides) moves.push_back(u[as_size(side.node)]);
+  for (const momentum_faces::Side& side : skeleton.sides) moves.push_back(u[side.node]);
   return moves;
 }
 
@@ -81,7 +81,7 @@ void FiniteTractions::add_work_of_moments(CellMechanics& result) const {
   const Unknowns& unknowns = skeleton_.unknowns;
   const CellField<Tensor>& stress = pressure_.any() ? result.moderate_stress : result.stress;
   if (!unknowns.loads.eigenstrain) return add_moments(skeleton_.mesh, unknowns.pressure_cells, stress, result);
-  std::vector<Index> all(as_size(skeleton_.mesh.n_cells()));
+  std::vector<Index> all(skeleton_.mesh.n_cells());
   std::iota(all.begin(), all.end(), Index{0});
   add_moments(skeleton_.mesh, all, stress, result);
 }
@@ -93,10 +93,10 @@ CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
   find(u, s);
   FaceField<Vector> u_face = face_displacements(u, s);
   const FaceMoves moves{.skeleton = skeleton_, .sweep = s, .u = u, .u_face = u_face};
-  CellMechanics result = unknown_mechanics(as_size(skeleton_.mesh.n_cells()), as_size(part.size()));
+  CellMechanics result = unknown_mechanics(skeleton_.mesh.n_cells(), as_size(part.size()));
   if (pressure_.any()) {
     result.volume_change = pressure_.swept_changes(moves_of_faces(skeleton_, u, u_face), s);
-    result.moderate_stress = CellField<Tensor>(as_size(skeleton_.mesh.n_cells()));
+    result.moderate_stress = CellField<Tensor>(skeleton_.mesh.n_cells());
   }
   parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
     const double volume = skeleton_.mesh.cell_volume[c];

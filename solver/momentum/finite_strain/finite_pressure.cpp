@@ -11,7 +11,7 @@ FinitePressure::FinitePressure(const FaceSkeleton& skeleton, const CellPressure&
       pressure_(pressure),
       states_(states),
       moved_faces_(skeleton.mesh, skeleton.unknowns, skeleton.places_by_force(), states.bonded()),
-      pressure_at_(as_size(skeleton.mesh.n_cells()), 0.0),
+      pressure_at_(skeleton.mesh.n_cells(), 0.0),
       rows_(skeleton.unknowns.pressure_cells.size()) {}
 
 void FinitePressure::prepare(FinitePressureSweep& s) const {
@@ -27,9 +27,9 @@ void FinitePressure::read(const std::vector<Vector>& u, const CellField<Tensor>&
                           FinitePressureSweep& s) const {
   if (any()) pressure_.read(u, s.pressure);
   const BondedSides& bonded = states_.bonded();
-  parallel_for(static_cast<Index>(bonded.size()), [&](Index k) {
-    const Index c = skeleton_.sides[bonded.side(as_size(k))].cell;
-    s.on_sides[as_size(k)] = bonded.gradient(as_size(k), u, gradients[c]);
+  parallel_for(count_of(bonded), [&](Index k) {
+    const Index c = skeleton_.sides[bonded.side(k)].cell;
+    s.on_sides[k] = bonded.gradient(k, u, gradients[c]);
   });
   moved_faces_.move({u, gradients, s.on_sides}, s.corner_moves);
 }
@@ -58,7 +58,7 @@ bool FinitePressure::has_polygon(std::size_t i) const {
 }
 
 void FinitePressure::find_area_changes(const CellField<Tensor>& gradients, FinitePressureSweep& s) const {
-  parallel_for(static_cast<Index>(s.area_changes.size()), [&](Index i) {
+  parallel_for(count_of(s.area_changes), [&](Index i) {
     const std::size_t n_links = skeleton_.links.size(), k = as_size(i);
     if (k < n_links || has_polygon(k - n_links)) {
       s.area_changes[k] = moved_faces_.area_change(k, s.corner_moves);
@@ -67,16 +67,16 @@ void FinitePressure::find_area_changes(const CellField<Tensor>& gradients, Finit
     const Side& side = skeleton_.sides[k - n_links];
     const Index own = states_.own(k - n_links);
     s.area_changes[k] = (own < 0 ? cofactor_change(states_.deformation()[side.cell], gradients[side.cell])
-                                 : cofactor_change(states_.deformation_on(own), s.on_sides[as_size(own)])) *
+                                 : cofactor_change(states_.deformation_on(own), s.on_sides[own])) *
                         side.n;
   });
 }
 
 // Of the displacements of faces, those of links being in s.moved.
 void FinitePressure::find_fluxes(const std::vector<Vector>& u, FinitePressureSweep& s) const {
-  parallel_for(static_cast<Index>(s.flux.size()), [&](Index i) {
-    const std::size_t k = as_size(i), n_links = skeleton_.links.size();
-    const Vector& moved = k < n_links ? s.moved[k] : u[as_size(skeleton_.sides[k - n_links].node)];
+  parallel_for(count_of(s.flux), [&](Index i) {
+    const std::size_t k = i, n_links = skeleton_.links.size();
+    const Vector& moved = k < n_links ? s.moved[k] : u[skeleton_.sides[k - n_links].node];
     s.flux[k] = moved_faces_.flux(k, s.corner_moves, moved, s.area_changes[k]);
   });
 }
@@ -85,19 +85,17 @@ void FinitePressure::balance(const std::vector<Vector>& u, FinitePressureSweep& 
   const std::vector<Index>& cells = skeleton_.unknowns.pressure_cells;
   if (cells.empty()) return;
   find_fluxes(u, s);
-  parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
-    const Index c = cells[as_size(k)];
-    const double slope = rows_[as_size(k)].slope;
+  parallel_for(count_of(cells), [&](Index k) {
+    const Index c = cells[k];
+    const double slope = rows_[k].slope;
     const double rate = skeleton_.mesh.cell_volume[c] * slope * s.pressure.mean(c) - skeleton_.out_of(c, s.flux);
-    out[as_size(skeleton_.unknowns.n_nodes() + k)] = rate * Vector::UnitX();
+    out[skeleton_.unknowns.n_nodes() + k] = rate * Vector::UnitX();
   });
 }
 
 CellField<double> FinitePressure::swept_changes(const std::vector<Vector>& u_face, FinitePressureSweep& s) const {
-  parallel_for(static_cast<Index>(s.flux.size()), [&](Index i) {
-    s.flux[as_size(i)] = moved_faces_.swept(as_size(i), s.corner_moves, u_face[as_size(i)]);
-  });
-  CellField<double> change(as_size(skeleton_.mesh.n_cells()), 0.0);
+  parallel_for(count_of(s.flux), [&](Index i) { s.flux[i] = moved_faces_.swept(i, s.corner_moves, u_face[i]); });
+  CellField<double> change(skeleton_.mesh.n_cells(), 0.0);
   for (const Index c : skeleton_.unknowns.pressure_cells)
     change[c] = skeleton_.out_of(c, s.flux) / skeleton_.mesh.cell_volume[c];
   return change;
@@ -109,24 +107,23 @@ void FinitePressure::linearise_volumes(const std::vector<Vector>& u, const std::
   moved_faces_.follow(u_face);
   const CellField<double> change = swept_changes(u_face, s);
   find_fluxes(u, s);
-  parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
-    const Index c = cells[as_size(k)];
+  parallel_for(count_of(cells), [&](Index k) {
+    const Index c = cells[k];
     const VolumeAt volume = states_.law(c).volume(pressure_at_[c]);
     const double linear = skeleton_.out_of(c, s.flux) / skeleton_.mesh.cell_volume[c];
-    rows_[as_size(k)] = {.slope = volume.slope,
-                         .initial = volume.change - volume.slope * pressure_at_[c] - change[c] + linear};
+    rows_[k] = {.slope = volume.slope, .initial = volume.change - volume.slope * pressure_at_[c] - change[c] + linear};
   });
 }
 
 void FinitePressure::take_away_constant(std::vector<Vector>& load) const {
   const Unknowns& unknowns = skeleton_.unknowns;
   for (std::size_t k = 0; k < rows_.size(); ++k)
-    load[as_size(unknowns.n_nodes()) + k] -=
+    load[unknowns.n_nodes() + k] -=
         skeleton_.mesh.cell_volume[unknowns.pressure_cells[k]] * rows_[k].initial * Vector::UnitX();
 }
 
 Vector FinitePressure::moved_area(const FaceSkeleton::SignedForce& on) const {
-  const auto i = as_size(on.force);
+  const std::size_t i = on.force;
   const std::size_t n_links = skeleton_.links.size();
   const double area = i < n_links ? skeleton_.links[i].area : skeleton_.sides[i - n_links].area;
   return (on.sign * area) * moved_faces_.area(i);

@@ -53,19 +53,19 @@ class FiniteStates {
   const FiniteLaw& law(Index cell) const { return laws_[cell]; }
   const CellField<Tensor>& deformation() const { return F_; }
   const CellField<Tensor>& cofactors() const { return cofactor_; }
-  const Tensor& deformation_on(Index own) const { return side_states_[as_size(own)].F; }
+  const Tensor& deformation_on(Index own) const { return side_states_[own].F; }
   /// As side number `turn` sees them: of the cell, or of the side's own gradient.
   const Tensor& stress_at(Index cell, std::size_t turn) const {
     const Index k = own_at(turn);
-    return k < 0 ? laws_[cell].stress : side_states_[as_size(k)].law.stress;
+    return k < 0 ? laws_[cell].stress : side_states_[k].law.stress;
   }
   const Tensor& cofactor_at(Index cell, std::size_t turn) const {
     const Index k = own_at(turn);
-    return k < 0 ? cofactor_[cell] : side_states_[as_size(k)].cofactor;
+    return k < 0 ? cofactor_[cell] : side_states_[k].cofactor;
   }
   const Change& change_at(Index cell, std::size_t turn, const Changes& changes) const {
     const Index k = own_at(turn);
-    return k < 0 ? changes.of_cell[cell] : changes.on_side[as_size(k)];
+    return k < 0 ? changes.of_cell[cell] : changes.on_side[k];
   }
 
   /// m and dm/dJ times h.
@@ -89,7 +89,7 @@ class FiniteStates {
   /// Whether a cell has lost all but this share of its stiffness.
   bool is_softer(Index cell, double share) const {
     const Unknowns& unknowns = skeleton_.unknowns;
-    return laws_[cell].face.mu < share * laws_[cell].free_share * unknowns.sound[as_size(unknowns.zone[cell])].mu;
+    return laws_[cell].face.mu < share * laws_[cell].free_share * unknowns.sound[unknowns.zone[cell]].mu;
   }
   /// J over that of the free deformation.
   double elastic_volume(Index cell) const { return F_[cell].determinant() / (1.0 + laws_[cell].free_change); }

@@ -27,7 +27,7 @@ FiniteTractions::FiniteTractions(const FaceSkeleton& skeleton, CellReconstructio
       states_(skeleton, cells.layers()),
       pressure_(skeleton, cells.pressure(), states_),
       weights_(cells.layers(), skeleton.links.size()),
-      initial_sector_(as_size(skeleton.sector_area.size()), 0.0),
+      initial_sector_(skeleton.sector_area.size(), 0.0),
       face_turns_(skeleton.n_turns()),
       link_tensors_(skeleton.links.size()),
       side_tensors_(skeleton.sides.size()) {
@@ -38,7 +38,7 @@ FiniteTractions::FiniteTractions(const FaceSkeleton& skeleton, CellReconstructio
 std::unique_ptr<Sweep> FiniteTractions::new_sweep() const {
   auto s = std::make_unique<FiniteSweep>(skeleton_);
   pressure_.prepare(*s);
-  s->changes.of_cell = CellField<Change>(as_size(skeleton_.mesh.n_cells()));
+  s->changes.of_cell = CellField<Change>(skeleton_.mesh.n_cells());
   s->changes.on_side.resize(states_.n_own());
   s->layers.assign(cells_.layers().any() ? skeleton_.n_turns() : 0, Tensor::Zero());
   return s;
@@ -81,33 +81,31 @@ void FiniteTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) co
   FiniteSweep& s = of(sweep);
   reconstruct(u, s);
   find_changes(s);
-  const auto n_links = static_cast<Index>(skeleton_.links.size());
-  parallel_for(n_links, [&](Index index) {
-    const std::size_t i = as_size(index);
+  const auto n_links = count_of(skeleton_.links);
+  parallel_for(n_links, [&](Index i) {
     const Link& link = skeleton_.links[i];
     const LinkTensors& by = link_tensors_[i];
     const Vector stress_P = linear_traction(link.P, link.n, link.d_P, FaceSkeleton::turn_P(i), s);
     const Vector stress_N = linear_traction(link.N, link.n, link.d_N, FaceSkeleton::turn_N(i), s);
-    const Vector u_P = u[as_size(link.P)] + s.gradients[link.P] * link.d_P;
-    const Vector jump = u[as_size(link.N)] + s.gradients[link.N] * link.d_N - u_P;
+    const Vector u_P = u[link.P] + s.gradients[link.P] * link.d_P;
+    const Vector jump = u[link.N] + s.gradients[link.N] * link.d_N - u_P;
     if (!s.moved.empty()) s.moved[i] = u_P + by.weight.transpose() * jump + by.softness * (stress_N - stress_P);
     s.force[i] = link.area * (stress_N + by.weight * (stress_P - stress_N) + by.c * weights_.weigh(i, jump));
     if (weights_.turns(i)) s.force[i] += link.area * weights_.change(i, s.gradients[link.P], s.gradients[link.N]);
     if (!jump_turns_.empty()) s.force[i] += link.area * turned_jump(i, s);
   });
-  parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
-    const Side& side = skeleton_.sides[as_size(i)];
-    const std::size_t turn = skeleton_.turn_of_side(as_size(i));
-    const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - rise(side.cell, side.d, turn, s);
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    const Side& side = skeleton_.sides[i];
+    const std::size_t turn = skeleton_.turn_of_side(i);
+    const Vector gap = u[side.node] - u[side.cell] - rise(side.cell, side.d, turn, s);
     const Vector stress = linear_traction(side.cell, side.n, side.d, turn, s);
-    s.force[as_size(n_links + i)] = side.area * (stress + side_tensors_[as_size(i)] * gap);
+    s.force[n_links + i] = side.area * (stress + side_tensors_[i] * gap);
   });
 }
 
 bool FiniteTractions::add_constant(Sweep& s) const {
-  const auto n_links = static_cast<Index>(skeleton_.links.size());
-  parallel_for(n_links, [&](Index index) {
-    const std::size_t i = as_size(index);
+  const auto n_links = count_of(skeleton_.links);
+  parallel_for(n_links, [&](Index i) {
     const Link& link = skeleton_.links[i];
     const Vector &on_P = face_turns_[FaceSkeleton::turn_P(i)].initial,
                  &on_N = face_turns_[FaceSkeleton::turn_N(i)].initial;
@@ -115,9 +113,8 @@ bool FiniteTractions::add_constant(Sweep& s) const {
     if (weights_.turns(i)) s.force[i] += link.area * weights_.initial(i);
     if (!jump_turns_.empty()) s.force[i] += link.area * jump_turns_[i].initial;
   });
-  parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
-    s.force[as_size(n_links + i)] +=
-        skeleton_.sides[as_size(i)].area * face_turns_[skeleton_.turn_of_side(as_size(i))].initial;
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    s.force[n_links + i] += skeleton_.sides[i].area * face_turns_[skeleton_.turn_of_side(i)].initial;
   });
   parallel_for(s.sector_stress.size(), [&](Index c) { s.sector_stress[c] += initial_sector_[c]; });
   return true;
@@ -127,8 +124,8 @@ Vector FiniteTractions::link_displacement(std::size_t i, const std::vector<Vecto
   const FiniteSweep& s = of(sweep);
   const Link& link = skeleton_.links[i];
   const std::size_t P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
-  const Vector from_P = u[as_size(link.P)] + s.gradients[link.P] * link.d_P;
-  const Vector from_N = u[as_size(link.N)] + s.gradients[link.N] * link.d_N;
+  const Vector from_P = u[link.P] + s.gradients[link.P] * link.d_P;
+  const Vector from_N = u[link.N] + s.gradients[link.N] * link.d_N;
   Vector stress_jump =
       linear_traction(link.N, link.n, link.d_N, N, s) - linear_traction(link.P, link.n, link.d_P, P, s);
   stress_jump += face_turns_[N].initial - face_turns_[P].initial;
@@ -147,12 +144,12 @@ Vector FiniteTractions::turned_jump(std::size_t i, const FiniteSweep& s) const {
 void FiniteTractions::turn_springs(const Sweep& sweep, const std::vector<FaceSpring>& springs,
                                    std::vector<Vector>& forces) const {
   const FiniteSweep& s = of(sweep);
-  parallel_for(static_cast<Index>(springs.size()), [&](Index k) {
-    const SplitFace& face = skeleton_.split_faces[as_size(k)];
-    const FaceSpring& spring = springs[as_size(k)];
+  parallel_for(count_of(springs), [&](Index k) {
+    const SplitFace& face = skeleton_.split_faces[k];
+    const FaceSpring& spring = springs[k];
     const Vector turned = spring.turn_P * (s.changes.of_cell[face.P].cofactor * face.n) +
                           spring.turn_N * (s.changes.of_cell[face.N].cofactor * face.n);
-    forces[as_size(k)] += face.area * turned;
+    forces[k] += face.area * turned;
   });
 }
 
@@ -177,16 +174,15 @@ FiniteTractions::PressureRow FiniteTractions::pressure_row(std::size_t k) const 
 }
 
 void FiniteTractions::find_pressure_forces(const CellField<double>& q, Sweep& s) const {
-  const auto n_links = static_cast<Index>(skeleton_.links.size());
-  parallel_for(n_links, [&](Index index) {
-    const std::size_t i = as_size(index);
+  const auto n_links = count_of(skeleton_.links);
+  parallel_for(n_links, [&](Index i) {
     const Link& link = skeleton_.links[i];
     const Vector& area = pressure_.area(i);
     s.force[i] = link.area * (q[link.N] * area + link_tensors_[i].weight * ((q[link.P] - q[link.N]) * area));
   });
-  parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
-    const Side& side = skeleton_.sides[as_size(i)];
-    s.force[as_size(n_links + i)] = (side.area * q[side.cell]) * pressure_.area(as_size(n_links + i));
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    const Side& side = skeleton_.sides[i];
+    s.force[n_links + i] = (side.area * q[side.cell]) * pressure_.area(n_links + i);
   });
   parallel_for(s.sector_stress.size(), [&](Index c) { s.sector_stress[c] = q[c] * pressure_.section(c); });
 }

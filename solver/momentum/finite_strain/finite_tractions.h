@@ -100,7 +100,7 @@ class FiniteTractions final : public FaceTractions {
   // What the cell's displacement rises by to the centre of side number `turn` [m].
   Vector rise(Index cell, const Vector& d, std::size_t turn, const FiniteSweep& s) const {
     const Index k = states_.bonded_at(turn);
-    return (k < 0 ? s.gradients[cell] : s.on_sides[as_size(k)]) * d;
+    return (k < 0 ? s.gradients[cell] : s.on_sides[k]) * d;
   }
 
   // finite_linearisation.cpp

@@ -19,7 +19,7 @@ TurnedWeights::TurnedWeights(const LayerGradients& layers, std::size_t n_links) 
   number_.assign(n_links, -1);
   for (std::size_t i = 0; i < n_links; ++i) {
     if (!layers.weighs(i)) continue;
-    number_[i] = static_cast<Index>(turns_.size());
+    number_[i] = count_of(turns_);
     turns_.emplace_back();
   }
 }
@@ -28,7 +28,7 @@ void TurnedWeights::linearise(std::size_t link, const Tensor& F_P, const Tensor&
                               const Vector& jump) {
   const Tensor F = 0.5 * (F_P + F_N);
   const PolarParts polar = polar_parts(F);
-  Turn& turn = turns_[as_size(number_[link])];
+  Turn& turn = turns_[number_[link]];
   turn.R = polar.R;
   turn.weight = polar.R * layers_.weight(link) * polar.R.transpose();
   const Tensor by_turn = turn.weight * cross_with(jump) - cross_with(turn.weight * jump);

@@ -35,7 +35,7 @@ class TurnedWeights {
     Tensor by_axis = Tensor::Zero();  // of a, to the traction [Pa]
     Vector initial = Vector::Zero();  // [Pa]
   };
-  const Turn& of(std::size_t link) const { return turns_[as_size(number_[link])]; }
+  const Turn& of(std::size_t link) const { return turns_[number_[link]]; }
 
   const LayerGradients& layers_;
   std::vector<Index> number_;  // of each link; -1: none

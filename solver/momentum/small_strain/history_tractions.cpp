@@ -39,7 +39,7 @@ void HistoryTractions::set(const CellField<IsotropicElasticity>& moduli, const C
 // Of the stress K tr eps + p_0 the pressures carry all but K_s tr eps.
 void HistoryTractions::give_to_pressures() {
   if (!cells_.pressure().any()) return;
-  pressure_ = CellField<double>(as_size(stress_.size()), 0.0);
+  pressure_ = CellField<double>(stress_.size(), 0.0);
   parallel_for(stress_.size(), [&](Index c) {
     const double modulus = cells_.pressure().modulus(c);
     if (!(modulus > 0.0)) return;
@@ -64,7 +64,7 @@ template <class Visit>
 void HistoryTractions::visit_sides(Index cell, const Visit& visit) const {
   const Mesh& mesh = skeleton_.mesh;
   const FaceSkeleton::SignedForce* next = skeleton_.forces_of(cell).data();
-  const std::size_t first = as_size(mesh.cell_face_offsets[as_size(cell)]);
+  const std::size_t first = mesh.cell_face_offsets[cell];
   const auto faces = mesh.faces_of_cell(cell);
   for (std::size_t k = 0; k < faces.size(); ++k)
     if (skeleton_.force_of_face[faces[k]] >= 0) visit(first + k, faces[k], *next++);
@@ -73,7 +73,7 @@ void HistoryTractions::visit_sides(Index cell, const Visit& visit) const {
 void HistoryTractions::bear_gaps(const HistoryStress& history, const CellField<double>& g) {
   gaps_ = {};
   if (history.gaps.empty()) return;
-  gaps_ = CellField<GapStiffness>(as_size(stress_.size()));
+  gaps_ = CellField<GapStiffness>(stress_.size());
   initial_of_gaps_.assign(skeleton_.n_turns(), Vector::Zero());
   parallel_for(stress_.size(), [&](Index c) {
     gaps_[c] = gap_stiffness(c, history);
@@ -117,7 +117,7 @@ double HistoryTractions::stress_across(Index cell, const Tensor& strain, const S
 
 void HistoryTractions::add_histories(const FaceMoves& moves, CellMechanics& result) const {
   const IsotropicSweep& sweep = of(moves.sweep);
-  result.reconstructed_strain = CellField<Tensor>(as_size(stress_.size()));
+  result.reconstructed_strain = CellField<Tensor>(stress_.size());
   if (gaps_.size() > 0) result.gaps.resize(skeleton_.mesh.cell_faces.size());
   parallel_for(stress_.size(), [&](Index c) {
     Tensor& strain = result.reconstructed_strain[c];
@@ -135,7 +135,7 @@ void HistoryTractions::add_gaps(Index cell, const FaceMoves& moves, CellMechanic
   visit_sides(cell, [&](std::size_t at, Index f, const FaceSkeleton::SignedForce& on) {
     const std::size_t turn = skeleton_.turn_at(on);
     const Vector d = mesh.face_centre[f] - mesh.cell_centre[cell], n = mesh.face_area[f].normalized();
-    const Vector move = moves.seen_from(cell, f) - moves.u[as_size(cell)];
+    const Vector move = moves.seen_from(cell, f) - moves.u[cell];
     const double h = std::abs(d.dot(n));
     result.gaps[at] = {.strain = gap(cell, d, turn, move, moves.u, moves.sweep) / h,
                        .volume = mesh.face_area[f].norm() * h,

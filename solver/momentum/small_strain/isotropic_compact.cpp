@@ -54,10 +54,10 @@ double IsotropicTractions::side_flux(const Side& side, const Vector& u_f, const 
 void IsotropicTractions::balance_pressures(const std::vector<Vector>&, Sweep& sweep, std::vector<Vector>& out) const {
   const IsotropicSweep& s = of(sweep);
   const std::vector<Index>& cells = skeleton_.unknowns.pressure_cells;
-  parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
-    const Index c = cells[as_size(k)];
+  parallel_for(count_of(cells), [&](Index k) {
+    const Index c = cells[k];
     const double own = skeleton_.mesh.cell_volume[c] * s.pressure.mean(c) / cells_.pressure().modulus(c);
-    out[as_size(skeleton_.unknowns.n_nodes() + k)] = (own - skeleton_.out_of(c, s.flux)) * Vector::UnitX();
+    out[skeleton_.unknowns.n_nodes() + k] = (own - skeleton_.out_of(c, s.flux)) * Vector::UnitX();
   });
 }
 
@@ -67,16 +67,16 @@ void IsotropicTractions::take_away_constant_volumes(std::vector<Vector>& load) c
   const std::vector<Index>& cells = skeleton_.unknowns.pressure_cells;
   if (!has_initial_stress() || cells.empty()) return;
   std::vector<double> flux(skeleton_.n_forces(), 0.0);
-  parallel_for(static_cast<Index>(skeleton_.links.size()), [&](Index i) {
-    const Link& link = skeleton_.links[as_size(i)];
-    const LinkValues& by = link_values_[as_size(i)];
+  parallel_for(count_of(skeleton_.links), [&](Index i) {
+    const Link& link = skeleton_.links[i];
+    const LinkValues& by = link_values_[i];
     const double softness = by.weight_n * (1.0 - by.weight_n) / by.c_n;
-    flux[as_size(i)] = link.area * softness * link.n.dot(initial_jump(as_size(i)));
+    flux[i] = link.area * softness * link.n.dot(initial_jump(i));
   });
-  parallel_for(static_cast<Index>(cells.size()), [&](Index k) {
-    const Index c = cells[as_size(k)];
+  parallel_for(count_of(cells), [&](Index k) {
+    const Index c = cells[k];
     const double freely = skeleton_.mesh.cell_volume[c] * free_volume_change(c);
-    load[as_size(skeleton_.unknowns.n_nodes() + k)] -= (freely - skeleton_.out_of(c, flux)) * Vector::UnitX();
+    load[skeleton_.unknowns.n_nodes() + k] -= (freely - skeleton_.out_of(c, flux)) * Vector::UnitX();
   });
 }
 
@@ -86,15 +86,15 @@ IsotropicTractions::PressureRow IsotropicTractions::pressure_row(std::size_t k) 
 }
 
 void IsotropicTractions::find_pressure_forces(const CellField<double>& tension, Sweep& s) const {
-  const auto n_links = static_cast<Index>(skeleton_.links.size());
+  const auto n_links = count_of(skeleton_.links);
   parallel_for(n_links, [&](Index i) {
-    const Link& link = skeleton_.links[as_size(i)];
-    const double on_face = tension[link.N] + link_values_[as_size(i)].weight_n * (tension[link.P] - tension[link.N]);
-    s.force[as_size(i)] = (link.area * on_face) * link.n;
+    const Link& link = skeleton_.links[i];
+    const double on_face = tension[link.N] + link_values_[i].weight_n * (tension[link.P] - tension[link.N]);
+    s.force[i] = (link.area * on_face) * link.n;
   });
-  parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
-    const Side& side = skeleton_.sides[as_size(i)];
-    s.force[as_size(n_links + i)] = (side.area * tension[side.cell]) * side.n;
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    const Side& side = skeleton_.sides[i];
+    s.force[n_links + i] = (side.area * tension[side.cell]) * side.n;
   });
   parallel_for(s.sector_stress.size(), [&](Index c) { s.sector_stress[c] = tension[c]; });
 }

@@ -14,26 +14,26 @@ void IsotropicTractions::sweep_faces(const std::vector<Vector>& u, IsotropicSwee
   parallel_for(s.sector_stress.size(), [&](Index c) {
     s.sector_stress[c] = across.dot(stress_of(c, s.gradients[c], across)) + s.pressure.mean(c);
   });
-  const auto n_links = static_cast<Index>(skeleton_.links.size());
+  const auto n_links = count_of(skeleton_.links);
   const bool has_fluxes = cells_.pressure().any();
-  parallel_for(n_links, [&](Index index) {
-    const std::size_t i = as_size(index), P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
+  parallel_for(n_links, [&](Index i) {
+    const std::size_t P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
     const Link& link = skeleton_.links[i];
     const Vector stress_P = traction(link.P, link.n, link.d_P, P, s, stress_of);
     const Vector stress_N = traction(link.N, link.n, link.d_N, N, s, stress_of);
-    const Vector u_P = u[as_size(link.P)] + rise(link.P, link.d_P, P, s);
-    const Vector jump = u[as_size(link.N)] + rise(link.N, link.d_N, N, s) - u_P;
+    const Vector u_P = u[link.P] + rise(link.P, link.d_P, P, s);
+    const Vector jump = u[link.N] + rise(link.N, link.d_N, N, s) - u_P;
     if (has_fluxes) s.flux[i] = link_flux(i, u_P, jump, stress_N - stress_P, s);
     s.force[i] = link.area * (stress_N + weigh(i, stress_P - stress_N) + pull_jump(i, jump));
   });
-  parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
-    const Side& side = skeleton_.sides[as_size(i)];
-    const SideValues& by = side_values_[as_size(i)];
-    const std::size_t turn = skeleton_.turn_of_side(as_size(i));
-    const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - rise(side.cell, side.d, turn, s);
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    const Side& side = skeleton_.sides[i];
+    const SideValues& by = side_values_[i];
+    const std::size_t turn = skeleton_.turn_of_side(i);
+    const Vector gap = u[side.node] - u[side.cell] - rise(side.cell, side.d, turn, s);
     const Vector stress = traction(side.cell, side.n, side.d, turn, s, stress_of);
-    s.force[as_size(n_links + i)] = side.area * (stress + momentum_faces::scale(by.a_n, by.a_t, side.n, gap));
-    if (has_fluxes) s.flux[as_size(n_links + i)] = side_flux(side, u[as_size(side.node)], s);
+    s.force[n_links + i] = side.area * (stress + momentum_faces::scale(by.a_n, by.a_t, side.n, gap));
+    if (has_fluxes) s.flux[n_links + i] = side_flux(side, u[side.node], s);
   });
 }
 

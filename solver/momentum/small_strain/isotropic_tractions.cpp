@@ -15,7 +15,7 @@ using momentum_faces::Side;
 IsotropicTractions::IsotropicTractions(const FaceSkeleton& skeleton, CellReconstruction& cells,
                                        const CellEigenstrain& eigenstrain, bool has_third_order)
     : SmallTractions(skeleton, cells, eigenstrain),
-      moduli_(as_size(skeleton.mesh.n_cells())),
+      moduli_(skeleton.mesh.n_cells()),
       jump_(skeleton, jump_share_),
       bonded_(skeleton.mesh, skeleton.unknowns, skeleton.sides,
               [&](Index c) {
@@ -53,8 +53,8 @@ void IsotropicTractions::set_moduli(const CellField<IsotropicElasticity>& moduli
 
 void IsotropicTractions::condense() {
   if (!is_plane_stress()) return;
-  strain_across_ = CellField<StrainAcross>(as_size(moduli_.size()));
-  if (eigenstrain_.any()) initial_stress_ = CellField<Tensor>(as_size(moduli_.size()));
+  strain_across_ = CellField<StrainAcross>(moduli_.size());
+  if (eigenstrain_.any()) initial_stress_ = CellField<Tensor>(moduli_.size());
   parallel_for(moduli_.size(), [&](Index c) {
     LinearStress whole{.C = stiffness_matrix(moduli_[c]), .initial = Mandel::Zero()};
     if (eigenstrain_.any()) {
@@ -69,15 +69,13 @@ void IsotropicTractions::condense() {
 // In plane stress it is condensed with the moduli.
 void IsotropicTractions::find_initial_stress() {
   if (!eigenstrain_.any() || is_plane_stress()) return;
-  initial_stress_ = CellField<Tensor>(as_size(moduli_.size()));
+  initial_stress_ = CellField<Tensor>(moduli_.size());
   parallel_for(moduli_.size(), [&](Index c) { initial_stress_[c] = -stress(moduli_[c], to_tensor(eigenstrain_[c])); });
 }
 
 void IsotropicTractions::set_coefficients() {
-  parallel_for(static_cast<Index>(link_values_.size()),
-               [&](Index i) { link_values_[as_size(i)] = values_of(as_size(i)); });
-  parallel_for(static_cast<Index>(side_values_.size()),
-               [&](Index i) { side_values_[as_size(i)] = values_of_side(as_size(i)); });
+  parallel_for(count_of(link_values_), [&](Index i) { link_values_[i] = values_of(i); });
+  parallel_for(count_of(side_values_), [&](Index i) { side_values_[i] = values_of_side(i); });
 }
 
 IsotropicTractions::LinkValues IsotropicTractions::values_of(std::size_t i) const {
@@ -106,9 +104,9 @@ void IsotropicTractions::reconstruct(const std::vector<Vector>& u, IsotropicSwee
   if (cells_.cubic().any()) cells_.cubic().read(u, s.gradients, s.cubic);
   if (cells_.layers().any()) cells_.layers().correct(u, s.gradients, s.layers);
   if (cells_.pressure().any()) cells_.pressure().read(u, s.pressure);
-  parallel_for(static_cast<Index>(bonded_.size()), [&](Index k) {
-    const Index c = skeleton_.sides[bonded_.side(as_size(k))].cell;
-    s.bonded[as_size(k)] = bonded_.gradient(as_size(k), u, s.gradients[c]);
+  parallel_for(count_of(bonded_), [&](Index k) {
+    const Index c = skeleton_.sides[bonded_.side(k)].cell;
+    s.bonded[k] = bonded_.gradient(k, u, s.gradients[c]);
   });
 }
 
@@ -118,17 +116,16 @@ void IsotropicTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep)
 
 bool IsotropicTractions::add_constant(Sweep& s) const {
   if (!has_initial_stress()) return false;
-  const auto n_links = static_cast<Index>(skeleton_.links.size());
+  const auto n_links = count_of(skeleton_.links);
   parallel_for(n_links, [&](Index i) {
-    const Link& link = skeleton_.links[as_size(i)];
-    const Vector on_P = initial_traction(link.P, link.n, FaceSkeleton::turn_P(as_size(i)));
-    const Vector on_N = initial_traction(link.N, link.n, FaceSkeleton::turn_N(as_size(i)));
-    s.force[as_size(i)] += link.area * (on_N + weigh(as_size(i), on_P - on_N));
+    const Link& link = skeleton_.links[i];
+    const Vector on_P = initial_traction(link.P, link.n, FaceSkeleton::turn_P(i));
+    const Vector on_N = initial_traction(link.N, link.n, FaceSkeleton::turn_N(i));
+    s.force[i] += link.area * (on_N + weigh(i, on_P - on_N));
   });
-  parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
-    const Side& side = skeleton_.sides[as_size(i)];
-    s.force[as_size(n_links + i)] +=
-        side.area * initial_traction(side.cell, side.n, skeleton_.turn_of_side(as_size(i)));
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    const Side& side = skeleton_.sides[i];
+    s.force[n_links + i] += side.area * initial_traction(side.cell, side.n, skeleton_.turn_of_side(i));
   });
   const Vector& across = plane_normal();
   parallel_for(s.sector_stress.size(), [&](Index c) { s.sector_stress[c] += across.dot(initial_stress(c) * across); });
@@ -160,8 +157,8 @@ Vector IsotropicTractions::link_displacement(std::size_t i, const std::vector<Ve
   const IsotropicSweep& s = of(sweep);
   const Link& link = skeleton_.links[i];
   const std::size_t P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
-  const Vector from_P = u[as_size(link.P)] + rise(link.P, link.d_P, P, s);
-  const Vector from_N = u[as_size(link.N)] + rise(link.N, link.d_N, N, s);
+  const Vector from_P = u[link.P] + rise(link.P, link.d_P, P, s);
+  const Vector from_N = u[link.N] + rise(link.N, link.d_N, N, s);
   Vector stress_jump = own_traction(link.N, link.n, link.d_N, N, s) - own_traction(link.P, link.n, link.d_P, P, s);
   if (has_initial_stress()) stress_jump += initial_jump(i);
   return from_P + weigh(i, from_N - from_P) + give(i, stress_jump);
@@ -174,8 +171,7 @@ Vector IsotropicTractions::gap(Index cell, const Vector& d, std::size_t turn, co
   if (skeleton_.is_side(turn) || !cells_.layers().weighs(turn / 2)) return gap;
   const std::size_t i = turn / 2, P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
   const Link& link = skeleton_.links[i];
-  const Vector jump =
-      u[as_size(link.N)] + rise(link.N, link.d_N, N, s) - u[as_size(link.P)] - rise(link.P, link.d_P, P, s);
+  const Vector jump = u[link.N] + rise(link.N, link.d_N, N, s) - u[link.P] - rise(link.P, link.d_P, P, s);
   const Vector without = jump - cells_.layers().weight(i) * jump, towards_N = weigh(i, without);
   return gap - (turn == P ? towards_N : Vector(towards_N - without));
 }

@@ -156,7 +156,7 @@ class IsotropicTractions : public SmallTractions {
   // That of the cell, or of the surface on which side number `turn` is bonded.
   const Tensor& mean_gradient_at(Index cell, std::size_t turn, const IsotropicSweep& s) const {
     const Index k = bonded_at(turn);
-    return k < 0 ? s.gradients[cell] : s.bonded[as_size(k)];
+    return k < 0 ? s.gradients[cell] : s.bonded[k];
   }
   // What the cell's displacement rises by to the centre of side number `turn` [m].
   Vector rise(Index cell, const Vector& d, std::size_t turn, const IsotropicSweep& s) const {

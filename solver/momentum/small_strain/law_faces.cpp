@@ -32,7 +32,7 @@ void LawTractions::set(StrainLaw law, const CellField<double>& g, const std::vec
   const auto lease = sweep();
   const CellField<Tensor>& gradients = lease->gradients;
   cells_.find_gradients(u, lease->gradients);
-  const auto n = as_size(skeleton_.mesh.n_cells());
+  const std::size_t n = skeleton_.mesh.n_cells();
   const bool has_faces = !side_laws_.empty() && !afresh;
   stiffness_ = CellField<MandelMatrix>(n);
   initial_stress_ = CellField<Tensor>(eigenstrain_.any() ? n : 0);
@@ -44,15 +44,14 @@ void LawTractions::set(StrainLaw law, const CellField<double>& g, const std::vec
   side_laws_.resize(skeleton_.n_turns());
   link_tensors_.resize(skeleton_.links.size());
   side_tensors_.resize(skeleton_.sides.size());
-  parallel_for(static_cast<Index>(link_tensors_.size()),
-               [&](Index i) { settle_link(as_size(i), has_faces, u, gradients); });
-  parallel_for(static_cast<Index>(side_tensors_.size()), [&](Index i) { settle_side(as_size(i), u, gradients); });
+  parallel_for(count_of(link_tensors_), [&](Index i) { settle_link(i, has_faces, u, gradients); });
+  parallel_for(count_of(side_tensors_), [&](Index i) { settle_side(i, u, gradients); });
 }
 
 void LawTractions::settle_side(std::size_t i, const std::vector<Vector>& u, const CellField<Tensor>& gradients) {
   const Side& side = skeleton_.sides[i];
   const Tensor& G = gradients[side.cell];
-  const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - G * side.d;
+  const Vector gap = u[side.node] - u[side.cell] - G * side.d;
   SideLaw& law = side_laws_[skeleton_.turn_of_side(i)];
   law = side_law(side.cell, stretched(G, gap, side.n, side.h()), side.n);
   side_tensors_[i] = law.acoustic / side.h();
@@ -125,8 +124,7 @@ void LawTractions::settle_link(std::size_t i, bool has_faces, const std::vector<
                                const CellField<Tensor>& gradients) {
   constexpr int most_steps = 50, most_cuts = 6;
   const Link& link = skeleton_.links[i];
-  const Vector jump =
-      u[as_size(link.N)] + gradients[link.N] * link.d_N - u[as_size(link.P)] - gradients[link.P] * link.d_P;
+  const Vector jump = u[link.N] + gradients[link.N] * link.d_N - u[link.P] - gradients[link.P] * link.d_P;
   LinkBalance balance{.of = *this,
                       .link = link,
                       .G_P = gradients[link.P],

@@ -34,39 +34,36 @@ void LawTractions::find_linear(const std::vector<Vector>& u, Sweep& s) const {
   parallel_for(s.sector_stress.size(), [&](Index c) {
     s.sector_stress[c] = across.dot(to_tensor(stiffness_[c] * to_mandel(symmetric_part(s.gradients[c]))) * across);
   });
-  const auto n_links = static_cast<Index>(skeleton_.links.size());
-  parallel_for(n_links, [&](Index index) {
-    const std::size_t i = as_size(index);
+  const auto n_links = count_of(skeleton_.links);
+  parallel_for(n_links, [&](Index i) {
     const Link& link = skeleton_.links[i];
     const Tensor &G_P = s.gradients[link.P], &G_N = s.gradients[link.N];
     const Vector stress_P = linear_traction(FaceSkeleton::turn_P(i), G_P);
     const Vector stress_N = linear_traction(FaceSkeleton::turn_N(i), G_N);
-    const Vector u_P = u[as_size(link.P)] + G_P * link.d_P;
-    const Vector jump = u[as_size(link.N)] + G_N * link.d_N - u_P;
+    const Vector u_P = u[link.P] + G_P * link.d_P;
+    const Vector jump = u[link.N] + G_N * link.d_N - u_P;
     const auto& by = link_tensors_[i];
     s.force[i] = link.area * (stress_N + by.weight * (stress_P - stress_N) + by.c * jump);
   });
-  parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
-    const Side& side = skeleton_.sides[as_size(i)];
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    const Side& side = skeleton_.sides[i];
     const Tensor& G = s.gradients[side.cell];
-    const Vector gap = u[as_size(side.node)] - u[as_size(side.cell)] - G * side.d;
-    const Vector stress = linear_traction(skeleton_.turn_of_side(as_size(i)), G);
-    s.force[as_size(n_links + i)] = side.area * (stress + side_tensors_[as_size(i)] * gap);
+    const Vector gap = u[side.node] - u[side.cell] - G * side.d;
+    const Vector stress = linear_traction(skeleton_.turn_of_side(i), G);
+    s.force[n_links + i] = side.area * (stress + side_tensors_[i] * gap);
   });
 }
 
 bool LawTractions::add_constant(Sweep& s) const {
   if (!eigenstrain_.any()) return false;
-  const auto n_links = static_cast<Index>(skeleton_.links.size());
-  parallel_for(n_links, [&](Index index) {
-    const std::size_t i = as_size(index);
+  const auto n_links = count_of(skeleton_.links);
+  parallel_for(n_links, [&](Index i) {
     const Vector &on_P = side_laws_[FaceSkeleton::turn_P(i)].initial,
                  &on_N = side_laws_[FaceSkeleton::turn_N(i)].initial;
     s.force[i] += skeleton_.links[i].area * (on_N + link_tensors_[i].weight * (on_P - on_N));
   });
-  parallel_for(static_cast<Index>(skeleton_.sides.size()), [&](Index i) {
-    s.force[as_size(n_links + i)] +=
-        skeleton_.sides[as_size(i)].area * side_laws_[skeleton_.turn_of_side(as_size(i))].initial;
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    s.force[n_links + i] += skeleton_.sides[i].area * side_laws_[skeleton_.turn_of_side(i)].initial;
   });
   const Vector& across = plane_normal();
   parallel_for(s.sector_stress.size(), [&](Index c) { s.sector_stress[c] += across.dot(initial_stress_[c] * across); });
@@ -78,8 +75,8 @@ Vector LawTractions::link_displacement(std::size_t i, const std::vector<Vector>&
   const Link& link = skeleton_.links[i];
   const std::size_t P = FaceSkeleton::turn_P(i), N = FaceSkeleton::turn_N(i);
   const Tensor &G_P = s.gradients[link.P], &G_N = s.gradients[link.N];
-  const Vector from_P = u[as_size(link.P)] + G_P * link.d_P;
-  const Vector from_N = u[as_size(link.N)] + G_N * link.d_N;
+  const Vector from_P = u[link.P] + G_P * link.d_P;
+  const Vector from_N = u[link.N] + G_N * link.d_N;
   Vector stress_jump = linear_traction(N, G_N) - linear_traction(P, G_P);
   if (eigenstrain_.any()) stress_jump += side_laws_[N].initial - side_laws_[P].initial;
   const Vector towards_N = link_tensors_[i].weight.transpose() * (from_N - from_P);
@@ -103,18 +100,18 @@ double LawTractions::hoop_modulus(Index cell) const {
 }
 
 CellField<double> LawTractions::side_stiffness() const {
-  CellField<double> sum(as_size(skeleton_.mesh.n_cells()), 0.0);
-  std::vector<Index> number(as_size(skeleton_.mesh.n_cells()), 0);
+  CellField<double> sum(skeleton_.mesh.n_cells(), 0.0);
+  std::vector<Index> number(skeleton_.mesh.n_cells(), 0);
   const auto add = [&](Index cell, std::size_t turn) {
     sum[cell] += side_laws_[turn].acoustic.trace();
-    ++number[as_size(cell)];
+    ++number[cell];
   };
   for (std::size_t i = 0; i < skeleton_.links.size(); ++i) {
     add(skeleton_.links[i].P, FaceSkeleton::turn_P(i));
     add(skeleton_.links[i].N, FaceSkeleton::turn_N(i));
   }
   for (std::size_t i = 0; i < skeleton_.sides.size(); ++i) add(skeleton_.sides[i].cell, skeleton_.turn_of_side(i));
-  for (Index c = 0; c < sum.size(); ++c) sum[c] /= static_cast<double>(number[as_size(c)]);
+  for (Index c = 0; c < sum.size(); ++c) sum[c] /= static_cast<double>(number[c]);
   return sum;
 }
 

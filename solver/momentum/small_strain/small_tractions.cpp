@@ -43,14 +43,14 @@ CellMechanics SmallTractions::mechanics(const std::vector<Vector>& u, bool with_
   find(u, *lease);
   FaceField<Vector> u_face = face_displacements(u, *lease);
   const FaceMoves moves{.skeleton = skeleton_, .sweep = *lease, .u = u, .u_face = u_face};
-  const auto n = as_size(skeleton_.mesh.n_cells());
+  const std::size_t n = skeleton_.mesh.n_cells();
   CellMechanics result{.strain = CellField<Tensor>(n),
                        .eigenstrain = eigenstrain_.all(),
                        .traction_moment = CellField<Mandel>(eigenstrain_.any() ? n : 0),
                        .gradient = CellField<Tensor>(with_gradient ? n : 0),
                        .stress = CellField<Tensor>(n),
                        .energy = CellField<double>(n),
-                       .part_energy = CellField<double>(as_size(part.size()), 0.0)};
+                       .part_energy = CellField<double>(part.size(), 0.0)};
   parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {
     const CellSums sums = sum_over_faces(c, moves, [](const auto*, const auto&, const auto&, const auto&) {});
     const Tensor gradient =

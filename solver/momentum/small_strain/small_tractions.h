@@ -75,7 +75,7 @@ double SmallTractions::energy_over_faces(Index cell, const Part& part, const Ten
     const std::size_t turn = skeleton_.turn_at(*next++);
     const Vector area = (mesh.owner[f] == cell ? 1.0 : -1.0) * mesh.face_area[f];
     const Vector n = area.normalized(), d = mesh.face_centre[f] - mesh.cell_centre[cell];
-    const Vector move = moves.seen_from(cell, f) - moves.u[as_size(cell)];
+    const Vector move = moves.seen_from(cell, f) - moves.u[cell];
     const Tensor at_face = with_strain_across(cell, gradient_at(turn, d, n, move));
     const Tensor change = part.at_face(eigenstrain_.elastic_part(cell, symmetric_part(at_face))) - mean_stress;
     const Vector elastic_move = eigenstrain_.any() ? (move - to_tensor(eigenstrain_[cell]) * d).eval() : move;

@@ -27,11 +27,11 @@ Unknowns with_prescribed_strains(const Unknowns& unknowns) {
 }
 
 void make_sound(const Mesh& mesh, const Unknowns& unknowns, MomentumSolver& solver) {
-  solver.set_moduli(unknowns.sound_moduli(), CellField<double>(as_size(mesh.n_cells()), 1.0));
+  solver.set_moduli(unknowns.sound_moduli(), CellField<double>(mesh.n_cells(), 1.0));
   if (unknowns.split_faces.empty()) return;
   std::vector<FaceSpring> springs;
   std::vector<double> bond;
-  const std::vector<Vector> zero(as_size(unknowns.n_unknowns()), Vector::Zero());
+  const std::vector<Vector> zero(unknowns.n_unknowns(), Vector::Zero());
   for (const MomentumOperator::SplitSides& sides : solver.balance().split_sides(zero)) {
     const Tensor stiffness = bonded * (sides.give + sides.give_beyond).inverse();
     springs.push_back({.stiffness = stiffness, .offset = Vector::Zero(), .secant = stiffness});
@@ -51,9 +51,9 @@ void FreeStrainModes::find_modes() {
     const auto load = static_cast<double>(k);
     std::vector<Vector> u = prescribed.moved_with_box(mesh_, load);
     solver.solve(load, {.ceiling = precision, .floor = precision, .most_iterations = 200}, u);
-    std::vector<Single>& mode = modes_.emplace_back(as_size(unknowns_.n_unknowns()), Single::Zero());
+    std::vector<Single>& mode = modes_.emplace_back(unknowns_.n_unknowns(), Single::Zero());
     std::ranges::transform(u, mode.begin(), [](const Vector& v) { return v.cast<float>(); });
-    mode[as_size(unknowns_.first_strain()) + k] = Single::UnitX();
+    mode[unknowns_.first_strain() + k] = Single::UnitX();
   }
 }
 
@@ -62,13 +62,12 @@ void FreeStrainModes::build(const MomentumOperator& balance) {
   const auto n = static_cast<Eigen::Index>(modes_.size());
   Eigen::MatrixXd coarse(n, n);
   double softest = std::numeric_limits<double>::infinity();
-  std::vector<Vector> u(as_size(unknowns_.n_unknowns())), image(u.size());
+  std::vector<Vector> u(unknowns_.n_unknowns()), image(u.size());
   for (Eigen::Index k = 0; k < n; ++k) {
-    std::ranges::transform(modes_[static_cast<std::size_t>(k)], u.begin(),
-                           [](const Single& v) { return v.cast<double>(); });
+    std::ranges::transform(modes_[k], u.begin(), [](const Single& v) { return v.cast<double>(); });
     balance.apply(u, image);
     coarse.col(k) = projected(image);
-    softest = std::min(softest, unknowns_.motion.free_strains[static_cast<std::size_t>(k)].modulus);
+    softest = std::min(softest, unknowns_.motion.free_strains[k].modulus);
   }
   // Faces that soften may leave no stiffness.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (coarse + coarse.transpose()));
@@ -79,16 +78,14 @@ void FreeStrainModes::build(const MomentumOperator& balance) {
 Eigen::VectorXd FreeStrainModes::projected(const std::vector<Vector>& r) const {
   Eigen::VectorXd on(static_cast<Eigen::Index>(modes_.size()));
   for (std::size_t k = 0; k < modes_.size(); ++k)
-    on[static_cast<Eigen::Index>(k)] = parallel_sum(
-        static_cast<Index>(r.size()), [&](Index i) { return r[as_size(i)].dot(modes_[k][as_size(i)].cast<double>()); });
+    on[k] = parallel_sum(count_of(r), [&](Index i) { return r[i].dot(modes_[k][i].cast<double>()); });
   return on;
 }
 
 void FreeStrainModes::correct(const std::vector<Vector>& r, std::vector<Vector>& z) const {
   const Eigen::VectorXd share = factors_.solve(projected(r));
-  parallel_for(static_cast<Index>(z.size()), [&](Index i) {
-    for (std::size_t k = 0; k < modes_.size(); ++k)
-      z[as_size(i)] += share[static_cast<Eigen::Index>(k)] * modes_[k][as_size(i)].cast<double>();
+  parallel_for(count_of(z), [&](Index i) {
+    for (std::size_t k = 0; k < modes_.size(); ++k) z[i] += share[k] * modes_[k][i].cast<double>();
   });
 }
 

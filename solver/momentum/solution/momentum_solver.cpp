@@ -94,16 +94,14 @@ void MomentumSolver::precondition(const std::vector<Vector>& r, std::vector<Vect
   const Index n = unknowns_.n_nodes();
   const bool has_pressures = !pressure_compliance_.empty();
   if (has_pressures) {
-    parallel_for(static_cast<Index>(pressure_compliance_.size()),
-                 [&](Index k) { z[as_size(n + k)] = r[as_size(n + k)] / pressure_compliance_[as_size(k)]; });
+    parallel_for(count_of(pressure_compliance_), [&](Index k) { z[n + k] = r[n + k] / pressure_compliance_[k]; });
     rest_ = r;
     operator_.take_away_pressure_forces(z, rest_);
   }
   preconditioner_->apply(has_pressures ? rest_ : r, z);
   parallel_for(n, [&](Index i) {
     // Prescribed components stay unchanged.
-    if (i >= unknowns_.n_cells)
-      z[as_size(i)] = unknowns_.free_directions[as_size(i - unknowns_.n_cells)] * z[as_size(i)];
+    if (i >= unknowns_.n_cells) z[i] = unknowns_.free_directions[i - unknowns_.n_cells] * z[i];
   });
   std::fill(z.begin() + unknowns_.first_strain(), z.end(), Vector::Zero());
   operator_.move_images(z);

@@ -19,13 +19,13 @@ constexpr Index most_direct_cells = 40000;
 
 // Row of each node: face nodes follow a cell of theirs.
 std::vector<Index> interleave_face_nodes(const Mesh& mesh, const Unknowns& unknowns) {
-  std::vector<Index> position(as_size(unknowns.n_nodes()));
+  std::vector<Index> position(unknowns.n_nodes());
   Index next = 0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    position[as_size(c)] = next++;
+    position[c] = next++;
     for (const Index f : mesh.faces_of_cell(c)) {
       const bool has_own = mesh.owner[f] == c || unknowns.node_beside(mesh, c, f) != unknowns.node_of_face[f];
-      if (const Index node = unknowns.node_beside(mesh, c, f); node >= 0 && has_own) position[as_size(node)] = next++;
+      if (const Index node = unknowns.node_beside(mesh, c, f); node >= 0 && has_own) position[node] = next++;
     }
   }
   return position;
@@ -41,14 +41,14 @@ class MultigridCycle : public Preconditioner {
   }
 
   void apply(const std::vector<Vector>& r, std::vector<Vector>& z) override {
-    const auto n = static_cast<Index>(row_of_node_.size());
+    const auto n = count_of(row_of_node_);
     parallel_for(n, [&](Index i) {
-      Lane& to = b_[as_size(row_of_node_[as_size(i)])];
-      to.head<3>() = r[as_size(i)].cast<float>();
+      Lane& to = b_[row_of_node_[i]];
+      to.head<3>() = r[i].cast<float>();
       to[3] = 0.0F;
     });
     multigrid_->apply(b_, x_);
-    parallel_for(n, [&](Index i) { z[as_size(i)] = x_[as_size(row_of_node_[as_size(i)])].head<3>().cast<double>(); });
+    parallel_for(n, [&](Index i) { z[i] = x_[row_of_node_[i]].head<3>().cast<double>(); });
   }
 
  private:
@@ -65,7 +65,7 @@ class CholeskyFactors : public Preconditioner {
     const std::optional<Index> faulty = cholesky_.factor(matrix);
     if (!faulty) return;
     const Index face = *faulty - unknowns_.n_cells;
-    const Vector& x = face < 0 ? mesh_.cell_centre[*faulty] : mesh_.face_centre[unknowns_.face_of_node[as_size(face)]];
+    const Vector& x = face < 0 ? mesh_.cell_centre[*faulty] : mesh_.face_centre[unknowns_.face_of_node[face]];
     throw ComputationError(
         fmt::format("the stiffness of the body is singular at ({:.4g}, {:.4g}, {:.4g}) m: it is zero or not finite "
                     "there, or nothing holds that part",
@@ -105,8 +105,8 @@ const LinearSolver& linear_solver(std::string_view name) {
 
 bool prefers_direct(const Mesh& mesh) {
   if (mesh.n_cells() > most_direct_cells) return false;
-  std::vector<Index> on_boundary(as_size(mesh.n_cells()), 0);
-  for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f) ++on_boundary[as_size(mesh.owner[f])];
+  std::vector<Index> on_boundary(mesh.n_cells(), 0);
+  for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f) ++on_boundary[mesh.owner[f]];
   return std::all_of(on_boundary.begin(), on_boundary.end(), [](Index n) { return n >= 2; });
 }
 

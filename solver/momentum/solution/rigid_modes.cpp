@@ -34,7 +34,7 @@ class RigidModes {
     for (const IsotropicElasticity& c : unknowns_.sound) softest_ = std::min(softest_, c.mu);
     add_inclusions();
     add_parts();
-    n_local_ = static_cast<Index>(modes_.size());
+    n_local_ = count_of(modes_);
     constexpr std::size_t point_supports = 3;
     if (unknowns.periodic.empty() && unknowns.motion.held.size() == point_supports) add_whole_body();
   }
@@ -56,7 +56,7 @@ class RigidModes {
       share.head(n_local_) -= locally(coupling_ * share.tail(n_whole()));
     }
     for (std::size_t k = 0; k < modes_.size(); ++k)
-      for (const auto& [node, motion] : modes_[k]) z[as_size(node)] += share[static_cast<Eigen::Index>(k)] * motion;
+      for (const auto& [node, motion] : modes_[k]) z[node] += share[k] * motion;
   }
 
  private:
@@ -69,7 +69,7 @@ class RigidModes {
     std::vector<Eigen::MatrixXd> give{};  // D^-1 of each
   };
 
-  Index n_whole() const { return static_cast<Index>(modes_.size()) - n_local_; }
+  Index n_whole() const { return count_of(modes_) - n_local_; }
 
   Eigen::VectorXd locally(const Eigen::VectorXd& on) const {
     Eigen::VectorXd share(on.size());
@@ -82,8 +82,7 @@ class RigidModes {
   }
 
   Vector free_part(Index node, const Vector& motion) const {
-    return node < unknowns_.n_cells ? motion
-                                    : Vector(unknowns_.free_directions[as_size(node - unknowns_.n_cells)] * motion);
+    return node < unknowns_.n_cells ? motion : Vector(unknowns_.free_directions[node - unknowns_.n_cells] * motion);
   }
 
   void add_translations(const std::vector<Index>& nodes) {
@@ -107,7 +106,7 @@ class RigidModes {
   }
 
   void add_whole_body() {
-    std::vector<Index> nodes(as_size(unknowns_.n_nodes()));
+    std::vector<Index> nodes(unknowns_.n_nodes());
     std::iota(nodes.begin(), nodes.end(), Index{0});
     add_translations(nodes);
     add_rotations(nodes, 1.0);
@@ -122,7 +121,7 @@ class RigidModes {
   // Connected stiff cells, of one zone or of several as a core in its shell; they rotate, and those that are cut off by
   // interfaces do more than that.
   void add_inclusions() {
-    Group group{.first_mode = static_cast<Index>(modes_.size()), .n_motions = 3};
+    Group group{.first_mode = count_of(modes_), .n_motions = 3};
     for (const ConnectedCells& part : connected([&](Index cell) { return is_stiff(cell); })) {
       if (part.touches_boundary || part.cells.size() < 2 || !part.touches_others) continue;
       group.length.push_back(length_of(part));
@@ -134,7 +133,7 @@ class RigidModes {
   // What interfaces cut off from the rest of the body. The preconditioner finds these motions too, but not well.
   void add_parts() {
     if (unknowns_.split_faces.empty()) return;
-    Group group{.first_mode = static_cast<Index>(modes_.size()), .n_motions = 6, .share = 0.5};
+    Group group{.first_mode = count_of(modes_), .n_motions = 6, .share = 0.5};
     for (const ConnectedCells& part : connected([](Index) { return true; })) {
       if (part.touches_boundary) continue;
       group.length.push_back(length_of(part));
@@ -144,7 +143,7 @@ class RigidModes {
     groups_.push_back(std::move(group));
   }
 
-  bool is_stiff(Index cell) const { return unknowns_.sound[as_size(unknowns_.zone[cell])].mu >= stiff * softest_; }
+  bool is_stiff(Index cell) const { return unknowns_.sound[unknowns_.zone[cell]].mu >= stiff * softest_; }
 
   bool is_split(Index face) const {
     return unknowns_.node_beside(mesh_, mesh_.owner[face], face) !=
@@ -155,7 +154,7 @@ class RigidModes {
   template <class IsOne>
   std::vector<ConnectedCells> connected(const IsOne& is_one) const {
     std::vector<ConnectedCells> all;
-    CellField<char> seen(as_size(mesh_.n_cells()), 0);
+    CellField<char> seen(mesh_.n_cells(), 0);
     for (Index first = 0; first < mesh_.n_cells(); ++first)
       if (seen[first] == 0 && is_one(first)) all.push_back(part_around(first, is_one, seen));
     return all;
@@ -188,29 +187,29 @@ class RigidModes {
     Eigen::VectorXd of_modes(static_cast<Eigen::Index>(modes_.size()));
     for (std::size_t k = 0; k < modes_.size(); ++k) {
       double sum = 0.0;
-      for (const auto& [node, motion] : modes_[k]) sum += motion.dot(r[as_size(node)]);
-      of_modes[static_cast<Eigen::Index>(k)] = sum;
+      for (const auto& [node, motion] : modes_[k]) sum += motion.dot(r[node]);
+      of_modes[k] = sum;
     }
     return of_modes;
   }
 
   // What the balance does about these modes together, on all modes.
   Eigen::VectorXd answer(const MomentumOperator& balance, Index first, Index stride, Index end) const {
-    std::vector<Vector> u(as_size(unknowns_.n_unknowns()), Vector::Zero()), image(u.size());
+    std::vector<Vector> u(unknowns_.n_unknowns(), Vector::Zero()), image(u.size());
     for (Index k = first; k < end; k += stride)
-      for (const auto& [node, motion] : modes_[as_size(k)]) u[as_size(node)] = motion;
+      for (const auto& [node, motion] : modes_[k]) u[node] = motion;
     balance.apply(u, image);
     return projected(image);
   }
 
   // All members at once in each way.
   void move_group(Group& group, const MomentumOperator& balance) const {
-    const Index n = group.n_motions, n_members = static_cast<Index>(group.length.size());
+    const Index n = group.n_motions, n_members = count_of(group.length);
     std::vector<Eigen::MatrixXd> stiffness(group.length.size(), Eigen::MatrixXd(n, n));
     for (Index way = 0; way < n && n_members > 0; ++way) {
       const Index first = group.first_mode;
       const Eigen::VectorXd on = answer(balance, first + way, n, first + n * n_members);
-      for (Index i = 0; i < n_members; ++i) stiffness[as_size(i)].col(way) = on.segment(first + n * i, n);
+      for (Index i = 0; i < n_members; ++i) stiffness[i].col(way) = on.segment(first + n * i, n);
     }
     group.give.clear();
     for (std::size_t i = 0; i < stiffness.size(); ++i) {  // what has debonded moves freely

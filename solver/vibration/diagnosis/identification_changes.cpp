@@ -50,7 +50,7 @@ std::optional<std::string> change_between(std::span<const VibrationRecord> recor
   }
   const auto k1 = [](const OutputErrorFit& fit) { return fit.model.stiffness[0]; };
   const auto [soft, stiff] = std::ranges::minmax_element(fits, {}, k1);
-  const auto name = [&](auto it) { return records[static_cast<std::size_t>(it - fits.begin())].name; };
+  const auto name = [&](auto it) { return records[it - fits.begin()].name; };
   std::string text = fmt::format(
       "every test by itself is met (misfit {:.3g} at most), but not all together: the mass or the sample has changed "
       "between them, k1 from {:.4g} N/m (test {}) to {:.4g} N/m (test {})",

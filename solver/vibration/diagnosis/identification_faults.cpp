@@ -212,7 +212,7 @@ std::optional<std::pair<double, double>> dead_part(const VibrationRecord& record
   const std::vector<double> explained = explained_by_motion(record);
   int first = windows, last = -1;
   for (int w = 1; w + 1 < windows; ++w)  // the ends may be ramps
-    if (explained[static_cast<std::size_t>(w)] < explained_if_dead) {
+    if (explained[w] < explained_if_dead) {
       first = std::min(first, w);
       last = w;
     }

@@ -28,7 +28,7 @@ std::vector<Column> columns_of(std::span<const ScheduledRun> schedule) {
   std::vector<Column> columns;
   const auto add = [&](std::string name, std::string what, const auto& get) {
     VectorXd values(static_cast<Eigen::Index>(schedule.size()));
-    for (std::size_t i = 0; i < schedule.size(); ++i) values[static_cast<Eigen::Index>(i)] = get(schedule[i]);
+    for (std::size_t i = 0; i < schedule.size(); ++i) values[i] = get(schedule[i]);
     const double largest = values.lpNorm<Eigen::Infinity>();
     values.array() -= values.mean();
     if (values.lpNorm<Eigen::Infinity>() > 1e-9 * largest)
@@ -43,7 +43,7 @@ std::vector<Column> columns_of(std::span<const ScheduledRun> schedule) {
 /// A column of ones, then those of what varied.
 MatrixXd design(const std::vector<Column>& columns, std::size_t n) {
   MatrixXd A = MatrixXd::Ones(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(columns.size()) + 1);
-  for (std::size_t k = 0; k < columns.size(); ++k) A.col(static_cast<Eigen::Index>(k) + 1) = columns[k].values;
+  for (std::size_t k = 0; k < columns.size(); ++k) A.col(k + 1) = columns[k].values;
   return A;
 }
 

@@ -198,7 +198,7 @@ std::optional<Identification> identify_ring_downs(std::span<VibrationRecord> rec
     if (!model) return std::nullopt;
     if (!ringing) ringing = model;
   }
-  ringing->stiffness.resize(static_cast<std::size_t>(structure.stiffness_order), 0.0);
+  ringing->stiffness.resize(structure.stiffness_order, 0.0);
   ringing->reference_velocity = settings.reference_velocity;
   update_starts(records, *ringing, settings.crop);
   auto trial = tried(records, {.model = *ringing}, settings);

@@ -91,10 +91,7 @@ Spectral joined(std::span<const VibrationRecord> records, const MassMaterial& m,
                 const IdentificationSettings& settings) {
   std::vector<Spectral> parts(records.size());
   parallel_chunks(
-      static_cast<pfdm::Index>(records.size()),
-      [&](pfdm::Index begin, pfdm::Index) {
-        parts[static_cast<std::size_t>(begin)] = spectral(records[static_cast<std::size_t>(begin)], m, settings);
-      },
+      count_of(records), [&](pfdm::Index begin, pfdm::Index) { parts[begin] = spectral(records[begin], m, settings); },
       1);
   Eigen::Index n = 0;
   for (const Spectral& part : parts) n += part.q.size();

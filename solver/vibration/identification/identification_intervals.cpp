@@ -55,8 +55,8 @@ double degrees_of_freedom(const WhiteBlocks& white, const VectorXd& a) {
   MatrixXd W(a.size(), white.scores.cols());
   VectorXd own(white.scores.cols());
   for (Eigen::Index k = 0; k < W.cols(); ++k) {
-    const VectorXd b = white.freeing[static_cast<std::size_t>(k)] * a;
-    W.col(k) = white.normal[static_cast<std::size_t>(k)] * b;
+    const VectorXd b = white.freeing[k] * a;
+    W.col(k) = white.normal[k] * b;
     own[k] = b.dot(W.col(k));
   }
   const VectorXd taken = W.colwise().squaredNorm();

@@ -210,7 +210,7 @@ MatrixXd values_of(const ParameterCoordinates& coordinates, const MatrixXd& repl
   for (Eigen::Index i = 0; i < replicates.cols(); ++i) {
     const auto named = named_values(coordinates.model(replicates.col(i)));
     if (i == 0) values.resize(std::ssize(named), replicates.cols());
-    for (Eigen::Index k = 0; k < values.rows(); ++k) values(k, i) = named[static_cast<std::size_t>(k)].value;
+    for (Eigen::Index k = 0; k < values.rows(); ++k) values(k, i) = named[k].value;
   }
   return values;
 }
@@ -222,7 +222,7 @@ void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates,
   for (Eigen::Index k = 0; k < widened.rows(); ++k) {
     VectorXd sorted = widened.row(k);
     std::ranges::sort(sorted);
-    Estimate& estimate = fit.estimates[static_cast<std::size_t>(k)];
+    Estimate& estimate = fit.estimates[k];
     const auto at = [&](double part) {
       return sorted[static_cast<Eigen::Index>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
     };
@@ -233,8 +233,7 @@ void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates,
   const MatrixXd centred = values.colwise() - values.rowwise().mean();
   const VectorXd norms = centred.rowwise().norm().cwiseMax(1e-300);
   for (Eigen::Index k = 0; k < values.rows(); ++k)
-    fit.estimates[static_cast<std::size_t>(k)].standard_error =
-        norms[k] / std::sqrt(static_cast<double>(values.cols() - 1));
+    fit.estimates[k].standard_error = norms[k] / std::sqrt(static_cast<double>(values.cols() - 1));
   fit.correlation =
       norms.cwiseInverse().asDiagonal() * (centred * centred.transpose()) * norms.cwiseInverse().asDiagonal();
 }
@@ -257,7 +256,7 @@ std::optional<std::vector<Eigen::Index>> rising_order(const MassMaterial& m, Eig
   std::iota(terms.begin(), terms.end(), std::size_t{0});
   std::ranges::stable_sort(terms, {}, [&](std::size_t i) { return m.kernel[i].alpha.real(); });
   if (std::ranges::is_sorted(terms)) return std::nullopt;
-  std::vector<Eigen::Index> columns(static_cast<std::size_t>(n_coordinates - n_terms));
+  std::vector<Eigen::Index> columns(n_coordinates - n_terms);
   std::iota(columns.begin(), columns.end(), Eigen::Index{0});
   for (const std::size_t i : terms)
     for (Eigen::Index k = 0; k < (m.kernel[i].is_pair() ? 4 : 2); ++k)

@@ -86,11 +86,7 @@ using Columns = std::function<std::pair<std::vector<VectorXd>, VectorXd>(const P
 System assemble(std::span<const Prepared> prepared, const Columns& columns) {
   std::vector<std::pair<std::vector<VectorXd>, VectorXd>> parts(prepared.size());
   parallel_chunks(
-      static_cast<pfdm::Index>(prepared.size()),
-      [&](pfdm::Index begin, pfdm::Index) {
-        parts[static_cast<std::size_t>(begin)] = columns(prepared[static_cast<std::size_t>(begin)]);
-      },
-      1);
+      count_of(prepared), [&](pfdm::Index begin, pfdm::Index) { parts[begin] = columns(prepared[begin]); }, 1);
   System s;
   Eigen::Index n = 0;
   for (const Prepared& p : prepared) n += p.condition.n_samples();
@@ -101,8 +97,7 @@ System assemble(std::span<const Prepared> prepared, const Columns& columns) {
     const Prepared& p = prepared[i];
     const auto& [a, q] = parts[i];
     const Eigen::Index m = p.condition.n_samples();
-    for (std::size_t k = 0; k < a.size(); ++k)
-      s.A.col(static_cast<Eigen::Index>(k)).segment(first, m) = p.weight * a[k];
+    for (std::size_t k = 0; k < a.size(); ++k) s.A.col(k).segment(first, m) = p.weight * a[k];
     s.q.segment(first, m) = p.weight * q;
     first += m;
   }
@@ -238,22 +233,22 @@ struct SubsetFit {
 
 SubsetFit fit_subset(const Reduced& r, const std::vector<Eigen::Index>& columns) {
   MatrixXd A(r.R.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i) A.col(static_cast<Eigen::Index>(i)) = r.R.col(columns[i]);
+  for (std::size_t i = 0; i < columns.size(); ++i) A.col(i) = r.R.col(columns[i]);
   const VectorXd q = r.R.rightCols(1);
   SubsetFit fit;
   fit.x = least_squares(A, q);
   fit.misfit = (A * fit.x - q).norm() / r.total;
-  for (std::size_t i = 0; i < columns.size(); ++i) fit.x[static_cast<Eigen::Index>(i)] /= r.norms[columns[i]];
+  for (std::size_t i = 0; i < columns.size(); ++i) fit.x[i] /= r.norms[columns[i]];
   return fit;
 }
 
 /// All increasing choices of `order` numbers below n.
 void for_each_choice(int n, int order, const std::function<void(const std::vector<int>&)>& visit) {
-  std::vector<int> choice(static_cast<std::size_t>(order));
+  std::vector<int> choice(order);
   const std::function<void(int, int)> choose = [&](int depth, int from) {
     if (depth == order) return visit(choice);
     for (int i = from; i < n; ++i) {
-      choice[static_cast<std::size_t>(depth)] = i;
+      choice[depth] = i;
       choose(depth + 1, i + 1);
     }
   };
@@ -312,7 +307,7 @@ std::optional<Regression> choose_terms(const Reduced& reduced, const VectorXd& r
   result.model.stiffness.assign(best.x.data() + 1, best.x.data() + n_plain);
   const double scale = structure.forcing == KernelForcing::stiffness ? 1.0 / result.model.stiffness.front() : 1.0;
   for (std::size_t i = 0; i < best_choice.size(); ++i)
-    result.model.kernel.push_back({rates[best_choice[i]], scale * best.x[n_plain + static_cast<Eigen::Index>(i)]});
+    result.model.kernel.push_back({rates[best_choice[i]], scale * best.x[n_plain + i]});
   return result;
 }
 

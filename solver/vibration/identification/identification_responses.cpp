@@ -112,8 +112,8 @@ Responses::Responses(std::span<const VibrationRecord> records, double crop, cons
     outputs_.push_back(
         {.condition = output_condition(r, crop), .base = {}, .rate = r.rate, .measured = {}, .start = r.start});
   const auto prepare = [&](pfdm::Index begin, pfdm::Index) {
-    const VibrationRecord& r = records[static_cast<std::size_t>(begin)];
-    Output& out = outputs_[static_cast<std::size_t>(begin)];
+    const VibrationRecord& r = records[begin];
+    Output& out = outputs_[begin];
     out.base = driving_base(r).acceleration;
     out.measured = out.condition(r.relative);
     out.weight = std::sqrt(static_cast<double>(out.measured.size())) / out.measured.norm();
@@ -121,7 +121,7 @@ Responses::Responses(std::span<const VibrationRecord> records, double crop, cons
     out.free = orthonormal(free_motions(about, r, crop));
     out.measured = out.compared(r.relative);
   };
-  parallel_chunks(static_cast<pfdm::Index>(records.size()), prepare, 1);
+  parallel_chunks(count_of(records), prepare, 1);
   for (Output& out : outputs_) {
     out.first = size_;
     size_ += out.measured.size();
@@ -154,12 +154,11 @@ Drives Responses::reduced_drives(const MassMaterial& model) const {
 MatrixXd Responses::simulated(std::span<const MassMaterial> models, const Drives& drives) const {
   std::vector<SimulationRun> runs;  // all models of the first record, of the second ...
   for (const BaseNodes& base : drives)
-    for (const MassMaterial& m : models)
-      runs.push_back({&m, &base, outputs_[static_cast<std::size_t>(&base - drives.data())].start});
+    for (const MassMaterial& m : models) runs.push_back({&m, &base, outputs_[&base - drives.data()].start});
   const auto groups = simulation_groups(runs);
   MatrixXd result(size_, static_cast<Eigen::Index>(models.size()));
   const auto fill = [&](const SimulationRun& run, const VectorXd& z) {
-    const Output& out = outputs_[static_cast<std::size_t>(run.base - drives.data())];
+    const Output& out = outputs_[run.base - drives.data()];
     auto to = result.col(run.model - models.data()).segment(out.first, out.measured.size());
     if (z.allFinite())
       to = out.weight * out.compared(z);
@@ -167,9 +166,9 @@ MatrixXd Responses::simulated(std::span<const MassMaterial> models, const Drives
       to.setConstant(std::numeric_limits<double>::quiet_NaN());
   };
   parallel_chunks(
-      static_cast<pfdm::Index>(groups.size()),
+      count_of(groups),
       [&](pfdm::Index begin, pfdm::Index) {
-        const auto& group = groups[static_cast<std::size_t>(begin)];
+        const auto& group = groups[begin];
         const std::vector<VectorXd> responses = simulate_group(group);
         for (std::size_t i = 0; i < group.size(); ++i) fill(group[i], responses[i]);
       },

@@ -33,7 +33,7 @@ Band band_of(const Spectra& s, double low, double high) {
     if (s.frequency[k] >= low && s.frequency[k] <= high) bins.push_back(k);
   Band band{.omega = 2.0 * std::numbers::pi * s.frequency(bins), .H = H(bins), .weight = VectorXd(std::ssize(bins))};
   for (Eigen::Index i = 0; i < band.omega.size(); ++i) {
-    const double g2 = std::min(gamma2[bins[static_cast<std::size_t>(i)]], 1.0);
+    const double g2 = std::min(gamma2[bins[i]], 1.0);
     const double variance = (1.0 - g2) / (2.0 * g2 * s.averages) + 0.5 * leakage * leakage;
     band.weight[i] = 1.0 / (std::abs(band.H[i]) * std::sqrt(variance));
   }

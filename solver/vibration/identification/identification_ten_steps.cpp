@@ -129,7 +129,7 @@ void weigh(std::vector<HereditaryTerm>& terms, const BandResponse& measured) {
   for (Eigen::Index k = 0; k < measured.G.size(); ++k)
     for (Eigen::Index i = 0; i < std::ssize(terms); ++i) {
       const Complex jw(0.0, 2.0 * std::numbers::pi * measured.frequency[k]);
-      const HereditaryTerm& term = terms[static_cast<std::size_t>(i)];
+      const HereditaryTerm& term = terms[i];
       const Complex one = 1.0 / (jw + term.alpha);
       const Complex other = term.is_pair() ? 1.0 / (jw + std::conj(term.alpha)) : Complex(0.0);
       basis(k, 2 * i) = one + other;
@@ -137,8 +137,7 @@ void weigh(std::vector<HereditaryTerm>& terms, const BandResponse& measured) {
     }
   const VectorXd beta = scaled_least_squares(stacked(basis), stacked(measured.G));
   for (std::size_t i = 0; i < terms.size(); ++i)
-    terms[i].beta = {beta[static_cast<Eigen::Index>(2 * i)],
-                     terms[i].is_pair() ? beta[static_cast<Eigen::Index>(2 * i) + 1] : 0.0};
+    terms[i].beta = {beta[2 * i], terms[i].is_pair() ? beta[2 * i + 1] : 0.0};
 }
 
 /// Step 7: stable poles only, one of each pair, and their weights. Step 8: those of the most energy are kept.

@@ -218,8 +218,8 @@ class LaneDrives {
   explicit LaneDrives(std::span<const SimulationRun> runs) {
     for (int l = 0; l < n_lanes; ++l) {
       const Eigen::VectorXd& values = runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].base->values;
-      at_[static_cast<std::size_t>(l)] = values.data();
-      last_[static_cast<std::size_t>(l)] = values.data() + values.size() - 1;
+      at_[l] = values.data();
+      last_[l] = values.data() + values.size() - 1;
       y_[4][l] = values[0];
     }
   }
@@ -229,9 +229,9 @@ class LaneDrives {
   const Lanes* next() {
     y_[0] = y_[4];
     for (int l = 0; l < n_lanes; ++l) {
-      const double*& at = at_[static_cast<std::size_t>(l)];
-      if (at != last_[static_cast<std::size_t>(l)]) at += 4;
-      for (int k = 1; k < 5; ++k) y_[static_cast<std::size_t>(k)][l] = at[k - 4];
+      const double*& at = at_[l];
+      if (at != last_[l]) at += 4;
+      for (int k = 1; k < 5; ++k) y_[k][l] = at[k - 4];
     }
     return y_.data();
   }

@@ -53,8 +53,7 @@ double basis(double alpha, double stretch) {
 Weighted weighted(const Target& target, std::span<const double> alphas) {
   Eigen::MatrixXd columns(n_points, std::ssize(alphas));
   for (int j = 0; j < columns.cols(); ++j)
-    for (int i = 0; i < n_points; ++i)
-      columns(i, j) = basis(alphas[static_cast<std::size_t>(j)], target.stretch[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < n_points; ++i) columns(i, j) = basis(alphas[j], target.stretch[i]);
   Weighted result{.weights = non_negative_least_squares(columns, target.stress), .residual = {}};
   result.residual = columns * result.weights - target.stress;
   return result;
@@ -64,7 +63,7 @@ Weighted weighted(const Target& target, std::span<const double> alphas) {
 std::vector<double> coarse_alphas(const Target& target, int n_terms) {
   constexpr double candidates[] = {-128, -64, -32, -16, -8, -4, -2, -1, 1, 2, 4, 8, 16, 32, 64, 128};
   constexpr int n = std::size(candidates);
-  std::vector<int> choice(static_cast<std::size_t>(n_terms), 0);
+  std::vector<int> choice(n_terms, 0);
   std::vector<double> best;
   double least = std::numeric_limits<double>::infinity();
   const auto next = [&] {
@@ -114,7 +113,7 @@ OgdenFit fit_ogden(std::span<const double> stiffness, double length, double area
                   .largest_displacement = largest_displacement,
                   .relative_misfit = found.residual.norm() / target.stress.norm()};
   for (std::size_t j = 0; j < alphas.size(); ++j)
-    if (const double weight = found.weights[static_cast<Eigen::Index>(j)]; weight > 0.0)
+    if (const double weight = found.weights[j]; weight > 0.0)
       result.terms.push_back({target.scale * weight / alphas[j], alphas[j]});
   if (result.terms.empty()) throw InputError("no stable material has this stiffness polynomial");
   return result;

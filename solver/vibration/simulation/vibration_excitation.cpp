@@ -31,7 +31,7 @@ Taps interpolation_taps(double shift) {
   Taps taps{};
   for (Eigen::Index k = 0; k < 2 * half_taps; ++k) {
     const double x = static_cast<double>(k - half_taps + 1) - shift;
-    taps[static_cast<std::size_t>(k)] = sinc(x) * kaiser(x / static_cast<double>(half_taps));
+    taps[k] = sinc(x) * kaiser(x / static_cast<double>(half_taps));
   }
   return taps;
 }
@@ -41,7 +41,7 @@ double apply(const Taps& taps, const VectorXd& samples, Eigen::Index i) {
   const Eigen::Index first = i - half_taps + 1;
   const Eigen::Index begin = std::max<Eigen::Index>(0, -first);
   const Eigen::Index end = std::min<Eigen::Index>(2 * half_taps, samples.size() - first);
-  for (Eigen::Index k = begin; k < end; ++k) sum += taps[static_cast<std::size_t>(k)] * samples[first + k];
+  for (Eigen::Index k = begin; k < end; ++k) sum += taps[k] * samples[first + k];
   return sum;
 }
 
@@ -78,7 +78,7 @@ class TabledSignal {
     }
     const Eigen::Index i = ((static_cast<Eigen::Index>(floor) % n_) + n_) % n_;
     double sum = 0.0;
-    for (std::size_t k = 0; k < 8; ++k) sum += weight[k] * padded_[i + static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < 8; ++k) sum += weight[k] * padded_[i + k];
     return sum;
   }
 
@@ -181,7 +181,7 @@ BaseNodes nodes_of(const Excitation& excitation, double rate, int substeps) {
   constexpr auto at = lobatto();
   for (Eigen::Index i = 0; i < nodes.values.size(); ++i) {
     const Eigen::Index substep = i / 4;
-    const double time = (static_cast<double>(substep) + at[static_cast<std::size_t>(i % 4)]) / (rate * substeps);
+    const double time = (static_cast<double>(substep) + at[i % 4]) / (rate * substeps);
     nodes.values[i] = excitation.acceleration(time);
   }
   return nodes;
@@ -192,7 +192,7 @@ BaseNodes nodes_of(const VectorXd& samples, double rate, int substeps) {
   constexpr auto at = lobatto();
   for (int sub = 0; sub < substeps; ++sub)
     for (int k = 0; k < 4; ++k) {
-      const double shift = (sub + at[static_cast<std::size_t>(k)]) / substeps;
+      const double shift = (sub + at[k]) / substeps;
       const VectorXd values = shifted_samples(samples, shift);
       for (Eigen::Index i = 0; i + 1 < samples.size(); ++i) nodes.values[4 * (substeps * i + sub) + k] = values[i];
     }

@@ -129,7 +129,7 @@ TEST_F(Analysis, WritesDensitiesInMultiplesOfGravity) {
     EXPECT_LE(row[13], row[12] + 1e-12);
     if (row[0] < 15.0 || row[0] > 90.0) continue;
     const double w = 2.0 * pi * row[0], H = w * w / std::hypot(54e3 - w * w, 40.0 * w);
-    for (const int estimator : {5, 8, 9}) EXPECT_NEAR(row[static_cast<std::size_t>(estimator)], H, 0.03 * H) << row[0];
+    for (const int estimator : {5, 8, 9}) EXPECT_NEAR(row[estimator], H, 0.03 * H) << row[0];
     EXPECT_GT(row[12], 0.98);  // segments of 2 s cut off a little of a resonance that rings for 0.05 s
     largest = std::max(largest, row[3]);
   }

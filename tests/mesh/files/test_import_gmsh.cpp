@@ -132,7 +132,7 @@ TEST_F(ImportGmsh, ElementsOfSecondOrderAreRefused) {
   std::vector<Vector> points = corners;
   for (const Index a : {0, 1, 2})
     for (const Index b : {1, 2, 3})
-      if (a < b) points.emplace_back(0.5 * (corners[as_size(a)] + corners[as_size(b)]));
+      if (a < b) points.emplace_back(0.5 * (corners[a] + corners[b]));
   EXPECT_THAT(refusal(msh22(points, {"11 2 0 1 1 2 3 4 5 8 6 7 10 9"})),
               AllOf(HasSubstr("element 100"), HasSubstr("type 11"), HasSubstr("Mesh.ElementOrder = 1")));
 }

@@ -140,7 +140,7 @@ TEST_F(ImportVtk, PrismsOfFiveAndSixSidesArePolyhedra) {
       for (const double z : {0.0, 0.5})
         for (int i = 0; i < n; ++i) {
           const double angle = (mirrored ? -2.0 : 2.0) * std::numbers::pi * i / n;
-          ids.push_back(static_cast<Index>(text.points.size()));
+          ids.push_back(count_of(text.points));
           text.points.emplace_back(std::cos(angle), std::sin(angle), z);
         }
       text.cells = {{n + 10, ids, {}}};

@@ -170,10 +170,9 @@ TEST(ReverseCuthillMckee, ChainInRandomOrderGetsBandwidthOne) {
   neighbours.emplace_back(10, 9);
   const std::vector<Index> order = reverse_cuthill_mckee(11, neighbours);
   std::vector<Index> place(11, -1);
-  for (Index i = 0; i < 11; ++i) place[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])] = i;
+  for (Index i = 0; i < 11; ++i) place[order[i]] = i;
   EXPECT_THAT(place, ::testing::Not(::testing::Contains(-1)));
-  for (const auto& [a, b] : neighbours)
-    EXPECT_EQ(std::abs(place[static_cast<std::size_t>(a)] - place[static_cast<std::size_t>(b)]), 1);
+  for (const auto& [a, b] : neighbours) EXPECT_EQ(std::abs(place[a] - place[b]), 1);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(CylinderSector, UpperEndIsPartOfASphere) {
   const Patch& top = mesh.patch("top");
   for (Index f = top.first_face; f < top.first_face + top.n_faces; ++f)
     for (const Index p : mesh.points_of_face(f))
-      farthest = std::max(farthest, std::abs((mesh.points[as_size(p)] - Vector(0, 0, 2.0 + 5.0)).norm() - 5.0));
+      farthest = std::max(farthest, std::abs((mesh.points[p] - Vector(0, 0, 2.0 + 5.0)).norm() - 5.0));
   EXPECT_LT(farthest, 1e-12);
   const double cap = pi * sag * sag * (5.0 - sag / 3.0);  // volume of the spherical cap
   EXPECT_NEAR(total_volume(mesh) / ((pi * 4.0 * (3.0 + sag) - cap) / 72.0), 1.0, 0.002);

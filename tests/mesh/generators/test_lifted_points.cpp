@@ -28,9 +28,8 @@ TetgenOutput cube_around(const Vector& inner) {
 std::vector<double> volumes(const TetgenOutput& mesh) {
   std::vector<double> result;
   for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-    const Vector& x = mesh.points[as_size(a)];
-    result.push_back((mesh.points[as_size(b)] - x).cross(mesh.points[as_size(c)] - x).dot(mesh.points[as_size(d)] - x) /
-                     6.0);
+    const Vector& x = mesh.points[a];
+    result.push_back((mesh.points[b] - x).cross(mesh.points[c] - x).dot(mesh.points[d] - x) / 6.0);
   }
   return result;
 }

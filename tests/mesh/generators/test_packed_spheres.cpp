@@ -97,8 +97,7 @@ TEST(SphereRefinement, RefinesWhereWantedAndStaysClosed) {
   double least_angle = 180.0;
   for (const Triangle& t : sphere.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector &a = sphere.points[as_size(t[k])], &b = sphere.points[as_size(t[(k + 1) % 3])],
-                   &c = sphere.points[as_size(t[(k + 2) % 3])];
+      const Vector &a = sphere.points[t[k]], &b = sphere.points[t[(k + 1) % 3]], &c = sphere.points[t[(k + 2) % 3]];
       EXPECT_TRUE(edges.emplace(t[k], t[(k + 1) % 3]).second);
       EXPECT_NEAR(a.norm(), 1.0, 1e-14);
       if (((a + b + c) / 3.0).normalized()[2] > 0.9) {

@@ -45,7 +45,7 @@ std::string text_stl(const TriangleSurface& surface) {
   for (const Triangle& t : surface.triangles) {
     text += "facet normal 0 0 0\n outer loop\n";
     for (const Index p : t) {
-      const Vector& x = surface.points[as_size(p)];
+      const Vector& x = surface.points[p];
       text += "  vertex " + std::to_string(x[0]) + ' ' + std::to_string(x[1]) + ' ' + std::to_string(x[2]) + '\n';
     }
     text += " endloop\nendfacet\n";
@@ -61,8 +61,7 @@ std::string binary_stl(const TriangleSurface& surface) {
   for (const Triangle& t : surface.triangles) {
     std::array<float, 12> numbers{};
     for (std::size_t i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k)
-        numbers[3 * (i + 1) + as_size(k)] = static_cast<float>(surface.points[as_size(t[i])][k]);
+      for (int k = 0; k < 3; ++k) numbers[3 * (i + 1) + as_size(k)] = static_cast<float>(surface.points[t[i]][k]);
     std::string record(50, '\0');
     std::memcpy(record.data(), numbers.data(), sizeof numbers);
     bytes += record;
@@ -82,7 +81,7 @@ double longest_edge(const TriangleSurface& surface) {
   double longest = 0.0;
   for (const Triangle& t : surface.triangles)
     for (std::size_t i = 0; i < 3; ++i)
-      longest = std::max(longest, (surface.points[as_size(t[i])] - surface.points[as_size(t[(i + 1) % 3])]).norm());
+      longest = std::max(longest, (surface.points[t[i]] - surface.points[t[(i + 1) % 3]]).norm());
   return longest;
 }
 

@@ -55,15 +55,14 @@ TEST(ParticlesInBox, BeadAndMatrixMeetOnlyThroughTheLayers) {
   Index bead_faces = 0;
   Index matrix_faces = 0;
   for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
-    const std::string& a = mesh.region_names[static_cast<std::size_t>(mesh.region[mesh.owner[f]])];
-    const std::string& b = mesh.region_names[static_cast<std::size_t>(mesh.region[mesh.neighbour[f]])];
+    const std::string& a = mesh.region_names[mesh.region[mesh.owner[f]]];
+    const std::string& b = mesh.region_names[mesh.region[mesh.neighbour[f]]];
     if (a == b) continue;
     EXPECT_TRUE(a == "interface" || b == "interface");
     const bool is_bead = a == "bead" || b == "bead";
     (is_bead ? bead_faces : matrix_faces) += 1;
     const double radius = (is_bead ? 100.0 : 140.0) * micro;
-    for (const Index p : mesh.points_of_face(f))
-      EXPECT_NEAR(mesh.points[static_cast<std::size_t>(p)].norm() / radius, 1.0, 1e-13);
+    for (const Index p : mesh.points_of_face(f)) EXPECT_NEAR(mesh.points[p].norm() / radius, 1.0, 1e-13);
   }
   EXPECT_EQ(bead_faces, 500);
   EXPECT_EQ(matrix_faces, 500);

@@ -76,7 +76,7 @@ TEST(FlatSurface, TakesCellsThatMeetAtEdgesWhereItIsOblique) {
 
 // No two cells that share a face are on two sides of it.
 void expect_cut(const Mesh& mesh, const Vector& point, const Vector& normal) {
-  CellField<char> on(as_size(mesh.n_cells()), 0);
+  CellField<char> on(mesh.n_cells(), 0);
   for (const Index c : cells_on(mesh, disc(point, normal, 1e3))) on[c] = 1;
   for (Index f = 0; f < mesh.n_interior_faces(); ++f) {
     const Index P = mesh.owner[f], N = mesh.neighbour[f];

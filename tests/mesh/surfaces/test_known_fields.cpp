@@ -24,7 +24,7 @@ double linear(const Vector& x) { return 3.0 - 2.0 * x[0] + 0.5 * x[1] + 7.0 * x[
 double value_at(const FieldFile& file, const Vector& x, bool nearest = false) {
   const Interpolation there = file.field.at(x, nearest);
   double sum = 0.0;
-  for (std::size_t i = 0; i < there.known.size(); ++i) sum += there.weight[i] * file.values[as_size(there.known[i])];
+  for (std::size_t i = 0; i < there.known.size(); ++i) sum += there.weight[i] * file.values[there.known[i]];
   return sum;
 }
 

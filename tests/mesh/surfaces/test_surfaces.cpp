@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 double enclosed_volume(const TriangleSurface& surface) {
   double six_volumes = 0.0;
   for (const auto& [a, b, c] : surface.triangles) {
-    const auto at = [&](Index i) { return surface.points[static_cast<std::size_t>(i)]; };
+    const auto at = [&](Index i) { return surface.points[i]; };
     six_volumes += at(a).dot(at(b).cross(at(c)));
   }
   return six_volumes / 6.0;

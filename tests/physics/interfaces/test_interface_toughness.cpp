@@ -49,26 +49,21 @@ TEST(InterfaceToughness, EqualNeighboursAndWideBandsChangeNothing) {
 double least_energy(const CrackGeometry& crack, double half, double ratio) {
   const double h = half / 40.0;
   const int in_band = 40, n = 40 + static_cast<int>(3.0 / h);
-  std::vector<double> d(static_cast<std::size_t>(n + 1), 0.0);
+  std::vector<double> d(n + 1, 0.0);
   d[0] = 1.0;
-  for (int i = 1; i <= n; ++i) d[static_cast<std::size_t>(i)] = std::max(0.0, 1.0 - i * h / 1.5);
+  for (int i = 1; i <= n; ++i) d[i] = std::max(0.0, 1.0 - i * h / 1.5);
   const auto G = [&](int link) { return link < in_band ? 1.0 : ratio; };  // between nodes link and link + 1
   for (int sweep = 0; sweep < 40000; ++sweep)
     for (int i = 1; i < n; ++i) {
-      const double left = G(i - 1), right = G(i), mean = 0.5 * (left + right), x = d[static_cast<std::size_t>(i)];
-      const double slope = mean * h * crack.alpha_prime(x) + 2.0 / h *
-                                                                 (left * (x - d[static_cast<std::size_t>(i) - 1]) +
-                                                                  right * (x - d[static_cast<std::size_t>(i) + 1]));
+      const double left = G(i - 1), right = G(i), mean = 0.5 * (left + right), x = d[i];
+      const double slope = mean * h * crack.alpha_prime(x) + 2.0 / h * (left * (x - d[i - 1]) + right * (x - d[i + 1]));
       const double curvature = mean * h * std::max(crack.alpha_second(x), 0.0) + 2.0 / h * (left + right);
-      d[static_cast<std::size_t>(i)] = std::clamp(x - 1.6 * slope / curvature, 0.0, 1.0);
+      d[i] = std::clamp(x - 1.6 * slope / curvature, 0.0, 1.0);
     }
   double energy = 0.0;
   for (int i = 0; i < n; ++i) {
-    const double rise = d[static_cast<std::size_t>(i) + 1] - d[static_cast<std::size_t>(i)];
-    energy +=
-        G(i) *
-        (0.5 * h * (crack.alpha(d[static_cast<std::size_t>(i)]) + crack.alpha(d[static_cast<std::size_t>(i) + 1])) +
-         rise * rise / h);
+    const double rise = d[i + 1] - d[i];
+    energy += G(i) * (0.5 * h * (crack.alpha(d[i]) + crack.alpha(d[i + 1])) + rise * rise / h);
   }
   return energy / crack.c0;
 }

@@ -36,7 +36,7 @@ TEST(MassMaterial, EveryNamedModelHasTheTermsOfItsRow) {
     const double ratio = s.nonlinear_damping ? std::pow(0.7, 1.8) : 1.0;
     EXPECT_NEAR(damping_force(model, velocity), 70.0 * velocity * ratio, 1e-10);
     double k = 0.0;
-    for (int i = 0; i < s.stiffness_order; ++i) k += model.stiffness[static_cast<std::size_t>(i)] * std::pow(z, i + 1);
+    for (int i = 0; i < s.stiffness_order; ++i) k += model.stiffness[i] * std::pow(z, i + 1);
     EXPECT_NEAR(stiffness_force(model, z), k, 1e-12 * std::abs(k));
     const double expected[] = {0.0, z, velocity, k, velocity * ratio};
     EXPECT_NEAR(kernel_forcing(model, z, velocity), expected[static_cast<int>(s.forcing)], 1e-12 * std::abs(k));

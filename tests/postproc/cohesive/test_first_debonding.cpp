@@ -27,7 +27,7 @@ std::vector<ColumnSet> six_columns() {
 
 CellField<double> damage_of(const std::vector<double>& values) {
   CellField<double> damage(values.size(), 0.0);
-  for (std::size_t i = 0; i < values.size(); ++i) damage[static_cast<Index>(i)] = values[i];
+  for (std::size_t i = 0; i < values.size(); ++i) damage[i] = values[i];
   return damage;
 }
 

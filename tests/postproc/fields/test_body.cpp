@@ -51,7 +51,7 @@ void write_frame(const std::filesystem::path& file, const Mesh& mesh, const Outp
 double volume_of(const Body& body) {
   double volume = 0.0;
   for_each_face(body.shape, body.corners, body.faces, [&](std::size_t, std::span<const Index> face) {
-    const auto at = [&](std::size_t i) { return body.points[as_size(face[i])]; };
+    const auto at = [&](std::size_t i) { return body.points[face[i]]; };
     for (std::size_t i = 1; i + 1 < face.size(); ++i) volume += at(0).dot(at(i).cross(at(i + 1))) / 6.0;
   });
   return volume;
@@ -75,10 +75,10 @@ TEST(Body, HasTheCellsOfTheMeshWhateverTheirShape) {
   const Mesh bead = layered_bead();
   for (const Mesh& mesh : {cube_mesh(2.0, 3), bead, barycentric_dual(bead)}) {
     const Body body = body_of(mesh, {sound_fields(mesh)});
-    EXPECT_EQ(static_cast<Index>(body.shape.size()), mesh.n_cells());
+    EXPECT_EQ(count_of(body.shape), mesh.n_cells());
     EXPECT_NEAR(volume_of(body), volume_of(mesh), 1e-9 * volume_of(mesh));
     EXPECT_EQ(body.regions, mesh.region_names);
-    for (Index c = 0; c < mesh.n_cells(); ++c) EXPECT_EQ(body.region[as_size(c)], mesh.region[c]);
+    for (Index c = 0; c < mesh.n_cells(); ++c) EXPECT_EQ(body.region[c], mesh.region[c]);
     EXPECT_TRUE(body.is_surface.empty());
     EXPECT_EQ(body.flat_axis, -1);
   }
@@ -102,12 +102,12 @@ TEST(Body, MovesEachCornerAsTheFramesSayAlsoWhereACrackPartsThem) {
     for (Index c = 0; c < mesh.n_cells(); ++c) frame.append_corners(c, corners, faces);
     ASSERT_EQ(corners.size(), body.corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      EXPECT_EQ(body.displacement[f][as_size(body.corners[i])], moved[as_size(corners[i])]);
-      EXPECT_EQ(body.points[as_size(body.corners[i])], points[as_size(corners[i])]);
+      EXPECT_EQ(body.displacement[f][body.corners[i]], moved[corners[i]]);
+      EXPECT_EQ(body.points[body.corners[i]], points[corners[i]]);
     }
   }
   EXPECT_GT(body.points.size(), n_sound);  // the crack has opened
-  for (std::size_t p = 0; p < body.points.size(); ++p) EXPECT_EQ(body.points[p], body.points[as_size(body.place[p])]);
+  for (std::size_t p = 0; p < body.points.size(); ++p) EXPECT_EQ(body.points[p], body.points[body.place[p]]);
   EXPECT_EQ(body.fields[0].name, "damage");
   EXPECT_EQ(body.fields[0].frames[1], outputs[1].damage.values());
 }
@@ -152,7 +152,7 @@ TEST(Body, IsPackedToHalfAStepOfItsSize) {
     return std::ranges::find(parts, of["id"].get<std::string>(), &PagePart::id)->base64;
   };
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const auto& points = json["points"][static_cast<std::size_t>(axis)];
+    const auto& points = json["points"][axis];
     const double from = points["from"], to = points["to"];
     const auto back = unpacked_blocks(part(points), 1, body.points.size(), from, to);
     for (std::size_t p = 0; p < body.points.size(); ++p)

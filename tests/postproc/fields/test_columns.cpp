@@ -27,12 +27,12 @@ Mesh cone(Index n_band_cells) {
 
 // Radial tractions of 1 Pa m^2/r^2: what a sphere without stress along its surface has.
 OutputFields pulled(const Mesh& mesh) {
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   OutputFields output;
   output.damage = CellField<double>(n, 0.0);
   output.stress = output.strain = CellField<Tensor>(n, Tensor::Zero());
   output.fracture_energy_density = CellField<double>(n, 0.0);
-  output.traction = FaceField<Vector>(as_size(mesh.n_faces()), Vector::Zero());
+  output.traction = FaceField<Vector>(mesh.n_faces(), Vector::Zero());
   for (Index f = 0; f < mesh.n_faces(); ++f) {
     const double x = mesh.face_centre[f].x();
     output.traction[f] = Vector(mesh.face_area[f].normalized().x() / (x * x), 0.0, 0.0);

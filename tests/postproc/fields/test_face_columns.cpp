@@ -51,7 +51,7 @@ OutputFields parted(const Mesh& mesh, const FractureModel& model, bool from_matr
                       .damage = CellField<double>(n, 0.4),
                       .dissipated = CellField<double>(n, 0.3 * toughness)};
   for (std::size_t k = 0; k < n; ++k)
-    out.traction[static_cast<Index>(k)] = stress * surface.sign[k] * mesh.face_area[surface.faces[k]].normalized();
+    out.traction[k] = stress * surface.sign[k] * mesh.face_area[surface.faces[k]].normalized();
   OutputFields output;
   output.interfaces.push_back(std::move(out));
   return output;

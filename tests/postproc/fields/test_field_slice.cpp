@@ -24,8 +24,8 @@ double area_of(const FieldSlice::Cell& cell) {
 /// 2 x 3 x 5 m; the field is each cell's x, cells with z above 2 m are another material.
 void write_box(const std::filesystem::path& file) {
   const Mesh mesh = box_mesh({2.0, 4, 1.0}, {3.0, 6, 1.0}, {5.0, 5, 1.0});
-  CellField<double> field(static_cast<std::size_t>(mesh.n_cells()));
-  CellField<Index> material(static_cast<std::size_t>(mesh.n_cells()));
+  CellField<double> field(mesh.n_cells());
+  CellField<Index> material(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     field[c] = mesh.cell_centre[c].x();
     material[c] = mesh.cell_centre[c].z() > 2.0 ? 1 : 0;

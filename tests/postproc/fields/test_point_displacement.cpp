@@ -157,8 +157,7 @@ TEST(PointDisplacement, splits_points_where_a_crack_turns) {
   const SplitPoints points = point_displacement(mesh, {}, output, 1.0);
   ASSERT_EQ(points.copies.size(), 2U);
   for (const PointCopy& copy : points.copies)
-    EXPECT_NEAR((mesh.points[as_size(copy.point)] - Vector(1, mesh.points[as_size(copy.point)].y(), 1)).norm(), 0,
-                1e-14);
+    EXPECT_NEAR((mesh.points[copy.point] - Vector(1, mesh.points[copy.point].y(), 1)).norm(), 0, 1e-14);
   const auto grid = frame_of(mesh, output);
   EXPECT_EQ(grid->GetNumberOfPoints(), static_cast<vtkIdType>(mesh.points.size()) + 2);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
@@ -219,7 +218,7 @@ TEST(PointDisplacement, is_prescribed_on_both_sides_of_a_crack) {
   ASSERT_EQ(points.copies.size(), 2U);
   for (std::size_t k = 0; k < 2; ++k)
     EXPECT_EQ(points.displacement[mesh.points.size() + k].z(),
-              mesh.points[as_size(points.copies[k].point)].y() == 0.0 ? 3.0 : 0.0);
+              mesh.points[points.copies[k].point].y() == 0.0 ? 3.0 : 0.0);
 }
 
 TEST(PointDisplacement, goes_on_where_a_formula_has_no_value_at_a_point) {

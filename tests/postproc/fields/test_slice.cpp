@@ -29,7 +29,7 @@ Mesh tetrahedra(const Mesh& hexes) {
   return assemble_mesh(std::move(soup), {});
 }
 
-CellField<double> broken(const Mesh& mesh) { return CellField<double>(as_size(mesh.n_cells()), 1.0); }
+CellField<double> broken(const Mesh& mesh) { return CellField<double>(mesh.n_cells(), 1.0); }
 
 TEST(DamagedArea, of_a_broken_box_is_its_section) {
   for (const Mesh& mesh : {box(), tetrahedra(box()), barycentric_dual(tetrahedra(box()))}) {
@@ -61,7 +61,7 @@ TEST(DamagedArea, of_a_region_is_that_of_the_dual) {
   for (Index c = 0; c < mesh.n_cells(); ++c) mesh.region[c] = mesh.cell_centre[c].sum() < 4.0 ? 1 : 0;
   const Mesh dual = barycentric_dual(mesh);
   const auto in_corner = [](const Mesh& of) {
-    CellField<double> damage(as_size(of.n_cells()));
+    CellField<double> damage(of.n_cells());
     for (Index c = 0; c < of.n_cells(); ++c) damage[c] = of.region[c];
     return damage;
   };
@@ -82,7 +82,7 @@ TEST(DamagedArea, shares_a_face_between_a_broken_and_a_sound_cell) {
 
 TEST(DamagedArea, counts_only_cells_beyond_the_threshold) {
   const Mesh mesh = box();
-  CellField<double> damage(as_size(mesh.n_cells()));
+  CellField<double> damage(mesh.n_cells());
   for (Index cell = 0; cell < mesh.n_cells(); ++cell) damage[cell] = mesh.cell_centre[cell].z() < 3.0 ? 0.6 : 0.5;
   EXPECT_NEAR(damaged_area(mesh, damage, Vector(0.7, 0, 0), x), 9.0, 1e-12);
   EXPECT_NEAR(damaged_area(mesh, damage, Vector(0.7, 0, 0), x, 0.4), 15.0, 1e-12);

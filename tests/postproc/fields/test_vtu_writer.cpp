@@ -58,11 +58,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_back(const std::filesystem::path& path
 double awkward(int i) { return std::sin(1.0 + i) / 3.0; }
 
 struct AwkwardFields {
-  explicit AwkwardFields(Index n)
-      : scalar(as_size(n)),
-        vector(as_size(n), Vector::Zero()),
-        tensor(as_size(n), Tensor::Zero()),
-        integer(as_size(n)) {
+  explicit AwkwardFields(Index n) : scalar(n), vector(n, Vector::Zero()), tensor(n, Tensor::Zero()), integer(n) {
     for (Index i = 0; i < n; ++i) {
       scalar[i] = awkward(i);
       vector[i] = Vector(awkward(i), -awkward(i + 1), 1e-300 * awkward(i + 2));
@@ -104,8 +100,8 @@ TEST(VtuWriter, tensors_have_named_components) {
   ASSERT_EQ(array.GetNumberOfComponents(), 6);
   const std::array<std::string, 6> names{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
   for (int k = 0; k < 6; ++k) {
-    EXPECT_EQ(array.GetComponentName(k), names[static_cast<std::size_t>(k)]);
-    const int row = names[static_cast<std::size_t>(k)][0] - 'X', column = names[static_cast<std::size_t>(k)][1] - 'X';
+    EXPECT_EQ(array.GetComponentName(k), names[k]);
+    const int row = names[k][0] - 'X', column = names[k][1] - 'X';
     for (Index c = 0; c < mesh.n_cells(); ++c) EXPECT_EQ(array.GetComponent(c, k), f.tensor[c](row, column));
   }
 }
@@ -180,7 +176,7 @@ TEST(VtuWriter, a_dual_mesh_comes_back) {
                                 .face_sets = {},
                                 .patches = {}});
   ASSERT_EQ(back.n_cells(), dual.n_cells());
-  EXPECT_LE(read_back(folder / "a.vtu")->GetNumberOfPoints(), static_cast<Index>(dual.points.size()));
+  EXPECT_LE(read_back(folder / "a.vtu")->GetNumberOfPoints(), count_of(dual.points));
   // Faces that are not plane have become triangles, about the point that they were fans about.
   EXPECT_GT(back.n_faces(), dual.n_faces());
   std::vector<double> volumes = back.cell_volume.values(), exact = dual.cell_volume.values();
@@ -234,7 +230,7 @@ TEST(VtuWriter, units_come_back) {
 TEST(VtuWriter, compresses_as_it_is_told) {
   const TemporaryFolder folder;
   const Mesh mesh = cube_mesh(1.0, 8);
-  const CellField<double> damage(as_size(mesh.n_cells()), 0.25);
+  const CellField<double> damage(mesh.n_cells(), 0.25);
   const auto head = [&](Compression compression) {
     VtuWriter(mesh, {.compression = compression}).write(folder / "a.vtu", {{"damage", &damage}}, 0.0);
     EXPECT_EQ(read_back(folder / "a.vtu")->GetCellData()->GetArray("damage")->GetComponent(7, 0), 0.25);
@@ -249,7 +245,7 @@ TEST(VtuWriter, one_writer_makes_frames_that_do_not_mix) {
   const TemporaryFolder folder;
   const Mesh mesh = cube_mesh(1.0, 2);
   const VtuWriter writer(mesh);
-  CellField<double> damage(as_size(mesh.n_cells()), 0.25);
+  CellField<double> damage(mesh.n_cells(), 0.25);
   writer.write(folder / "first.vtu", {{"damage", &damage}}, 0.0);
   damage[0] = 0.75;
   writer.write(folder / "second.vtu", {{"only_here", &damage}}, 1.0);

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 std::vector<double> abscissas(int n) {
   std::vector<double> x;
-  x.reserve(static_cast<std::size_t>(n));
+  x.reserve(n);
   for (int i = 0; i < n; ++i) x.push_back(i / (n - 1.0));
   return x;
 }
@@ -120,7 +120,7 @@ TEST(Calibration, TakesAJacobian) {
     const std::vector<double> x = abscissas(50);
     Eigen::MatrixXd J(50, 2);
     for (int i = 0; i < 50; ++i) {
-      const double xi = x[static_cast<std::size_t>(i)];
+      const double xi = x[i];
       J.row(i) << std::exp(-p[1] * xi), -xi * p[0] * std::exp(-p[1] * xi);
     }
     return J;
@@ -385,14 +385,14 @@ TEST(Calibration, BayesianInformationFindsTheDegree) {
   const std::vector<double> x = abscissas(100);
   Eigen::VectorXd y(100);
   for (Eigen::Index i = 0; i < 100; ++i) {
-    const double xi = x[static_cast<std::size_t>(i)];
+    const double xi = x[i];
     y[i] = 1.0 - xi + 0.5 * xi * xi + normal(engine);
   }
   std::vector<double> information;
   for (Eigen::Index n = 1; n <= 6; ++n) {
     Eigen::MatrixXd A(100, n);
     for (Eigen::Index j = 0; j < n; ++j)
-      for (Eigen::Index i = 0; i < 100; ++i) A(i, j) = std::pow(x[static_cast<std::size_t>(i)], double(j));
+      for (Eigen::Index i = 0; i < 100; ++i) A(i, j) = std::pow(x[i], double(j));
     const double sum = (A * A.colPivHouseholderQr().solve(y) - y).squaredNorm();
     information.push_back(bayesian_information(sum, 100, static_cast<std::size_t>(n), 0.0));
   }

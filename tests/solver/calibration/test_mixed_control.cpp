@@ -16,7 +16,7 @@ using Conditions = std::array<ControlCondition, 6>;
 Mandel values_of(const Conditions& conditions, const Mandel& stress, const Mandel& strain) {
   Mandel values;
   for (int k = 0; k < n_components; ++k) {
-    const ControlCondition& c = conditions[static_cast<std::size_t>(k)];
+    const ControlCondition& c = conditions[k];
     values[k] = c.on_stress.dot(stress) + c.on_strain.dot(strain);
   }
   return values;
@@ -54,7 +54,7 @@ TEST(EndochronicControl, RandomPatternsOfSixComponents) {
     if (!step.converged) continue;
     const Mandel found = values_of(conditions, step.update.stress, step.update.state.strain);
     for (int k = 0; k < n_components; ++k) {
-      const double unit = conditions[static_cast<std::size_t>(k)].on_stress.isZero() ? 1.0 : law.elasticity.mu;
+      const double unit = conditions[k].on_stress.isZero() ? 1.0 : law.elasticity.mu;
       largest = std::max(largest, std::abs(found[k] - after[k]) / (unit * size));
     }
     most = std::max(most, step.iterations);
@@ -81,7 +81,7 @@ TEST(EndochronicControl, StressAndStrainOfOneComponentWithAnotherFree) {
 TEST(EndochronicControl, TellsConditionsThatDependOnEachOther) {
   const EndochronicLaw law = one_term_law();
   Conditions conditions;
-  for (int k = 0; k < 6; ++k) conditions[static_cast<std::size_t>(k)] = on_strain(k);
+  for (int k = 0; k < 6; ++k) conditions[k] = on_strain(k);
   EXPECT_FALSE(dependent_conditions(law, conditions));
   conditions[5] = on_strain(0);
   EXPECT_THAT(dependent_conditions(law, conditions).value_or(""), testing::HasSubstr("rank 5 of 6"));
@@ -114,8 +114,7 @@ TEST(EndochronicControl, RampsStartWhereTheSegmentBefore) {
   const HistoryResult result = run_history(law, {loading, unloading});
   ASSERT_TRUE(result.converged) << result.failure;
   const double peak = result.points[20].stress[0];
-  for (int i = 0; i <= 20; ++i)
-    EXPECT_NEAR(result.points[static_cast<std::size_t>(20 + i)].stress[0], peak * (1.0 - i / 20.0), 1e-9 * peak);
+  for (int i = 0; i <= 20; ++i) EXPECT_NEAR(result.points[20 + i].stress[0], peak * (1.0 - i / 20.0), 1e-9 * peak);
   EXPECT_NEAR(result.points.back().time, 2.0, 1e-15);
 }
 
@@ -151,7 +150,7 @@ TEST(EndochronicControl, CutsHeldTimesIntoSubsteps) {
                       kept = tension_path([](double) { return 0.01; }, steps, 10.0);
     const HistoryResult result = run_history(law, {loaded, kept}, {.substeps = substeps});
     EXPECT_TRUE(result.converged) << result.failure;
-    EXPECT_LT(result.points.back().stress[0], 0.95 * result.points[static_cast<std::size_t>(10 * steps)].stress[0]);
+    EXPECT_LT(result.points.back().stress[0], 0.95 * result.points[10 * steps].stress[0]);
     return result.points.back().stress[0];
   };
   EXPECT_NEAR(held(1, 40), held(40, 1), 1e-9 * held(40, 1));

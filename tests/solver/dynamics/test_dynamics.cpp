@@ -25,10 +25,10 @@ void expect_matrix_of_operator(const Mesh& mesh, double nu) {
                            body_of(mesh, nu, {clamped("xmin"), of_kind("ymax", BoundaryCondition::Kind::symmetry)}),
                            std::vector<double>(mesh.region_names.size(), 1000.0));
   RandomNumbers random;
-  std::vector<Vector> u(as_size(body.unknowns().n_unknowns())), image(u.size());
+  std::vector<Vector> u(body.unknowns().n_unknowns()), image(u.size());
   for (Vector& v : u) v = random.vector();
   body.balance().prescribe(0.0, u);  // nothing on what is held
-  for (std::size_t i = as_size(body.unknowns().n_nodes()); i < u.size(); ++i) u[i] = 1e6 * u[i][0] * Vector::UnitX();
+  for (std::size_t i = body.unknowns().n_nodes(); i < u.size(); ++i) u[i] = 1e6 * u[i][0] * Vector::UnitX();
   body.balance().apply(u, image);
   const Eigen::VectorXd flat = Eigen::Map<const Eigen::VectorXd>(u.front().data(), body.size());
   const Eigen::VectorXd due = Eigen::Map<const Eigen::VectorXd>(image.front().data(), body.size());

@@ -45,7 +45,7 @@ TEST(HeatedBody, SteadySourceInAKrylovSpace) {
         {.patch = "zmax", .kind = Kind::exchange, .value = 1.0, .coefficient = 0.12 / size},
         {.patch = "xmin", .kind = Kind::exchange, .value = 0.0, .coefficient = 1.5 / size},
         {.patch = "ymin", .kind = Kind::flux, .value = 0.2 / size}};
-    CellField<double> source(as_size(mesh.n_cells()));
+    CellField<double> source(mesh.n_cells());
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       const Vector x = 0.01 / size * mesh.cell_centre[c];
       source[c] = 2.0 / (size * size) * (1.0 + std::sin(60.0 * x[0]) * std::cos(50.0 * x[1]));
@@ -57,8 +57,8 @@ TEST(HeatedBody, SteadySourceInAKrylovSpace) {
     for (int k = 0; k < n; ++k) {
       body.step(15.0);
       const SurfaceTemperature due = body.surface("zmax");
-      EXPECT_NEAR(reduced[as_size(k)].mean, due.mean, 1e-6 * due.largest);
-      EXPECT_NEAR(reduced[as_size(k)].largest, due.largest, 1e-6 * due.largest);
+      EXPECT_NEAR(reduced[k].mean, due.mean, 1e-6 * due.largest);
+      EXPECT_NEAR(reduced[k].largest, due.largest, 1e-6 * due.largest);
     }
   }
 }
@@ -67,7 +67,7 @@ TEST(HeatedBody, SteadySourceInAKrylovSpace) {
 TEST(HeatedBody, ContactOfTwoMaterials) {
   const Mesh mesh =
       box(400, 1, 1, {0.2, 0.01, 0.01}, 1.0, {{.name = "other", .lower = {0.1, -1.0, -1.0}, .upper = {1.0, 1.0, 1.0}}});
-  CellField<double> k(as_size(mesh.n_cells())), c(as_size(mesh.n_cells())), T(as_size(mesh.n_cells()));
+  CellField<double> k(mesh.n_cells()), c(mesh.n_cells()), T(mesh.n_cells());
   for (Index i = 0; i < mesh.n_cells(); ++i) {
     const bool left = mesh.cell_centre[i].x() < 0.1;
     k[i] = left ? 0.3 : 1.2;
@@ -109,10 +109,10 @@ double manufactured_error(const Mesh& mesh) {
   std::vector<DiffusionBoundary> boundary;
   for (const Patch& patch : mesh.patches) boundary.push_back({.patch = patch.name, .kind = Kind::value});
   Diffusion diffusion(
-      mesh, {.conductivity = CellField<double>(as_size(mesh.n_cells()), 1.0),
+      mesh, {.conductivity = CellField<double>(mesh.n_cells(), 1.0),
              .boundary = boundary,
              .source = [&](Index c, double) { return DiffusionSource{.value = source(mesh.cell_centre[c])}; }});
-  CellField<double> T(as_size(mesh.n_cells()), 0.0);
+  CellField<double> T(mesh.n_cells(), 0.0);
   EXPECT_TRUE(diffusion.solve_steady(T).converged);
   double error = 0.0, size = 0.0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
@@ -177,7 +177,7 @@ double ball_error(Index subdivision) {
   constexpr double until = 0.125;
   const Mesh mesh = tetrahedra_and_prisms(subdivision, subdivision);
   HeatedBody body(mesh, {.conductivity = 1.0, .capacity = 1.0}, {});
-  CellField<double> source(as_size(mesh.n_cells()), 0.0);
+  CellField<double> source(mesh.n_cells(), 0.0);
   double heated = 0.0, sum = 0.0, volume = 0.0;
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (mesh.cell_centre[c].norm() < 1.0) {
@@ -211,7 +211,7 @@ TEST(HeatedBody, UniformHeatInAPlate) {
                     {{.patch = "zmin", .kind = Kind::exchange, .coefficient = h},
                      {.patch = "zmax", .kind = Kind::exchange, .coefficient = h}});
   for (HeatedBody* body : {&insulated, &cooled}) {
-    body->set_source(CellField<double>(as_size(mesh.n_cells()), q));
+    body->set_source(CellField<double>(mesh.n_cells(), q));
     for (int i = 0; i < 720; ++i) body->step(5.0);
     const HeatAccount& account = body->account();
     EXPECT_NEAR(account.heat, q * 3600.0 * 0.1778 * 0.254 * thickness, 1e-10 * account.heat);

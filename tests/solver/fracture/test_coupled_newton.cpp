@@ -26,7 +26,7 @@ struct Body {
   }
 
   CellField<IsotropicElasticity> moduli(const CellField<double>& g) const {
-    CellField<IsotropicElasticity> result(as_size(mesh.n_cells()));
+    CellField<IsotropicElasticity> result(mesh.n_cells());
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       const IsotropicElasticity& whole = model.in_cell(mesh, c).elasticity;
       result[c] = {.lambda = g[c] * whole.lambda, .mu = g[c] * whole.mu};
@@ -60,12 +60,12 @@ void expect_derivative(const Body& body) {
   const Index n = body.mesh.n_cells();
   RandomNumbers random;
   const CellField<double> g = random.field(n, 0.01, 1.0), dg = random.field(n, -1.0, 1.0);
-  std::vector<Vector> u(as_size(body.unknowns.n_unknowns()));
+  std::vector<Vector> u(body.unknowns.n_unknowns());
   for (Vector& x : u) x = 1e-3 * random.vector();
   MomentumOperator balance(body.mesh, body.unknowns);
   balance.keep_in_plane(u);
   balance.set_moduli(body.moduli(g), g);
-  const CellField<double> one(as_size(n), 1.0);
+  const CellField<double> one(n, 1.0);
   const StiffnessCoupling coupling(balance, body.moduli(one), u);
   std::vector<Vector> derivative(u.size());
   coupling.apply(dg, derivative);
@@ -99,17 +99,16 @@ TEST(StiffnessCoupling, IsSymmetric) {
   const Index n = body.mesh.n_cells();
   RandomNumbers random;
   const Tensor G = 1e-3 * random.tensor(), H = random.tensor();
-  std::vector<Vector> u(as_size(body.unknowns.n_unknowns())), v(u.size());
+  std::vector<Vector> u(body.unknowns.n_unknowns()), v(u.size());
   const auto place = [&](std::size_t i) -> Vector {
-    return i < as_size(n) ? body.mesh.cell_centre[static_cast<Index>(i)]
-                          : body.mesh.face_centre[body.unknowns.face_of_node[i - as_size(n)]];
+    return i < as_size(n) ? body.mesh.cell_centre[i] : body.mesh.face_centre[body.unknowns.face_of_node[i - n]];
   };
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = G * place(i), v[i] = H * place(i);
   MomentumOperator balance(body.mesh, body.unknowns);
-  const CellField<double> one(as_size(n), 1.0), none(as_size(n), 0.0), dg = random.field(n, -1.0, 1.0);
+  const CellField<double> one(n, 1.0), none(n, 0.0), dg = random.field(n, -1.0, 1.0);
   balance.set_moduli(body.moduli(one), one);
   StiffnessCoupling coupling(balance, body.moduli(one), u);
-  CellField<double> energy(as_size(n));
+  CellField<double> energy(n);
   std::vector<Vector> force(u.size());
   coupling.apply(v, none, force, energy);
   // V sigma(G) : H of each cell, in closed form.
@@ -141,7 +140,7 @@ struct Strip {
                     {.end = 1.0, .initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
     state = run.initial_state();
     std::vector<Index> iterations;
-    iterations.reserve(static_cast<std::size_t>(n_steps));
+    iterations.reserve(n_steps);
     for (Index k = 0; k < n_steps; ++k) iterations.push_back(run.step(state).staggered_iterations);
     return iterations;
   }

@@ -23,7 +23,7 @@ FractureModel model_of(const Mesh& mesh, std::string_view law) {
   return model;
 }
 
-CellField<double> uniform(const Mesh& mesh, double value) { return CellField<double>(as_size(mesh.n_cells()), value); }
+CellField<double> uniform(const Mesh& mesh, double value) { return CellField<double>(mesh.n_cells(), value); }
 
 // A row of cells of width h along x, with regions cut out of it.
 Mesh row(Index n, double h, std::vector<SubRegion> regions = {}) {
@@ -36,8 +36,8 @@ SubRegion from_to(const std::string& name, double from, double to) {
 
 // Cells along x.
 std::vector<Index> in_order_of_x(const Mesh& mesh) {
-  std::vector<Index> cells(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c) cells[as_size(c)] = c;
+  std::vector<Index> cells(mesh.n_cells());
+  for (Index c = 0; c < mesh.n_cells(); ++c) cells[c] = c;
   std::sort(cells.begin(), cells.end(),
             [&](Index a, Index b) { return mesh.cell_centre[a][0] < mesh.cell_centre[b][0]; });
   return cells;
@@ -173,19 +173,19 @@ TEST(DamageEquation, UndamageableNeighboursPinTheProfile) {
   const double h = 0.1 * ell, half_width = (n + 0.5) * h, end = (2 * n + 5) * h;
   const Mesh mesh = row(2 * n + 5, h, {from_to("grip", -1.0, 2 * h), from_to("grip", end - 2 * h, 1.0)});
   FractureModel model = model_of(mesh, "AT2");
-  model.regions[as_size(mesh.region_index("grip"))].damageable = false;
+  model.regions[mesh.region_index("grip")].damageable = false;
   DamageEquation equation(mesh, model, Vector::Zero());
   CellField<double> psi = uniform(mesh, 0.0), d = uniform(mesh, 0.0);
   const std::vector<Index> cells = in_order_of_x(mesh);
-  psi[cells[as_size(n + 2)]] = 1e12 * unit;
+  psi[cells[n + 2]] = 1e12 * unit;
   EXPECT_TRUE(equation.solve(psi, uniform(mesh, 0.0), {}, d).converged);
   const double kappa = std::acosh(1.0 + 0.5 * std::pow(h / ell, 2));
   for (Index i = 0; i < mesh.n_cells(); ++i) {
     const double distance = std::abs(i - n - 2);
     const double discrete = std::max(0.0, std::sinh(kappa * (n + 0.5 - distance)) / std::sinh(kappa * (n + 0.5)));
     const double smooth = std::max(0.0, std::sinh((half_width - distance * h) / ell) / std::sinh(half_width / ell));
-    EXPECT_NEAR(d[cells[as_size(i)]], discrete, 1e-8) << i;
-    EXPECT_NEAR(d[cells[as_size(i)]], smooth, 1e-3) << i;
+    EXPECT_NEAR(d[cells[i]], discrete, 1e-8) << i;
+    EXPECT_NEAR(d[cells[i]], smooth, 1e-3) << i;
   }
   EXPECT_NEAR(equation.fracture_energy(d) / (h * h * Gc) * std::tanh(half_width / ell), 1.0, 3e-3);
 }
@@ -198,7 +198,7 @@ double error_of_band_toughness(Index cells_per_length) {
   const double half_width = 0.5 * ell + 0.5 * h;  // of the band, with the broken cell in its middle
   const Mesh mesh = row(n, h, {from_to("band", middle - half_width, middle + half_width)});
   FractureModel model = model_of(mesh, "AT2");
-  model.regions[as_size(mesh.region_index("body"))].Gc = 10.0 * Gc;
+  model.regions[mesh.region_index("body")].Gc = 10.0 * Gc;
   DamageEquation equation(mesh, model, Vector::Zero());
   CellField<double> psi = uniform(mesh, 0.0), d = uniform(mesh, 0.0);
   psi[in_order_of_x(mesh)[as_size(n / 2)]] = 1e12 * unit;
@@ -225,9 +225,9 @@ CellField<double> damage_about_the_origin(const Mesh& mesh, const FractureModel&
 FractureModel model_with(const Mesh& mesh, const std::function<double(const Vector&)>& toughness) {
   FractureModel model = model_of(mesh, "AT2");
   for (RegionModel& region : model.regions) region.ell = 0.5;
-  model.cells = CellField<RegionModel>(as_size(mesh.n_cells()));
+  model.cells = CellField<RegionModel>(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    model.cells[c] = model.regions[as_size(mesh.region[c])];
+    model.cells[c] = model.regions[mesh.region[c]];
     model.cells[c].Gc = toughness(mesh.cell_centre[c]);
   }
   return model;
@@ -277,7 +277,7 @@ TEST(DamageEquation, LeavesWhatItCannotDamage) {
   const Mesh mesh = row(10, ell, {from_to("grip", -1.0, 5 * ell)});
   FractureModel model = model_of(mesh, "AT1");
   const Index grip = mesh.region_index("grip");
-  model.regions[as_size(grip)] = {.elasticity = {}, .damageable = false};  // without toughness or length
+  model.regions[grip] = {.elasticity = {}, .damageable = false};  // without toughness or length
   DamageEquation equation(mesh, model, Vector::Zero());
   CellField<double> d = uniform(mesh, 0.0);
   equation.solve(uniform(mesh, 100.0 * unit), uniform(mesh, 0.0), {}, d);
@@ -314,7 +314,7 @@ double energy_of_crack(const std::string& law, Index cells_per_ell, bool relaxes
   const FractureModel model = model_of(mesh, law);
   DamageEquation equation(mesh, model, Vector::Zero());
   CellField<double> d = uniform(mesh, 0.0);
-  d[in_order_of_x(mesh)[as_size(12 * cells_per_ell)]] = 1.0;
+  d[in_order_of_x(mesh)[12 * cells_per_ell]] = 1.0;
   const CellField<double> given = d;
   if (relaxes) d = equation.relaxed(given);
   for (Index c = 0; c < mesh.n_cells(); ++c) EXPECT_GE(d[c], given[c]);

@@ -25,7 +25,7 @@ TEST(Relaxation, StaysWithinTheBounds) {
   Relaxation relaxation;
   Damage d = lower;
   for (int iteration = 0; iteration < 20; ++iteration) {
-    Damage answer(as_size(n));
+    Damage answer(n);
     for (Index c = 0; c < n; ++c) answer[c] = random.between(lower[c], 1.0);
     d = relaxation.next(d, answer, lower);
     for (Index c = 0; c < n; ++c) {

@@ -50,7 +50,7 @@ TEST(Resolution, TellsOfACrackThatEntersCoarseCells) {
   EXPECT_NE(words.remarks[0].find("a crack is resolved in 2 of 3 cells (at most ell/2)"), std::string::npos)
       << words.remarks[0];
   CoarseCells coarse(mesh, model);
-  CellField<double> damage(as_size(mesh.n_cells()), 0.4);
+  CellField<double> damage(mesh.n_cells(), 0.4);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (mesh.cell_centre[c].x() < 0.2) damage[c] = 1.0;
   EXPECT_TRUE(coarse.look(damage).empty());
@@ -70,7 +70,7 @@ TEST(Resolution, TellsOfACrackAcrossLongCells) {
   EXPECT_TRUE(words.warnings.empty());
   ASSERT_EQ(words.remarks.size(), 1u);
   EXPECT_NE(words.remarks[0].find("cells are 500 mm long or longer in their plane, ell is 300 mm"), std::string::npos);
-  CellField<double> damage(as_size(mesh.n_cells()), 0.0);
+  CellField<double> damage(mesh.n_cells(), 0.0);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (mesh.cell_centre[c].x() < 0.5) damage[c] = 0.55;  // no steeper than 1/ell
   CoarseCells coarse(mesh, model);

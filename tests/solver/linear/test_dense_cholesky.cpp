@@ -27,8 +27,8 @@ std::vector<double> columns_of(const Eigen::MatrixXd& a) { return {a.data(), a.d
 TEST(DenseCholesky, SolvesAsEigenDoes) {
   for (const Index n : {1, 7, 8, 9, 16, 61}) {
     const Eigen::MatrixXd a = sample(n);
-    std::vector<double> b(static_cast<std::size_t>(n));
-    for (Index i = 0; i < n; ++i) b[static_cast<std::size_t>(i)] = std::cos(double(i));
+    std::vector<double> b(n);
+    for (Index i = 0; i < n; ++i) b[i] = std::cos(double(i));
     const Eigen::VectorXd right = a.llt().solve(Eigen::Map<Eigen::VectorXd>(b.data(), n));
     DenseCholesky factors;
     ASSERT_TRUE(factors.compute(n, columns_of(a)));

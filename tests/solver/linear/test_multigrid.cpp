@@ -23,13 +23,13 @@ Tensor random_positive(RandomNumbers& random) {
 BlockTriplets random_problem(Index n) {
   RandomNumbers random;
   BlockTriplets a;
-  a.diagonal.resize(as_size(n));
+  a.diagonal.resize(n);
   for (Tensor& block : a.diagonal) block = 0.01 * random_positive(random);
   for (Index i = 1; i < n; ++i)
     for (const Index j : std::set<Index>{i - 1, i / 2, i / 3}) {
       const Tensor c = random_positive(random);
-      a.diagonal[as_size(i)] += c;
-      a.diagonal[as_size(j)] += c;
+      a.diagonal[i] += c;
+      a.diagonal[j] += c;
       a.off_diagonal.push_back({i, j, -c});
     }
   return a;
@@ -44,8 +44,8 @@ BlockTriplets elastic_problem(Index cells_along_an_edge) {
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumOperator balance(mesh, unknowns);
   RandomNumbers random;
-  CellField<double> g(as_size(mesh.n_cells()));
-  CellField<IsotropicElasticity> moduli(as_size(mesh.n_cells()));
+  CellField<double> g(mesh.n_cells());
+  CellField<IsotropicElasticity> moduli(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     g[c] = std::pow(10.0, random.between(-3.0, 0.0));
     const IsotropicElasticity& whole = model.regions.front().elasticity;
@@ -58,8 +58,8 @@ BlockTriplets elastic_problem(Index cells_along_an_edge) {
 void multiply(const BlockTriplets& a, const std::vector<Vector>& x, std::vector<Vector>& y) {
   for (std::size_t i = 0; i < x.size(); ++i) y[i] = a.diagonal[i] * x[i];
   for (const auto& [row, column, value] : a.off_diagonal) {
-    y[as_size(row)] += value * x[as_size(column)];
-    y[as_size(column)] += value.transpose() * x[as_size(row)];
+    y[row] += value * x[column];
+    y[column] += value.transpose() * x[row];
   }
 }
 
@@ -142,8 +142,7 @@ TEST_F(Multigrids, OrderOfTheRowsChangesOnlyTheWay) {
   std::vector<Index> backwards = in_order(400);
   std::reverse(backwards.begin(), backwards.end());
   const BlockMatrix matrix = compress(a, backwards);
-  for (Index i = 0; i < 400; ++i)
-    EXPECT_TRUE(to_tensor(matrix.diagonal[as_size(399 - i)]).isApprox(a.diagonal[as_size(i)], 1e-6));
+  for (Index i = 0; i < 400; ++i) EXPECT_TRUE(to_tensor(matrix.diagonal[399 - i]).isApprox(a.diagonal[i], 1e-6));
 }
 
 TEST_F(Multigrids, AnswersAreBitwiseTheSameForAnyNumberOfThreads) {
@@ -165,15 +164,15 @@ TEST_F(Multigrids, AnswersAreBitwiseTheSameForAnyNumberOfThreads) {
 TEST_F(Multigrids, StagnationEndsWhatIsGoodEnough) {
   constexpr Index n = 500, cycle = 20, most = 200;
   const auto shift = [&](const std::vector<Vector>& x, std::vector<Vector>& y) {
-    for (Index i = 0; i < n; ++i) y[as_size((i + 1) % n)] = x[as_size(i)];
+    for (Index i = 0; i < n; ++i) y[(i + 1) % n] = x[i];
   };
   KrylovProblem problem{.apply = shift,
                         .precondition = [](const std::vector<Vector>& r, std::vector<Vector>& z) { z = r; },
-                        .scale = std::vector<double>(as_size(n), 1.0),
+                        .scale = std::vector<double>(n, 1.0),
                         .restart_length = cycle};
   const auto solve = [&](double good_enough) {
     problem.good_enough = good_enough;
-    std::vector<Vector> b(as_size(n), Vector::Zero()), x = b;
+    std::vector<Vector> b(n, Vector::Zero()), x = b;
     b.front() = Vector::UnitX();
     return solve_fgmres(
         problem, b, x, [](double initial) { return 1e-6 * initial; }, most);
@@ -192,17 +191,16 @@ TEST_F(Multigrids, CoarseMatrixIsTheGalerkinProduct) {
   const BlockMatrix coarse = coarsen(fine, aggregates);
   ASSERT_EQ(coarse.n_rows(), aggregates.count);
   RandomNumbers random;
-  std::vector<Lane> x(as_size(aggregates.count), Lane::Zero()), prolonged(fine.diagonal.size(), Lane::Zero());
+  std::vector<Lane> x(aggregates.count, Lane::Zero()), prolonged(fine.diagonal.size(), Lane::Zero());
   for (Lane& v : x) v.head<3>() = random.vector().cast<float>();
   for (std::size_t i = 0; i < prolonged.size(); ++i)
-    if (aggregates.of_row[i] >= 0) prolonged[i] = x[as_size(aggregates.of_row[i])];
+    if (aggregates.of_row[i] >= 0) prolonged[i] = x[aggregates.of_row[i]];
   const auto energy = [](const BlockMatrix& a, const std::vector<Lane>& v) {
     double sum = 0.0;
     for (Index i = 0; i < a.n_rows(); ++i) {
-      Lane image = a.diagonal[as_size(i)] * v[as_size(i)];
-      for (Index k = a.offsets[as_size(i)]; k < a.offsets[as_size(i) + 1]; ++k)
-        image += a.blocks[as_size(k)] * v[as_size(a.columns[as_size(k)])];
-      sum += double((image * v[as_size(i)]).sum());
+      Lane image = a.diagonal[i] * v[i];
+      for (Index k = a.offsets[i]; k < a.offsets[i + 1]; ++k) image += a.blocks[k] * v[a.columns[k]];
+      sum += double((image * v[i]).sum());
     }
     return sum;
   };
@@ -216,8 +214,8 @@ void expect_coarsened_with_dangling_nodes(double coupling) {
   BlockTriplets a;
   a.diagonal.assign(3 * cells, 1e-3 * Tensor::Identity());
   const auto couple = [&](Index i, Index j, double stiffness) {
-    a.diagonal[as_size(i)] += stiffness * Tensor::Identity();
-    a.diagonal[as_size(j)] += stiffness * Tensor::Identity();
+    a.diagonal[i] += stiffness * Tensor::Identity();
+    a.diagonal[j] += stiffness * Tensor::Identity();
     a.off_diagonal.push_back({i, j, -stiffness * Tensor::Identity()});
   };
   for (Index c = 0; c < cells; ++c) {
@@ -244,23 +242,23 @@ struct TwoBodies {
 };
 
 TwoBodies two_bodies(Index edge, RandomNumbers& random) {
-  std::vector<Index> number = in_order(as_size(2 * edge * edge));
+  std::vector<Index> number = in_order(2 * edge * edge);
   for (std::size_t i = number.size(); i-- > 1;)
     std::swap(number[i], number[static_cast<std::size_t>(random.between(0.0, static_cast<double>(i)))]);
   TwoBodies result{.matrix = {}, .body_of_row = std::vector<Index>(number.size())};
   BlockTriplets& a = result.matrix;
   a.diagonal.assign(number.size(), 1e-9 * Tensor::Identity());
-  const auto row = [&](Index body, Index x, Index y) { return number[as_size((body * edge + x) * edge + y)]; };
+  const auto row = [&](Index body, Index x, Index y) { return number[(body * edge + x) * edge + y]; };
   const auto couple = [&](Index i, Index j, double stiffness) {
     const Tensor c = stiffness * random.between(0.2, 1.0) * Tensor::Identity();
-    a.diagonal[as_size(i)] += c;
-    a.diagonal[as_size(j)] += c;
+    a.diagonal[i] += c;
+    a.diagonal[j] += c;
     a.off_diagonal.push_back({i, j, -c});
   };
   for (Index x = 0; x < edge; ++x)
     for (Index y = 0; y < edge; ++y) {
       for (const Index body : {0, 1}) {
-        result.body_of_row[as_size(row(body, x, y))] = body;
+        result.body_of_row[row(body, x, y)] = body;
         if (x > 0) couple(row(body, x, y), row(body, x - 1, y), 1.0);
         if (y > 0) couple(row(body, x, y), row(body, x, y - 1), 1.0);
       }
@@ -278,10 +276,10 @@ TEST_F(Multigrids, NoAggregateReachesAcrossABrokenLayer) {
     for (int level = 0; level < 3; ++level) {
       const Aggregates aggregates = aggregate(matrix, 3);
       EXPECT_LE(aggregates.count, matrix.n_rows() / 4);
-      std::vector<Index> body_of_aggregate(as_size(aggregates.count), -1);
+      std::vector<Index> body_of_aggregate(aggregates.count, -1);
       for (std::size_t i = 0; i < aggregates.of_row.size(); ++i) {
         ASSERT_GE(aggregates.of_row[i], 0);
-        Index& body = body_of_aggregate[as_size(aggregates.of_row[i])];
+        Index& body = body_of_aggregate[aggregates.of_row[i]];
         if (body < 0) body = bodies.body_of_row[i];
         EXPECT_EQ(body, bodies.body_of_row[i]) << "numbering " << trial << ", level " << level;
       }

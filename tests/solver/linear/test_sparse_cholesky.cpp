@@ -17,11 +17,11 @@ namespace {
 BlockTriplets random_matrix(Index n, double held) {
   RandomNumbers random;
   BlockTriplets a;
-  a.diagonal.assign(as_size(n), held * Tensor::Identity());
+  a.diagonal.assign(n, held * Tensor::Identity());
   const auto couple = [&](Index i, Index j) {
     const Tensor root = random.tensor(), c = root * root.transpose() + 0.1 * Tensor::Identity();
-    a.diagonal[as_size(i)] += c;
-    a.diagonal[as_size(j)] += c;
+    a.diagonal[i] += c;
+    a.diagonal[j] += c;
     a.off_diagonal.push_back({i, j, -c});
   };
   for (Index i = 1; i < n; ++i) {
@@ -32,7 +32,7 @@ BlockTriplets random_matrix(Index n, double held) {
 }
 
 Eigen::MatrixXd dense(const BlockTriplets& a) {
-  const auto n = 3 * static_cast<Index>(a.diagonal.size());
+  const auto n = 3 * count_of(a.diagonal);
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t i = 0; i < a.diagonal.size(); ++i) m.block<3, 3>(3 * Index(i), 3 * Index(i)) = a.diagonal[i];
   for (const auto& [row, column, value] : a.off_diagonal) {
@@ -44,13 +44,13 @@ Eigen::MatrixXd dense(const BlockTriplets& a) {
 
 std::vector<Vector> random_vectors(Index n) {
   RandomNumbers random;
-  std::vector<Vector> b(as_size(n));
+  std::vector<Vector> b(n);
   for (Vector& v : b) v = random.vector();
   return b;
 }
 
 Eigen::VectorXd flat(const std::vector<Vector>& v) {
-  return Eigen::Map<const Eigen::VectorXd>(v[0].data(), 3 * static_cast<Index>(v.size()));
+  return Eigen::Map<const Eigen::VectorXd>(v[0].data(), 3 * count_of(v));
 }
 
 std::vector<Vector> solution(SparseCholesky& cholesky, const std::vector<Vector>& b) {
@@ -102,7 +102,7 @@ TEST(SparseCholesky, SingularMatrixIsShifted) {
   const std::vector<Vector> free = random_vectors(60);
   const Eigen::VectorXd balanced = dense(a) * flat(free);
   std::vector<Vector> b(60);
-  for (Index i = 0; i < 60; ++i) b[as_size(i)] = balanced.segment<3>(3 * i);
+  for (Index i = 0; i < 60; ++i) b[i] = balanced.segment<3>(3 * i);
   SparseCholesky cholesky;
   ASSERT_FALSE(cholesky.factor(a).has_value());
   const Eigen::VectorXd x = flat(solution(cholesky, b));

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = DiffusionBoundary::Kind;
 
-CellField<double> uniform(const Mesh& mesh, double value) { return CellField<double>(as_size(mesh.n_cells()), value); }
+CellField<double> uniform(const Mesh& mesh, double value) { return CellField<double>(mesh.n_cells(), value); }
 
 template <class Exact>
 double largest_error(const Mesh& mesh, const CellField<double>& u, const Exact& exact) {

@@ -12,14 +12,14 @@ namespace {
 
 // Nodes on the boundary and between zones, as the momentum balance has them.
 FaceField<Index> nodes_on_faces(const Mesh& mesh, const CellField<Index>& zone) {
-  FaceField<Index> node(as_size(mesh.n_faces()), -1);
+  FaceField<Index> node(mesh.n_faces(), -1);
   Index next = mesh.n_cells();
   for (Index f = 0; f < mesh.n_faces(); ++f)
     if (!mesh.is_interior(f) || zone[mesh.owner[f]] != zone[mesh.neighbour[f]]) node[f] = next++;
   return node;
 }
 
-CellField<Index> one_zone(const Mesh& mesh) { return CellField<Index>(as_size(mesh.n_cells()), 0); }
+CellField<Index> one_zone(const Mesh& mesh) { return CellField<Index>(mesh.n_cells(), 0); }
 
 struct LinearField {
   Vector offset;
@@ -55,7 +55,7 @@ void expect_exact(const Mesh& mesh, const CellField<Index>& zone, const std::vec
 // Sound, partly and fully broken cells next to each other.
 CellField<double> random_damage(Index n_cells) {
   RandomNumbers random;
-  CellField<double> g(as_size(n_cells));
+  CellField<double> g(n_cells);
   for (double& value : g) value = std::pow(10.0, random.between(-6.0, 0.0));
   return g;
 }
@@ -98,7 +98,7 @@ TEST(Gradient, DeficientCellsHaveNoneIfAskedSo) {
 
 TEST(Gradient, PlaneMeshesHaveNoGradientAcross) {
   const Mesh mesh = box(5, 4, 1);
-  FaceField<Index> nodes(as_size(mesh.n_faces()), -1);
+  FaceField<Index> nodes(mesh.n_faces(), -1);
   Index next = mesh.n_cells();
   for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f)
     if (std::abs(mesh.face_area[f].normalized()[2]) < 0.5) nodes[f] = next++;
@@ -125,9 +125,9 @@ TEST(Gradient, ZonesDoNotSeeEachOther) {
   std::vector<Vector> u = sample(mesh, nodes, left);
   const std::vector<Vector> v = sample(mesh, nodes, right);
   for (Index c = 0; c < mesh.n_cells(); ++c)
-    if (mesh.cell_centre[c][0] > 4.0) u[as_size(c)] = v[as_size(c)];
+    if (mesh.cell_centre[c][0] > 4.0) u[c] = v[c];
   for (Index f = 0; f < mesh.n_faces(); ++f)
-    if (nodes[f] >= 0 && mesh.face_centre[f][0] > 4.0) u[as_size(nodes[f])] = v[as_size(nodes[f])];
+    if (nodes[f] >= 0 && mesh.face_centre[f][0] > 4.0) u[nodes[f]] = v[nodes[f]];
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const Tensor& expected = mesh.cell_centre[c][0] > 4.0 ? right.slope : left.slope;
     EXPECT_LE((gradient.of(u.data(), c) - expected).norm(), 1e-10) << "cell " << c;
@@ -139,15 +139,15 @@ TEST(Gradient, BrokenCellsDoNotBridge) {
   const Mesh mesh = box(9, 3, 3, {9.0, 3.0, 3.0});
   const FaceField<Index> nodes = nodes_on_faces(mesh, one_zone(mesh));
   Gradient gradient(mesh, {.zone = one_zone(mesh), .node_of_face = nodes, .wanted = {}});
-  CellField<double> g(as_size(mesh.n_cells()), 1.0);
-  std::vector<Vector> u(as_size(*std::max_element(nodes.begin(), nodes.end())) + 1, Vector::Zero());
+  CellField<double> g(mesh.n_cells(), 1.0);
+  std::vector<Vector> u(*std::max_element(nodes.begin(), nodes.end()) + 1, Vector::Zero());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const double x = mesh.cell_centre[c][0];
     g[c] = x > 4.0 && x < 5.0 ? 1e-6 : 1.0;
-    u[as_size(c)] = Vector(x > 5.0 ? 1.0 : x > 4.0 ? 0.5 : 0.0, 0.0, 0.0);
+    u[c] = Vector(x > 5.0 ? 1.0 : x > 4.0 ? 0.5 : 0.0, 0.0, 0.0);
   }
   for (Index f = 0; f < mesh.n_faces(); ++f)
-    if (nodes[f] >= 0) u[as_size(nodes[f])] = u[as_size(mesh.owner[f])];
+    if (nodes[f] >= 0) u[nodes[f]] = u[mesh.owner[f]];
   gradient.update(g);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (g[c] == 1.0) {
@@ -161,8 +161,8 @@ TEST(Gradient, DoesNotRememberEarlierDamage) {
   const FaceField<Index> nodes = nodes_on_faces(mesh, mesh.region);
   Gradient long_lived(mesh, {.zone = mesh.region, .node_of_face = nodes, .wanted = {}}), fresh = long_lived;
   RandomNumbers random;
-  const CellField<double> sound(as_size(mesh.n_cells()), 1.0), last = random.field(mesh.n_cells(), 0.1, 1.0);
-  std::vector<Vector> u(as_size(*std::max_element(nodes.begin(), nodes.end())) + 1);
+  const CellField<double> sound(mesh.n_cells(), 1.0), last = random.field(mesh.n_cells(), 0.1, 1.0);
+  std::vector<Vector> u(*std::max_element(nodes.begin(), nodes.end()) + 1);
   for (Vector& value : u) value = random.vector();
   for (const CellField<double>& g : {last, sound}) {
     long_lived.update(random.field(mesh.n_cells(), 1e-6, 1.0));

@@ -19,14 +19,14 @@ constexpr double pi = std::numbers::pi;
 constexpr double k = 0.3, c = 2e6;  // [W/(m K)], [J/(m^3 K)]
 
 HeatBody uniform(const Mesh& mesh, std::vector<DiffusionBoundary> boundary) {
-  return {.conductivity = CellField<double>(as_size(mesh.n_cells()), k),
-          .capacity = CellField<double>(as_size(mesh.n_cells()), c),
+  return {.conductivity = CellField<double>(mesh.n_cells(), k),
+          .capacity = CellField<double>(mesh.n_cells(), c),
           .boundary = std::move(boundary)};
 }
 
 // Rises at the end of `time`, under a source [W/m^3].
 CellField<double> warmed(HeatEquation& equation, const Mesh& mesh, double source, double time, int n) {
-  CellField<double> heat(as_size(mesh.n_cells())), rise(as_size(mesh.n_cells()), 0.0);
+  CellField<double> heat(mesh.n_cells()), rise(mesh.n_cells(), 0.0);
   for (Index i = 0; i < mesh.n_cells(); ++i) heat[i] = source * mesh.cell_volume[i] * time / n;
   HeatBalance account;
   for (int i = 0; i < n; ++i) equation.step(time / n, heat, rise, account);
@@ -136,8 +136,8 @@ TEST(HeatEquation, InterfacesAreResistancesInSeries) {
   constexpr double L_1 = 0.01, L_2 = 0.03, k_1 = 0.3, k_2 = 2.0, area = 1e-4, power = 0.02;
   const Mesh mesh =
       box(8, 1, 1, {L_1 + L_2, 0.01, 0.01}, 1.0, {{.name = "far", .lower = {L_1, -1, -1}, .upper = {1, 1, 1}}});
-  HeatBody body{.conductivity = CellField<double>(as_size(mesh.n_cells())),
-                .capacity = CellField<double>(as_size(mesh.n_cells()), c),
+  HeatBody body{.conductivity = CellField<double>(mesh.n_cells()),
+                .capacity = CellField<double>(mesh.n_cells(), c),
                 .boundary = {{.patch = "xmin", .kind = Kind::value, .value = 0.0},
                              {.patch = "xmax", .kind = Kind::value, .value = 0.0}}};
   for (Index i = 0; i < mesh.n_cells(); ++i) body.conductivity[i] = mesh.cell_centre[i].x() < L_1 ? k_1 : k_2;
@@ -148,7 +148,7 @@ TEST(HeatEquation, InterfacesAreResistancesInSeries) {
   constexpr double forever = 1e9;
   for (const double h : {0.0, 50.0, std::numeric_limits<double>::infinity()}) {
     equation.set_transmittance({equation.transmittance(0, h)});
-    CellField<double> heat(as_size(mesh.n_cells()), 0.0), rise(as_size(mesh.n_cells()), 0.0);
+    CellField<double> heat(mesh.n_cells(), 0.0), rise(mesh.n_cells(), 0.0);
     equation.add_interfaces({power * forever}, heat);
     HeatBalance account;
     equation.step(forever, heat, rise, account);
@@ -207,7 +207,7 @@ TEST(HeatEquation, OneLayerOfSkewedCellsIsLinear) {
 TEST(HeatEquation, RowsUnderASteadySource) {
   const Mesh mesh = box(4, 1, 1, {0.02, 0.01, 0.01});
   HeatEquation equation(mesh, uniform(mesh, {}));
-  CellField<double> power(as_size(mesh.n_cells()), 0.0), rise = power;
+  CellField<double> power(mesh.n_cells(), 0.0), rise = power;
   power[3] = 0.5;
   const std::vector<HeatRow> rows = equation.under_steady_source(power, 100.0, 5, rise);
   ASSERT_EQ(rows.size(), 6u);

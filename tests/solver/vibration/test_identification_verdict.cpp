@@ -67,7 +67,7 @@ TEST(IdentificationVerdict, WrongModelsAreDoubted) {
 /// k_1 ... k_5, damping and a pair at 220 Hz, with a real term at 1500/s or without.
 MassMaterial truth_with_pair(int stiffness_order, bool with_real_term) {
   MassMaterial t = truth("2");
-  t.stiffness.resize(static_cast<std::size_t>(stiffness_order));
+  t.stiffness.resize(stiffness_order);
   t.damping *= 0.5;
   t.forcing = KernelForcing::velocity;
   const double kk = t.stiffness[0], omega = 2.0 * std::numbers::pi * 220.0;
@@ -159,7 +159,7 @@ TEST(IdentificationVerdict, NoiseOfBothChannelsIsToldApart) {
   EXPECT_NEAR(noise.relative / density(clean.relative), 1.0, 0.1);
   const Identification found = identify(std::span(&r, 1), model_structure("1"), settings);
   for (const auto& [estimate, expected] : {std::pair(0, t.stiffness[0]), std::pair(1, t.damping)}) {
-    const Estimate& e = found.fit.estimates[static_cast<std::size_t>(estimate)];
+    const Estimate& e = found.fit.estimates[estimate];
     EXPECT_NEAR(e.value, expected, 3.0 * e.standard_error) << e.name;
   }
 }

@@ -23,7 +23,7 @@ std::vector<double> polynomial_of(std::span<const OgdenTerm> terms, int n, doubl
   }
   const Eigen::VectorXd scaled = powers.colPivHouseholderQr().solve(force);
   std::vector<double> k;
-  k.reserve(static_cast<std::size_t>(n));
+  k.reserve(n);
   for (int i = 0; i < n; ++i) k.push_back(scaled[i] / std::pow(largest, i + 1));
   return k;
 }

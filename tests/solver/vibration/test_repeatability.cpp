@@ -55,8 +55,7 @@ TEST(Repeatability, IntervalsHoldTheTruthAsOftenAsTheySay) {
   for (int trial = 1; trial <= trials; ++trial) {
     const Eigen::VectorXd noise = normal_numbers(static_cast<Eigen::Index>(runs.size()), 77 + trial);
     std::vector<double> values;
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      values.push_back(5.0 + 0.01 * runs[i].age / day + 0.3 * noise[static_cast<Eigen::Index>(i)]);
+    for (std::size_t i = 0; i < runs.size(); ++i) values.push_back(5.0 + 0.01 * runs[i].age / day + 0.3 * noise[i]);
     const Repeatability found = repeatability(runs, values);
     const Effect& e = found.effects[1];
     ASSERT_EQ(e.name, "per_day");

@@ -99,7 +99,7 @@ TEST(BandAcrossABox, IsThatOfABarBetweenItsEnds) {
   FractureRun of_bar(mesh, bar, tight(), in_steps(20)), of_box(mesh, box, tight(), in_steps(20));
   const std::vector<StepReport> pulled = follow(of_bar), moved_box = follow(of_box);
   ASSERT_EQ(pulled.size(), moved_box.size());
-  const auto zmax = static_cast<std::size_t>(&mesh.patch("zmax") - mesh.patches.data());
+  const auto zmax = mesh.patch_index("zmax");
   double peak = 0.0, worst = 0.0;
   for (std::size_t i = 0; i < pulled.size(); ++i) {
     const double due = pulled[i].reaction[zmax].z() / 1e-6;
@@ -121,7 +121,7 @@ TEST(CrackedBinder, IsThatOfDisplacedPatches) {
   const Mesh mesh = sphere_in_cube(2, 1, 2.0, 0.6);
   const double ell = 0.4, end = 1.5 * std::sqrt(3.0 * Gc / (8.0 * ell * E));
   FractureModel by_patches = breakable("AT1", ell, mesh.region_names.size());
-  RegionModel& bead = by_patches.regions[as_size(mesh.region_index("bead"))];
+  RegionModel& bead = by_patches.regions[mesh.region_index("bead")];
   bead.elasticity = from_young_poisson(70e9, 0.22);
   bead.damageable = false;
   FractureModel by_strains = by_patches;

@@ -33,7 +33,7 @@ Mesh layers(const std::vector<double>& thicknesses, Index n_sideways = 3) {
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     double z = mesh.cell_centre[c].z();
     Index layer = 0;
-    while (z > thicknesses[as_size(layer)]) z -= thicknesses[as_size(layer++)];
+    while (z > thicknesses[layer]) z -= thicknesses[layer++];
     mesh.region[c] = layer;
   }
   return mesh;
@@ -125,8 +125,8 @@ TEST_P(Boxes, StressesAndStrainsMixAsTheStiffnessSays) {
                                        {.loading = &homogenization_loading(GetParam()), .tolerance = 1e-12});
   MandelMatrix stresses, strains_of_cases;
   for (Index k = 0; k < n_components; ++k) {
-    stresses.col(k) = whole.cases[static_cast<std::size_t>(k)].stress;
-    strains_of_cases.col(k) = whole.cases[static_cast<std::size_t>(k)].strain;
+    stresses.col(k) = whole.cases[k].stress;
+    strains_of_cases.col(k) = whole.cases[k].strain;
   }
   const MandelMatrix C = stresses * strains_of_cases.inverse();
   MeanPath path;
@@ -142,8 +142,8 @@ TEST_P(Boxes, StressesAndStrainsMixAsTheStiffnessSays) {
     report_row(fmt::format("{}, point {}", GetParam(), i), {{"apart", apart}});
     EXPECT_LE(apart, 1e-7);
     for (int k = 0; k < n_components; ++k) {
-      const double due = path.points[i][static_cast<std::size_t>(k)] * mandel_factor(k);
-      if (path.by_stress[static_cast<std::size_t>(k)])
+      const double due = path.points[i][k] * mandel_factor(k);
+      if (path.by_stress[k])
         EXPECT_NEAR(stress[k], due, 1e-7 * stress.norm());
       else
         EXPECT_NEAR(strain[k], due, 1e-12);
@@ -277,7 +277,7 @@ TEST(FreeStrains, TakeHardlyMoreIterations) {
   const StepReport free = end_of(strains({{zz, {0.01}}}));
   MeanPath path{.points = {{}}};
   for (std::size_t k = 0; k < 6; ++k)
-    path.points[0][k] = to_mandel(free.means->strain)[static_cast<Index>(k)] / mandel_factor(static_cast<int>(k));
+    path.points[0][k] = to_mandel(free.means->strain)[k] / mandel_factor(static_cast<int>(k));
   const StepReport prescribed = end_of(path);
   report_row(fmt::format("{} cells", mesh.n_cells()),
              {{"free", static_cast<double>(free.krylov_iterations)},
@@ -300,8 +300,8 @@ TEST(StiffInclusions, TurnWithTheirShells) {
   const Mesh mesh = make_packed_spheres(packing);
   const auto iterations = [&](double core, double shell) {
     FractureModel model = elastic_model(std::vector(3, from_young_poisson(75e6, 0.44)), {});
-    model.regions[as_size(mesh.region_index("core"))].elasticity = from_young_poisson(core, 0.3);
-    model.regions[as_size(mesh.region_index("shell"))].elasticity = from_young_poisson(shell, 0.3);
+    model.regions[mesh.region_index("core")].elasticity = from_young_poisson(core, 0.3);
+    model.regions[mesh.region_index("shell")].elasticity = from_young_poisson(shell, 0.3);
     load(model, mesh, strains({{zz, {0.01}}}), "periodic");
     return static_cast<double>(follow(mesh, model, strains({{zz, {0.01}}}), 1e-8).back().krylov_iterations);
   };

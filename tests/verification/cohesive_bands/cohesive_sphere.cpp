@@ -130,9 +130,9 @@ FractureModel model_on(const Mesh& mesh, const Layers& layers, double largest_lo
     model.regions.push_back(name == "interface"
                                 ? band_model(ft)
                                 : RegionModel{.elasticity = name == "bead" ? glass : sylgard, .damageable = false});
-  model.cells = CellField<RegionModel>(as_size(mesh.n_cells()));
+  model.cells = CellField<RegionModel>(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    model.cells[c] = model.regions[as_size(mesh.region[c])];
+    model.cells[c] = model.regions[mesh.region[c]];
     if (!model.cells[c].damageable) continue;
     const double r = mesh.cell_centre[c][0], strength = ft * std::pow(layers.crack() / r, 2);
     model.cells[c] = band_model(std::abs(r - layers.crack()) < 0.7 * ell ? 0.997 * strength : strength);
@@ -187,7 +187,7 @@ Measured pulled(double a, Index n_steps) {
   const FractureState broken =
       run_to(1.0, (1.0 - elastic) / static_cast<double>(n_steps), run_to(elastic, elastic, std::nullopt));
   const auto most = std::ranges::max_element(broken.damage) - broken.damage.begin();
-  measured.crack = mesh.cell_centre[static_cast<Index>(most)].x();
+  measured.crack = mesh.cell_centre[most].x();
   return measured;
 }
 

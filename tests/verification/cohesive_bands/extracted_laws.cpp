@@ -99,13 +99,13 @@ INSTANTIATE_TEST_SUITE_P(Laws, ExtractedFromBar, ::testing::Values("linear", "ex
 
 FractureState state_with(const Bar& bar, const Profile& profile) {
   FractureState state = bar.sound_state();
-  CellField<double> g(as_size(bar.mesh().n_cells()));
+  CellField<double> g(bar.mesh().n_cells());
   for (Index c = 0; c < bar.mesh().n_cells(); ++c) {
     state.damage[c] = profile.at(std::abs(bar.mesh().cell_centre[c][0]) / Bar::ell);
     g[c] = (1.0 - bar.model().residual_stiffness) * std::pow(1.0 - state.damage[c], 2) + bar.model().residual_stiffness;
   }
   const auto solution = solve_elastic(bar.mesh(), bar.model(), g, 1e-11);
-  const auto pulled = static_cast<std::size_t>(&bar.mesh().patch("xmax") - bar.mesh().patches.data());
+  const auto pulled = bar.mesh().patch_index("xmax");
   const double scale = profile.stress * bar.area() / reactions(bar.mesh(), *solution)[pulled][0];
   state.displacement = solution->u;
   for (Vector& u : state.displacement) u *= scale;

@@ -121,7 +121,7 @@ TEST(BeamsWithCohesiveFaces, PeelAsTheCorrectedBeam) {
   EXPECT_TRUE(run.interface_warnings().empty());
   std::vector<std::pair<double, double>> curve;
   run_to_end(run, [&](const FractureState& state, const StepReport& report) {
-    curve.emplace_back(end * state.load, report.reaction[mesh_patch(mesh, "upper")].y() / width);
+    curve.emplace_back(end * state.load, report.reaction[mesh.patch_index("upper")].y() / width);
   });
   report_and_expect("double cantilever beam", errors_of(curve, crack, 1.2));
 }
@@ -182,7 +182,7 @@ TEST(BeamsWithCohesiveFaces, ShearAsTheCorrectedBeam) {
   std::vector<std::pair<double, double>> curve;
   double deepest = 0.0;
   run_to_end(run, [&](const FractureState& state, const StepReport& report) {
-    curve.emplace_back(end * state.load, -report.reaction[mesh_patch(mesh, "middle")].y() / ThreePoints::width);
+    curve.emplace_back(end * state.load, -report.reaction[mesh.patch_index("middle")].y() / ThreePoints::width);
     const OutputFields fields = run.output(state);
     for (const double opening : fields.interfaces[1].opening) deepest = std::min(deepest, opening);
   });
@@ -227,7 +227,7 @@ TEST(BeamsWithCohesiveFaces, BendOnOneLegAsTheCorrectedBeam) {
       {.end = 1.0, .initial_increment = 0.05, .maximum_increment = 0.05, .stops = {crack.displacement(from) / end}});
   std::vector<std::pair<double, double>> curve;
   run_to_end(run, [&](const FractureState& state, const StepReport& report) {
-    curve.emplace_back(end * state.load, -report.reaction[mesh_patch(mesh, "middle")].y() / ThreePoints::width);
+    curve.emplace_back(end * state.load, -report.reaction[mesh.patch_index("middle")].y() / ThreePoints::width);
   });
   report_row("single-leg bending", {{"share of shear in G", beam.shear_release(from) / release(from)},
                                     {"toughness over that in opening", toughness_at(from) / peel_Gc}});
@@ -302,8 +302,8 @@ void expect_mixed_mode_bending(const char* what, double c, double from) {
   run_to_end(run, [&](const FractureState& state, const StepReport& report) {
     const double t = state.load, L = ThreePoints::half_span;
     if (t < 0.1) return;
-    const double lifted = report.reaction[mesh_patch(mesh, "lifted")].y() / ThreePoints::width;
-    const double pressed = -report.reaction[mesh_patch(mesh, "middle")].y() / ThreePoints::width;
+    const double lifted = report.reaction[mesh.patch_index("lifted")].y() / ThreePoints::width;
+    const double pressed = -report.reaction[mesh.patch_index("middle")].y() / ThreePoints::width;
     const double P = pressed - lifted, error = P / path.load(t) - 1.0;
     if (t < 0.25) errors.stiffness = error;
     largest = std::max(largest, P);

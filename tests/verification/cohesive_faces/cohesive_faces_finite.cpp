@@ -56,7 +56,7 @@ std::vector<Step> step_through(const Mesh& mesh, const FractureModel& model, std
                    .stops = {}});
   std::vector<Step> steps;
   run_to_end(run, [&](const FractureState& state, const StepReport& report) {
-    steps.push_back({report.reaction[mesh_patch(mesh, "xmax")], run.output(state).interfaces[0], report.energy});
+    steps.push_back({report.reaction[mesh.patch_index("xmax")], run.output(state).interfaces[0], report.energy});
   });
   return steps;
 }
@@ -274,7 +274,7 @@ TEST(FiniteFaces, AreThoseOfSmallStrainWhereItIsSmall) {
   const End small = end_of(mesh, model);
   make_finite(model);
   const End large = end_of(mesh, model);
-  const std::size_t top = mesh_patch(mesh, "zmax");
+  const std::size_t top = mesh.patch_index("zmax");
   const double force = large.report.reaction[top].z() / small.report.reaction[top].z() - 1.0;
   const double dissipated = large.report.energy.interface_dissipation / small.report.energy.interface_dissipation - 1.0;
   double wrong = 0.0, most = 0.0;

@@ -47,7 +47,7 @@ TEST(LongBlocks, SnapBackAlongTheLaw) {
   run_to_end(run, [&](const FractureState& state, const StepReport& report) {
     const OutputFields fields = run.output(state);
     const double opening = fields.interfaces[0].opening[0],
-                 traction = report.reaction[mesh_patch(mesh, "xmax")].x() / area;
+                 traction = report.reaction[mesh.patch_index("xmax")].x() / area;
     const double due = law.respond(glued, Vector::UnitX(), opening * Vector::UnitX(), {}).traction.x();
     worst = std::max(
         {worst, std::abs(traction - due) / strength, std::abs(state.load * peak - opening - compliance * due) / peak});
@@ -80,7 +80,7 @@ TEST(LongBlocks, LetGoAtThePeakIfIncrementsFollowTheReleasedEnergy) {
                      .stops = {}});
     double largest = 0.0, last = 0.0;
     run_to_end(run, [&](const FractureState&, const StepReport& report) {
-      last = report.reaction[mesh_patch(mesh, "xmax")].x() / (0.04 * block_length * block_length);
+      last = report.reaction[mesh.patch_index("xmax")].x() / (0.04 * block_length * block_length);
       largest = std::max(largest, last);
     });
     EXPECT_NEAR(last, 0.0, 1e-6 * strength);

@@ -55,7 +55,7 @@ Debonding debond(const Mesh& mesh, double displacement, double increment) {
                    .minimum_increment = increment,
                    .maximum_increment = increment,
                    .stops = {}});
-  const auto top = static_cast<std::size_t>(&mesh.patch("zmax") - mesh.patches.data());
+  const auto top = mesh.patch_index("zmax");
   Debonding result;
   const FractureState end = run_to_end(run, [&](const FractureState&, const StepReport& report) {
     result.force.push_back(report.reaction[top].z());

@@ -77,7 +77,7 @@ double debond_stress(const Cap& cap) {
     region.Gc = band_toughness(*model.crack, toughness, 5.0 * h, ell, hard, hard);
   }
   const Index row = mesh.region_index("crack");
-  model.initial_damage = CellField<double>(as_size(mesh.n_cells()), 0.0);
+  model.initial_damage = CellField<double>(mesh.n_cells(), 0.0);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (mesh.region[c] == row && mesh.cell_centre[c].normalized().z() > std::cos(30.0 * degree))
       model.initial_damage[c] = 1.0;

@@ -59,7 +59,7 @@ TEST(CornerCrack, BreaksAsTheMeasuredPanel) {
   const Mesh mesh = panel();
   FractureRun run(mesh, concrete(mesh), {},
                   {.end = 0.4, .initial_increment = 0.04, .maximum_increment = 0.04, .stops = {}});
-  const auto load = static_cast<std::size_t>(&mesh.patch("load") - mesh.patches.data());
+  const auto load = mesh.patch_index("load");
   std::map<double, double> displacement_at_force;
   double last = 0.0;
   const auto step_done = [&](const FractureState&, const StepReport& r) {

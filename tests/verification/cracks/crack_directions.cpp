@@ -42,7 +42,7 @@ double energy_of(const Mesh& mesh, double thickness, const FractureModel& model,
   const double angle = crack.angle * std::numbers::pi / 180.0;
   const Vector along(std::cos(angle), std::sin(angle), 0.0), up(-along.y(), along.x(), 0.0);
   const Vector middle = Vector(0.5, 0.5, 0.0) + crack.offset * up;
-  CellField<double> d(as_size(mesh.n_cells()), 0.0);
+  CellField<double> d(mesh.n_cells(), 0.0);
   for (const Index c : cells_on(mesh, strip(middle - 2.0 * along, middle + 2.0 * along, Vector::UnitZ()))) d[c] = 1.0;
   DamageEquation equation(mesh, model, plane_normal);
   d = equation.relaxed(d);
@@ -139,7 +139,7 @@ TEST(CrackDirections, CostTheSameInAPlaneOfSymmetryOfTetrahedra) {
   for (const double cells : {2.0, 3.0}) {
     FractureModel model = model_of("AT2", cells * h);
     model.boundary = {symmetry_on("zmin")};
-    CellField<double> d(as_size(mesh.n_cells()), 0.0);
+    CellField<double> d(mesh.n_cells(), 0.0);
     for (const Index c : cells_on(mesh, disc(Vector::Zero(), Vector::UnitZ(), 10.0))) d[c] = 1.0;
     DamageEquation equation(mesh, model, Vector::Zero());
     d = equation.relaxed(d);
@@ -182,7 +182,7 @@ Followed follow(double degrees) {
     };
     model.boundary.push_back(moving);
   }
-  CellField<double> d(as_size(mesh.n_cells()), 0.0);
+  CellField<double> d(mesh.n_cells(), 0.0);
   for (const Index c : cells_on(mesh, strip(begin - 2.0 * along, begin, Vector::UnitZ()))) d[c] = 1.0;
   model.initial_damage = DamageEquation(mesh, model, Vector::UnitZ()).relaxed(d);
   FractureRun run(mesh, model, {},
@@ -253,7 +253,7 @@ TEST(VertexMeans, SpreadAsTheyAreTakenInEveryShape) {
     for (Index c = 0; c < mesh.n_cells(); ++c)
       if (c % 5 != 0) cells.push_back(c);
     const VertexMeans means(mesh, cells);
-    CellField<double> v(as_size(mesh.n_cells())), w(as_size(mesh.n_cells()));
+    CellField<double> v(mesh.n_cells()), w(mesh.n_cells());
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       v[c] = std::sin(3.0 * static_cast<double>(c));
       w[c] = std::cos(7.0 * static_cast<double>(c));
@@ -272,14 +272,14 @@ TEST(VertexMeans, SpreadAsTheyAreTakenInEveryShape) {
 // what they vary by over a cell: their weights are limited.
 TEST(VertexMeans, AreExactForLinearFieldsInEveryShape) {
   for (const auto& [name, mesh] : meshes_of_every_shape()) {
-    std::vector<Index> cells(as_size(mesh.n_cells()));
+    std::vector<Index> cells(mesh.n_cells());
     std::iota(cells.begin(), cells.end(), 0);
     const VertexMeans means(mesh, cells);
     std::vector<char> on_side(mesh.points.size(), 0), on_z(mesh.points.size(), 0);
     for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f)
       for (const Index p : mesh.points_of_face(f))
-        (std::abs(mesh.face_area[f].z()) > 0.9 * mesh.face_area[f].norm() ? on_z : on_side)[as_size(p)] = 1;
-    CellField<double> v(as_size(mesh.n_cells())), flat(as_size(mesh.n_cells()));
+        (std::abs(mesh.face_area[f].z()) > 0.9 * mesh.face_area[f].norm() ? on_z : on_side)[p] = 1;
+    CellField<double> v(mesh.n_cells()), flat(mesh.n_cells());
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       v[c] = mesh.cell_centre[c].dot(Vector(0.2, 0.3, 0.4));
       flat[c] = mesh.cell_centre[c].dot(Vector(0.2, 0.3, 0.0));
@@ -288,7 +288,7 @@ TEST(VertexMeans, AreExactForLinearFieldsInEveryShape) {
     Index inner = 0, beside = 0;
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       const auto is_on = [&](const std::vector<char>& surface) {
-        return std::ranges::any_of(mesh.points_of_cell(c), [&](Index p) { return surface[as_size(p)] != 0; });
+        return std::ranges::any_of(mesh.points_of_cell(c), [&](Index p) { return surface[p] != 0; });
       };
       if (is_on(on_side)) continue;
       EXPECT_NEAR(of_flat[c], flat[c], is_on(on_z) && name == "polyhedra" ? 2e-3 : 1e-13) << name;

@@ -34,7 +34,7 @@ StressIntensity intensity_of(const SlitPlate& plate, TipRegion ring, double leng
 OutputFields elastic_fields(const Mesh& mesh, const FractureModel& model) {
   const auto solution = solve_elastic(mesh, model);
   OutputFields fields;
-  fields.damage = CellField<double>(as_size(mesh.n_cells()), 0.0);
+  fields.damage = CellField<double>(mesh.n_cells(), 0.0);
   fields.strain = solution->cells.strain;
   fields.gradient = solution->cells.gradient;
   fields.stress = solution->cells.stress;
@@ -264,7 +264,7 @@ TEST(StressIntensity, OfACrackBetweenGlassAndPolymerIsTheClosedForm) {
 
 TEST(StressIntensity, IsNoneWhereTheRingHasTwoMaterialsOnOneSide) {
   SlitPlate plate = solve(20, 1.0, 0.0);
-  plate.model.cells = CellField<RegionModel>(as_size(plate.mesh.n_cells()), plate.model.regions.front());
+  plate.model.cells = CellField<RegionModel>(plate.mesh.n_cells(), plate.model.regions.front());
   const TipRegion ring{.name = "tip", .inner = 0.3e-3, .outer = 0.8e-3};
   EXPECT_FALSE(std::isnan(intensity_of(plate, ring, 1e-3).K1));
   for (Index c = 0; c < plate.mesh.n_cells(); ++c)

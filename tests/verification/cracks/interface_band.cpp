@@ -47,7 +47,7 @@ BandedBar banded_bar(const std::string& law, double half_width, Index cells_per_
 // What a crack that is prescribed at mid-band dissipates, per area.
 double dissipation(const BandedBar& bar) {
   DamageEquation equation(bar.mesh, bar.model, Vector::Zero());
-  const auto n = as_size(bar.mesh.n_cells());
+  const std::size_t n = bar.mesh.n_cells();
   CellField<double> lower(n, 0.0), d(n, 0.0), psi(n, 0.0);
   lower[bar.crack] = d[bar.crack] = 1.0;
   equation.solve(psi, lower, {}, d);

@@ -58,14 +58,14 @@ struct Broken {
 // The patch ymax is moved by `end` [m] along the component; what is not along it stays free or is held.
 Broken load(Plate plate, int component, bool held, double end, const LoadingSettings& loading) {
   std::array<bool, 3> prescribed{held, held, false};
-  prescribed[static_cast<std::size_t>(component)] = true;
+  prescribed[component] = true;
   plate.model.boundary.push_back(
       {.patch = "ymax",
        .kind = BoundaryCondition::Kind::components,
        .displacement_prescribed = prescribed,
        .value = [=](const Vector&, double t) -> Vector { return t * end * Vector::Unit(component); }});
   FractureRun run(plate.mesh, plate.model, {.maximum_iterations = 2000}, loading);
-  const auto top = static_cast<std::size_t>(&plate.mesh.patch("ymax") - plate.mesh.patches.data());
+  const auto top = plate.mesh.patch_index("ymax");
   Broken broken;
   broken.damage =
       run_to_end(run, [&](const FractureState&, const StepReport& report) {
@@ -132,12 +132,12 @@ Pulled pull_plate(const std::string& split, const std::string& model_name) {
                                     return {0.0, 8e-6 * t, 0.0};
                                   }});
   FractureRun run(plate.mesh, plate.model, {}, {.stops = {}});
-  const auto top = static_cast<std::size_t>(&plate.mesh.patch("ymax") - plate.mesh.patches.data());
+  const auto top = plate.mesh.patch_index("ymax");
   Pulled on;
   run_to_end(run, [&](const FractureState&, const StepReport& report) {
     on.end = report.reaction[top][1];
     on.peak = std::max(on.peak, on.end);
-    on.cut += static_cast<Index>(report.remarks.size());
+    on.cut += count_of(report.remarks);
   });
   on.iterations = run.staggered_iterations();
   return on;

@@ -33,7 +33,7 @@ FractureModel model_of(const Mesh& mesh, const std::string& law) {
 
 // What the equation lacks at the manufactured field, in the middle of each cell.
 CellField<double> source_of(const Mesh& mesh, const FractureModel& model, const Manufactured& exact) {
-  CellField<double> source(as_size(mesh.n_cells()));
+  CellField<double> source(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const double d = exact.d(mesh.cell_centre[c]);
     source[c] = Gc / (model.crack->c0 * ell) * model.crack->alpha_prime(d) +
@@ -54,7 +54,7 @@ struct Result {
 Result solve(const Mesh& mesh, const FractureModel& model, const Manufactured& exact, const std::string& region = {}) {
   DamageEquation equation(mesh, model, Vector::Zero());
   equation.set_source(source_of(mesh, model, exact));
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   const CellField<double> driving(n, psi), lower(n, 0.0);
   CellField<double> d(n, 0.0);
   Result result{.cells = mesh.n_cells()};

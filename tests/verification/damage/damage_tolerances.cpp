@@ -21,7 +21,7 @@ struct Outcome {
 Outcome debond(const Mesh& mesh, const StaggeredSettings& settings) {
   FractureRun run(mesh, bead_model(mesh, "volumetric_deviatoric", 0.3), settings,
                   {.initial_increment = 0.1, .maximum_increment = 0.1, .stops = {}});
-  const auto top = static_cast<std::size_t>(&mesh.patch("zmax") - mesh.patches.data());
+  const auto top = mesh.patch_index("zmax");
   Outcome outcome;
   const FractureState end = run_to_end(
       run, [&](const FractureState&, const StepReport& report) { outcome.forces.push_back(report.reaction[top].z()); });

@@ -210,7 +210,7 @@ TEST(DamagedBars, At2KeepsItsBulkDissipation) {
   ASSERT_NE(broken, states.end());
   std::vector<double> before;
   for (const Index c : bar.row())
-    if (bar.model().regions[as_size(bar.mesh().region[c])].damageable) before.push_back((broken - 1)->damage[c]);
+    if (bar.model().regions[bar.mesh().region[c]].damageable) before.push_back((broken - 1)->damage[c]);
   const double expected = at2_obstacle_energy(before, 0.1);
   EXPECT_GT(expected, 1.1);
   expect_toughness(states.back(), bar, expected, "AT2 toughness with its bulk's");
@@ -221,7 +221,7 @@ TEST(DamagedBars, At2KeepsItsBulkDissipation) {
 
 // Largest difference between the damage that the equation answers and the profile.
 double profile_error(const Bar& bar, const Profile& profile) {
-  CellField<double> exact(as_size(bar.mesh().n_cells())), psi = exact, lower = exact;
+  CellField<double> exact(bar.mesh().n_cells()), psi = exact, lower = exact;
   for (Index c = 0; c < bar.mesh().n_cells(); ++c) {
     exact[c] = profile.at(std::abs(bar.mesh().cell_centre[c][0]) / Bar::ell);
     psi[c] = std::pow(profile.stress, 2) / (2.0 * Bar::E * std::pow(1.0 - exact[c], 4));
@@ -236,11 +236,11 @@ double profile_error(const Bar& bar, const Profile& profile) {
 
 // Elongation beyond that of the far field at the profile's stress, over the closed form's separation.
 double separation_ratio(const Bar& bar, const Profile& profile) {
-  CellField<double> g(as_size(bar.mesh().n_cells()));
+  CellField<double> g(bar.mesh().n_cells());
   for (Index c = 0; c < bar.mesh().n_cells(); ++c)
     g[c] = std::pow(1.0 - profile.at(std::abs(bar.mesh().cell_centre[c][0]) / Bar::ell), 2);
   const auto solution = solve_elastic(bar.mesh(), bar.model(), g, 1e-10);
-  const auto pulled = static_cast<std::size_t>(&bar.mesh().patch("xmax") - bar.mesh().patches.data());
+  const auto pulled = bar.mesh().patch_index("xmax");
   const double stress = reactions(bar.mesh(), *solution)[pulled][0] / bar.area();
   const double elongation = bar.strength() / Bar::E * bar.length() * profile.stress / stress;
   const double far = profile.stress / Bar::E * bar.length() / std::pow(1.0 - profile.far_damage, 2);

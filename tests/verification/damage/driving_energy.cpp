@@ -41,8 +41,8 @@ class Body {
         unknowns_(place_unknowns(mesh, elastic_body(model_))),
         solver_(mesh, unknowns_),
         stiffness_(mesh, model_) {
-    state_.closure = CellField<double>(as_size(mesh.n_cells()), 0.0);
-    state_.displacement.assign(as_size(unknowns_.n_unknowns()), Vector::Zero());
+    state_.closure = CellField<double>(mesh.n_cells(), 0.0);
+    state_.displacement.assign(unknowns_.n_unknowns(), Vector::Zero());
     state_.load = 1.0;
     stiffness_.start_step(0.0);
   }
@@ -87,7 +87,7 @@ class Body {
 CellField<double> random_damage(const Mesh& mesh) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(0.0, 0.3);
-  CellField<double> d(as_size(mesh.n_cells()));
+  CellField<double> d(mesh.n_cells());
   for (double& value : d) value = any(random);
   return d;
 }
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Energy, Cells, ::testing::Bool(),
 // A crack in the middle one of five layers of prisms around a sphere, and its front: damage that rises to 0.97 over two
 // cells, with the profile of the phase field across the layers.
 CellField<double> front(const Mesh& mesh, double radius) {
-  CellField<double> d(as_size(mesh.n_cells()), 0.0);
+  CellField<double> d(mesh.n_cells(), 0.0);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const Vector& x = mesh.cell_centre[c];
     const double polar = std::acos(x[2] / x.norm()), across = std::abs(x.norm() - radius);

@@ -43,10 +43,10 @@ Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField
   CellStiffness stiffness(mesh, model);
   stiffness.start_step(0.0);
   Equilibrated result;
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   result.state.damage = std::move(damage);
   result.state.closure = CellField<double>(n, 0.0);
-  result.state.displacement.assign(as_size(unknowns.n_unknowns()), Vector::Zero());
+  result.state.displacement.assign(unknowns.n_unknowns(), Vector::Zero());
   result.state.load = 1.0;
   constexpr MomentumSolver::Tolerance tight{.ceiling = 1e-12, .floor = 1e-12};
   for (double unsettled = 1.0; unsettled > 1e-13 && result.iterations < 50;) {
@@ -67,12 +67,12 @@ Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField
   const std::vector<Vector> force = solver.balance().boundary_forces(result.state.displacement);
   for (std::size_t p = 0; p < mesh.patches.size(); ++p)
     for (Index f = 0; f < mesh.patches[p].n_faces; ++f)
-      result.reaction[p] += force[as_size(mesh.patches[p].first_face + f - mesh.n_interior_faces())];
+      result.reaction[p] += force[mesh.patches[p].first_face + f - mesh.n_interior_faces()];
   return result;
 }
 
 const Vector& reaction(const Mesh& mesh, const Equilibrated& on, const std::string& patch) {
-  return on.reaction[static_cast<std::size_t>(&mesh.patch(patch) - mesh.patches.data())];
+  return on.reaction[mesh.patch_index(patch)];
 }
 
 struct Halves {
@@ -85,7 +85,7 @@ Halves two_halves() {
                               .regions = {{.name = "lower", .lower = Vector(-1, -1, -1), .upper = Vector(2, 0.5, 1)}},
                               .base_region = "upper",
                               .slits = {}});
-  const auto upper = as_size(mesh.region_index("upper")), lower = as_size(mesh.region_index("lower"));
+  const std::size_t upper = mesh.region_index("upper"), lower = as_size(mesh.region_index("lower"));
   return {std::move(mesh), upper, lower};
 }
 
@@ -103,7 +103,7 @@ TEST(EnergySplits, RegionsMayDifferInSplitAndDegradation) {
     model.regions.assign(2, {.elasticity = cork, .Gc = 1.0, .ell = 1.0});
     model.regions[lower].degradation = Degradation(degradation_law("cubic"), {0.5});
     model.regions[lower].split = energy_split(split);
-    const Equilibrated on = equilibrium(mesh, model, CellField<double>(as_size(mesh.n_cells()), d));
+    const Equilibrated on = equilibrium(mesh, model, CellField<double>(mesh.n_cells(), d));
     const double cubic = 0.5 * (x * x * x - x * x) + 3.0 * x * x - 2.0 * x * x * x;
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       const bool is_lower = as_size(mesh.region[c]) == lower;
@@ -122,7 +122,7 @@ TEST(EnergySplits, RegionsMayDifferInTheKindOfSplit) {
                                       displacement_on_all(mesh, [&](const Vector& at) -> Vector { return eps * at; }));
   model.regions.assign(2, {.elasticity = steel, .Gc = 1.0, .ell = 1.0});
   model.regions[lower].split = energy_split("volumetric_deviatoric");
-  const Equilibrated on = equilibrium(mesh, model, CellField<double>(as_size(mesh.n_cells()), 0.9));
+  const Equilibrated on = equilibrium(mesh, model, CellField<double>(mesh.n_cells(), 0.9));
   for (Index c = 0; c < mesh.n_cells(); ++c)
     EXPECT_LE((on.cells.stress[c] - stress(steel, eps)).norm(), 1e-8 * stress(steel, eps).norm());
 }
@@ -145,7 +145,7 @@ TEST(EnergySplits, AHomogeneousPlateFollowsTheLaw) {
         const Mesh mesh = plate(n);
         const FractureModel model =
             damaged_model(split, displacement_on_all(mesh, [&](const Vector& x) -> Vector { return strain * x; }));
-        const Equilibrated on = equilibrium(mesh, model, CellField<double>(as_size(mesh.n_cells()), d));
+        const Equilibrated on = equilibrium(mesh, model, CellField<double>(mesh.n_cells(), d));
         const Tensor expected = degraded_stress(split, steel, g, strain);
         const auto [plus, minus] = split.energy(steel, strain);
         of_energy = std::max(of_energy, std::abs(on.energy - (g * plus + minus)) / (plus + minus));
@@ -188,7 +188,7 @@ TEST(EnergySplits, AHomogeneousPlateInPlaneStressFollowsTheLaw) {
       for (const char* side : {"xmin", "xmax", "ymin", "ymax"})
         boundary.push_back(displacement_on(side, [&](const Vector& x) -> Vector { return in_plane * x; }));
       const FractureModel model = damaged_model(split, boundary);
-      const Equilibrated on = equilibrium(mesh, model, CellField<double>(as_size(mesh.n_cells()), d));
+      const Equilibrated on = equilibrium(mesh, model, CellField<double>(mesh.n_cells(), d));
       const Tensor expected = degraded_stress(split, steel, g, strain);
       const CellStiffness stiffness(mesh, model);
       const double driving = split.energy(steel, strain).psi_plus;
@@ -218,7 +218,7 @@ std::vector<BoundaryCondition> pressed(double displacement, double sideways = 0.
 }
 
 CellField<double> broken_row(const Mesh& mesh) {
-  CellField<double> damage(as_size(mesh.n_cells()), 0.0);
+  CellField<double> damage(mesh.n_cells(), 0.0);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (std::abs(mesh.cell_centre[c][1] - 0.5) < 0.01) damage[c] = 1.0;
   return damage;
@@ -233,7 +233,7 @@ void expect_recovery(const char* split, bool sides_may_move) {
     if (!sides_may_move)
       for (const char* side : {"xmin", "xmax"}) model.boundary.push_back(symmetry_on(side));
     const Equilibrated on =
-        equilibrium(mesh, model, broken ? broken_row(mesh) : CellField<double>(as_size(mesh.n_cells()), 0.0));
+        equilibrium(mesh, model, broken ? broken_row(mesh) : CellField<double>(mesh.n_cells(), 0.0));
     report_row(std::string(split) + (broken ? ", broken" : ", sound"),
                {{"displacement", displacement},
                 {"force", reaction(mesh, on, "ymax")[1]},
@@ -281,7 +281,7 @@ TEST(EnergySplits, TheFullTensorOperatorContainsTheIsotropicOne) {
   const FractureModel model = elastic_model({steel}, displacement_on_all(mesh, field));
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumOperator isotropic(mesh, unknowns), full(mesh, unknowns);
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   CellField<IsotropicElasticity> moduli(n);
   CellField<double> g(n);
   for (Index c = 0; c < mesh.n_cells(); ++c) {
@@ -289,11 +289,11 @@ TEST(EnergySplits, TheFullTensorOperatorContainsTheIsotropicOne) {
     moduli[c] = {g[c] * steel.lambda, g[c] * steel.mu};
   }
   isotropic.set_moduli(moduli, g);
-  std::vector<Vector> u(as_size(unknowns.n_unknowns())), one(u.size()), other(u.size());
+  std::vector<Vector> u(unknowns.n_unknowns()), one(u.size()), other(u.size());
   for (std::size_t i = 0; i < u.size(); ++i) {
     const auto k = static_cast<Index>(i);
     u[i] = field(k < unknowns.n_cells ? mesh.cell_centre[k]
-                                      : mesh.face_centre[unknowns.face_of_node[as_size(k - unknowns.n_cells)]]);
+                                      : mesh.face_centre[unknowns.face_of_node[k - unknowns.n_cells]]);
   }
   const StrainLaw law{
       .tangent = [&](Index c,

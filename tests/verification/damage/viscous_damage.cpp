@@ -37,7 +37,7 @@ std::vector<Row> stretch(const std::function<double(double)>& strain, double vis
   FractureRun run(
       mesh, model, {.damage_tolerance = 1e-9, .energy_tolerance = 1e-9},
       {.end = end, .initial_increment = increment, .maximum_increment = increment, .duration = 1.0, .stops = {}});
-  const auto pulled = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+  const auto pulled = mesh.patch_index("xmax");
   const double volume = side * side * side;
   std::vector<Row> rows;
   const auto step_done = [&](const FractureState&, const StepReport& r) {

@@ -63,7 +63,7 @@ Column weigh(const Mesh& mesh, FractureModel model, const std::function<double(d
       mesh, solved.fields.stress,
       [&](const Vector& x) -> Tensor { return stress(x.z()) * Vector::UnitZ() * Vector::UnitZ().transpose(); },
       everywhere);
-  const auto foot = static_cast<std::size_t>(&mesh.patch("zmin") - mesh.patches.data());
+  const auto foot = mesh.patch_index("zmin");
   errors.reaction = solved.report.reaction[foot].z() / weight - 1.0;
   errors.energy = solved.report.energy.elastic / energy - 1.0;
   errors.account = left_over({}, solved.report.energy) / energy;
@@ -149,7 +149,7 @@ TEST(BodyLoads, CantileverUnderItsOwnWeight) {
       model.regions[0].density = rho;
       model.loads.gravity = gravity_along(-Vector::UnitY());
       const Solved solved = solve(mesh, model);
-      const auto end = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+      const auto end = mesh.patch_index("xmax");
       const double q = rho * g * height, modulus = plane_stress ? E : E / (1.0 - nu * nu);
       const double w = q * std::pow(span, 4) / (8.0 * modulus * height * height * height / 12.0) +
                        q * span * span / (2.0 * 5.0 / 6.0 * E / (2.0 + 2.0 * nu) * height);
@@ -247,8 +247,8 @@ TEST(BodyLoads, HangingBarBreaksWithItsWeight) {
   const StaggeredSettings tight{.damage_tolerance = 1e-6, .energy_tolerance = 1e-6, .equilibrium_tolerance = 1e-9};
   const LoadingSettings loading{.end = 3.0, .initial_increment = 0.05, .maximum_increment = 0.05, .stops = {}};
   FractureRun run(bar.mesh(), model, tight, loading);
-  const auto upper = static_cast<std::size_t>(&bar.mesh().patch("xmin") - bar.mesh().patches.data());
-  const auto lower = static_cast<std::size_t>(&bar.mesh().patch("xmax") - bar.mesh().patches.data());
+  const auto upper = bar.mesh().patch_index("xmin");
+  const auto lower = bar.mesh().patch_index("xmax");
   StepReport last;
   FractureState middle;
   double balance = 0.0, account = 0.0;

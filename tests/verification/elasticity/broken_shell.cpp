@@ -22,14 +22,14 @@ class ConcentricLayers {
  public:
   ConcentricLayers(std::vector<double> radii, std::vector<IsotropicElasticity> moduli, double remote_swell)
       : radii_(std::move(radii)), moduli_(std::move(moduli)) {
-    const auto n = static_cast<Index>(radii_.size());
+    const auto n = count_of(radii_);
     // Unknowns: A and B of each layer in turn; B = 0 in the innermost, A given in the outermost.
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(2 * n + 2, 2 * n + 2);
     Eigen::VectorXd rhs = Eigen::VectorXd::Zero(2 * n + 2);
     for (Index i = 0; i < n; ++i) {
-      const double r = radii_[as_size(i)], stiffness = moduli_[0].bulk_modulus();
+      const double r = radii_[i], stiffness = moduli_[0].bulk_modulus();
       for (const Index side : {0, 1}) {
-        const IsotropicElasticity& c = moduli_[as_size(i + side)];
+        const IsotropicElasticity& c = moduli_[i + side];
         const double sign = side == 0 ? 1.0 : -1.0;
         system.block<2, 2>(2 * i, 2 * (i + side)) << sign * r, sign / (r * r),  //
             sign * 3.0 * c.bulk_modulus() / stiffness, -sign * 4.0 * c.mu / (r * r * r * stiffness);
@@ -95,12 +95,12 @@ Mesh mesh_of(Cells cells) {
 // Layers are told apart by the mean radius of their points, which lie on spheres; their centres do not.
 double mean_radius(const Mesh& mesh, Index cell) {
   double sum = 0.0;
-  for (const Index p : mesh.points_of_cell(cell)) sum += mesh.points[as_size(p)].norm();
+  for (const Index p : mesh.points_of_cell(cell)) sum += mesh.points[p].norm();
   return sum / static_cast<double>(mesh.points_of_cell(cell).size());
 }
 
 CellField<double> stiffness_factors(const Mesh& mesh, const Shell& shell) {
-  CellField<double> g(as_size(mesh.n_cells()), 1.0);
+  CellField<double> g(mesh.n_cells(), 1.0);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (mesh.region[c] == mesh.region_index("interface") && shell.holds(mean_radius(mesh, c))) g[c] = shell.g;
   return g;

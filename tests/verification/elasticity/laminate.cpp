@@ -29,7 +29,7 @@ struct Laminate {
   Load load = Load::tension;
 
   double modulus(const Layer& layer) const {
-    const IsotropicElasticity& c = materials[as_size(layer.material)];
+    const IsotropicElasticity& c = materials[layer.material];
     return layer.g * (load == Load::tension ? c.constrained_modulus() : c.mu);
   }
   /// Of the top plate; the bottom one is at rest.
@@ -46,7 +46,7 @@ struct Laminate {
     for (double top = layers[0].thickness; z > top && k + 1 < layers.size(); top += layers[k].thickness) ++k;
     return static_cast<Index>(k);
   }
-  const Layer& layer_at(double z) const { return layers[as_size(number_at(z))]; }
+  const Layer& layer_at(double z) const { return layers[number_at(z)]; }
 
   Vector displacement(const Vector& x) const {
     Vector u = Vector::Zero();
@@ -64,7 +64,7 @@ struct Laminate {
 
   Tensor stress(const Vector& x) const {
     const Layer& layer = layer_at(x[2]);
-    return layer.g * pfdm::stress(materials[as_size(layer.material)], strain(x));
+    return layer.g * pfdm::stress(materials[layer.material], strain(x));
   }
 };
 
@@ -117,7 +117,7 @@ struct LaminateErrors {
 LaminateErrors measure(const Laminate& laminate, const Mesh& mesh, const CellField<double>& g,
                        const ElasticSolution& solution) {
   const auto everywhere = [](Index) { return true; };
-  const auto top = as_size(static_cast<Index>(&mesh.patch("zmax") - mesh.patches.data()));
+  const std::size_t top = mesh.patch_index("zmax");
   const Vector traction = laminate.traction();
   LaminateErrors e;
   e.transmitted = (reactions(mesh, solution)[top] - traction).norm() / traction.norm();
@@ -136,7 +136,7 @@ LaminateErrors measure(const Laminate& laminate, const Mesh& mesh, const CellFie
 
 LaminateErrors errors_of(const Laminate& laminate, Cells cells) {
   const Mesh mesh = mesh_of(laminate, cells);
-  CellField<double> g(as_size(mesh.n_cells()));
+  CellField<double> g(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) g[c] = laminate.layer_at(mesh.cell_centre[c][2]).g;
   const auto solution = solve_elastic(mesh, elastic_model(laminate.materials, boundary_of(laminate)), g, 1e-13);
   EXPECT_TRUE(solution->equilibrium.converged);

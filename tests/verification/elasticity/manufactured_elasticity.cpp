@@ -81,7 +81,7 @@ Errors errors_on(const Mesh& mesh, double nu, const Manufactured& exact, std::ve
   EXPECT_TRUE(solution->equilibrium.converged);
   const auto truth = [&](const Vector& x) { return exact.stress(x); };
   const auto everywhere = [](Index) { return true; };
-  CellField<Tensor> with_its_mean(as_size(mesh.n_cells()));
+  CellField<Tensor> with_its_mean(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const Tensor of_exact = truth(mesh.cell_centre[c]);
     with_its_mean[c] = of_exact + (solution->cells.stress[c] - of_exact).trace() / 3.0 * Tensor::Identity();

@@ -39,7 +39,7 @@ std::vector<BoundaryCondition> exact_boundary(const Mesh& mesh, const LinearCase
                    .value = [exact, traction, mask = mask](const Vector& x, double) {
                      Vector value = exact.displacement(x);
                      for (int i = 0; i < 3; ++i)
-                       if (!mask[as_size(i)]) value[i] = traction[i];
+                       if (!mask[i]) value[i] = traction[i];
                      return value;
                    }});
   }
@@ -87,7 +87,7 @@ Mesh warped_hexes() {
   Mesh mesh = make_box_hexes(graded_box(6));
   std::vector<bool> outer(mesh.points.size(), false);
   for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f)
-    for (const Index p : mesh.points_of_face(f)) outer[as_size(p)] = true;
+    for (const Index p : mesh.points_of_face(f)) outer[p] = true;
   for (std::size_t p = 0; p < mesh.points.size(); ++p) {
     const auto i = static_cast<double>(p);
     if (!outer[p]) mesh.points[p] += 0.02 * Vector(std::sin(37.0 * i), std::sin(91.0 * i), std::sin(53.0 * i));

@@ -72,7 +72,7 @@ TEST(FiniteClosedForms, TorsionOfACylinder) {
     const Patch& top = mesh.patch("top");
     for (Index f = top.first_face; f < top.first_face + top.n_faces; ++f) {
       const Vector place = mesh.face_centre[f] + turned(mesh.face_centre[f], 1.0);
-      couple += place.cross(drawn.state.boundary_force[as_size(f - mesh.n_interior_faces())]).z();
+      couple += place.cross(drawn.state.boundary_force[f - mesh.n_interior_faces()]).z();
     }
     const double axial = drawn.force(mesh, "top").z();
     errors.push_back({couple / (0.5 * std::numbers::pi * mu * twist) - 1.0,
@@ -162,9 +162,7 @@ TEST(FiniteClosedForms, LongMooneyRivlinWall) {
                   {plane_on("zmin"), plane_on("zmax"), symmetry_on("xmin"), symmetry_on("ymin"),
                    pressed("xmax", Vector(side * l, 0.0, 0.0)), pressed("ymax", Vector(0.0, top / l, 0.0))});
   const Drawn drawn = draw(mesh, model, 4);
-  const auto moved_by = [&](const char* patch) {
-    return drawn.report.patch_displacement[static_cast<std::size_t>(&mesh.patch(patch) - mesh.patches.data())];
-  };
+  const auto moved_by = [&](const char* patch) { return drawn.report.patch_displacement[mesh.patch_index(patch)]; };
   const double u_x = moved_by("xmax").x(), u_y = moved_by("ymax").y();
   report_row(
       "long wall",

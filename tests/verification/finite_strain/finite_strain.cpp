@@ -243,9 +243,6 @@ TEST(FiniteStrain, ThickSphereInflatedToTwiceItsRadius) {
           moved("inner", {true, true, true},
                 [](const Vector& x, double t) -> Vector { return t * (stretch - 1.0) * x; })};
       const Finished done = solve(mesh, finite_model({neo_hookean(rubber)}, boundary), 10, 1e-8);
-      const auto patch = [&](const char* name) {
-        return static_cast<std::size_t>(&mesh.patch(name) - mesh.patches.data());
-      };
       Vector area = Vector::Zero(), outside = Vector::Zero();
       double outer_area = 0.0;
       for (Index f = 0; f < mesh.patch("inner").n_faces; ++f)
@@ -256,8 +253,9 @@ TEST(FiniteStrain, ThickSphereInflatedToTwiceItsRadius) {
         outer_area += mesh.face_area[f].norm();
       }
       // Force and displacement along the axis z.
-      const double pressure = -done.report.reaction[patch("inner")].z() / area.z();
-      const double outer = 1.0 + done.report.patch_displacement[patch("outer")].z() / (outside.z() / outer_area);
+      const double pressure = -done.report.reaction[mesh.patch_index("inner")].z() / area.z();
+      const double outer =
+          1.0 + done.report.patch_displacement[mesh.patch_index("outer")].z() / (outside.z() / outer_area);
       const double balance = done.report.energy.external_work / done.report.energy.elastic - 1.0;
       errors.push_back(
           {std::abs(pressure / exact.pressure - 1.0), std::abs((outer - exact.outer) / (exact.outer - 1.0))});
@@ -311,16 +309,16 @@ ShearErrors solve_sheared(const Mesh& mesh, double nu) {
   const CellStiffness stiffness(mesh, model);
   MomentumSolver momentum(mesh, unknowns);
   FractureState state;
-  state.displacement.assign(as_size(unknowns.n_unknowns()), Vector::Zero());
-  state.damage = CellField<double>(as_size(mesh.n_cells()), 0.0);
-  state.closure = CellField<double>(as_size(mesh.n_cells()), 0.0);
+  state.displacement.assign(unknowns.n_unknowns(), Vector::Zero());
+  state.damage = CellField<double>(mesh.n_cells(), 0.0);
+  state.closure = CellField<double>(mesh.n_cells(), 0.0);
   ShearErrors errors;
   constexpr int steps = 4;
   for (int step = 1; step <= steps; ++step) {
     state.load = double(step) / steps;
-    std::vector<Vector> force(as_size(mesh.n_cells()));
+    std::vector<Vector> force(mesh.n_cells());
     for (Index c = 0; c < mesh.n_cells(); ++c)
-      force[as_size(c)] = state.load * mesh.cell_volume[c] * exact.body_force(mesh.cell_centre[c]);
+      force[c] = state.load * mesh.cell_volume[c] * exact.body_force(mesh.cell_centre[c]);
     momentum.set_body_force(std::move(force));
     stiffness.set(state, momentum);
     const Equilibrium end =
@@ -331,7 +329,7 @@ ShearErrors solve_sheared(const Mesh& mesh, double nu) {
   const CellMechanics cells = momentum.balance().mechanics(state.displacement);
   const auto everywhere = [](Index) { return true; };
   errors.u = relative_error(
-      mesh, [&](Index c) { return state.displacement[as_size(c)]; },
+      mesh, [&](Index c) { return state.displacement[c]; },
       [&](Index c) { return exact.displacement(mesh.cell_centre[c]); }, everywhere);
   // The deviator: a small error of the volume times lambda is in the mean stress.
   double wrong = 0.0, whole = 0.0;

@@ -33,7 +33,7 @@ double radial_strain(const Mesh& mesh, const FractureModel& model, const Drawn& 
   for (Index f = patch.first_face; f < patch.first_face + patch.n_faces; ++f) {
     const Vector x = off_axis.cwiseProduct(mesh.face_centre[f]);
     const double A = mesh.face_area[f].norm();
-    moved += A * drawn.state.displacement[as_size(unknowns.node_of_face[f])].dot(x) / x.squaredNorm();
+    moved += A * drawn.state.displacement[unknowns.node_of_face[f]].dot(x) / x.squaredNorm();
     area += A;
   }
   return moved / area;
@@ -109,9 +109,7 @@ TEST(FollowerPressure, StretchesALongWallAsItsTrueStressesSay) {
                   {plane_on("zmin"), plane_on("zmax"), symmetry_on("xmin"), symmetry_on("ymin"), pressed("xmax", side),
                    pressed("ymax", top)});
   const Drawn drawn = draw(mesh, model, 4);
-  const auto moved_by = [&](const char* patch) {
-    return drawn.report.patch_displacement[static_cast<std::size_t>(&mesh.patch(patch) - mesh.patches.data())];
-  };
+  const auto moved_by = [&](const char* patch) { return drawn.report.patch_displacement[mesh.patch_index(patch)]; };
   EXPECT_NEAR(moved_by("xmax").x(), -0.1675, 0.01 * 0.1675);
   EXPECT_NEAR(moved_by("ymax").y(), 0.4025, 0.01 * 0.4025);
 }
@@ -131,7 +129,7 @@ struct BentCube {
                           boundary)),
         unknowns(place_floating_unknowns(mesh, elastic_body(model))) {
     state.load = 1.0;
-    state.damage = state.closure = CellField<double>(as_size(mesh.n_cells()), 0.0);
+    state.damage = state.closure = CellField<double>(mesh.n_cells(), 0.0);
     for (Index i = 0; i < unknowns.n_nodes(); ++i) {
       const Vector x = unknowns.place(mesh, i);
       state.displacement.emplace_back(0.3 * x.y() + 0.1 * x.z() * x.z(), -0.2 * x.x() * x.y(),
@@ -162,10 +160,10 @@ TEST(FollowerPressure, HasItsTangent) {
                        pressed("zmax", -0.8 * mu), pressed("ymax", 0.3 * mu)});
   MomentumSolver momentum(cube.mesh, cube.unknowns);
   const CellStiffness stiffness(cube.mesh, cube.model);
-  std::vector<Vector> along(as_size(cube.unknowns.n_unknowns()), Vector::Zero());
+  std::vector<Vector> along(cube.unknowns.n_unknowns(), Vector::Zero());
   for (Index i = 0; i < cube.unknowns.n_nodes(); ++i) {
     const Vector x = cube.unknowns.place(cube.mesh, i);
-    along[as_size(i)] = Vector(std::sin(3.0 * x.y()), std::cos(2.0 * x.z() + x.x()), x.x() * x.y());
+    along[i] = Vector(std::sin(3.0 * x.y()), std::cos(2.0 * x.z() + x.x()), x.x() * x.y());
   }
   const auto unbalanced = [&](double part) {
     FractureState moved = cube.state;
@@ -179,7 +177,7 @@ TEST(FollowerPressure, HasItsTangent) {
   unbalanced(0.0);
   momentum.balance().apply(along, turn);
   double wrong = 0.0, size = 0.0;
-  for (std::size_t i = as_size(cube.unknowns.n_cells); i < along.size(); ++i) {
+  for (std::size_t i = cube.unknowns.n_cells; i < along.size(); ++i) {
     const Vector difference = (before[i] - after[i]) / (2.0 * step);
     wrong = std::max(wrong, (difference - turn[i]).norm());
     size = std::max(size, turn[i].norm());

@@ -291,7 +291,7 @@ TEST(FreeDeformations, SphereThatSwellsInAShell) {
       const double wrong = relative_stress_error(
           mesh, found.fields.stress, [&](const Vector&) -> Tensor { return cauchy * one; },
           [&](Index c) { return mesh.region[c] == 0; });
-      const auto outer = static_cast<std::size_t>(&mesh.patch("outer") - mesh.patches.data());
+      const auto outer = mesh.patch_index("outer");
       double height = 0.0, area = 0.0;
       for (Index f = 0; f < mesh.patches[outer].n_faces; ++f) {
         const Index face = mesh.patches[outer].first_face + f;

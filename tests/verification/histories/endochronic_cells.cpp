@@ -66,7 +66,7 @@ double wave(double t) { return 0.01 * t * std::sin(4.0 * std::numbers::pi * t); 
 std::vector<EndochronicUpdate> point_in_tension(const EndochronicLaw& law, Index n, double duration) {
   std::array<ControlCondition, 6> conditions;
   conditions[0].on_strain = Mandel::Unit(0);
-  for (Index k = 1; k < 6; ++k) conditions[as_size(k)].on_stress = Mandel::Unit(k);
+  for (Index k = 1; k < 6; ++k) conditions[k].on_stress = Mandel::Unit(k);
   EndochronicState state = virgin_state(law);
   std::vector<EndochronicUpdate> updates;
   for (Index i = 1; i <= n; ++i) {
@@ -274,7 +274,7 @@ Loop cycle_plate(Index n, Index n_steps) {
                                        })});
   const auto steps = steps_of(mesh, model, in_steps(n_steps),
                               {.damage_tolerance = 1e-4, .energy_tolerance = 1e-7, .equilibrium_tolerance = 1e-7});
-  const auto top = static_cast<std::size_t>(&mesh.patch("top") - mesh.patches.data());
+  const auto top = mesh.patch_index("top");
   Loop loop;
   for (const Step& step : steps) {
     loop.peak = std::max(loop.peak, step.report.reaction[top][1]);

@@ -66,7 +66,7 @@ struct Pulled {
 };
 
 Pulled pulled(const Mesh& mesh, const StepReport& report) {
-  const auto top = static_cast<std::size_t>(&mesh.patch("top") - mesh.patches.data());
+  const auto top = mesh.patch_index("top");
   return {.modulus = report.reaction[top].z() / area / (rise / height) / mu,
           .account = left_over({}, report.energy) / report.energy.external_work};
 }
@@ -133,7 +133,7 @@ TEST(RelaxingBodies, AThickCylinderCreepsAsTheClosedFormSays) {
                      .duration = 5.0 * ratio,
                      .stops = {},
                      .is_proportional = false});
-    const auto inner = static_cast<std::size_t>(&mesh.patch("inner") - mesh.patches.data());
+    const auto inner = mesh.patch_index("inner");
     Creep creep;
     run_to_end(run, [&](const FractureState&, const StepReport& report) {
       if (report.step == 0) return;
@@ -224,7 +224,7 @@ TEST(RelaxingBodies, CellsHaveAPressureByTheirOwnPoissonRatio) {
   FractureModel model = disc_model(elastic_region(rubber), [](double t) { return t; });
   const auto at = [&](double poisson) { return from_young_poisson(2.0 * mu * (1.0 + poisson), poisson); };
   const auto with = [&](const std::function<double(const Vector&)>& poisson) {
-    model.cells = CellField<RegionModel>(as_size(mesh.n_cells()), model.regions[0]);
+    model.cells = CellField<RegionModel>(mesh.n_cells(), model.regions[0]);
     for (Index c = 0; c < mesh.n_cells(); ++c) model.cells[c].elasticity = at(poisson(mesh.cell_centre[c]));
     model.regions[0].elasticity = model.cells[0].elasticity;
     FractureRun run(mesh, model, tight, {.initial_increment = 1.0, .maximum_increment = 1.0, .stops = {}});

@@ -59,7 +59,7 @@ TEST(ViscoelasticCells, ABarCreepsUnderAHeldTraction) {
                           moved("xmax", {false, false, false},
                                 [](const Vector&, double t) { return Vector(sigma * grown(t), 0.0, 0.0); })}),
       tight, held());
-  const auto patch = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+  const auto patch = mesh.patch_index("xmax");
   run_to_end(run, [&](const FractureState&, const StepReport& report) {
     if (report.step == 0) return;
     const double expected =
@@ -85,8 +85,8 @@ TEST(ViscoelasticCells, ACylinderCreepsUnderAHeldPressure) {
     FractureRun run(
         mesh, viscoelastic_model({pressed, symmetry_on("bottom"), symmetry_on("top"), sector("front"), sector("back")}),
         tight, held());
-    const auto inner = static_cast<std::size_t>(&mesh.patch("inner") - mesh.patches.data());
-    const auto outer = static_cast<std::size_t>(&mesh.patch("outer") - mesh.patches.data());
+    const auto inner = mesh.patch_index("inner");
+    const auto outer = mesh.patch_index("outer");
     const double sizes = 0.5 * (1.0 + std::cos(0.025));  // the sector's faces are chords
     run_to_end(run, [&](const FractureState&, const StepReport& report) {
       if (report.step == 0) return;

@@ -83,7 +83,7 @@ double deflection(const Beam& beam, const CellField<double>& g = {}) {
   if (beam.load != Load::moment) {
     EXPECT_LT(reaction_imbalance(mesh, *solution), 1e-6);
   }
-  const auto end = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+  const auto end = mesh.patch_index("xmax");
   return solution->solver->balance().patch_displacements(solution->u)[end].y() / timoshenko(beam);
 }
 
@@ -151,17 +151,17 @@ Bent bend(const Cantilever& beam, const std::function<double(const Vector&)>& g 
       elastic_model({from_young_poisson(E, beam.nu)},
                     {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
                      traction_on("xmax", [=](const Vector&) -> Vector { return Vector::UnitY() / (height * b); })});
-  CellField<double> factors(as_size(mesh.n_cells()), 1.0);
+  CellField<double> factors(mesh.n_cells(), 1.0);
   for (Index c = 0; c < mesh.n_cells(); ++c)
     if (g) factors[c] = g(mesh.cell_centre[c]);
   Bent bent{.warning = bending_warning(mesh, model), .solution = solve_elastic(mesh, model, factors, 1e-9)};
   EXPECT_TRUE(bent.solution->equilibrium.converged);
   EXPECT_LT(energy_imbalance(mesh, *bent.solution), 1e-6);
-  const auto end = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+  const auto end = mesh.patch_index("xmax");
   bent.compliance = bent.solution->solver->balance().patch_displacements(bent.solution->u)[end].y();
   if (!bent.solution->unknowns.pressure_cells.empty()) return bent;
   // The energy of the whole stiffness as a part is that of the cell, also where jumps have weights; but never negative.
-  CellField<IsotropicElasticity> whole(as_size(mesh.n_cells()));
+  CellField<IsotropicElasticity> whole(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c)
     whole[c] = model.split.secant(model.regions[0].elasticity, factors[c], 0.0);
   const CellMechanics cells =
@@ -297,16 +297,16 @@ double deflection_by_one_ring(const Mesh& mesh, const FractureModel& model) {
   MomentumSolver solver(mesh, unknowns);
   CellStiffness stiffness(mesh, model);
   stiffness.start_step(0.0);
-  const CellField<double> none(as_size(mesh.n_cells()), 0.0);
+  const CellField<double> none(mesh.n_cells(), 0.0);
   FractureState state;
   state.step = 1;
   state.load = 1.0;
   state.damage = none;
   state.closure = none;
-  state.displacement.assign(as_size(unknowns.n_unknowns()), Vector::Zero());
+  state.displacement.assign(unknowns.n_unknowns(), Vector::Zero());
   stiffness.set(state, solver);
   EXPECT_TRUE(solve_with_laws(stiffness, {.ceiling = 1e-9, .floor = 1e-9}, solver, state).converged);
-  const auto end = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+  const auto end = mesh.patch_index("xmax");
   return solver.balance().patch_displacements(state.displacement)[end].y();
 }
 

@@ -51,7 +51,7 @@ TEST(BentBeam, BreaksPartOfTheWayInOneJump) {
   const Mesh mesh = notched_beam();
   FractureRun run(mesh, pressed_beam(), {.maximum_iterations = 2000},
                   {.end = 0.5, .initial_increment = 0.05, .damage_growth = 0.3, .finest_increment = 2e-3, .stops = {}});
-  const auto load = static_cast<std::size_t>(&mesh.patch("load") - mesh.patches.data());
+  const auto load = mesh.patch_index("load");
   struct Row {
     double displacement, force, balance;
   };

@@ -53,10 +53,10 @@ Cantilever open(double a) {
                             .displacement_prescribed = {false, true, false},
                             .value = [](const Vector&, double) { return Vector(0.0, 0.5 * mm, 0.0); }});
   const auto solution = solve_elastic(mesh, model);
-  const auto pulled = static_cast<std::size_t>(&mesh.patch("xmin") - mesh.patches.data());
+  const auto pulled = mesh.patch_index("xmin");
   const double force = reactions(mesh, *solution)[pulled].y();
   OutputFields fields;
-  fields.damage = CellField<double>(as_size(mesh.n_cells()), 0.0);
+  fields.damage = CellField<double>(mesh.n_cells(), 0.0);
   fields.strain = solution->cells.strain;
   fields.gradient = solution->cells.gradient;
   fields.stress = solution->cells.stress;

@@ -44,13 +44,13 @@ Answer equilibrium(const Mesh& mesh, const FractureModel& model, const CellField
   MomentumSolver solver(mesh, unknowns);
   CellStiffness stiffness(mesh, model);
   stiffness.start_step(0.0);
-  const auto n = as_size(mesh.n_cells());
+  const std::size_t n = mesh.n_cells();
   FractureState state;
   state.step = 1;
   state.load = 1.0;
   state.damage = damage;
   state.closure = CellField<double>(n, 0.0);
-  state.displacement.assign(as_size(unknowns.n_unknowns()), Vector::Zero());
+  state.displacement.assign(unknowns.n_unknowns(), Vector::Zero());
   constexpr MomentumSolver::Tolerance tight{.ceiling = 1e-12, .floor = 1e-12};
   Answer answer;
   answer.driving = answer.stored = CellField<double>(n);
@@ -103,7 +103,7 @@ FractureModel model_of(const Problem& problem, bool with_eigenstrain) {
 
 // Of cells from sound to nearly broken, in patches.
 CellField<double> some_damage(const Mesh& mesh) {
-  CellField<double> damage(as_size(mesh.n_cells()));
+  CellField<double> damage(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const Vector& x = mesh.cell_centre[c];
     damage[c] = 0.45 * (1.0 + std::sin(3.0 * x[0] + 1.0) * std::cos(2.0 * x[1] - 0.3 * x[2]));
@@ -119,7 +119,7 @@ double largest(const CellField<Tensor>& field) {
 
 void expect_same_stress(const Problem& problem) {
   const CellField<double> damage =
-      problem.has_damage ? some_damage(problem.mesh) : CellField<double>(as_size(problem.mesh.n_cells()), 0.0);
+      problem.has_damage ? some_damage(problem.mesh) : CellField<double>(problem.mesh.n_cells(), 0.0);
   const Answer with = equilibrium(problem.mesh, model_of(problem, true), damage);
   const Answer without = equilibrium(problem.mesh, model_of(problem, false), damage);
   double stress = 0.0, driving = 0.0, stored = 0.0;
@@ -217,7 +217,7 @@ double stress_of_free_body(Mesh mesh, const IsotropicElasticity& material, const
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r)
     model.regions.push_back(
         {.elasticity = material, .Gc = 1.0, .ell = 1.0, .damageable = damaged, .eigenstrain = given(expansion)});
-  const CellField<double> damage = damaged ? some_damage(mesh) : CellField<double>(as_size(mesh.n_cells()), 0.0);
+  const CellField<double> damage = damaged ? some_damage(mesh) : CellField<double>(mesh.n_cells(), 0.0);
   const Answer answer = equilibrium(mesh, model, damage);
   return largest(answer.cells.stress) / (material.young_modulus() * expansion.norm());
 }
@@ -425,7 +425,7 @@ TEST(Eigenstrains, SphereThatDoesNotFit) {
       else
         model.boundary.push_back(displacement_on("outer", shrunk));
       model.regions[0].eigenstrain = given(e * Tensor::Identity());
-      const Answer answer = equilibrium(mesh, model, CellField<double>(as_size(mesh.n_cells()), 0.0));
+      const Answer answer = equilibrium(mesh, model, CellField<double>(mesh.n_cells(), 0.0));
       const auto inside = [&](Index c) { return mesh.region[c] == 0; };
       const auto outside = [&](Index c) { return mesh.region[c] == 1; };
       const double in = relative_stress_error(mesh, answer.cells.stress, exact, inside);
@@ -452,7 +452,7 @@ TEST(Eigenstrains, ShrinkingBarBreaksAsAPulledOne) {
     for (RegionModel& region : shrinking.regions) region.eigenstrain = eigenstrain;
     const std::vector<StepReport> pulled = run(bar.model()), shrunk = run(shrinking);
     ASSERT_EQ(pulled.size(), shrunk.size());
-    const auto wall = static_cast<std::size_t>(&bar.mesh().patch("xmax") - bar.mesh().patches.data());
+    const auto wall = bar.mesh().patch_index("xmax");
     const double strength = bar.strength() * bar.area(), Gc = Bar::Gc * bar.area();
     double force = 0.0, fracture = 0.0, account = 0.0;
     for (std::size_t k = 1; k < pulled.size(); ++k) {

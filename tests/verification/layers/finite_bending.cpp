@@ -57,7 +57,7 @@ Bent bend(const Cantilever& beam, Index steps) {
       mesh, make_hyperelastic("neo_hookean", {.elasticity = from_young_poisson(E, beam.nu)}), beam.boundary());
   EXPECT_EQ(bending_warning(mesh, model).has_value(), beam.ratio > 6.0);
   const Drawn drawn = draw(mesh, model, steps);
-  const auto end = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+  const auto end = mesh.patch_index("xmax");
   EXPECT_LT((drawn.force(mesh, "xmin") + drawn.force(mesh, "xmax")).norm(), 1e-6 * drawn.force(mesh, "xmax").norm());
   return {.end = drawn.report.patch_displacement[end] / span,
           .energy = drawn.report.energy.elastic,
@@ -103,7 +103,7 @@ TEST(FiniteBending, SmallLoadsBendAsTheLinearProgramAndStoreTheirWork) {
     const Cantilever beam{.in_space = in_space, .ratio = 4.0, .load = 1e-6};
     const Mesh mesh = beam.mesh();
     const auto linear = solve_elastic(mesh, elastic_model({from_young_poisson(E, beam.nu)}, beam.boundary()));
-    const auto end = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+    const auto end = mesh.patch_index("xmax");
     const double due = linear->solver->balance().patch_displacements(linear->u)[end].y() / span;
     const Bent bent = bend(beam, 1);
     report_row(in_space ? "in space" : "plane",

@@ -128,7 +128,7 @@ TEST(Orthotropy, CrossPlyLaminate) {
   const Solved solved = solve(mesh, model);
   const auto of_layer = [&](const MandelMatrix& C) { return (C(0, 0) - C(0, 2) * C(2, 0) / C(2, 2)) * strain; };
   const double exact = 0.5 * (of_layer(along) + of_layer(across));
-  const auto pulled = static_cast<std::size_t>(&mesh.patch("xmax") - mesh.patches.data());
+  const auto pulled = mesh.patch_index("xmax");
   const double error = solved.report.reaction[pulled].x() / exact - 1.0;
   report_row("laminate", {{"force", error}});
   EXPECT_LT(std::abs(error), 1e-9);
@@ -165,7 +165,7 @@ TEST(Orthotropy, RingUnderPressure) {
     pressed.patch = "inner";
     pressed.pressure = [](const Vector&, double t) { return t * p; };
     model.boundary.push_back(pressed);
-    model.cells = CellField<RegionModel>(as_size(mesh.n_cells()));
+    model.cells = CellField<RegionModel>(mesh.n_cells());
     for (Index c = 0; c < mesh.n_cells(); ++c) {
       const Vector& x = mesh.cell_centre[c];
       model.cells[c] = model.regions[0];
@@ -204,7 +204,7 @@ TEST(Orthotropy, ADamagedBlockFollowsItsSplit) {
         model.residual_stiffness = k;
         model.regions[0].damageable = true;
         model.regions[0].Gc = 1e9, model.regions[0].ell = 1.0;  // nothing breaks any further
-        model.initial_damage = CellField<double>(as_size(mesh.n_cells()), d);
+        model.initial_damage = CellField<double>(mesh.n_cells(), d);
         const Solved solved = solve(mesh, model);
         const Tensor exact = to_tensor(degraded_tangent(model.split, elasticity, g, strain) * to_mandel(strain));
         for (const Tensor& stress : solved.fields.stress)

@@ -22,7 +22,7 @@ constexpr double pi = std::numbers::pi, rho = 1200.0, E = 20e6;
 
 Mesh box(const Vector& size, const std::array<Index, 3>& n) {
   BoxHexesSettings settings;
-  for (std::size_t a = 0; a < 3; ++a) settings.axes[a] = {{size[static_cast<Index>(a)], n[a], 1.0}};
+  for (std::size_t a = 0; a < 3; ++a) settings.axes[a] = {{size[a], n[a], 1.0}};
   return make_box_hexes(settings);
 }
 

@@ -46,7 +46,7 @@ std::function<Vector(const Vector&, double)> combined(const Components& componen
   return [components](const Vector& x, double t) {
     Vector value = Vector::Zero();
     for (Eigen::Index i = 0; i < 3; ++i)
-      if (const ScalarField& component = components[static_cast<std::size_t>(i)]) value[i] = component(x, t);
+      if (const ScalarField& component = components[i]) value[i] = component(x, t);
     return value;
   };
 }

@@ -36,7 +36,7 @@ InitialCrack read_crack(const ConfigTable& table) {
 std::vector<bool> initially_damaged(const InitialDamage& initial, const FractureModel& model, const Mesh& mesh) {
   std::vector<bool> damaged(mesh.region_names.size(), initial.regions.empty());
   for (const ConfigValue& region : initial.regions) {
-    const auto r = as_size(mesh.region_index(region.one_of(mesh.region_names, "region of the mesh")));
+    const std::size_t r = mesh.region_index(region.one_of(mesh.region_names, "region of the mesh"));
     if (!model.regions[r].damageable)
       throw region.error(fmt::format("region \"{}\" cannot be damaged", mesh.region_names[r]));
     damaged[r] = true;
@@ -66,8 +66,8 @@ std::optional<InitialDamage> read_initial_damage(const ConfigTable& root, const 
 
 CellField<double> damage_at_the_start(const InitialDamage& initial, const FractureModel& model, const Mesh& mesh) {
   const std::vector<bool> regions = initially_damaged(initial, model, mesh);
-  const auto can_be = [&](Index c) { return regions[as_size(mesh.region[c])] && model.in_cell(mesh, c).damageable; };
-  CellField<double> damage(as_size(mesh.n_cells()), 0.0);
+  const auto can_be = [&](Index c) { return regions[mesh.region[c]] && model.in_cell(mesh, c).damageable; };
+  CellField<double> damage(mesh.n_cells(), 0.0);
   if (initial.damage)
     for (Index c = 0; c < mesh.n_cells(); ++c)
       if (can_be(c)) damage[c] = initial.damage->at(mesh.cell_centre[c]);

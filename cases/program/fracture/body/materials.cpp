@@ -80,7 +80,7 @@ void turn(const MaterialKeys& keys, const ConfigTable& table, const Vector& x, R
     model.stiffness = keys.axes ? std::make_shared<const MandelMatrix>(turned(*keys.stiffness, axes)) : keys.stiffness;
   if (!keys.expansion) return;
   Vector along;
-  for (std::size_t i = 0; i < 3; ++i) along[static_cast<Index>(i)] = (*keys.expansion)[i].at(x);
+  for (std::size_t i = 0; i < 3; ++i) along[i] = (*keys.expansion)[i].at(x);
   const bool is_uniform = along[0] == along[1] && along[1] == along[2];  // without rounding by the axes
   model.expansion =
       keys.axes && !is_uniform ? Tensor(axes * along.asDiagonal() * axes.transpose()) : Tensor(along.asDiagonal());
@@ -345,18 +345,17 @@ void place_materials(const Materials& materials, const Mesh& mesh, FractureModel
   std::vector<const RegionMaterial*> of_region;
   for (const std::string& region : mesh.region_names) of_region.push_back(&material_of(materials, region));
   std::vector<Vector> example(of_region.size(), Vector::Zero());
-  for (Index c = mesh.n_cells() - 1; c >= 0; --c) example[as_size(mesh.region[c])] = mesh.cell_centre[c];
+  for (Index c = mesh.n_cells() - 1; c >= 0; --c) example[mesh.region[c]] = mesh.cell_centre[c];
   for (std::size_t r = 0; r < of_region.size(); ++r) {
     model.regions.push_back(of_region[r]->at(example[r]));
     // Regions of one law share an elastic zone: the example of the first one serves them all.
     const auto same = std::ranges::find_if(
         of_region, [&](const RegionMaterial* other) { return other->elastic_law == of_region[r]->elastic_law; });
-    model.regions[r].elasticity = model.regions[static_cast<std::size_t>(same - of_region.begin())].elasticity;
+    model.regions[r].elasticity = model.regions[same - of_region.begin()].elasticity;
   }
   if (std::ranges::none_of(of_region, &RegionMaterial::varies)) return;
-  model.cells = CellField<RegionModel>(as_size(mesh.n_cells()));
-  for (Index c = 0; c < mesh.n_cells(); ++c)
-    model.cells[c] = of_region[as_size(mesh.region[c])]->at(mesh.cell_centre[c]);
+  model.cells = CellField<RegionModel>(mesh.n_cells());
+  for (Index c = 0; c < mesh.n_cells(); ++c) model.cells[c] = of_region[mesh.region[c]]->at(mesh.cell_centre[c]);
 }
 
 }  // namespace pfdm

@@ -192,7 +192,7 @@ std::optional<double> full_displacement(const FractureCase& fracture) {
   const CurveSettings& curve = fracture.output.curve;
   for (const BoundarySettings& boundary : fracture.boundary) {
     if (boundary.condition.patch != curve.patch) continue;
-    const auto full = boundary.displacement_at_full_load[static_cast<std::size_t>(curve.component)];
+    const auto full = boundary.displacement_at_full_load[curve.component];
     if (full && *full != 0.0) return full;
   }
   return std::nullopt;

@@ -33,20 +33,12 @@ OpenedCase::OpenedCase(const std::filesystem::path& where, const std::vector<std
       run_(std::make_unique<FractureRun>(*mesh_, model_on(settings_, *mesh_), settings_.staggered, settings_.loading)) {
 }
 
-Index OpenedCase::patch_number(std::string_view name) const {
-  const auto found = std::ranges::find(mesh_->patches, name, &Patch::name);
-  if (found != mesh_->patches.end()) return static_cast<Index>(found - mesh_->patches.begin());
-  std::vector<std::string_view> names;
-  for (const Patch& patch : mesh_->patches) names.push_back(patch.name);
-  throw InputError(fmt::format("the mesh has no patch \"{}\" (there are: {})", name, fmt::join(names, ", ")));
-}
-
 Vector OpenedCase::reaction(const StepReport& report, std::string_view patch) const {
-  return report.reaction[as_size(patch_number(patch))];
+  return report.reaction[mesh_->patch_index(std::string(patch))];
 }
 
 Vector OpenedCase::displacement(const StepReport& report, std::string_view patch) const {
-  return report.patch_displacement[as_size(patch_number(patch))];
+  return report.patch_displacement[mesh_->patch_index(std::string(patch))];
 }
 
 }  // namespace pfdm

@@ -39,8 +39,6 @@ class OpenedCase {
   Vector displacement(const StepReport& report, std::string_view patch) const;
 
  private:
-  Index patch_number(std::string_view name) const;
-
   FractureCase settings_;
   std::unique_ptr<const Mesh> mesh_;  // stays where it is when this moves
   std::unique_ptr<FractureRun> run_;

@@ -25,10 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr double seconds_at_stake = 2.0;  // that a killed run may lose, of those that leave figures only
 
-Index patch_number(const Mesh& mesh, const std::string& name) {
-  return static_cast<Index>(&mesh.patch(name) - mesh.patches.data());
-}
-
 /// Continues a list of frames up to the last step, or starts one.
 PvdSeries series_of(const fs::path& file, std::string (*frame_of)(Index step), std::optional<Index> last_step) {
   if (!last_step) return PvdSeries(file);
@@ -78,10 +74,10 @@ FractureResults::FractureResults(fs::path directory, const Mesh& mesh, const Fra
       sets_(columns),
       watch_(watch),
       case_hash_(std::move(case_hash)),
-      curve_patch_(fracture.box ? std::nullopt : std::optional(patch_number(mesh, fracture.output.curve.patch))),
+      curve_patch_(fracture.box ? std::nullopt : std::optional(mesh.patch_index(fracture.output.curve.patch))),
       place_(directory_, !last && has_results(directory_)),
       writer_(mesh, fracture.output.frames.file),
-      damage_(as_size(mesh.n_cells()), 0.0) {
+      damage_(mesh.n_cells(), 0.0) {
   if (!last && !place_.wait()) remove_earlier_run(directory_);  // what a run left that was killed before its first step
   make_folder(folder() / frames_folder);
   remove_leftovers(folder() / frames_folder);

@@ -24,8 +24,7 @@ std::vector<double> column_of(const StepTable& table, const std::string& name) {
 }  // namespace
 
 std::string_view name_of_component(const std::array<int, 2>& component) {
-  return component_names[static_cast<std::size_t>(std::ranges::find(component_places, component) -
-                                                  component_places.begin())];
+  return component_names[std::ranges::find(component_places, component) - component_places.begin()];
 }
 
 std::vector<std::string> columns_of_means(const std::vector<InterfaceSettings>& interfaces) {

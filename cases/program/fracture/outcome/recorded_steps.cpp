@@ -24,7 +24,7 @@ InputError lacks_step(const fs::path& file, Index step, Index last_step) {
 /// `steps` of the rows of a file, in its order.
 void require_all(const fs::path& file, const std::vector<Index>& steps, Index last_step) {
   for (Index step = 0; step <= last_step; ++step)
-    if (as_size(step) >= steps.size() || steps[as_size(step)] != step) throw lacks_step(file, step, last_step);
+    if (as_size(step) >= steps.size() || steps[step] != step) throw lacks_step(file, step, last_step);
 }
 
 void require_curve(const fs::path& file, Index last_step) {
@@ -47,8 +47,7 @@ void require_columns(const fs::path& folder, std::size_t n_sets, Index last_step
   const std::vector<ColumnRecord> records = read_columns(folder, last_step);
   if (records.size() < n_sets) throw lacks_step(folder, 0, last_step);
   for (const ColumnRecord& record : records)
-    if (const auto n = static_cast<Index>(record.steps.size()); n <= last_step)
-      throw lacks_step(folder / record.name, n, last_step);
+    if (const auto n = count_of(record.steps); n <= last_step) throw lacks_step(folder / record.name, n, last_step);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ std::vector<int> axes_of(const StoredFrame& frame) {
   return axes;
 }
 
-std::string name_of(int axis) { return std::string(1, axis_names[static_cast<std::size_t>(axis)]); }
+std::string name_of(int axis) { return std::string(1, axis_names[axis]); }
 
 Vector centre_of(const FieldSlice::Cell& cell) {
   Vector sum = Vector::Zero();

@@ -102,7 +102,7 @@ std::string advance(RunningCase& c) {
 /// Steps may have come between them and the end.
 void repeat_warnings(Log& log) {
   if (log.warnings().empty()) return;
-  log.say(fmt::format("  {} of this run:", counted(static_cast<Index>(log.warnings().size()), "warning")));
+  log.say(fmt::format("  {} of this run:", counted(count_of(log.warnings()), "warning")));
   for (const std::string& warning : log.warnings()) log.say(fmt::format("  - {}", warning));
 }
 

@@ -89,7 +89,7 @@ const TomlValue& element_of(const TomlValue& list, int number, std::string_view 
   if (number < 0 || static_cast<std::size_t>(number) >= array->size())
     throw InputError(fmt::format("\"{}\" has {} elements, of which the first is [0]; there is no [{}]", where,
                                  array->size(), number));
-  return (*array)[static_cast<std::size_t>(number)];
+  return (*array)[number];
 }
 
 const TomlValue& entry_of(const TomlValue& value, std::string_view key, std::string_view where) {

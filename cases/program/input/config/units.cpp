@@ -121,7 +121,7 @@ std::optional<std::pair<double, std::string_view>> split_number(std::string_view
   double value = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (status != std::errc() || !std::isfinite(value)) return std::nullopt;
-  return std::pair{value, trimmed(text.substr(static_cast<std::size_t>(end - text.data())))};
+  return std::pair{value, trimmed(text.substr(end - text.data()))};
 }
 
 }  // namespace

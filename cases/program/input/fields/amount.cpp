@@ -125,8 +125,7 @@ Parameter read_parameter(const ConfigValue& value, const Dimension& due, const R
 Vector read_point(const ConfigValue& value, const Range& allowed) {
   const auto entries = value.list(3);
   Vector point;
-  for (Eigen::Index i = 0; i < 3; ++i)
-    point[i] = entries[static_cast<std::size_t>(i)].quantity(dimension::length, allowed);
+  for (Eigen::Index i = 0; i < 3; ++i) point[i] = entries[i].quantity(dimension::length, allowed);
   return point;
 }
 

@@ -16,7 +16,7 @@ std::optional<char> read_mark(const ConfigTable& table, const char* key, std::in
   if (!value) return std::nullopt;
   const std::vector<std::string> allowed(names);
   const auto chosen = std::ranges::find(allowed, value->one_of(allowed, key)) - allowed.begin();
-  return marks[static_cast<std::size_t>(chosen)];
+  return marks[chosen];
 }
 
 }  // namespace

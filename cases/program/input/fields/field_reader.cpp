@@ -71,7 +71,7 @@ struct Frames {
 
 double sum_of(const Interpolation& there, const std::vector<double>& values) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < there.known.size(); ++i) sum += there.weight[i] * values[as_size(there.known[i])];
+  for (std::size_t i = 0; i < there.known.size(); ++i) sum += there.weight[i] * values[there.known[i]];
   return sum;
 }
 
@@ -162,7 +162,7 @@ void FieldInFile::Content::prepare_csv(const Dimension& due) {
     for (const double entry : *column) text += fmt::format("{} ", entry);
   std::vector<Vector> points(columns[3].size(), Vector::Zero());
   for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t i = 0; i < columns[a].size(); ++i) points[i][static_cast<Eigen::Index>(a)] = columns[a][i];
+    for (std::size_t i = 0; i < columns[a].size(); ++i) points[i][a] = columns[a][i];
   read = [points, varies, values = columns[3]] {
     Frames found;
     found.add(0.0, {.field = scattered_field(points, varies), .values = values});
@@ -175,7 +175,7 @@ InputError FieldInFile::Content::outside(const Vector& x, const KnownField& fiel
   const auto shown = [&](const Vector& place) {
     std::string words;
     for (Eigen::Index a = 0; a < 3; ++a)
-      words += (a ? ", " : "") + (field.varies[static_cast<std::size_t>(a)] ? fmt::format("{:.6g}", place[a]) : "any");
+      words += (a ? ", " : "") + (field.varies[a] ? fmt::format("{:.6g}", place[a]) : "any");
     return "(" + words + ")";
   };
   const Box& box = field.places.around();
@@ -192,7 +192,7 @@ std::vector<double> FieldInFile::Content::looked_up(const Vector& x) const {
     const Interpolation there = field.at(x, nearest);
     Vector extent = field.places.around().high - field.places.around().low;
     for (Eigen::Index a = 0; a < 3; ++a)
-      if (!field.varies[static_cast<std::size_t>(a)]) extent[a] = 0.0;
+      if (!field.varies[a]) extent[a] = 0.0;
     const double allowed = tolerance.value_or(0.01 * extent.norm());
     if (there.outside > allowed) throw outside(x, field, there.outside, allowed);
     const double here = units.factor * sum_of(there, frames->values[i]) + units.shift;

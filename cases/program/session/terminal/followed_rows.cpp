@@ -46,7 +46,7 @@ void FollowedRows::write(std::string_view lines) {
       file_.reset();
       return;
     }
-    lines.remove_prefix(static_cast<std::size_t>(n));
+    lines.remove_prefix(n);
   }
   while (file_ && !is_read(file_->get())) {
     stop_if_asked();

@@ -48,7 +48,7 @@ std::string CurveFit::add_sensitivity(const DoneStage& done, const FitFindings& 
     table.comments.push_back(move.told);
     std::vector<double> changes;
     for (Eigen::Index i = 0; i < done.result.derivatives.rows(); ++i) {
-      const MeasuredPoints::Point& point = done.points.points[static_cast<std::size_t>(i)];
+      const MeasuredPoints::Point& point = done.points.points[i];
       if (point.specimen == 0)
         changes.push_back(move.by * done.points.scale(point) * done.result.derivatives(i, column));
     }

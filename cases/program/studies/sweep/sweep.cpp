@@ -140,8 +140,8 @@ void run_sweep(const CaseFile& file, const SweepSettings& settings, Session& ses
   const Stopwatch watch;
   if (session.slurm) require_slurm();
   const FolderLock lock(session.results);
-  session.log.say(head_line(session, fmt::format("sweep of {}: {}", case_name(file),
-                                                 counted(static_cast<Index>(settings.points.size()), "run"))));
+  session.log.say(
+      head_line(session, fmt::format("sweep of {}: {}", case_name(file), counted(count_of(settings.points), "run"))));
   session.log.open_file(session.results / "sweep.log", true);
   CaseRuns runs(session.results / "runs", session);
   std::vector<CaseVariant> variants;
