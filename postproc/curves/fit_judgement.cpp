@@ -144,14 +144,11 @@ void add_moves(FitFindings& found, const JudgedData& data) {
 
 void hold_move(const FittedParameter& p, double& lower, double& upper) {
   if (!std::isfinite(p.moved_by_finer)) return;
-  if (p.log_scale) {
-    const double factor = 1.0 + p.moved_by_finer / p.estimate;
-    lower *= std::min(1.0, factor);
-    upper *= std::max(1.0, factor);
-  } else {
-    lower += std::min(0.0, p.moved_by_finer);
-    upper += std::max(0.0, p.moved_by_finer);
-  }
+  const double factor = 1.0 + p.moved_by_finer / p.estimate;
+  const double down = p.log_scale ? lower * std::min(1.0, factor) : lower + std::min(0.0, p.moved_by_finer);
+  const double up = p.log_scale ? upper * std::max(1.0, factor) : upper + std::max(0.0, p.moved_by_finer);
+  lower = std::max(down, std::min(lower, p.lower_bound));
+  upper = std::min(up, std::max(upper, p.upper_bound));
 }
 
 bool judge(FitFindings& found, JudgedData data) {

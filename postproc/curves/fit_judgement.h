@@ -36,7 +36,8 @@ bool judge(FitFindings& found, JudgedData data);
 void question(FitFindings& found, std::string reason);
 void withhold_intervals(FitFindings& found);
 
-/// Moves the end of an interval of noise alone that lies on the side of what a finer discretisation says, by as much.
+/// Moves the end of an interval of noise alone that lies on the side of what a finer discretisation says, by as much,
+/// not beyond the bounds of the parameter.
 void hold_move(const FittedParameter& p, double& lower, double& upper);
 
 }  // namespace pfdm

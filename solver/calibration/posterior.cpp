@@ -190,11 +190,14 @@ class Sampler {
     }
     return points;
   }
-  // Nearer to the estimates, as far as needed.
-  VectorXd within_bounds(VectorXd z) const {
-    constexpr int most_halvings = 30;
-    for (int i = 0; i < most_halvings && !is_within_bounds(values_at(z)); ++i) z *= 0.7;
-    return z;
+  // Parameters beyond a bound are put on it.
+  VectorXd within_bounds(const VectorXd& z) const {
+    const std::vector<double> values = values_at(z);
+    if (is_within_bounds(values)) return z;
+    VectorXd x(centre_.size());
+    for (Eigen::Index j = 0; j < x.size(); ++j)
+      x[j] = in_fit(j, std::clamp(values[j], problem_.parameters[j].lower, problem_.parameters[j].upper));
+    return axes_.triangularView<Eigen::Lower>().solve(x - centre_);
   }
 
   void run(const std::vector<VectorXd>& points) {

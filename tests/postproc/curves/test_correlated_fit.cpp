@@ -108,5 +108,24 @@ TEST(CorrelatedFit, OfTwoPointsIsNeverSound) {
   EXPECT_EQ(found.reasons[0], "2 data for 1 parameter: nothing shows whether the model fits; 4 or more are needed");
 }
 
+TEST(HoldMove, ReachesTowardsTheFinerEstimateWithinTheBounds) {
+  for (const bool log_scale : {false, true}) {
+    FittedParameter p{.name = "toughness", .unit = "J/m^2", .estimate = 100.0};
+    p.log_scale = log_scale;
+    p.lower_bound = 50.0, p.upper_bound = 115.0;
+    p.moved_by_finer = 8.0;
+    double lower = 95.0, upper = 105.0;
+    hold_move(p, lower, upper);
+    EXPECT_EQ(lower, 95.0);
+    EXPECT_NEAR(upper, log_scale ? 105.0 * 1.08 : 113.0, 1e-12);
+    hold_move(p, lower, upper);
+    EXPECT_EQ(upper, 115.0);
+    p.moved_by_finer = -60.0;
+    hold_move(p, lower, upper);
+    EXPECT_EQ(lower, 50.0);
+    EXPECT_EQ(upper, 115.0);
+  }
+}
+
 }  // namespace
 }  // namespace pfdm::this_file

@@ -158,7 +158,7 @@ TEST(Summary, measures_this_process) {
   EXPECT_GT(in_use, 1e6);
   EXPECT_GE(before, in_use - 1e6);
   const double size = before - in_use + growth;  // so that the peak grows by this much, whatever other tests took
-  std::vector<char> much(size, 'x');
+  std::vector<char> much(static_cast<std::size_t>(size), 'x');
   EXPECT_EQ(std::count(much.begin(), much.end(), 'x'), static_cast<std::ptrdiff_t>(much.size()));
   EXPECT_NEAR(peak_memory(), before + growth, 1e7);
   const std::clock_t start = std::clock();

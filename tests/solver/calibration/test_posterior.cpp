@@ -91,39 +91,64 @@ TEST(Posterior, TakesPriorsAndEndsAtBounds) {
   for (const auto& sample : bounded.samples) EXPECT_LE(sample[1], 1.95);
 }
 
-// Velocity of an enzyme's reaction (Bates, Watts 1988, appendix 1); the same posterior by sums over a grid.
-TEST(Posterior, OfANonlinearModelIsThatOfAGrid) {
-  const std::vector<double> at{0.02, 0.02, 0.06, 0.06, 0.11, 0.11, 0.22, 0.22, 0.56, 0.56, 1.1, 1.1},
-      rate{76, 47, 97, 107, 123, 139, 159, 152, 191, 201, 207, 200};
-  const FitProblem problem =
-      problem_of(michaelis, at, rate, {parameter("v", 200.0, 10.0, 1e3), parameter("k", 0.05, 1e-4, 10.0)});
-  const FitResult result = fit(problem);
-  const Posterior found = posterior(problem, result);
-  EXPECT_LT(found.emulator_error, 0.05);
+// Velocity of an enzyme's reaction (Bates, Watts 1988, appendix 1).
+FitProblem enzyme() {
+  return problem_of(michaelis, {0.02, 0.02, 0.06, 0.06, 0.11, 0.11, 0.22, 0.22, 0.56, 0.56, 1.1, 1.1},
+                    {76, 47, 97, 107, 123, 139, 159, 152, 191, 201, 207, 200},
+                    {parameter("v", 200.0, 10.0, 1e3), parameter("k", 0.05, 1e-4, 10.0)});
+}
 
-  constexpr std::size_t n = 400;
-  const std::array<double, 2> low{160.0, 0.02}, high{275.0, 0.16};
-  std::array<std::vector<double>, 2> marginal{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
-  const auto value = [&](std::size_t k, std::size_t i) {
-    return low[k] + (high[k] - low[k]) * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
-  };
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) {
-      double squares = 0.0;
-      const auto residuals = problem.residuals(std::array<double, 2>{value(0, i), value(1, j)});
-      for (const double r : *residuals) squares += r * r;
-      const double density = std::pow(squares / result.sum_of_squares, -0.5 * 12.0);
-      marginal[0][i] += density;
-      marginal[1][j] += density;
-    }
-  for (std::size_t k = 0; k < 2; ++k)
-    for (const double share : {0.025, 0.5, 0.975}) {
-      double all = 0.0, sum = 0.0;
-      for (const double m : marginal[k]) all += m;
-      std::size_t i = 0;
-      while (sum < share * all) sum += marginal[k][i++];
-      EXPECT_NEAR(found.quantile(k, share), value(k, i), 0.3 * result.estimates[k].standard_error) << k << ' ' << share;
-    }
+// Its posterior by sums over a grid of both parameters between these values.
+class OnGrid {
+ public:
+  OnGrid(const FitProblem& problem, double least_squares, const std::array<double, 2>& low,
+         const std::array<double, 2>& high)
+      : low_(low), high_(high) {
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) {
+        double squares = 0.0;
+        const auto residuals = problem.residuals(std::array<double, 2>{value(0, i), value(1, j)});
+        for (const double r : *residuals) squares += r * r;
+        const double density = std::pow(squares / least_squares, -0.5 * 12.0);
+        marginal_[0][i] += density;
+        marginal_[1][j] += density;
+      }
+  }
+
+  double quantile(std::size_t k, double share) const {
+    double all = 0.0, sum = 0.0;
+    for (const double m : marginal_[k]) all += m;
+    std::size_t i = 0;
+    while (sum < share * all) sum += marginal_[k][i++];
+    return value(k, i);
+  }
+
+ private:
+  static constexpr std::size_t n = 400;
+  double value(std::size_t k, std::size_t i) const {
+    return low_[k] + (high_[k] - low_[k]) * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+  }
+
+  std::array<double, 2> low_, high_;
+  std::array<std::array<double, n>, 2> marginal_{};
+};
+
+TEST(Posterior, OfANonlinearModelIsThatOfAGrid) {
+  FitProblem problem = enzyme();
+  const FitResult result = fit(problem);
+  // Without a bound, and with one near the estimate, which the points about it have to heed.
+  for (const double bound : {275.0, result.estimates[0].value + 0.4 * result.estimates[0].standard_error}) {
+    problem.parameters[0].upper = bound;
+    const Posterior found = posterior(problem, result);
+    EXPECT_LT(found.emulator_error, 0.05);
+    EXPECT_FALSE(found.is_cut);
+    EXPECT_LE(found.evaluations, 48);
+    const OnGrid due(problem, result.sum_of_squares, {160.0, 0.02}, {bound, 0.16});
+    for (std::size_t k = 0; k < 2; ++k)
+      for (const double share : {0.025, 0.5, 0.975})
+        EXPECT_NEAR(found.quantile(k, share), due.quantile(k, share), 0.3 * result.estimates[k].standard_error)
+            << k << ' ' << share << ' ' << bound;
+  }
 }
 
 // Values drawn from the prior, data from these: their ranks among the samples are uniform (Cook, Gelman, Rubin, J.

@@ -282,7 +282,8 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   doubt(done, model_error, found.found);
   const bool is_last = &stage == &job_.settings.stages.back();
   if (is_last) found.found.sensitivity_file = add_sensitivity(done, found.found);
-  if (is_sound(found.found.verdict)) try {
+  are_sound_ = are_sound_ && is_sound(found.found.verdict);
+  if (are_sound_) try {
       if (job_.settings.intervals == Intervals::profile) add_profiles(done, found.found);
       if (job_.settings.intervals == Intervals::posterior && is_last) add_posterior(done, found.found);
     } catch (const NoConvergence& error) {

@@ -117,6 +117,7 @@ class CurveFit {
   std::vector<double> values_;              // of all parameters, as known so far [SI]
   std::vector<bool> is_of_set_up_;          // parameters of the measured curves: no run depends on them
   std::vector<bool> is_estimated_;          // by an earlier stage
+  bool are_sound_ = true;                   // all stages so far; else no intervals are made that cost runs
   std::map<std::string, CsvTable> tables_;  // that go with fit.json, by the names of their files
 };
 
