@@ -72,6 +72,22 @@ TEST(RunProgress, SpeaksInTheUnitsOfTheCase) {
             "iterations  0:00 elapsed, 0:00 left\n");
 }
 
+/// Of a box with interfaces the mean strain and stress, and the debonded area in place of a damage that nothing has.
+TEST(RunProgress, OfABoxSaysStrainAndStress) {
+  std::ostringstream out;
+  Log log(out, out, false, false);
+  RunProgress progress(log, 0.0, 1.0, {.units = {}, .of_box = {{0, 1}}, .damage = false, .debonded_area = true});
+  StepReport step{};
+  step.step = 12, step.load = 0.5, step.staggered_iterations = 2, step.debonded_area = {2e-7, 1e-7};
+  step.means.emplace();
+  step.means->strain(0, 1) = 0.0125, step.means->stress(0, 1) = 2.6641e6;
+  progress.step_done(step, 1e-6, 0.1, "");
+  EXPECT_EQ(progress.figures().reached, "strain_xy 0.0125, stress_xy 2.664 MPa");
+  EXPECT_EQ(out.str(),
+            "step   12  load 0.50000  strain_xy 0.0125  stress_xy 2.664 MPa  debonded 0.3 mm^2    2 iterations  0:00 "
+            "elapsed, time left unknown\n");
+}
+
 TEST(ProgressLine, IsCutToTheTerminal) {
   std::ostringstream out;
   Log log(out, out, true, false);

@@ -1,10 +1,13 @@
 #include "cases/program/fracture/run/progress.h"
 
+#include "cases/program/fracture/outcome/mean_curve.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace pfdm {
@@ -106,8 +109,8 @@ std::string debonded_words(const FirstDebonding& first, const Vector& axis) {
   return along ? "pole along the load debonded" : "pole against the load debonded";
 }
 
-RunProgress::RunProgress(Log& log, double start, double end, ProgressUnits units)
-    : log_(log), end_(end), units_(std::move(units)), left_(start, end) {
+RunProgress::RunProgress(Log& log, double start, double end, ShownOfRun shown)
+    : log_(log), end_(end), shown_(std::move(shown)), left_(start, end) {
   figures_.reached = fmt::format("load {:.4g} of {:.4g}", start, end);
   figures_.share = start / end;
 }
@@ -129,8 +132,16 @@ void RunProgress::iterated(const IterationReport& iteration) {
 
 void RunProgress::step_done(const StepReport& step, double displacement, double force, const std::string& event) {
   left_.step_done(step.load);
-  const std::string u = shown_in(units_.units.displacement, displacement), f = shown_in(units_.units.force, force);
-  figures_ = {.reached = units_.is_box ? fmt::format("load {:.4g} of {:.4g}", step.load, end_) : u + ", " + f,
+  std::array<std::string, 2> names{"displacement", "force"},
+      values{shown_in(shown_.units.displacement, displacement), shown_in(shown_.units.force, force)};
+  if (shown_.of_box && step.means) {
+    const auto& [i, j] = *shown_.of_box;
+    const std::string_view component = name_of_component(*shown_.of_box);
+    names = {fmt::format("strain_{}", component), fmt::format("stress_{}", component)};
+    values = {fmt::format("{:.4g}", step.means->strain(i, j)), shown_in({.si_unit = "Pa"}, step.means->stress(i, j))};
+  }
+  figures_ = {.reached = shown_.of_box ? fmt::format("{} {}, {} {}", names[0], values[0], names[1], values[1])
+                                       : values[0] + ", " + values[1],
               .event = event,
               .share = step.load / end_,
               .steps = step.step,
@@ -139,11 +150,16 @@ void RunProgress::step_done(const StepReport& step, double displacement, double 
               .seconds_left = left_.seconds(seconds())};
   if (const auto more = left_.steps()) figures_.about_steps = step.step + static_cast<Index>(std::ceil(*more - 1e-6));
   draw();
-  log_.step(fmt::format("step {:4}  load {:.5f}  {}max damage {:.4f}  damaged {}  {:3} iterations  {} elapsed, {}",
-                        step.step, step.load,
-                        units_.is_box ? std::string() : fmt::format("displacement {}  force {}  ", u, f),
-                        step.max_damage, shown_in({.si_unit = "m^3"}, step.damaged_volume), step.staggered_iterations,
-                        clock_time(seconds()), words_for(figures_.seconds_left)));
+  std::string line = fmt::format("step {:4}  load {:.5f}  {} {}  {} {}", step.step, step.load, names[0], values[0],
+                                 names[1], values[1]);
+  if (shown_.damage)
+    line += fmt::format("  max damage {:.4f}  damaged {}", step.max_damage,
+                        shown_in({.si_unit = "m^3"}, step.damaged_volume));
+  if (shown_.debonded_area)
+    line += fmt::format("  debonded {}", shown_in({.si_unit = "m^2"}, std::accumulate(step.debonded_area.begin(),
+                                                                                      step.debonded_area.end(), 0.0)));
+  log_.step(line + fmt::format("  {:3} iterations  {} elapsed, {}", step.staggered_iterations, clock_time(seconds()),
+                               words_for(figures_.seconds_left)));
 }
 
 }  // namespace pfdm

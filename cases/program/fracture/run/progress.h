@@ -6,6 +6,7 @@
 #include "postproc/cohesive/first_debonding.h"
 #include "solver/fracture/fracture_run.h"
 
+#include <array>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -35,7 +36,7 @@ class TimeLeft {
 };
 
 struct ProgressFigures {
-  std::string reached;    ///< "454.3 um, 21.83 N"
+  std::string reached;    ///< "454.3 um, 21.83 N", of a box "strain_zz 0.04, stress_zz 2.664 MPa"
   std::string event;      ///< "lower pole debonded"; empty: nothing has
   double share = 0.0;     ///< of the load that is done
   Index steps = 0;        ///< that are done
@@ -53,16 +54,18 @@ std::string progress_line(const ProgressFigures& figures, int columns);
 /// "lower pole debonded"; poles are called so where `axis` points up, along z, and else by the direction of the load.
 std::string debonded_words(const FirstDebonding& first, const Vector& axis);
 
-/// What a run shows of itself: of a box the load parameter, else displacement and force.
-struct ProgressUnits {
-  CurveUnits units;
-  bool is_box = false;
+/// What a run shows of itself at each step.
+struct ShownOfRun {
+  CurveUnits units;                          ///< of displacement and force
+  std::optional<std::array<int, 2>> of_box;  ///< in their place this component of mean strain and stress
+  bool damage = true;                        ///< bodies can break
+  bool debonded_area = false;                ///< interfaces can open
 };
 
 class RunProgress {
  public:
   /// `start` and `end` are values of the load parameter.
-  RunProgress(Log& log, double start, double end, ProgressUnits units);
+  RunProgress(Log& log, double start, double end, ShownOfRun shown);
   void iterated(const IterationReport& iteration);
   /// displacement [m] and force [N] of the curve; `event` as in ProgressFigures.
   void step_done(const StepReport& step, double displacement, double force, const std::string& event);
@@ -75,7 +78,7 @@ class RunProgress {
 
   Log& log_;
   double end_;
-  ProgressUnits units_;
+  ShownOfRun shown_;
   TimeLeft left_;
   ProgressFigures figures_{};
   Clock::time_point began_ = Clock::now();

@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/outcome/end_of_run.h"
 #include "cases/program/fracture/outcome/fracture_cohesive.h"
+#include "cases/program/fracture/outcome/mean_curve.h"
 #include "cases/program/fracture/run/long_time_heat.h"
 #include "cases/program/fracture/run/progress.h"
 #include "cases/program/session/head_line.h"
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -33,9 +35,14 @@ RunSummary summary_of(const FractureProgram& program, const Session& session, co
   return summary;
 }
 
-ProgressUnits progress_units(const FractureProgram& program) {
-  return {.units = read_curve_units(program.file, program.fracture.output.curve),
-          .is_box = program.fracture.box.has_value()};
+ShownOfRun shown_of(const RunningCase& c) {
+  const FractureCase& fracture = c.program.fracture;
+  ShownOfRun shown{.units = read_curve_units(c.program.file, fracture.output.curve),
+                   .of_box = {},
+                   .damage = std::ranges::any_of(c.run.model().regions, &RegionModel::damageable),
+                   .debonded_area = !fracture.interfaces.empty()};
+  if (fracture.box) shown.of_box = fracture.box->component;
+  return shown;
 }
 
 /// What is known of the first debonding, for the line of progress.
@@ -71,7 +78,7 @@ std::string reason_to_end(const RunningCase& c, Index first_step) {
 
 /// Steps until the end of the load, --max-steps or failure; returns what became of it.
 std::string advance(RunningCase& c) {
-  RunProgress progress(c.session.log, c.state.load, c.program.fracture.loading.end, progress_units(c.program));
+  RunProgress progress(c.session.log, c.state.load, c.program.fracture.loading.end, shown_of(c));
   const LooksForStop looks;
   const auto iterated = [&](const IterationReport& iteration) {
     progress.iterated(iteration);
@@ -109,8 +116,10 @@ void repeat_warnings(Log& log) {
 /// "See force_displacement.csv (curve), fields.pvd (ParaView), run.log (all steps).", of what there is.
 std::string where_to_look(const std::filesystem::path& results) {
   std::string files;
-  for (const auto& [what, file] : {std::pair("curve", curve_file), std::pair("ParaView", "fields.pvd"),
-                                   std::pair("laws", "cohesive.json"), std::pair("all steps", "run.log")})
+  const bool is_box = std::filesystem::exists(results / means_file);
+  for (const auto& [what, file] :
+       {std::pair("curve", is_box ? means_file : curve_file), std::pair("ParaView", "fields.pvd"),
+        std::pair("laws", "cohesive.json"), std::pair("all steps", "run.log")})
     if (std::filesystem::exists(results / file))
       files += fmt::format("{}{} ({})", files.empty() ? "See " : ", ", file, what);
   return files + ".";
