@@ -204,6 +204,7 @@ def main():
             for _ in range(arguments.kills // len(jobs)):
                 found += kill(job, chance)
                 done[f"{job.name}: kills"] += 1
+            print(f"{job.name}: {done[f'{job.name}: kills']} kills, {len(found)} at fault", flush=True)
             for call, places in writing_calls(job).items() if shutil.which("strace") else ():
                 for place in some(places, arguments.calls):
                     found += fail(job, call, place)

@@ -3,6 +3,7 @@
 import os
 import re
 import resource
+import signal
 import subprocess
 import tempfile
 import threading
@@ -20,12 +21,13 @@ def limit():
 def run(command):
     """(exit status, negative for signals; messages; seconds over the limit; largest memory in bytes)"""
     with tempfile.TemporaryFile() as errors:
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors, preexec_fn=limit)
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors, preexec_fn=limit,
+                                   start_new_session=True)
         late = threading.Event()
 
         def stop():
             late.set()
-            process.kill()
+            os.killpg(process.pid, signal.SIGKILL)  # with what it has begun
 
         timer = threading.Timer(SECONDS, stop)
         timer.start()
