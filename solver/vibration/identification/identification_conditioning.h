@@ -1,8 +1,10 @@
 #pragma once
 // All signals of a record brought into the same state: the same zero-phase band, only as many samples as that band
 // needs, and both ends cut off, where filters and integration leave transients. What is nonlinear has to be formed
-// before: powers of a filtered signal are not the filtered powers.
+// before: powers of a filtered signal are not the filtered powers. And the linear systems that regressions make of
+// them.
 
+#include "solver/vibration/identification/identification.h"
 #include "solver/vibration/signals/signals_filter.h"
 #include "solver/vibration/simulation/vibration_record.h"
 
@@ -10,6 +12,8 @@
 
 #include <complex>
 #include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace pfdm {
@@ -54,5 +58,36 @@ struct States {
   Eigen::VectorXd velocity;      ///< [m/s]
 };
 States integrate_states(const VibrationRecord& record);
+
+/// A record, ready to deliver columns of a regression.
+struct PreparedRecord {
+  Conditioner condition;
+  States states;
+  Eigen::VectorXcd force;                ///< spectrum of -m (z'' + y'')
+  std::vector<Eigen::VectorXcd> powers;  ///< spectra of z, z^2 ...
+  Eigen::VectorXcd velocity;
+  double weight = 1.0;  ///< so that every record counts alike
+  double low = 0.0;     ///< end of the band that is excited [Hz]
+  double high = 0.0;    ///< likewise [Hz]
+};
+
+/// Records in the band of their excitation, and of its first harmonic where the stiffness is nonlinear.
+std::vector<PreparedRecord> prepare_all(std::span<const VibrationRecord> records, const ModelStructure& structure,
+                                        const IdentificationSettings& settings);
+
+/// Spectrum of z' |z'/V|^lambda, V = `reference` [m/s].
+Eigen::VectorXcd shaped_velocity(const PreparedRecord& p, double lambda, double reference);
+
+/// Columns of all records below each other, each record weighted.
+struct RecordSystem {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd q;
+};
+
+/// Columns of a record, and its left side.
+using RecordColumns = std::function<std::pair<std::vector<Eigen::VectorXd>, Eigen::VectorXd>(const PreparedRecord&)>;
+
+/// Puts the columns of all records together.
+RecordSystem assemble(std::span<const PreparedRecord> prepared, const RecordColumns& columns);
 
 }  // namespace pfdm

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace pfdm {
@@ -118,6 +120,29 @@ void ParameterCoordinates::set_bounds(const MassMaterial& m, std::vector<Estimat
     between(std::exp(log_low_), std::exp(log_high_), (std::log(alpha) - log_low_) / (log_high_ - log_low_));
     positive(beta_like_stiffness(m, alpha), dissipative_sign(m.forcing) < 0.0);
   }
+}
+
+void sort_terms(MassMaterial& m) {
+  std::ranges::sort(m.kernel, {}, [](const HereditaryTerm& term) { return term.alpha.real(); });
+}
+
+std::optional<std::vector<Eigen::Index>> rising_order(const MassMaterial& m, Eigen::Index n_coordinates) {
+  std::vector<Eigen::Index> first;  // of each term
+  Eigen::Index n_terms = 0;
+  for (const HereditaryTerm& term : m.kernel) {
+    first.push_back(n_terms);
+    n_terms += term.is_pair() ? 4 : 2;
+  }
+  std::vector<std::size_t> terms(m.kernel.size());
+  std::iota(terms.begin(), terms.end(), std::size_t{0});
+  std::ranges::stable_sort(terms, {}, [&](std::size_t i) { return m.kernel[i].alpha.real(); });
+  if (std::ranges::is_sorted(terms)) return std::nullopt;
+  std::vector<Eigen::Index> columns(n_coordinates - n_terms);
+  std::iota(columns.begin(), columns.end(), Eigen::Index{0});
+  for (const std::size_t i : terms)
+    for (Eigen::Index k = 0; k < (m.kernel[i].is_pair() ? 4 : 2); ++k)
+      columns.push_back(n_coordinates - n_terms + first[i] + k);
+  return columns;
 }
 
 }  // namespace pfdm

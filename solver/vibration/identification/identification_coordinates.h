@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,5 +37,12 @@ class ParameterCoordinates {
   double log_low_;
   double log_high_;
 };
+
+/// Puts the slowest kernel term first: a convention, so that estimates can be compared.
+void sort_terms(MassMaterial& m);
+
+/// Columns of the coordinates in the order in which the terms' rates rise; none if they already do. The rates may have
+/// passed each other during a search.
+std::optional<std::vector<Eigen::Index>> rising_order(const MassMaterial& m, Eigen::Index n_coordinates);
 
 }  // namespace pfdm

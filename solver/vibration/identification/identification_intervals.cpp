@@ -66,6 +66,17 @@ double degrees_of_freedom(const WhiteBlocks& white, const VectorXd& a) {
   return std::max(trace * trace / squares, 1.0);
 }
 
+/// Named values of each replicate, a column each.
+MatrixXd values_of(const ParameterCoordinates& coordinates, const MatrixXd& replicates) {
+  MatrixXd values;
+  for (Eigen::Index i = 0; i < replicates.cols(); ++i) {
+    const auto named = named_values(coordinates.model(replicates.col(i)));
+    if (i == 0) values.resize(std::ssize(named), replicates.cols());
+    for (Eigen::Index k = 0; k < values.rows(); ++k) values(k, i) = named[k].value;
+  }
+  return values;
+}
+
 }  // namespace
 
 ParameterReplicates parameter_replicates(const VectorXd& x, const VectorXd& residuals, const MatrixXd& J,
@@ -91,6 +102,28 @@ ParameterReplicates parameter_replicates(const VectorXd& x, const VectorXd& resi
   result.around = deviations.colwise() + x;
   result.widened = (wider.asDiagonal() * deviations).colwise() + x;
   return result;
+}
+
+void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates, const ParameterReplicates& replicates,
+                   double confidence) {
+  const MatrixXd widened = values_of(coordinates, replicates.widened);
+  for (Eigen::Index k = 0; k < widened.rows(); ++k) {
+    VectorXd sorted = widened.row(k);
+    std::ranges::sort(sorted);
+    Estimate& estimate = fit.estimates[k];
+    const auto at = [&](double part) {
+      return sorted[static_cast<Eigen::Index>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
+    };
+    estimate.lower = at(0.5 - 0.5 * confidence);
+    estimate.upper = at(0.5 + 0.5 * confidence);
+  }
+  const MatrixXd values = values_of(coordinates, replicates.around);
+  const MatrixXd centred = values.colwise() - values.rowwise().mean();
+  const VectorXd norms = centred.rowwise().norm().cwiseMax(1e-300);
+  for (Eigen::Index k = 0; k < values.rows(); ++k)
+    fit.estimates[k].standard_error = norms[k] / std::sqrt(static_cast<double>(values.cols() - 1));
+  fit.correlation =
+      norms.cwiseInverse().asDiagonal() * (centred * centred.transpose()) * norms.cwiseInverse().asDiagonal();
 }
 
 }  // namespace pfdm

@@ -1,5 +1,7 @@
 #pragma once
-// Replicates of fitted parameters, from which their intervals follow.
+// Replicates of fitted parameters, and the intervals that follow from them.
+
+#include "solver/vibration/identification/identification_coordinates.h"
 
 #include <Eigen/Core>
 
@@ -30,5 +32,10 @@ struct ParameterReplicates {
 ParameterReplicates parameter_replicates(const Eigen::VectorXd& x, const Eigen::VectorXd& residuals,
                                          const Eigen::MatrixXd& J, std::span<const ResidualBlock> blocks, int number,
                                          double confidence, std::uint64_t seed);
+
+/// Sets the intervals of the fit's estimates by percentiles of the replicates of each value, and its standard errors
+/// and correlations by their scatter.
+void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates, const ParameterReplicates& replicates,
+                   double confidence);
 
 }  // namespace pfdm

@@ -1,22 +1,20 @@
-// refine_output and prediction_misfit of identification.h.
+// refine_output and approach_output of identification.h.
 
 #include "solver/calibration/levenberg_marquardt.h"
 #include "solver/linear/dense_algebra.h"
 #include "solver/vibration/identification/identification.h"
 #include "solver/vibration/identification/identification_base_noise.h"
 #include "solver/vibration/identification/identification_coordinates.h"
-#include "solver/vibration/identification/identification_initial_motion.h"
 #include "solver/vibration/identification/identification_intervals.h"
 #include "solver/vibration/identification/identification_responses.h"
-#include "solver/vibration/simulation/mass_material_simulation.h"
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -204,66 +202,6 @@ Minimum least_output_error(std::span<const VibrationRecord> records, const Respo
   return found;
 }
 
-/// Named values of each replicate, a column each.
-MatrixXd values_of(const ParameterCoordinates& coordinates, const MatrixXd& replicates) {
-  MatrixXd values;
-  for (Eigen::Index i = 0; i < replicates.cols(); ++i) {
-    const auto named = named_values(coordinates.model(replicates.col(i)));
-    if (i == 0) values.resize(std::ssize(named), replicates.cols());
-    for (Eigen::Index k = 0; k < values.rows(); ++k) values(k, i) = named[k].value;
-  }
-  return values;
-}
-
-/// Percentiles of the replicates of each value, and their correlations.
-void set_intervals(OutputErrorFit& fit, const ParameterCoordinates& coordinates, const ParameterReplicates& replicates,
-                   double confidence) {
-  const MatrixXd widened = values_of(coordinates, replicates.widened);
-  for (Eigen::Index k = 0; k < widened.rows(); ++k) {
-    VectorXd sorted = widened.row(k);
-    std::ranges::sort(sorted);
-    Estimate& estimate = fit.estimates[k];
-    const auto at = [&](double part) {
-      return sorted[static_cast<Eigen::Index>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
-    };
-    estimate.lower = at(0.5 - 0.5 * confidence);
-    estimate.upper = at(0.5 + 0.5 * confidence);
-  }
-  const MatrixXd values = values_of(coordinates, replicates.around);
-  const MatrixXd centred = values.colwise() - values.rowwise().mean();
-  const VectorXd norms = centred.rowwise().norm().cwiseMax(1e-300);
-  for (Eigen::Index k = 0; k < values.rows(); ++k)
-    fit.estimates[k].standard_error = norms[k] / std::sqrt(static_cast<double>(values.cols() - 1));
-  fit.correlation =
-      norms.cwiseInverse().asDiagonal() * (centred * centred.transpose()) * norms.cwiseInverse().asDiagonal();
-}
-
-/// The fastest term first would be as good: a convention, so that estimates can be compared.
-void sort_terms(MassMaterial& m) {
-  std::ranges::sort(m.kernel, {}, [](const HereditaryTerm& term) { return term.alpha.real(); });
-}
-
-/// Columns of the coordinates in the order in which the terms' rates rise; none if they already do. The rates may have
-/// passed each other during the search.
-std::optional<std::vector<Eigen::Index>> rising_order(const MassMaterial& m, Eigen::Index n_coordinates) {
-  std::vector<Eigen::Index> first;  // of each term
-  Eigen::Index n_terms = 0;
-  for (const HereditaryTerm& term : m.kernel) {
-    first.push_back(n_terms);
-    n_terms += term.is_pair() ? 4 : 2;
-  }
-  std::vector<std::size_t> terms(m.kernel.size());
-  std::iota(terms.begin(), terms.end(), std::size_t{0});
-  std::ranges::stable_sort(terms, {}, [&](std::size_t i) { return m.kernel[i].alpha.real(); });
-  if (std::ranges::is_sorted(terms)) return std::nullopt;
-  std::vector<Eigen::Index> columns(n_coordinates - n_terms);
-  std::iota(columns.begin(), columns.end(), Eigen::Index{0});
-  for (const std::size_t i : terms)
-    for (Eigen::Index k = 0; k < (m.kernel[i].is_pair() ? 4 : 2); ++k)
-      columns.push_back(n_coordinates - n_terms + first[i] + k);
-  return columns;
-}
-
 /// With the terms in the order of their rates: the coordinates that belong to it.
 ParameterCoordinates put_in_order(Minimum& found, const ParameterCoordinates& coordinates, MassMaterial start,
                                   const ExcitedRange& range) {
@@ -352,19 +290,6 @@ OutputErrorFit refine_output(std::span<const VibrationRecord> records, const Mas
     set_intervals(fit, coordinates, replicates, settings.confidence);
   }
   return fit;
-}
-
-VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record, double crop) {
-  const BaseNodes base = nodes_of(record.base, record.rate, substeps_for(model, record.rate));
-  return simulate_batch(std::span(&model, 1), base, begun_motion(model, record, crop).value_or(InitialMotion{})).col(0);
-}
-
-double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop) {
-  const Conditioner condition = output_condition(record, crop);
-  const VectorXd z = predicted_response(model, record, crop);
-  if (!z.allFinite()) return std::numeric_limits<double>::infinity();
-  const VectorXd measured = condition(record.relative);
-  return (condition(z) - measured).norm() / measured.norm();
 }
 
 }  // namespace pfdm

@@ -13,7 +13,10 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -25,48 +28,8 @@ using Eigen::VectorXd;
 
 constexpr int n_candidates = 24;  // rates that kernel terms are chosen from
 
-/// A record, ready to deliver columns.
-struct Prepared {
-  Conditioner condition;
-  States states;
-  VectorXcd force;                // spectrum of -m (z'' + y'')
-  std::vector<VectorXcd> powers;  // spectra of z, z^2 ...
-  VectorXcd velocity;
-  double weight = 1.0;  // so that every record counts alike
-  double low = 0.0;     // [Hz]
-  double high = 0.0;
-};
-
-Prepared prepare(const VibrationRecord& r, const ModelStructure& structure, const IdentificationSettings& settings) {
-  const bool harmonics = structure.stiffness_order > 1;
-  const PassBand band{
-      .low = 0.9 * r.band_low, .high = std::min((harmonics ? 2.2 : 1.1) * r.band_high, 0.38 * r.rate), .skirt = 0.2};
-  Prepared p{.condition = Conditioner(r.n(), r.rate, band, settings.crop),
-             .states = integrate_states(r),
-             .force = {},
-             .powers = {},
-             .velocity = {},
-             .low = r.band_low,
-             .high = r.band_high};
-  p.force = -settings.mass * p.condition.spectrum(r.relative + r.base);
-  p.velocity = p.condition.spectrum(p.states.velocity);
-  VectorXd power = VectorXd::Ones(r.n());
-  for (int i = 0; i < structure.stiffness_order; ++i) {
-    power.array() *= p.states.displacement.array();
-    p.powers.push_back(p.condition.spectrum(power));
-  }
-  p.weight = 1.0 / p.condition.samples(p.force).norm();
-  return p;
-}
-
-VectorXcd shaped_velocity(const Prepared& p, double lambda, double reference) {
-  if (lambda == 0.0) return p.velocity;
-  const Eigen::ArrayXd v = p.states.velocity.array();
-  return p.condition.spectrum((v * (v.abs() / reference).pow(lambda)).matrix());
-}
-
 /// Spectrum of f. For f = k(z) that of z: the linear part of k, up to the factor k1.
-const VectorXcd& forcing_spectrum(const Prepared& p, KernelForcing forcing, const VectorXcd& shaped) {
+const VectorXcd& forcing_spectrum(const PreparedRecord& p, KernelForcing forcing, const VectorXcd& shaped) {
   switch (forcing) {
     case KernelForcing::displacement:
     case KernelForcing::stiffness: return p.powers.front();
@@ -75,36 +38,7 @@ const VectorXcd& forcing_spectrum(const Prepared& p, KernelForcing forcing, cons
   }
 }
 
-/// Columns of all records below each other, each record weighted.
-struct System {
-  MatrixXd A;
-  VectorXd q;
-};
-
-using Columns = std::function<std::pair<std::vector<VectorXd>, VectorXd>(const Prepared&)>;
-
-System assemble(std::span<const Prepared> prepared, const Columns& columns) {
-  std::vector<std::pair<std::vector<VectorXd>, VectorXd>> parts(prepared.size());
-  parallel_chunks(
-      count_of(prepared), [&](pfdm::Index begin, pfdm::Index) { parts[begin] = columns(prepared[begin]); }, 1);
-  System s;
-  Eigen::Index n = 0;
-  for (const Prepared& p : prepared) n += p.condition.n_samples();
-  Eigen::Index first = 0;
-  s.q.resize(n);
-  s.A.resize(n, static_cast<Eigen::Index>(parts.front().first.size()));
-  for (std::size_t i = 0; i < prepared.size(); ++i) {
-    const Prepared& p = prepared[i];
-    const auto& [a, q] = parts[i];
-    const Eigen::Index m = p.condition.n_samples();
-    for (std::size_t k = 0; k < a.size(); ++k) s.A.col(k).segment(first, m) = p.weight * a[k];
-    s.q.segment(first, m) = p.weight * q;
-    first += m;
-  }
-  return s;
-}
-
-double relative_misfit(const System& s, const VectorXd& p) { return (s.A * p - s.q).norm() / s.q.norm(); }
+double relative_misfit(const RecordSystem& s, const VectorXd& p) { return (s.A * p - s.q).norm() / s.q.norm(); }
 
 /// Least of misfit(lambda) on [0, 4] within a tolerance: a grid, then golden sections about its best point.
 double best_exponent(const std::function<double(double)>& misfit, double tolerance) {
@@ -145,15 +79,15 @@ MassMaterial bare_model(const ModelStructure& structure, double lambda, const Id
 }
 
 /// [damping, z ... z^N], and -m (z'' + y'').
-std::pair<std::vector<VectorXd>, VectorXd> plain_columns(const Prepared& p, const VectorXcd& shaped) {
+std::pair<std::vector<VectorXd>, VectorXd> plain_columns(const PreparedRecord& p, const VectorXcd& shaped) {
   std::vector<VectorXd> a{p.condition.samples(shaped)};
   for (const VectorXcd& power : p.powers) a.push_back(p.condition.samples(power));
   return {std::move(a), p.condition.samples(p.force)};
 }
 
-Regression plain_fit(std::span<const Prepared> prepared, const ModelStructure& structure, double lambda,
+Regression plain_fit(std::span<const PreparedRecord> prepared, const ModelStructure& structure, double lambda,
                      const IdentificationSettings& settings) {
-  const System s = assemble(prepared, [&](const Prepared& p) {
+  const RecordSystem s = assemble(prepared, [&](const PreparedRecord& p) {
     return plain_columns(p, shaped_velocity(p, lambda, settings.reference_velocity));
   });
   const VectorXd x = scaled_least_squares(s.A, s.q);
@@ -163,7 +97,7 @@ Regression plain_fit(std::span<const Prepared> prepared, const ModelStructure& s
   return result;
 }
 
-VectorXcd derivative(const Prepared& p, VectorXcd spectrum) {
+VectorXcd derivative(const PreparedRecord& p, VectorXcd spectrum) {
   for (Eigen::Index k = 0; k < spectrum.size(); ++k) spectrum[k] *= Complex(0.0, p.condition.omega()[k]);
   return spectrum;
 }
@@ -171,10 +105,10 @@ VectorXcd derivative(const Prepared& p, VectorXcd spectrum) {
 /// One kernel term: v' + alpha v = beta f with v = q - c d - k(z) (A12, A13 in A11) gives
 ///   q' = -alpha q + c d' + sum k_i (z^i)' + alpha c d + sum alpha k_i z^i + beta f,
 /// linear in alpha and products of the parameters. For f = z or z' and linear stiffness it is A14.
-Regression third_order_fit(std::span<const Prepared> prepared, const ModelStructure& structure, double lambda,
+Regression third_order_fit(std::span<const PreparedRecord> prepared, const ModelStructure& structure, double lambda,
                            const IdentificationSettings& settings) {
   const bool linear_damping = lambda == 0.0;
-  const System s = assemble(prepared, [&](const Prepared& p) {
+  const RecordSystem s = assemble(prepared, [&](const PreparedRecord& p) {
     const VectorXcd shaped = shaped_velocity(p, lambda, settings.reference_velocity);
     std::vector<VectorXd> a{p.condition.samples(-p.force), p.condition.samples(derivative(p, shaped))};
     for (const VectorXcd& power : p.powers) a.push_back(p.condition.samples(derivative(p, power)));
@@ -215,7 +149,7 @@ struct Reduced {
   double total = 0.0;
 };
 
-Reduced reduce(const System& s) {
+Reduced reduce(const RecordSystem& s) {
   Reduced r;
   r.norms = s.A.colwise().norm().cwiseMax(1e-300);
   MatrixXd all(s.A.rows(), s.A.cols() + 1);
@@ -257,10 +191,10 @@ void for_each_choice(int n, int order, const std::function<void(const std::vecto
 
 /// Rates from well below to well above what is excited; beyond, a term cannot be distinguished from stiffness or
 /// damping.
-VectorXd candidate_rates(std::span<const Prepared> prepared) {
+VectorXd candidate_rates(std::span<const PreparedRecord> prepared) {
   double low = std::numeric_limits<double>::infinity();
   double high = 0.0;
-  for (const Prepared& p : prepared) {
+  for (const PreparedRecord& p : prepared) {
     low = std::min(low, p.low);
     high = std::max(high, p.high);
   }
@@ -269,9 +203,9 @@ VectorXd candidate_rates(std::span<const Prepared> prepared) {
   return VectorXd::LinSpaced(n_candidates, first, last).array().exp();
 }
 
-System candidate_system(std::span<const Prepared> prepared, const ModelStructure& structure, double lambda,
-                        const VectorXd& rates, double reference_velocity) {
-  return assemble(prepared, [&](const Prepared& p) {
+RecordSystem candidate_system(std::span<const PreparedRecord> prepared, const ModelStructure& structure, double lambda,
+                              const VectorXd& rates, double reference_velocity) {
+  return assemble(prepared, [&](const PreparedRecord& p) {
     const VectorXcd shaped = shaped_velocity(p, lambda, reference_velocity);
     auto columns = plain_columns(p, shaped);
     const VectorXcd& f = forcing_spectrum(p, structure.forcing, shaped);
@@ -311,18 +245,11 @@ std::optional<Regression> choose_terms(const Reduced& reduced, const VectorXd& r
   return result;
 }
 
-std::vector<Prepared> prepare_all(std::span<const VibrationRecord> records, const ModelStructure& structure,
-                                  const IdentificationSettings& settings) {
-  std::vector<Prepared> prepared;
-  for (const VibrationRecord& record : records) prepared.push_back(prepare(record, structure, settings));
-  return prepared;
-}
-
 }  // namespace
 
 Regression regress_states(std::span<const VibrationRecord> records, const ModelStructure& structure,
                           const IdentificationSettings& settings) {
-  const std::vector<Prepared> prepared = prepare_all(records, structure, settings);
+  const std::vector<PreparedRecord> prepared = prepare_all(records, structure, settings);
   const bool kernel = structure.forcing != KernelForcing::none;
   const auto fit = [&](double lambda) {
     return kernel ? third_order_fit(prepared, structure, lambda, settings)
@@ -334,7 +261,7 @@ Regression regress_states(std::span<const VibrationRecord> records, const ModelS
 
 std::optional<Regression> regress_separable(std::span<const VibrationRecord> records, const ModelStructure& structure,
                                             int kernel_order, const IdentificationSettings& settings) {
-  const std::vector<Prepared> prepared = prepare_all(records, structure, settings);
+  const std::vector<PreparedRecord> prepared = prepare_all(records, structure, settings);
   const VectorXd rates = kernel_order > 0 ? candidate_rates(prepared) : VectorXd();
   const auto fit = [&](double lambda) {
     const Reduced reduced = reduce(candidate_system(prepared, structure, lambda, rates, settings.reference_velocity));

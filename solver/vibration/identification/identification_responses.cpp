@@ -1,6 +1,7 @@
 #include "solver/vibration/identification/identification_responses.h"
 
 #include "solver/parallel.h"
+#include "solver/vibration/identification/identification.h"
 #include "solver/vibration/identification/identification_initial_motion.h"
 #include "solver/vibration/simulation/mass_material_simulation.h"
 
@@ -200,6 +201,19 @@ std::vector<ResidualBlock> Responses::blocks() const {
       result.emplace_back(out.first + n * i / count, out.first + n * (i + 1) / count);
   }
   return result;
+}
+
+VectorXd predicted_response(const MassMaterial& model, const VibrationRecord& record, double crop) {
+  const BaseNodes base = nodes_of(record.base, record.rate, substeps_for(model, record.rate));
+  return simulate_batch(std::span(&model, 1), base, begun_motion(model, record, crop).value_or(InitialMotion{})).col(0);
+}
+
+double prediction_misfit(const MassMaterial& model, const VibrationRecord& record, double crop) {
+  const Conditioner condition = output_condition(record, crop);
+  const VectorXd z = predicted_response(model, record, crop);
+  if (!z.allFinite()) return std::numeric_limits<double>::infinity();
+  const VectorXd measured = condition(record.relative);
+  return (condition(z) - measured).norm() / measured.norm();
 }
 
 }  // namespace pfdm

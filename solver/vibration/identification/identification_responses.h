@@ -1,6 +1,7 @@
 #pragma once
 // What a fit of the output compares: the conditioned responses of the recorded tests, measured and simulated from the
-// recorded base acceleration, all records one below the other.
+// recorded base acceleration, all records one below the other. In the source also predicted_response and
+// prediction_misfit of identification.h.
 
 #include "physics/point/mass_material.h"
 #include "solver/vibration/identification/identification_conditioning.h"
