@@ -1,5 +1,6 @@
 #include "solver/vibration/diagnosis/vibration_checks.h"
 
+#include "solver/vibration/diagnosis/channel_checks.h"
 #include "solver/vibration/signals/signals_filter.h"
 #include "solver/vibration/signals/signals_fourier.h"
 #include "solver/vibration/signals/signals_spectra.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -16,14 +18,6 @@ using Faults = std::vector<RecordFault>;
 
 constexpr double least_periods = 20.0;      // of the lowest frequency, in a record
 constexpr double highest_of_rate = 0.3907;  // of the band; analysers sample at 2.56 times the band
-
-double quantile(VectorXd values, double part) {
-  const auto at = static_cast<Eigen::Index>(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[at];
-}
-
-double median(const VectorXd& values) { return quantile(values, 0.5); }
 
 void check_lengths(const RawRecord& r, Faults& faults) {
   if (r.base.size() != r.relative.size() || (r.time && r.time->size() != r.base.size()))
@@ -48,7 +42,7 @@ void check_time(const RawRecord& r, Faults& faults) {
   }
   const VectorXd& t = *r.time;
   const VectorXd dt = t.tail(t.size() - 1) - t.head(t.size() - 1);
-  const double step = median(dt);
+  const double step = sample_quantile(dt, 0.5);
   for (Eigen::Index i = 0; i < dt.size(); ++i) {
     if (dt[i] > 0.0) continue;
     faults.push_back(
@@ -126,92 +120,6 @@ void check_dead(const RawRecord& r, Faults& faults) {
     faults.push_back({"dead_channel", fmt::format("the base's acceleration is constant, {}", r.base[0])});
 }
 
-/// Several successive samples at the same extreme value: an analogue-digital converter at the end of its range.
-void check_clipped(const char* channel, const VectorXd& x, Faults& faults) {
-  for (const double extreme : {x.maxCoeff(), x.minCoeff()}) {
-    Eigen::Index runs = 0;
-    Eigen::Index length = 0;
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      length = x[i] == extreme ? length + 1 : 0;
-      runs += length == 3;
-    }
-    if (runs < 3) continue;
-    faults.push_back({"clipped",
-                      fmt::format("{} may be clipped: it stays at {:.6g} m/s^2 for three samples or more, {} times",
-                                  channel, extreme, runs),
-                      false});
-    return;
-  }
-}
-
-/// Smallest step between different samples; 0 of a constant.
-double smallest_step(const VectorXd& x) {
-  VectorXd sorted = x;
-  std::ranges::sort(sorted);
-  const double rounding = 1e-9 * (sorted[sorted.size() - 1] - sorted[0]);
-  double step = 0.0;
-  for (Eigen::Index i = 1; i < sorted.size(); ++i) {
-    const double up = sorted[i] - sorted[i - 1];
-    if (up > rounding && (step == 0.0 || up < step)) step = up;
-  }
-  return step;
-}
-
-/// A converter with too few steps for this level, or numbers printed with too few digits.
-bool check_quantised(const char* channel, const VectorXd& x, Faults& faults) {
-  constexpr double coarse = 0.02;  // of the rms
-  const double step = smallest_step(x), level = rms((x.array() - x.mean()).matrix());
-  if (!(step > coarse * level)) return false;
-  faults.push_back(
-      {"quantised",
-       fmt::format("{} is quantised in steps of {:.3g} m/s^2, {:.2g} of its rms", channel, step, step / level), false});
-  return true;
-}
-
-/// Stretches that stay at one value amid the motion, of at least eight samples, and a thirtieth of a period.
-void check_dropouts(const char* channel, const VectorXd& x, double rate, double band_high, Faults& faults) {
-  const Eigen::Index least = std::max<Eigen::Index>(8, static_cast<Eigen::Index>(std::ceil(rate / (30.0 * band_high))));
-  const double most = x.maxCoeff(), lowest = x.minCoeff();
-  Eigen::Index stretches = 0, samples = 0, first = 0;
-  for (Eigen::Index begin = 0, end = 0; begin < x.size(); begin = end) {
-    for (end = begin + 1; end < x.size() && x[end] == x[begin];) ++end;
-    const bool at_an_end = begin == 0 || end == x.size();
-    const bool is_extreme = x[begin] == most || x[begin] == lowest;
-    if (end - begin < least || at_an_end || is_extreme) continue;
-    if (stretches++ == 0) first = begin;
-    samples += end - begin;
-  }
-  if (stretches == 0) return;
-  faults.push_back({"dropouts",
-                    fmt::format("{} is constant over {} stretches, {:.3g} s in all, the first at {:.4g} s", channel,
-                                stretches, static_cast<double>(samples) / rate, static_cast<double>(first) / rate),
-                    false});
-}
-
-/// An offset is removed later; a drift is not an acceleration of the test.
-void check_drift(const char* channel, const VectorXd& x, double rate, double band_low, Faults& faults) {
-  const PassBand slow{.low = 0.0, .high = 0.1 * band_low, .skirt = 0.5};
-  const double wandering = rms(filtered((x.array() - x.mean()).matrix(), rate, slow));
-  if (wandering > 0.05 * rms((x.array() - x.mean()).matrix()))
-    faults.push_back(
-        {"drift", fmt::format("{} drifts, with an rms of {:.3g} m/s^2 below {:.3g} Hz", channel, wandering, slow.high),
-         false});
-}
-
-/// Single samples far off the line between their neighbours.
-void check_spikes(const char* channel, const VectorXd& x, Faults& faults) {
-  const Eigen::Index n = x.size() - 2;
-  const VectorXd off = (x.segment(1, n) - 0.5 * (x.head(n) + x.tail(n))).cwiseAbs();
-  const double usual = median(off);
-  Eigen::Index where = 0;
-  const double largest = off.maxCoeff(&where);
-  // A sweep's own curvature grows with frequency and through resonance; a spike is beyond its neighbours too.
-  const double nearby =
-      std::max(off[std::max<Eigen::Index>(where - 3, 0)], off[std::min<Eigen::Index>(where + 3, n - 1)]);
-  if (usual > 0.0 && largest > 30.0 * usual && largest > 5.0 * nearby)
-    faults.push_back({"spikes", fmt::format("{} has a spike at sample {}", channel, where + 1), false});
-}
-
 void check_band(const RawRecord& r, double rate, Faults& faults) {
   const PassBand band{.low = 0.8 * r.band_low, .high = 1.2 * r.band_high};
   const double within = rms(filtered(r.base, rate, band));
@@ -244,7 +152,7 @@ BandRatios band_ratios(const RawRecord& r, double rate, bool logarithmic) {
   const VectorXd power = fourier((r.base.array() - r.base.mean()).matrix()).cwiseAbs2();
   // Noise far beside the band has to count less than what ends there: three times the mean of its power, whose tenth
   // lies below 0.105 of the mean.
-  const double floor = 3.0 / 0.105 * quantile(power, 0.1), bin = rate / static_cast<double>(r.base.size());
+  const double floor = 3.0 / 0.105 * sample_quantile(power, 0.1), bin = rate / static_cast<double>(r.base.size());
   const VectorXd above = (power.array() - floor).cwiseMax(0.0);
   const auto expected = [&](double q) {
     return logarithmic ? r.band_low * std::pow(r.band_high / r.band_low, q)
@@ -301,12 +209,7 @@ std::vector<RecordFault> check_record(const RawRecord& r) {
   const bool base_rests = is_ring_down(r);
   for (const auto& [name, x] : channels) {
     if (x == &r.base && base_rests) continue;
-    if (!check_quantised(name, *x, faults)) {
-      check_clipped(name, *x, faults);
-      check_dropouts(name, *x, rate, r.band_high, faults);
-    }
-    check_drift(name, *x, rate, r.band_low, faults);
-    check_spikes(name, *x, faults);
+    check_channel(name, *x, rate, r.band_low, r.band_high, faults);
   }
   if (base_rests) return faults;
   check_band(r, rate, faults);

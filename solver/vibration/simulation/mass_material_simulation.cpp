@@ -2,132 +2,18 @@
 
 #include "physics/error.h"
 #include "solver/vibration/signals/lanes.h"
+#include "solver/vibration/simulation/lane_model.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
 namespace pfdm {
 namespace {
-
-/// One kernel state a real term, two a pair.
-struct LaneKernel {
-  Lanes rate_real, rate_imaginary, weight_real, weight_imaginary;
-  bool pair = false;
-};
-
-struct LaneModel {
-  Lanes mass_inverse, damping, exponent, velocity_inverse;
-  std::vector<Lanes> stiffness;
-  std::vector<LaneKernel> kernel;
-  KernelForcing forcing = KernelForcing::none;
-  bool nonlinear_damping = false;
-  bool any_pair = false;
-  std::size_t n_states = 2;
-};
-
-/// A number of each run; lanes without a run repeat the last one.
-template <class Get>
-Lanes lanes(std::span<const SimulationRun> runs, const Get& get) {
-  Lanes lane;
-  for (int l = 0; l < n_lanes; ++l) lane[l] = get(*runs[std::min(static_cast<std::size_t>(l), runs.size() - 1)].model);
-  return lane;
-}
-
-LaneModel gather(std::span<const SimulationRun> runs) {
-  using M = const MassMaterial&;
-  const MassMaterial& first = *runs.front().model;
-  LaneModel m;
-  m.mass_inverse = lanes(runs, [](M x) { return 1.0 / x.mass; });
-  m.damping = lanes(runs, [](M x) { return x.damping; });
-  m.exponent = lanes(runs, [](M x) { return x.damping_exponent; });
-  m.velocity_inverse = lanes(runs, [](M x) { return 1.0 / x.reference_velocity; });
-  m.nonlinear_damping =
-      std::ranges::any_of(runs, [](const SimulationRun& x) { return x.model->damping_exponent != 0.0; });
-  m.forcing = first.forcing;
-  for (std::size_t i = 0; i < first.stiffness.size(); ++i)
-    m.stiffness.push_back(lanes(runs, [i](M x) { return x.stiffness[i]; }));
-  for (std::size_t i = 0; i < first.kernel.size(); ++i) {
-    LaneKernel k;
-    k.pair = first.kernel[i].is_pair();
-    k.rate_real = lanes(runs, [i](M x) { return x.kernel[i].alpha.real(); });
-    k.rate_imaginary = lanes(runs, [i](M x) { return x.kernel[i].alpha.imag(); });
-    const double share = k.pair ? 2.0 : 1.0;
-    k.weight_real = lanes(runs, [=](M x) { return share * x.kernel[i].beta.real(); });
-    k.weight_imaginary = lanes(runs, [=](M x) { return share * x.kernel[i].beta.imag(); });
-    m.any_pair = m.any_pair || k.pair;
-    m.n_states += k.pair ? 2 : 1;
-    m.kernel.push_back(k);
-  }
-  return m;
-}
-
-[[gnu::always_inline]] inline Lanes power_of_speed(const LaneModel& m, const Lanes& velocity) {
-  return power(absolute(velocity * m.velocity_inverse), m.exponent);
-}
-
-/// Forces of a state, and f.
-struct Forces {
-  Lanes plain;    // k(z) + c(z')
-  Lanes forcing;  // f
-};
-
-[[gnu::always_inline]] inline Forces forces(const LaneModel& m, const Lanes& z, const Lanes& velocity) {
-  Lanes stiffness = Lanes::all(0.0);
-  for (std::size_t i = m.stiffness.size(); i-- > 0;) stiffness = (stiffness + m.stiffness[i]) * z;
-  const Lanes shaped = m.nonlinear_damping ? velocity * power_of_speed(m, velocity) : velocity;
-  const Lanes plain = stiffness + m.damping * shaped;
-  switch (m.forcing) {
-    case KernelForcing::displacement: return {plain, z};
-    case KernelForcing::stiffness: return {plain, stiffness};
-    case KernelForcing::damping: return {plain, shaped};
-    case KernelForcing::none:
-    case KernelForcing::velocity: break;
-  }
-  return {plain, velocity};
-}
-
-/// Slopes of the kernel states, which follow z and z' in `state`; returns v. N: number of all states.
-template <std::size_t N>
-[[gnu::always_inline]] inline Lanes kernel_slopes(const LaneModel& m, const std::array<Lanes, N>& state, const Lanes& f,
-                                                  std::array<Lanes, N>& slope) {
-  Lanes v = Lanes::all(0.0);
-  if (!m.any_pair && m.kernel.size() == N - 2) {
-#pragma GCC unroll 4
-    for (std::size_t s = 2; s < N; ++s) {
-      const LaneKernel& k = m.kernel[s - 2];
-      v += k.weight_real * state[s];
-      slope[s] = f - k.rate_real * state[s];
-    }
-    return v;
-  }
-  std::size_t s = 2;
-  for (const LaneKernel& k : m.kernel) {
-    v += k.weight_real * state[s];
-    slope[s] = f - k.rate_real * state[s];
-    if (k.pair) {
-      v -= k.weight_imaginary * state[s + 1];
-      slope[s] += k.rate_imaginary * state[s + 1];
-      slope[s + 1] = -k.rate_real * state[s + 1] - k.rate_imaginary * state[s];
-      ++s;
-    }
-    ++s;
-  }
-  return v;
-}
-
-/// Slopes of [z, z', kernel states] under the base acceleration y.
-template <std::size_t N>
-[[gnu::always_inline]] inline void slopes(const LaneModel& m, const std::array<Lanes, N>& state, const Lanes& y,
-                                          std::array<Lanes, N>& slope) {
-  const Forces force = forces(m, state[0], state[1]);
-  const Lanes v = kernel_slopes(m, state, force.forcing, slope);
-  slope[0] = state[1];
-  slope[1] = -(y + (force.plain + v) * m.mass_inverse);
-}
 
 // Cooper and Verner, SIAM J. Numer. Anal. 9 (1972) 389: order 8 in 11 stages, whose abscissae are Lobatto points, so
 // that the base's acceleration is needed at three places within a step only.
@@ -177,7 +63,7 @@ class Stepper {
   }
 
   Lanes acceleration(const Lanes& y) {
-    slopes(m_, state_, y, slope_[0]);
+    lane_slopes(m_, state_, y, slope_[0]);
     return slope_[0][1];
   }
   bool all_ran_away() const {
@@ -195,7 +81,7 @@ class Stepper {
   void stage(const Lanes* y, const Lanes& h) {
     std::array<Lanes, N> at;
     for (std::size_t d = 0; d < N; ++d) at[d] = state_[d] + h * weighted_sum<I>(tableau.a[I], d);
-    slopes(m_, at, y[tableau.node[I]], slope_[I]);
+    lane_slopes(m_, at, y[tableau.node[I]], slope_[I]);
   }
 
   template <std::size_t Count>
@@ -281,7 +167,7 @@ std::vector<Eigen::VectorXd> march(const LaneModel& model, std::span<const Simul
 /// Kernels of more states than the program has steppers for make do with that of the next size: states without slopes
 /// stay zero.
 std::vector<Eigen::VectorXd> simulate_lanes(std::span<const SimulationRun> runs) {
-  const LaneModel model = gather(runs);
+  const LaneModel model = lane_model(runs);
   switch (model.n_states) {
     case 2: return march<2>(model, runs);
     case 3: return march<3>(model, runs);
