@@ -67,4 +67,12 @@ double energy_at_biot_stress(const HyperelasticMaterial& material, const Vector&
   return principal_forces(material, H).energy;
 }
 
+Tensor stretch_part(const Tensor& F) {
+  constexpr double least = 0.1;
+  const Eigen::SelfAdjointEigenSolver<Tensor> C(F.transpose() * F);
+  Vector part;
+  for (Index i = 0; i < 3; ++i) part[i] = 1.0 - 1.0 / std::max(std::sqrt(std::max(C.eigenvalues()[i], 0.0)), least);
+  return F * C.eigenvectors() * part.asDiagonal() * C.eigenvectors().transpose();
+}
+
 }  // namespace pfdm

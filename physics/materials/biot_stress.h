@@ -13,4 +13,7 @@ Tensor biot_stress(const Tensor& H, const Tensor& P);
 /// they grow in proportion. Throws InputError if the path ends before, as at the largest stress of a material.
 double energy_at_biot_stress(const HyperelasticMaterial& material, const Vector& principal);
 
+/// F - R with R the rotation of F = R U, in every mode of a stretch of 0.1 or more.
+Tensor stretch_part(const Tensor& F);
+
 }  // namespace pfdm

@@ -4,6 +4,7 @@
 #include "solver/calibration/calibration_statistics.h"
 #include "solver/calibration/held_parameter.h"
 #include "solver/calibration/quasi_random.h"
+#include "solver/calibration/residual_emulator.h"
 
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
@@ -24,85 +25,6 @@ using Eigen::VectorXd;
 
 constexpr double reach_of_first = 3.5;  // of the first points, in standard errors
 constexpr double beyond = 1.2;          // how much farther than the points the emulator is believed
-
-/// All products of up to `degree` coordinates.
-VectorXd monomials(const VectorXd& z, int degree) {
-  std::vector<double> all{1.0};
-  struct Product {
-    double value;
-    Eigen::Index last;
-  };
-  std::vector<Product> products{{1.0, 0}};
-  for (int d = 0; d < degree; ++d) {
-    std::vector<Product> next;
-    for (const Product& p : products)
-      for (Eigen::Index j = p.last; j < z.size(); ++j) next.push_back({p.value * z[j], j});
-    for (const Product& p : next) all.push_back(p.value);
-    products = std::move(next);
-  }
-  return VectorXd::Map(all.data(), std::ssize(all));
-}
-
-/// Points of the model, their residuals, and polynomials through them.
-class Emulator {
- public:
-  explicit Emulator(Eigen::Index n_coordinates) : n_coordinates_(n_coordinates) {}
-
-  void add(const VectorXd& z, const std::vector<double>& residuals) {
-    points_.push_back(z);
-    residuals_.emplace_back(VectorXd::Map(residuals.data(), std::ssize(residuals)));
-  }
-  std::size_t n_points() const { return points_.size(); }
-  /// Farthest from the estimates, of each coordinate.
-  VectorXd reach() const {
-    VectorXd most = VectorXd::Zero(n_coordinates_);
-    for (const VectorXd& z : points_) most = most.cwiseMax(z.cwiseAbs());
-    return most;
-  }
-
-  /// `variance`: of the noise.
-  void fit(double variance) {
-    degree_ = 2;
-    const auto n = std::ssize(points_);
-    if (n >= 3 * n_monomials(3) / 2) degree_ = 3;
-    const Eigen::Index q = n_monomials(degree_), m = residuals_.front().size();
-    MatrixXd A(n, q), R(n, m);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      A.row(i) = monomials(points_[i], degree_).transpose();
-      R.row(i) = residuals_[i].transpose();
-    }
-    MatrixXd normal = A.transpose() * A;
-    normal.diagonal().array() += 1e-10 * normal.diagonal().maxCoeff();
-    const MatrixXd inverse = normal.ldlt().solve(MatrixXd::Identity(q, q));
-    const MatrixXd C = inverse * (A.transpose() * R);
-    const VectorXd leverage = (A * inverse).cwiseProduct(A).rowwise().sum();
-    const MatrixXd misses =
-        (1.0 - leverage.array()).max(1e-3).inverse().matrix().asDiagonal() * (R - A * C);  // one left out
-    const VectorXd weight =
-        (1.0 + misses.colwise().squaredNorm().transpose().array() / (static_cast<double>(n) * variance)).inverse();
-    squares_ = C * weight.asDiagonal() * C.transpose();
-    given_ = R.rowwise().squaredNorm();
-    left_out_ = (R - misses).rowwise().squaredNorm();
-  }
-
-  /// Sum of squares of the residuals, each over 1 + its own error over the noise.
-  double sum_of_squares(const VectorXd& z) const {
-    const VectorXd phi = monomials(z, degree_);
-    return phi.dot(squares_ * phi);
-  }
-  /// Sums of squares of the points, of plain residuals, and each by the polynomials through the others.
-  const VectorXd& given() const { return given_; }
-  const VectorXd& left_out() const { return left_out_; }
-
- private:
-  Eigen::Index n_monomials(int degree) const { return monomials(VectorXd::Zero(n_coordinates_), degree).size(); }
-
-  Eigen::Index n_coordinates_;
-  int degree_ = 2;
-  std::vector<VectorXd> points_, residuals_;
-  MatrixXd squares_;
-  VectorXd given_, left_out_;
-};
 
 class Sampler {
  public:
@@ -344,7 +266,7 @@ class Sampler {
   MatrixXd axes_;            // of the linear interval's ellipsoid, a standard error long
   VectorXd centre_, reach_;  // in what is fitted; of the emulator, along the axes
   double n_residuals_ = 0.0, freedom_ = 1.0, variance_ = 1.0;
-  Emulator emulator_;
+  ResidualEmulator emulator_;
   std::vector<VectorXd> chain_;
   Posterior found_;
 };

@@ -1,49 +1,19 @@
 #include "solver/fracture/cells/finite_cells.h"
 
 #include "physics/elasticity/plane_stress.h"
-#include "physics/error.h"
 #include "physics/materials/biot_stress.h"
-
-#include <Eigen/Eigenvalues>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace pfdm {
 namespace {
 
-constexpr double least_modulus = 1e-9;    // of a pressure, over the undamaged one
 constexpr double least_thickness = 1e-4;  // of a sheet, over that at rest: laws of principal stretches end at 0
 constexpr double closing_range = 0.02;    // of J below 1, over which the faces of a cell become those of a closed crack
 
-constexpr FiniteSplit all_splits[] = {
-    {.name = "none"},
-    {.name = "volumetric_deviatoric", .keeps_compression = true, .driven_by_compression = false},
-    {.name = "hybrid", .driven_by_compression = false},
-};
-
-// F - R with R the rotation of F = R U, in every mode of a stretch of 0.1 or more.
-Tensor stretch_part(const Tensor& F) {
-  constexpr double least = 0.1;
-  const Eigen::SelfAdjointEigenSolver<Tensor> C(F.transpose() * F);
-  Vector part;
-  for (Index i = 0; i < 3; ++i) part[i] = 1.0 - 1.0 / std::max(std::sqrt(std::max(C.eigenvalues()[i], 0.0)), least);
-  return F * C.eigenvectors() * part.asDiagonal() * C.eigenvectors().transpose();
-}
-
 PotentialAt difference(const PotentialAt& a, const PotentialAt& b) {
   return {a.energy - b.energy, a.stress - b.stress, a.tangent - b.tangent};
-}
-
-// What W becomes in broken cells, mu/2 (F:F - 3).
-PotentialAt network(const HyperelasticMaterial& material, const Tensor& H) {
-  const double mu = material.elasticity().mu;
-  return {0.5 * mu * (2.0 * H.trace() + H.squaredNorm()), mu * (Tensor::Identity() + H),
-          mu * GradientTangent::Identity()};
 }
 
 PotentialAt sum(double w_a, const PotentialAt& a, double w_b, const PotentialAt& b) {
@@ -51,16 +21,6 @@ PotentialAt sum(double w_a, const PotentialAt& a, double w_b, const PotentialAt&
 }
 
 }  // namespace
-
-const FiniteSplit& finite_split(std::string_view name) {
-  std::vector<std::string_view> names;
-  for (const FiniteSplit& split : all_splits) {
-    if (split.name == name) return split;
-    names.push_back(split.name);
-  }
-  throw InputError(fmt::format("materials of finite strain can only be combined with the energy splits {}, not {}",
-                               fmt::join(names, ", "), name));
-}
 
 FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(mesh), model_(model) {
   if (!model.is_finite_strain()) return;
@@ -72,7 +32,7 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(m
     }
   const std::size_t n = mesh.n_cells();
   material_ = CellField<const HyperelasticMaterial*>(n, nullptr);
-  split_ = CellField<const FiniteSplit*>(n, all_splits);
+  split_ = CellField<const FiniteSplit*>(n, &finite_split("none"));
   for (Index c = 0; c < mesh.n_cells(); ++c) {
     const RegionModel& region = model.in_cell(mesh, c);
     material_[c] = dynamic_cast<const HyperelasticMaterial*>(region.material.get());
@@ -81,49 +41,11 @@ FiniteCells::FiniteCells(const Mesh& mesh, const FractureModel& model) : mesh_(m
   }
 }
 
-// g w, w being 1 in cells that have to keep their orientation and 0 in broken ones. Where a law is lost within a small
-// range of d it drives the damage much there and little beyond, the damage has two states of equilibrium and the
-// iterations go to and fro between them. g w is convex in z = g^(1/2) = 1 - d, therefore, and so is the energy of cells
-// that are stretched to twice their length or more, for d > 0.6; (1 - w) g is not, nor is the relaxed c U at small d.
-// From z = 0.055 (g = 3e-3) down g w goes on along its tangent, which is 0 at half of that, rounded off by a parabola.
-auto FiniteCells::sound_share(const HyperelasticMaterial& material, double g) -> OfFactor {
-  const double sound = material.pressure_modulus() > 0.0 ? 0.15 : 0.055, middle = 0.5 * sound,
-               half_width = 0.6 * middle;
-  const double z = std::sqrt(g), above = z - (middle - half_width);
-  if (z >= sound) return {.value = g, .slope = 1.0};
-  if (above <= 0.0) return {.value = 0.0};
-  const bool is_straight = above >= 2.0 * half_width;
-  const double value = is_straight ? sound * (2.0 * z - sound) : 0.5 * sound / half_width * above * above;
-  const double by_z = is_straight ? 2.0 * sound : sound / half_width * above;
-  const double twice_by_z = is_straight ? 0.0 : sound / half_width;
-  return {.value = value, .slope = 0.5 * by_z / z, .curvature = 0.25 * (twice_by_z - by_z / z) / g};
-}
-
-// What is left of the volumetric energy c U of a material with a pressure: g w/(1 + kappa/kappa_s (1 - g)^2).
-auto FiniteCells::pressure_share(const HyperelasticMaterial& material, double g, const OfFactor& sound) -> OfFactor {
-  const double ratio = material.pressure_modulus() / (CellPressure::moderate_lambda * material.elasticity().mu);
-  const double lost = 1.0 - g, by = 1.0 + ratio * lost * lost, by_slope = -2.0 * ratio * lost;
-  const double value = sound.value / by, slope = (sound.slope - value * by_slope) / by;
-  const double curvature = (sound.curvature - 2.0 * slope * by_slope - 2.0 * ratio * value) / by;
-  return {.value = least_modulus + (1.0 - least_modulus) * value,
-          .slope = (1.0 - least_modulus) * slope,
-          .curvature = (1.0 - least_modulus) * curvature};
-}
-
-// W = g (w W_m + (1 - w) N) + w r c U, w and r being the functions of g above and N the network's energy. A split that
-// keeps compression adds (1 - g) W_c, and keeps c U where J < 1.
-FiniteCells::Shares FiniteCells::shares(Index cell, double g) const {
-  const OfFactor sound = sound_share(*material_[cell], g);
-  return {.moderate = sound,
-          .network = {.value = g - sound.value, .slope = 1.0 - sound.slope, .curvature = -sound.curvature},
-          .pressure = pressure_share(*material_[cell], g, sound)};
-}
-
 // J - 1 = `change` is that of the cell, as its pressure has it, and H its mean gradient. What the faces add to W_m of H
 // (beside_mean and CellMechanics::energy) contains what J of the cell differs by from det F.
 FiniteCells::Parts FiniteCells::parts(Index cell, const Tensor& H, double change) const {
   const HyperelasticMaterial& material = *material_[cell];
-  Parts parts{.moderate = material.moderate_potential(H), .network = network(material, H)};
+  Parts parts{.moderate = material.moderate_potential(H), .network = network_potential(material, H)};
   const bool may_differ = !split_[cell]->driven_by_compression;
   if (may_differ) parts.compression = material.moderate_compression(H);
   if (material.pressure_modulus() > 0.0)
@@ -138,7 +60,7 @@ FiniteCells::Parts FiniteCells::parts(Index cell, const CellMechanics& mechanics
   return parts(cell, H, free_deformation(cell, mechanics).elastic_change(mechanics.volume_change[cell]));
 }
 
-PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const Shares& by, double g) const {
+PotentialAt FiniteCells::damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const {
   const PotentialAt degraded = sum(by.moderate.value, at.moderate, by.network.value, at.network);
   PotentialAt relaxed = sum(1.0, degraded, by.pressure.value, at.pressure);
   if (!keeps(cell, at)) return relaxed;
@@ -176,11 +98,11 @@ FiniteLaw FiniteCells::law(Index cell, const Tensor& H, double g, double closure
 FiniteLaw FiniteCells::solid_law(Index cell, const Tensor& H, double g, double closure) const {
   const HyperelasticMaterial& material = *material_[cell];
   const bool keeps = keeps_compression(cell);
-  const Shares by = shares(cell, g);
+  const FiniteShares by = finite_shares(*material_[cell], g);
   const double w = by.moderate.value / g;
   const PotentialAt moderate = material.moderate_potential(H);
   PotentialAt degraded{0.0, by.moderate.value * moderate.stress, by.moderate.value * moderate.tangent};
-  if (w < 1.0) degraded = sum(1.0, degraded, by.network.value, network(material, H));
+  if (w < 1.0) degraded = sum(1.0, degraded, by.network.value, network_potential(material, H));
   FiniteLaw law{.stress = degraded.stress, .A = degraded.tangent, .face = {}};
   if (keeps && g < 1.0) {
     const PotentialAt kept = material.moderate_compression(H);
@@ -204,7 +126,7 @@ FiniteLaw FiniteCells::solid_law(Index cell, const Tensor& H, double g, double c
 // The stiffness of the faces is that of an incompressible sheet at F = 1, (3 mu c c^T + mu)/h, c being the cofactor
 // within the plane.
 FiniteLaw FiniteCells::plane_stress_law(Index cell, const Tensor& H, double g) const {
-  const Shares by = shares(cell, g);
+  const FiniteShares by = finite_shares(*material_[cell], g);
   const Tensor nn = across_ * across_.transpose();
   const PotentialAt at = damaged(cell, parts(cell, thinned(cell, H, g)), by, g);
   const IsotropicElasticity sound = plane_stress(material_[cell]->elasticity());
@@ -223,7 +145,7 @@ Tensor FiniteCells::thinned(Index cell, const Tensor& H, double g) const {
   if (!is_plane_stress()) return H;
   constexpr Index most_steps = 80;
   constexpr double rounding = 1e-15;
-  const Shares by = shares(cell, g);
+  const FiniteShares by = finite_shares(*material_[cell], g);
   const Tensor nn = across_ * across_.transpose();
   double strain = 0.0;
   for (Index k = 0; k < most_steps; ++k) {
@@ -265,7 +187,7 @@ double FiniteCells::beside_mean(Index cell, const CellMechanics& mechanics, cons
   moderate.pressure = {};
   const Tensor& P = is_pressed ? mechanics.moderate_stress[cell] : mechanics.stress[cell];
   const FreeDeformation free = free_deformation(cell, mechanics);
-  const Tensor elastic_stress = damaged(cell, moderate, shares(cell, g), g).stress;
+  const Tensor elastic_stress = damaged(cell, moderate, finite_shares(*material_[cell], g), g).stress;
   Tensor excess = P - free.stress(elastic_stress);
   excess -= plane_normal_.dot(excess * plane_normal_) * plane_normal_ * plane_normal_.transpose();  // no faces there
   const Tensor F_e = Tensor::Identity() + elastic(mechanics.gradient[cell], free);
@@ -291,7 +213,7 @@ FiniteEnergies FiniteCells::energies(Index cell, const CellMechanics& mechanics,
 }
 
 double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g) const {
-  const Shares by = shares(cell, g);
+  const FiniteShares by = finite_shares(*material_[cell], g);
   const bool whole = keeps(cell, at);
   const double kept = whole ? (1.0 - g) * at.compression : 0.0;
   const double density = by.moderate.value * at.moderate + by.network.value * at.network + kept +
@@ -303,9 +225,9 @@ double FiniteCells::stored_energy(Index cell, const FiniteEnergies& at, double g
 // share of W_m. What the faces add is taken as proportional to g, where nothing is kept; that of a cell which is driven
 // less by compression must not end at J = 1: its damage would go to and fro.
 DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, double g) const {
-  const Shares by = shares(cell, g);
+  const FiniteShares by = finite_shares(*material_[cell], g);
   const bool whole = keeps(cell, at);
-  const OfFactor off = whole ? OfFactor{.value = g, .slope = 1.0} : by.moderate;
+  const FiniteShare off = whole ? FiniteShare{.value = g, .slope = 1.0} : by.moderate;
   const double pressure = at.is_compressed ? 0.0 : at.pressure, faces = whole ? 0.0 : at.faces / at.of;
   const double value = by.moderate.slope * at.moderate + by.network.slope * at.network - off.slope * at.compression +
                        by.pressure.slope * pressure + faces;
@@ -318,7 +240,7 @@ DrivingAt FiniteCells::driving_energy(Index cell, const FiniteEnergies& at, doub
 Tensor FiniteCells::undamaged_biot_stress(Index cell, const CellMechanics& mechanics, double g) const {
   const Tensor H = thinned_elastic(cell, mechanics, g);
   const Parts at = parts(cell, mechanics, H);
-  const Shares by = shares(cell, g);
+  const FiniteShares by = finite_shares(*material_[cell], g);
   const PotentialAt whole = sum(by.moderate.value / g, at.moderate, by.network.value / g, at.network);
   return biot_stress(H, whole.stress + (keeps(cell, at) ? 1.0 : by.pressure.value / g) * at.pressure.stress);
 }
@@ -341,7 +263,8 @@ Tensor FiniteCells::traction_stress(Index cell, const CellMechanics& mechanics, 
   if (plane_normal.isZero()) return P;
   const Tensor across = plane_normal * plane_normal.transpose();
   const Parts at = parts(cell, mechanics, thinned_elastic(cell, mechanics, g));
-  const Tensor of_law = free_deformation(cell, mechanics).stress(damaged(cell, at, shares(cell, g), g).stress);
+  const Tensor of_law =
+      free_deformation(cell, mechanics).stress(damaged(cell, at, finite_shares(*material_[cell], g), g).stress);
   return P + across * (of_law - P) * across;
 }
 

@@ -6,22 +6,7 @@
 //   volumetric_deviatoric  W = g (W(F) - W_c) + W_c,  W_c = W(J^(1/3) 1) where J < 1, else 0
 //
 // `hybrid` is driven as volumetric_deviatoric, by W - W_c, and is not variational (Ambati, Gerasimov, De Lorenzis,
-// Comput. Mech. 55 (2015) 383).
-//
-// Broken cells may stretch without end or turn inside out:
-//
-// - The functions of J go on as parabolas below J = 0.1: W and its stress are finite for any F.
-// - W becomes mu/2 (F:F - 3), a network that keeps nothing but its shear modulus, times g. Its stress g mu F is linear,
-//   objective and has a positive definite tangent; at rest it pulls with g mu. (Wang, Lazarov, Sigmund, Jensen, Comput.
-//   Methods Appl. Mech. Engrg. 276 (2014) 453, blend to a linear energy likewise, but one that is not objective.) It
-//   does so between g = 3e-3 and 1e-4, in nearly incompressible materials between 2e-2 and 9e-4, along a function that
-//   keeps the energy convex in d in cells that are stretched to twice their length or more, d > 0.6, with the quadratic
-//   degradation; at smaller stretches it is not.
-// - Nearly incompressible materials cannot open a crack without moving their surroundings. The part of U that a
-//   pressure carries (hyperelastic.h) is lost faster than g, kappa -> g kappa/(1 + kappa/kappa_s (1 - g)^2) with
-//   kappa_s = 2.5 mu: a sound cell loses it as W, a broken one is compressible. (Li, Bouklas, Int. J. Solids Struct.
-//   182-183 (2020) 193, relax it by another power of 1 - d.) What is left of it is not convex in d at small d.
-// - What Newton's method cannot bridge of a change of the damage is halved (staggered.cpp).
+// Comput. Mech. 55 (2015) 383). What broken cells become is in finite_degradation.h.
 //
 // Stress, stored and driving energy of the mean gradient are derivatives of this one energy. It is not linear in g: the
 // damage equation takes its derivative at every d (driving_law.h). The driving energy of what the faces add is exact
@@ -37,12 +22,11 @@
 #include "mesh/mesh.h"
 #include "physics/materials/free_deformation.h"
 #include "physics/materials/hyperelastic.h"
+#include "solver/fracture/cells/finite_degradation.h"
 #include "solver/fracture/model/driving_law.h"
 #include "solver/fracture/model/fracture_model.h"
 #include "solver/fracture/model/state.h"
 #include "solver/momentum/solution/momentum_solver.h"
-
-#include <string_view>
 
 namespace pfdm {
 
@@ -54,16 +38,6 @@ struct FiniteEnergies {
   double faces = 0.0, of = 1.0;  ///< what the faces add, at the g with which the displacements were found
   double moments = 0.0;          ///< likewise, of their moments where these do not drive the damage
 };
-
-/// What a split does at finite strain: a row of the table of those there are.
-struct FiniteSplit {
-  std::string_view name;
-  bool keeps_compression = false;  ///< from the degradation
-  bool driven_by_compression = true;
-};
-
-/// Throws InputError naming those there are.
-const FiniteSplit& finite_split(std::string_view name);
 
 class FiniteCells {
  public:
@@ -99,17 +73,6 @@ class FiniteCells {
   Tensor cauchy_stress(Index cell, const CellMechanics& mechanics, double g, const Vector& plane_normal) const;
 
  private:
-  // A function of the stiffness factor g, and its derivatives.
-  struct OfFactor {
-    double value = 1.0, slope = 0.0, curvature = 0.0;
-  };
-  static OfFactor sound_share(const HyperelasticMaterial& material, double g);
-  static OfFactor pressure_share(const HyperelasticMaterial& material, double g, const OfFactor& sound);
-  // What a cell of the factor g has of the energies below.
-  struct Shares {
-    OfFactor moderate, network, pressure;
-  };
-  Shares shares(Index cell, double g) const;
   // Undamaged, at some F_e - 1 = H: W_m, the network's, c U, and where the split asks for it W_c of W_m and whether J
   // < 1.
   struct Parts {
@@ -132,7 +95,7 @@ class FiniteCells {
   bool keeps_compression(Index cell) const { return split_[cell]->keeps_compression; }
   // What the split keeps of a cell's parts or energies is not degraded.
   bool keeps(Index cell, const auto& at) const { return at.is_compressed && keeps_compression(cell); }
-  PotentialAt damaged(Index cell, const Parts& at, const Shares& by, double g) const;
+  PotentialAt damaged(Index cell, const Parts& at, const FiniteShares& by, double g) const;
 
   const Mesh& mesh_;
   const FractureModel& model_;

@@ -12,7 +12,7 @@ Equilibrium solve_finite(const CellStiffness& stiffness, const MomentumSolver::T
                          MomentumSolver& momentum, FractureState& state, Index most_steps = 30);
 
 /// Whether some cell that has kept half of its stiffness or more has nearly turned inside out, where the balance is
-/// linearised. Others may (finite_cells.h).
+/// linearised. Others may (finite_degradation.h).
 bool inverts(const MomentumOperator& balance);
 
 }  // namespace pfdm

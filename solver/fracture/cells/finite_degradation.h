@@ -1,0 +1,52 @@
+#pragma once
+// What damage leaves of the energies of a cell at finite strain (finite_cells.h).
+//
+// Broken cells may stretch without end or turn inside out:
+//
+// - The functions of J go on as parabolas below J = 0.1: W and its stress are finite for any F.
+// - W becomes mu/2 (F:F - 3), a network that keeps nothing but its shear modulus, times g. Its stress g mu F is linear,
+//   objective and has a positive definite tangent; at rest it pulls with g mu. (Wang, Lazarov, Sigmund, Jensen, Comput.
+//   Methods Appl. Mech. Engrg. 276 (2014) 453, blend to a linear energy likewise, but one that is not objective.) It
+//   does so between g = 3e-3 and 1e-4, in nearly incompressible materials between 2e-2 and 9e-4, along a function that
+//   keeps the energy convex in d in cells that are stretched to twice their length or more, d > 0.6, with the quadratic
+//   degradation; at smaller stretches it is not.
+// - Nearly incompressible materials cannot open a crack without moving their surroundings. The part of U that a
+//   pressure carries (hyperelastic.h) is lost faster than g, kappa -> g kappa/(1 + kappa/kappa_s (1 - g)^2) with
+//   kappa_s = 2.5 mu: a sound cell loses it as W, a broken one is compressible. (Li, Bouklas, Int. J. Solids Struct.
+//   182-183 (2020) 193, relax it by another power of 1 - d.) What is left of it is not convex in d at small d.
+// - What Newton's method cannot bridge of a change of the damage is halved (staggered.cpp).
+
+#include "physics/materials/hyperelastic.h"
+
+#include <string_view>
+
+namespace pfdm {
+
+/// What a split does at finite strain: a row of the table of those there are.
+struct FiniteSplit {
+  std::string_view name;
+  bool keeps_compression = false;  ///< from the degradation
+  bool driven_by_compression = true;
+};
+
+/// Throws InputError naming those there are.
+const FiniteSplit& finite_split(std::string_view name);
+
+/// A function of the stiffness factor g, and its derivatives.
+struct FiniteShare {
+  double value = 1.0, slope = 0.0, curvature = 0.0;
+};
+
+/// What a cell of the factor g has of each energy: of W_m, of the network's, and of the volumetric one of its pressure.
+struct FiniteShares {
+  FiniteShare moderate, network, pressure;
+};
+
+/// The shares in W = g (w W_m + (1 - w) N) + w r c U, w and r being functions of g and N the network's energy. A split
+/// that keeps compression adds (1 - g) W_c, and keeps c U where J < 1.
+FiniteShares finite_shares(const HyperelasticMaterial& material, double g);
+
+/// What W becomes in broken cells, mu/2 (F:F - 3), at the displacement gradient H.
+PotentialAt network_potential(const HyperelasticMaterial& material, const Tensor& H);
+
+}  // namespace pfdm
