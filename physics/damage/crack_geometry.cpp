@@ -2,6 +2,8 @@
 
 #include "physics/registry.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -49,6 +51,18 @@ std::span<const CrackGeometry> crack_geometries() { return all_geometries; }
 
 const CrackGeometry& crack_geometry(std::string_view name) {
   return find_by_name(crack_geometries(), name, "crack geometric function");
+}
+
+// ds/dd = -ell/sqrt(alpha), and the density of the surface energy is proportional to alpha.
+double energy_beyond(const CrackGeometry& crack, double distance) {
+  constexpr int n = 20000;
+  double s = 0.0, within = 0.0;
+  for (int i = 0; i < n && s < distance; ++i) {
+    const double root = std::sqrt(crack.alpha(1.0 - (i + 0.5) / n));
+    s += 1.0 / (n * root);
+    within += root / n;
+  }
+  return s < distance ? 0.0 : std::max(0.0, 1.0 - within * 4.0 / crack.c0);
 }
 
 }  // namespace pfdm

@@ -24,4 +24,7 @@ std::span<const CrackGeometry> crack_geometries();
 /// Throws InputError naming those there are.
 const CrackGeometry& crack_geometry(std::string_view name);
 
+/// The part of a crack's surface energy that lies farther than `distance` from its middle, over ell; of a broken bar.
+double energy_beyond(const CrackGeometry& crack, double distance);
+
 }  // namespace pfdm

@@ -1,6 +1,7 @@
 #include "solver/fracture/combinations.h"
 
 #include "physics/quantity_text.h"
+#include "solver/fracture/finite_combinations.h"
 #include "solver/fracture/model/held_interfaces.h"
 
 #include "physics/elasticity/anisotropy.h"
@@ -16,11 +17,9 @@ namespace {
 
 std::string shown(const Vector& x) { return point_text(x, 4); }
 
-bool controls_dissipation(const LoadingSettings& loading) { return std::isfinite(loading.maximum_dissipation); }
-
 void require_plain_interfaces(const FractureModel& model, const LoadingSettings& loading) {
   if (model.interfaces.empty()) return;
-  if (controls_dissipation(loading) && std::ranges::any_of(model.regions, &RegionModel::damageable))
+  if (loading.controls_dissipation() && std::ranges::any_of(model.regions, &RegionModel::damageable))
     throw InputError(
         "dissipation control (loading.maximum_dissipation) can be combined with cohesive interfaces only where no "
         "region is damageable");
@@ -58,72 +57,6 @@ void require_path(const Mesh& mesh, const FractureModel& m, const Unknowns& unkn
   }
 }
 
-// Opened interfaces have to pull along their separation, or they would transfer a moment. The slip of the friction is
-// not turned with the body.
-void require_finite_interfaces(const FractureModel& m) {
-  for (const CohesiveSurface& surface : m.interfaces) {
-    if (!surface.law.pulls_along_separation())
-      throw InputError(fmt::format(
-          "materials of finite strain can only be combined with cohesive interfaces that pull along their separation: "
-          "\"camacho_ortiz\" whose shear_ratio is 1, or another mixed_mode than \"xu_needleman\"; that of \"{}\" is "
-          "\"{}\" with {:g}",
-          surface.name, surface.law.mixed_mode->name, surface.law.shear_ratio));
-    if (surface.law.friction > 0.0)
-      throw InputError(fmt::format(
-          "materials of finite strain cannot be combined with the friction of the interface \"{}\"", surface.name));
-  }
-}
-
-// The faces of a sheet have the stiffness of one that damage degrades as a whole. The thickness on which a pressure
-// would push is known to the laws of the cells only.
-void require_finite_plate(const FractureModel& m) {
-  for (const BoundaryCondition& condition : m.boundary)
-    if (condition.pressure)
-      throw InputError(fmt::format(
-          "materials of finite strain in plane stress cannot be combined with the pressure on patch \"{}\", "
-          "which would follow the thickness; give a traction, which is per reference area",
-          condition.patch));
-  for (const RegionModel& region : m.regions) {
-    if (region.damageable && m.split_of(region).name() != "none")
-      throw InputError(
-          fmt::format("materials of finite strain in plane stress can only be combined with the energy split \"none\", "
-                      "not \"{}\"",
-                      m.split_of(region).name()));
-    if (region.material->name() == "saint_venant_kirchhoff")
-      throw InputError(
-          "a material of the law \"saint_venant_kirchhoff\", which is not convex, cannot be combined with plane "
-          "stress");
-  }
-  if (!m.interfaces.empty())
-    throw InputError("materials of finite strain in plane stress cannot be combined with cohesive interfaces");
-}
-
-// What has not been worked out for finite strain is refused.
-void require_finite(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns,
-                    const LoadingSettings& loading) {
-  const auto refuse = [](std::string_view what) {
-    throw InputError(fmt::format("materials of finite strain cannot be combined with {}", what));
-  };
-  for (std::size_t r = 0; r < m.regions.size(); ++r) {
-    const RegionModel& region = m.regions[r];
-    if (!region.material || !region.material->is_finite_strain())
-      throw InputError(
-          fmt::format("region \"{}\" has a material of small strain and another region one of finite strain; give all "
-                      "of them laws of finite strain (saint_venant_kirchhoff for stiff ones), or none",
-                      mesh.region_names[r]));
-    const std::string_view split = m.split_of(region).name();
-    if (!region.damageable) continue;
-    if (split != "none" && region.material->name() == "saint_venant_kirchhoff")
-      refuse(
-          fmt::format("the energy split \"{}\" where their law is saint_venant_kirchhoff, which is not convex", split));
-  }
-  require_finite_interfaces(m);
-  if (unknowns.plane_stress) require_finite_plate(m);
-  if (m.motion.any()) refuse("a prescribed mean strain or stress: the means are those of small strain");
-  if (controls_dissipation(loading))
-    refuse("dissipation control (loading.maximum_dissipation): their displacements are not proportional to the load");
-}
-
 void require_strength(const FractureModel& m) {
   if (m.irreversibility == Irreversibility::history)
     throw InputError("a strength model requires the irreversibility \"bounds\" or \"crack_set\"");
@@ -153,7 +86,7 @@ void require_history(const FractureModel& m, const Material& law, const LoadingS
         fmt::format("a material of the law \"{}\" that depends on the rate requires loading.duration, the time in "
                     "which t grows by 1",
                     law.name()));
-  if (controls_dissipation(loading))
+  if (loading.controls_dissipation())
     throw InputError(
         fmt::format("dissipation control (loading.maximum_dissipation) cannot be combined with materials of the law "
                     "\"{}\": their displacements are not proportional to the load",
@@ -195,36 +128,17 @@ void require_body_force(const Mesh& mesh, const Unknowns& unknowns, const Loadin
                       "does not move that way",
                       shown(mesh.cell_centre[c])));
     const Vector half = unknowns.loads.force(mesh, c, 0.5 * loading.end);
-    if (controls_dissipation(loading) && (force - 2.0 * half).norm() > close_to_zero * force.norm())
+    if (loading.controls_dissipation() && (force - 2.0 * half).norm() > close_to_zero * force.norm())
       throw InputError(
           "dissipation control (loading.maximum_dissipation) requires body forces proportional to t: not applied = "
           "\"from_start\" in [loads], nor expressions that are not proportional to t");
   }
 }
 
-// F* = 1 + eps* of finite strain may not turn cells inside out, nor shrink them so far that they count as turned
-// (finite_newton.h).
-void require_free_deformation(const Mesh& mesh, const Unknowns& unknowns, const LoadingSettings& loading) {
-  constexpr double least_stretch = 0.5;
-  constexpr int parts = 8;  // of the load: eigenstrains may be any function of it
-  for (int k = 1; k <= parts; ++k) {
-    const double load = loading.end * k / parts;
-    for (Index c = 0; c < mesh.n_cells(); ++c) {
-      const Tensor strain = to_tensor(unknowns.loads.eigenstrain(mesh, c, load));
-      const double least = 1.0 + principal_axes(strain).value[0];
-      if (!(least >= least_stretch))
-        throw InputError(fmt::format(
-            "the eigenstrain at {} shrinks the free body to {:.3g} of its length at the load {:.3g}; at finite strain "
-            "at least {:g} is required",
-            shown(mesh.cell_centre[c]), least, load, least_stretch));
-    }
-  }
-}
-
 void require_eigenstrain(const Mesh& mesh, const FractureModel& m, const Unknowns& unknowns,
                          const LoadingSettings& loading) {
   if (m.is_finite_strain()) require_free_deformation(mesh, unknowns, loading);
-  if (controls_dissipation(loading))
+  if (loading.controls_dissipation())
     throw InputError(
         "dissipation control (loading.maximum_dissipation) cannot be combined with eigenstrains (eigenstrain, or "
         "expansion with [loads] temperature_change)");
@@ -276,7 +190,7 @@ void require_loads(const Mesh& mesh, const FractureModel& m, const Unknowns& unk
 void require_heat(const Mesh& mesh, const FractureModel& m, const LoadingSettings& loading) {
   if (m.is_finite_strain()) throw InputError("heat ([heat]) cannot be combined with materials of finite strain");
   if (m.motion.any()) throw InputError("heat ([heat]) cannot be combined with a box that follows a mean strain");
-  if (controls_dissipation(loading))
+  if (loading.controls_dissipation())
     throw InputError(
         "heat ([heat]) cannot be combined with dissipation control (loading.maximum_dissipation): the load may "
         "decrease, time cannot");
@@ -341,7 +255,7 @@ void require_combination(const Mesh& mesh, const FractureModel& model, const Unk
   require_loads(mesh, model, unknowns, loading);
   if (model.is_anisotropic()) require_anisotropy(mesh, model, unknowns);
   if (model.heat) require_heat(mesh, model, loading);
-  if (controls_dissipation(loading)) require_path(mesh, model, unknowns, loading);
+  if (loading.controls_dissipation()) require_path(mesh, model, unknowns, loading);
 }
 
 }  // namespace pfdm

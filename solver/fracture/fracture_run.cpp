@@ -5,6 +5,7 @@
 #include "solver/fracture/combinations.h"
 #include "solver/fracture/damage/residual_stiffness.h"
 #include "solver/fracture/finite_stop.h"
+#include "solver/fracture/increments.h"
 #include "solver/fracture/model/held_interfaces.h"
 #include "solver/fracture/spread_damage.h"
 #include "solver/fracture/staggered.h"
@@ -15,18 +16,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
-
-constexpr Index easy_iterations = 12;  // after a step with at most these the increment grows
-constexpr double bearable_share =
-    0.5;  // of the most iterations: after a step with at most these a cut increment recovers
-constexpr double growth = 1.5, cut = 0.5;
-constexpr double aim = 0.7;              // of the limits on damage growth and energy release
-constexpr double load_rounding = 1e-12;  // of the load parameter
 
 /// An increment that was tried.
 struct Trial {
@@ -80,11 +74,7 @@ struct FractureRun::Parts {
     return !staggered.stiffness().materials().any() && !model.is_finite_strain() && loading.is_proportional;
   }
 
-  bool follows_faces() const { return !model.interfaces.empty() && std::isfinite(loading.maximum_dissipation); }
-
-  double dissipation_of(double increment) const {
-    return loading.maximum_dissipation * std::min(1.0, increment / loading.maximum_increment);
-  }
+  bool follows_faces() const { return !model.interfaces.empty() && loading.controls_dissipation(); }
 
   double next_stop(double load) const {
     double stop = loading.end;
@@ -93,36 +83,9 @@ struct FractureRun::Parts {
     return std::min(stop, heat.end_of_cycle(load));
   }
 
-  double next_increment(double increment, const StepOutcome& outcome) const {
-    const double grown = growth * increment;
-    double next = increment;
-    if (outcome.iterations <= easy_iterations)
-      next = std::min(grown, loading.maximum_increment);
-    else if (double(outcome.iterations) <= bearable_share * double(settings.maximum_iterations) &&
-             increment < loading.initial_increment)
-      next = std::min(grown, loading.initial_increment);
-    // Extrapolates the damage and release per increment of this step.
-    const double broken =
-        std::max({outcome.growth / loading.damage_growth, outcome.energy_release / loading.energy_release, 1e-12});
-    return std::min(next, std::max(aim / broken * increment, loading.finest_increment));
-  }
-
-  StepLimits limits_of(double increment, double planned_increment) const {
-    StepLimits limits{.dissipation = dissipation_of(planned_increment),
-                      .duration = increment * loading.duration,
-                      .may_be_cut = cut * increment >= loading.minimum_increment};
-    const bool may_jump = increment <= loading.finest_increment * (1.0 + load_rounding);
-    if (!may_jump) limits.growth = loading.damage_growth, limits.energy_release = loading.energy_release;
-    return limits;
-  }
-
-  std::vector<Vector> boundary_forces(const FractureState& state) {
-    return staggered.momentum().balance().boundary_forces(state.displacement);
-  }
-
   // held: the last load with equilibrium; load: one at which only the residual stiffness carries the tractions.
   [[noreturn]] void fail_torn(double held, double load) const {
-    const bool falls_back = std::isfinite(loading.maximum_dissipation);
+    const bool falls_back = loading.controls_dissipation();
     throw NoConvergence(fmt::format(
         "the body breaks apart between the loads {:.6g} and {:.6g}: beyond, only the residual stiffness of broken "
         "cells carries its tractions. {}; a smaller loading.maximum_increment locates the load more exactly",
@@ -133,30 +96,8 @@ struct FractureRun::Parts {
             : "Prescribe displacements instead, or use dissipation control (loading.maximum_dissipation)"));
   }
 
-  bool allows(const FractureModel& other_model, const LoadingSettings& other) const {
-    try {
-      require_combination(mesh, other_model, unknowns, other);
-    } catch (const InputError&) {
-      return false;
-    }
-    return true;
-  }
-
   Remedies remedies(double load) const {
-    Remedies may;
-    if (!(model.viscosity > 0.0)) {
-      FractureModel viscous = model;
-      LoadingSettings timed = loading;
-      viscous.viscosity = timed.duration = 1.0;
-      may.viscosity = allows(viscous, timed);
-    }
-    if (std::isfinite(loading.maximum_dissipation)) return may;
-    LoadingSettings controlled = loading;
-    controlled.maximum_dissipation = 1.0;
-    const std::vector<Vector> tractions = staggered.balance().traction_forces(load);
-    may.dissipation_control =
-        std::ranges::any_of(tractions, [](const Vector& f) { return !f.isZero(); }) && allows(model, controlled);
-    return may;
+    return remedies_of(mesh, model, unknowns, loading, staggered.balance().traction_forces(load));
   }
 
   std::string words_on(const FractureState& trial, const StepOutcome& outcome) {
@@ -180,7 +121,7 @@ struct FractureRun::Parts {
     trial.increment = trial.state.load - state.load;
     if (state.load > 0.0 && is_proportional() && !follows_faces())
       for (Vector& u : trial.state.displacement) u *= trial.state.load / state.load;
-    trial.outcome = staggered.solve_step(state, trial.state, limits_of(trial.increment, planned), watch);
+    trial.outcome = staggered.solve_step(state, trial.state, step_limits(loading, trial.increment, planned), watch);
     krylov_iterations += trial.outcome.krylov_iterations;
     staggered_iterations += trial.outcome.iterations;
     return trial;
@@ -190,7 +131,7 @@ struct FractureRun::Parts {
     FractureState& next = trial.state;
     const StepOutcome& outcome = trial.outcome;
     const double increment = next.load - state.load;
-    next.boundary_force = boundary_forces(next);
+    next.boundary_force = staggered.momentum().balance().boundary_forces(next.displacement);
     next.energy = outcome.energy;
     next.energy.fracture = staggered.damage_equation().fracture_energy(next.damage);
     next.energy.external_work =
@@ -199,8 +140,8 @@ struct FractureRun::Parts {
     for (const EnergyEntry& entry : energy_entries)
       if (entry.role == EnergyEntry::Role::dissipated) next.energy.*entry.value += state.energy.*entry.value;
     if (heat.any()) heat.advance(staggered, state, increment * loading.duration, next);
-    next.increment = next_increment(planned, outcome);
-    const bool follows_path = std::isfinite(loading.maximum_dissipation);
+    next.increment = next_increment(loading, settings, planned, outcome);
+    const bool follows_path = loading.controls_dissipation();
     const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
     state = std::move(next);
     const std::string residual =
@@ -295,10 +236,10 @@ StepReport FractureRun::step(FractureState& state, const IterationWatch& watch) 
     if (outcome.collapsed) parts_->fail_torn(state.load, trial.state.load);
     if (outcome.converged) return parts_->accept(std::move(trial), planned, std::move(remarks), state);
     if (outcome.broke_too_much) {
-      planned = std::max(cut * trial.increment, parts_->loading.finest_increment);
+      planned = std::max(increment_cut * trial.increment, parts_->loading.finest_increment);
       continue;
     }
-    planned = cut * trial.increment;
+    planned = increment_cut * trial.increment;
     if (planned < parts_->loading.minimum_increment) parts_->fail_unconverged(trial.state, outcome);
     remarks.push_back(fmt::format("step {} at load {:.6g} did not converge: {}; the increment is cut to {:.3g}",
                                   trial.state.step, trial.state.load,

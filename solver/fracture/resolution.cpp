@@ -23,13 +23,16 @@ constexpr double rounding = 1e-9;   // of sizes that come from coordinates
 constexpr double largest_drop = 0.6;  // of damage to the next cell: profiles are no steeper than 1/ell
 constexpr double long_tail = 2.0;  // half-width over ell at which a profile without end has fallen to 2 % of its energy
 
+Index largest_face(const Mesh& mesh, Index cell) {
+  return std::ranges::max(mesh.faces_of_cell(cell), {}, [&](Index f) { return mesh.face_area[f].norm(); });
+}
+
 // Extent of a cell across its largest face: of a prism layer its thickness, of a brick its shortest edge, of a
 // tetrahedron a third of its height; of a rounder polyhedron twice the distance of that face.
 double thickness(const Mesh& mesh, Index cell) {
-  const auto area = [&](Index f) { return mesh.face_area[f].norm(); };
-  const Index largest = std::ranges::max(mesh.faces_of_cell(cell), {}, area);
-  const Vector to_face = mesh.face_centre[largest] - mesh.cell_centre[cell];
-  return std::min(mesh.cell_volume[cell], 2.0 * std::abs(to_face.dot(mesh.face_area[largest]))) / area(largest);
+  const Index largest = largest_face(mesh, cell);
+  const Vector &area = mesh.face_area[largest], to_face = mesh.face_centre[largest] - mesh.cell_centre[cell];
+  return std::min(mesh.cell_volume[cell], 2.0 * std::abs(to_face.dot(area))) / area.norm();
 }
 
 // Of a hexahedron of a mesh one cell thick, plane or axisymmetric, the longest edge in its plane; else 0.
@@ -50,15 +53,15 @@ double width_in_plane(const Mesh& mesh, Index cell) {
 
 // Edge of a cell along its largest face, if that is a regular triangle or a square.
 double width_of_largest_face(const Mesh& mesh, Index cell) {
-  const auto area = [&](Index f) { return mesh.face_area[f].norm(); };
-  const Index largest = std::ranges::max(mesh.faces_of_cell(cell), {}, area);
+  const Index largest = largest_face(mesh, cell);
   const bool is_triangle = mesh.points_of_face(largest).size() == 3;
-  return std::sqrt(area(largest) * (is_triangle ? 4.0 / std::numbers::sqrt3 : 1.0));
+  return std::sqrt(mesh.face_area[largest].norm() * (is_triangle ? 4.0 / std::numbers::sqrt3 : 1.0));
 }
 
-// A place as it is shown.
-Vector without_rounding(const Vector& x) {
-  return x.unaryExpr([](double v) { return std::abs(v) < 1e-15 ? 0.0 : v; });
+std::string length_text(double x) { return quantity_text(x, "m", 3); }
+
+std::string place_text(const Vector& x) {
+  return point_text(x.unaryExpr([](double v) { return std::abs(v) < 1e-15 ? 0.0 : v; }));
 }
 
 bool is_too_thick(double h, double ell) { return h > (1.0 + rounding) * ell / cells_in_ell; }
@@ -107,7 +110,7 @@ std::vector<Sizes> sizes_by_region(const Mesh& mesh, const FractureModel& model)
 void add_words_on_thickness(const std::string& region, const Sizes& sizes, ResolutionWords& words) {
   if (sizes.n_too_thick == 0) return;
   const std::string sizes_words = fmt::format("region \"{}\": cells are up to {} thick, ell is {}", region,
-                                              quantity_text(sizes.thickness, "m", 3), quantity_text(sizes.ell, "m", 3));
+                                              length_text(sizes.thickness), length_text(sizes.ell));
   if (sizes.n_too_thick == sizes.n_cells)
     words.warnings.push_back(
         fmt::format("{}: no crack would be resolved (at most ell/{:g}: smaller cells in [mesh], or a "
@@ -115,8 +118,7 @@ void add_words_on_thickness(const std::string& region, const Sizes& sizes, Resol
                     sizes_words, cells_in_ell));
   else
     words.remarks.push_back(
-        fmt::format("{}: a crack is resolved in {} of {} cells (at most ell/{:g}); the run warns if it "
-                    "enters others",
+        fmt::format("{}: a crack is resolved in {} of {} cells (at most ell/{:g}); the run warns if it enters others",
                     sizes_words, sizes.n_cells - sizes.n_too_thick, sizes.n_cells, cells_in_ell));
 }
 
@@ -126,7 +128,7 @@ void add_words_on_length(const std::string& region, const Sizes& sizes, Resoluti
   words.remarks.push_back(
       fmt::format("region \"{}\": cells are {} long or longer in their plane, ell is {}: cracks are resolved along "
                   "that length, not across it; the run warns of those",
-                  region, quantity_text(sizes.shortest, "m", 3), quantity_text(sizes.ell, "m", 3)));
+                  region, length_text(sizes.shortest), length_text(sizes.ell)));
 }
 
 void add_words_on_strength(const std::string& name, const RegionModel& region, ResolutionWords& words) {
@@ -135,7 +137,7 @@ void add_words_on_strength(const std::string& name, const RegionModel& region, R
     words.warnings.push_back(
         fmt::format("region \"{}\": ell is {}; a model of strength needs less than 3 Gc/(16 W) = {}, W being the "
                     "energy density at the tensile strength",
-                    name, quantity_text(region.ell, "m", 3), quantity_text(largest, "m", 3)));
+                    name, length_text(region.ell), length_text(largest)));
 }
 
 void add_words_on_band(const Band& band, const Sizes& sizes, const FractureModel& model, double ell,
@@ -145,37 +147,24 @@ void add_words_on_band(const Band& band, const Sizes& sizes, const FractureModel
     words.warnings.push_back(fmt::format(
         "region \"{}\": cells are {} wide along the band in the mean, {} {}: the front of a crack that runs along it "
         "would not be resolved (at most that: surface_size of the particle, or cells of [mesh])",
-        band.region, quantity_text(sizes.width / n, "m", 3),
+        band.region, length_text(sizes.width / n),
         sizes.front / n > 1.01 * ell ? "the front's process zone E' Gc/ft^2 is" : "ell is",
-        quantity_text(sizes.front / n, "m", 3)));
+        length_text(sizes.front / n)));
   else if (sizes.width > widest_in_ell * sizes.front)
     words.remarks.push_back(
         fmt::format("region \"{}\": the front of a crack that runs along the band is resolved in {} of {} cells, which "
                     "are at most {} wide",
-                    band.region, sizes.n_fine, sizes.n_cells, quantity_text(sizes.front / n, "m", 3)));
+                    band.region, sizes.n_fine, sizes.n_cells, length_text(sizes.front / n)));
   const double half = std::min(model.crack->support, long_tail) * ell,
                beyond = energy_beyond(*model.crack, 0.5 * band.width / ell);
   if (corrects_toughness ? beyond > 0.5 : band.width < 2.0 * half)
     words.warnings.push_back(
         fmt::format("region \"{}\" is {} wide: the profile of a crack in it, {} with this ell, reaches beyond it with "
                     "{:.0f} % of its energy (a wider band, or a smaller length of [regions.{}])",
-                    band.region, quantity_text(band.width, "m", 3), quantity_text(2.0 * half, "m", 3), 100.0 * beyond,
-                    band.region));
+                    band.region, length_text(band.width), length_text(2.0 * half), 100.0 * beyond, band.region));
 }
 
 }  // namespace
-
-// ds/dd = -ell/sqrt(alpha), and the density of the surface energy is proportional to alpha.
-double energy_beyond(const CrackGeometry& crack, double distance) {
-  constexpr int n = 20000;
-  double s = 0.0, within = 0.0;
-  for (int i = 0; i < n && s < distance; ++i) {
-    const double root = std::sqrt(crack.alpha(1.0 - (i + 0.5) / n));
-    s += 1.0 / (n * root);
-    within += root / n;
-  }
-  return s < distance ? 0.0 : std::max(0.0, 1.0 - within * 4.0 / crack.c0);
-}
 
 ResolutionWords resolution_words(const Mesh& mesh, const FractureModel& model, std::span<const Band> bands,
                                  bool corrects_toughness) {
@@ -212,12 +201,11 @@ std::vector<std::string> CoarseCells::look(const CellField<double>& damage) {
     const std::size_t r = mesh_.region[c];
     if (told_[r] || !(damage[c] > cracked)) continue;
     told_[r] = true;
-    const Vector x = without_rounding(mesh_.cell_centre[c]);
     warnings.push_back(
         fmt::format("region \"{}\": a crack has entered cells that do not resolve it, {} thick at {} with "
                     "ell = {} (at most ell/{:g}): smaller cells there in [mesh], or a larger length in [fracture]",
-                    mesh_.region_names[r], quantity_text(thickness(mesh_, c), "m", 3), point_text(x),
-                    quantity_text(model_.in_cell(mesh_, c).ell, "m", 3), cells_in_ell));
+                    mesh_.region_names[r], length_text(thickness(mesh_, c)), place_text(mesh_.cell_centre[c]),
+                    length_text(model_.in_cell(mesh_, c).ell), cells_in_ell));
   }
   look_at_neighbours(damage, warnings);
   return warnings;
@@ -253,19 +241,18 @@ void CoarseCells::look_at_neighbours(const CellField<double>& damage, std::vecto
     const Index one = mesh_.owner[f], other = mesh_.neighbour[f];
     const RegionModel &here = model_.in_cell(mesh_, one), &there = model_.in_cell(mesh_, other);
     const double ell = std::min(here.ell, there.ell);
-    const std::size_t r = mesh_.region[damage[one] > damage[other] ? one : other];
+    const Index broken = damage[one] > damage[other] ? one : other;
+    const std::size_t r = mesh_.region[broken];
     if (told_[r] || !here.damageable || !there.damageable || !(spacing(f) > largest_drop * ell)) continue;
     if (!is_steepest(f, one) || !is_steepest(f, other)) continue;
-    if (!(spacing(f) > widest_in_ell * ell) && !is_narrow(damage[one] > damage[other] ? one : other, f, damage))
-      continue;
+    if (!(spacing(f) > widest_in_ell * ell) && !is_narrow(broken, f, damage)) continue;
     told_[r] = true;
-    const Vector x = without_rounding(mesh_.face_centre[f]);
     warnings.push_back(
         fmt::format("region \"{}\": the damage changes by {:.2f} from a cell to the next, {} apart at {} with ell = "
                     "{}: the crack is not resolved (at most ell/{:g}: smaller cells there in "
                     "[mesh], or a larger length in [fracture])",
-                    mesh_.region_names[r], drop_at(f), quantity_text(spacing(f), "m", 3), point_text(x),
-                    quantity_text(ell, "m", 3), cells_in_ell));
+                    mesh_.region_names[r], drop_at(f), length_text(spacing(f)), place_text(mesh_.face_centre[f]),
+                    length_text(ell), cells_in_ell));
   }
 }
 

@@ -27,9 +27,6 @@ struct ResolutionWords {
 ResolutionWords resolution_words(const Mesh& mesh, const FractureModel& model, std::span<const Band> bands,
                                  bool corrects_toughness);
 
-/// The part of a crack's surface energy that lies farther than `distance` from its middle, over ell; of a broken bar.
-double energy_beyond(const CrackGeometry& crack, double distance);
-
 /// Cells in which a crack is not resolved, of regions of which others are fine enough.
 class CoarseCells {
  public:

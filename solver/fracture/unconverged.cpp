@@ -1,11 +1,28 @@
 #include "solver/fracture/unconverged.h"
 
+#include "physics/error.h"
+#include "solver/fracture/combinations.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace pfdm {
+namespace {
+
+bool is_allowed(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
+                const LoadingSettings& loading) {
+  try {
+    require_combination(mesh, model, unknowns, loading);
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, const StepOutcome& outcome) {
   if (outcome.stuck)
@@ -25,6 +42,23 @@ std::string what_changes(const Mesh& mesh, const StaggeredSettings& settings, co
     left.push_back(fmt::format("the residual of the momentum balance is {:.1e} (solver.equilibrium_tolerance = {:g})",
                                outcome.residual, settings.equilibrium_tolerance));
   return left.empty() ? "the last iteration has not settled" : fmt::format("{}", fmt::join(left, ", "));
+}
+
+Remedies remedies_of(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
+                     const LoadingSettings& loading, const std::vector<Vector>& tractions) {
+  Remedies may;
+  if (!(model.viscosity > 0.0)) {
+    FractureModel viscous = model;
+    LoadingSettings timed = loading;
+    viscous.viscosity = timed.duration = 1.0;
+    may.viscosity = is_allowed(mesh, viscous, unknowns, timed);
+  }
+  if (loading.controls_dissipation()) return may;
+  LoadingSettings controlled = loading;
+  controlled.maximum_dissipation = 1.0;
+  may.dissipation_control = std::ranges::any_of(tractions, [](const Vector& f) { return !f.isZero(); }) &&
+                            is_allowed(mesh, model, unknowns, controlled);
+  return may;
 }
 
 std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& outcome, const Remedies& remedies) {

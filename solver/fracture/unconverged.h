@@ -4,6 +4,7 @@
 #include "solver/fracture/staggered.h"
 
 #include <string>
+#include <vector>
 
 namespace pfdm {
 
@@ -16,6 +17,10 @@ struct Remedies {
   bool viscosity = false;
   bool dissipation_control = false;  ///< and something is loaded by tractions, under which cracks may run
 };
+/// What this model allows under this loading; `tractions`: the forces of prescribed tractions [N].
+Remedies remedies_of(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns,
+                     const LoadingSettings& loading, const std::vector<Vector>& tractions);
+/// What may help: "what may help: a viscosity (...), ...".
 std::string what_to_try(const StaggeredSettings& settings, const StepOutcome& outcome, const Remedies& remedies);
 
 }  // namespace pfdm

@@ -3,6 +3,7 @@
 #include "physics/elasticity/gradient_stress.h"
 #include "physics/error.h"
 #include "physics/quantity_text.h"
+#include "solver/fracture/equilibrium/balanced_separation.h"
 #include "solver/momentum/finite_strain/finite_tractions.h"
 #include "solver/parallel.h"
 
@@ -12,8 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -33,32 +34,6 @@ Tensor by_length(const Vector& c) {
 Tensor convex_part(const Tensor& tangent) {
   const Eigen::SelfAdjointEigenSolver<Tensor> solver(0.5 * (tangent + tangent.transpose()));
   return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() * solver.eigenvectors().transpose();
-}
-
-/// The separation with give T(separation) + separation = due, by damped Newton steps from `now`; nothing if they do not
-/// lead there.
-std::optional<Vector> separation_between(const InterfaceLaw& law, const InterfaceStrength& at, const Vector& n,
-                                         const InterfaceHistory& before, const Tensor& give, const Vector& due,
-                                         const Vector& now) {
-  constexpr int most_steps = 40, most_halvings = 12;
-  const double small = 1e-9 * (due.norm() + give.norm() * at.strength);
-  Vector separation = now;
-  InterfaceResponse response = law.respond(at, n, separation, before);
-  Vector miss = due - separation - give * response.traction;
-  for (int i = 0; i < most_steps && miss.norm() > small; ++i) {
-    const Vector step = (Tensor::Identity() + give * response.tangent).inverse() * miss;
-    double share = 1.0;
-    for (int halvings = 0; halvings <= most_halvings; ++halvings, share *= 0.5) {
-      const Vector tried = separation + share * step;
-      InterfaceResponse there = law.respond(at, n, tried, before);
-      const Vector left = due - tried - give * there.traction;
-      if (!(left.norm() < (1.0 - 0.1 * share) * miss.norm()) && halvings < most_halvings) continue;
-      separation = tried, miss = left, response = std::move(there);
-      break;
-    }
-  }
-  if (!(miss.norm() <= small)) return std::nullopt;
-  return separation;
 }
 
 }  // namespace
@@ -166,7 +141,7 @@ void CohesiveFaces::settle(const std::vector<InterfaceHistory>& before, const Mo
     const Vector now = balance.separation(k, u);
     const Vector due = now + s.give * s.traction - s.give_beyond * s.traction_beyond;
     const Vector n = normal(face, balance);
-    const auto separation = separation_between(law(face), face.at, n, before[k], give, due, now);
+    const auto separation = balanced_separation(law(face), face.at, n, before[k], give, due, now);
     if (!separation) return;
     const Vector traction = law(face).respond(face.at, n, *separation, before[k]).traction;
     balance.part(k, s.give * (traction - s.traction), -(s.give_beyond * (traction + s.traction_beyond)), u);

@@ -13,6 +13,7 @@
 #include "solver/momentum/body/unknowns.h"
 #include "solver/momentum/solution/preconditioner.h"
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -154,6 +155,8 @@ struct LoadingSettings {
   std::vector<double> stops;  ///< values of t that a step must end on (frames)
   /// Whether what is prescribed may be taken as proportional to t: the first guess of a step.
   bool is_proportional = true;
+
+  bool controls_dissipation() const { return std::isfinite(maximum_dissipation); }
 };
 
 }  // namespace pfdm

@@ -41,6 +41,20 @@ Row derivative(const Vector& x, int a) {
   return row;
 }
 
+// Lagrange; Gauss's rule of two points is exact for cubics.
+std::array<double, 4> mean_weights(const std::array<double, 4>& places, std::size_t n) {
+  const double gauss = 0.5 / std::sqrt(3.0);
+  std::array<double, 4> weights{};
+  for (const double x : {-gauss, gauss})
+    for (std::size_t j = 0; j < n; ++j) {
+      double product = 0.5;
+      for (std::size_t m = 0; m < n; ++m)
+        if (m != j) product *= (x - places[m]) / (places[j] - places[m]);
+      weights[j] += product;
+    }
+  return weights;
+}
+
 }  // namespace cubic
 
 using cubic::n_monomials;

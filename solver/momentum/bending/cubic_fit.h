@@ -1,5 +1,6 @@
 #pragma once
-// Cubic polynomials in space by weighted least squares, for the faces of cubic_faces.h.
+// Cubic polynomials in space by weighted least squares, for the faces of cubic_faces.h; and through values on a line,
+// for the lines of layer_gradients.h.
 
 #include "physics/tensor.h"
 
@@ -41,6 +42,9 @@ int degree(int monomial);
 Row monomials(const Vector& x);
 /// Derivatives at x by the coordinate number a.
 Row derivative(const Vector& x, int a);
+
+/// Weights of values at the first `n` of these places in the mean over [-1/2, 1/2] of the polynomial through them.
+std::array<double, 4> mean_weights(const std::array<double, 4>& places, std::size_t n);
 
 }  // namespace cubic
 

@@ -2,30 +2,19 @@
 
 #include "solver/momentum/bending/layer_gradients.h"
 
+#include "solver/momentum/bending/cubic_fit.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
-
-// Weights of values at `n` places in the mean over [-1/2, 1/2] of the polynomial through them (Lagrange; Gauss's rule
-// of two points is exact for cubics).
-std::array<double, 4> mean_weights(const std::array<double, 4>& places, std::size_t n) {
-  const double gauss = 0.5 / std::sqrt(3.0);
-  std::array<double, 4> weights{};
-  for (const double x : {-gauss, gauss})
-    for (std::size_t j = 0; j < n; ++j) {
-      double product = 0.5;
-      for (std::size_t m = 0; m < n; ++m)
-        if (m != j) product *= (x - places[m]) / (places[j] - places[m]);
-      weights[j] += product;
-    }
-  return weights;
-}
 
 using FacePair = std::array<Index, 2>;
 
@@ -156,7 +145,7 @@ class LayerGradients::Maker {
     if (places.empty()) return;
     std::array<double, 4> at{};
     for (std::size_t k = 0; k < places.size(); ++k) at[k] = places[k].at;
-    const std::array<double, 4> weights = mean_weights(at, places.size());
+    const std::array<double, 4> weights = cubic::mean_weights(at, places.size());
     const std::size_t first = made_.slopes_.size();
     for (std::size_t k = 0; k < places.size(); ++k) {
       const Vector step = place(places[k].to) - place(places[k].from);
@@ -168,7 +157,7 @@ class LayerGradients::Maker {
       std::array<double, 4> with_held = at;
       with_held[k] = places[k].at_held;
       HeldEnd end{.part = Tensor::Identity() - free_part(places[k].face),
-                  .weights = mean_weights(with_held, places.size())};
+                  .weights = cubic::mean_weights(with_held, places.size())};
       for (std::size_t m = 0; m < places.size(); ++m)
         end.weights[m] = (end.weights[m] - weights[m]) / made_.slopes_[first + m].step.norm();
       made_.held_.push_back(end);

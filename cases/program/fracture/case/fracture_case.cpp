@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
+#include <span>
+#include <string_view>
 
 namespace pfdm {
 namespace {
@@ -121,7 +123,7 @@ void check_histories(const FractureCase& fracture, const ConfigTable& root) {
           "a law that depends on the rate requires the time in which the load parameter grows by 1: duration = \"1 s\" "
           "in "
           "[loading]");
-    if (std::isfinite(fracture.loading.maximum_dissipation))
+    if (fracture.loading.controls_dissipation())
       throw root.table("loading")
           .at("maximum_dissipation")
           .error(fmt::format("it cannot be combined with materials of the law \"{}\": their displacements are not "
@@ -213,7 +215,7 @@ std::vector<double> read_frames(const ConfigTable& output, const FractureCase& f
   std::vector<double> loads;
   const auto frames = output.find("frames_at");
   if (!frames) return loads;
-  if (std::isfinite(fracture.loading.maximum_dissipation))
+  if (fracture.loading.controls_dissipation())
     throw frames->error(
         "with loading.maximum_dissipation the load may pass a value more than once; use frames_every = 10, for every "
         "tenth step");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 #include <string_view>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -47,13 +48,13 @@ constexpr TimeValue time_values[] = {{"displacement", by_displacement, false},
 FrameSettings read_time_value(const ConfigValue& wanted, const LoadingSettings& loading,
                               const std::optional<double>& full_displacement) {
   const TimeValue& value = choose(wanted, std::span<const TimeValue>(time_values), "time value");
-  if (std::isfinite(loading.maximum_dissipation) && !value.rises_whatever_the_load)
+  if (loading.controls_dissipation() && !value.rises_whatever_the_load)
     throw wanted.error("with loading.maximum_dissipation the load may decrease, and times must increase; use \"step\"");
   return value.settings(wanted, loading, full_displacement);
 }
 
 FrameSettings usual_time_value(const LoadingSettings& loading, const std::optional<double>& full_displacement) {
-  if (std::isfinite(loading.maximum_dissipation)) return measured_in(0.0, "1");
+  if (loading.controls_dissipation()) return measured_in(0.0, "1");
   if (loading.duration > 0.0) return measured_in(loading.duration, "s");
   if (full_displacement) return measured_in(std::abs(*full_displacement), "m");
   return measured_in(1.0, "1");
