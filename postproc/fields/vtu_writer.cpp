@@ -1,31 +1,25 @@
 #include "postproc/fields/vtu_writer.h"
 
 #include "physics/error.h"
+#include "postproc/fields/split_points.h"
+#include "postproc/fields/vtk_arrays.h"
 #include "postproc/files/atomic_file.h"
 
 #include <fmt/format.h>
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
-#include <vtkFloatArray.h>
-#include <vtkIdList.h>
-#include <vtkIdTypeArray.h>
-#include <vtkInformation.h>
-#include <vtkInformationStringKey.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
 #include <array>
 #include <span>
+#include <string_view>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -137,94 +131,6 @@ void add_region_numbers(vtkFieldData& data, const Mesh& mesh) {
   }
 }
 
-void name_array(vtkDataArray& array, const std::string& name, const std::string& unit) {
-  array.SetName(name.c_str());
-  if (!unit.empty()) array.GetInformation()->Set(vtkDataArray::UNITS_LABEL(), unit.c_str());
-}
-
-// VTK reads the values where they are; its interface has no notion of arrays that it may not write to.
-template <class Array, class T>
-vtkSmartPointer<vtkDataArray> view(const T* values, Index n_cells, int n_components) {
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetNumberOfComponents(n_components);
-  constexpr int keep_ownership = 1;
-  array->SetArray(const_cast<T*>(values), vtkIdType{n_components} * n_cells, keep_ownership);
-  return array;
-}
-
-template <class Array, class Field, class Components>
-vtkSmartPointer<vtkDataArray> copy(const Field& field, int n_components, const Components& components_of) {
-  using Real = typename Array::ValueType;
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetNumberOfComponents(n_components);
-  array->SetNumberOfTuples(field.size());
-  Real* out = array->GetPointer(0);
-  for (const auto& value : field)
-    for (const double component : components_of(value)) *out++ = static_cast<Real>(component);
-  return array;
-}
-
-template <class Field, class Components>
-vtkSmartPointer<vtkDataArray> copy(const Field& field, Precision precision, int n, const Components& components_of) {
-  return precision == Precision::single_precision ? copy<vtkFloatArray>(field, n, components_of)
-                                                  : copy<vtkDoubleArray>(field, n, components_of);
-}
-
-vtkSmartPointer<vtkDataArray> to_array(const CellField<double>& field, Precision precision) {
-  if (precision == Precision::double_precision) return view<vtkDoubleArray>(field.data(), field.size(), 1);
-  return copy(field, precision, 1, [](double value) { return std::array{value}; });
-}
-
-vtkSmartPointer<vtkDataArray> to_array(const CellField<Vector>& field, Precision precision) {
-  static_assert(sizeof(Vector) == 3 * sizeof(double));
-  if (precision == Precision::double_precision) {
-    const double* values = field.size() == 0 ? nullptr : field.data()->data();
-    return view<vtkDoubleArray>(values, field.size(), 3);
-  }
-  return copy(field, precision, 3, [](const Vector& v) { return std::array{v.x(), v.y(), v.z()}; });
-}
-
-vtkSmartPointer<vtkDataArray> to_array(const CellField<Tensor>& field, Precision precision) {
-  auto array = copy(field, precision, 6, [](const Tensor& tensor) {
-    const Tensor s = symmetric_part(tensor);
-    return std::array{s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
-  });
-  vtkIdType component = 0;
-  for (const char* name : {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}) array->SetComponentName(component++, name);
-  return array;
-}
-
-vtkSmartPointer<vtkDataArray> all_components(const CellField<Tensor>& field, Precision precision) {
-  return copy(field, precision, 9, [](const Tensor& a) {
-    return std::array{a(0, 0), a(0, 1), a(0, 2), a(1, 0), a(1, 1), a(1, 2), a(2, 0), a(2, 1), a(2, 2)};
-  });
-}
-
-vtkSmartPointer<vtkDataArray> to_array(const CellField<Index>& field, Precision) {
-  static_assert(sizeof(Index) == sizeof(int));
-  return view<vtkIntArray>(field.data(), field.size(), 1);
-}
-
-vtkSmartPointer<vtkDataArray> to_array(const NamedField& field, Index n_cells) {
-  const auto convert = [&](const auto* values) {
-    if (values->size() != n_cells)
-      throw InputError(fmt::format("the field \"{}\" has {} values for {} cells", field.name, values->size(), n_cells));
-    if constexpr (std::is_same_v<decltype(values), const CellField<Tensor>*>)
-      if (field.all_components) return all_components(*values, field.precision);
-    return to_array(*values, field.precision);
-  };
-  auto array = std::visit(convert, field.values);
-  name_array(*array, field.name, field.unit);
-  return array;
-}
-
-vtkSmartPointer<vtkDoubleArray> time_value(double time, const std::string& unit) {
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  name_array(*array, "TimeValue", unit);
-  array->InsertNextValue(time);
-  return array;
-}
-
 void set_compressor(vtkXMLUnstructuredGridWriter& writer, Compression compression) {
   switch (compression) {
     case Compression::zlib:
@@ -251,77 +157,6 @@ std::string serialise(vtkUnstructuredGrid& grid, Compression compression) {
     throw ComputationError(fmt::format("VTK could not encode a mesh with {} cells (its error {})",
                                        grid.GetNumberOfCells(), writer->GetErrorCode()));
   return writer->GetOutputString();
-}
-
-// Gives cells copies of points in place of the points: in a grid of its own, as the one of all frames stays.
-class PointSplitter {
- public:
-  explicit PointSplitter(vtkUnstructuredGrid& grid) : grid_(grid) {
-    points_->SetDataType(grid.GetPoints()->GetDataType());
-    points_->DeepCopy(grid.GetPoints());
-    cells_->DeepCopy(grid.GetCells());
-    if (!grid.GetFaces()) return;
-    faces_ = vtkSmartPointer<vtkIdTypeArray>::New();
-    faces_->DeepCopy(grid.GetFaces());
-  }
-
-  void split(vtkIdType point, const std::vector<Index>& cells) {
-    std::array<double, 3> place{};
-    points_->GetPoint(point, place.data());
-    const vtkIdType copy = points_->InsertNextPoint(place.data());
-    for (const Index cell : cells) {
-      cells_->GetCellAtId(cell, ids_);
-      for (vtkIdType i = 0; i < ids_->GetNumberOfIds(); ++i)
-        if (ids_->GetId(i) == point) ids_->SetId(i, copy);
-      cells_->ReplaceCellAtId(cell, ids_);
-      if (grid_.GetCellType(cell) == VTK_POLYHEDRON) split_faces(cell, point, copy);
-    }
-  }
-
-  void finish() {
-    grid_.SetPoints(points_);
-    vtkNew<vtkUnsignedCharArray> types;
-    types->DeepCopy(grid_.GetCellTypesArray());
-    const vtkSmartPointer<vtkIdTypeArray> locations = grid_.GetFaceLocations();
-    grid_.SetCells(types, cells_, locations, faces_);
-  }
-
- private:
-  void split_faces(vtkIdType cell, vtkIdType point, vtkIdType copy) {
-    vtkIdType at = grid_.GetFaceLocations()->GetValue(cell);
-    vtkIdType n_faces = faces_->GetValue(at++);
-    for (; n_faces > 0; --n_faces)
-      for (vtkIdType n = faces_->GetValue(at++); n > 0; --n, ++at)
-        if (faces_->GetValue(at) == point) faces_->SetValue(at, copy);
-  }
-
-  vtkUnstructuredGrid& grid_;
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> cells_;
-  vtkSmartPointer<vtkIdTypeArray> faces_;
-  vtkNew<vtkIdList> ids_;
-};
-
-// `number` is that in the file of each of the mesh's points, -1 for those that no cell uses.
-vtkSmartPointer<vtkFloatArray> displacement_array(const SplitPoints& split, const std::vector<vtkIdType>& number) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  name_array(*array, "displacement", "m");
-  array->SetNumberOfComponents(3);
-  for (std::size_t p = 0; p < split.displacement.size(); ++p)
-    if (p >= number.size() || number[p] >= 0) array->InsertNextTuple(split.displacement[p].data());
-  return array;
-}
-
-void add_points(vtkUnstructuredGrid& frame, const SplitPoints& split, const std::vector<vtkIdType>& number) {
-  if (split.displacement.size() != number.size() + split.copies.size())
-    throw InputError(fmt::format("{} displacements for {} points and {} copies", split.displacement.size(),
-                                 number.size(), split.copies.size()));
-  if (!split.copies.empty()) {
-    PointSplitter splitter(frame);
-    for (const PointCopy& copy : split.copies) splitter.split(number[copy.point], copy.cells);
-    splitter.finish();
-  }
-  frame.GetPointData()->AddArray(displacement_array(split, number));
 }
 
 }  // namespace
@@ -374,9 +209,9 @@ void VtuWriter::write(const std::filesystem::path& path, const std::vector<Named
   vtkNew<vtkUnstructuredGrid> frame;
   frame->ShallowCopy(grid_->mesh);
   const auto n_cells = static_cast<Index>(frame->GetNumberOfCells());
-  for (const NamedField& field : fields) frame->GetCellData()->AddArray(to_array(field, n_cells));
-  if (points) add_points(*frame, *points, grid_->number);
-  frame->GetFieldData()->AddArray(time_value(time, grid_->settings.time_unit));
+  for (const NamedField& field : fields) frame->GetCellData()->AddArray(vtk_array(field, n_cells));
+  if (points) add_split_points(*frame, *points, grid_->number);
+  frame->GetFieldData()->AddArray(vtk_time(time, grid_->settings.time_unit));
   write_file(path, serialise(*frame, grid_->settings.compression));
 }
 
