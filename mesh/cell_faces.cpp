@@ -6,6 +6,7 @@
 #include <array>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "physics/error.h"
 
@@ -229,6 +230,15 @@ void list_faces_of_cells(Mesh& mesh) {
     mesh.cell_faces[fill[mesh.owner[f]]++] = f;
     if (mesh.is_interior(f)) mesh.cell_faces[fill[mesh.neighbour[f]]++] = f;
   }
+}
+
+void mirror_cell(CellShape shape, std::vector<Index>& p) {
+  if (shape == CellShape::pyramid || shape == CellShape::hexahedron)
+    std::swap(p[1], p[3]);
+  else
+    std::swap(p[1], p[2]);
+  if (shape == CellShape::wedge) std::swap(p[4], p[5]);
+  if (shape == CellShape::hexahedron) std::swap(p[5], p[7]);
 }
 
 }  // namespace pfdm

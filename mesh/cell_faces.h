@@ -2,6 +2,7 @@
 // From cells as lists of points to faces: every cell's own faces, and which of them are the same face.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -52,6 +53,9 @@ void list_faces_of_cells(Mesh& mesh);
 
 /// Volume [m^3] of a cell of any shape but a polyhedron; negative if its points are in mirrored order.
 double signed_cell_volume(const std::vector<Vector>& points, CellShape shape, std::span<const Index> cell);
+
+/// Turns a cell with its points in mirrored order into itself in right order; of any shape but a polyhedron.
+void mirror_cell(CellShape shape, std::vector<Index>& points);
 
 /// How many points a cell of this shape has; 0 for polyhedra, which may have any number.
 Index points_per_cell(CellShape shape);

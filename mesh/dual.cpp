@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <span>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "mesh/cell_edges.h"
 #include "mesh/cell_faces.h"
 #include "mesh/disjoint_sets.h"
+#include "mesh/geometry.h"
 #include "physics/error.h"
 
 namespace pfdm {
@@ -176,18 +180,10 @@ class DualBuilder {
       i = static_cast<std::size_t>(std::ranges::find(around, next, &EdgeInCell::cell) - around.begin());
     }
     const auto [low, high] = edges_[edge];
-    if (doubled_area(loop, middle_of_edge(edge)).dot(soup_.points[high] - soup_.points[low]) < 0.0)
+    if (doubled_fan_area(soup_.points, loop, middle_of_edge(edge)).dot(soup_.points[high] - soup_.points[low]) < 0.0)
       std::ranges::reverse(loop);
     const Index cell = around[start].cell;
     add_face(loop, dual_cell(cell, low), dual_cell(cell, high), -1, middle_of_edge(edge));
-  }
-
-  Vector doubled_area(const std::vector<Index>& loop, Index apex) const {
-    const Vector& o = soup_.points[apex];
-    Vector sum = Vector::Zero();
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      sum += (soup_.points[loop[i]] - o).cross(soup_.points[loop[(i + 1) % loop.size()]] - o);
-    return sum;
   }
 
   void add_faces_of_vertices() {

@@ -1,5 +1,8 @@
 #include "mesh/geometry.h"
 
+#include <span>
+#include <vector>
+
 namespace pfdm {
 namespace {
 
@@ -93,6 +96,14 @@ void compute_geometry(Mesh& mesh) {
     mesh.face_centre[f] = geometry.centre;
   }
   for (Index c = 0; c < mesh.n_cells(); ++c) compute_cell(mesh, c);
+}
+
+Vector doubled_fan_area(const std::vector<Vector>& points, std::span<const Index> loop, Index apex) {
+  const Vector& o = points[apex];
+  Vector sum = Vector::Zero();
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    sum += (points[loop[i]] - o).cross(points[loop[(i + 1) % loop.size()]] - o);
+  return sum;
 }
 
 }  // namespace pfdm

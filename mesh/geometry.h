@@ -5,6 +5,9 @@
 
 #include "mesh/mesh.h"
 
+#include <span>
+#include <vector>
+
 namespace pfdm {
 
 struct FaceGeometry {
@@ -13,6 +16,9 @@ struct FaceGeometry {
 };
 
 FaceGeometry face_geometry(const std::vector<Vector>& points, std::span<const Index> face);
+
+/// Twice the area vector of the fan of triangles between a closed line of points and the apex [m^2].
+Vector doubled_fan_area(const std::vector<Vector>& points, std::span<const Index> loop, Index apex);
 
 /// The middle of a face's fan of triangles [m].
 Vector fan_middle(const Mesh& mesh, Index face);

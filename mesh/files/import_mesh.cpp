@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
+#include <utility>
 
+#include "mesh/bounding_box.h"
 #include "mesh/cell_faces.h"
 #include "mesh/files/flat_mesh.h"
 #include "mesh/files/gmsh_file.h"
@@ -26,22 +28,8 @@ namespace {
 
 constexpr std::array<const char*, 6> usual_region_arrays{"region",    "material",  "gmsh:physical",
                                                          "medit:ref", "cell_tags", "CellEntityIds"};
-// vtkCellType.h
-constexpr int vtk_voxel = 11;
-constexpr double flat_cell = 1e-14;    // volume over the cube of an edge or diagonal: nothing but rounding
-constexpr int vtk_last_flat_type = 9;  // vertices, lines, triangles, strips, polygons, pixels, quadrilaterals
-
-bool is_face_type(int vtk_type) { return vtk_type == 5 || (vtk_type >= 7 && vtk_type <= vtk_last_flat_type); }
-
-// Turns a cell with its points in mirrored order into itself in right order.
-void mirror(CellShape shape, std::vector<Index>& p) {
-  if (shape == CellShape::pyramid || shape == CellShape::hexahedron)
-    std::swap(p[1], p[3]);
-  else
-    std::swap(p[1], p[2]);
-  if (shape == CellShape::wedge) std::swap(p[4], p[5]);
-  if (shape == CellShape::hexahedron) std::swap(p[5], p[7]);
-}
+constexpr int vtk_voxel = 11;        // vtkCellType.h
+constexpr double flat_cell = 1e-14;  // volume over the cube of an edge or diagonal: nothing but rounding
 
 class Importer {
  public:
@@ -54,7 +42,7 @@ class Importer {
     region_numbers_ = region_numbers();
     name_regions();
     place_points();
-    for (Index c = 0, polyhedron = 0; c < n_cells(); ++c) {
+    for (Index c = 0, polyhedron = 0; c < file_.n_cells(); ++c) {
       if (is_volume(c)) add_cell(c);
       if (file_.cell_type[c] == 42) soup_.polyhedron_faces.push_back(renumbered_faces(polyhedron++));
     }
@@ -94,19 +82,14 @@ class Importer {
     return file_.has_groups ? ", as where Gmsh finds no Physical Volume to save" : "";
   }
 
-  // What the file calls a cell.
-  std::int64_t number_of(Index cell) const { return file_.cell_number.empty() ? cell : file_.cell_number[cell]; }
-
-  Index n_cells() const { return count_of(file_.cell_type); }
-
   bool is_volume(Index cell) const {
     const int type = file_.cell_type[cell];
     if (shape_of(type)) return true;
-    if (type <= vtk_last_flat_type) return false;
+    if (type <= MeshFile::last_flat_type) return false;
     throw error(
         fmt::format("its cell {} is of VTK's type {}; supported are tetrahedra (10), voxels (11), hexahedra (12), "
                     "wedges (13), pyramids (14), prisms of 5 and 6 sides (15, 16) and polyhedra (42)",
-                    number_of(cell), type));
+                    file_.number_of(cell), type));
   }
 
   const std::vector<Index>& array(const std::string& name) const {
@@ -128,7 +111,7 @@ class Importer {
 
   void name_regions() {
     std::set<Index> numbers;
-    for (Index c = 0; c < n_cells() && !region_numbers_.empty(); ++c)
+    for (Index c = 0; c < file_.n_cells() && !region_numbers_.empty(); ++c)
       if (is_volume(c)) numbers.insert(region_numbers_[c]);
     for (const auto& [number, name] : settings_.region_names)
       if (!numbers.contains(number))
@@ -170,7 +153,7 @@ class Importer {
   // Meshers leave construction points in their files.
   void drop_unused_points() {
     std::vector<Index> number(soup_.points.size(), -1);
-    for (Index c = 0; c < n_cells(); ++c)
+    for (Index c = 0; c < file_.n_cells(); ++c)
       if (is_volume(c))
         for (const Index p : points_of(c)) number[p] = 0;
     std::vector<Vector> used;
@@ -205,7 +188,7 @@ class Importer {
     const CellShape shape = *shape_of(file_.cell_type[cell]);
     std::vector<Index> ids = points_of(cell);
     if (std::set<Index>(ids.begin(), ids.end()).size() != ids.size())
-      throw error(fmt::format("its cell {} has a point twice", number_of(cell)));
+      throw error(fmt::format("its cell {} has a point twice", file_.number_of(cell)));
     if (shape != CellShape::polyhedron) put_in_order(cell, shape, ids);
     const Index region = region_numbers_.empty() ? 0 : region_of_number_.at(region_numbers_[cell]);
     soup_.add_cell(shape, ids, region);
@@ -213,15 +196,15 @@ class Importer {
 
   void put_in_order(Index cell, CellShape shape, std::vector<Index>& ids) const {
     if (count_of(ids) != points_per_cell(shape))
-      throw error(fmt::format("its cell {} has {} points", number_of(cell), ids.size()));
+      throw error(fmt::format("its cell {} has {} points", file_.number_of(cell), ids.size()));
     if (file_.cell_type[cell] == vtk_voxel) {
       std::swap(ids[2], ids[3]);
       std::swap(ids[6], ids[7]);
     }
-    if (signed_cell_volume(soup_.points, shape, ids) < 0.0) mirror(shape, ids);
+    if (signed_cell_volume(soup_.points, shape, ids) < 0.0) mirror_cell(shape, ids);
     const double volume = signed_cell_volume(soup_.points, shape, ids);
     if (!(volume > flat_cell * portable::pow((soup_.points[ids[0]] - soup_.points[ids[2]]).norm(), 3)))
-      throw error(fmt::format("its cell {} has the volume {}, which is not positive", number_of(cell),
+      throw error(fmt::format("its cell {} has the volume {}, which is not positive", file_.number_of(cell),
                               quantity_text(volume, "m^3", 6)));
   }
 
@@ -232,8 +215,8 @@ class Importer {
     if (numbers.empty()) throw error("it has no cell array that numbers its face sets");
     FaceSets sets;
     std::set<Index> found;
-    for (Index c = 0; c < n_cells(); ++c) {
-      if (!is_face_type(file_.cell_type[c])) continue;
+    for (Index c = 0; c < file_.n_cells(); ++c) {
+      if (!file_.is_face(c)) continue;
       std::vector<Index> ids = points_of(c);
       std::ranges::sort(ids);
       sets[ids] = numbers[c];
@@ -277,8 +260,8 @@ class Importer {
   // Of Gmsh's that have no name.
   void name_physical_groups(std::map<Index, std::string>& names) const {
     if (!file_.has_groups) return;
-    for (Index c = 0; c < n_cells(); ++c)
-      if (is_face_type(file_.cell_type[c]) && region_numbers_[c] != 0)
+    for (Index c = 0; c < file_.n_cells(); ++c)
+      if (file_.is_face(c) && region_numbers_[c] != 0)
         names.emplace(region_numbers_[c], fmt::format("patch_{}", region_numbers_[c]));
   }
 
@@ -290,12 +273,7 @@ class Importer {
   }
 
   std::vector<PatchRule> bounding_box_rules() const {
-    Vector low = soup_.points.front();
-    Vector high = low;
-    for (const Vector& x : soup_.points) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
+    const auto [low, high] = bounding_box(soup_.points);
     std::vector<PatchRule> rules = box_patches(low, high);
     for (PatchRule& rule : rules) rule.required = false;
     return rules;

@@ -25,6 +25,17 @@ struct MeshFile {
   std::map<Index, std::string> region_names, patch_names, line_names;
   bool has_groups = false;                 ///< its numbers are Gmsh's physical groups, and 0 none
   bool has_volumes_without_cells = false;  ///< it names volumes, as a geometry, and has no cells of any
+
+  /// Up to here VTK's numbers are vertices, lines, triangles, strips, polygons, pixels and quadrilaterals.
+  static constexpr int last_flat_type = 9;
+  Index n_cells() const { return count_of(cell_type); }
+  /// What the file calls a cell.
+  std::int64_t number_of(Index cell) const { return cell_number.empty() ? cell : cell_number[cell]; }
+  /// Whether it is a triangle, a quadrilateral or a polygon.
+  bool is_face(Index cell) const {
+    const int type = cell_type[cell];
+    return type == 5 || (type >= 7 && type <= last_flat_type);
+  }
 };
 
 /// The faces of a prism as of a polyhedron, [n_faces, n_points, p ...]. `points`: those around its base, then those of

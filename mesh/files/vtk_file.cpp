@@ -27,6 +27,7 @@
 #include <string_view>
 #include <utility>
 
+#include "mesh/bounding_box.h"
 #include "mesh/files/vtk_messages.h"
 #include "physics/error.h"
 #include "physics/system/packed_bytes.h"
@@ -236,12 +237,7 @@ std::pair<MeshFile, FileArray> read_vtk_array(const std::filesystem::path& path,
 std::vector<Index> merge_points(std::vector<Vector>& points, double tolerance) {
   std::vector<Index> number;
   if (points.empty()) return number;
-  Vector low = points.front();
-  Vector high = points.front();
-  for (const Vector& x : points) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
+  const auto [low, high] = bounding_box(points);
   const double bounds[6] = {low[0], high[0], low[1], high[1], low[2], high[2]};
   vtkNew<vtkPoints> kept;
   kept->SetDataTypeToDouble();

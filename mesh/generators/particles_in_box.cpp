@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
-#include <numeric>
+#include <utility>
 
+#include "mesh/generators/particles_in_box_checks.h"
 #include "mesh/generators/tetgen_wrapper.h"
 #include "mesh/patch_rules.h"
 #include "mesh/surfaces/box_surface.h"
@@ -14,98 +15,9 @@
 #include "mesh/surfaces/surface_checks.h"
 #include "physics/error.h"
 #include "physics/portable_math.h"
-#include "physics/quantity_text.h"
 
 namespace pfdm {
 namespace {
-
-double thickness(const Particle& p) { return p.n_layers > 0 ? p.layer_thickness : 0.0; }
-double outer_radius(const Particle& p) { return p.radius + thickness(p); }
-bool is_sphere(const Particle& p) { return p.shape.triangles.empty(); }
-
-std::string describe_particle(const ParticlesInBoxSettings& settings, std::size_t i) {
-  const Particle& p = settings.particles[i];
-  const std::string extent = is_sphere(p) ? fmt::format("radius {}", quantity_text(p.radius, "m", 6))
-                                          : fmt::format("a surface of {} triangles", p.shape.triangles.size());
-  return fmt::format("particle {} (centre {}, {}{})", i + 1, point_text(p.centre, 6), extent,
-                     p.n_layers > 0 ? fmt::format(", layers of {}", quantity_text(p.layer_thickness, "m", 6)) : "");
-}
-
-void check_positive(const std::string& what, double value) {
-  if (!(value > 0.0)) throw InputError(fmt::format("{} is {:g}; it must be positive", what, value));
-}
-
-void check_sphere_in_box(const ParticlesInBoxSettings& settings, const Particle& p, const std::string& name) {
-  check_positive("the radius of " + name, p.radius);
-  const double room = std::min((p.centre - settings.lower).minCoeff(), (settings.upper - p.centre).minCoeff());
-  if (!(outer_radius(p) < room))
-    throw InputError(fmt::format(
-        "{} leaves the box or touches its side: it needs more than {} from its centre to every side and has {}", name,
-        quantity_text(outer_radius(p), "m", 6), quantity_text(room, "m", 6)));
-}
-
-void check_particle(const ParticlesInBoxSettings& settings, std::size_t i) {
-  const Particle& p = settings.particles[i];
-  const std::string name = describe_particle(settings, i);
-  if (!p.centre.allFinite()) throw InputError(name + " has a centre that is not finite");
-  if (p.surface_size != 0.0 && p.subdivision != 0)
-    throw InputError(fmt::format("{} has both a surface size ({}) and a subdivision ({}); give one", name,
-                                 quantity_text(p.surface_size, "m", 6), p.subdivision));
-  if (p.subdivision == 0) check_positive("the surface size [m] of " + name, p.surface_size);
-  if (p.subdivision < 0 || p.n_layers < 0)
-    throw InputError(fmt::format("{} has the subdivision {} and {} layers; neither may be negative", name,
-                                 p.subdivision, p.n_layers));
-  if (p.n_layers > 0) check_positive("the thickness [m] of the layers of " + name, p.layer_thickness);
-  if (is_sphere(p)) check_sphere_in_box(settings, p, name);
-}
-
-void check_apart(const ParticlesInBoxSettings& settings, std::size_t i, std::size_t j) {
-  const Particle& a = settings.particles[i];
-  const Particle& b = settings.particles[j];
-  if (!is_sphere(a) || !is_sphere(b)) return;  // their surfaces are checked
-  const double distance = (a.centre - b.centre).norm();
-  const double needed = outer_radius(a) + outer_radius(b);
-  if (!(distance > needed))
-    throw InputError(fmt::format("{} and {} overlap or touch: their centres are {} apart and need more than {}",
-                                 describe_particle(settings, i), describe_particle(settings, j),
-                                 quantity_text(distance, "m", 6), quantity_text(needed, "m", 6)));
-}
-
-double area_of_sides(const Vector& extent) {
-  return 2.0 * (extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0]);
-}
-
-/// Of the box; the cells that particles add are limited by the triangles of their surfaces.
-void check_number_of_cells(const ParticlesInBoxSettings& settings) {
-  constexpr double regular = 0.1178, most = std::numeric_limits<Index>::max() / 24.0;
-  const Vector extent = settings.upper - settings.lower;
-  const double edge = settings.size_far, cells = extent.prod() / (regular * edge * edge * edge);
-  if (!(cells < most))
-    throw InputError(fmt::format("the box would have about {:.3g} tetrahedra of {} (size_far), too many to number",
-                                 cells, quantity_text(edge, "m", 3)));
-  require_few_triangles("the box", area_of_sides(extent), settings.boundary_size > 0.0 ? settings.boundary_size : edge);
-}
-
-void check_settings(const ParticlesInBoxSettings& settings) {
-  const Vector extent = settings.upper - settings.lower;
-  if (!(extent.minCoeff() > 0.0) || !extent.allFinite())
-    throw InputError(fmt::format("the box has the sides {}; all must be positive",
-                                 quantities_text({extent[0], extent[1], extent[2]}, "m", ", ", 6)));
-  check_positive("the largest cell size (size_far) [m]", settings.size_far);
-  check_positive("the largest cell size inside particles over that on their surface", settings.particle_size_factor);
-  if (std::isfinite(settings.particle_size_factor) && !std::ranges::all_of(settings.particles, is_sphere))
-    throw InputError("the largest cell size inside particles (particle_size_factor) can be limited in spheres only");
-  check_positive("the largest radius-edge ratio", settings.max_radius_edge_ratio);
-  if (!(settings.grading >= 0.0))
-    throw InputError(fmt::format("the grading is {:g}; it must be zero or positive", settings.grading));
-  if (settings.boundary_size != 0.0) check_positive("the cell size on the box's surface [m]", settings.boundary_size);
-  if (settings.particles.empty() && !std::isfinite(settings.size_far))
-    throw InputError("a box without particles needs a cell size (size_far)");
-  check_number_of_cells(settings);
-  for (std::size_t i = 0; i < settings.particles.size(); ++i) check_particle(settings, i);
-  for (std::size_t i = 0; i < settings.particles.size(); ++i)
-    for (std::size_t j = i + 1; j < settings.particles.size(); ++j) check_apart(settings, i, j);
-}
 
 Index subdivision_of(const Particle& p) {
   return p.subdivision > 0 ? p.subdivision : icosphere_subdivision(p.surface_size, p.radius);
@@ -150,7 +62,7 @@ class ParticleBody {
 };
 
 SizeSource size_source(const Particle& p) {
-  std::vector<Vector> points = ParticleBody(p).surface(thickness(p)).points;
+  std::vector<Vector> points = ParticleBody(p).surface(layers_thickness(p)).points;
   double radius = 0.0;
   for (const Vector& x : points) radius = std::max(radius, (x - p.centre).norm());
   return {p.centre, radius, p.surface_size, 0.0, p.surface_size, p.surface_size, std::move(points)};
@@ -229,13 +141,13 @@ class Builder {
   // What surfaces that do not intersect may still be: outside the box, or one in the other.
   void check_shapes() const {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Vector x = bodies_[i].point(0, thickness(settings_.particles[i]));
+      const Vector x = bodies_[i].point(0, layers_thickness(settings_.particles[i]));
       if (!((x - settings_.lower).minCoeff() > 0.0) || !((settings_.upper - x).minCoeff() > 0.0))
         throw InputError(fmt::format("{} leaves the box", describe_particle(settings_, i)));
       for (std::size_t j = 0; j < bodies_.size(); ++j)
         if (const Particle& other = settings_.particles[j]; i != j &&
                                                             !(is_sphere(settings_.particles[i]) && is_sphere(other)) &&
-                                                            encloses(bodies_[j].surface(thickness(other)), x))
+                                                            encloses(bodies_[j].surface(layers_thickness(other)), x))
           throw InputError(
               fmt::format("{} lies within {}", describe_particle(settings_, i), describe_particle(settings_, j)));
     }
@@ -252,7 +164,7 @@ class Builder {
   // Between a particle and the nearest of the lower sides of the box.
   double room(std::size_t i) const {
     double least = std::numeric_limits<double>::infinity();
-    for (const Vector& x : bodies_[i].surface(thickness(settings_.particles[i])).points)
+    for (const Vector& x : bodies_[i].surface(layers_thickness(settings_.particles[i])).points)
       least = std::min(least, (x - settings_.lower).minCoeff());
     return least;
   }
@@ -293,26 +205,12 @@ class Builder {
   CellSoup soup_;
 };
 
-// A gap or an overlap between layers and tetrahedra would show here: cells close and have positive volumes already.
-void check_watertight(const Mesh& mesh, const ParticlesInBoxSettings& settings) {
-  const Vector extent = settings.upper - settings.lower;
-  const double filled = std::accumulate(mesh.cell_volume.begin(), mesh.cell_volume.end(), 0.0);
-  double surface = 0.0;
-  for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f) surface += mesh.face_area[f].norm();
-  const double box_surface_area = area_of_sides(extent);
-  const auto differs = [](double a, double b) { return !(std::abs(a - b) <= 1e-9 * b); };
-  if (differs(filled, extent.prod()) || differs(surface, box_surface_area))
-    throw ComputationError(fmt::format("the mesh does not fill its box: volume {:.12g} of {}, boundary {:.12g} of {}",
-                                       filled, quantity_text(extent.prod(), "m^3", 12), surface,
-                                       quantity_text(box_surface_area, "m^2", 12)));
-}
-
 }  // namespace
 
 Mesh make_particles_in_box(const ParticlesInBoxSettings& settings) {
-  check_settings(settings);
+  check_particles_in_box(settings);
   Mesh mesh = Builder(settings).build();
-  check_watertight(mesh, settings);
+  check_filled(mesh, settings);
   return mesh;
 }
 

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <new>
 #include <string>
+#include <utility>
 
+#include "mesh/bounding_box.h"
 #include "mesh/generators/lifted_points.h"
 #include "physics/error.h"
 #include "physics/system/packed_bytes.h"
@@ -23,12 +25,7 @@ constexpr double volume_tolerance = 1.3;   // over the regular one, before a cel
 class Scaling {
  public:
   explicit Scaling(const std::vector<Vector>& points) {
-    Vector low = points.front();
-    Vector high = points.front();
-    for (const Vector& x : points) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
+    const auto [low, high] = bounding_box(points);
     factor_ = std::exp2(-std::ceil(std::log2((high - low).maxCoeff())));
   }
   void put(const Vector& x, double* to) const { Eigen::Map<Vector>{to} = factor_ * x; }

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
+
+#include "mesh/bounding_box.h"
 
 namespace pfdm {
 
@@ -253,11 +256,7 @@ Interpolation KnownField::at(Vector x, bool nearest) const {
 
 double size_of(const std::vector<Vector>& points) {
   if (points.empty()) return 0.0;
-  Vector low = points.front(), high = points.front();
-  for (const Vector& x : points) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
+  const auto [low, high] = bounding_box(points);
   return (high - low).norm();
 }
 
