@@ -11,7 +11,7 @@ namespace pfdm {
 namespace {
 
 constexpr Index most_cuts = 8;
-constexpr double linear_reduction = 0.02;  // of the residual by one linear solve
+constexpr double newton_reduction = 0.02;  // of the residual by one linear solve
 constexpr double little_descent = 1.0 - 1e-4;
 
 double work(const std::vector<Vector>& force, const std::vector<Vector>& step, Index n_nodes) {
@@ -83,7 +83,7 @@ Equilibrium solve_finite(const CellStiffness& stiffness, const MomentumSolver::T
   for (Index step = 0; step < most_steps; ++step) {
     LineSearch search(stiffness, momentum, state);
     const Equilibrium linear = momentum.solve(state.load,
-                                              {.reduction = std::max(linear_reduction, 0.5 * tolerance.reduction),
+                                              {.reduction = std::max(newton_reduction, 0.5 * tolerance.reduction),
                                                .ceiling = std::numeric_limits<double>::max(),
                                                .floor = 0.1 * tolerance.floor,
                                                .most_iterations = tolerance.most_iterations,
