@@ -3,7 +3,7 @@
 #include "cases/program/fracture/body/boundary_reader.h"
 #include "cases/program/fracture/body/interface_reader.h"
 #include "cases/program/fracture/body/material_laws.h"
-#include "cases/program/fracture/body/mesh_recipe.h"
+#include "cases/program/fracture/body/mesh/mesh_recipe.h"
 #include "cases/program/fracture/case/fracture_case.h"
 #include "physics/damage/crack_geometry.h"
 #include "physics/damage/degradation.h"

@@ -2,7 +2,7 @@
 // Reads a case of kind "homogenize": mesh, materials, how the box is loaded.
 
 #include "cases/program/fracture/body/materials.h"
-#include "cases/program/fracture/body/mesh_recipe.h"
+#include "cases/program/fracture/body/mesh/mesh_recipe.h"
 #include "physics/elasticity/effective_stiffness.h"
 #include "solver/homogenization/homogenization.h"
 

@@ -1,7 +1,7 @@
 #include "cases/program/homogenization/homogenization_keys.h"
 
 #include "cases/program/fracture/body/body_keys.h"
-#include "cases/program/fracture/body/mesh_keys.h"
+#include "cases/program/fracture/body/mesh/mesh_keys.h"
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/homogenization/homogenization_case.h"
 #include "cases/program/input/config/key_member.h"
@@ -11,6 +11,8 @@
 #include "solver/momentum/solution/preconditioner.h"
 
 #include <fmt/format.h>
+
+#include <string_view>
 
 namespace pfdm {
 namespace {

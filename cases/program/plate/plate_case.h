@@ -1,14 +1,16 @@
 #pragma once
 // Reads a case of kind "plate": a viscoelastic body on a shaker, and how it is cooled.
 
-#include "cases/program/fracture/body/mesh_recipe.h"
+#include "cases/program/fracture/body/mesh/mesh_recipe.h"
 #include "cases/program/input/config/config.h"
 #include "solver/dynamics/base_response.h"
 #include "solver/dynamics/heated_body.h"
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pfdm {

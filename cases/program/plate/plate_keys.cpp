@@ -1,12 +1,14 @@
 #include "cases/program/plate/plate_keys.h"
 
-#include "cases/program/fracture/body/mesh_keys.h"
+#include "cases/program/fracture/body/mesh/mesh_keys.h"
 #include "cases/program/input/config/csv_keys.h"
 #include "cases/program/input/config/heat_units.h"
 #include "cases/program/input/config/key_member.h"
 #include "cases/program/plate/plate_case.h"
 #include "cases/program/plate/plate_fit_case.h"
 #include "cases/program/studies/study_keys.h"
+
+#include <vector>
 
 namespace pfdm {
 namespace {

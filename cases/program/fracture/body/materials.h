@@ -1,7 +1,7 @@
 #pragma once
 // The materials of a case and the regions that they fill.
 
-#include "cases/program/fracture/body/mesh_recipe.h"
+#include "cases/program/fracture/body/mesh/mesh_recipe.h"
 #include "cases/program/input/config/config.h"
 #include "solver/fracture/model/fracture_model.h"
 

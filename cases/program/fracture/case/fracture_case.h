@@ -6,7 +6,7 @@
 #include "cases/program/fracture/body/initial_damage.h"
 #include "cases/program/fracture/body/interface_reader.h"
 #include "cases/program/fracture/body/materials.h"
-#include "cases/program/fracture/body/mesh_recipe.h"
+#include "cases/program/fracture/body/mesh/mesh_recipe.h"
 #include "cases/program/fracture/case/cohesive_case.h"
 #include "cases/program/fracture/case/energy_release_case.h"
 #include "cases/program/fracture/case/frame_settings.h"
@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 #include "cases/program/fracture/case/run_keys.h"
 
 #include "cases/program/fracture/body/body_keys.h"
-#include "cases/program/fracture/body/mesh_keys.h"
+#include "cases/program/fracture/body/mesh/mesh_keys.h"
 #include "cases/program/input/config/key_member.h"
 #include "cases/program/studies/study_keys.h"
 #include "postproc/fields/energy_release_rate.h"
@@ -9,6 +9,7 @@
 #include "solver/momentum/solution/preconditioner.h"
 
 #include <limits>
+#include <vector>
 
 namespace pfdm {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // Reads [mesh] of the generators that put particles into a box of tetrahedra.
 
-#include "cases/program/fracture/body/mesh_recipe.h"
+#include "cases/program/fracture/body/mesh/mesh_recipe.h"
 
 namespace pfdm {
 

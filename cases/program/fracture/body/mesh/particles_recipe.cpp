@@ -1,20 +1,23 @@
-#include "cases/program/fracture/body/particles_recipe.h"
+#include "cases/program/fracture/body/mesh/particles_recipe.h"
 
-#include "cases/program/fracture/body/mesh_keys.h"
+#include "cases/program/fracture/body/mesh/mesh_part_keys.h"
 
-#include "cases/program/fracture/body/shape_recipe.h"
+#include "cases/program/fracture/body/mesh/shape_recipe.h"
 #include "cases/program/input/config/path_reader.h"
 #include "cases/program/input/fields/amount.h"
 #include "mesh/generators/packed_spheres.h"
 #include "mesh/generators/particles_in_box.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <iterator>
-#include <limits>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {

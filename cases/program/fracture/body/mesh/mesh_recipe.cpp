@@ -1,6 +1,6 @@
-#include "cases/program/fracture/body/mesh_recipe.h"
+#include "cases/program/fracture/body/mesh/mesh_recipe.h"
 
-#include "cases/program/fracture/body/particles_recipe.h"
+#include "cases/program/fracture/body/mesh/particles_recipe.h"
 #include "cases/program/input/config/path_reader.h"
 #include "cases/program/input/fields/amount.h"
 #include "mesh/dual.h"
@@ -15,10 +15,9 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
+#include <string_view>
 
 namespace pfdm {
 namespace {

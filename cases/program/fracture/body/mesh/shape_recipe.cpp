@@ -1,6 +1,6 @@
-#include "cases/program/fracture/body/shape_recipe.h"
+#include "cases/program/fracture/body/mesh/shape_recipe.h"
 
-#include "cases/program/fracture/body/mesh_keys.h"
+#include "cases/program/fracture/body/mesh/mesh_part_keys.h"
 #include "cases/program/input/config/path_reader.h"
 #include "cases/program/input/config/units.h"
 #include "cases/program/input/fields/amount.h"
@@ -13,7 +13,6 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 
 namespace pfdm {
