@@ -1,7 +1,6 @@
 #include "cases/program/fracture/case/fracture_case.h"
 
-#include "cases/program/fracture/body/body_keys.h"
-#include "cases/program/fracture/body/material_keys.h"
+#include "cases/program/fracture/case/model_choice.h"
 #include "cases/program/fracture/case/run_keys.h"
 #include "cases/program/input/config/key_member.h"
 #include "solver/fracture/model/toughness_perturbation.h"
@@ -9,9 +8,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <span>
-#include <string_view>
 
 namespace pfdm {
 namespace {
@@ -19,92 +18,6 @@ namespace {
 std::string unsuited_split(const Material& material, const EnergySplit& split) {
   return fmt::format("a material of the law \"{}\" cannot be combined with the energy split \"{}\"; allowed: {}",
                      material.name(), split.name(), splits_with_secant());
-}
-
-template <class Law>
-const Law* find_law(const ConfigTable& table, std::string_view key, const Law& otherwise, std::span<const Law> laws,
-                    std::string_view what) {
-  const auto value = table.find(key);
-  return value ? &choose(*value, laws, what) : &otherwise;
-}
-
-Irreversibility read_irreversibility(const ConfigValue& value) {
-  const std::string way = value.choice();
-  return way == "history"     ? Irreversibility::history
-         : way == "crack_set" ? Irreversibility::crack_set
-                              : Irreversibility::bounds;
-}
-
-/// A crack geometric function, or a strength model, which has one.
-const CrackGeometry& read_model(const ConfigTable& table, StrengthChoice& strength) {
-  const auto value = table.find("model");
-  if (!value) return crack_geometry("AT2");
-  const std::string name = value->choice();
-  const auto law = std::ranges::find(strength_laws(), name, &StrengthLaw::name);
-  if (law == strength_laws().end()) return crack_geometry(name);
-  strength.law = &*law;
-  return crack_geometry(law->crack);
-}
-
-void read_delta(const ConfigTable& table, const FractureModel& model, StrengthChoice& strength) {
-  const auto delta = table.find("delta");
-  if (strength.law == nullptr) {
-    if (delta) throw delta->error("this belongs to the model \"strength\"");
-    return;
-  }
-  if (const auto degrading = table.find("degradation"); degrading && model.degradation.name() != "quadratic")
-    throw degrading->error(fmt::format("the model \"{}\" requires the degradation \"quadratic\"", strength.law->name));
-  if (model.irreversibility == Irreversibility::history)
-    throw table.at("irreversibility")
-        .error(fmt::format("the model \"{}\" requires \"bounds\" or \"crack_set\"", strength.law->name));
-  if (!delta) return;
-  if (delta->is_table())
-    strength.mesh_size =
-        delta->table().with_keys(delta->type()->as(KeyType::Kind::table)->table()).quantity("mesh_size");
-  else
-    strength.delta = delta->number();
-}
-
-MaterialDefaults read_fracture(const ConfigTable& root, FractureModel& model) {
-  const ConfigTable table = root.table("fracture");
-  MaterialDefaults defaults;
-  model.crack = &read_model(table, defaults.strength);
-  const auto degrading = table.find("degradation"), split = table.find("split");
-  model.degradation = degrading ? read_degradation(*degrading) : degradation("quadratic");
-  model.split = split ? read_split(*split) : energy_split("volumetric_deviatoric");
-  if (const auto irreversibility = table.find("irreversibility"))
-    model.irreversibility = read_irreversibility(*irreversibility);
-  read_delta(table, model, defaults.strength);
-  if (const auto by = table.find("stiffness_damage"))
-    model.stiffness_by = by->choice() == "mean" ? StiffnessBy::mean : StiffnessBy::cell;
-  model.residual_stiffness = table.number("residual_stiffness", model.residual_stiffness);
-  if (table.has("viscosity")) model.viscosity = table.quantity("viscosity");
-  defaults.crack = model.crack;
-  defaults.corrects_toughness = table.choice("effective_toughness", "corrected") == "corrected";
-  if (table.has("length")) defaults.ell = table.quantity("length");
-  defaults.degradation = model.degradation;
-  if (model.degradation.law().needs_strength)
-    defaults.softening = find_law(table, "softening", softening_law("linear"), softening_laws(), "softening law");
-  return defaults;
-}
-
-Perturbation read_perturbation(const ConfigTable& root) {
-  if (!root.has("fracture")) return {};
-  const ConfigTable table = root.table("fracture");
-  if (table.has("perturbation_seed") && !table.has("perturbation"))
-    throw table.at("perturbation_seed").error("this belongs to a perturbation, which is not given");
-  return {.part = table.number("perturbation", 0.0),
-          .seed = static_cast<std::uint64_t>(table.integer("perturbation_seed", std::int64_t{1}))};
-}
-
-/// Of bodies in which only interfaces break.
-MaterialDefaults elastic(FractureModel& model) {
-  model.crack = &crack_geometry("AT2");
-  model.degradation = degradation("quadratic");
-  model.split = energy_split("none");
-  MaterialDefaults defaults;
-  defaults.elastic_keys = elastic_material_keys;
-  return defaults;
 }
 
 /// What materials with a history ask of the splits and of the loading.
@@ -305,8 +218,8 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
 FractureCase read_body(const ConfigTable& root, const std::filesystem::path& case_directory, bool may_be_elastic) {
   FractureCase fracture;
   fracture.title = root.line("title");
-  MaterialDefaults defaults =
-      may_be_elastic && !root.has("fracture") ? elastic(fracture.model) : read_fracture(root, fracture.model);
+  MaterialDefaults defaults = may_be_elastic && !root.has("fracture") ? elastic_model(fracture.model)
+                                                                      : read_fracture_model(root, fracture.model);
   fracture.mesh = read_mesh_recipe(root.table("mesh"), {case_directory, defaults.ell});
   defaults.bands = fracture.mesh.bands;
   defaults.loads_from_start = !may_be_elastic && apply_from_start(root);

@@ -11,10 +11,10 @@
 #include "cases/program/fracture/case/energy_release_case.h"
 #include "cases/program/fracture/case/frame_settings.h"
 #include "cases/program/fracture/case/heat_case.h"
+#include "cases/program/fracture/case/model_choice.h"
 #include "solver/fracture/model/fracture_model.h"
 
 #include <array>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -36,12 +36,6 @@ struct FractureOutput {
   FrameSettings frames;
   std::optional<Vector> slices_through;  ///< [m]
   std::vector<TipRegion> tips;           ///< around which the energy release rate is measured
-};
-
-/// Random changes of the cells' toughness, so that a uniform body has a weakest place.
-struct Perturbation {
-  double part = 0.0;  ///< of the toughness; 0: none
-  std::uint64_t seed = 1;
 };
 
 /// A box that is loaded by mean strains or stresses in place of boundary conditions; of kind "homogenize".
