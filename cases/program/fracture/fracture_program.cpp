@@ -3,6 +3,7 @@
 #include "cases/program/fracture/case/experiment_case.h"
 #include "cases/program/fracture/case/fracture_case.h"
 #include "cases/program/fracture/case/run_keys.h"
+#include "cases/program/fracture/fracture_check.h"
 #include "cases/program/fracture/fracture_laws.h"
 #include "cases/program/fracture/other_laws.h"
 #include "cases/program/fracture/outcome/fracture_cohesive.h"
@@ -14,7 +15,6 @@
 #include "cases/program/fracture/page/fracture_browser.h"
 #include "cases/program/fracture/page/fracture_report.h"
 #include "cases/program/fracture/run/running_case.h"
-#include "cases/program/fracture/run_estimate.h"
 #include "cases/program/input/case_files/kept_case.h"
 #include "cases/program/input/fields/field_reader.h"
 #include "cases/program/session/earlier_results.h"
@@ -22,8 +22,6 @@
 #include "cases/program/session/report_parts.h"
 #include "cases/program/session/terminal/stopwatch.h"
 #include "cases/program/studies/fit/curve_fit.h"
-#include "mesh/quality.h"
-#include "postproc/curves/curve_misfit.h"
 #include "postproc/files/folder_lock.h"
 #include "postproc/files/other_case.h"
 #include "solver/fracture/bending_words.h"
@@ -33,9 +31,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <sstream>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -43,93 +45,6 @@ namespace {
 /// Tables that say how the load is stepped and the steps are solved, and what they are compared with; not what is
 /// loaded.
 constexpr std::string_view may_change_on_the_way[] = {"solver", "loading", "experiment", "fit", "sweep"};
-
-Mesh make_mesh(const FractureProgram& program, Log& log) {
-  for (const std::string& remark : program.fracture.materials.remarks) log.say(remark);
-  const Stopwatch watch;
-  Mesh mesh = program.fracture.mesh.make();
-  log.say(fmt::format("mesh: {} cells, {} points, {} faces, made in {:.1f} s", mesh.n_cells(), mesh.points.size(),
-                      mesh.n_faces(), watch.seconds()));
-  if (const auto warning = flat_cell_warning(mesh)) log.warn(*warning);
-  return mesh;
-}
-
-FractureRun make_run(const FractureProgram& program, const Mesh& mesh, Log& log) {
-  const FractureCase& fracture = program.fracture;
-  FractureModel model = model_on(fracture, mesh);
-  const ResolutionWords words =
-      resolution_words(mesh, model, fracture.materials.bands, fracture.materials.corrects_toughness);
-  for (const std::string& remark : words.remarks) log.say(remark);
-  for (const std::string& warning : words.warnings) log.warn(warning);
-  return FractureRun(mesh, std::move(model), fracture.staggered, fracture.loading);
-}
-
-void warn_of_interfaces(const FractureRun& run, Log& log) {
-  for (const std::string& warning : run.interface_warnings()) log.warn(warning);
-}
-
-void say_regions(const Mesh& mesh, Log& log) {
-  std::vector<Index> cells(mesh.region_names.size());
-  for (const Index region : mesh.region) ++cells[region];
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    log.say(fmt::format("  region {:<16} {:>9} cells", mesh.region_names[i], cells[i]));
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-void check_fit(const FractureProgram& program, Log& log) {
-  if (program.experiment)
-    program.fit->where.in_context([&] {
-      require_deviations(program.experiment->specimens);
-      return true;
-    });
-  require_start_within_bounds(program.fit->where, program.fit->parameters);
-  for (const CurveFitParameter& parameter : program.fit->parameters)
-    log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
-                        parameter.in_case.shown(parameter.in_fit.lower),
-                        parameter.in_case.shown(parameter.in_fit.upper)));
-  log.say(fit_words(*program.fit));
-}
-
-void check(const FractureProgram& program, Session& session) {
-  Log& log = session.log;
-  const LoadingSettings& loading = program.fracture.loading;
-  const Mesh mesh = make_mesh(program, log);
-  const FractureRun run = make_run(program, mesh, log);
-  warn_of_interfaces(run, log);
-  if (const std::string remark = direction_remark(mesh, run.model()); !remark.empty()) log.say(remark);
-  if (const auto warning = bending_warning(mesh, run.model())) log.warn(*warning);
-  for (const std::string& warning : stiffness_warnings(mesh, run.model())) log.warn(warning);
-  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
-  log.say(fmt::format("{}: {}", program.name, program.fracture.title));
-  if (program.fracture.box) log.say(program.fracture.box->words);
-  log.say(fmt::format("cells {}", mesh.n_cells()));
-  say_regions(mesh, log);
-  log.say(fmt::format("unknowns {} of displacement, {} of damage", run.n_unknowns(), mesh.n_cells()));
-  log.say(fmt::format("memory about {:.0f} MB", 1e-6 * estimated_memory(mesh)));
-  log.say(fmt::format("steps {} or more, up to load {:g}", std::ceil(loading.end / loading.maximum_increment - 1e-9),
-                      loading.end));
-  log.say(time_words(mesh, run.model(), loading, session.results, program.hash));
-  if (program.fit) check_fit(program, log);
-  for (const ColumnSet& set : columns)
-    log.say(fmt::format("cohesive law of \"{}\" from {} columns", set.name, set.columns.size()));
-  log.say(fmt::format("results go to {}", session.results.string()));
-  log.say("the input is valid");
-}
-
-void mesh_only(const FractureProgram& program, Session& session) {
-  const Mesh mesh = make_mesh(program, session.log);
-  model_on(program.fracture, mesh);
-  const FolderLock lock(session.results);
-  for (const std::string& line : lines_of(describe(mesh_quality(mesh)))) session.log.say(line);
-  write_mesh(session.results, mesh);
-  session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
-}
 
 std::optional<FractureState> state_to_go_on_from(const FractureProgram& program, const FractureState& initial,
                                                  std::size_t n_column_sets, const Session& session) {
@@ -158,7 +73,7 @@ void cohesive(const FractureProgram& program, Session& session) {
 
 /// Made, or found where several runs share it.
 const Mesh& find_mesh(const FractureProgram& program, MeshStore& meshes, Log& log) {
-  return meshes.get(program.mesh_hash, [&] { return make_mesh(program, log); });
+  return meshes.get(program.mesh_hash, [&] { return made_mesh(program, log); });
 }
 
 void prepare(const FractureProgram& program, Session& session) {
@@ -175,7 +90,7 @@ void run_case(FractureProgram program, Session& session) {
   MeshStore own_mesh;
   const Mesh& mesh = find_mesh(program, session.meshes ? *session.meshes : own_mesh, session.log);
   times.mesh = times.whole.seconds();
-  FractureRun run = make_run(program, mesh, session.log);
+  FractureRun run = made_run(program, mesh, session.log);
   warn_of_interfaces(run, session.log);
   if (!session.figures_only) {
     if (const auto words = bending_warning(mesh, run.model())) session.log.say(*words);
@@ -266,8 +181,8 @@ RunnableCase runnable(const std::shared_ptr<FractureProgram>& program) {
   program->mesh_hash = table_hash(file, "mesh", program->fracture.mesh.data_files);
   if (const auto ell = program->fracture.mesh.ell) program->mesh_hash += fmt::format(" ell {}", *ell);
   return {.title = program->fracture.title,
-          .check = [program](Session& session) { check(*program, session); },
-          .mesh = [program](Session& session) { mesh_only(*program, session); },
+          .check = [program](Session& session) { check_fracture(*program, session); },
+          .mesh = [program](Session& session) { mesh_fracture(*program, session); },
           .run = [program](Session& session) { run_case(*program, session); },
           .cohesive = [program](Session& session) { cohesive(*program, session); },
           .page = [program](const Session& session) { return page_of(*program, session); },

@@ -1,6 +1,7 @@
 #include "cases/program/point/endochronic_report.h"
 
-#include "cases/program/session/fit_verdict.h"
+#include "cases/program/point/endochronic_fit_charts.h"
+#include "cases/program/point/plotted_strain.h"
 #include "cases/program/session/report_parts.h"
 #include "physics/error.h"
 #include "postproc/curves/fit_json.h"
@@ -12,6 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -19,8 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double least_share = 1e-3;  // of the largest stress, for a component to be shown
-const DisplayUnit percent{.factor = 100.0, .name = "%"};
-
 struct StoredRun {
   RunSummary summary;
   CsvTable history;
@@ -36,18 +38,6 @@ double largest(const std::vector<double>& values) {
   double result = 0.0;
   for (const double value : values) result = std::max(result, std::abs(value));
   return result;
-}
-
-bool is_shear(std::string_view component) { return component[0] != component[1]; }
-
-/// As it is plotted: of shear the engineering one.
-std::vector<double> plotted_strain(const CsvTable& table, std::string_view component, std::string_view before = {}) {
-  return in_unit(table.column(fmt::format("{}strain_{}", before, component)),
-                 {.factor = (is_shear(component) ? 2.0 : 1.0) * percent.factor, .name = percent.name});
-}
-
-std::string strain_title(std::string_view component) {
-  return fmt::format("{} {} [%]", is_shear(component) ? "engineering shear" : "strain", component);
 }
 
 std::string stress_name(std::string_view component) { return fmt::format("stress_{}_Pa", component); }
@@ -206,98 +196,6 @@ std::vector<PageRow> run_rows(const EndochronicCase& point, const CsvTable& hist
   return {first, second};
 }
 
-Table estimates_table(const FitReport& fit) {
-  Table table{
-      .caption = fmt::format("Fit, method {}: {}", fit.method, verdict_text(fit.found)),
-      .rows = {{"parameter", "first guess", "estimate", fmt::format("{:g} % interval", 100.0 * fit.confidence)}},
-      .has_header = true};
-  for (const FittedParameter& p : fit.found.parameters) {
-    const DisplayUnit unit =
-        p.unit == "Pa" ? display_unit(p.estimate, "Pa") : DisplayUnit{.factor = 1.0, .name = p.unit};
-    const auto text = [&](double value) { return shown(unit.factor * value); };
-    table.rows.push_back({unit.name == "1" ? p.name : fmt::format("{} [{}]", p.name, unit.name), text(p.first_guess),
-                          text(p.estimate),
-                          std::isfinite(p.lower) ? fmt::format("{} to {}", text(p.lower), text(p.upper)) : "-"});
-  }
-  return table;
-}
-
-/// What a file of a fit holds: components with a measured and a fitted stress.
-std::vector<std::string> channels(const CsvTable& curve) {
-  std::vector<std::string> result;
-  constexpr std::string_view start = "measured_stress_", end = "_Pa";
-  for (const std::string& name : curve.names)
-    if (name.starts_with(start)) result.push_back(name.substr(start.size(), name.size() - start.size() - end.size()));
-  return result;
-}
-
-/// One channel over its strain; several over the time.
-Chart fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve) {
-  const std::vector<std::string> components = channels(curve);
-  std::vector<std::vector<double>> stresses;
-  stresses.reserve(components.size());
-  for (const std::string& c : components) stresses.push_back(curve.column(fmt::format("measured_stress_{}_Pa", c)));
-  const DisplayUnit unit = common_unit(stresses, "Pa");
-  const bool over_strain =
-      components.size() == 1 && std::ranges::find(curve.names, "strain_" + components[0]) != curve.names.end();
-  const std::vector<double> x = over_strain ? plotted_strain(curve, components[0]) : curve.column("time_s");
-  Chart chart{.caption = fmt::format("{} \"{}\", rms misfit {:.2g} %", experiment.fitted ? "Fit to" : "Prediction of",
-                                     experiment.name, 100.0 * experiment.relative),
-              .x = {.title = over_strain ? strain_title(components[0]) : "time [s]"},
-              .y = {.title = fmt::format("stress [{}]", unit.name)},
-              .series = {}};
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    const int colour = 2 * static_cast<int>(i);
-    chart.series.push_back({.label = "measured " + components[i],
-                            .x = x,
-                            .y = in_unit(stresses[i], unit),
-                            .style = SeriesStyle::points,
-                            .colour = colour});
-    chart.series.push_back({.label = (experiment.fitted ? "fitted " : "predicted ") + components[i],
-                            .x = x,
-                            .y = in_unit(curve.column(fmt::format("fitted_stress_{}_Pa", components[i])), unit),
-                            .colour = colour + 1});
-  }
-  return chart;
-}
-
-/// A test at given stress: its strains over the time.
-Chart strain_fit_chart(const ExperimentMisfit& experiment, const CsvTable& curve) {
-  Chart chart{.caption = fmt::format("{} \"{}\", rms misfit {:.2g} %", experiment.fitted ? "Fit to" : "Prediction of",
-                                     experiment.name, 100.0 * experiment.relative),
-              .x = {.title = "time [s]"},
-              .y = {.title = "strain [%]"},
-              .series = {}};
-  constexpr std::string_view start = "measured_strain_";
-  for (const std::string& name : curve.names) {
-    if (!name.starts_with(start)) continue;
-    const std::string component = name.substr(start.size());
-    const int colour = static_cast<int>(chart.series.size());
-    const std::string shown_as = is_shear(component) ? "engineering shear " + component : component;
-    chart.series.push_back({.label = "measured " + shown_as,
-                            .x = curve.column("time_s"),
-                            .y = plotted_strain(curve, component, "measured_"),
-                            .style = SeriesStyle::points,
-                            .colour = colour});
-    chart.series.push_back({.label = (experiment.fitted ? "fitted " : "predicted ") + shown_as,
-                            .x = curve.column("time_s"),
-                            .y = plotted_strain(curve, component, "fitted_"),
-                            .colour = colour + 1});
-  }
-  return chart;
-}
-
-/// Four experiments at most.
-std::vector<PageRow> fit_rows(const FitReport& fit, const fs::path& results) {
-  std::vector<PageBlock> charts;
-  for (std::size_t i = 0; i < std::min<std::size_t>(fit.experiments.size(), 4); ++i) {
-    const CsvTable curve = read_csv(results / fit.experiments[i].curve);
-    charts.emplace_back(channels(curve).empty() ? strain_fit_chart(fit.experiments[i], curve)
-                                                : fit_chart(fit.experiments[i], curve));
-  }
-  return in_pairs(std::move(charts));
-}
-
 }  // namespace
 
 ReportPage endochronic_page(const EndochronicCase& point, const std::string& name, const std::string& hash,
@@ -312,12 +210,12 @@ ReportPage endochronic_page(const EndochronicCase& point, const std::string& nam
       .rows = {}};
   PageRow tables{.blocks = {parameter_table(point.law)}};
   if (run) tables.blocks.emplace_back(figures_table(run->summary));
-  if (fit) tables.blocks.emplace_back(estimates_table(*fit));
+  if (fit) tables.blocks.emplace_back(endochronic_estimates(*fit));
   page.rows.push_back(std::move(tables));
   if (run)
     for (PageRow& row : run_rows(point, run->history)) page.rows.push_back(std::move(row));
   if (fit)
-    for (PageRow& row : fit_rows(*fit, results)) page.rows.push_back(std::move(row));
+    for (PageRow& row : endochronic_fit_rows(*fit, results)) page.rows.push_back(std::move(row));
   for (const char* log : {"run.log", "fit.log"})
     for (PageRow& row : warnings_row(results / log)) page.rows.push_back(std::move(row));
   return page;

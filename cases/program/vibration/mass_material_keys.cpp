@@ -1,10 +1,10 @@
 #include "cases/program/vibration/mass_material_keys.h"
 
-#include "cases/program/input/config/csv_keys.h"
 #include "cases/program/input/config/key_member.h"
 #include "cases/program/studies/study_keys.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "cases/program/vibration/mass_material_schedule.h"
+#include "cases/program/vibration/vibration_reader.h"
 
 namespace pfdm {
 namespace {
@@ -106,23 +106,6 @@ const KeyTable& sampling_keys() {
                                                           "Signal-to-noise ratio of both simulated channels in dB."),
                stored<&MassMaterialCase::noise_seed>("noise_seed", whole(count), "Seed of the noise.")}};
   return table;
-}
-
-std::vector<Key> record_file_keys(std::string_view only) {
-  using namespace keys;
-  std::vector<Key> rows{
-      {"file", path(), "", "File of the record: CSV, MATLAB, universal, HDF5 or WAV, seen from the case."},
-      {"base", text("column"), "\"base_acceleration\"", "Column of the base's acceleration."},
-      {"relative", text("column"), "\"relative_acceleration\"", "Column of the relative acceleration of the mass."},
-      {"time", text("column"), "\"time\"", "Column of the time."},
-      {"time_unit", text("unit"), "seconds", "Unit of the time, where the file does not state it."},
-      {"unit", text("unit"), "that of the file",
-       "Unit of the channels, where the file does not state it; of WAV the full scale."},
-      {"rate", frequency(), "that of the file", "Samples per second, where the file does not state them."}};
-  for (Key& row : rows) row.only = only;
-  std::vector<Key> marks = csv_mark_keys();
-  for (Key& row : marks) row.only = only;
-  return joined({rows, marks});
 }
 
 const KeyTable& excitation_keys() {

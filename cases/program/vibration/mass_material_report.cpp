@@ -11,11 +11,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <optional>
-#include <variant>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pfdm {
 namespace {
@@ -194,22 +198,6 @@ Chart phase_chart(const VibrationStory& story, const BandSpectra& s, const std::
               .series = {{.label = "recorded", .x = s.frequency, .y = s.phase}}};
   add_model(chart, story, model, &BandSpectra::phase);
   return chart;
-}
-
-Chart modulus_chart(const std::vector<ModulusRow>& modulus) {
-  std::vector<double> f, storage, loss;
-  for (const ModulusRow& row : modulus) {
-    f.push_back(row.frequency);
-    storage.push_back(row.storage);
-    loss.push_back(row.loss);
-  }
-  const DisplayUnit unit = common_unit({{storage, loss}}, "Pa");
-  return {
-      .caption = "Young's modulus of the sample",
-      .x = {.title = "frequency [Hz]", .logarithmic = f.back() > 8.0 * f.front(), .from = f.front(), .to = f.back()},
-      .y = {.title = fmt::format("modulus [{}]", unit.name), .from = 0.0},
-      .series = {{.label = "storage", .x = f, .y = in_unit(storage, unit), .colour = 1},
-                 {.label = "loss", .x = f, .y = in_unit(loss, unit), .colour = 2}}};
 }
 
 std::string percent(double part, double mean) { return fmt::format("{:.2g} %", 100.0 * part / std::abs(mean)); }

@@ -1,11 +1,13 @@
 #include "cases/program/vibration/vibration_charts.h"
 
+#include "cases/program/session/report_parts.h"
 #include "physics/point/mass_material.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
@@ -179,6 +181,22 @@ Chart harmonics_chart(const TrackedResponse& tracked) {
                             .y = listed(tracked.harmonics.col(h)(kept), 1.0 / standard_gravity),
                             .colour = static_cast<int>(h)});
   return chart;
+}
+
+Chart modulus_chart(const std::vector<ModulusRow>& modulus) {
+  std::vector<double> f, storage, loss;
+  for (const ModulusRow& row : modulus) {
+    f.push_back(row.frequency);
+    storage.push_back(row.storage);
+    loss.push_back(row.loss);
+  }
+  const DisplayUnit unit = common_unit({{storage, loss}}, "Pa");
+  return {
+      .caption = "Young's modulus of the sample",
+      .x = {.title = "frequency [Hz]", .logarithmic = f.back() > 8.0 * f.front(), .from = f.front(), .to = f.back()},
+      .y = {.title = fmt::format("modulus [{}]", unit.name), .from = 0.0},
+      .series = {{.label = "storage", .x = f, .y = in_unit(storage, unit), .colour = 1},
+                 {.label = "loss", .x = f, .y = in_unit(loss, unit), .colour = 2}}};
 }
 
 }  // namespace pfdm

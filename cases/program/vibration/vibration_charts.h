@@ -2,6 +2,7 @@
 // Charts of vibration records, for the pages of pfdm report.
 
 #include "postproc/page/report_page.h"
+#include "postproc/vibration/vibration_fit.h"
 #include "solver/vibration/diagnosis/record_analysis.h"
 #include "solver/vibration/simulation/vibration_record.h"
 
@@ -39,6 +40,9 @@ void blank_incoherent(BandSpectra& spectra, const std::vector<double>& coherence
 ChartAxis frequency_axis(const VibrationRecord& record);
 Chart density_chart(const VibrationRecord& record, const BandSpectra& spectra);
 Chart coherence_chart(const VibrationRecord& record, const BandSpectra& spectra);
+
+/// Storage and loss modulus of a sample over the frequency; of one row at least.
+Chart modulus_chart(const std::vector<ModulusRow>& modulus);
 
 /// Density of the response over time and frequency, up to a little beyond the highest harmonic asked for.
 Picture spectrogram_picture(const Spectrogram& spectrogram, double highest_frequency);

@@ -1,5 +1,6 @@
 #include "cases/program/vibration/vibration_reader.h"
 
+#include "cases/program/input/config/csv_keys.h"
 #include "cases/program/input/config/units.h"
 #include "physics/error.h"
 #include "postproc/files/csv_table.h"
@@ -11,6 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -232,6 +236,24 @@ SampledChannel read_channel(const RecordFile& source) {
     if (fault.refused && fault.name != "too_short" && fault.name != "sampled_too_slowly")
       throw InputError(fmt::format("{}: {}: {}", source.file.string(), fault.name, fault.message));
   return {.values = raw.base, .rate = sampling_rate(raw), .notes = std::move(notes)};
+}
+
+std::vector<Key> record_file_keys(std::string_view only) {
+  using namespace keys;
+  std::vector<Key> rows{
+      {"file", path(), "", "File of the record: CSV, MATLAB, universal, HDF5 or WAV, seen from the case."},
+      {"base", text("column"), "\"base_acceleration\"", "Column of the base's acceleration."},
+      {"relative", text("column"), "\"relative_acceleration\"", "Column of the relative acceleration of the mass."},
+      {"time", text("column"), "\"time\"", "Column of the time."},
+      {"time_unit", text("unit"), "seconds", "Unit of the time, where the file does not state it."},
+      {"unit", text("unit"), "that of the file",
+       "Unit of the channels, where the file does not state it; of WAV the full scale."},
+      {"rate", quantity(dimension::frequency, range::positive), "that of the file",
+       "Samples per second, where the file does not state them."}};
+  for (Key& row : rows) row.only = only;
+  std::vector<Key> marks = csv_mark_keys();
+  for (Key& row : marks) row.only = only;
+  return joined({rows, marks});
 }
 
 }  // namespace pfdm

@@ -1,12 +1,14 @@
 #pragma once
 // Vibration records from files, in SI units, checked.
 
+#include "cases/program/input/config/key.h"
 #include "cases/program/session/terminal/log.h"
 #include "cases/program/vibration/mass_material_case.h"
 #include "solver/vibration/simulation/vibration_record.h"
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pfdm {
@@ -24,5 +26,9 @@ struct SampledChannel {
   std::vector<std::string> notes{};  ///< for the log: what was assumed
 };
 SampledChannel read_channel(const RecordFile& source);
+
+/// Rows of the keys of the file of a record or of a measured base acceleration; `only`: with these words of the key
+/// that decides.
+std::vector<Key> record_file_keys(std::string_view only);
 
 }  // namespace pfdm

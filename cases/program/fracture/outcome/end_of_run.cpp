@@ -12,81 +12,12 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace pfdm {
 namespace {
 
 namespace fs = std::filesystem;
-
-const TomlValue* entry_named(const TomlValue* value, std::string_view key) {
-  const auto* table = value == nullptr ? nullptr : std::get_if<TomlTable>(&value->value);
-  if (table == nullptr) return nullptr;
-  const auto found = std::ranges::find(*table, key, &TomlEntry::key);
-  return found == table->end() ? nullptr : &found->value;
-}
-
-std::span<const TomlValue> elements_of(const TomlValue* value) {
-  const auto* array = value == nullptr ? nullptr : std::get_if<TomlArray>(&value->value);
-  return array == nullptr ? std::span<const TomlValue>() : std::span<const TomlValue>(*array);
-}
-
-std::string text_of(const TomlValue* value) {
-  const auto* text = value == nullptr ? nullptr : std::get_if<std::string>(&value->value);
-  return text == nullptr ? std::string() : *text;
-}
-
-/// The unit of "624 um", or of { expr = "...", unit = "um" }; empty if there is none.
-std::string unit_given(const TomlValue& value) {
-  if (const TomlValue* unit = entry_named(&value, "unit")) return text_of(unit);
-  try {
-    return std::string(unit_of(text_of(&value)));
-  } catch (const InputError&) {  // "free"
-    return {};
-  }
-}
-
-bool names_patch(const TomlValue& boundary, const std::string& patch) {
-  return text_of(entry_named(&boundary, "patch")) == patch ||
-         std::ranges::any_of(elements_of(entry_named(&boundary, "patches")),
-                             [&](const TomlValue& name) { return text_of(&name) == patch; });
-}
-
-/// Of the curve's patch and direction, or else the first that any patch has.
-std::string unit_of_displacement(const TomlValue& root, const CurveSettings& curve) {
-  std::string any;
-  for (const TomlValue& boundary : elements_of(entry_named(&root, "boundary"))) {
-    const auto components = elements_of(entry_named(&boundary, "displacement"));
-    for (std::size_t i = 0; i < components.size(); ++i) {
-      std::string unit = unit_given(components[i]);
-      if (!is_unit_of(unit, dimension::length)) continue;
-      if (names_patch(boundary, curve.patch) && i == static_cast<std::size_t>(curve.component)) return unit;
-      if (any.empty()) any = unit;
-    }
-  }
-  return any;
-}
-
-std::string unit_of_force(const TomlValue& root) {
-  for (const TomlValue& specimen : elements_of(entry_named(entry_named(&root, "experiment"), "specimens")))
-    if (std::string unit = text_of(entry_named(entry_named(&specimen, "force"), "unit"));
-        is_unit_of(unit, dimension::force))
-      return unit;
-  return {};
-}
-
-CaseUnit case_unit(const std::string& name, const Dimension& of) {
-  if (name.empty()) return {.si_unit = std::string(of.si_unit)};
-  return {.name = name, .si_unit = std::string(of.si_unit), .in_si = unit_in_si(name, of)};
-}
-
-/// "154.6 and 157.1 um"
-std::string two_shown(const CaseUnit& unit, double a, std::string_view between, double b) {
-  std::string first = shown_in(unit, a);
-  const std::string second = shown_in(unit, b);
-  const std::string ending = second.substr(std::min(second.find(' '), second.size()));
-  if (first.ends_with(ending)) first.resize(first.size() - ending.size());
-  return fmt::format("{} {} {}", first, between, second);
-}
 
 /// Names of displacement and force among the figures, and their units; strain and stress of a box.
 struct Axes {
@@ -187,27 +118,15 @@ std::optional<HeadFigure> figure_of_law(const nlohmann::ordered_json& surface) {
 
 }  // namespace
 
-CurveUnits read_curve_units(const CaseFile& file, const CurveSettings& curve) {
-  const TomlValue root = parse_toml(file.text, "case.toml");
-  return {.displacement = case_unit(unit_of_displacement(root, curve), dimension::length),
-          .force = case_unit(unit_of_force(root), dimension::force)};
-}
-
-std::string shown_in(const CaseUnit& unit, double si) {
-  if (unit.si_unit == "1") return shown(si);
-  if (!unit.name.empty()) return fmt::format("{} {}", shown(si / unit.in_si), unit.name);
-  return quantity_text(si, unit.si_unit);
-}
-
 std::string first_debonding_words(const RunSummary& summary, const FractureCase& fracture, const CurveUnits& units) {
   const Axes axes = axes_of(fracture, units);
   const auto figure = [&](const std::string& name) { return summary.other_figure("first_debonding_" + name); };
   const double from = figure(axes.x + axes.x_unit), to = figure(axes.x + "_after" + axes.x_unit);
   if (!std::isfinite(from) || !std::isfinite(to)) return {};
-  std::string words =
-      fmt::format("between {}{}, where the {} goes from {}", fracture.box ? axes.x + " = " : "",
-                  two_shown(axes.x_shown, from, "and", to), axes.y_words,
-                  two_shown(axes.y_shown, figure(axes.y + axes.y_unit), "to", figure(axes.y + "_after" + axes.y_unit)));
+  std::string words = fmt::format(
+      "between {}{}, where the {} goes from {}", fracture.box ? axes.x + " = " : "",
+      two_shown_in(axes.x_shown, from, "and", to), axes.y_words,
+      two_shown_in(axes.y_shown, figure(axes.y + axes.y_unit), "to", figure(axes.y + "_after" + axes.y_unit)));
   if (const double angle = figure("angle_deg"); std::isfinite(angle))
     words += fmt::format(", at polar angles of {:.0f} to {:.0f} degrees; debonding angle {:.0f} degrees",
                          figure("polar_angle_from_deg"), figure("polar_angle_to_deg"), angle);
@@ -274,13 +193,13 @@ std::vector<HeadFigure> run_figures(const FractureCase& fracture, const CurveUni
   if (std::isfinite(from) && std::isfinite(to)) {
     std::string note = fmt::format(
         "{} from {}", axes.y_words,
-        two_shown(axes.y_shown, debonding(axes.y + axes.y_unit), "to", debonding(axes.y + "_after" + axes.y_unit)));
+        two_shown_in(axes.y_shown, debonding(axes.y + axes.y_unit), "to", debonding(axes.y + "_after" + axes.y_unit)));
     if (const double angle = debonding("angle_deg"); std::isfinite(angle))
       note += fmt::format("; polar angles {:.0f} to {:.0f} degrees", debonding("polar_angle_from_deg"),
                           debonding("polar_angle_to_deg"));
     figures.push_back({.label = fmt::format("First debonding of \"{}\"",
                                             surface == summary.other_texts.end() ? std::string() : surface->second),
-                       .value = two_shown(axes.x_shown, from, "to", to),
+                       .value = two_shown_in(axes.x_shown, from, "to", to),
                        .note = std::move(note)});
   } else if (summary.other_figures.contains("first_debonding_load")) {
     figures.push_back({.label = "Debonding", .value = "none", .note = "every surface holds"});

@@ -2,6 +2,7 @@
 // What a run tells when it ends: the figures that one asks for first, in the units of the case.
 
 #include "cases/program/fracture/case/fracture_case.h"
+#include "cases/program/fracture/outcome/curve_units.h"
 #include "cases/program/input/case_files/case_file.h"
 #include "postproc/browser/browser_page.h"
 #include "postproc/curves/summary.h"
@@ -11,22 +12,6 @@
 #include <vector>
 
 namespace pfdm {
-
-/// A unit in which the case gives something; without a name: SI with a prefix.
-struct CaseUnit {
-  std::string name{};
-  std::string si_unit;  ///< "m"
-  double in_si = 1.0;   ///< [si_unit]
-};
-
-struct CurveUnits {
-  CaseUnit displacement{.si_unit = "m"};  ///< in which the case prescribes it, of the curve's patch first
-  CaseUnit force{.si_unit = "N"};         ///< of the first measured curve of [experiment]
-};
-CurveUnits read_curve_units(const CaseFile& file, const CurveSettings& curve);
-
-/// "154.6 um", four digits.
-std::string shown_in(const CaseUnit& unit, double si);
 
 /// "between 154.6 and 157.1 um, where the force goes from 10.58 to 9.23 N, at polar angles of 147 to 180 degrees;
 /// debonding angle 33 degrees"; empty where the summary has none. Of a box strains and stresses.

@@ -5,26 +5,22 @@
 #include "cases/program/studies/fit/curve_fit_at_work.h"
 #include "cases/program/studies/fit/curve_fit_results.h"
 #include "cases/program/studies/fit/finer_case.h"
-#include "physics/quantity_text.h"
 #include "postproc/files/folder_lock.h"
 #include "solver/calibration/manifold_mapping.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace pfdm {
 namespace {
 
-constexpr double least_change = 0.02;       // of chi^2: an eighth of a standard error is not worth more runs
 constexpr double negligible_misfit = 1e-4;  // of the rms force: what load steps and tolerances leave
 constexpr double most_of_noise = 0.05;      // likewise; correlated residuals above, of no stated noise, are the model's
-
-// Load steps make a curve uneven, and the differences of two curves more so: effects of two parameters that differ by
-// less than this cannot be told apart.
-constexpr double exactness = 0.01;
 
 // A first guess that is three to four times off leads to other minima, which leave much of the data.
 constexpr double lost_misfit = 0.15;  // of the rms force
@@ -91,99 +87,6 @@ SampledCurve CurveFit::curve_at(const std::vector<double>& values, std::optional
   auto curve = model_.respond(values, until);
   if (!curve) throw ComputationError(fmt::format("the run with {} does not converge", model_.shown(values)));
   return *curve;
-}
-
-std::vector<double> CurveFit::with_stage(const CurveFitStage& stage, std::span<const double> of_stage) const {
-  std::vector<double> values = values_;
-  for (std::size_t k = 0; k < of_stage.size(); ++k) values[stage.parameters[k]] = of_stage[k];
-  return values;
-}
-
-std::vector<SetUp> CurveFit::set_ups_at(const std::vector<double>& values) const {
-  if (std::ranges::count(is_of_set_up_, true) == 0) return job_.set_ups(job_.file);
-  return job_.set_ups(with_values(job_.file, parameters_, values));
-}
-
-std::vector<SetUp> CurveFit::least_set_ups() const {
-  std::vector<double> values = first_;
-  for (std::size_t j = 0; j < values.size(); ++j)
-    if (is_of_set_up_[j]) values[j] = job_.settings.parameters[j].in_fit.lower;
-  return set_ups_at(values);
-}
-
-ModelCurves CurveFit::as_recorded_by_all(const SampledCurve& computed, const std::vector<double>& values) const {
-  ModelCurves curves;
-  for (const SetUp& set_up : set_ups_at(values)) curves.push_back(as_recorded(computed, set_up));
-  return curves;
-}
-
-std::optional<double> CurveFit::end_of_runs(const CurveFitStage& stage) const {
-  if (!std::isfinite(stage.to)) return std::nullopt;
-  const std::vector<SetUp> least = least_set_ups();
-  double more = 0.0;
-  for (std::size_t s = 0; s < job_.specimens.size(); ++s) {
-    const MeasuredCurve& specimen = job_.specimens[s];
-    more = std::max(
-        more, specimen.set_up.offset - least[s].offset +
-                  (specimen.set_up.compliance - least[s].compliance) * std::ranges::max(specimen.of_specimen().y));
-  }
-  return stage.to + more;
-}
-
-MeasuredPoints CurveFit::points_of(const CurveFitStage& stage, const SampledCurve& curve) {
-  std::vector<double> latest;
-  for (const SetUp& set_up : least_set_ups()) latest.push_back(as_recorded(curve, set_up).x.back());
-  MeasuredPoints points = job_.settings.where.in_context(
-      [&] { return points_between(job_.specimens, std::max(stage.from, curve.x.front()), stage.to, latest); });
-  session_.log.say(fmt::format("stage \"{}\": {} parameters, {} measured points from {}", stage.name,
-                               stage.parameters.size(), points.points.size(),
-                               quantities_text({std::ranges::min(points.points, {}, &MeasuredPoints::Point::x).x,
-                                                std::ranges::max(points.points, {}, &MeasuredPoints::Point::x).x},
-                                               "m", " to ")));
-  return points;
-}
-
-FitProblem CurveFit::problem_of(const CurveFitStage& stage, const MeasuredPoints& points, std::optional<double> until,
-                                CurveModel& model) {
-  FitProblem problem;
-  const bool all_estimated = std::ranges::all_of(stage.parameters, [this](std::size_t j) { return is_estimated_[j]; });
-  for (const std::size_t j : stage.parameters) {
-    FitParameter p = job_.settings.parameters[j].in_fit;
-    p.start = std::clamp(values_[j], p.lower, p.upper);
-    p.is_sampled = all_estimated || !is_estimated_[j];
-    problem.parameters.push_back(p);
-  }
-  problem.noise_is_known = points.noise_is_known;
-  const auto residuals_by = [this, &stage, &points, &model, until](auto compared) {
-    return [=, this, &stage, &points, &model](std::span<const double> values) {
-      const std::vector<double> all = with_stage(stage, values);
-      const auto curve = model.respond(all, until);
-      return curve ? compared(as_recorded_by_all(*curve, all), points) : std::nullopt;
-    };
-  };
-  problem.residuals = residuals_by(
-      [](const ModelCurves& curves, const MeasuredPoints& measured) { return residuals_of(curves, measured); });
-  problem.averaged = residuals_by(averaged_residuals_of);
-  problem.prepare = [this, &stage, &model, until](const std::vector<std::vector<double>>& all) {
-    std::vector<std::vector<double>> full;
-    full.reserve(all.size());
-    for (const std::vector<double>& values : all) full.push_back(with_stage(stage, values));
-    model.prepare(full, until);
-  };
-  return problem;
-}
-
-FitSettings CurveFit::settings_of(const CurveFitStage& stage, const MeasuredPoints& points) {
-  FitSettings settings = job_.settings.solver;
-  settings.starts = stage.starts;
-  settings.screened = stage.screened;
-  settings.exactness = exactness;
-  settings.cost_tolerance = least_change / static_cast<double>(points.points.size());
-  settings.iterated = [this, &stage](const FitIteration& iteration) {
-    session_.log.say(fmt::format("  rms residual {:.5g} at {}", iteration.rms,
-                                 model_.shown(with_stage(stage, iteration.parameters))));
-  };
-  return settings;
 }
 
 FitResult CurveFit::fit_model(const FitProblem& problem, const MeasuredPoints& points, const FitSettings& settings) {

@@ -1,0 +1,115 @@
+#include "cases/program/fracture/fracture_check.h"
+
+#include "cases/program/fracture/outcome/fracture_results.h"
+#include "cases/program/fracture/run_estimate.h"
+#include "cases/program/session/terminal/stopwatch.h"
+#include "cases/program/studies/fit/curve_fit.h"
+#include "mesh/quality.h"
+#include "postproc/curves/curve_misfit.h"
+#include "postproc/files/folder_lock.h"
+#include "solver/fracture/bending_words.h"
+#include "solver/fracture/fracture_run.h"
+#include "solver/fracture/resolution.h"
+#include "solver/fracture/stiffness_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pfdm {
+namespace {
+
+void say_regions(const Mesh& mesh, Log& log) {
+  std::vector<Index> cells(mesh.region_names.size());
+  for (const Index region : mesh.region) ++cells[region];
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    log.say(fmt::format("  region {:<16} {:>9} cells", mesh.region_names[i], cells[i]));
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+void check_fit(const FractureProgram& program, Log& log) {
+  if (program.experiment)
+    program.fit->where.in_context([&] {
+      require_deviations(program.experiment->specimens);
+      return true;
+    });
+  require_start_within_bounds(program.fit->where, program.fit->parameters);
+  for (const CurveFitParameter& parameter : program.fit->parameters)
+    log.say(fmt::format("fit of {} between {} and {}", parameter.in_case.name,
+                        parameter.in_case.shown(parameter.in_fit.lower),
+                        parameter.in_case.shown(parameter.in_fit.upper)));
+  log.say(fit_words(*program.fit));
+}
+
+}  // namespace
+
+Mesh made_mesh(const FractureProgram& program, Log& log) {
+  for (const std::string& remark : program.fracture.materials.remarks) log.say(remark);
+  const Stopwatch watch;
+  Mesh mesh = program.fracture.mesh.make();
+  log.say(fmt::format("mesh: {} cells, {} points, {} faces, made in {:.1f} s", mesh.n_cells(), mesh.points.size(),
+                      mesh.n_faces(), watch.seconds()));
+  if (const auto warning = flat_cell_warning(mesh)) log.warn(*warning);
+  return mesh;
+}
+
+FractureRun made_run(const FractureProgram& program, const Mesh& mesh, Log& log) {
+  const FractureCase& fracture = program.fracture;
+  FractureModel model = model_on(fracture, mesh);
+  const ResolutionWords words =
+      resolution_words(mesh, model, fracture.materials.bands, fracture.materials.corrects_toughness);
+  for (const std::string& remark : words.remarks) log.say(remark);
+  for (const std::string& warning : words.warnings) log.warn(warning);
+  return FractureRun(mesh, std::move(model), fracture.staggered, fracture.loading);
+}
+
+void warn_of_interfaces(const FractureRun& run, Log& log) {
+  for (const std::string& warning : run.interface_warnings()) log.warn(warning);
+}
+
+void check_fracture(const FractureProgram& program, Session& session) {
+  Log& log = session.log;
+  const LoadingSettings& loading = program.fracture.loading;
+  const Mesh mesh = made_mesh(program, log);
+  const FractureRun run = made_run(program, mesh, log);
+  warn_of_interfaces(run, log);
+  if (const std::string remark = direction_remark(mesh, run.model()); !remark.empty()) log.say(remark);
+  if (const auto warning = bending_warning(mesh, run.model())) log.warn(*warning);
+  for (const std::string& warning : stiffness_warnings(mesh, run.model())) log.warn(warning);
+  const std::vector<ColumnSet> columns = column_sets(program.fracture.cohesive, mesh, run.model());
+  log.say(fmt::format("{}: {}", program.name, program.fracture.title));
+  if (program.fracture.box) log.say(program.fracture.box->words);
+  log.say(fmt::format("cells {}", mesh.n_cells()));
+  say_regions(mesh, log);
+  log.say(fmt::format("unknowns {} of displacement, {} of damage", run.n_unknowns(), mesh.n_cells()));
+  log.say(fmt::format("memory about {:.0f} MB", 1e-6 * estimated_memory(mesh)));
+  log.say(fmt::format("steps {} or more, up to load {:g}", std::ceil(loading.end / loading.maximum_increment - 1e-9),
+                      loading.end));
+  log.say(time_words(mesh, run.model(), loading, session.results, program.hash));
+  if (program.fit) check_fit(program, log);
+  for (const ColumnSet& set : columns)
+    log.say(fmt::format("cohesive law of \"{}\" from {} columns", set.name, set.columns.size()));
+  log.say(fmt::format("results go to {}", session.results.string()));
+  log.say("the input is valid");
+}
+
+void mesh_fracture(const FractureProgram& program, Session& session) {
+  const Mesh mesh = made_mesh(program, session.log);
+  model_on(program.fracture, mesh);
+  const FolderLock lock(session.results);
+  for (const std::string& line : lines_of(describe(mesh_quality(mesh)))) session.log.say(line);
+  write_mesh(session.results, mesh);
+  session.log.say(fmt::format("written to {}", (session.results / "mesh.vtu").string()));
+}
+
+}  // namespace pfdm

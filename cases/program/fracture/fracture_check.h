@@ -1,0 +1,23 @@
+#pragma once
+// A fracture case up to where it would run: its mesh, its model on it, and what is to be said of them.
+
+#include "cases/program/fracture/run/running_case.h"
+
+namespace pfdm {
+
+/// Makes the mesh and says how large it is and what is wrong with its cells.
+Mesh made_mesh(const FractureProgram& program, Log& log);
+
+/// Puts the model on the mesh and says whether that resolves what is asked of it. Keeps a reference to the mesh.
+FractureRun made_run(const FractureProgram& program, const Mesh& mesh, Log& log);
+
+/// Warns of interfaces whose cells are too large for their laws.
+void warn_of_interfaces(const FractureRun& run, Log& log);
+
+/// Says what would run: pfdm check.
+void check_fracture(const FractureProgram& program, Session& session);
+
+/// Makes the mesh and measures its quality: pfdm mesh.
+void mesh_fracture(const FractureProgram& program, Session& session);
+
+}  // namespace pfdm
