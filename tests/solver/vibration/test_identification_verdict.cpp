@@ -8,10 +8,20 @@
 #include "solver/vibration/identification/identification_evidence.h"
 #include "solver/vibration/identification/identification_responses.h"
 #include "tests/solver/independent_simulators.h"
+#include "tests/solver/judged_records.h"
 #include "tests/solver/mass_material_truth.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pfdm::this_file {
 namespace {
@@ -21,29 +31,6 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 using independent::sample_of;
-
-const independent::Shaker sweep{};
-const independent::Shaker random_motion{.duration = 20.0, .low = 20.0, .high = 850.0, .level = 60.0, .random = true};
-
-VibrationRecord noisy_record(const char* name, const independent::Shaker& shaker, unsigned seed = 1) {
-  VibrationRecord record = independent::record_of(sample_of(truth(name)), shaker);
-  independent::add_white_noise(record, 40.0, seed);
-  return record;
-}
-
-struct Judged {
-  std::vector<std::string> doubts, faults;
-};
-
-Judged judged(const VibrationRecord& record, const char* structure) {
-  IdentificationSettings settings{.mass = 1.12, .reference_velocity = 0.3, .kernel_order = {}, .replicates = 0};
-  const Identification found = identify(std::span(&record, 1), model_structure(structure), settings);
-  const RecordEvidence evidence = record_evidence(found.fit.model, record, settings.crop);
-  Judged result{.doubts = doubts_of(std::span(&evidence, 1)), .faults = {}};
-  const std::vector<double> misfit{evidence.misfit};
-  result.faults = recognised_faults(std::span(&record, 1), misfit, model_structure(structure), settings);
-  return result;
-}
 
 TEST(IdentificationVerdict, RightFitsRaiseNoDoubt) {
   for (const auto& [name, shaker] :
@@ -294,85 +281,6 @@ TEST(IdentificationVerdict, ADeadBaseIsNoRingDown) {
   record.base.tail(record.n() / 2).setZero();
   EXPECT_TRUE(dead_part(record));
 }
-
-class FaultyRecord : public testing::TestWithParam<bool> {
- protected:
-  VibrationRecord record() const { return noisy_record(GetParam() ? "1" : "2", GetParam() ? random_motion : sweep); }
-  const char* structure() const { return GetParam() ? "1" : "2"; }
-  void expect_named(const VibrationRecord& spoilt, const char* name) const {
-    const Judged found = judged(spoilt, structure());
-    EXPECT_THAT(found.doubts, SizeIs(1));
-    ASSERT_THAT(found.faults, SizeIs(1)) << name;
-    EXPECT_THAT(found.faults[0], HasSubstr(name));
-  }
-};
-
-TEST_P(FaultyRecord, WithOneSignReversedIsNamed) {
-  VibrationRecord r = record();
-  r.base = -r.base;
-  expect_named(r, "the sign of one channel is reversed");
-  r.base = -r.base;
-  r.relative = -r.relative;
-  expect_named(r, "the sign of one channel is reversed");
-}
-
-TEST_P(FaultyRecord, OfTheAbsoluteAccelerationIsNamed) {
-  VibrationRecord r = record();
-  r.relative += r.base;
-  expect_named(r, "(absolute) acceleration");
-}
-
-TEST_P(FaultyRecord, WithASkewOfASampleIsNamed) {
-  const VibrationRecord right = record();
-  VibrationRecord r = right;
-  r.relative.tail(r.n() - 1) = right.relative.head(r.n() - 1);
-  expect_named(r, "the relative channel is 1 sample behind");
-  r = right;
-  r.base.tail(r.n() - 1) = right.base.head(r.n() - 1);
-  expect_named(r, "the base channel is 1 sample behind");
-}
-
-TEST_P(FaultyRecord, WithASkewOfHalfASampleIsNamed) {
-  VibrationRecord r = record();
-  // Half a sample by the mean of neighbours, whose loss at 420 Hz is 2.4 %.
-  r.relative.tail(r.n() - 1) = 0.5 * (r.relative.tail(r.n() - 1) + r.relative.head(r.n() - 1)).eval();
-  expect_named(r, "the relative channel is 0.5 sample behind");
-}
-
-TEST_P(FaultyRecord, InAnotherUnitIsNamed) {
-  VibrationRecord r = record();
-  r.relative /= g0;
-  expect_named(r, "the relative channel seems to be in another unit, g0");
-  r = record();
-  r.base /= g0;
-  expect_named(r, "the base channel seems to be in another unit, g0");
-}
-
-TEST_P(FaultyRecord, WithItsChannelsExchangedIsNamed) {
-  VibrationRecord r = record();
-  r.base.swap(r.relative);
-  expect_named(r, "exchanged");
-}
-
-TEST_P(FaultyRecord, ThatLacksSamplesOfOneChannelIsNamed) {
-  VibrationRecord r = record();
-  const Eigen::Index at = 2 * r.n() / 5, left = r.n() - 14;
-  r.relative.segment(at, left - at) = r.relative.tail(left - at).eval();
-  r.base.conservativeResize(left);
-  r.relative.conservativeResize(left);
-  expect_named(r, "14 samples of the relative channel are missing");
-}
-
-TEST_P(FaultyRecord, DeadInItsSecondHalfIsNamed) {
-  VibrationRecord r = record();
-  r.relative.tail(r.n() / 2).setZero();
-  expect_named(r, GetParam() ? "a channel is dead from 10 to 20 s" : "a channel is dead from 3 to 6 s");
-  independent::add_white_noise(r, 40.0, 2);
-  expect_named(r, "a channel is dead from");
-}
-
-INSTANTIATE_TEST_SUITE_P(Under, FaultyRecord, testing::Bool(),
-                         [](const auto& row) { return row.param ? "random_motion" : "a_sweep"; });
 
 }  // namespace
 }  // namespace pfdm::this_file
