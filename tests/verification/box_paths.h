@@ -1,6 +1,8 @@
 #pragma once
 // Boxes that follow a path of mean strains and stresses.
 
+#include "physics/interfaces/traction_separation.h"
+#include "physics/registry.h"
 #include "solver/homogenization/mean_path.h"
 #include "tests/verification/support.h"
 
@@ -8,6 +10,11 @@
 #include <vector>
 
 namespace pfdm::verification {
+
+/// Number of the component along z among those of a mean strain or stress.
+inline constexpr std::size_t zz = 2;
+
+inline const TractionSeparationLaw& linear_law() { return find_by_name(traction_separation_laws(), "linear", "law"); }
 
 /// Free of stress but for the strains that are named.
 inline MeanPath strains(const std::vector<std::pair<std::size_t, std::vector<double>>>& by_component) {

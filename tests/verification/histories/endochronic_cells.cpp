@@ -1,63 +1,23 @@
 // Endochronic cells in the field solver: uniform bodies against the material point, of which they know nothing; damaged
 // ones; the account of work, stored energy and heat; a plate with a hole under cyclic load.
 
-#include "mesh/geometry.h"
 #include "physics/error.h"
-#include "physics/materials/endochronic_material.h"
 #include "solver/fracture/fracture_run.h"
 #include "solver/point/mixed_control.h"
+#include "tests/verification/endochronic_bodies.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 namespace pfdm::verification::this_file {
 namespace {
-
-EndochronicLaw soft_metal(bool looks_at_rate = false) {
-  EndochronicLaw law{.elasticity = from_young_poisson(117e9, 0.34),
-                     .kernel = {{60e9, 3000.0}, {15e9, 500.0}, {2e9, 30.0}},
-                     .hardening = {}};
-  law.hardening.with_path = make_factor(hardening_law("saturating"), {3.0, 6.0, 1.0});
-  if (looks_at_rate) law.hardening.with_rate = make_factor(rate_factor("logarithmic"), {0.02, 1e-5});
-  return law;
-}
-
-FractureModel endochronic_model(const EndochronicLaw& law, std::vector<BoundaryCondition> boundary) {
-  FractureModel model = elastic_model({law.elasticity}, std::move(boundary));
-  model.regions[0].material = make_endochronic_material(law);
-  return model;
-}
-
-constexpr StaggeredSettings tight{.damage_tolerance = 1e-9, .energy_tolerance = 1e-14, .equilibrium_tolerance = 1e-13};
-
-LoadingSettings in_steps(Index n, double duration = 1.0) {
-  const double increment = 1.0 / double(n);
-  return {.initial_increment = increment, .maximum_increment = increment, .duration = duration, .stops = {}};
-}
-
-struct Step {
-  StepReport report;
-  OutputFields fields;
-};
-
-std::vector<Step> steps_of(const Mesh& mesh, const FractureModel& model, const LoadingSettings& loading,
-                           const StaggeredSettings& settings = tight) {
-  FractureRun run(mesh, model, settings, loading);
-  std::vector<Step> steps;
-  const auto step_done = [&](const FractureState& state, const StepReport& report) {
-    if (report.step > 0) steps.push_back({report, run.output(state)});
-  };
-  run_to_end(run, step_done);
-  return steps;
-}
-
-const CellField<double>& path_length(const OutputFields& fields) {
-  return std::ranges::find(fields.history, "plastic_path_length", &OutputHistory::name)->scalar;
-}
 
 // Two cycles of growing strain.
 double wave(double t) { return 0.01 * t * std::sin(4.0 * std::numbers::pi * t); }
@@ -116,11 +76,6 @@ Difference difference(const std::vector<Step>& steps, const std::vector<Endochro
     }
   }
   return {worst.stress / stress, worst.strain / strain};
-}
-
-Index most_iterations(const std::vector<Step>& steps) {
-  return std::ranges::max_element(steps, {}, [](const Step& s) { return s.report.staggered_iterations; })
-      ->report.staggered_iterations;
 }
 
 TEST(EndochronicCells, OneOfThemIsTheMaterialPoint) {
@@ -240,96 +195,6 @@ TEST(EndochronicCells, AreRefusedWhereTheyCannotBe) {
   EXPECT_THROW(FractureRun(mesh, model, {}, followed), InputError);
   model.split = energy_split("spectral");
   EXPECT_THROW(FractureRun(mesh, model, {}, in_steps(4)), InputError);
-}
-
-// A quarter of a square plate with a round hole of a third of its width, the mesh of a box bent around it.
-Mesh plate_with_hole(Index n) {
-  constexpr double a = 1.0, b = 3.0, quarter = std::numbers::pi / 2.0;
-  Mesh mesh = make_box_hexes({.axes = {{{{1.0, n, 4.0}}, {{quarter, 2 * n, 1.0}}, {{0.2, 1, 1.0}}}},
-                              .regions = {},
-                              .slits = {},
-                              .patches = {{"top", Vector(1.0, 0.5 * quarter, 0.0), Vector(1.0, quarter, 1.0)}}});
-  for (Vector& x : mesh.points) {
-    const double s = x[0], angle = x[1];
-    const double across = std::max(std::cos(angle), std::sin(angle));
-    const double radius = (1.0 - s) * a + s * b / across;
-    x = Vector(radius * std::cos(angle), radius * std::sin(angle), x[2]);
-  }
-  compute_geometry(mesh);
-  return mesh;
-}
-
-struct Loop {
-  double peak = 0.0, reverse = 0.0, heat = 0.0, imbalance = 0.0;
-  Index most_iterations = 0;
-};
-
-// Stretched, pressed and stretched again by 0.3 %: the force on the top at the turns and the heat of it all.
-Loop cycle_plate(Index n, Index n_steps) {
-  const Mesh mesh = plate_with_hole(n);
-  const FractureModel model =
-      endochronic_model(soft_metal(), {symmetry_on("ymin"), symmetry_on("ymax"), plane_on("zmin"), plane_on("zmax"),
-                                       moved("top", {false, true, false}, [](const Vector&, double t) {
-                                         return Vector(0.0, 0.009 * std::sin(2.5 * std::numbers::pi * t), 0.0);
-                                       })});
-  const auto steps = steps_of(mesh, model, in_steps(n_steps),
-                              {.damage_tolerance = 1e-4, .energy_tolerance = 1e-7, .equilibrium_tolerance = 1e-7});
-  const auto top = mesh.patch_index("top");
-  Loop loop;
-  for (const Step& step : steps) {
-    loop.peak = std::max(loop.peak, step.report.reaction[top][1]);
-    loop.reverse = std::min(loop.reverse, step.report.reaction[top][1]);
-  }
-  const StepReport& last = steps.back().report;
-  loop.heat = last.energy.plastic_dissipation;
-  loop.imbalance = std::abs(last.energy.external_work - last.energy.elastic - last.energy.plastic_dissipation) /
-                   last.energy.external_work;
-  loop.most_iterations = most_iterations(steps);
-  return loop;
-}
-
-void report(Index n, const Loop& l) {
-  report_row(std::to_string(n), {{"peak", l.peak},
-                                 {"reverse", l.reverse},
-                                 {"heat", l.heat},
-                                 {"imbalance", l.imbalance},
-                                 {"iterations", double(l.most_iterations)}});
-}
-
-TEST(EndochronicCells, APlateWithAHoleConvergesUnderCyclicLoad) {
-  std::vector<Loop> loops;
-  for (const Index n : {6, 12, 24, 48}) {
-    loops.push_back(cycle_plate(n, 40));
-    report(n, loops.back());
-    EXPECT_LE(loops.back().most_iterations, 8);
-  }
-  // What is left of the error on the finest mesh, had the last change been halved with each further one.
-  const auto expect_convergence = [&](double Loop::*value, double bound) {
-    const double before = std::abs(loops[2].*value - loops[1].*value),
-                 last = std::abs(loops[3].*value - loops[2].*value);
-    EXPECT_LT(last, 0.6 * before);
-    EXPECT_LT(last, bound * std::abs(loops[3].*value));
-  };
-  expect_convergence(&Loop::peak, 2e-3);
-  expect_convergence(&Loop::reverse, 2e-3);
-  expect_convergence(&Loop::heat, 2e-3);
-}
-
-// What is left over has a part of second order in the increment, and one of the mesh.
-TEST(EndochronicCells, WorkIsStoredOrHeat) {
-  std::vector<double> imbalance;
-  for (const Index n_steps : {20, 40, 80, 160}) {
-    const Loop loop = cycle_plate(8, n_steps);
-    report(n_steps, loop);
-    imbalance.push_back(loop.imbalance);
-  }
-  const auto order = [&](std::size_t i) {
-    return std::log2((imbalance[i - 1] - imbalance[i]) / (imbalance[i] - imbalance[i + 1]));
-  };
-  report_row("order", {{"40 steps", order(1)}, {"80 steps", order(2)}});
-  EXPECT_NEAR(order(1), 2.0, 0.1);
-  EXPECT_NEAR(order(2), 2.0, 0.1);
-  EXPECT_LT(imbalance.back(), 2e-3);
 }
 
 }  // namespace
