@@ -2,8 +2,15 @@
 // A paper that remembers what was drawn on it.
 
 #include "postproc/page/paper.h"
+#include "postproc/page/report_page.h"
 
 #include <Eigen/Geometry>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pfdm::test {
 
@@ -43,5 +50,13 @@ struct RecordingPaper : Paper {
   std::vector<Fill> fills;
   std::vector<Text> texts;
 };
+
+/// A chart of one line.
+inline Chart line_chart(std::vector<double> x, std::vector<double> y) {
+  return {.caption = {},
+          .x = {.title = "displacement [µm]"},
+          .y = {.title = "force [N]"},
+          .series = {{.label = {}, .x = std::move(x), .y = std::move(y), .colour = 2}}};
+}
 
 }  // namespace pfdm::test

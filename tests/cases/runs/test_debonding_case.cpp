@@ -2,70 +2,23 @@
 // restart, other cases that read the curve, and what is refused.
 
 #include "postproc/files/csv_table.h"
+#include "tests/cases/parted_box.h"
 #include "tests/cases/temporary_case.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace pfdm::this_file {
 namespace {
 
 using ::testing::HasSubstr;
-
-constexpr double E = 50e6, ft = 1e5, Gc = 10.0, K = 1e11, length = 1e-3;
-
-// A box of one millimetre that a plane parts in two halves.
-std::string parted_box() {
-  return R"(kind = "homogenize"
-title = "two halves"
-[mesh]
-generator = "box_hexes"
-x = [{ length = "1 mm", cells = 2 }]
-y = [{ length = "1 mm", cells = 2 }]
-z = [{ length = "1 mm", cells = 4 }]
-[materials.rubber]
-regions = ["body"]
-young_modulus = "50 MPa"
-poisson_ratio = 0.4
-[[interface]]
-name = "bond"
-plane = { point = ["0 mm", "0 mm", "0.5 mm"], normal = [0, 0, 1] }
-law = "linear"
-strength = "0.1 MPa"
-toughness = "10 J/m^2"
-stiffness = "1e11 Pa/m"
-[homogenization]
-boundary = "periodic"
-path = [{ strain_zz = "15 %" }, { strain_zz = 0.05 }]
-[loading]
-initial_increment = 0.1
-maximum_increment = 0.1
-[solver]
-equilibrium_tolerance = 1e-10
-)";
-}
-
-// The stress at an opening of the plane that has never been wider.
-double traction(double opening) {
-  const double peak = ft / K, end = 2.0 * Gc / ft;
-  return opening <= peak ? K * opening : ft * (end - opening) / (end - peak);
-}
-
-// At a strain that grows: by bisection of strain = traction / E + opening / length.
-double stress_at(double strain) {
-  double low = 0.0, high = 2.0 * Gc / ft;
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (traction(middle) / E + middle / length < strain ? low : high) = middle;
-  }
-  return traction(low);
-}
-
-CsvTable curve_of(const TemporaryCase& directory) { return read_csv(directory.results() / "stress_strain.csv"); }
 
 TEST(DebondingCase, CurveIsThatOfSpringsInSeries) {
   const TemporaryCase directory(parted_box());
@@ -276,54 +229,6 @@ stress = { stress_zz = { column = "stress_zz_Pa", unit = "Pa", noise = "1 kPa" }
   EXPECT_EQ(fitted.status, 0) << fitted.err;
   EXPECT_TRUE(std::filesystem::exists(directory.path() / "law" / "results" / "fit.json"));
 }
-
-class BadPath : public testing::TestWithParam<BadInput> {};
-
-TEST_P(BadPath, IsRefused) {
-  const TemporaryCase directory(replaced(parted_box(), GetParam().good, GetParam().bad));
-  expect_refused(directory, GetParam());
-}
-
-const BadInput bad_inputs[] = {
-    {"by_forces",
-     "boundary = \"periodic\"",
-     "boundary = \"uniform traction\"",
-     {"[homogenization] boundary", "needs \"periodic\" or \"uniform displacement\""}},
-    {"parted_and_held",
-     "boundary = \"periodic\"",
-     "boundary = \"uniform displacement\"",
-     {"interface \"bond\" parts the box", "would hold it together", "take \"periodic\""}},
-    {"unknown_component", "{ strain_zz = 0.05 }", "{ strain_zx = 0.05 }", {"\"strain_zx\" is not known here"}},
-    {"without_unit", "{ strain_zz = 0.05 }", "{ strain_zz = 0.05, stress_xx = 3 }", {"stress_xx", "has no unit"}},
-    {"percent_forgotten", "{ strain_zz = 0.05 }", "{ strain_zz = 6 }", {"strain_zz", "write \"6 %\""}},
-    {"turned_inside_out", "{ strain_zz = 0.05 }", "{ strain_zz = \"-200 %\" }", {"strain_zz", "between -1 and 1"}},
-    {"gamma_forgotten", "{ strain_zz = 0.05 }", "{ strain_zz = 0.05, gamma_xz = -2 }", {"gamma_xz", "write \"-2 %\""}},
-    {"initial_without_fracture", "[loading]\n", "[initial]\ndamage = 0.5\n[loading]\n", {"initial", "[fracture]"}},
-    {"from_a_fit",
-     "\"50 MPa\"",
-     "{ from = \"results/fit.json\", key = \"E_Pa\" }",
-     {"there is no file results/fit.json", "has that been run, or fitted?"}},
-    {"both", "{ strain_zz = 0.05 }", "{ strain_zz = 0.05, stress_zz = \"1 Pa\" }", {"stress or strain, not both"}},
-    {"changes",
-     "{ strain_zz = 0.05 }",
-     "{ strain_xx = 0.05 }",
-     {"every point has to prescribe the strain of the same components as the first"}},
-    {"nothing", "{ strain_zz = \"15 %\" }, { strain_zz = 0.05 }", "{ strain_zz = 0 }", {"nothing is loaded"}},
-    {"too_long", "[loading]\n", "[loading]\nend = 3\n", {"the path ends at the load parameter 2"}},
-    {"release", "[loading]\n", "[loading]\nenergy_release = 0.1\n", {"energy_release", "a path of one point"}},
-    {"snap_back", "[loading]\n", "[loading]\nmaximum_dissipation = \"1 uJ\"\n", {"requires a path of one point"}},
-    {"frames", "[loading]\n", "[output]\nframes_at = [\"1 um\"]\n[loading]\n", {"give load parameters"}},
-    {"patches",
-     "[loading]\n",
-     "[[boundary]]\npatch = \"zmin\"\ntype = \"symmetry\"\n[loading]\n",
-     {"\"boundary\" is not known"}},
-    {"toughness_without_fracture",
-     "[[interface]]\n",
-     "toughness = \"10 J/m^2\"\n[[interface]]\n",
-     {"\"toughness\" is not known here"}},
-};
-INSTANTIATE_TEST_SUITE_P(All, BadPath, testing::ValuesIn(bad_inputs),
-                         [](const auto& input) { return input.param.name; });
 
 }  // namespace
 }  // namespace pfdm::this_file

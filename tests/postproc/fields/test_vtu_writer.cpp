@@ -1,8 +1,8 @@
 #include "mesh/dual.h"
 #include "mesh/files/import_mesh.h"
 #include "physics/error.h"
-#include "postproc/fields/frame.h"
 #include "postproc/fields/vtu_writer.h"
+#include "tests/postproc/awkward_fields.h"
 #include "tests/postproc/boxes.h"
 #include "tests/postproc/temporary_folder.h"
 
@@ -20,58 +20,16 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pfdm::test::this_file {
 namespace {
 
 using ::testing::HasSubstr;
-
-// A cube with a neighbour of every other shape, so that each shape shares a face with it or with its pyramid.
-Mesh mesh_of_all_shapes() {
-  CellSoup soup;
-  soup.points = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0},  {0, 0, 1},     {1, 0, 1}, {1, 1, 1}, {0, 1, 1},
-                 {0, -1, 0}, {1, -1, 0}, {1, -1, 1}, {0, -1, 1}, {0.5, 0.5, 2}, {2, 0, 0}, {2, 1, 0}, {0.5, -1, 1.5}};
-  soup.region_names = {"glass", "epoxy"};
-  const auto add = [&](CellShape shape, std::vector<Index> points, Index region) {
-    soup.add_cell(shape, points, region);
-  };
-  add(CellShape::hexahedron, {0, 1, 2, 3, 4, 5, 6, 7}, 0);
-  add(CellShape::pyramid, {4, 5, 6, 7, 12}, 1);
-  add(CellShape::tetrahedron, {4, 12, 15, 5}, 1);
-  add(CellShape::wedge, {1, 13, 5, 2, 14, 6}, 0);
-  add(CellShape::polyhedron, {0, 1, 4, 5, 8, 9, 10, 11}, 1);
-  soup.polyhedron_faces = {
-      {6, 4, 8, 9, 1, 0, 4, 4, 5, 10, 11, 4, 8, 11, 10, 9, 4, 0, 1, 5, 4, 4, 8, 0, 4, 11, 4, 9, 10, 5, 1}};
-  return assemble_mesh(std::move(soup), {});
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> read_back(const std::filesystem::path& path) {
-  vtkNew<vtkXMLUnstructuredGridReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
-// Numbers with digits down to the last bit, different in every place.
-double awkward(int i) { return std::sin(1.0 + i) / 3.0; }
-
-struct AwkwardFields {
-  explicit AwkwardFields(Index n) : scalar(n), vector(n, Vector::Zero()), tensor(n, Tensor::Zero()), integer(n) {
-    for (Index i = 0; i < n; ++i) {
-      scalar[i] = awkward(i);
-      vector[i] = Vector(awkward(i), -awkward(i + 1), 1e-300 * awkward(i + 2));
-      for (int k = 0; k < 9; ++k) tensor[i](k / 3, k % 3) = awkward(9 * i + k);
-      tensor[i] = symmetric_part(tensor[i]);
-      integer[i] = 7 - 3 * i;
-    }
-  }
-  CellField<double> scalar;
-  CellField<Vector> vector;
-  CellField<Tensor> tensor;
-  CellField<Index> integer;
-};
 
 TEST(VtuWriter, fields_come_back_bit_for_bit) {
   const TemporaryFolder folder;
@@ -282,28 +240,6 @@ TEST(VtuWriter, leaves_nothing_when_the_disk_fills_up_half_way) {
   EXPECT_THAT(message_of<ComputationError>([&] { writer.write(folder / "a.vtu", {}, 0.0); }),
               HasSubstr("a.vtu: File too large"));
   EXPECT_EQ(folder.n_entries(), 0u);
-}
-
-TEST(Frame, has_the_names_of_the_interface) {
-  const TemporaryFolder folder;
-  const Mesh mesh = mesh_of_all_shapes();
-  const AwkwardFields f(mesh.n_cells());
-  const OutputFields output{.displacement = f.vector,
-                            .damage = f.scalar,
-                            .stress = f.tensor,
-                            .strain = f.tensor,
-                            .energy_density = f.scalar,
-                            .driving_energy = f.scalar,
-                            .fracture_energy_density = f.scalar,
-                            .traction = {}};
-  VtuWriter(mesh).write(folder / "a.vtu", frame_fields(mesh, output), 0.0);
-  const auto grid = read_back(folder / "a.vtu");
-  for (const char* name : {"damage", "displacement", "stress", "strain", "material", "energy_density"})
-    EXPECT_NE(grid->GetCellData()->GetArray(name), nullptr) << name;
-  for (Index c = 0; c < mesh.n_cells(); ++c) {
-    EXPECT_EQ(grid->GetCellData()->GetArray("damage")->GetComponent(c, 0), f.scalar[c]);
-    EXPECT_EQ(grid->GetCellData()->GetArray("material")->GetComponent(c, 0), mesh.region[c]);
-  }
 }
 
 }  // namespace

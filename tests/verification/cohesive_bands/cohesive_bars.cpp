@@ -2,6 +2,10 @@
 // whatever the length ell (literature.md 3.5).
 
 #include "tests/verification/bar.h"
+#include "tests/verification/cohesive_bar.h"
+
+#include <algorithm>
+#include <string>
 
 namespace pfdm::verification::this_file {
 namespace {

@@ -5,6 +5,12 @@
 #include "postproc/cohesive/cohesive_fit.h"
 #include "postproc/cohesive/cohesive_law.h"
 #include "tests/verification/bar_profiles.h"
+#include "tests/verification/cohesive_bar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace pfdm::verification::this_file {
 namespace {

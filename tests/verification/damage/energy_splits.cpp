@@ -1,79 +1,19 @@
 // Energy splits in the balance of momentum at given damage: plates in tension, compression and shear against the law of
 // one point, cracks that are pressed shut, and the full-tensor traction operator against the isotropic one.
 
-#include "solver/fracture/equilibrium/law_newton.h"
+#include "tests/verification/split_plates.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pfdm::verification::this_file {
 namespace {
-
-const IsotropicElasticity steel = from_young_poisson(210e9, 0.3);
-constexpr double residual_stiffness = 1e-6;
-
-Mesh plate(Index n, double thickness = 1.0) {
-  return make_box_hexes(
-      {.axes = {{{{1.0, n, 1.0}}, {{1.0, n, 1.0}}, {{thickness, 1, 1.0}}}}, .regions = {}, .slits = {}});
-}
-
-FractureModel damaged_model(const EnergySplit& split, std::vector<BoundaryCondition> boundary) {
-  FractureModel model = elastic_model({steel}, std::move(boundary));
-  model.regions[0] = {.elasticity = steel, .Gc = 1.0, .ell = 1.0};
-  model.split = split;
-  model.residual_stiffness = residual_stiffness;
-  return model;
-}
-
-struct Equilibrated {
-  FractureState state;
-  CellMechanics cells;
-  std::vector<Vector> reaction;  // per patch [N]
-  Index iterations = 0, krylov = 0;
-  double energy = 0.0;  // [J]
-};
-
-// Equilibrium at given damage: closures follow the strain until they falsify the energy by less than 1e-13. The
-// iterations count Newton's steps, too.
-Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField<double> damage) {
-  const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
-  MomentumSolver solver(mesh, unknowns);
-  CellStiffness stiffness(mesh, model);
-  stiffness.start_step(0.0);
-  Equilibrated result;
-  const std::size_t n = mesh.n_cells();
-  result.state.damage = std::move(damage);
-  result.state.closure = CellField<double>(n, 0.0);
-  result.state.displacement.assign(unknowns.n_unknowns(), Vector::Zero());
-  result.state.load = 1.0;
-  constexpr MomentumSolver::Tolerance tight{.ceiling = 1e-12, .floor = 1e-12};
-  for (double unsettled = 1.0; unsettled > 1e-13 && result.iterations < 50;) {
-    stiffness.set(result.state, solver);
-    const Equilibrium on = stiffness.is_linearised() ? solve_with_laws(stiffness, tight, solver, result.state)
-                                                     : solver.solve(1.0, tight, result.state.displacement);
-    EXPECT_TRUE(on.converged) << on.residual;
-    result.iterations += std::max<Index>(1, on.newton_steps);
-    result.krylov += on.iterations;
-    result.cells = solver.balance().mechanics(result.state.displacement, MomentumOperator::Wanted::all,
-                                              stiffness.degradable_part(result.state));
-    result.energy = 0.0;
-    for (const double energy : result.cells.energy) result.energy += energy;
-    unsettled = stiffness.follow(result.cells, result.state) / result.energy;
-  }
-  EXPECT_LT(result.iterations, 50);
-  result.reaction.assign(mesh.patches.size(), Vector::Zero());
-  const std::vector<Vector> force = solver.balance().boundary_forces(result.state.displacement);
-  for (std::size_t p = 0; p < mesh.patches.size(); ++p)
-    for (Index f = 0; f < mesh.patches[p].n_faces; ++f)
-      result.reaction[p] += force[mesh.patches[p].first_face + f - mesh.n_interior_faces()];
-  return result;
-}
-
-const Vector& reaction(const Mesh& mesh, const Equilibrated& on, const std::string& patch) {
-  return on.reaction[mesh.patch_index(patch)];
-}
 
 struct Halves {
   Mesh mesh;
@@ -207,71 +147,6 @@ TEST(EnergySplits, AHomogeneousPlateInPlaneStressFollowsTheLaw) {
   }
   report_row("plane stress",
              {{"stress", of_stress}, {"strain", of_strain}, {"energy", of_energy}, {"driving energy", of_driving}});
-}
-
-std::vector<BoundaryCondition> pressed(double displacement, double sideways = 0.0) {
-  const auto fixed = [](const Vector&) -> Vector { return Vector::Zero(); };
-  return {displacement_on("ymin", fixed), plane_on("zmin"), plane_on("zmax"),
-          displacement_on("ymax", [=](const Vector&) -> Vector {
-            return {sideways, displacement, 0.0};
-          })};
-}
-
-CellField<double> broken_row(const Mesh& mesh) {
-  CellField<double> damage(mesh.n_cells(), 0.0);
-  for (Index c = 0; c < mesh.n_cells(); ++c)
-    if (std::abs(mesh.cell_centre[c][1] - 0.5) < 0.01) damage[c] = 1.0;
-  return damage;
-}
-
-// A crack right through a plate in plane strain, pulled and pressed.
-void expect_recovery(const char* split, bool sides_may_move) {
-  SCOPED_TRACE(split);
-  const Mesh mesh = plate(15);
-  const auto force = [&](double displacement, bool broken) {
-    FractureModel model = damaged_model(energy_split(split), pressed(displacement));
-    if (!sides_may_move)
-      for (const char* side : {"xmin", "xmax"}) model.boundary.push_back(symmetry_on(side));
-    const Equilibrated on =
-        equilibrium(mesh, model, broken ? broken_row(mesh) : CellField<double>(mesh.n_cells(), 0.0));
-    report_row(std::string(split) + (broken ? ", broken" : ", sound"),
-               {{"displacement", displacement},
-                {"force", reaction(mesh, on, "ymax")[1]},
-                {"iterations", static_cast<double>(on.iterations)},
-                {"of FGMRES", static_cast<double>(on.krylov)}});
-    EXPECT_LE(on.iterations, 14);
-    return reaction(mesh, on, "ymax")[1];
-  };
-  const double sound = force(1e-3, false), pulled = force(1e-3, true), pressed_shut = force(-1e-3, true);
-  report_row(std::string(split) + ", over the sound plate's",
-             {{"pulled", pulled / sound}, {"pressed shut, and 1", pressed_shut / sound + 1.0}});
-  EXPECT_NEAR(pulled, 0.0, 4e-5 * sound);
-  EXPECT_NEAR(pressed_shut, -sound, (sides_may_move ? 1e-4 : 1e-11) * sound);
-  EXPECT_NEAR(force(-1e-3, false), -sound, 1e-9 * sound);
-}
-
-// Pulled, the plate parts; pressed shut, it is as stiff as a sound one.
-TEST(EnergySplits, AClosedCrackRecoversTheStiffness) {
-  expect_recovery("spectral", false);
-  expect_recovery("no_tension", false);
-  expect_recovery("no_tension", true);  // the spectral split loses what resists the expansion to the sides
-}
-
-// Sheared to one side and to the other: mirror images.
-TEST(EnergySplits, ShearDoesNotKnowLeftFromRight) {
-  const Mesh mesh = plate(15);
-  for (const char* split : {"volumetric_deviatoric", "spectral", "no_tension"}) {
-    SCOPED_TRACE(split);
-    const auto force = [&](double sideways) {
-      return reaction(mesh,
-                      equilibrium(mesh, damaged_model(energy_split(split), pressed(-5e-4, sideways)), broken_row(mesh)),
-                      "ymax");
-    };
-    const Vector right = force(1e-3), left = force(-1e-3);
-    EXPECT_NEAR(right[0], -left[0], 1e-6 * right.norm());
-    EXPECT_NEAR(right[1], left[1], 1e-6 * right.norm());
-    EXPECT_GT(right[0], 0.0);
-  }
 }
 
 // Isotropic stiffness, of cells of any damage, as full tensors: the same forces, strains and stresses.
