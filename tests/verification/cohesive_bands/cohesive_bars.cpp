@@ -2,7 +2,7 @@
 // whatever the length ell (literature.md 3.5).
 
 #include "tests/verification/bar.h"
-#include "tests/verification/cohesive_bar.h"
+#include "tests/verification/cohesive_bands/cohesive_bar.h"
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,7 @@
 #include "postproc/cohesive/cohesive_fit.h"
 #include "postproc/cohesive/cohesive_law.h"
 #include "tests/verification/bar_profiles.h"
-#include "tests/verification/cohesive_bar.h"
+#include "tests/verification/cohesive_bands/cohesive_bar.h"
 
 #include <algorithm>
 #include <cmath>

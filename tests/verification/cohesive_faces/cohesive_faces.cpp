@@ -2,7 +2,7 @@
 // series; what may stand beside the face; mixed modes; sliding with friction.
 
 #include "tests/verification/cohesive_blocks.h"
-#include "tests/verification/pulled_blocks.h"
+#include "tests/verification/cohesive_faces/pulled_blocks.h"
 
 #include <gtest/gtest.h>
 

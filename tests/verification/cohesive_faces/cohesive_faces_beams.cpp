@@ -14,7 +14,7 @@
 // Crews, AIAA J. 28 (1990) 1270).
 
 #include "tests/verification/cohesive_blocks.h"
-#include "tests/verification/corrected_beams.h"
+#include "tests/verification/cohesive_faces/corrected_beams.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "physics/materials/endochronic_material.h"
 #include "physics/materials/j2_plasticity.h"
 #include "tests/verification/cohesive_blocks.h"
-#include "tests/verification/pulled_blocks.h"
+#include "tests/verification/cohesive_faces/pulled_blocks.h"
 
 #include <gtest/gtest.h>
 

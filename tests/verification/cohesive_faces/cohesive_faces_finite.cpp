@@ -4,7 +4,7 @@
 #include "physics/materials/hyperelastic.h"
 #include "solver/fracture/cells/cell_stiffness.h"
 #include "tests/verification/cohesive_blocks.h"
-#include "tests/verification/finite_blocks.h"
+#include "tests/verification/cohesive_faces/finite_blocks.h"
 #include "tests/verification/noise.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // Glued beams under the lever of mixed-mode bending, against corrected beams (Reeder, Crews, AIAA J. 28 (1990) 1270).
 
 #include "tests/verification/cohesive_blocks.h"
-#include "tests/verification/corrected_beams.h"
+#include "tests/verification/cohesive_faces/corrected_beams.h"
 
 #include <gtest/gtest.h>
 

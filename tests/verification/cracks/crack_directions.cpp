@@ -4,9 +4,9 @@
 #include "mesh/search/flat_surface.h"
 #include "solver/fracture/damage/damage_equation.h"
 #include "solver/fracture/fracture_run.h"
+#include "tests/verification/cracks/unit_toughness.h"
 #include "tests/verification/near_field.h"
 #include "tests/verification/support.h"
-#include "tests/verification/unit_toughness.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -3,9 +3,9 @@
 #include "physics/error.h"
 #include "solver/fracture/damage/damage_equation.h"
 #include "solver/fracture/fracture_run.h"
+#include "tests/verification/cracks/unit_toughness.h"
 #include "tests/verification/near_field.h"
 #include "tests/verification/support.h"
-#include "tests/verification/unit_toughness.h"
 
 #include <gtest/gtest.h>
 

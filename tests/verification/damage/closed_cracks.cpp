@@ -1,6 +1,6 @@
 // Cracks right through a plate that are pressed shut or sheared, with each energy split.
 
-#include "tests/verification/split_plates.h"
+#include "tests/verification/damage/split_plates.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Energy splits in the balance of momentum at given damage: plates in tension, compression and shear against the law of
 // one point, cracks that are pressed shut, and the full-tensor traction operator against the isotropic one.
 
-#include "tests/verification/split_plates.h"
+#include "tests/verification/damage/split_plates.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

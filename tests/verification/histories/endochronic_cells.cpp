@@ -4,7 +4,7 @@
 #include "physics/error.h"
 #include "solver/fracture/fracture_run.h"
 #include "solver/point/mixed_control.h"
-#include "tests/verification/endochronic_bodies.h"
+#include "tests/verification/histories/endochronic_bodies.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "mesh/geometry.h"
 #include "solver/fracture/fracture_run.h"
 #include "solver/point/mixed_control.h"
-#include "tests/verification/endochronic_bodies.h"
+#include "tests/verification/histories/endochronic_bodies.h"
 #include "tests/verification/support.h"
 
 #include <gtest/gtest.h>

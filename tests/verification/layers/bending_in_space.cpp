@@ -5,7 +5,7 @@
 #include "solver/fracture/cells/cell_stiffness.h"
 #include "solver/fracture/equilibrium/law_newton.h"
 #include "solver/momentum/bending/bending_layers.h"
-#include "tests/verification/cantilever.h"
+#include "tests/verification/layers/cantilever.h"
 #include "tests/verification/support.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "physics/materials/hyperelastic.h"
 #include "solver/fracture/bending_words.h"
 #include "tests/verification/bar.h"
-#include "tests/verification/eigenstrain_bodies.h"
+#include "tests/verification/layers/eigenstrain_bodies.h"
 #include "tests/verification/support.h"
 
 #include <fmt/format.h>

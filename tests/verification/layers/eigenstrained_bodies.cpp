@@ -5,7 +5,7 @@
 #include "mesh/generators/sphere_sector.h"
 #include "physics/materials/hyperelastic.h"
 #include "tests/verification/bar.h"
-#include "tests/verification/eigenstrain_bodies.h"
+#include "tests/verification/layers/eigenstrain_bodies.h"
 #include "tests/verification/support.h"
 
 #include <fmt/format.h>
