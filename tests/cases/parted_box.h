@@ -10,7 +10,7 @@ namespace pfdm {
 
 inline constexpr double E = 50e6, ft = 1e5, Gc = 10.0, K = 1e11, length = 1e-3;
 
-// A box of one millimetre that a plane parts in two halves.
+/// A box of one millimetre that a plane parts in two halves.
 inline std::string parted_box() {
   return R"(kind = "homogenize"
 title = "two halves"
@@ -41,13 +41,13 @@ equilibrium_tolerance = 1e-10
 )";
 }
 
-// The stress at an opening of the plane that has never been wider.
+/// The stress at an opening of the plane that has never been wider.
 inline double traction(double opening) {
   const double peak = ft / K, end = 2.0 * Gc / ft;
   return opening <= peak ? K * opening : ft * (end - opening) / (end - peak);
 }
 
-// At a strain that grows: by bisection of strain = traction / E + opening / length.
+/// The stress at a strain that grows, by bisection of strain = traction / E + opening / length.
 inline double stress_at(double strain) {
   double low = 0.0, high = 2.0 * Gc / ft;
   for (int i = 0; i < 100; ++i) {

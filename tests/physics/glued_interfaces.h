@@ -54,7 +54,7 @@ inline double one_mode_traction(const TractionSeparationLaw& law, double separat
   return law.traction(law, separation, at.strength, at.toughness, shape);
 }
 
-// Central differences of the traction.
+/// Central differences of the traction.
 inline Tensor differences(const InterfaceLaw& law, const InterfaceStrength& glue, const Vector& at,
                           const InterfaceHistory& before, double step) {
   Tensor tangent;
@@ -66,7 +66,7 @@ inline Tensor differences(const InterfaceLaw& law, const InterfaceStrength& glue
   return tangent;
 }
 
-// Likewise of what is dissipated by decohesion.
+/// Central differences of what decohesion dissipates.
 inline Vector dissipation_differences(const InterfaceLaw& law, const InterfaceStrength& glue, const Vector& at,
                                       const InterfaceHistory& before, double step) {
   Vector slope;

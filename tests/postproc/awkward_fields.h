@@ -23,7 +23,7 @@
 
 namespace pfdm::test {
 
-// A cube with a neighbour of every other shape, so that each shape shares a face with it or with its pyramid.
+/// A cube with a neighbour of every other shape, so that each shape shares a face with it or with its pyramid.
 inline Mesh mesh_of_all_shapes() {
   CellSoup soup;
   soup.points = {{0, 0, 0},  {1, 0, 0},  {1, 1, 0},  {0, 1, 0},  {0, 0, 1},     {1, 0, 1}, {1, 1, 1}, {0, 1, 1},
@@ -49,7 +49,7 @@ inline vtkSmartPointer<vtkUnstructuredGrid> read_back(const std::filesystem::pat
   return reader->GetOutput();
 }
 
-// Numbers with digits down to the last bit, different in every place.
+/// Numbers with digits down to the last bit, different in every place.
 inline double awkward(int i) { return std::sin(1.0 + i) / 3.0; }
 
 struct AwkwardFields {

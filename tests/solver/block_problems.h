@@ -18,7 +18,7 @@ inline Tensor random_positive(RandomNumbers& random) {
   return a * a.transpose() + 0.1 * Tensor::Identity();
 }
 
-// Rows that are coupled by random blocks to a few others, and held a little: the matrix of a random truss.
+/// Rows that are coupled by random blocks to a few others, and held a little: the matrix of a random truss.
 inline BlockTriplets random_problem(Index n) {
   RandomNumbers random;
   BlockTriplets a;
@@ -34,7 +34,7 @@ inline BlockTriplets random_problem(Index n) {
   return a;
 }
 
-// The compact matrix of a clamped block of rubber with cells of random stiffness.
+/// The compact matrix of a clamped block of rubber with cells of random stiffness.
 inline BlockTriplets elastic_problem(Index cells_along_an_edge) {
   const Mesh mesh = box(cells_along_an_edge, cells_along_an_edge, cells_along_an_edge);
   FractureModel model;
@@ -101,7 +101,7 @@ inline std::vector<Vector> random_vectors(std::size_t n) {
   return b;
 }
 
-// Solves from zero and returns the iterations it took.
+/// Solves from zero and returns the iterations it took.
 inline Index expect_solved(const BlockTriplets& a, double tolerance) {
   Multigrid multigrid(compress(a, in_order(a.diagonal.size())));
   const KrylovProblem problem = problem_of(a, multigrid);

@@ -27,7 +27,7 @@ inline FractureModel model_of(const Mesh& mesh, std::string_view law) {
 
 inline CellField<double> uniform(const Mesh& mesh, double value) { return CellField<double>(mesh.n_cells(), value); }
 
-// A row of cells of width h along x, with regions cut out of it.
+/// A row of cells of width h along x, with regions cut out of it.
 inline Mesh row(Index n, double h, std::vector<SubRegion> regions = {}) {
   return box(n, 1, 1, {n * h, h, h}, 1.0, std::move(regions));
 }
@@ -36,7 +36,7 @@ inline SubRegion from_to(const std::string& name, double from, double to) {
   return {.name = name, .lower = {from, -1.0, -1.0}, .upper = {to, 1.0, 1.0}};
 }
 
-// Cells along x.
+/// Cells along x.
 inline std::vector<Index> in_order_of_x(const Mesh& mesh) {
   std::vector<Index> cells(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) cells[c] = c;

@@ -29,7 +29,7 @@ inline Mesh sheet(Index n) {
                          .slits = {}});
 }
 
-// Held by a gradient within the plane.
+/// Conditions that hold a sheet by a gradient within its plane.
 inline std::vector<BoundaryCondition> stretched(const Tensor& H, bool is_sheet) {
   std::vector<BoundaryCondition> boundary;
   for (const char* patch : {"xmin", "xmax", "ymin", "ymax"})

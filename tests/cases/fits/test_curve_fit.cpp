@@ -1,4 +1,4 @@
-// pfdm fit on cases whose runs leave a curve, with data that the tests make.
+// pfdm fit on cases whose runs leave a curve, with data that the tests make: estimates, verdicts, fitted cases.
 
 #include "postproc/files/csv_table.h"
 #include "tests/cases/bar_fit.h"

@@ -1,4 +1,4 @@
-// Cases of kind mass_material from end to end: simulated, identified, and what is wrong with them said.
+// Cases of kind mass_material from end to end: simulated and identified.
 
 #include "cases/program/input/case_files/case_file.h"
 #include "cases/program/vibration/mass_material_case.h"

@@ -1,4 +1,4 @@
-// pfdm report: what the page of each kind of case tells, and that the files are made.
+// pfdm report: what the page of a fracture and of a material point tells, and that the files are made.
 
 #include "cases/program/fracture/page/fracture_report.h"
 #include "cases/program/input/case_files/case_file.h"

@@ -1,5 +1,5 @@
 // A case of kind "homogenize" with a path of mean strain or stress: its curve against springs in series, its files, a
-// restart, other cases that read the curve, and what is refused.
+// restart, other cases that read the curve.
 
 #include "postproc/files/csv_table.h"
 #include "tests/cases/parted_box.h"

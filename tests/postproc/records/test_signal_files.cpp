@@ -1,4 +1,4 @@
-// Vibration records in universal, HDF5 and WAV files; those in data/ were written by other programs.
+// Vibration records in HDF5 and WAV files; those in data/ were written by other programs.
 
 #include "physics/error.h"
 #include "postproc/records/signal_table.h"

@@ -1,4 +1,4 @@
-// Aggregation, multigrid and flexible GMRES on symmetric matrices of 3x3 blocks, to the true residual.
+// Multigrid and flexible GMRES on symmetric matrices of 3x3 blocks, to the true residual.
 
 #include "solver/linear/fgmres.h"
 #include "solver/linear/multigrid.h"

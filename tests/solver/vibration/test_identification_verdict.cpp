@@ -1,5 +1,4 @@
-// Fits to vibration records of an independent simulator: right ones raise no doubt, wrong records and wrong models do,
-// and faults are named.
+// Fits to vibration records of an independent simulator: right ones raise no doubt, wrong records and wrong models do.
 
 #include "solver/vibration/diagnosis/identification_changes.h"
 #include "solver/vibration/diagnosis/identification_faults.h"

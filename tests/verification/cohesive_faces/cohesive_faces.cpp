@@ -1,5 +1,5 @@
 // Cohesive faces without thickness, between two blocks: each law, loaded, unloaded and closed, against springs in
-// series; what may stand beside the face; mixed modes; sliding with friction.
+// series; mixed modes; sliding with friction.
 
 #include "tests/verification/cohesive_blocks.h"
 #include "tests/verification/cohesive_faces/pulled_blocks.h"

@@ -1,17 +1,6 @@
 // Beams that are glued by cohesive faces, with a slit or a crack that is there already: peeled (double cantilever),
 // sheared (end-notched flexure) and both (single-leg bending), against beams corrected for the rotation at the crack's
-// tip. Plane strain, of width 1. Lengths and forces of arms of height h, crack a, half span L, E' = E/(1 - nu^2):
-//
-//   chi = sqrt(E'/(11 mu) (3 - 2 (Gamma/(1 + Gamma))^2)), Gamma = 1.18 E'/mu
-//   peeled by P:   D = 8 P (a + chi h)^3 / (E' h^3),                             G = 12 P^2 (a + chi h)^2 / (E' h^3)
-//   sheared by P:  D = P ((3 (a + 0.42 chi h)^3 + 2 L^3) / (8 E' h^3) + 3 L / (10 mu h)),
-//                  G = 9 P^2 (a + 0.42 chi h)^2 / (16 E' h^3)
-//
-// Hashemi, Kinloch, Williams, Proc. R. Soc. A 427 (1990) 173; Wang, Williams, Compos. Sci. Technol. 43 (1992) 251. On
-// one leg: both, peeled by P/4, so that G_I/G_II is about 4/3 (Davidson, Sundararaman, Int. J. Fract. 78 (1996) 193).
-// Mixed-mode bending: a lever on the middle and on the upper arm's end, loaded by P at c beyond the middle, lifts the
-// end by P c/L and presses on the middle by P (c + L)/L: peeled by P (3 c - L)/(4 L), sheared by P (c + L)/L (Reeder,
-// Crews, AIAA J. 28 (1990) 1270).
+// tip (corrected_beams.h).
 
 #include "tests/verification/cohesive_blocks.h"
 #include "tests/verification/cohesive_faces/corrected_beams.h"

@@ -1,4 +1,7 @@
-// Glued beams under the lever of mixed-mode bending, against corrected beams (Reeder, Crews, AIAA J. 28 (1990) 1270).
+// Glued beams under a lever, against corrected beams (corrected_beams.h).
+// Mixed-mode bending: a lever on the middle and on the upper arm's end, loaded by P at c beyond the middle, lifts the
+// end by P c/L and presses on the middle by P (c + L)/L: peeled by P (3 c - L)/(4 L), sheared by P (c + L)/L (Reeder,
+// Crews, AIAA J. 28 (1990) 1270).
 
 #include "tests/verification/cohesive_blocks.h"
 #include "tests/verification/cohesive_faces/corrected_beams.h"

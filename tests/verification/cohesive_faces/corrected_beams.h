@@ -1,5 +1,14 @@
 #pragma once
 // Beams with a crack, corrected for the rotation at its tip: force and displacement as the crack grows.
+// Plane strain, of width 1. Lengths and forces of arms of height h, crack a, half span L, E' = E/(1 - nu^2):
+//
+//   chi = sqrt(E'/(11 mu) (3 - 2 (Gamma/(1 + Gamma))^2)), Gamma = 1.18 E'/mu
+//   peeled by P:   D = 8 P (a + chi h)^3 / (E' h^3),                             G = 12 P^2 (a + chi h)^2 / (E' h^3)
+//   sheared by P:  D = P ((3 (a + 0.42 chi h)^3 + 2 L^3) / (8 E' h^3) + 3 L / (10 mu h)),
+//                  G = 9 P^2 (a + 0.42 chi h)^2 / (16 E' h^3)
+//
+// Hashemi, Kinloch, Williams, Proc. R. Soc. A 427 (1990) 173; Wang, Williams, Compos. Sci. Technol. 43 (1992) 251. On
+// one leg: both, peeled by P/4, so that G_I/G_II is about 4/3 (Davidson, Sundararaman, Int. J. Fract. 78 (1996) 193).
 
 #include "tests/verification/cohesive_blocks.h"
 
@@ -82,9 +91,9 @@ inline void report_and_expect(const char* what, const Errors& errors, double gro
 
 inline const TractionSeparationLaw& linear() { return find_by_name(traction_separation_laws(), "linear", "law"); }
 
-// Two arms of 2 mm on supports at x = 0 and 2 L, loaded at L; supports and loads on single faces of 0.5 mm, so that
-// they hold no rotation. A step ends where the beam's crack begins to grow, at its peak. Faces of 0.2 mm from 27.75
-// to 46.75 mm.
+/// Two arms of 2 mm on supports at x = 0 and 2 L, loaded at L; supports and loads on single faces of 0.5 mm, so that
+/// they hold no rotation. A step ends where the beam's crack begins to grow, at its peak. Faces of 0.2 mm from 27.75
+/// to 46.75 mm.
 struct ThreePoints {
   static constexpr double half_span = 50e-3, width = 1e-3, h = CorrectedBeam::height;
   static BoxHexesSettings box() {

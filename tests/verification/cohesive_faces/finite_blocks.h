@@ -17,7 +17,7 @@ inline const IsotropicElasticity rubber = from_young_poisson(2e6, 0.3);
 inline constexpr InterfaceStrength bond{
     .strength = 1e6, .toughness = 4000.0, .shear_strength = 1.5e6, .shear_toughness = 7000.0, .stiffness = 2e10};
 
-// Regions of one elasticity share their material: no unknowns on the faces between them, as at small strain.
+/// Regions of one elasticity share their material: no unknowns on the faces between them, as at small strain.
 inline void make_finite(FractureModel& model) {
   std::shared_ptr<const Material> last;
   for (RegionModel& region : model.regions) {
@@ -42,7 +42,7 @@ struct Step {
   EnergyAccount energy;
 };
 
-// Steps through the values 1, 2 ... of the load parameter.
+/// Steps through the values 1, 2 ... of the load parameter.
 inline std::vector<Step> step_through(const Mesh& mesh, const FractureModel& model, std::size_t n_steps,
                                       double tolerance = 1e-12) {
   FractureRun run(mesh, model, {.equilibrium_tolerance = tolerance},
@@ -58,8 +58,8 @@ inline std::vector<Step> step_through(const Mesh& mesh, const FractureModel& mod
   return steps;
 }
 
-// The closed form of a neo-Hookean bar between sliding sides: lambda_y = lambda_z = 1,
-// P = mu (s - 1/s) + Lambda (s - 1) at the stretch s.
+/// The closed form of a neo-Hookean bar between sliding sides: lambda_y = lambda_z = 1,
+/// P = mu (s - 1/s) + Lambda (s - 1) at the stretch s.
 inline double confined_traction(double s) { return rubber.mu * (s - 1.0 / s) + rubber.lambda * (s - 1.0); }
 inline double confined_stretch(double P) {
   double low = 0.2, high = 8.0;

@@ -14,7 +14,7 @@ struct Point {
   EnergyAccount energy;
 };
 
-// Steps through the values 1, 2 ... of the load parameter.
+/// Steps through the values 1, 2 ... of the load parameter.
 inline std::vector<Point> step_through(const Mesh& mesh, const FractureModel& model, std::size_t n_steps,
                                        const StaggeredSettings& settings = {.equilibrium_tolerance = 1e-12}) {
   FractureRun run(mesh, model, settings,
@@ -41,7 +41,7 @@ inline const Vector& entry(const std::vector<Vector>& path, double t) {
   return path[std::min(static_cast<std::size_t>(std::lround(t)), path.size() - 1)];
 }
 
-// The left end is held, the right one moved along a path of displacements, one step each.
+/// The left end is held, the right one moved along a path of displacements, one step each.
 inline std::vector<Point> pull(const InterfaceLaw& law, const std::vector<Vector>& path) {
   const Mesh mesh = two_blocks(2);
   FractureModel model = glued_blocks(mesh, law);
@@ -50,7 +50,7 @@ inline std::vector<Point> pull(const InterfaceLaw& law, const std::vector<Vector
   return step_through(mesh, model, path.size() - 1);
 }
 
-// The whole surface moves as it does where the separations and tractions across x = edge are these: uniform strains.
+/// The whole surface moves as it does where the separations and tractions across x = edge are these: uniform strains.
 inline std::vector<Point> lead(const InterfaceLaw& law, const std::vector<Vector>& separation,
                                const std::vector<Vector>& traction) {
   const Mesh mesh = two_blocks(3);

@@ -1,5 +1,5 @@
 // Energy splits in the balance of momentum at given damage: plates in tension, compression and shear against the law of
-// one point, cracks that are pressed shut, and the full-tensor traction operator against the isotropic one.
+// one point, and the full-tensor traction operator against the isotropic one. Cracks: closed_cracks.cpp.
 
 #include "tests/verification/damage/split_plates.h"
 #include "tests/verification/support.h"

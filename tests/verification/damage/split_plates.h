@@ -37,8 +37,8 @@ struct Equilibrated {
   double energy = 0.0;  // [J]
 };
 
-// Equilibrium at given damage: closures follow the strain until they falsify the energy by less than 1e-13. The
-// iterations count Newton's steps, too.
+/// Equilibrium at given damage: closures follow the strain until they falsify the energy by less than 1e-13. The
+/// iterations count Newton's steps, too.
 inline Equilibrated equilibrium(const Mesh& mesh, const FractureModel& model, CellField<double> damage) {
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumSolver solver(mesh, unknowns);

@@ -1,5 +1,5 @@
-// Plane stress at finite strain: sheets of every law beside a block that is free across, the limit of small strain, the
-// derivative of the balance where cells are broken, the one energy of a damaged sheet and its Cauchy stress.
+// Plane stress at finite strain: sheets of every law beside a block that is free across, the limit of small strain,
+// what it is not combined with. Damaged sheets: finite_damaged_sheets.cpp.
 
 #include "physics/error.h"
 #include "solver/fracture/cells/cell_stiffness.h"

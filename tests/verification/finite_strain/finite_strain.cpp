@@ -1,5 +1,5 @@
-// Finite strain against closed forms: affine maps, the limit of small strain, uniform extension, a thick cylinder and a
-// thick sphere under pressure, rotations.
+// Finite strain against closed forms: affine maps, the limit of small strain, uniform extension, a thick
+// sphere under pressure, rotations.
 
 #include "mesh/generators/sphere_sector.h"
 #include "physics/materials/hyperelastic.h"

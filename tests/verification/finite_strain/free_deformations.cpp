@@ -1,6 +1,5 @@
 // Eigenstrains at finite strain: F = F_e F*, F* = 1 + eps*, with energies J* W(F_e). Closed forms: a free body, which
-// has no stress; a body that is held everywhere, F_e = F*^-1; a plate between rollers; a sphere that swells in a shell;
-// small eigenstrains, which are those of the small-strain program.
+// has no stress; a body that is held everywhere, F_e = F*^-1; a plate between rollers. Spheres: swollen_spheres.cpp.
 
 #include "mesh/generators/sphere_sector.h"
 #include "physics/error.h"

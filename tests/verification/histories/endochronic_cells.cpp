@@ -1,5 +1,5 @@
 // Endochronic cells in the field solver: uniform bodies against the material point, of which they know nothing; damaged
-// ones; the account of work, stored energy and heat; a plate with a hole under cyclic load.
+// ones.
 
 #include "physics/error.h"
 #include "solver/fracture/fracture_run.h"

@@ -33,7 +33,7 @@ inline std::vector<BoundaryCondition> clamped_at_x0(bool plane_stress) {
   return {side("zmin"), side("zmax"), displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); })};
 }
 
-// Unit resultants per width.
+/// A load of unit resultant per width.
 inline BoundaryCondition traction_of(Load load) {
   if (load == Load::tip) return traction_on("xmax", [](const Vector&) -> Vector { return Vector::UnitY() / height; });
   if (load == Load::distributed)

@@ -27,7 +27,8 @@ struct Answer {
   double residual = 0.0;
 };
 
-// At given damage and the load parameter 1: closures follow until they falsify the energy by less than 1e-13.
+/// Equilibrium at given damage and the load parameter 1: closures follow until they falsify the energy by less than
+/// 1e-13.
 inline Answer equilibrium(const Mesh& mesh, const FractureModel& model, const CellField<double>& damage) {
   const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
   MomentumSolver solver(mesh, unknowns);
@@ -63,7 +64,7 @@ inline Answer equilibrium(const Mesh& mesh, const FractureModel& model, const Ce
   return answer;
 }
 
-// Of cells from sound to nearly broken, in patches.
+/// Damage of cells from sound to nearly broken, in patches.
 inline CellField<double> some_damage(const Mesh& mesh) {
   CellField<double> damage(mesh.n_cells());
   for (Index c = 0; c < mesh.n_cells(); ++c) {

@@ -23,7 +23,7 @@ inline BoundaryCondition clamped(const std::string& patch) {
   return displacement_on(patch, [](const Vector&) -> Vector { return Vector::Zero(); });
 }
 
-// The middle plane of an antisymmetric bending mode: nothing moves within it.
+/// The middle plane of an antisymmetric bending mode: nothing moves within it.
 inline BoundaryCondition antisymmetric(const std::string& patch, std::size_t normal) {
   BoundaryCondition condition{.patch = patch, .displacement_prescribed = {true, true, true}, .value = {}};
   condition.displacement_prescribed[normal] = false;
