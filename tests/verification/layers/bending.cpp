@@ -1,7 +1,7 @@
 // Beams of few or long cells: a cantilever of 25 x 1.5 mm, clamped at x = 0, under a force at its end, a moment there,
 // or a load along it, against Timoshenko's beam (with a force w = P L^3/(3 E' I) + P L/(k mu h), k = 5/6; E' = E/(1 -
-// nu^2) in plane strain); the plane field of a cantilever (Timoshenko, Goodier, Theory of Elasticity, art. 21), which is
-// cubic. In space: bending_in_space.cpp; at finite strain: finite_bending.cpp.
+// nu^2) in plane strain); the plane field of a cantilever (Timoshenko, Goodier, Theory of Elasticity, art. 21), which
+// is cubic. In space: bending_in_space.cpp; at finite strain: finite_bending.cpp.
 
 #include "solver/momentum/bending/bending_layers.h"
 #include "tests/verification/layers/cantilever.h"
