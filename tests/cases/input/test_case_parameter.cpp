@@ -36,6 +36,14 @@ TEST(CaseParameter, WritesValuesAnewAndLeavesAllElse) {
   EXPECT_THROW(with_value(text, "part[x]", "1"), InputError);
 }
 
+// Quotes before the last three belong to a long text, and so does one behind a backslash.
+TEST(CaseParameter, WritesLongTextsAnew) {
+  for (const char* old : {R"("""a""""")", R"("""a\"""b""")", "'''a\\''''", "\"\"\"\n\"\"\"", "\"\"", "\"\\\"\""}) {
+    const std::string before = "x = 1\nt = ", after = " # a\ny = \"b\"\n";
+    EXPECT_EQ(with_value(before + old + after, "t", "2"), before + "2" + after) << old;
+  }
+}
+
 const std::string list_of_keys = R"(
 keys = ["materials.concrete.toughness", "regions.weak.toughness"]
 )";

@@ -147,6 +147,9 @@ TEST(Config, RefusesKeysOfTooManyParts) {
   for (const std::string& text : {many + " = 1", "[" + many + "]", "[[" + many + "]]", "x = [{ " + many + " = 1 }]"})
     EXPECT_EQ(message_of([&] { Config("# a\nt = \"\"\"\nx\"\"\"\n" + text + "\n", "case.toml"); }),
               "case.toml:4: a key has more than 32 parts with dots between them");
+  for (const char* ends_in_quotes : {"\"\"\"x\"\"\"\"", "'''x'''''"})
+    EXPECT_EQ(message_of([&] { Config("t = " + std::string(ends_in_quotes) + "\n" + many + " = 1\n", "case.toml"); }),
+              "case.toml:2: a key has more than 32 parts with dots between them");
   const std::string in_values = "a.b = 1\nt = '''" + many + "'''  # " + many + "\nx = [1.5, 2.5]\n";
   EXPECT_EQ(message_of([&] { Config(in_values, "case.toml"); }), "no error");
 }

@@ -13,7 +13,8 @@ bool is_in_bare_keys(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
-/// Where the string that begins at `at` ends: behind its last quote, or at the end of the text.
+}  // namespace
+
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool is_long = text.substr(at, 3) == std::string(3, quote);
@@ -21,10 +22,10 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   std::size_t end = at + closing.size();
   while (end < text.size() && text.substr(end, closing.size()) != closing)
     end += text[end] == '\\' && quote == '"' ? 2 : 1;
-  return std::min(end + closing.size(), text.size());
+  end += closing.size();
+  for (int k = 0; k < 2 && is_long && end < text.size() && text[end] == quote; ++k) ++end;  // of its content
+  return std::min(end, text.size());
 }
-
-}  // namespace
 
 void refuse_deep_keys(std::string_view text, const std::string& shown_as) {
   int line = 1, parts = 0;

@@ -119,11 +119,7 @@ std::size_t offset_of(const std::string& text, int line, int column) {
 std::size_t length_of_scalar(const std::string& text, std::size_t at) {
   const char first = text[at];
   if (first != '"' && first != '\'') return std::min(text.find_first_of(" \t\r\n,]}#", at), text.size()) - at;
-  const std::string thrice(3, first);
-  if (text.compare(at, 3, thrice) == 0) return text.find(thrice, at + 3) + 3 - at;
-  std::size_t end = at + 1;
-  while (end < text.size() && text[end] != first) end += text[end] == '\\' && first == '"' ? 2 : 1;
-  return end + 1 - at;
+  return end_of_string(text, at) - at;
 }
 
 }  // namespace
