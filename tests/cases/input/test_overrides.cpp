@@ -41,6 +41,15 @@ TEST(Overrides, AddKeysThatTheFileLeavesOut) {
   EXPECT_EQ(value_with({"boundary[1].traction=[\"free\", \"0 Pa\", \"free\"]"}, "boundary[1].traction[1]"), "\"0 Pa\"");
 }
 
+// Editors of Windows write one.
+TEST(Overrides, TakeAByteOrderMark) {
+  const TemporaryCase directory("\xEF\xBB\xBF" + bar_case());
+  const CaseFile file = open_case(directory.path());
+  for (const char* word : {"kind=fracture", "title=another", "sweep.method=product"})
+    EXPECT_EQ(with_overrides(file, std::vector<std::string>{word}).text,
+              with_overrides(with_text(file, bar_case()), std::vector<std::string>{word}).text);
+}
+
 TEST(Overrides, DecideWhatRuns) {
   const TemporaryCase directory(bar_case());
   const std::string place = directory.path().string();

@@ -125,6 +125,8 @@ CaseFile open_case(const std::filesystem::path& where) {
   if (is_not_there(where)) throw InputError(fmt::format("{}: there is no such case directory", where.string()));
   if (is_not_there(file)) throw InputError(fmt::format("{}: it contains no case.toml", where.string()));
   std::string text = read_file(file);
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   Config config(text, file.string());
   return where_it_ran(
       {.directory = directory, .stem = file.stem().string(), .text = std::move(text), .config = std::move(config)});

@@ -16,7 +16,7 @@ namespace pfdm {
 struct CaseFile {
   std::filesystem::path directory;
   std::string stem{};  ///< of the file, "case" of case.toml
-  std::string text;
+  std::string text;    ///< without a byte-order mark
   Config config;
   std::filesystem::path kept_in{};  ///< of a case that a run has kept (kept_case.h), the folder of its results
   std::string kept_name{};          ///< likewise, the name of the case that ran
