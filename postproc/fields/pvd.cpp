@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -26,7 +27,7 @@ std::optional<Frame> parse_row(std::string_view line) {
   if (!line.starts_with(row_start) || !line.ends_with(row_end) || middle == std::string_view::npos) return std::nullopt;
   const std::size_t file = middle + row_middle.size();
   const auto time = parse_double(line.substr(row_start.size(), middle - row_start.size()));
-  if (!time || file + row_end.size() >= line.size()) return std::nullopt;
+  if (!time || !std::isfinite(*time) || file + row_end.size() >= line.size()) return std::nullopt;
   return Frame{*time, std::string(line.substr(file, line.size() - row_end.size() - file))};
 }
 

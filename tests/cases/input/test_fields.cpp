@@ -219,6 +219,7 @@ TEST_P(BadFields, AreRefused) {
       1, 1, [](double x, double y) { return std::pair(x, y); }, [](double, double) { return "1 2"; });
   directory.write("two.vtu", replaced(pairs, "Name=\"T\"", "Name=\"T\" NumberOfComponents=\"2\""));
   directory.write("none.pvd", "<Collection></Collection>");
+  directory.write("nan.pvd", "<Collection><DataSet timestep=\"nan\" file=\"t.vtu\"/></Collection>");
   const Outcome outcome = run({"check", directory.path().string()});
   EXPECT_EQ(outcome.status, 2);
   for (const std::string& part : GetParam().message)
@@ -260,6 +261,10 @@ INSTANTIATE_TEST_SUITE_P(
                  good,
                  "{ file = \"none.pvd\", array = \"T\", unit = \"K\", duration = \"1 s\", length_unit = \"mm\" }",
                  {"none.pvd: it has no frames"}},
+        BadInput{"frame_at_nan",
+                 good,
+                 "{ file = \"nan.pvd\", array = \"T\", unit = \"K\", duration = \"1 s\", length_unit = \"mm\" }",
+                 {"nan.pvd: the timestep of its frame 1 is \"nan\"; expected a number"}},
         BadInput{"no_duration",
                  good,
                  "{ file = \"none.pvd\", array = \"T\", unit = \"K\", length_unit = \"mm\" }",

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,7 +43,9 @@ std::vector<ListedFrame> read_frame_list(const std::filesystem::path& path) {
     const std::string_view one = rest.substr(0, rest.find('>'));
     const auto time = attribute(one, "timestep"), file = attribute(one, "file");
     const auto number = time ? parse_double(*time) : std::nullopt;
-    if (!number || !file) throw wrong(fmt::format("its frame {} lacks a timestep or a file", frames.size() + 1));
+    if (time && !(number && std::isfinite(*number)))
+      throw wrong(fmt::format("the timestep of its frame {} is \"{}\"; expected a number", frames.size() + 1, *time));
+    if (!time || !file) throw wrong(fmt::format("its frame {} lacks a timestep or a file", frames.size() + 1));
     frames.push_back({*number, path.parent_path() / *file});
     rest.remove_prefix(element.size());
   }
