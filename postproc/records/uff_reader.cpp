@@ -134,6 +134,8 @@ class UffReader {
     for (std::size_t i = 0; i < f.n; ++i) {
       f.abscissa.push_back(f.even ? f.first + static_cast<double>(i) * f.step : numbers[2 * i]);
       f.ordinate.push_back(f.even ? numbers[i] : numbers[2 * i + 1]);
+      if (!std::isfinite(f.abscissa.back()))
+        throw error(fmt::format("value {} of its abscissa is {}; it must be finite", i + 1, f.abscissa.back()));
     }
     return f;
   }
@@ -180,9 +182,12 @@ class UffReader {
       if (at == end) return;
       double value = 0.0;
       const auto [next, fault] = std::from_chars(at, end, value);
-      if (fault == std::errc::invalid_argument)
-        throw error(
-            fmt::format("\"{}\" is not a number", trimmed(std::string_view(at, static_cast<std::size_t>(end - at)))));
+      if (fault != std::errc()) {
+        const std::string_view rest(at, static_cast<std::size_t>(end - at));
+        throw error(fmt::format(
+            "\"{}\" is {}", rest.substr(0, rest.find_first_of(" \t")),
+            fault == std::errc::result_out_of_range ? "beyond the numbers of double precision" : "not a number"));
+      }
       numbers.push_back(value);
       at = next;
     }

@@ -149,6 +149,8 @@ TEST_F(UniversalFiles, SayWhatIsWrongWithThem) {
   f = {};
   f.values = "  1.00000E+00 two\n";
   EXPECT_THAT(refused(f.text()), HasSubstr("\"two\" is not a number"));
+  f.values = "  1.0 1e999 2.0 3.0\n";
+  EXPECT_THAT(refused(f.text()), HasSubstr("\"1e999\" is beyond the numbers of double precision"));
   f = {};
   f.data_type = 5;
   EXPECT_THAT(refused(f.text()), HasSubstr("complex"));
@@ -157,6 +159,9 @@ TEST_F(UniversalFiles, SayWhatIsWrongWithThem) {
   f = {};
   f.abscissa = "  0.00000E+00  0.00000E+00  0.00000E+00";
   EXPECT_THAT(refused(f.text()), HasSubstr("abscissa increment is 0"));
+  f = {};
+  f.abscissa = "          nan  5.00000E-01  0.00000E+00";
+  EXPECT_THAT(refused(f.text()), HasSubstr("value 1 of its abscissa is nan; it must be finite"));
   f = {};
   f.end = "";
   EXPECT_THAT(refused(f.text()), HasSubstr("truncated"));
