@@ -100,10 +100,17 @@ class GmshReader {
       for (std::uint64_t i = 0; i < n[dimension]; ++i) {
         const Entity entity{dimension, in_.integer()};
         for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) in_.real();
-        for (std::uint64_t k = in_.count(); k > 0; --k) put_in_group(entity, std::abs(in_.integer()));
+        for (std::uint64_t k = in_.count(); k > 0; --k) put_in_group(entity, group_of(in_.integer()));
         if (dimension > 0)
           for (std::uint64_t k = in_.count(); k > 0; --k) in_.integer();
       }
+  }
+
+  /// Of what is in a group turned round, its number is negative.
+  int group_of(int number) const {
+    if (number == std::numeric_limits<int>::min())
+      throw in_.error(fmt::format("expected the number of a physical group, found {}", number));
+    return std::abs(number);
   }
 
   void put_in_group(const Entity& entity, int group) {
@@ -212,7 +219,7 @@ class GmshReader {
         for (int i = 0; i < n_tags; ++i) tags.push_back(in_.integer());
         if (tags.size() > 2 && tags[2] > 0) throw partitioned();
         tags.resize(std::max<std::size_t>(tags.size(), 2), 0);
-        add_element(type, number, std::abs(tags[0]), tags[1],
+        add_element(type, number, group_of(tags[0]), tags[1],
                     [&] { return static_cast<std::uint64_t>(in_.integer()); });
       }
     }

@@ -165,6 +165,8 @@ TEST_F(ImportGmsh, BrokenFilesAreRefusedWithThePlace) {
   EXPECT_THAT(refusal(msh22(corners, {"4 2 0 1 1 2 3 9"})), AllOf(HasSubstr("element 100"), HasSubstr("node 9")));
   EXPECT_THAT(refusal(msh22(corners, {"4 2 0 1 1 2 3 x"})), AllOf(HasSubstr("line 13"), HasSubstr("\"x\"")));
   EXPECT_THAT(refusal(msh22(corners, {"2 2 0 1 1 2 3"})), HasSubstr("no volume cells"));
+  EXPECT_THAT(refusal(msh22(corners, {"4 2 -2147483648 1 1 2 3 4"})),
+              HasSubstr("expected the number of a physical group, found -2147483648"));
   for (const char* format : {"41_binary", "22_binary"})
     EXPECT_THAT(refusal(content_of(shapes(format)).substr(0, 3000)), HasSubstr("ends within $")) << format;
   EXPECT_THAT(message_of<InputError>([&] { import_gmsh(settings_of(folder_ / "none.msh")); }),
