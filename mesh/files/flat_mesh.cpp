@@ -1,8 +1,12 @@
 #include "mesh/files/flat_mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <span>
 #include <utility>
+
+#include "physics/error.h"
 
 namespace pfdm {
 namespace {
@@ -18,9 +22,22 @@ std::span<const Index> points_of_flat_cell(const MeshFile& file, Index cell) {
   return std::span(file.cell_points).subspan(from, to - from);
 }
 
+// Of a cell whose type says how many; 0 where it does not.
+std::size_t n_points_of(int type) {
+  switch (type) {
+    case vtk_line: return 2;
+    case vtk_triangle: return 3;
+    case vtk_pixel:
+    case vtk_quadrilateral: return 4;
+    default: return 0;
+  }
+}
+
 // The points of a face around it.
 std::vector<Index> points_around_face(const MeshFile& file, Index cell) {
   const auto given = points_of_flat_cell(file, cell);
+  if (const std::size_t due = n_points_of(file.cell_type[as_size(cell)]); due > 0 && given.size() != due)
+    throw InputError(fmt::format("its cell {} has {} points; its type requires {}", cell, given.size(), due));
   std::vector<Index> ids(given.begin(), given.end());
   if (file.cell_type[cell] == vtk_pixel) std::swap(ids[2], ids[3]);
   return ids;

@@ -69,7 +69,11 @@ class Importer {
       throw error(
           "a thickness is given, and it is not flat: triangles and quadrilaterals in a plane normal to an axis, "
           "and no other cells");
-    extrude(file_, *flat_along_, settings_.thickness / settings_.scale);
+    try {
+      extrude(file_, *flat_along_, settings_.thickness / settings_.scale);
+    } catch (const InputError& e) {
+      throw error(e.what());
+    }
   }
 
   std::string why_no_volumes() const {
@@ -290,7 +294,9 @@ class Importer {
 
 }  // namespace
 
-Mesh import_vtk(const ImportSettings& settings) { return Importer(settings, read_vtk_file(settings.file)).import(); }
+Mesh import_mesh(const ImportSettings& settings, MeshFile file) { return Importer(settings, std::move(file)).import(); }
+
+Mesh import_vtk(const ImportSettings& settings) { return import_mesh(settings, read_vtk_file(settings.file)); }
 
 Mesh import_gmsh(const ImportSettings& settings) {
   return Importer(settings, read_gmsh_file(settings.file)).import(require_matching_cells);

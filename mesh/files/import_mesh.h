@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/files/mesh_file.h"
 #include "mesh/patch_rules.h"
 
 namespace pfdm {
@@ -37,6 +38,8 @@ struct ImportSettings {
 /// is wrong with it: unreadable, no volume cells, a cell of another type, a cell without positive volume, a number or
 /// an array that is not there.
 Mesh import_vtk(const ImportSettings& settings);
+/// The same of what is in the file, whatever its format.
+Mesh import_mesh(const ImportSettings& settings, MeshFile file);
 /// The same from a .msh file, whose physical groups are the regions and patches (gmsh_file.h), a surface group without
 /// a name patch_<number>; cells whose faces do not match are refused as well (matching.h).
 Mesh import_gmsh(const ImportSettings& settings);

@@ -159,20 +159,6 @@ void copy_field(FileArray& field, vtkUnstructuredGrid& grid, const std::string& 
     for (int k = 0; k < field.n_components; ++k) field.values.push_back(array->GetComponent(i, k));
 }
 
-/// A file's mesh, and one of its arrays if it has a name. `noun` for messages.
-std::pair<MeshFile, FileArray> read_here(const std::filesystem::path& path, const std::string& array,
-                                         std::string_view noun) {
-  const auto grid = read_grid(path, noun);
-  std::pair<MeshFile, FileArray> read;
-  try {
-    copy_mesh(read.first, *grid);
-    if (!array.empty()) copy_field(read.second, *grid, array);
-  } catch (const InputError& e) {
-    throw InputError(fmt::format("the {} {}: {}", noun, path.string(), e.what()));
-  }
-  return read;
-}
-
 /// What the formats of VTK have.
 std::string bytes_of(const MeshFile& file, const FileArray& field) {
   BytePacker packer;
@@ -209,7 +195,7 @@ std::pair<MeshFile, FileArray> read_apart(const std::filesystem::path& path, con
                                           std::string_view noun) {
   require_file(path, noun);
   return file_in(read_separately(path, fmt::format("cannot read the {} {}", noun, path.string()), [&] {
-    const auto [file, field] = read_here(path, array, noun);
+    const auto [file, field] = read_vtk_here(path, array, noun);
     return bytes_of(file, field);
   }));
 }
@@ -226,6 +212,19 @@ std::optional<CellShape> shape_of(int vtk_type) {
     case VTK_POLYHEDRON: return CellShape::polyhedron;
     default: return std::nullopt;
   }
+}
+
+std::pair<MeshFile, FileArray> read_vtk_here(const std::filesystem::path& path, const std::string& array,
+                                             std::string_view noun) {
+  const auto grid = read_grid(path, noun);
+  std::pair<MeshFile, FileArray> read;
+  try {
+    copy_mesh(read.first, *grid);
+    if (!array.empty()) copy_field(read.second, *grid, array);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("the {} {}: {}", noun, path.string(), e.what()));
+  }
+  return read;
 }
 
 MeshFile read_vtk_file(const std::filesystem::path& path) { return read_apart(path, "", "mesh").first; }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,11 @@ struct FileArray {
 
 /// Likewise, with the array of that name at points, or else in cells. Throws InputError also where there is none.
 std::pair<MeshFile, FileArray> read_vtk_array(const std::filesystem::path& path, const std::string& array);
+
+/// The same in this process, which VTK's readers may crash on a damaged file; an empty `array` stands for none, `noun`
+/// for what messages call the file.
+std::pair<MeshFile, FileArray> read_vtk_here(const std::filesystem::path& path, const std::string& array,
+                                             std::string_view noun);
 
 /// For each point the number of the first one within the tolerance (same unit), counted without the others; the points
 /// that are left take their place.

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -252,6 +254,20 @@ TEST_F(ImportVtk, BadCellsAreRefusedByTheirNumberInTheFile) {
   VtuText surface = tetrahedron();
   surface.cells = {{5, {0, 1, 2}, {}}};
   EXPECT_THAT(message_of<InputError>([&] { import_vtk(write(surface)); }), HasSubstr("no volume cells"));
+}
+
+// VTK does not look at how many points lines and pixels have.
+TEST_F(ImportVtk, FlatCellsHaveTheirNumberOfPoints) {
+  for (const auto& [type, points] : {std::pair{3, std::vector<Index>{1}}, {8, {0, 1, 2}}, {9, {0, 1, 3}}}) {
+    VtuText flat;
+    flat.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    flat.cells = {{5, {0, 1, 2}, {}}, {type, points, {}}};
+    ImportSettings settings = write(flat);
+    settings.thickness = 1.0;
+    EXPECT_THAT(message_of<InputError>([&] { import_vtk(settings); }),
+                AllOf(HasSubstr(settings.file.string()),
+                      HasSubstr(fmt::format("its cell 1 has {} points; its type requires", points.size()))));
+  }
 }
 
 TEST_F(ImportVtk, UnreadableFilesAreNamedInOneMessageAndVtkStaysSilent) {
