@@ -128,7 +128,7 @@ std::optional<FirstDebonding> take_first_debonding(const std::filesystem::path& 
   if (!std::filesystem::exists(path)) return std::nullopt;
   FirstDebonding first = read_json(path, "record of a first debonding", [](const nlohmann::ordered_json& json) {
     return FirstDebonding{.surface = json.at("surface"),
-                          .step = json.at("step"),
+                          .step = whole_number<Index>(json.at("step")),
                           .polar_from = number_of(json.at("polar_angle_from_rad")),
                           .polar_to = number_of(json.at("polar_angle_to_rad")),
                           .angle = number_of(json.at("debonding_angle_rad"))};

@@ -135,7 +135,7 @@ std::optional<PosteriorFindings> posterior_in(const Json& json) {
   return PosteriorFindings{.file = p.at("file"),
                            .emulator_error = number_of(p.at("emulator_error")),
                            .effective = number_of(p.at("effective_samples")),
-                           .evaluations = p.at("evaluations"),
+                           .evaluations = whole_number<int>(p.at("evaluations")),
                            .law_files = p.at("law_files")};
 }
 
@@ -160,7 +160,7 @@ std::vector<FittedParameter> parameters_in(const Json& list) {
 ExperimentMisfit experiment_in(const Json& e) {
   ExperimentMisfit misfit{.name = e.at("name"),
                           .fitted = e.at("fitted"),
-                          .n_data = e.at("data"),
+                          .n_data = whole_number<std::size_t>(e.at("data")),
                           .relative = number_of(e.at("relative_misfit")),
                           .curve = e.value("curve", "")};
   if (!e.contains("unit")) return misfit;
@@ -256,7 +256,7 @@ void write_fit_json(const std::filesystem::path& file, const FitReport& report) 
 
 FitReport read_fit_json(const std::filesystem::path& path) {
   return read_json(path, "fit", [&](const Json& json) {
-    if (const int found = json.value("format", 0); found != format)
+    if (const int found = whole_number<int>(json.value("format", Json(0))); found != format)
       throw InputError(fmt::format("{}: the file has format {}, this version reads format {}; run pfdm fit again",
                                    path.string(), found, format));
     return report_in(json);

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -29,6 +30,22 @@ inline double number_of(const nlohmann::ordered_json& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
+/// Beyond what this program writes.
+struct JsonTooLarge : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A whole number that its type holds. Throws JsonTooLarge for another number, as nlohmann's library does for a text.
+template <class Integer>
+Integer whole_number(const nlohmann::ordered_json& json) {
+  const auto number = json.get<double>();
+  constexpr double beyond = 2.0 * (static_cast<double>(std::numeric_limits<Integer>::max() / 2) + 1.0);
+  constexpr auto least = static_cast<double>(std::numeric_limits<Integer>::min());
+  if (!(number >= least && number < beyond) || number != std::trunc(number))
+    throw JsonTooLarge(fmt::format("{} is not a whole number of at least {} and less than {}", number, least, beyond));
+  return json.get<Integer>();
+}
+
 /// The text of a JSON file. Bytes that are no UTF-8, as of a folder named in Latin-1, become the replacement character.
 inline std::string json_text(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -37,11 +54,6 @@ inline std::string json_text(const nlohmann::ordered_json& json) {
 inline std::string json_line(const nlohmann::ordered_json& json) {
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
-
-/// Beyond what this program writes.
-struct JsonTooLarge : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// The text as JSON. Throws as nlohmann's parser does; JsonTooLarge for more than 10,000 keys in an object, which looks
 /// them up one after the other, and more than 100 objects and lists within each other.

@@ -90,21 +90,23 @@ Json to_json(const RepeatedIdentification& repeats) {
 RepeatedIdentification repeats_in(const Json& json) {
   RepeatedIdentification repeats;
   for (const Json& r : json.at("records")) {
-    repeats.records.push_back({.name = r.at("name"),
-                               .schedule = {number_of(r.at("level_m_per_s2")), number_of(r.at("age_s")), r.at("run")},
-                               .estimates = estimates_in(r.at("estimates")),
-                               .misfit = number_of(r.at("relative_misfit")),
-                               .converged = r.at("converged")});
+    repeats.records.push_back(
+        {.name = r.at("name"),
+         .schedule = {number_of(r.at("level_m_per_s2")), number_of(r.at("age_s")), whole_number<int>(r.at("run"))},
+         .estimates = estimates_in(r.at("estimates")),
+         .misfit = number_of(r.at("relative_misfit")),
+         .converged = r.at("converged")});
   }
   for (const Json& p : json.at("parameters")) {
-    ParameterRepeatability parameter{.name = p.at("name"),
-                                     .statistics = {.mean = number_of(p.at("mean")),
-                                                    .effects = {},
-                                                    .residual_deviation = number_of(p.at("residual_deviation")),
-                                                    .residual_freedom = p.at("residual_degrees_of_freedom"),
-                                                    .repeat_deviation = {},
-                                                    .repeat_freedom = p.at("repeat_degrees_of_freedom")},
-                                     .expected_deviation = number_of(p.at("expected_deviation"))};
+    ParameterRepeatability parameter{
+        .name = p.at("name"),
+        .statistics = {.mean = number_of(p.at("mean")),
+                       .effects = {},
+                       .residual_deviation = number_of(p.at("residual_deviation")),
+                       .residual_freedom = whole_number<int>(p.at("residual_degrees_of_freedom")),
+                       .repeat_deviation = {},
+                       .repeat_freedom = whole_number<int>(p.at("repeat_degrees_of_freedom"))},
+        .expected_deviation = number_of(p.at("expected_deviation"))};
     if (!p.at("repeat_deviation").is_null()) parameter.statistics.repeat_deviation = p.at("repeat_deviation");
     for (const Json& e : p.at("effects"))
       parameter.statistics.effects.push_back(
@@ -157,6 +159,8 @@ std::optional<VibrationFindings> vibration_findings(const OwnFindings& own) {
   try {
     return findings_in(Json::parse(own.json));
   } catch (const Json::exception& error) {
+    throw InputError(fmt::format("these are no findings of a mass-material fit: {}", json_fault(error)));
+  } catch (const JsonTooLarge& error) {
     throw InputError(fmt::format("these are no findings of a mass-material fit: {}", error.what()));
   }
 }

@@ -28,7 +28,7 @@ Json to_json(const FittedModel& m) {
 
 FittedModel model_in(const Json& json) {
   FittedModel m{.structure = json.at("structure"),
-                .kernel_terms = json.at("kernel_terms"),
+                .kernel_terms = whole_number<int>(json.at("kernel_terms")),
                 .verdict = verdict_named(json.at("verdict").get<std::string>()),
                 .reasons = json.at("reasons"),
                 .misfit = number_of(json.at("relative_misfit")),

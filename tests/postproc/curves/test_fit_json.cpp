@@ -116,6 +116,7 @@ TEST(FitJson, RefusesAnotherFormat) {
               HasSubstr("fit.json: the file has format 0, this version reads format 1"));
   EXPECT_THAT(message("{\"format\": 1}"), HasSubstr("this is not a fit"));
   EXPECT_THAT(message("no such thing"), HasSubstr("this is not a fit"));
+  EXPECT_THAT(message("{\"format\": 1e300}"), HasSubstr("this is not a fit: 1e+300 is not a whole number of at least"));
 }
 
 }  // namespace

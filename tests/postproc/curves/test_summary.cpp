@@ -4,6 +4,7 @@
 #include "postproc/files/atomic_file.h"
 #include "tests/postproc/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
+#include <regex>
 #include <vector>
 
 namespace pfdm::test::this_file {
@@ -192,6 +194,13 @@ TEST(Summary, comes_back) {
   EXPECT_EQ(back.other_figures.count("cells"), 0u);
   put(folder / "bad.json", "{\"case\": 3}");
   EXPECT_NE(message_of<InputError>([&] { read_run_summary(folder / "bad.json"); }).find("bad.json"), std::string::npos);
+  for (const char* cells : {"1e300", "-1e300", "2147483648", "1.5"}) {
+    put(folder / "bad.json", std::regex_replace(content_of(folder / "summary.json"), std::regex("\"cells\": 7"),
+                                                fmt::format("\"cells\": {}", cells)));
+    EXPECT_NE(message_of<InputError>([&] { read_run_summary(folder / "bad.json"); }).find("is not a whole number"),
+              std::string::npos)
+        << cells;
+  }
 }
 
 }  // namespace
