@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <limits>
+#include <new>
 #include <optional>
 #include <set>
 
@@ -82,6 +84,7 @@ std::optional<Eigen::Index> vector_length(hid_t space) {
     if (length != 1 && side != 1) return std::nullopt;
     length *= side;
   }
+  if (length > std::numeric_limits<Eigen::Index>::max() / sizeof(double)) throw std::bad_alloc();
   return static_cast<Eigen::Index>(length);
 }
 
@@ -91,10 +94,8 @@ struct Collected {
   std::string fault;
 };
 
-/// Called for each object below the root; exceptions must not pass through HDF5.
-herr_t collect(hid_t root, const char* name, const H5O_info_t* info, void* user) {
-  auto& collected = *static_cast<Collected*>(user);
-  if (info->type != H5O_TYPE_DATASET) return 0;
+/// 0, or -1 for an error, as HDF5 has it. Throws std::bad_alloc: few bytes of a file may promise any number of values.
+herr_t collect_dataset(hid_t root, const char* name, Collected& collected) {
   const Handle dataset(H5Dopen2(root, name, H5P_DEFAULT), H5Dclose);
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   const auto length = vector_length(space);
@@ -111,6 +112,17 @@ herr_t collect(hid_t root, const char* name, const H5O_info_t* info, void* user)
     if (const auto text = text_attribute(dataset, attribute); text && column.unit.empty()) column.unit = *text;
   collected.table.columns.push_back(std::move(column));
   return 0;
+}
+
+/// Called for each object below the root; exceptions must not pass through HDF5.
+herr_t collect(hid_t root, const char* name, const H5O_info_t* info, void* user) {
+  auto& collected = *static_cast<Collected*>(user);
+  try {
+    return info->type == H5O_TYPE_DATASET ? collect_dataset(root, name, collected) : 0;
+  } catch (const std::bad_alloc&) {
+    collected.fault = fmt::format("there is not enough memory for the values of \"{}\"", name);
+    return -1;
+  }
 }
 
 }  // namespace
