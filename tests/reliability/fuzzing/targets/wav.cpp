@@ -1,0 +1,17 @@
+// WAV files, which libsndfile reads.
+
+#include "postproc/records/signal_table.h"
+#include "tests/reliability/fuzzing/input_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace pfdm;
+  using namespace pfdm::fuzzing;
+  is_read_apart([&] {
+    const SignalTable table = read_signals_wav(file_of(text_of(data, size), "record.wav"));
+    require(table.columns.size() > 1);
+    const Eigen::VectorXd& times = table.columns.front().values;
+    require(times.size() > 0 && times.allFinite());
+    for (const SignalColumn& column : table.columns) require(column.values.size() == times.size());
+  });
+  return 0;
+}
