@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+import tempfile
 from pathlib import Path
 
 from seeds import ROOT, SEEDS
@@ -48,8 +49,7 @@ def put_seeds(name, corpus):
 def environment():
     options = f"detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb={MEGABYTES // 2}:handle_abort=2"
     symbolizer = shutil.which("llvm-symbolizer-16") or shutil.which("llvm-symbolizer") or ""
-    memory = {"TMPDIR": "/dev/shm"} if Path("/dev/shm").is_dir() else {}  # the inputs are files: many a second
-    return os.environ | memory | {"ASAN_OPTIONS": options, "UBSAN_OPTIONS": "print_stacktrace=1",
+    return os.environ | {"ASAN_OPTIONS": options, "UBSAN_OPTIONS": "print_stacktrace=1",
                          "ASAN_SYMBOLIZER_PATH": symbolizer, "UBSAN_SYMBOLIZER_PATH": symbolizer}
 
 
@@ -161,4 +161,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    # The inputs are files, thousands a second: in memory where there is such a folder.
+    with tempfile.TemporaryDirectory(dir="/dev/shm" if Path("/dev/shm").is_dir() else None) as scratch:
+        os.environ["TMPDIR"] = scratch
+        main()
