@@ -24,8 +24,8 @@ inline const nlohmann::json& parameter(const nlohmann::json& fit, const std::str
 
 inline double estimate(const nlohmann::json& fit, const std::string& name) { return parameter(fit, name)["estimate"]; }
 
-inline constexpr const char* modulus = "materials.concrete.young_modulus";
-inline constexpr const char* toughness = "materials.concrete.toughness";
+inline constexpr const char* modulus_key = "materials.concrete.young_modulus";
+inline constexpr const char* toughness_key = "materials.concrete.toughness";
 
 inline const std::string bar_fit = R"(
 [experiment]

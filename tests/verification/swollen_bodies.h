@@ -3,6 +3,7 @@
 
 #include "mesh/generators/sphere_sector.h"
 #include "tests/verification/finite.h"
+#include "tests/verification/finite_solutions.h"
 
 #include <algorithm>
 #include <memory>
@@ -14,10 +15,6 @@ namespace pfdm::verification {
 inline const IsotropicElasticity soft = from_young_poisson(1e6, 0.3), rubber = from_young_poisson(1e6, 0.4999),
                                  stiffer = from_young_poisson(3e6, 0.3);
 inline const Tensor one = Tensor::Identity();
-
-inline std::shared_ptr<const Material> neo_hookean(const IsotropicElasticity& c) {
-  return make_hyperelastic("neo_hookean", {.elasticity = c});
-}
 
 inline std::shared_ptr<const LoadField<Tensor>> given(const Tensor& strain) {
   return std::make_shared<const LoadField<Tensor>>([strain](const Vector&, double t) -> Tensor { return t * strain; });

@@ -100,8 +100,8 @@ TEST(CurveFit, GoesOnInTheSecondStageWithTheRunsOfTheFirst) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = fit_in(fit.directory.results());
   EXPECT_EQ(json["fracture"]["earlier_stages"][0]["name"], "elastic");
-  EXPECT_NEAR(estimate(json, modulus), 33e9, 1e-4 * 33e9);
-  EXPECT_NEAR(estimate(json, toughness), 110.0, 1.0);
+  EXPECT_NEAR(estimate(json, modulus_key), 33e9, 1e-4 * 33e9);
+  EXPECT_NEAR(estimate(json, toughness_key), 110.0, 1.0);
   EXPECT_NE(json["warnings"].dump().find("was estimated in stage \\\"elastic\\\""), std::string::npos);
   EXPECT_NE(outcome.out.find("continued"), std::string::npos) << outcome.out;
   const auto& elastic = json["fracture"]["earlier_stages"][0];
@@ -113,7 +113,7 @@ TEST(CurveFit, ShowsTheFirstGuessOfTheCaseInEveryStage) {
   const Outcome outcome = run({"fit", fit.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = fit_in(fit.directory.results());
-  EXPECT_NEAR(parameter(json, modulus)["first_guess"].get<double>(), 30e9, 1.0);
+  EXPECT_NEAR(parameter(json, modulus_key)["first_guess"].get<double>(), 30e9, 1.0);
   EXPECT_NE(outcome.out.find("first guess 30\n"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("with the first guess "), std::string::npos) << outcome.out;
   EXPECT_GT(json["first_guess_rms_residual"].get<double>(), 5.0 * json["rms_residual"].get<double>());
@@ -129,8 +129,8 @@ TEST(CurveFit, ScreensInTheStageThatAsksForIt) {
   const Outcome outcome = run({"fit", fit.path()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto json = fit_in(fit.directory.results());
-  EXPECT_NEAR(estimate(json, toughness), 110.0, 2.0);
-  EXPECT_NEAR(estimate(json, modulus), 33e9, 5e-3 * 33e9);
+  EXPECT_NEAR(estimate(json, toughness_key), 110.0, 2.0);
+  EXPECT_NEAR(estimate(json, modulus_key), 33e9, 5e-3 * 33e9);
   EXPECT_EQ(json["start_rms_residual"].size(), 2u);
   EXPECT_FALSE(json["fracture"]["earlier_stages"][0].contains("screened"));
   ASSERT_EQ(json["screened"].size(), 9u);
@@ -160,7 +160,7 @@ TEST(CurveFit, FitsToOtherDataReuseTheRunsOfTheSample) {
   write_csv(fit.directory.path() / "data.csv", noisy);
   ASSERT_EQ(run({"fit", fit.path()}).status, 0);
   const auto second = fit_in(fit.directory.results());
-  EXPECT_NE(estimate(first, modulus), estimate(second, modulus));
+  EXPECT_NE(estimate(first, modulus_key), estimate(second, modulus_key));
   const int made = second["fracture"]["runs"]["made"], reused = second["fracture"]["runs"]["reused"];
   EXPECT_GT(reused, made) << made << " made, " << reused << " reused";
 }

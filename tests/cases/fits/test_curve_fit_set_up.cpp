@@ -100,9 +100,9 @@ class BarInASetUp {
 
 /// How many estimates of a sound fit have intervals that hold the truth; all are within twice their reach.
 int n_held(const nlohmann::json& fit) {
-  const std::map<std::string, double> truth{{modulus, 32e9},
+  const std::map<std::string, double> truth{{modulus_key, 32e9},
                                             {"materials.concrete.strength", 2.8e6},
-                                            {toughness, 110.0},
+                                            {toughness_key, 110.0},
                                             {"experiment.offset", 1.5e-6},
                                             {"experiment.specimens[0].compliance", 1.016e-7}};
   EXPECT_EQ(fit["verdict"], "sound") << fit["reasons"];
@@ -147,7 +147,7 @@ void expect_compliance_like_that_of_the_bar(const BarInASetUp& bar) {
     const bool at_bound = reasons.find("compliance is at its") != std::string::npos;
     const bool combined = reasons.find("do not determine experiment.specimens[0].compliance") != std::string::npos;
     EXPECT_TRUE(named || at_bound || combined) << reasons;
-    EXPECT_TRUE(parameter(fit, modulus)["lower"].is_null());
+    EXPECT_TRUE(parameter(fit, modulus_key)["lower"].is_null());
   }
 }
 

@@ -4,6 +4,7 @@
 #include "cases/program/session/terminal/side_by_side.h"
 #include "tests/cases/temporary_case.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -39,8 +40,8 @@ TEST(CaseParameter, WritesValuesAnewAndLeavesAllElse) {
 // Quotes before the last three belong to a long text, and so does one behind a backslash.
 TEST(CaseParameter, WritesLongTextsAnew) {
   for (const char* old : {R"("""a""""")", R"("""a\"""b""")", "'''a\\''''", "\"\"\"\n\"\"\"", "\"\"", "\"\\\"\""}) {
-    const std::string before = "x = 1\nt = ", after = " # a\ny = \"b\"\n";
-    EXPECT_EQ(with_value(before + old + after, "t", "2"), before + "2" + after) << old;
+    constexpr const char* document = "x = 1\nt = {} # a\ny = \"b\"\n";
+    EXPECT_EQ(with_value(fmt::format(document, old), "t", "2"), fmt::format(document, "2")) << old;
   }
 }
 

@@ -58,7 +58,8 @@ TEST(ProgressLine, NamesThePole) {
 TEST(RunProgress, SpeaksInTheUnitsOfTheCase) {
   std::ostringstream out;
   Log log(out, out, false, false);
-  RunProgress progress(log, 0.0, 1.0, {.units = {.displacement = {.name = "um", .si_unit = "m", .in_si = 1e-6}}});
+  RunProgress progress(log, 0.0, 1.0,
+                       {.units = {.displacement = {.name = "um", .si_unit = "m", .in_si = 1e-6}}, .of_box = {}});
   IterationReport iteration{};
   iteration.iteration = 4, iteration.load = 0.25;
   progress.iterated(iteration);

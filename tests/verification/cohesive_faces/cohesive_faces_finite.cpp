@@ -43,7 +43,7 @@ TEST_P(FiniteBlocks, AreANeoHookeanBarInSeriesWithTheLaw) {
       moved("xmin", {true, false, false}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
       moved("xmax", {true, false, false}, [&](const Vector&, double t) -> Vector { return at(t) * Vector::UnitX(); })};
   for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) model.boundary.push_back(symmetry_on(side));
-  const std::vector<Step> steps = step_through(mesh, model, path.size() - 1);
+  const std::vector<Step> steps = finite_steps(mesh, model, path.size() - 1);
   ASSERT_EQ(steps.size(), path.size());
   double of_force = 0.0, of_opening = 0.0;
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -81,7 +81,7 @@ TEST_P(FiniteModes, TurnWithAnOpenedInterface) {
       moved("xmin", {true, true, true}, [&](const Vector& x, double t) -> Vector { return turn(t) * x - x; }),
       moved("xmax", {true, true, true},
             [&](const Vector& x, double t) -> Vector { return turn(t) * (x + std::min(0.5 * t, 1.0) * apart) - x; })};
-  const std::vector<Step> steps = step_through(mesh, model, 5, 1e-13);
+  const std::vector<Step> steps = finite_steps(mesh, model, 5, 1e-13);
   const Step &drawn = steps[2], &turned = steps[5];
   const Tensor R = turn(5.0);
   const double stored = drawn.energy.elastic + drawn.energy.interface_energy;

@@ -43,7 +43,7 @@ struct Step {
 };
 
 /// Steps through the values 1, 2 ... of the load parameter.
-inline std::vector<Step> step_through(const Mesh& mesh, const FractureModel& model, std::size_t n_steps,
+inline std::vector<Step> finite_steps(const Mesh& mesh, const FractureModel& model, std::size_t n_steps,
                                       double tolerance = 1e-12) {
   FractureRun run(mesh, model, {.equilibrium_tolerance = tolerance},
                   {.end = double(n_steps),
