@@ -47,19 +47,25 @@ class Importer {
       if (file_.cell_type[c] == 42) soup_.polyhedron_faces.push_back(renumbered_faces(polyhedron++));
     }
     if (soup_.shape.empty()) throw error("it has no volume cells" + why_no_volumes());
-    try {
+    return naming_file([&] {
       const std::vector<PatchRule> rules = patch_rules();
       Mesh mesh = assemble_mesh(std::move(soup_), rules);
       if (check) check(mesh);
       return mesh;
-    } catch (const InputError& e) {
-      throw error(e.what());
-    }
+    });
   }
 
  private:
   InputError error(const std::string& reason) const {
     return InputError(fmt::format("the mesh {}: {}", settings_.file.string(), reason));
+  }
+  // What `act` makes; its errors name the file.
+  auto naming_file(const auto& act) const -> decltype(act()) {
+    try {
+      return act();
+    } catch (const InputError& e) {
+      throw error(e.what());
+    }
   }
 
   void extrude_flat() {
@@ -69,11 +75,7 @@ class Importer {
       throw error(
           "a thickness is given, and it is not flat: triangles and quadrilaterals in a plane normal to an axis, "
           "and no other cells");
-    try {
-      extrude(file_, *flat_along_, settings_.thickness / settings_.scale);
-    } catch (const InputError& e) {
-      throw error(e.what());
-    }
+    naming_file([&] { extrude(file_, *flat_along_, settings_.thickness / settings_.scale); });
   }
 
   std::string why_no_volumes() const {
@@ -136,7 +138,7 @@ class Importer {
   void place_points() {
     soup_.points = std::move(file_.points);
     for (Vector& x : soup_.points) x *= settings_.scale;
-    check_points();
+    naming_file([&] { require_bounded(soup_.points, "it"); });
     if (settings_.merge_tolerance > 0.0) {
       new_point_ = merge_points(soup_.points, settings_.merge_tolerance);
     } else {
@@ -144,14 +146,6 @@ class Importer {
       std::iota(new_point_.begin(), new_point_.end(), 0);
     }
     drop_unused_points();
-  }
-
-  void check_points() const {
-    try {
-      require_bounded(soup_.points, "it");
-    } catch (const InputError& e) {
-      throw error(e.what());
-    }
   }
 
   // Meshers leave construction points in their files.
