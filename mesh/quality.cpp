@@ -8,6 +8,8 @@
 
 #include "mesh/cell_edges.h"
 
+#include <fmt/format.h>
+
 namespace pfdm {
 namespace {
 
