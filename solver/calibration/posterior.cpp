@@ -112,14 +112,20 @@ class Sampler {
     }
     return points;
   }
-  // Parameters beyond a bound are put on it.
-  VectorXd within_bounds(const VectorXd& z) const {
-    const std::vector<double> values = values_at(z);
-    if (is_within_bounds(values)) return z;
-    VectorXd x(centre_.size());
-    for (Eigen::Index j = 0; j < x.size(); ++j)
-      x[j] = in_fit(j, std::clamp(values[j], problem_.parameters[j].lower, problem_.parameters[j].upper));
-    return axes_.triangularView<Eigen::Lower>().solve(x - centre_);
+  // The nearest place, in standard errors, at which no parameter is beyond a bound or on it: one parameter after the
+  // other comes back, and those with which it is correlated follow.
+  VectorXd within_bounds(VectorXd z) const {
+    constexpr double inside = 0.99;  // of the way from the estimate to the bound
+    constexpr int most_turns = 50;
+    for (int turn = 0; turn < most_turns && !is_within_bounds(values_at(z)); ++turn)
+      for (Eigen::Index j = 0; j < z.size(); ++j) {
+        const double moved = axes_.row(j).dot(z);
+        const double due = std::clamp(moved, inside * (in_fit(j, problem_.parameters[j].lower) - centre_[j]),
+                                      inside * (in_fit(j, problem_.parameters[j].upper) - centre_[j]));
+        z += (due - moved) / axes_.row(j).squaredNorm() * axes_.row(j).transpose();
+      }
+    while (!is_within_bounds(values_at(z)) && z.norm() > 1e-6) z *= 0.7;
+    return z;
   }
 
   void run(const std::vector<VectorXd>& points) {

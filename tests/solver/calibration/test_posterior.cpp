@@ -151,6 +151,36 @@ TEST(Posterior, OfANonlinearModelIsThatOfAGrid) {
   }
 }
 
+// Two parameters that are all but one, correlated by -0.998, and a bound near the estimate of the second one: it has
+// what is left of its normal distribution, and the points stay where the others are likely.
+TEST(Posterior, EndsAtABoundWhereParametersAreCorrelated) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 8; ++i)
+    x.push_back(10.0 + 0.1 * i), y.push_back(1.0 + 2.0 * x.back() + 0.05 * ((i * 5) % 8 - 3.5));
+  FitProblem problem =
+      problem_of(straight, x, y, {parameter("a", 1.0, -1e3, 1e3), parameter("b", 2.0, -1e3, 1e3)}, 0.1);
+  const FitResult result = fit(problem);
+  const FitEstimate& b = result.estimates[1];
+  problem.parameters[1].upper = b.value + 0.4 * b.standard_error;
+  double farthest = 0.0;
+  const auto residuals = problem.residuals;
+  problem.residuals = [&](std::span<const double> p) {
+    EXPECT_LT(p[1], problem.parameters[1].upper);
+    double squares = 0.0;
+    auto r = residuals(p);
+    for (const double value : *r) squares += value * value;
+    farthest = std::max(farthest, std::sqrt(squares - result.sum_of_squares));  // in standard errors
+    return r;
+  };
+  const Posterior found = posterior(problem, result);
+  EXPECT_LT(farthest, 6.0);
+  EXPECT_LE(found.evaluations, 13);
+  EXPECT_LT(found.emulator_error, 1e-3);
+  // Quantiles of the standard normal distribution below 0.4, whose share is 0.6554.
+  for (const auto& [share, due] : {std::pair(0.025, -2.1359), {0.5, -0.4466}, {0.975, 0.3574}})
+    EXPECT_NEAR((found.quantile(1, share) - b.value) / b.standard_error, due, 0.15) << share;
+}
+
 // Values drawn from the prior, data from these: their ranks among the samples are uniform (Cook, Gelman, Rubin, J.
 // Comput. Graph. Stat. 15 (2006) 675).
 TEST(Posterior, RanksOfTrueValuesAreUniform) {

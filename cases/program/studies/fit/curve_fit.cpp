@@ -54,6 +54,7 @@ CurveFit::CurveFit(const CurveFitJob& job, Session& session)
         std::ranges::any_of(parameter.keys, [](const std::string& key) { return key.starts_with("experiment."); }));
   values_ = first_;
   is_estimated_.resize(values_.size(), false);
+  is_doubtful_.resize(values_.size(), false);
 }
 
 void CurveFit::run() {
@@ -185,14 +186,20 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   doubt(done, model_error, found.found);
   const bool is_last = &stage == &job_.settings.stages.back();
   if (is_last) found.found.sensitivity_file = add_sensitivity(done, found.found);
-  are_sound_ = are_sound_ && is_sound(found.found.verdict);
-  if (are_sound_) try {
+  if (is_sound(found.found.verdict) && !rests_on_doubts(stage)) try {
       if (job_.settings.intervals == Intervals::profile) add_profiles(done, found.found);
       if (job_.settings.intervals == Intervals::posterior && is_last) add_posterior(done, found.found);
     } catch (const NoConvergence& error) {
       found.found.warnings.push_back(fmt::format("without a posterior: {}", error.what()));
     }
+  for (const std::size_t j : stage.parameters) is_doubtful_[j] = !is_sound(found.found.verdict);
   return found;
+}
+
+bool CurveFit::rests_on_doubts(const CurveFitStage& stage) const {
+  for (std::size_t j = 0; j < is_doubtful_.size(); ++j)
+    if (is_doubtful_[j] && &*last_stage_of(j) < &stage) return true;
+  return false;
 }
 
 std::vector<CurveFitStage>::const_iterator CurveFit::last_stage_of(std::size_t parameter) const {

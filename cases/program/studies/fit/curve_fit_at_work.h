@@ -72,6 +72,9 @@ class CurveFit {
   bool screen(const FitProblem& problem, const FitSettings& settings, double misfit, FitResult& result);
   bool judge_stage(const DoneStage& done, FitFindings& found);
   std::vector<CurveFitStage>::const_iterator last_stage_of(std::size_t parameter) const;
+  /// Whether an earlier stage that is not sound estimated what neither this one nor a later one does: then the whole
+  /// fit has no intervals, and runs for them are saved.
+  bool rests_on_doubts(const CurveFitStage& stage) const;
 
   // Doubts, in curve_fit_doubts.cpp.
 
@@ -117,7 +120,7 @@ class CurveFit {
   std::vector<double> values_;              // of all parameters, as known so far [SI]
   std::vector<bool> is_of_set_up_;          // parameters of the measured curves: no run depends on them
   std::vector<bool> is_estimated_;          // by an earlier stage
-  bool are_sound_ = true;                   // all stages so far; else no intervals are made that cost runs
+  std::vector<bool> is_doubtful_;           // estimated last by a stage that is not sound
   std::map<std::string, CsvTable> tables_;  // that go with fit.json, by the names of their files
 };
 
