@@ -36,7 +36,7 @@ std::size_t n_points_of(int type) {
 // The points of a face around it.
 std::vector<Index> points_around_face(const MeshFile& file, Index cell) {
   const auto given = points_of_flat_cell(file, cell);
-  if (const std::size_t due = n_points_of(file.cell_type[as_size(cell)]); due > 0 && given.size() != due)
+  if (const std::size_t due = n_points_of(file.cell_type[cell]); due > 0 && given.size() != due)
     throw InputError(fmt::format("its cell {} has {} points; its type requires {}", cell, given.size(), due));
   std::vector<Index> ids(given.begin(), given.end());
   if (file.cell_type[cell] == vtk_pixel) std::swap(ids[2], ids[3]);

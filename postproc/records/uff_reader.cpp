@@ -11,6 +11,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 #include <string_view>
 
@@ -182,11 +183,12 @@ class UffReader {
       if (at == end) return;
       double value = 0.0;
       const auto [next, fault] = std::from_chars(at, end, value);
-      if (fault != std::errc()) {
+      const bool is_beyond = fault == std::errc::result_out_of_range;
+      if (is_beyond) value = std::strtod(at, nullptr);  // 0 where it is too small
+      if (fault == std::errc::invalid_argument || (is_beyond && std::isinf(value))) {
         const std::string_view rest(at, static_cast<std::size_t>(end - at));
-        throw error(fmt::format(
-            "\"{}\" is {}", rest.substr(0, rest.find_first_of(" \t")),
-            fault == std::errc::result_out_of_range ? "beyond the numbers of double precision" : "not a number"));
+        throw error(fmt::format("\"{}\" is {}", rest.substr(0, rest.find_first_of(" \t")),
+                                is_beyond ? "beyond the numbers of double precision" : "not a number"));
       }
       numbers.push_back(value);
       at = next;

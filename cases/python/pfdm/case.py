@@ -46,8 +46,7 @@ class Case:
         path = Path(where)
         self.file: Path = path / "case.toml" if path.is_dir() else path
         try:
-            with self.file.open("rb") as text:
-                self._table = tomllib.load(text)
+            self._table = tomllib.loads(self.file.read_text(encoding="utf-8-sig"))
         except OSError as error:
             raise InputError(f"{self.file}: there is no such case: {error.strerror}") from None
         except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

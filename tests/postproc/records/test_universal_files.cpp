@@ -151,6 +151,8 @@ TEST_F(UniversalFiles, SayWhatIsWrongWithThem) {
   EXPECT_THAT(refused(f.text()), HasSubstr("\"two\" is not a number"));
   f.values = "  1.0 1e999 2.0 3.0\n";
   EXPECT_THAT(refused(f.text()), HasSubstr("\"1e999\" is beyond the numbers of double precision"));
+  f.values = "  1.0 1e-400 two 3.0\n";  // too small is 0
+  EXPECT_THAT(refused(f.text()), HasSubstr("\"two\" is not a number"));
   f = {};
   f.data_type = 5;
   EXPECT_THAT(refused(f.text()), HasSubstr("complex"));
