@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pfdm {
+namespace pfdm::glued_interfaces {
 
 inline constexpr InterfaceStrength glued{
     .strength = 3e6, .toughness = 120.0, .shear_strength = 5e6, .shear_toughness = 300.0, .stiffness = 2e12};
@@ -79,4 +79,4 @@ inline Vector dissipation_differences(const InterfaceLaw& law, const InterfaceSt
   return slope;
 }
 
-}  // namespace pfdm
+}  // namespace pfdm::glued_interfaces

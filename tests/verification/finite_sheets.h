@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pfdm::verification {
+namespace pfdm::verification::sheets {
 
 inline const IsotropicElasticity rubber = from_young_poisson(1.5e6, 0.49);
 
@@ -51,4 +51,4 @@ inline std::vector<BoundaryCondition> bent(double size) {
   return boundary;
 }
 
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::sheets

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pfdm::verification {
+namespace pfdm::verification::swollen_bodies {
 
 inline const IsotropicElasticity soft = from_young_poisson(1e6, 0.3), rubber = from_young_poisson(1e6, 0.4999),
                                  stiffer = from_young_poisson(3e6, 0.3);
@@ -53,4 +53,4 @@ inline const Tensor uneven = Vector(0.2, -0.15, 0.3).asDiagonal(), even = 0.25 *
 
 inline Mesh cube() { return sphere_in_cube(1, 2, 2.0, 0.6); }
 
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::swollen_bodies

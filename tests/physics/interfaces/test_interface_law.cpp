@@ -13,6 +13,8 @@
 namespace pfdm::this_file {
 namespace {
 
+using namespace glued_interfaces;
+
 class InterfaceOfLaw : public testing::TestWithParam<TractionSeparationLaw> {
  protected:
   double length() const { return glued.toughness / glued.strength; }

@@ -16,6 +16,8 @@
 namespace pfdm::this_file {
 namespace {
 
+using namespace glued_interfaces;
+
 // Of the triangle at a mode mixity B: onset at sigma(B)/K, end at 2 Gc(B)/sigma(B), dissipated Gc(B).
 class LinearInMixedMode : public testing::TestWithParam<std::string_view> {
  protected:

@@ -15,6 +15,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::pulled_blocks;
+
 class TwoBlocks : public testing::TestWithParam<TractionSeparationLaw> {};
 
 // Displacement and traction of blocks and law in series: u = delta + 2 L T / E.

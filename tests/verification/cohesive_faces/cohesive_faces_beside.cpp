@@ -17,6 +17,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::pulled_blocks;
+
 // Two blocks with what may stand beside a face, uniform along x: u = delta + 2 L T/modulus.
 struct Beside {
   const char* name;

@@ -19,6 +19,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::finite_blocks;
+
 class FiniteBlocks : public testing::TestWithParam<TractionSeparationLaw> {};
 
 // Loaded to stretches of the blocks of up to 1.3, unloaded, closed.

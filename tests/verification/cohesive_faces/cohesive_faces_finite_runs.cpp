@@ -18,6 +18,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::finite_blocks;
+
 constexpr InterfaceStrength weak{.strength = 0.2, .toughness = 8e-8, .stiffness = 1e8};
 
 FractureModel weakly_bonded_sphere(const Mesh& mesh, double pull) {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace pfdm::verification {
+namespace pfdm::verification::finite_blocks {
 
 inline const IsotropicElasticity rubber = from_young_poisson(2e6, 0.3);
 inline constexpr InterfaceStrength bond{
@@ -67,4 +67,4 @@ inline double confined_stretch(double P) {
   return 0.5 * (low + high);
 }
 
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::finite_blocks

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pfdm::verification {
+namespace pfdm::verification::pulled_blocks {
 
 struct Point {
   Vector traction, separation;
@@ -64,4 +64,4 @@ inline std::vector<Point> lead(const InterfaceLaw& law, const std::vector<Vector
   return step_through(mesh, model, separation.size() - 1);
 }
 
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::pulled_blocks

@@ -20,6 +20,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::sheets;
+
 FractureModel damaged_sheet(const Mesh& mesh, std::string_view law, double nu,
                             std::vector<BoundaryCondition> boundary) {
   FractureModel model = finite_body(mesh, law_of(law, from_young_poisson(1.5e6, nu)), std::move(boundary));

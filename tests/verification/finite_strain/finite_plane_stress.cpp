@@ -21,6 +21,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::sheets;
+
 // A stretch of 1.8, a shear, a contraction.
 TEST(FinitePlaneStress, ASheetOfEachLawIsABlockThatIsFreeAcross) {
   const Tensor H = (Tensor() << 0.8, 0.3, 0.0, -0.1, -0.2, 0.0, 0.0, 0.0, 0.0).finished();

@@ -21,6 +21,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::swollen_bodies;
+
 // Over the shear modulus, and of F beyond F*.
 void expect_free(const std::string& name, const Mesh& mesh, const FractureModel& model, const Tensor& strain) {
   const Swollen free = swell(mesh, model, 2);

@@ -15,6 +15,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::swollen_bodies;
+
 // A sphere of radius 1 that swells by 20 % in a shell of radius 2. The shell by its equation of equilibrium, dP_r/dR +
 // 2 (P_r - P_t)/R = 0 with lambda_r = r', lambda_t = r/R, integrated by SciPy's solve_ivp with a relative error of
 // 1e-12: radius of the interface, radial stress P_r in the sphere, outer radius.

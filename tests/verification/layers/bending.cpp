@@ -19,6 +19,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::cantilever;
+
 Index iterations_of_all = 0;
 
 /// Mean deflection of the end over Timoshenko's; with these stiffness factors in the cells, if any.

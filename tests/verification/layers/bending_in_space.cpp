@@ -23,6 +23,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::cantilever;
+
 // A cantilever in space, its width given in thicknesses, the sides free.
 struct Cantilever {
   double wide = 1.0;

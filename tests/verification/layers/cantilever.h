@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pfdm::verification {
+namespace pfdm::verification::cantilever {
 
 inline constexpr double mm = 1e-3, E = 70e9, span = 25.0 * mm, height = 1.5 * mm, width = 1.0 * mm;
 inline const double section = std::pow(height, 3) / 12.0;
@@ -54,4 +54,4 @@ inline Index along_with(double ratio, Index across) {
   return static_cast<Index>(std::lround(span * static_cast<double>(across) / (ratio * height)));
 }
 
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::cantilever

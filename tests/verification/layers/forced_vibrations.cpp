@@ -17,6 +17,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::vibrating_boxes;
+
 using Complex = std::complex<double>;
 
 // A strip in cylindrical bending, 50 times as long as thick, eta = 0.1, on a base that moves across it: both its first

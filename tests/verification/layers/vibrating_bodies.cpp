@@ -18,6 +18,8 @@
 namespace pfdm::verification::this_file {
 namespace {
 
+using namespace verification::vibrating_boxes;
+
 /// omega length^2 sqrt(rho h/D) of the lowest modes.
 std::vector<double> lambda_of(const Mesh& mesh, const ElasticBody& body, double length, double h, double nu, int count,
                               bool plate = true) {

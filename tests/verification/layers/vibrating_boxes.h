@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace pfdm::verification {
+namespace pfdm::verification::vibrating_boxes {
 
 inline constexpr double pi = std::numbers::pi, rho = 1200.0, E = 20e6;
 
@@ -34,4 +34,4 @@ inline ElasticBody body_of(double nu, std::vector<BoundaryCondition> boundary) {
   return {.elasticity = {from_young_poisson(E, nu)}, .zone = {0}, .boundary = std::move(boundary)};
 }
 
-}  // namespace pfdm::verification
+}  // namespace pfdm::verification::vibrating_boxes
