@@ -1,5 +1,6 @@
 """What the program may do with a bad input: end soon, with little memory, with one message that says where."""
 
+import contextlib
 import os
 import re
 import resource
@@ -27,7 +28,8 @@ def run(command):
 
         def stop():
             late.set()
-            os.killpg(process.pid, signal.SIGKILL)  # with what it has begun
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)  # with what it has begun
 
         timer = threading.Timer(SECONDS, stop)
         timer.start()

@@ -17,7 +17,7 @@ FRAMES = """<?xml version="1.0"?>
 </Collection>
 </VTKFile>
 """
-MODEL = """{"structure": "2", "kernel_terms": 1, "verdict": "good", "reasons": ["a"], "relative_misfit": 0.1,
+MODEL = """{"structure": "2", "kernel_terms": 1, "verdict": "sound", "reasons": ["a"], "relative_misfit": 0.1,
 "predicted_relative_misfit": 0.2, "bic": -3.5, "parameters": [{"name": "k", "unit": "N/m", "estimate": 1.0,
 "lower": 0.5, "upper": 2.0, "bounds": [0, 3], "at_bound": false}]}"""
 CURVE = (
@@ -33,10 +33,11 @@ STORED = [
         '"wall_seconds": 1.5, "cpu_seconds": 2.5, "wall_seconds_by_stage": {"assembly": 0.5}, '
         '"cpu_seconds_by_stage": {"assembly": 0.5}, "peak_memory_bytes": 1e8, "rounds": 3, "figure": 0.5}'),
     (2, '{"format": 1, "kind": "fracture", "case": "a", "version": "0.1.0", "case_hash": "0123456789abcdef", '
-        '"method": "a", "wall_seconds": 1.5, "confidence": 0.95, "verdict": "good", "reasons": ["a"], '
+        '"method": "a", "wall_seconds": 1.5, "confidence": 0.95, "verdict": "sound", "reasons": ["a"], '
         '"converged": true, "message": "a", "parameters": [{"name": "k", "unit": "Pa", "estimate": 1.5, '
         '"standard_error": 0.1, "lower": 1.0, "upper": 2.0, "first_guess": 1.2, "at_bound": false, '
-        '"bounds": [0.1, 9.0], "log_scale": true, "profile": []}], "experiments": [{"name": "e", "fitted": true, '
+        '"bounds": [0.1, 9.0], "log_scale": true, "profile": {"lower": 0.5, "upper": 2.0, '
+        '"lower_open": false, "upper_open": true}}], "experiments": [{"name": "e", "fitted": true, '
         '"data": 12, "relative_misfit": 0.1, "unit": "N", "quantity": "force", "rms_misfit_N": 0.1, '
         '"rms_force_N": 1.0, "curve": "e.csv"}], "fracture": {}}'),
     (2, '{"format": 1, "kind": "mass_material", "case": "a", "version": "0.1.0", "case_hash": "0123456789abcdef", '
@@ -49,7 +50,7 @@ STORED = [
         '"repeat_deviation": null, "repeat_degrees_of_freedom": 3, "expected_deviation": 1, '
         '"effects": [{"name": "e", "value": 1, "lower_95": 0, "upper_95": 2}]}]}}}'),
     (3, '{"case": "a", "case_hash": "0123456789abcdef", "analysed": "fedcba9876543210", "records": []}'),
-    (4, '{"case": "a", "case_hash": "0123456789abcdef", "version": "0.1.0", "method": "a", "chosen": 0, '
+    (4, '{"case": "a", "case_hash": "0123456789abcdef", "version": "0.1.0", "method": "a", "chosen": "2", '
         f'"models": [{MODEL}]}}'),
     (5, '{"tests": [{"name": "a/b.csv"}, {"name": "c"}]}'),
     (6, '{"surface": "bead", "step": 3, "polar_angle_from_rad": 0.1, "polar_angle_to_rad": null, '
