@@ -143,6 +143,30 @@ TEST(FitIntervals, OfThePosteriorAreThoseOfTheLine) {
   EXPECT_TRUE(fit["posterior"]["law_files"].empty());
 }
 
+// A stage of two points is not sound. That matters where its estimate stays, not where the last stage estimates anew.
+TEST(FitIntervals, AreMadeWhereTheLastStageMendsAnEarlierOne) {
+  for (const bool anew : {true, false}) {
+    const std::string stages = fmt::format(R"([[fit.stages]]
+name = "few"
+parameters = ["experiment.offset"]
+between = ["0 um", "0.15 um"]
+[[fit.stages]]
+name = "elastic"
+parameters = ["materials.concrete.young_modulus"{}]
+)",
+                                           anew ? ", \"experiment.offset\"" : "");
+    const TemporaryCase directory(
+        replaced(case_with("intervals = \"posterior\""), "[[fit.stages]]\nname = \"elastic\"\n", stages));
+    directory.write("data.csv", "displacement_m,force_N,deviation_N\n0,0,1\n1e-6,1,1\n");
+    recorded(directory);
+    const Outcome outcome = run({"fit", directory.path().string()});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto fit = nlohmann::json::parse(content_of(directory.results() / "fit.json"));
+    EXPECT_EQ(fit["verdict"], anew ? "sound" : "questionable") << fit["reasons"];
+    EXPECT_EQ(fit.contains("posterior"), anew);
+  }
+}
+
 TEST(FitIntervals, OfAnotherKindAreRefused) {
   const TemporaryCase directory(case_with("intervals = \"bayes\""));
   directory.write("data.csv", "displacement_m,force_N,deviation_N\n0,0,1\n1e-6,1,1\n");
