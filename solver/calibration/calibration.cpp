@@ -83,7 +83,7 @@ FitResult fit(const FitProblem& problem, const FitSettings& settings) {
     result.starts.push_back(iteration_of(model, {found.x, found.cost}));
     if (best.message.empty() || found.cost < best.cost) best = std::move(found);
   }
-  if (!std::isfinite(best.cost)) throw ComputationError(fmt::format("the fit found no solution: {}", best.message));
+  if (!std::isfinite(best.cost)) throw NoConvergence(fmt::format("the fit found no solution: {}", best.message));
   if (model.n_residuals() < model.n_parameters())
     throw InputError(fmt::format(
         "{} residuals cannot determine {} parameters; at least as many residuals as parameters are required",

@@ -121,7 +121,7 @@ struct FitResult {
 };
 
 /// Throws InputError if the problem makes no sense (first guess out of bounds, a prior without known noise, fewer
-/// residuals than parameters), ComputationError if the model does not converge at any start.
+/// residuals than parameters), NoConvergence if the model does not converge at any start.
 FitResult fit(const FitProblem& problem, const FitSettings& settings = {});
 
 /// Bayesian information criterion of a fit with n residuals of unknown noise: n ln(sum/n) + k ln n. `negligible`: an

@@ -140,7 +140,7 @@ std::vector<Eigen::VectorXd> best_of_sample(const ScaledModel& model, const FitS
     result.screened.push_back({model.rms(candidates.back().cost), model.natural(u)});
   }
   std::erase_if(candidates, [](const Candidate& candidate) { return !std::isfinite(candidate.cost); });
-  if (candidates.empty()) throw ComputationError("the model converged at none of the sampled starting points");
+  if (candidates.empty()) throw NoConvergence("the model converged at none of the sampled starting points");
   const auto starts = static_cast<std::size_t>(settings.starts);
   keep_best(candidates, std::max(starts, (points.size() + 2) / 3));
   take_steps(model, settings, candidates);

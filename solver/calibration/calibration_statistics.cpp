@@ -137,7 +137,7 @@ double student_95(double degrees_of_freedom) { return student_quantile(0.95, deg
 void add_statistics(const ScaledModel& model, const Eigen::VectorXd& u, FitResult& result) {
   const auto r = model.residuals(u);
   const auto J = model.jacobian(u);
-  if (!r || !J) throw ComputationError("the model does not converge at the fitted parameters");
+  if (!r || !J) throw NoConvergence("the model does not converge at the fitted parameters");
   const std::size_t n = model.n_residuals(), k = model.n_parameters();
   result.residuals.assign(r->begin(), r->begin() + static_cast<std::ptrdiff_t>(n));
   for (const double value : result.residuals) result.sum_of_squares += value * value;

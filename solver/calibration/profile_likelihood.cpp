@@ -134,14 +134,14 @@ class ProfileSide {
       found_.evaluations += held.evaluations;
       point.others = held.values();
       return growth_of_squares(problem_, result_, k_, value, held);
-    } catch (const ComputationError&) {
+    } catch (const NoConvergence&) {
       fail(value);
     }
   }
 
   [[noreturn]] void fail(double value) const {
-    throw ComputationError(fmt::format("the profile of {}: the model does not converge with {:.5g} {}",
-                                       parameter().name, value, parameter().unit));
+    throw NoConvergence(fmt::format("the profile of {}: the model does not converge with {:.5g} {}", parameter().name,
+                                    value, parameter().unit));
   }
 
   /// On from the last point in the direction from the estimates to it.

@@ -151,7 +151,7 @@ bool CurveFit::screen(const FitProblem& problem, const FitSettings& settings, do
     if (!(other.rms < result.rms)) return false;
     result = std::move(other);
     return true;
-  } catch (const ComputationError&) {
+  } catch (const NoConvergence&) {
     return false;
   }
 }
@@ -186,11 +186,13 @@ FitStage CurveFit::fit_stage(const CurveFitStage& stage) {
   doubt(done, model_error, found.found);
   const bool is_last = &stage == &job_.settings.stages.back();
   if (is_last) found.found.sensitivity_file = add_sensitivity(done, found.found);
+  const bool is_by_profile = job_.settings.intervals == Intervals::profile;
   if (is_sound(found.found.verdict) && !rests_on_doubts(stage)) try {
-      if (job_.settings.intervals == Intervals::profile) add_profiles(done, found.found);
+      if (is_by_profile) add_profiles(done, found.found);
       if (job_.settings.intervals == Intervals::posterior && is_last) add_posterior(done, found.found);
     } catch (const NoConvergence& error) {
-      found.found.warnings.push_back(fmt::format("without a posterior: {}", error.what()));
+      found.found.warnings.push_back(
+          fmt::format("without {}: {}", is_by_profile ? "profiles" : "a posterior", error.what()));
     }
   for (const std::size_t j : stage.parameters) is_doubtful_[j] = !is_sound(found.found.verdict);
   return found;

@@ -29,7 +29,7 @@ std::optional<double> rms_of_fit(FitProblem problem, const FitResult& result, co
   for (std::size_t j = 0; j < problem.parameters.size(); ++j) problem.parameters[j].start = result.estimates[j].value;
   try {
     return fit(problem, settings).rms;
-  } catch (const ComputationError&) {
+  } catch (const NoConvergence&) {
     return std::nullopt;
   }
 }
