@@ -34,7 +34,8 @@ constexpr const char* cube_obj =
     "f 1//1 4//1 3//1 2//1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf -9 -5 -2 -6\n";
 
 fs::path file_with(const std::string& name, const std::string& content) {
-  const fs::path folder = fs::temp_directory_path() / "pfdm_particle_shapes";
+  const fs::path folder = fs::temp_directory_path() / (std::string("pfdm_particle_shapes_") +
+                                                       testing::UnitTest::GetInstance()->current_test_info()->name());
   fs::create_directories(folder);
   std::ofstream(folder / name, std::ios::binary) << content;
   return folder / name;

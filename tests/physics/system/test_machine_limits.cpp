@@ -15,7 +15,11 @@ namespace fs = std::filesystem;
 
 class ControlGroups : public testing::Test {
  protected:
-  ControlGroups() : root_(fs::path(testing::TempDir()) / "pfdm_control_groups") { fs::remove_all(root_); }
+  ControlGroups()
+      : root_(fs::path(testing::TempDir()) /
+              (std::string("pfdm_control_groups_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(root_);
+  }
   ~ControlGroups() override { fs::remove_all(root_); }
 
   void put(const std::string& file, const std::string& content) const {
