@@ -1,5 +1,5 @@
 #pragma once
-// The box around points.
+// Boxes along the axes, and the one around points.
 
 #include <span>
 
@@ -7,13 +7,13 @@
 
 namespace pfdm {
 
-struct BoundingBox {
+struct Box {
   Vector low, high;  ///< corners [m]
 };
 
 /// The smallest box along the axes around at least one point.
-inline BoundingBox bounding_box(std::span<const Vector> points) {
-  BoundingBox box{points.front(), points.front()};
+inline Box bounding_box(std::span<const Vector> points) {
+  Box box{points.front(), points.front()};
   for (const Vector& x : points) box = {box.low.cwiseMin(x), box.high.cwiseMax(x)};
   return box;
 }

@@ -4,13 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "mesh/fields.h"
+#include "mesh/bounding_box.h"
 
 namespace pfdm {
-
-struct Box {
-  Vector low, high;
-};
 
 /// A binary tree of boxes, halved at the median along the longest side of what it encloses. The order of a search
 /// depends on the boxes alone.

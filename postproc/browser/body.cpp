@@ -1,5 +1,6 @@
 #include "postproc/browser/body.h"
 
+#include "mesh/bounding_box.h"
 #include "physics/error.h"
 #include "postproc/browser/body_part.h"
 #include "postproc/fields/stored_cells.h"
@@ -125,11 +126,7 @@ std::vector<BodyFrame> taken_frames(const BodySettings& settings, const Body& bo
 /// The axis across which a plane through the middle meets every cell.
 int flat_axis_of(const Body& body) {
   std::array<bool, 3> flat{true, true, true};
-  Vector lower = body.points.front(), upper = lower;
-  for (const Vector& p : body.points) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
-  }
+  const auto [lower, upper] = bounding_box(body.points);
   const Vector middle = 0.5 * (lower + upper) + 1e-6 * (upper - lower);
   for_each_cell(body, [&](std::size_t, std::span<const Index> corners) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -150,11 +147,7 @@ Body read_body(const BodySettings& settings) {
   body.component = settings.component;
   const StoredCells mesh(settings.mesh);
   const std::vector<Vector> points = mesh.points();
-  Vector lower = points.front(), upper = lower;
-  for (const Vector& p : points) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
-  }
+  const auto [lower, upper] = bounding_box(points);
   body.cut_at = settings.cut_at.value_or(0.5 * (lower + upper));
   const BodyPart part = part_of(mesh, points, body.cut_at, settings.most_cells);
   take_mesh(body, mesh, part.cells);

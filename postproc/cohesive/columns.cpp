@@ -1,5 +1,6 @@
 #include "postproc/cohesive/columns.h"
 
+#include "mesh/bounding_box.h"
 #include "mesh/disjoint_sets.h"
 #include "physics/elasticity/plane_stress.h"
 #include "physics/error.h"
@@ -35,11 +36,7 @@ std::vector<Index> connected_parts(const Mesh& mesh, const std::vector<Index>& f
 
 // Length of the diagonal of the box around the mesh [m].
 double extent(const Mesh& mesh) {
-  Vector lower = mesh.points.front(), upper = lower;
-  for (const Vector& x : mesh.points) {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
+  const auto [lower, upper] = bounding_box(mesh.points);
   return (upper - lower).norm();
 }
 

@@ -1,5 +1,6 @@
 #include "solver/homogenization/box_sides.h"
 
+#include "mesh/bounding_box.h"
 #include "physics/error.h"
 
 #include <fmt/format.h>
@@ -95,11 +96,9 @@ std::vector<Index> BoxSides::all() const {
 
 BoxSides find_box_sides(const Mesh& mesh) {
   BoxSides sides;
-  sides.lower = sides.upper = mesh.points.front();
-  for (const Vector& x : mesh.points) {
-    sides.lower = sides.lower.cwiseMin(x);
-    sides.upper = sides.upper.cwiseMax(x);
-  }
+  const Box around = bounding_box(mesh.points);
+  sides.lower = around.low;
+  sides.upper = around.high;
   for (Index f = mesh.n_interior_faces(); f < mesh.n_faces(); ++f)
     if (const std::size_t side = side_of(mesh, sides, f); side < 6) sides.faces[side].push_back(f);
   require_covered(mesh, sides);
