@@ -9,7 +9,7 @@
 
 namespace pfdm {
 
-/// An index as a size, where the two are compared. Subscripts and lengths need no such word.
+/// An index as a size, where both meet in one expression. Subscripts and lengths alone need no such word.
 constexpr std::size_t as_size(std::integral auto i) { return static_cast<std::size_t>(i); }
 
 /// Zero, also for Eigen's types, which leave T{} uninitialised.

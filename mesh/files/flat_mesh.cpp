@@ -13,12 +13,10 @@ namespace {
 
 // vtkCellType.h
 constexpr int vtk_line = 3, vtk_triangle = 5, vtk_polygon = 7, vtk_pixel = 8, vtk_quadrilateral = 9;
-constexpr int vtk_first_volume = 10, vtk_hexahedron = 12, vtk_wedge = 13, vtk_polyhedron = 42;
-
-bool is_flat_face(int type) { return type == vtk_triangle || (type >= vtk_polygon && type <= vtk_quadrilateral); }
+constexpr int vtk_hexahedron = 12, vtk_wedge = 13, vtk_polyhedron = 42;
 
 std::span<const Index> points_of_flat_cell(const MeshFile& file, Index cell) {
-  const std::size_t from = file.cell_offsets[cell], to = as_size(file.cell_offsets[cell + 1]);
+  const std::size_t from = file.cell_offsets[cell], to = file.cell_offsets[cell + 1];
   return std::span(file.cell_points).subspan(from, to - from);
 }
 
@@ -49,7 +47,7 @@ class Extrusion {
 
   void add(Index cell, MeshFile& layer) const {
     const int type = flat_.cell_type[cell];
-    if (!is_flat_face(type) && type != vtk_line) {
+    if (!flat_.is_face(cell) && type != vtk_line) {
       const auto same = points_of_flat_cell(flat_, cell);
       return put(type, {same.begin(), same.end()}, layer);
     }
@@ -92,10 +90,10 @@ std::vector<Index> faces_of_prism(std::span<const Index> points) {
 
 std::optional<int> flat_along(const MeshFile& file) {
   std::optional<std::pair<Vector, Vector>> box;
-  for (std::size_t c = 0; c < file.cell_type.size(); ++c) {
-    if (file.cell_type[c] >= vtk_first_volume) return std::nullopt;
-    if (!is_flat_face(file.cell_type[c])) continue;
-    for (const Index p : points_of_flat_cell(file, static_cast<Index>(c))) {
+  for (Index c = 0; c < file.n_cells(); ++c) {
+    if (file.cell_type[c] > MeshFile::last_flat_type) return std::nullopt;
+    if (!file.is_face(c)) continue;
+    for (const Index p : points_of_flat_cell(file, c)) {
       const Vector& x = file.points[p];
       if (!box) box = {x, x};
       box = {box->first.cwiseMin(x), box->second.cwiseMax(x)};
