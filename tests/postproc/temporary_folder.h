@@ -1,7 +1,9 @@
 #pragma once
-// A folder of its own for each test, gone afterwards.
+// What tests of files share.
 
 #include <sys/resource.h>
+
+#include "tests/temporary_folder.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -12,30 +14,6 @@
 #include <string>
 
 namespace pfdm::test {
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "pfdm_test_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  std::size_t n_entries() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// While it lives, no file may grow beyond so many bytes: writes break off half-way, as on a full disk.
 class FileSizeLimit {

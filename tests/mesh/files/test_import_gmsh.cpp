@@ -10,6 +10,7 @@
 #include "mesh/files/import_mesh.h"
 #include "physics/error.h"
 #include "tests/mesh/mesh_checks.h"
+#include "tests/temporary_folder.h"
 
 namespace pfdm::this_file {
 namespace {
@@ -37,14 +38,6 @@ std::string content_of(const std::filesystem::path& path) {
 
 class ImportGmsh : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) / (std::string("pfdm_gmsh_") + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   ImportSettings write(const std::string& content) const {
     std::ofstream(folder_ / "mesh.msh", std::ios::binary) << content;
     return settings_of(folder_ / "mesh.msh");
@@ -57,7 +50,7 @@ class ImportGmsh : public ::testing::Test {
     return message;
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 // Of the format 2.2: points, then elements as "type group points".

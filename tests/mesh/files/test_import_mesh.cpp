@@ -10,6 +10,7 @@
 #include "physics/error.h"
 #include "tests/mesh/mesh_checks.h"
 #include "tests/mesh/vtu_text.h"
+#include "tests/temporary_folder.h"
 
 namespace pfdm::this_file {
 namespace {
@@ -19,15 +20,6 @@ using ::testing::HasSubstr;
 
 class ImportVtk : public ::testing::Test {
  protected:
-  // Tests run side by side, each in a folder of its own.
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(::testing::TempDir()) / (std::string("pfdm_import_") + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   ImportSettings write(const VtuText& text, const std::string& name = "mesh.vtu") const {
     ImportSettings settings;
     settings.file = folder_ / name;
@@ -38,7 +30,7 @@ class ImportVtk : public ::testing::Test {
     return settings;
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 VtuText tetrahedron() {

@@ -17,6 +17,7 @@
 #include "mesh/surfaces/surface_remeshing.h"
 #include "physics/error.h"
 #include "tests/mesh/mesh_checks.h"
+#include "tests/temporary_folder.h"
 
 namespace pfdm::this_file {
 namespace {
@@ -33,12 +34,10 @@ constexpr const char* cube_obj =
     "vn 0 0 1\n"
     "f 1//1 4//1 3//1 2//1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf -9 -5 -2 -6\n";
 
-fs::path file_with(const std::string& name, const std::string& content) {
-  const fs::path folder = fs::temp_directory_path() / (std::string("pfdm_particle_shapes_") +
-                                                       testing::UnitTest::GetInstance()->current_test_info()->name());
-  fs::create_directories(folder);
+TriangleSurface surface_in(const std::string& name, const std::string& content, std::size_t* n_merged = nullptr) {
+  const test::TemporaryFolder folder;
   std::ofstream(folder / name, std::ios::binary) << content;
-  return folder / name;
+  return read_surface_file(folder / name, n_merged);
 }
 
 std::string text_stl(const TriangleSurface& surface) {
@@ -70,7 +69,7 @@ std::string binary_stl(const TriangleSurface& surface) {
   return bytes;
 }
 
-TriangleSurface cube() { return read_surface_file(file_with("cube.obj", cube_obj)); }
+TriangleSurface cube() { return surface_in("cube.obj", cube_obj); }
 
 TriangleSurface ellipsoid(Index n) {
   TriangleSurface surface = unit_icosphere(n);
@@ -103,12 +102,12 @@ TEST(SurfaceFile, MergesPointsOfObjThatCoincide) {
     obj += "f -4 -3 -2 -1\n";
   }
   std::size_t n_merged = 0;
-  const TriangleSurface surface = read_surface_file(file_with("sides.obj", obj), &n_merged);
+  const TriangleSurface surface = surface_in("sides.obj", obj, &n_merged);
   EXPECT_EQ(n_merged, 16U);
   EXPECT_EQ(surface.points.size(), 8U);
   EXPECT_NEAR(enclosed_volume(surface), 1.0, 1e-12);
   EXPECT_NO_THROW(check_surfaces({{"it", surface}}));
-  read_surface_file(file_with("cube.obj", cube_obj), &n_merged);
+  surface_in("cube.obj", cube_obj, &n_merged);
   EXPECT_EQ(n_merged, 0U);
 }
 
@@ -117,7 +116,7 @@ TEST(SurfaceFile, StlAsTextInCapitalsAndBinaryIsTheSameSurface) {
   std::string capitals = text_stl(body);
   for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   for (const std::string& content : {text_stl(body), capitals, binary_stl(body)}) {
-    const TriangleSurface read = read_surface_file(file_with("ellipsoid.STL", content));
+    const TriangleSurface read = surface_in("ellipsoid.STL", content);
     EXPECT_EQ(read.points.size(), body.points.size());
     EXPECT_EQ(read.triangles.size(), body.triangles.size());
     EXPECT_NEAR(enclosed_volume(read) / enclosed_volume(body), 1.0, 2e-6);
@@ -127,7 +126,7 @@ TEST(SurfaceFile, StlAsTextInCapitalsAndBinaryIsTheSameSurface) {
 
 TEST(SurfaceFile, SaysWhatIsWrongAndWhere) {
   const auto message = [](const std::string& name, const std::string& content) {
-    return message_of<InputError>([&] { read_surface_file(file_with(name, content)); });
+    return message_of<InputError>([&] { surface_in(name, content); });
   };
   EXPECT_THAT(message("a.ply", "ply"), HasSubstr("must be a file .stl or .obj"));
   EXPECT_THAT(message("a.stl", "nothing of the kind"), HasSubstr("is no STL"));

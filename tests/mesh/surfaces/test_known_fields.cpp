@@ -15,6 +15,7 @@
 #include "physics/error.h"
 #include "tests/mesh/mesh_checks.h"
 #include "tests/mesh/vtu_text.h"
+#include "tests/temporary_folder.h"
 
 namespace pfdm::this_file {
 namespace {
@@ -39,20 +40,12 @@ std::vector<Vector> places(double half) {
 
 class KnownFields : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              (std::string("pfdm_fields_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   FieldFile read(const VtuText& text, double scale = 1.0, int component = 0) const {
     text.write_vtu(folder_ / "field.vtu");
     return read_field_file(folder_ / "field.vtu", "T", component, scale);
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(KnownFields, NearestIsTheNearestPoint) {

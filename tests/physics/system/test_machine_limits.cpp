@@ -1,5 +1,6 @@
 #include "physics/error.h"
 #include "physics/system/machine_limits.h"
+#include "tests/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,21 +16,14 @@ namespace fs = std::filesystem;
 
 class ControlGroups : public testing::Test {
  protected:
-  ControlGroups()
-      : root_(fs::path(testing::TempDir()) /
-              (std::string("pfdm_control_groups_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(root_);
-  }
-  ~ControlGroups() override { fs::remove_all(root_); }
-
   void put(const std::string& file, const std::string& content) const {
     fs::create_directories((root_ / file).parent_path());
     std::ofstream(root_ / file) << content;
   }
-  MachineLimits limits() const { return machine_limits(root_, root_ / "memberships"); }
+  MachineLimits limits() const { return machine_limits(root_.path(), root_ / "memberships"); }
 
  private:
-  fs::path root_;
+  test::TemporaryFolder root_;
 };
 
 TEST_F(ControlGroups, ThatAreNotThereLimitNothing) {

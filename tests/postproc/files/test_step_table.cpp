@@ -1,6 +1,7 @@
 #include "postproc/files/step_table.h"
 
 #include "physics/error.h"
+#include "tests/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,14 +13,9 @@
 namespace pfdm::this_file {
 namespace {
 
-std::filesystem::path table_in(const std::string& name) {
-  std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / name;
-  std::filesystem::remove(path);
-  return path;
-}
-
 TEST(StepTable, GoesOnAfterAStep) {
-  const auto path = table_in("step_table.csv");
+  const test::TemporaryFolder folder;
+  const auto path = folder / "steps.csv";
   {
     StepTable table(path, {"step", "G"}, std::nullopt);
     table.append({0.0, 0.1});
@@ -33,11 +29,12 @@ TEST(StepTable, GoesOnAfterAStep) {
   table.append({2.0, 1.0 / 3.0});
   EXPECT_EQ(StepTable(path, {"step", "G"}, 5).rows()[2], (std::vector<double>{2.0, 1.0 / 3.0}));
   EXPECT_TRUE(StepTable(path, {"step", "G"}, std::nullopt).rows().empty());
-  EXPECT_TRUE(StepTable(table_in("no_table.csv"), {"step", "G"}, 3).rows().empty());
+  EXPECT_TRUE(StepTable(folder / "none.csv", {"step", "G"}, 3).rows().empty());
 }
 
 TEST(StepTable, RefusesWhatIsNoSuchTable) {
-  const auto path = table_in("bad_step_table.csv");
+  const test::TemporaryFolder folder;
+  const auto path = folder / "steps.csv";
   for (const auto& [content, message] : {std::pair("step,J\n0,1\n", "line 1"), std::pair("step,G\n0,1\n1\n", "line 3"),
                                          std::pair("step,G\n0,one\n", "line 2")}) {
     std::ofstream(path) << content;

@@ -31,11 +31,18 @@ COUNTED = re.compile(r"seconds|memory|iterations|threads|runs|computed|found|sta
 TIMED = re.compile(r"\.log$|index\.html$|\.pdf$|report\.png$|chain\.json$|^case\.|\.pfdm$")
 
 
+def shipped(case, replacements):
+    """The text of a shipped case with others in place of these parts."""
+    text = (REPOSITORY / f"cases/{case}/case.toml").read_text()
+    for old, new in {"#:schema ../case.schema.json\n": "", **replacements}.items():
+        assert old in text, old
+        text = text.replace(old, new)
+    return text
+
+
 def small_bar():
-    text = (REPOSITORY / "cases/bar_at2/case.toml").read_text().replace("cells = 201", "cells = 41")
-    text = text.replace("initial_increment = 0.01", "initial_increment = 0.05")
-    text = text.replace("maximum_increment = 0.01", "maximum_increment = 0.05")
-    return text.replace("#:schema ../case.schema.json\n", "")
+    return shipped("bar_at2", {"cells = 201": "cells = 41", "initial_increment = 0.01": "initial_increment = 0.05",
+                               "maximum_increment = 0.01": "maximum_increment = 0.05"})
 
 
 def with_outputs(text):
@@ -46,12 +53,8 @@ def with_outputs(text):
 
 def short_fit():
     """cases/bar_fit in 2 CPU seconds: 49 runs on fewer cells in longer steps."""
-    text = (REPOSITORY / "cases/bar_fit/case.toml").read_text().replace("#:schema ../case.schema.json\n", "")
-    for old, new in (("cells = 161", "cells = 21"), ("energy_release = 0.02 ", "energy_release = 0.1 "),
-                     ("finest_increment = 1e-3", "finest_increment = 1e-2")):
-        assert old in text, old
-        text = text.replace(old, new)
-    return text
+    return shipped("bar_fit", {"cells = 161": "cells = 21", "energy_release = 0.02 ": "energy_release = 0.1 ",
+                               "finest_increment = 1e-3": "finest_increment = 1e-2"})
 
 
 def make_jobs(folder):
