@@ -12,6 +12,7 @@
 
 #include "solver/momentum/body/momentum_faces.h"
 #include "solver/momentum/body/unknowns.h"
+#include "solver/momentum/faces/surface_slopes.h"
 
 #include <functional>
 #include <vector>
@@ -50,8 +51,7 @@ class BondedSides {
     Vector d;            // from the face's centre [m]
     Vector coefficient;  // [1/m]
   };
-  void add(const Mesh& mesh, const Unknowns& unknowns, const momentum_faces::Side& side,
-           const std::vector<Index>& neighbours);
+  void add(const Mesh& mesh, const Unknowns& unknowns, const momentum_faces::Side& side, const SurfaceSlopes& slopes);
 
   std::vector<Index> number_;      // of each side
   std::vector<std::size_t> side_;  // of each of them

@@ -46,6 +46,10 @@ Vector MovedFaces::held(const Field& by, const Hold& hold) const {
   if (!hold.glides) return mean(by, hold.begin, hold.end) / hold.sum;
   Vector sum = Vector::Zero();
   for (std::size_t s = hold.begin; s < hold.end; ++s) sum += samples_[s].weight * by.u[samples_[s].node];
+  for (std::size_t r = hold.first_rise; r < hold.end_rise; ++r) {
+    const Sample& from = samples_[rises_[r].sample];
+    sum += from.weight * rises_[r].part * (by.u[rises_[r].node] - by.u[from.node]);
+  }
   return sum / hold.sum;
 }
 

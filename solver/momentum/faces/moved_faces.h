@@ -87,8 +87,16 @@ class MovedFaces {
   struct Hold {
     Tensor directions;
     std::size_t begin, end;
-    bool glides;       // along their faces, which hold it across themselves
+    bool glides;  // along their faces, which hold it across themselves
+    std::size_t first_rise = 0, end_rise = 0;
     double sum = 0.0;  // of the weights
+  };
+  // By what a displacement that varies along a gliding surface differs at a corner from that at the face of a sample:
+  // this part of its difference at another face.
+  struct Rise {
+    std::size_t sample;
+    Index node;
+    double part;
   };
   struct Corner {
     Vector point;  // undeformed [m]
@@ -112,6 +120,7 @@ class MovedFaces {
 
   std::vector<Sample> samples_;
   std::vector<Hold> holds_;
+  std::vector<Rise> rises_;
   std::vector<Corner> corners_;
   std::vector<Tensor> turns_;  // of the corners of axisymmetric meshes; else empty
   std::vector<Loop> loops_, sections_;

@@ -2,9 +2,11 @@
 
 #include "mesh/geometry.h"
 #include "solver/momentum/faces/moved_faces.h"
+#include "solver/momentum/faces/surface_slopes.h"
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace pfdm {
 namespace {
@@ -90,6 +92,7 @@ class MovedFacesBuilder {
     MovedFaces::Sample sample;
     Tensor held;
     bool glides;
+    std::vector<SurfaceSlopes::Sample> around{};  // of one that glides along a face whose displacement may vary
   };
 
   void unite(Index P, Index N, Index face) {
@@ -148,10 +151,30 @@ class MovedFacesBuilder {
             {.node = c, .cell = c, .bonded = -1, .d = within(mesh_.points[points_.point(s)] - mesh_.cell_centre[c])});
   }
 
+  Tensor held_directions(Index node) const {
+    return Tensor::Identity() - unknowns_.free_directions[node - unknowns_.n_cells];
+  }
+  static bool are_alike(const Tensor& held, const Tensor& other) {
+    constexpr double rounding = 1e-9;
+    return (held - other).norm() < rounding;
+  }
+
   void gather_from_nodes() {
+    std::optional<SurfaceSlopes> slopes;
+    const PatchCondition* on = nullptr;
     for (const MovedFaces::Place& place : places_) {
       if (place.node < 0 || !points_.has(place.cell)) continue;
-      const Tensor held = Tensor::Identity() - unknowns_.free_directions[place.node - unknowns_.n_cells];
+      const Tensor held = held_directions(place.node);
+      const bool glides = is_on_roller(place);
+      std::vector<SurfaceSlopes::Sample> around;
+      if (const PatchCondition* here = glides ? varied_on(place.face) : nullptr; here != nullptr) {
+        if (here != on) slopes.emplace(mesh_, mesh_.patches[here->patch]);
+        on = here;
+        around = slopes->at(place.face, [&](Index face) {
+          const Index node = unknowns_.node_of_face[face];
+          return node >= 0 && are_alike(held_directions(node), held);
+        });
+      }
       for (const Index p : points_and_apex(mesh_, place.face))
         from_nodes_[corner(place.cell, p)].push_back(
             {.sample = {.node = place.node,
@@ -159,8 +182,19 @@ class MovedFacesBuilder {
                         .bonded = bonded_.number(place.side),
                         .d = within(mesh_.points[p] - mesh_.face_centre[place.face])},
              .held = held,
-             .glides = is_on_roller(place)});
+             .glides = glides,
+             .around = around});
     }
+  }
+
+  // What is prescribed on the surface there, where its displacement is a function of the place.
+  const PatchCondition* varied_on(Index face) const {
+    for (const PatchCondition& on : unknowns_.conditions) {
+      const Patch& patch = mesh_.patches[on.patch];
+      const bool is_there = face >= patch.first_face && face < patch.first_face + patch.n_faces;
+      if (is_there && on.condition.kind == BoundaryCondition::Kind::components && on.condition.value) return &on;
+    }
+    return nullptr;
   }
 
   // Those that are held in the same directions stand together.
@@ -172,18 +206,26 @@ class MovedFacesBuilder {
     if (rest.empty()) faces_.samples_.insert(faces_.samples_.end(), from_cells_[k].begin(), from_cells_[k].end());
     while (!rest.empty()) {
       const Tensor held = rest.front().held;
-      const auto end = std::stable_partition(rest.begin(), rest.end(), [&](const OnNode& on) {
-        constexpr double rounding = 1e-9;
-        return (on.held - held).norm() < rounding;
-      });
-      const std::size_t begin = faces_.samples_.size();
+      const auto end =
+          std::stable_partition(rest.begin(), rest.end(), [&](const OnNode& on) { return are_alike(on.held, held); });
+      const bool glides = std::all_of(rest.begin(), end, [](const OnNode& on) { return on.glides; });
+      MovedFaces::Hold hold{.directions = held,
+                            .begin = faces_.samples_.size(),
+                            .end = 0,
+                            .glides = glides,
+                            .first_rise = faces_.rises_.size()};
       const auto is_bonded = [](const OnNode& on) { return on.sample.bonded >= 0; };
       const bool any_bonded = std::any_of(rest.begin(), end, is_bonded);  // their gradients are those of the surface
-      for (auto on = rest.begin(); on != end; ++on)
-        if (!any_bonded || is_bonded(*on)) faces_.samples_.push_back(on->sample);
-      const bool glides = std::all_of(rest.begin(), end, [](const OnNode& on) { return on.glides; });
-      if (!held.isZero())
-        faces_.holds_.push_back({.directions = held, .begin = begin, .end = faces_.samples_.size(), .glides = glides});
+      for (auto on = rest.begin(); on != end; ++on) {
+        if (any_bonded && !is_bonded(*on)) continue;
+        for (const SurfaceSlopes::Sample& of : on->around)
+          faces_.rises_.push_back({.sample = faces_.samples_.size(),
+                                   .node = unknowns_.node_of_face[of.face],
+                                   .part = of.coefficient.dot(on->sample.d)});
+        faces_.samples_.push_back(on->sample);
+      }
+      hold.end = faces_.samples_.size(), hold.end_rise = faces_.rises_.size();
+      if (!held.isZero()) faces_.holds_.push_back(hold);
       rest.erase(rest.begin(), end);
     }
     corner.end = faces_.samples_.size();

@@ -198,5 +198,41 @@ TEST(RubberBlocks, AffineMapsAreExactOnEveryKindOfCell) {
   }
 }
 
+// A block on rollers, the displacement across which varies along them so that the block turns: it has no stress.
+TEST(RubberBlocks, TurnOnRollersThatTurn) {
+  const IsotropicElasticity block = from_young_poisson(1.5e6, 0.4995);
+  const auto material = make_hyperelastic("neo_hookean", {.elasticity = block});
+  const auto turned = [](double t) -> Tensor {
+    return Eigen::AngleAxisd(0.4 * t, Vector(1.0, -0.5, 2.0).normalized()).toRotationMatrix() - Tensor::Identity();
+  };
+  const Mesh layered = sphere_in_cube(2, 3, 2.0, 0.8);
+  const auto as_is = [](const Vector& s) { return s; };
+  for (const auto& [name, mesh] : {std::pair{"hexahedra", mapped_box({4, 3, 3}, as_is)},
+                                   {"prisms", mapped_box({4, 3, 3}, as_is, BoxCells::prisms)},
+                                   {"tetrahedra", mapped_box({2, 2, 2}, as_is, BoxCells::tetrahedra)},
+                                   {"tetrahedra around prisms", layered},
+                                   {"polyhedra", barycentric_dual(layered)}}) {
+    std::vector<BoundaryCondition> boundary;
+    for (const Patch& patch : mesh.patches) {
+      const Index axis = patch.name.front() - 'x';
+      boundary.push_back(moved(patch.name, {axis == 0, axis == 1, axis == 2}, [=](const Vector& x, double t) -> Vector {
+        return (turned(t) * x)[axis] * Vector::Unit(axis);
+      }));
+    }
+    const FractureModel model = finite_body(mesh, material, boundary);
+    const Drawn drawn = draw(mesh, model, 4, 1e-11);
+    const Tensor H = turned(1.0);
+    double u = 0.0, q = 0.0;
+    for (Index c = 0; c < mesh.n_cells(); ++c)
+      u = std::max(u, (drawn.state.displacement[c] - H * mesh.cell_centre[c]).norm());
+    const Unknowns unknowns = place_unknowns(mesh, elastic_body(model));
+    for (std::size_t k = 0; k < unknowns.pressure_cells.size(); ++k)
+      q = std::max(q, std::abs(drawn.state.displacement[unknowns.n_nodes() + k][0]) / block.mu);
+    report_row(fmt::format("turned on rollers, {} {}", mesh.n_cells(), name), {{"u", u}, {"q / mu", q}});
+    EXPECT_LE(u, 1e-9);
+    EXPECT_LE(q, 1e-7);
+  }
+}
+
 }  // namespace
 }  // namespace pfdm::verification::this_file
