@@ -68,7 +68,7 @@ void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gr
         change += slopes_[k].weight_over_length * difference(k);
       for (std::size_t h = line.first_held; h < line.end_held; ++h)
         for (std::size_t k = line.first_slope; k < line.end_slope; ++k)
-          change += held_[h].weights[k - line.first_slope] * (held_[h].part * difference(k));
+          change += held_[h].change[k - line.first_slope] * (held_[h].part * difference(k));
       G += in.weight * change * line.along.transpose();
     }
   });
@@ -78,10 +78,11 @@ void LayerGradients::correct(const std::vector<Vector>& u, CellField<Tensor>& gr
     Tensor& change = changes[at.side];
     change = more - more * at.n * at.n.transpose();
     if (at.first_slope == at.end_slope) return;
-    Vector slope = -(change * at.along);
+    Vector sum = Vector::Zero();
     for (std::size_t k = at.first_slope; k < at.end_slope; ++k)
-      slope += at.weight * slopes_[k].weight_over_length *
-               (u[slopes_[k].to] - u[slopes_[k].from] - gradients[at.cell] * slopes_[k].step);
+      sum += slopes_[k].weight_over_length *
+             (u[slopes_[k].to] - u[slopes_[k].from] - gradients[at.cell] * slopes_[k].step);
+    const Vector slope = at.weight * (at.of_slopes * sum) - change * at.along;
     change += at.across * slope * at.n.transpose() / at.n.dot(at.along);
   });
 }

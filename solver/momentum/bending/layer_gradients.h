@@ -32,6 +32,7 @@
 #include "mesh/mesh.h"
 #include "solver/momentum/bending/bending_layers.h"
 #include "solver/momentum/bending/cubic_faces.h"
+#include "solver/momentum/bending/line_weights.h"
 #include "solver/momentum/body/momentum_faces.h"
 #include "solver/parallel.h"
 
@@ -96,12 +97,6 @@ class LayerGradients {
     Index before, after;  // the cells beside this one, itself where there is none
     double spread;        // of a cell's length over twelve's root and the distance of these two
   };
-  // Where a line ends at a face that holds some components alone, as a plane of symmetry does: by what these change the
-  // weights over the lengths of the line's slopes [1/m].
-  struct HeldEnd {
-    Tensor part;
-    std::array<double, 4> weights;
-  };
   struct Cell {
     Index cell;
     std::size_t first_line, end_line;
@@ -114,8 +109,9 @@ class LayerGradients {
                    // if the other one lies beyond it; a part of that at free ends of long cells
     Vector n;
     std::size_t side;
-    std::size_t first_slope, end_slope;  // of bonded and held ones, else none: their sum is what the slope along the
-    Tensor across;                       // line changes by to the surface, of these components
+    std::size_t first_slope, end_slope;  // of bonded and held ones, else none: this part of their sum is what the slope
+    Tensor of_slopes;                    // along the line changes by to the surface,
+    Tensor across;                       // of these components
     Vector along;
     double weight = 1.0;
   };
@@ -128,7 +124,7 @@ class LayerGradients {
   std::vector<Cell> cells_;
   std::vector<Line> lines_;
   std::vector<Slope> slopes_;
-  std::vector<HeldEnd> held_;
+  std::vector<LineWeights::Change> held_;  // of the lines, over the lengths of their slopes [1/m]
   std::vector<Surface> surfaces_;
   std::vector<Tensor> sound_weights_, weights_;  // per link [-]
   std::vector<std::array<Index, 2>> cells_of_link_;

@@ -2,7 +2,7 @@
 
 #include "solver/momentum/bending/layer_gradients.h"
 
-#include "solver/momentum/bending/cubic_fit.h"
+#include "solver/momentum/bending/line_weights.h"
 #include "solver/parallel.h"
 
 #include <algorithm>
@@ -14,13 +14,10 @@
 #include <vector>
 
 namespace pfdm {
-namespace {
-
-using FacePair = std::array<Index, 2>;
-
-}  // namespace
 
 class LayerGradients::Maker {
+  using FacePair = std::array<Index, 2>;
+
  public:
   Maker(const Mesh& mesh, const Unknowns& unknowns, const std::vector<CubicFaces::Side>& sides,
         const std::vector<momentum_faces::Link>& links, OwnSides own, LayerGradients& made)
@@ -143,24 +140,18 @@ class LayerGradients::Maker {
     has_line_.push_back(faces[0]);
     const std::vector<Place> places = places_through(cell, faces);
     if (places.empty()) return;
-    std::array<double, 4> at{};
-    for (std::size_t k = 0; k < places.size(); ++k) at[k] = places[k].at;
-    const std::array<double, 4> weights = cubic::mean_weights(at, places.size());
-    const std::size_t first = made_.slopes_.size();
+    std::vector<LinePlace> at;
+    for (const Place& in : places)
+      at.push_back({in.at, in.at_held, in.face < 0 ? Tensor::Zero() : Tensor(Tensor::Identity() - free_part(in.face))});
+    const LineWeights weights = line_weights(at);
+    const std::size_t first = made_.slopes_.size(), first_held = made_.held_.size();
     for (std::size_t k = 0; k < places.size(); ++k) {
       const Vector step = place(places[k].to) - place(places[k].from);
-      made_.slopes_.push_back({places[k].from, places[k].to, step, weights[k] / step.norm()});
+      made_.slopes_.push_back({places[k].from, places[k].to, step, weights.of_all[k] / step.norm()});
     }
-    const std::size_t first_held = made_.held_.size();
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      if (places[k].face < 0) continue;
-      std::array<double, 4> with_held = at;
-      with_held[k] = places[k].at_held;
-      HeldEnd end{.part = Tensor::Identity() - free_part(places[k].face),
-                  .weights = cubic::mean_weights(with_held, places.size())};
-      for (std::size_t m = 0; m < places.size(); ++m)
-        end.weights[m] = (end.weights[m] - weights[m]) / made_.slopes_[first + m].step.norm();
-      made_.held_.push_back(end);
+    for (LineWeights::Change of : weights.of_held) {
+      for (std::size_t k = 0; k < places.size(); ++k) of.change[k] /= made_.slopes_[first + k].step.norm();
+      made_.held_.push_back(of);
     }
     const auto neighbour = [&](Index face) {
       const Index next = beyond(cell, face).cell;
@@ -189,17 +180,22 @@ class LayerGradients::Maker {
     return normal / normal.dot(line);
   }
 
+  // The slope towards a bonded or held face changes from the middle of the half cell to it by `part` of their sum.
+  struct HalfSlopes {
+    std::vector<Slope> slopes;
+    Tensor part = Tensor::Zero();
+  };
+
   // `beside`: the cell from whose derivatives along the face, and the cell's own, those on it follow, by this part.
-  // `across`: components whose derivative across the face follows from `half_slopes`.
-  void add_side(Index cell, Index face, Index beside, double part, const std::vector<Slope>& half_slopes = {},
-                const Tensor& across = Tensor::Identity()) {
+  // `across`: components whose derivative across the face follows from `half`.
+  void add_side(Index cell, Index face, Index beside, double part, const HalfSlopes& half, const Tensor& across) {
     const auto side = side_of(cell, face);
     if (beside < 0 || !side || std::ranges::find(has_surface_, face) != has_surface_.end()) return;
     has_surface_.push_back(face);
     const Vector& centre = mesh_.cell_centre[cell];
     const Vector to_face = mesh_.face_centre[face] - centre, to_other = mesh_.cell_centre[beside] - centre;
     const std::size_t first = made_.slopes_.size();
-    made_.slopes_.insert(made_.slopes_.end(), half_slopes.begin(), half_slopes.end());
+    made_.slopes_.insert(made_.slopes_.end(), half.slopes.begin(), half.slopes.end());
     made_.surfaces_.push_back({.cell = cell,
                                .next = beside,
                                .ratio = std::copysign(part * to_face.norm() / to_other.norm(), -to_face.dot(to_other)),
@@ -207,6 +203,7 @@ class LayerGradients::Maker {
                                .side = *side,
                                .first_slope = first,
                                .end_slope = made_.slopes_.size(),
+                               .of_slopes = half.part,
                                .across = across,
                                .along = to_face.normalized()});
   }
@@ -214,7 +211,9 @@ class LayerGradients::Maker {
   // The next one inwards.
   Index cell_behind(Index cell, Index face) const { return beyond(cell, opposite_face(mesh_, cell, face)).cell; }
 
-  void add_surface(Index cell, Index face, double part = 1.0) { add_side(cell, face, cell_behind(cell, face), part); }
+  void add_surface(Index cell, Index face, double part = 1.0) {
+    add_side(cell, face, cell_behind(cell, face), part, {}, Tensor::Zero());
+  }
 
   // The components that are held at the end of a line have a slope across it.
   void add_mirror(Index cell, Index face) {
@@ -238,23 +237,23 @@ class LayerGradients::Maker {
     const Index other = mesh_.across(face, cell), next = cell_behind(cell, face);
     const double here = shear_modulus(cell), there = shear_modulus(other);
     const bool are_alike = std::max(here, there) <= most_alike * std::min(here, there);
-    add_side(cell, face, are_alike || next < 0 ? other : next, 1.0, half_slopes(cell, face));
+    add_side(cell, face, are_alike || next < 0 ? other : next, 1.0, half_slopes(cell, face), Tensor::Identity());
   }
   double shear_modulus(Index cell) const { return unknowns_.sound[unknowns_.zone[cell]].mu; }
 
-  // Whose sum is what the slope towards a bonded or held face changes by from the middle of the half cell to the face,
-  // by that slope and the next one inwards.
-  std::vector<Slope> half_slopes(Index cell, Index face) const {
+  // Of the slope towards a face and the next one inwards; this is half-way to a node, but at it if a component is free.
+  HalfSlopes half_slopes(Index cell, Index face) const {
     const Index opposite = opposite_face(mesh_, cell, face), next = beyond(cell, opposite).cell;
     const Index inwards = next >= 0 ? next : unknowns_.node_beside(mesh_, cell, opposite);
     if (inwards < 0) return {};
     const Vector& centre = mesh_.cell_centre[cell];
     const Vector near = mesh_.face_centre[face] - centre, far = place(inwards) - centre;
-    const double at_near = near.norm() / 2.0, at_far = far.norm() / (is_free(opposite) ? 1.0 : 2.0);
-    const double part = at_near / (at_near + at_far);
+    const double at_near = near.norm() / 2.0, half_way = far.norm() / 2.0;
+    const double part = at_near / (at_near + half_way), part_of_free = at_near / (at_near + far.norm());
     const std::size_t at = cell, node = as_size(unknowns_.node_beside(mesh_, cell, face));
-    return {{.from = at, .to = node, .step = near, .weight_over_length = part / near.norm()},
-            {.from = at, .to = as_size(inwards), .step = far, .weight_over_length = part / far.norm()}};
+    return {.slopes = {{.from = at, .to = node, .step = near, .weight_over_length = 1.0 / near.norm()},
+                       {.from = at, .to = as_size(inwards), .step = far, .weight_over_length = 1.0 / far.norm()}},
+            .part = part * Tensor::Identity() + (part_of_free - part) * free_part(opposite)};
   }
 
   // Each cell of the face by half.
