@@ -53,7 +53,7 @@ CellField<double> MomentumOperator::set_law(StrainLaw law, const CellField<doubl
 
 CellField<double> MomentumOperator::set_finite(const FiniteLawAt& law, const CellField<double>& g,
                                                const std::vector<Vector>& u, double t, double part) {
-  finite_ = &choose<FiniteTractions>();
+  finite_ = &choose<FiniteTractions>(*eigenstrain_);
   const auto lease = sweep();
   finite_->set(law, g, u, part, *lease);
   loads_.follow(t, u, lease->gradients, g);

@@ -67,11 +67,12 @@ class LayerGradients {
   /// Turns the gradients of one ring of the displacements u into those along the lines, and finds by what the gradient
   /// at a side, by its number, differs from that of the cell; sides that are no surfaces are left alone.
   void correct(const std::vector<Vector>& u, CellField<Tensor>& gradients, std::vector<Tensor>& changes) const;
-  /// What the gradient of a cell varies by along one of its lines: the root of the mean square of that over the cell
-  /// [-].
-  Tensor spread(Index line, const CellField<Tensor>& gradients) const {
+  /// What a field of the cells, as their gradient, varies by along one of a cell's lines: the root of the mean square
+  /// of that over the cell.
+  template <class Value>
+  Value spread(Index line, const CellField<Value>& of_cells) const {
     const Line& on = lines_[line];
-    return on.spread * (gradients[on.after] - gradients[on.before]);
+    return on.spread * (of_cells[on.after] - of_cells[on.before]);
   }
   /// Calls see(cell, how much its lines count, the first of its lines, the one behind the last) of all cells with
   /// lines.
@@ -79,6 +80,10 @@ class LayerGradients {
   void each_cell(const See& see) const;
   /// The sides, by their numbers, whose gradients differ from those of their cells.
   std::vector<std::size_t> surface_sides() const;
+  /// By what a field of the cells, as their eigenstrains, differs at these sides from that of the cell where it is
+  /// linear along the line: calls see(side, cell, the next cell inwards, the part of the difference of both).
+  template <class See>
+  void extrapolate(const See& see) const;
   /// The weights of the components of the jump at a link.
   const Tensor& weight(std::size_t link) const { return weights_[link]; }
 
@@ -105,8 +110,10 @@ class LayerGradients {
   // A side with a gradient of its own, and the next cell of its line inwards, or the one bonded to it.
   struct Surface {
     Index cell, next;
-    double ratio;  // distance of the surface from the cell's centre, over that of the two centres; negative
-                   // if the other one lies beyond it; a part of that at free ends of long cells
+    double ratio;         // distance of the surface from the cell's centre, over that of the two centres; negative
+                          // if the other one lies beyond it; a part of that at free ends of long cells
+    Index behind;         // the next one inwards, -1: none,
+    double behind_ratio;  // and the ratio of that one
     Vector n;
     std::size_t side;
     std::size_t first_slope, end_slope;  // of bonded and held ones, else none: this part of their sum is what the slope
@@ -139,6 +146,14 @@ void LayerGradients::each_cell(const See& see) const {
   parallel_for(count_of(cells_), [&](Index i) {
     const Cell& in = cells_[i];
     see(in.cell, in.weight, static_cast<Index>(in.first_line), static_cast<Index>(in.end_line));
+  });
+}
+
+template <class See>
+void LayerGradients::extrapolate(const See& see) const {
+  parallel_for(count_of(surfaces_), [&](Index i) {
+    const Surface& at = surfaces_[i];
+    if (at.behind >= 0) see(at.side, at.cell, at.behind, at.weight * at.behind_ratio);
   });
 }
 

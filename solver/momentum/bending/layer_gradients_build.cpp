@@ -2,6 +2,7 @@
 
 #include "solver/momentum/bending/layer_gradients.h"
 
+#include "solver/momentum/bending/line_walk.h"
 #include "solver/momentum/bending/line_weights.h"
 #include "solver/parallel.h"
 
@@ -23,6 +24,7 @@ class LayerGradients::Maker {
         const std::vector<momentum_faces::Link>& links, OwnSides own, LayerGradients& made)
       : mesh_(mesh),
         unknowns_(unknowns),
+        walk_(mesh, unknowns),
         links_(links),
         has_all_sides_(own == OwnSides::surfaces_ends_and_interfaces),
         made_(made),
@@ -50,52 +52,26 @@ class LayerGradients::Maker {
     made_.cells_.back().end_line = made_.lines_.size();
     for (const BendingCell& in : all)
       for (const Index face : in.along)
-        if (is_mirror(face)) add_mirror(cell, face);
+        if (walk_.is_mirror(face)) add_mirror(cell, face);
     for (const BendingCell& in : all)
       for (const Index face : in.across) {
-        if (is_free(face) || unknowns_.is_split(face)) add_surface(cell, face);
-        if (has_all_sides_ && is_bonded(face)) add_bond(cell, face);
+        if (walk_.is_free(face) || unknowns_.is_split(face)) add_surface(cell, face);
+        if (has_all_sides_ && walk_.is_bonded(face)) add_bond(cell, face);
       }
     for (const BendingCell& in : all)
       for (const Index face : in.along) {
-        if (const double part = part_of_end(all, face); has_all_sides_ && is_free(face) && part > 0.0)
+        if (const double part = part_of_end(all, face); has_all_sides_ && walk_.is_free(face) && part > 0.0)
           add_surface(cell, face, part);
         weigh_jump(in, face);
       }
   }
 
  private:
-  // A cell beyond a face in its line, and that cell's far face; no cell where the face carries a node.
-  struct Step {
-    Index cell = -1, far = -1;
-  };
-  Step beyond(Index cell, Index face) const {
-    if (!mesh_.is_interior(face) || unknowns_.node_beside(mesh_, cell, face) >= 0) return {};
-    const Index other = mesh_.across(face, cell);
-    return {.cell = other, .far = opposite_face(mesh_, other, face)};
-  }
-  double length(Index f, Index g) const { return (mesh_.face_centre[g] - mesh_.face_centre[f]).norm(); }
-  Vector place(std::size_t unknown) const { return unknowns_.place(mesh_, static_cast<Index>(unknown)); }
   std::optional<std::size_t> side_of(Index cell, Index face) const {
     for (const auto& [f, side] : sides_of_[cell])
       if (f == face) return side;
     return std::nullopt;
   }
-  // On the surface of the body: components whose traction is prescribed, in plane meshes of those within the plane.
-  Tensor free_part(Index face) const {
-    const Index node = unknowns_.node_of_face[face];
-    if (mesh_.is_interior(face) || node < 0) return Tensor::Zero();
-    return unknowns_.free_within(node);
-  }
-  bool is_free(Index face) const { return !free_part(face).isZero(); }
-  bool is_mirror(Index face) const {
-    const Vector& across = unknowns_.plane_normal;
-    return is_free(face) && !(free_part(face) + across * across.transpose()).isIdentity();
-  }
-  bool is_bonded(Index face) const {
-    return mesh_.is_interior(face) && !unknowns_.is_split(face) && unknowns_.node_of_face[face] >= 0;
-  }
-
   struct Place {
     std::size_t from, to;  // outwards from the first cell of the line
     double at;             // of the slope from that cell's centre, over its length
@@ -105,18 +81,19 @@ class LayerGradients::Maker {
   // The slope at the face of a cell of the line: at the distance `x`, the face's distance from the cell's own centre
   // being `half`, over the length of the first one. Nothing where the face carries neither a cell beyond nor a node.
   std::optional<Place> slope_at(Index cell, Index face, double x, double half) const {
-    if (const Step next = beyond(cell, face); next.cell >= 0) return Place{as_size(cell), as_size(next.cell), x, x, -1};
+    if (const LineWalk::Step next = walk_.beyond(cell, face); next.cell >= 0)
+      return Place{as_size(cell), as_size(next.cell), x, x, -1};
     const Index node = unknowns_.node_beside(mesh_, cell, face);
     if (node < 0) return std::nullopt;
-    const double middle = x - half / 2.0, at = is_free(face) ? x : middle;
-    return is_mirror(face) ? Place{as_size(cell), as_size(node), at, middle, face}
-                           : Place{as_size(cell), as_size(node), at, at, -1};
+    const double middle = x - half / 2.0, at = walk_.is_free(face) ? x : middle;
+    return walk_.is_mirror(face) ? Place{as_size(cell), as_size(node), at, middle, face}
+                                 : Place{as_size(cell), as_size(node), at, at, -1};
   }
 
   // Slopes through a cell, those towards its first face at negative places, all along the line; empty where its own
   // faces have none.
   std::vector<Place> places_through(Index cell, const FacePair& faces) const {
-    const double unit = length(faces[0], faces[1]);
+    const double unit = walk_.length(faces[0], faces[1]);
     std::vector<Place> places;
     for (const Index face : faces) {
       const auto add = [&](Place place) {
@@ -126,9 +103,9 @@ class LayerGradients::Maker {
       const std::optional<Place> here = slope_at(cell, face, 0.5, 0.5);
       if (!here) return {};
       add(*here);
-      const Step next = beyond(cell, face);
+      const LineWalk::Step next = walk_.beyond(cell, face);
       if (next.cell < 0 || next.far < 0) continue;
-      const double width = length(face, next.far) / unit;
+      const double width = walk_.length(face, next.far) / unit;
       if (const auto there = slope_at(next.cell, next.far, 0.5 + width, width / 2.0)) add(*there);
     }
     return places;
@@ -142,11 +119,12 @@ class LayerGradients::Maker {
     if (places.empty()) return;
     std::vector<LinePlace> at;
     for (const Place& in : places)
-      at.push_back({in.at, in.at_held, in.face < 0 ? Tensor::Zero() : Tensor(Tensor::Identity() - free_part(in.face))});
+      at.push_back(
+          {in.at, in.at_held, in.face < 0 ? Tensor::Zero() : Tensor(Tensor::Identity() - walk_.free_part(in.face))});
     const LineWeights weights = line_weights(at);
     const std::size_t first = made_.slopes_.size(), first_held = made_.held_.size();
     for (std::size_t k = 0; k < places.size(); ++k) {
-      const Vector step = place(places[k].to) - place(places[k].from);
+      const Vector step = walk_.place(places[k].to) - walk_.place(places[k].from);
       made_.slopes_.push_back({places[k].from, places[k].to, step, weights.of_all[k] / step.norm()});
     }
     for (LineWeights::Change of : weights.of_held) {
@@ -154,7 +132,7 @@ class LayerGradients::Maker {
       made_.held_.push_back(of);
     }
     const auto neighbour = [&](Index face) {
-      const Index next = beyond(cell, face).cell;
+      const Index next = walk_.beyond(cell, face).cell;
       return next < 0 ? cell : next;
     };
     const Index before = neighbour(faces[0]), after = neighbour(faces[1]);
@@ -167,7 +145,7 @@ class LayerGradients::Maker {
          .end_held = made_.held_.size(),
          .before = before,
          .after = after,
-         .spread = distance > 0.0 ? length(faces[0], faces[1]) / (std::sqrt(12.0) * distance) : 0.0});
+         .spread = distance > 0.0 ? walk_.length(faces[0], faces[1]) / (std::sqrt(12.0) * distance) : 0.0});
   }
 
   // Takes the derivative along the line to the gradient, those along the faces being kept.
@@ -193,12 +171,19 @@ class LayerGradients::Maker {
     if (beside < 0 || !side || std::ranges::find(has_surface_, face) != has_surface_.end()) return;
     has_surface_.push_back(face);
     const Vector& centre = mesh_.cell_centre[cell];
-    const Vector to_face = mesh_.face_centre[face] - centre, to_other = mesh_.cell_centre[beside] - centre;
+    const Vector to_face = mesh_.face_centre[face] - centre;
+    const auto ratio_of = [&](Index other) {
+      const Vector to_other = mesh_.cell_centre[other] - centre;
+      return std::copysign(part * to_face.norm() / to_other.norm(), -to_face.dot(to_other));
+    };
+    const Index behind = walk_.cell_behind(cell, face);
     const std::size_t first = made_.slopes_.size();
     made_.slopes_.insert(made_.slopes_.end(), half.slopes.begin(), half.slopes.end());
     made_.surfaces_.push_back({.cell = cell,
                                .next = beside,
-                               .ratio = std::copysign(part * to_face.norm() / to_other.norm(), -to_face.dot(to_other)),
+                               .ratio = ratio_of(beside),
+                               .behind = behind,
+                               .behind_ratio = behind < 0 ? 0.0 : ratio_of(behind),
                                .n = mesh_.face_area[face].normalized(),
                                .side = *side,
                                .first_slope = first,
@@ -208,16 +193,14 @@ class LayerGradients::Maker {
                                .along = to_face.normalized()});
   }
 
-  // The next one inwards.
-  Index cell_behind(Index cell, Index face) const { return beyond(cell, opposite_face(mesh_, cell, face)).cell; }
-
   void add_surface(Index cell, Index face, double part = 1.0) {
-    add_side(cell, face, cell_behind(cell, face), part, {}, Tensor::Zero());
+    add_side(cell, face, walk_.cell_behind(cell, face), part, {}, Tensor::Zero());
   }
 
   // The components that are held at the end of a line have a slope across it.
   void add_mirror(Index cell, Index face) {
-    add_side(cell, face, cell_behind(cell, face), 1.0, half_slopes(cell, face), Tensor::Identity() - free_part(face));
+    add_side(cell, face, walk_.cell_behind(cell, face), 1.0, half_slopes(cell, face),
+             Tensor::Identity() - walk_.free_part(face));
   }
 
   // At the free end of a line, by the thinnest of the layers that it ends: cells 1.5 times as long as these are thick
@@ -226,7 +209,7 @@ class LayerGradients::Maker {
     double part = 1.0;
     for (const BendingCell& in : all)
       if (std::ranges::count(in.along, face) > 0)
-        part = std::min(part, 3.0 - 2.0 * length(in.along[0], in.along[1]) / in.thickness);
+        part = std::min(part, 3.0 - 2.0 * walk_.length(in.along[0], in.along[1]) / in.thickness);
     return part;
   }
 
@@ -234,26 +217,25 @@ class LayerGradients::Maker {
   // by itself: their slopes in the soft one have a kink at the interface where shear builds up.
   void add_bond(Index cell, Index face) {
     constexpr double most_alike = 3.0;
-    const Index other = mesh_.across(face, cell), next = cell_behind(cell, face);
-    const double here = shear_modulus(cell), there = shear_modulus(other);
+    const Index other = mesh_.across(face, cell), next = walk_.cell_behind(cell, face);
+    const double here = walk_.shear_modulus(cell), there = walk_.shear_modulus(other);
     const bool are_alike = std::max(here, there) <= most_alike * std::min(here, there);
     add_side(cell, face, are_alike || next < 0 ? other : next, 1.0, half_slopes(cell, face), Tensor::Identity());
   }
-  double shear_modulus(Index cell) const { return unknowns_.sound[unknowns_.zone[cell]].mu; }
 
   // Of the slope towards a face and the next one inwards; this is half-way to a node, but at it if a component is free.
   HalfSlopes half_slopes(Index cell, Index face) const {
-    const Index opposite = opposite_face(mesh_, cell, face), next = beyond(cell, opposite).cell;
+    const Index opposite = opposite_face(mesh_, cell, face), next = walk_.beyond(cell, opposite).cell;
     const Index inwards = next >= 0 ? next : unknowns_.node_beside(mesh_, cell, opposite);
     if (inwards < 0) return {};
     const Vector& centre = mesh_.cell_centre[cell];
-    const Vector near = mesh_.face_centre[face] - centre, far = place(inwards) - centre;
+    const Vector near = mesh_.face_centre[face] - centre, far = walk_.place(inwards) - centre;
     const double at_near = near.norm() / 2.0, half_way = far.norm() / 2.0;
     const double part = at_near / (at_near + half_way), part_of_free = at_near / (at_near + far.norm());
     const std::size_t at = cell, node = as_size(unknowns_.node_beside(mesh_, cell, face));
     return {.slopes = {{.from = at, .to = node, .step = near, .weight_over_length = 1.0 / near.norm()},
                        {.from = at, .to = as_size(inwards), .step = far, .weight_over_length = 1.0 / far.norm()}},
-            .part = part * Tensor::Identity() + (part_of_free - part) * free_part(opposite)};
+            .part = part * Tensor::Identity() + (part_of_free - part) * walk_.free_part(opposite)};
   }
 
   // Each cell of the face by half.
@@ -263,7 +245,7 @@ class LayerGradients::Maker {
     if (!side || *side >= 2 * links_.size()) return;
     const momentum_faces::Link& link = links_[*side / 2];
     const double distance = (link.d_P - link.d_N).dot(link.n);
-    const double layer = length(in.across[0], in.across[1]), all = in.zone_thickness;
+    const double layer = walk_.length(in.across[0], in.across[1]), all = in.zone_thickness;
     const double nu = unknowns_.sound[unknowns_.zone[in.cell]].poisson_ratio();
     const double weight = std::min(1.0, left / (1.0 - nu) * layer * all / (distance * distance));
     const Vector line = mesh_.face_centre[in.across[1]] - mesh_.face_centre[in.across[0]];
@@ -274,6 +256,7 @@ class LayerGradients::Maker {
 
   const Mesh& mesh_;
   const Unknowns& unknowns_;
+  LineWalk walk_;
   const std::vector<momentum_faces::Link>& links_;
   bool has_all_sides_;
   LayerGradients& made_;

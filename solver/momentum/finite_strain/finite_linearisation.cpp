@@ -29,6 +29,7 @@ void FiniteTractions::set(const FiniteLawAt& law, const CellField<double>& g, co
   cells_.weigh_pressures(g);
   pressure_.weigh(g);
   reconstruct(u, s);
+  states_.extrapolate(cells_.layers(), eigenstrain_.all());
   states_.linearise(law, s.gradients, s.on_sides);
   pressure_.linearise(s);
   set_face_tensors();

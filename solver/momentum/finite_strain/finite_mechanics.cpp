@@ -56,9 +56,18 @@ CellMechanics unknown_mechanics(std::size_t n_cells, std::size_t n_parts) {
 
 }  // namespace
 
+Tensor FiniteTractions::elastic_spread(Index cell, Index line, const CellField<Tensor>& gradients) const {
+  const LayerGradients& layers = cells_.layers();
+  const Tensor whole = layers.spread(line, gradients);
+  if (!eigenstrain_.any()) return whole;
+  const Tensor free = Tensor::Identity() + to_tensor(eigenstrain_[cell]);
+  const Tensor of_free = to_tensor(layers.spread(line, eigenstrain_.all()));
+  return whole - (Tensor::Identity() + gradients[cell]) * free.inverse() * of_free;
+}
+
 // Where lines of cells count, the mean gradient is theirs, from which the tractions are computed. The gradient varies
 // along the lines, by h^2/12 times the square of its slope, and so much more energy is in the cell, in place of what
-// tractions, face displacements and moments have.
+// tractions, face displacements and moments have. What F* varies by is none of it.
 void FiniteTractions::find_within_layers(const CellField<Tensor>& gradients, CellMechanics& result) const {
   const LayerGradients& layers = cells_.layers();
   if (!layers.any()) return;
@@ -66,7 +75,7 @@ void FiniteTractions::find_within_layers(const CellField<Tensor>& gradients, Cel
     if (first == end) return;
     double within = 0.0;
     for (Index line = first; line < end; ++line) {
-      const auto spread = to_components(layers.spread(line, gradients));
+      const auto spread = to_components(elastic_spread(c, line, gradients));
       within += 0.5 * skeleton_.mesh.cell_volume[c] * spread.dot(states_.law(c).A * spread);
     }
     result.gradient[c] += counts * (gradients[c] - result.gradient[c]);

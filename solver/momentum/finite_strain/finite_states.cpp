@@ -40,6 +40,32 @@ FiniteStates::FiniteStates(const FaceSkeleton& skeleton, const LayerGradients& l
   side_states_.resize(own_sides_.size());
 }
 
+void FiniteStates::extrapolate(const LayerGradients& layers, const CellField<Mandel>& eigenstrains) {
+  relative_.clear();
+  if (eigenstrains.size() == 0 || !layers.any()) return;
+  relative_.assign(n_own(), Tensor::Identity());
+  layers.extrapolate([&](std::size_t turn, Index cell, Index behind, double part) {
+    const Tensor of_cell = Tensor::Identity() + to_tensor(eigenstrains[cell]);
+    const Tensor on_side = of_cell + part * to_tensor(eigenstrains[cell] - eigenstrains[behind]);
+    relative_[own_at(turn)] = on_side.inverse() * of_cell;
+  });
+}
+
+// With K as `relative_`, P(F) = P_cell(F K) K^T / det K.
+FiniteLaw FiniteStates::law_on_side(const FiniteLawAt& law, std::size_t own, const Tensor& H) const {
+  const Index cell = skeleton_.sides[own_sides_[own]].cell;
+  if (relative_.empty()) return law(cell, H);
+  const Tensor& K = relative_[own];
+  const double volume = K.determinant();
+  FiniteLaw at = law(cell, (Tensor::Identity() + H) * K - Tensor::Identity());
+  GradientTangent times_K;
+  for (Index i = 0; i < 9; ++i) times_K.col(i) = to_components(from_components(Components::Unit(i)) * K);
+  at.stress = at.stress * K.transpose() / volume;
+  at.A = times_K.transpose() * at.A * times_K / volume;
+  at.free_change = (1.0 + at.free_change) / volume - 1.0;
+  return at;
+}
+
 FiniteStates::Push FiniteStates::push_of(const FiniteLaw& law, double J) {
   const double mu = law.swelling * law.face.mu;
   return {law.face.lambda + mu * swelling(J), mu * swelling_slope(J)};
@@ -62,7 +88,7 @@ void FiniteStates::linearise(const FiniteLawAt& law, const CellField<Tensor>& gr
   parallel_for(count_of(side_states_), [&](Index k) {
     SideState& at = side_states_[k];
     const Tensor& H = on_sides[k];
-    at.law = law(skeleton_.sides[own_sides_[k]].cell, H);
+    at.law = law_on_side(law, k, H);
     at.F = Tensor::Identity() + H;
     at.cofactor = cofactor(at.F);
     at.push = push_of(at.law, at.F.determinant());

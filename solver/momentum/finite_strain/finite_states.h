@@ -8,6 +8,7 @@
 // undeformed polyhedra is that of lambda_s.
 
 #include "physics/elasticity/gradient_stress.h"
+#include "physics/elasticity/mandel.h"
 #include "solver/momentum/bending/layer_gradients.h"
 #include "solver/momentum/faces/bonded_sides.h"
 #include "solver/momentum/faces/face_skeleton.h"
@@ -37,6 +38,8 @@ class FiniteStates {
   /// For use while the skeleton exists.
   FiniteStates(const FaceSkeleton& skeleton, const LayerGradients& layers);
 
+  /// Of these eigenstrains, empty: none, each surface of layers that bend has that of the line of cells beneath it.
+  void extrapolate(const LayerGradients& layers, const CellField<Mandel>& eigenstrains);
   /// About these gradients of the cells, and on the sides that have their own.
   void linearise(const FiniteLawAt& law, const CellField<Tensor>& gradients, const std::vector<Tensor>& on_sides);
   /// The changes by these gradients.
@@ -103,6 +106,7 @@ class FiniteStates {
   std::size_t side_at(std::size_t turn) const { return turn - 2 * skeleton_.links.size(); }
   Index own_at(std::size_t turn) const { return skeleton_.is_side(turn) ? own(side_at(turn)) : -1; }
   double stiffer(std::size_t side) const { return bonded_.number(side) < 0 ? 1.0 : BondedSides::stiffer; }
+  FiniteLaw law_on_side(const FiniteLawAt& law, std::size_t own, const Tensor& H) const;
   static Push push_of(const FiniteLaw& law, double J);
   static Push capped(double share, const FiniteLaw& law, const Push& push);
 
@@ -115,6 +119,7 @@ class FiniteStates {
   std::vector<std::size_t> own_sides_;
   std::vector<Index> own_of_side_;
   std::vector<SideState> side_states_;
+  std::vector<Tensor> relative_;  // of each of them: F*^-1 of the side times F* of its cell; empty: all alike
 };
 
 }  // namespace pfdm

@@ -21,9 +21,11 @@ CellReconstruction& with_lines_alone(CellReconstruction& cells) {
 
 }  // namespace
 
-FiniteTractions::FiniteTractions(const FaceSkeleton& skeleton, CellReconstruction& cells)
+FiniteTractions::FiniteTractions(const FaceSkeleton& skeleton, CellReconstruction& cells,
+                                 const CellEigenstrain& eigenstrain)
     : FaceTractions(skeleton),
       cells_(with_lines_alone(cells)),
+      eigenstrain_(eigenstrain),
       states_(skeleton, cells.layers()),
       pressure_(skeleton, cells.pressure(), states_),
       weights_(cells.layers(), skeleton.links.size()),

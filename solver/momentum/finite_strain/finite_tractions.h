@@ -26,6 +26,7 @@
 //   m, dm/dJ            FiniteStates::Push
 //   m ((c.y) I + c y^T) FaceTurn::turn;  dm/dJ (c.y) c  FaceTurn::swell;  q  FaceTurn::pressure
 
+#include "solver/momentum/body/cell_eigenstrain.h"
 #include "solver/momentum/faces/cell_reconstruction.h"
 #include "solver/momentum/faces/face_tractions.h"
 #include "solver/momentum/finite_strain/finite_pressure.h"
@@ -43,7 +44,7 @@ struct FiniteSweep : Sweep, FinitePressureSweep {
 
 class FiniteTractions final : public FaceTractions {
  public:
-  FiniteTractions(const FaceSkeleton& skeleton, CellReconstruction& cells);
+  FiniteTractions(const FaceSkeleton& skeleton, CellReconstruction& cells, const CellEigenstrain& eigenstrain);
 
   /// Linearises about the displacements u, whose gradients `sweep` then has. g and `part` as of
   /// IsotropicTractions::set().
@@ -114,10 +115,13 @@ class FiniteTractions final : public FaceTractions {
   void find_initial_sector_stress(const FiniteSweep& s);
   void linearise_volumes(const std::vector<Vector>& u, FiniteSweep& s);
   // finite_mechanics.cpp
+  // What of the gradient's variation along a line of a cell is elastic.
+  Tensor elastic_spread(Index cell, Index line, const CellField<Tensor>& gradients) const;
   void find_within_layers(const CellField<Tensor>& gradients, CellMechanics& result) const;
   void add_work_of_moments(CellMechanics& result) const;
 
   CellReconstruction& cells_;
+  const CellEigenstrain& eigenstrain_;
   FiniteStates states_;
   FinitePressure pressure_;
   TurnedWeights weights_;

@@ -39,6 +39,7 @@ void IsotropicTractions::set(const CellField<IsotropicElasticity>& moduli, const
   set_moduli(moduli, g, {});
   cells_.weigh(g, part);
   cells_.weigh_third_order(g);
+  extrapolate_eigenstrains();
   set_coefficients();
 }
 
@@ -71,6 +72,23 @@ void IsotropicTractions::find_initial_stress() {
   if (!eigenstrain_.any() || is_plane_stress()) return;
   initial_stress_ = CellField<Tensor>(moduli_.size());
   parallel_for(moduli_.size(), [&](Index c) { initial_stress_[c] = -stress(moduli_[c], to_tensor(eigenstrain_[c])); });
+}
+
+// Within the plane in plane stress: the stress does not depend on that across it.
+void IsotropicTractions::extrapolate_eigenstrains() {
+  eigenstrain_changes_.clear();
+  if (!eigenstrain_.any() || !cells_.layers().any()) return;
+  eigenstrain_changes_.assign(skeleton_.n_turns(), Tensor::Zero());
+  const Tensor within =
+      Tensor::Identity() - (is_plane_stress() ? 1.0 : 0.0) * plane_normal() * plane_normal().transpose();
+  cells_.layers().extrapolate([&](std::size_t turn, Index cell, Index behind, double part) {
+    eigenstrain_changes_[turn] = part * within * to_tensor(eigenstrain_[cell] - eigenstrain_[behind]) * within;
+  });
+}
+
+Vector IsotropicTractions::initial_traction(Index cell, const Vector& n, std::size_t turn) const {
+  if (eigenstrain_changes_.empty()) return initial_stress_[cell] * n;
+  return (initial_stress_[cell] - stress(moduli_[cell], eigenstrain_changes_[turn])) * n;
 }
 
 void IsotropicTractions::set_coefficients() {

@@ -88,7 +88,7 @@ class IsotropicTractions : public SmallTractions {
   virtual bool has_initial_stress() const { return eigenstrain_.any(); }
   virtual Tensor initial_stress(Index cell) const { return initial_stress_[cell]; }  // [Pa]
   // On n of the side of a face that is number `turn` of the cell [Pa].
-  virtual Vector initial_traction(Index cell, const Vector& n, std::size_t) const { return initial_stress_[cell] * n; }
+  virtual Vector initial_traction(Index cell, const Vector& n, std::size_t turn) const;
   // N's less P's on a link [Pa].
   Vector initial_jump(std::size_t link) const {
     const momentum_faces::Link& on = skeleton_.links[link];
@@ -121,6 +121,9 @@ class IsotropicTractions : public SmallTractions {
   double stress_across(Index cell, const Tensor& strain, const Sweep& sweep) const override;
   double energy_of_part(Index cell, const IsotropicElasticity& part, const Tensor& strain,
                         const FaceMoves& moves) const override;
+  Tensor eigenstrain_change(std::size_t turn) const override {
+    return eigenstrain_changes_.empty() ? Tensor::Zero() : eigenstrain_changes_[turn];
+  }
   std::unique_ptr<Sweep> new_sweep() const override;
   PressureRow pressure_row(std::size_t k) const override;
 
@@ -149,6 +152,7 @@ class IsotropicTractions : public SmallTractions {
   };
   void condense();
   void find_initial_stress();
+  void extrapolate_eigenstrains();
   LinkValues values_of(std::size_t link) const;
   SideValues values_of_side(std::size_t side) const;
   void reconstruct(const std::vector<Vector>& u, IsotropicSweep& s) const;
@@ -177,7 +181,8 @@ class IsotropicTractions : public SmallTractions {
   CellField<IsotropicElasticity> moduli_;
   PolyhedralJump jump_;
   BondedSides bonded_;
-  CellField<Tensor> initial_stress_;  // -C eps* [Pa], condensed in plane stress; empty without eigenstrains
+  CellField<Tensor> initial_stress_;         // -C eps* [Pa], condensed in plane stress; empty without eigenstrains
+  std::vector<Tensor> eigenstrain_changes_;  // by turn; empty without eigenstrains or lines
   std::vector<LinkValues> link_values_;
   std::vector<SideValues> side_values_;
 };

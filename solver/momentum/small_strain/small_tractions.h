@@ -42,6 +42,8 @@ class SmallTractions : public FaceTractions {
   /// Energy per volume [J/m^3] of a part of the cell's stiffness (CellMechanics::part_energy).
   virtual double energy_of_part(Index cell, const IsotropicElasticity& part, const Tensor& strain,
                                 const FaceMoves& moves) const = 0;
+  /// By what the eigenstrain on side number `turn` differs from that of its cell [-].
+  virtual Tensor eigenstrain_change(std::size_t) const { return Tensor::Zero(); }
   /// What materials with a history ask for besides.
   virtual void add_histories(const FaceMoves&, CellMechanics&) const {}
 
@@ -77,7 +79,8 @@ double SmallTractions::energy_over_faces(Index cell, const Part& part, const Ten
     const Vector n = area.normalized(), d = mesh.face_centre[f] - mesh.cell_centre[cell];
     const Vector move = moves.seen_from(cell, f) - moves.u[cell];
     const Tensor at_face = with_strain_across(cell, gradient_at(turn, d, n, move));
-    const Tensor change = part.at_face(eigenstrain_.elastic_part(cell, symmetric_part(at_face))) - mean_stress;
+    const Tensor elastic_at_face = eigenstrain_.elastic_part(cell, symmetric_part(at_face) - eigenstrain_change(turn));
+    const Tensor change = part.at_face(elastic_at_face) - mean_stress;
     const Vector elastic_move = eigenstrain_.any() ? (move - to_tensor(eigenstrain_[cell]) * d).eval() : move;
     varying += 0.5 * elastic_move.dot(change * area);
   }

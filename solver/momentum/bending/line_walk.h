@@ -1,0 +1,52 @@
+#pragma once
+// How lines of cells through opposite faces run through a body, and what its faces hold.
+
+#include "mesh/mesh.h"
+#include "solver/momentum/bending/bending_layers.h"
+#include "solver/momentum/body/unknowns.h"
+
+namespace pfdm {
+
+class LineWalk {
+ public:
+  LineWalk(const Mesh& mesh, const Unknowns& unknowns) : mesh_(mesh), unknowns_(unknowns) {}
+
+  /// A cell beyond a face in its line, and that cell's far face; no cell where the face carries a node.
+  struct Step {
+    Index cell = -1, far = -1;
+  };
+  Step beyond(Index cell, Index face) const {
+    if (!mesh_.is_interior(face) || unknowns_.node_beside(mesh_, cell, face) >= 0) return {};
+    const Index other = mesh_.across(face, cell);
+    return {.cell = other, .far = opposite_face(mesh_, other, face)};
+  }
+  /// Between the centres of two faces [m].
+  double length(Index f, Index g) const { return (mesh_.face_centre[g] - mesh_.face_centre[f]).norm(); }
+  Vector place(std::size_t unknown) const { return unknowns_.place(mesh_, static_cast<Index>(unknown)); }
+  /// The next cell from a face inwards; -1: none.
+  Index cell_behind(Index cell, Index face) const { return beyond(cell, opposite_face(mesh_, cell, face)).cell; }
+
+  /// On the surface of the body: components whose traction is prescribed, in plane meshes of those within the plane.
+  Tensor free_part(Index face) const {
+    const Index node = unknowns_.node_of_face[face];
+    if (mesh_.is_interior(face) || node < 0) return Tensor::Zero();
+    return unknowns_.free_within(node);
+  }
+  bool is_free(Index face) const { return !free_part(face).isZero(); }
+  /// Some components are held, others free, as on a plane of symmetry.
+  bool is_mirror(Index face) const {
+    const Vector& across = unknowns_.plane_normal;
+    return is_free(face) && !(free_part(face) + across * across.transpose()).isIdentity();
+  }
+  bool is_bonded(Index face) const {
+    return mesh_.is_interior(face) && !unknowns_.is_split(face) && unknowns_.node_of_face[face] >= 0;
+  }
+
+  double shear_modulus(Index cell) const { return unknowns_.sound[unknowns_.zone[cell]].mu; }
+
+ private:
+  const Mesh& mesh_;
+  const Unknowns& unknowns_;
+};
+
+}  // namespace pfdm
