@@ -165,8 +165,8 @@ class LayerGradients::Maker {
   };
 
   // `beside`: the cell from whose derivatives along the face, and the cell's own, those on it follow, by this part.
-  // `across`: components whose derivative across the face follows from `half`.
-  void add_side(Index cell, Index face, Index beside, double part, const HalfSlopes& half, const Tensor& across) {
+  // `across`: components whose derivative across the face follows from `towards`.
+  void add_side(Index cell, Index face, Index beside, double part, const HalfSlopes& towards, const Tensor& across) {
     const auto side = side_of(cell, face);
     if (beside < 0 || !side || std::ranges::find(has_surface_, face) != has_surface_.end()) return;
     has_surface_.push_back(face);
@@ -178,7 +178,7 @@ class LayerGradients::Maker {
     };
     const Index behind = walk_.cell_behind(cell, face);
     const std::size_t first = made_.slopes_.size();
-    made_.slopes_.insert(made_.slopes_.end(), half.slopes.begin(), half.slopes.end());
+    made_.slopes_.insert(made_.slopes_.end(), towards.slopes.begin(), towards.slopes.end());
     made_.surfaces_.push_back({.cell = cell,
                                .next = beside,
                                .ratio = ratio_of(beside),
@@ -188,7 +188,7 @@ class LayerGradients::Maker {
                                .side = *side,
                                .first_slope = first,
                                .end_slope = made_.slopes_.size(),
-                               .of_slopes = half.part,
+                               .of_slopes = towards.part,
                                .across = across,
                                .along = to_face.normalized()});
   }

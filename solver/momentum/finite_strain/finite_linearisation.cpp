@@ -128,14 +128,18 @@ void FiniteTractions::turn_side(std::size_t i, const std::vector<Vector>& u, con
 
 void FiniteTractions::linearise_volumes(const std::vector<Vector>& u, FiniteSweep& s) {
   find_linear(u, s);
-  std::vector<Vector> u_face(skeleton_.n_forces());
+  moved_initial_.assign(skeleton_.n_forces(), Vector::Zero());
   const Index n_links = count_of(skeleton_.links);
   parallel_for(n_links, [&](Index i) {
     const Vector jump = face_turns_[FaceSkeleton::turn_N(i)].initial - face_turns_[FaceSkeleton::turn_P(i)].initial;
-    u_face[i] = s.moved[i] + link_tensors_[i].softness * jump;
+    moved_initial_[i] = link_tensors_[i].softness * jump;
   });
-  for (std::size_t i = 0; i < skeleton_.sides.size(); ++i) u_face[n_links + i] = u[skeleton_.sides[i].node];
-  pressure_.linearise_volumes(u, u_face, s);
+  parallel_for(count_of(skeleton_.sides), [&](Index i) {
+    const Index cell = skeleton_.sides[i].cell, force = n_links + i;
+    const Vector lag_now = lag(i, states_.stress_at(cell, skeleton_.turn_of_side(i)), states_.law(cell).stress);
+    moved_initial_[force] = u[skeleton_.sides[i].node] + lag_now - s.moved[force];
+  });
+  pressure_.linearise_volumes(moves_of_faces(s), s);
 }
 
 }  // namespace pfdm

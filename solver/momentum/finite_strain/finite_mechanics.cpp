@@ -36,15 +36,6 @@ void add_moments(const Mesh& mesh, const std::vector<Index>& of_cells, const Cel
   });
 }
 
-// In the order of the forces.
-std::vector<Vector> moves_of_faces(const FaceSkeleton& skeleton, const std::vector<Vector>& u,
-                                   const FaceField<Vector>& u_face) {
-  std::vector<Vector> moves;
-  for (const momentum_faces::Link& link : skeleton.links) moves.push_back(u_face[link.face]);
-  for (const momentum_faces::Side& side : skeleton.sides) moves.push_back(u[side.node]);
-  return moves;
-}
-
 CellMechanics unknown_mechanics(std::size_t n_cells, std::size_t n_parts) {
   return {.strain = CellField<Tensor>(n_cells),
           .gradient = CellField<Tensor>(n_cells),
@@ -104,7 +95,7 @@ CellMechanics FiniteTractions::mechanics(const std::vector<Vector>& u, bool,
   const FaceMoves moves{.skeleton = skeleton_, .sweep = s, .u = u, .u_face = u_face};
   CellMechanics result = unknown_mechanics(skeleton_.mesh.n_cells(), as_size(part.size()));
   if (pressure_.any()) {
-    result.volume_change = pressure_.swept_changes(moves_of_faces(skeleton_, u, u_face), s);
+    result.volume_change = pressure_.swept_changes(moves_of_faces(s), s);
     result.moderate_stress = CellField<Tensor>(skeleton_.mesh.n_cells());
   }
   parallel_for(skeleton_.mesh.n_cells(), [&](Index c) {

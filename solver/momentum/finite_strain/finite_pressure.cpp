@@ -18,7 +18,7 @@ void FinitePressure::prepare(FinitePressureSweep& s) const {
   s.pressure = pressure_.field();
   s.on_sides.resize(states_.n_own());
   if (!any()) return;
-  s.moved.resize(skeleton_.links.size());
+  s.moved.resize(skeleton_.n_forces());
   s.area_changes.resize(skeleton_.n_forces());
   s.flux.resize(skeleton_.n_forces());
 }
@@ -72,19 +72,15 @@ void FinitePressure::find_area_changes(const CellField<Tensor>& gradients, Finit
   });
 }
 
-// Of the displacements of faces, those of links being in s.moved.
-void FinitePressure::find_fluxes(const std::vector<Vector>& u, FinitePressureSweep& s) const {
-  parallel_for(count_of(s.flux), [&](Index i) {
-    const std::size_t k = i, n_links = skeleton_.links.size();
-    const Vector& moved = k < n_links ? s.moved[k] : u[skeleton_.sides[k - n_links].node];
-    s.flux[k] = moved_faces_.flux(k, s.corner_moves, moved, s.area_changes[k]);
-  });
+void FinitePressure::find_fluxes(FinitePressureSweep& s) const {
+  parallel_for(count_of(s.flux),
+               [&](Index k) { s.flux[k] = moved_faces_.flux(k, s.corner_moves, s.moved[k], s.area_changes[k]); });
 }
 
-void FinitePressure::balance(const std::vector<Vector>& u, FinitePressureSweep& s, std::vector<Vector>& out) const {
+void FinitePressure::balance(FinitePressureSweep& s, std::vector<Vector>& out) const {
   const std::vector<Index>& cells = skeleton_.unknowns.pressure_cells;
   if (cells.empty()) return;
-  find_fluxes(u, s);
+  find_fluxes(s);
   parallel_for(count_of(cells), [&](Index k) {
     const Index c = cells[k];
     const double slope = rows_[k].slope;
@@ -101,12 +97,11 @@ CellField<double> FinitePressure::swept_changes(const std::vector<Vector>& u_fac
   return change;
 }
 
-void FinitePressure::linearise_volumes(const std::vector<Vector>& u, const std::vector<Vector>& u_face,
-                                       FinitePressureSweep& s) {
+void FinitePressure::linearise_volumes(const std::vector<Vector>& u_face, FinitePressureSweep& s) {
   const std::vector<Index>& cells = skeleton_.unknowns.pressure_cells;
   moved_faces_.follow(u_face);
   const CellField<double> change = swept_changes(u_face, s);
-  find_fluxes(u, s);
+  find_fluxes(s);
   parallel_for(count_of(cells), [&](Index k) {
     const Index c = cells[k];
     const VolumeAt volume = states_.law(c).volume(pressure_at_[c]);

@@ -13,7 +13,7 @@ namespace pfdm {
 struct FinitePressureSweep {
   PressureField pressure;
   std::vector<Tensor> on_sides;      ///< gradients on sides that have their own (FiniteStates::own)
-  std::vector<Vector> moved;         ///< by link: linearised displacement [m]
+  std::vector<Vector> moved;         ///< by force: linearised displacement of the face [m]
   std::vector<Vector> corner_moves;  ///< of the points of moved faces [m]
   std::vector<Vector> area_changes;  ///< by force: of the moved area, over the undeformed one
   std::vector<double> flux;          ///< by force: volume that the face sweeps [m^3]
@@ -34,9 +34,8 @@ class FinitePressure {
   void weigh(const CellField<double>& g) { moved_faces_.weigh(g); }
   /// Areas and pressures about which it is linearised, once the states are.
   void linearise(const FinitePressureSweep& s);
-  /// Then the equations, about the displacements u, with which the faces have moved by u_face (by force); s is a sweep
-  /// of u.
-  void linearise_volumes(const std::vector<Vector>& u, const std::vector<Vector>& u_face, FinitePressureSweep& s);
+  /// Then the equations, about the displacements of s, with which the faces have moved by u_face (by force).
+  void linearise_volumes(const std::vector<Vector>& u_face, FinitePressureSweep& s);
 
   /// Of a force: the area vector on which the pressure acts, over the undeformed area.
   const Vector& area(std::size_t force) const { return moved_faces_.area(force); }
@@ -49,7 +48,7 @@ class FinitePressure {
   double linearised_at(Index cell) const { return pressure_at_[cell]; }  ///< q [Pa]; zero without
 
   /// Rows of the pressures, their constant part, and dJ/dq [1/Pa].
-  void balance(const std::vector<Vector>& u, FinitePressureSweep& s, std::vector<Vector>& out) const;
+  void balance(FinitePressureSweep& s, std::vector<Vector>& out) const;
   void take_away_constant(std::vector<Vector>& load) const;
   double slope(std::size_t k) const { return rows_[k].slope; }
   /// J - 1 of the cells with a pressure [-], of faces that have moved by u_face, in the order of the forces.
@@ -62,7 +61,7 @@ class FinitePressure {
     double initial;  // its constant part
   };
   bool has_polygon(std::size_t side) const;
-  void find_fluxes(const std::vector<Vector>& u, FinitePressureSweep& s) const;
+  void find_fluxes(FinitePressureSweep& s) const;
 
   const FaceSkeleton& skeleton_;
   const CellPressure& pressure_;

@@ -30,9 +30,7 @@ FiniteStates::FiniteStates(const FaceSkeleton& skeleton, const LayerGradients& l
       cofactor_(skeleton.mesh.n_cells()),
       push_(skeleton.mesh.n_cells()),
       jump_share_(jump_shares(skeleton.mesh, skeleton.unknowns)),
-      bonded_(skeleton.mesh, skeleton.unknowns, skeleton.sides,
-              // Measured on cantilevers that bend: so within 0.8 % in plane meshes, else 1.8; in space 0.3, else 2.4 %.
-              [&](Index c) { return !layers.cover(c) || !skeleton.unknowns.plane_normal.isZero(); }) {
+      bonded_(skeleton.mesh, skeleton.unknowns, skeleton.sides, [&](Index c) { return !layers.cover(c); }) {
   for (std::size_t k = 0; k < bonded_.size(); ++k) own_sides_.push_back(bonded_.side(k));
   for (const std::size_t turn : layers.surface_sides()) own_sides_.push_back(side_at(turn));
   if (!own_sides_.empty()) own_of_side_.assign(skeleton.sides.size(), -1);

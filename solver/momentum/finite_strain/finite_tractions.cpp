@@ -102,7 +102,26 @@ void FiniteTractions::find_linear(const std::vector<Vector>& u, Sweep& sweep) co
     const Vector gap = u[side.node] - u[side.cell] - rise(side.cell, side.d, turn, s);
     const Vector stress = linear_traction(side.cell, side.n, side.d, turn, s);
     s.force[n_links + i] = side.area * (stress + side_tensors_[i] * gap);
+    if (s.moved.empty()) return;
+    const Tensor& on_side = states_.change_at(side.cell, turn, s.changes).stress;
+    s.moved[n_links + i] = u[side.node] + lag(i, on_side, s.changes.of_cell[side.cell].stress);
   });
+}
+
+Vector FiniteTractions::lag(std::size_t i, const Tensor& stress_on_side, const Tensor& stress_of_cell) const {
+  const Side& side = skeleton_.sides[i];
+  if (states_.own(i) < 0 || states_.bonded().number(i) >= 0 || skeleton_.mesh.is_interior(side.face))
+    return Vector::Zero();
+  // Across the face alone, where it changes the volume: along it the softness would not turn with the face.
+  const Vector c = states_.cofactor_at(side.cell, skeleton_.turn_of_side(i)) * side.n;
+  const double across = c.dot(side_tensors_[i] * c) / c.squaredNorm();
+  return skeleton_.unknowns.free_within(side.node) * (stress_on_side - stress_of_cell) * side.n / across;
+}
+
+std::vector<Vector> FiniteTractions::moves_of_faces(const FiniteSweep& s) const {
+  std::vector<Vector> moves = s.moved;
+  parallel_for(count_of(moves), [&](Index i) { moves[i] += moved_initial_[i]; });
+  return moves;
 }
 
 bool FiniteTractions::add_constant(Sweep& s) const {

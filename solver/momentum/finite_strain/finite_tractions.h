@@ -56,8 +56,8 @@ class FiniteTractions final : public FaceTractions {
   bool add_constant(Sweep& sweep) const override;
   void turn_springs(const Sweep& sweep, const std::vector<FaceSpring>& springs,
                     std::vector<Vector>& forces) const override;
-  void balance_pressures(const std::vector<Vector>& u, Sweep& sweep, std::vector<Vector>& out) const override {
-    pressure_.balance(u, of(sweep), out);
+  void balance_pressures(const std::vector<Vector>&, Sweep& sweep, std::vector<Vector>& out) const override {
+    pressure_.balance(of(sweep), out);
   }
   void take_away_constant_volumes(std::vector<Vector>& load) const override { pressure_.take_away_constant(load); }
   void find_pressure_forces(const CellField<double>& tension, Sweep& sweep) const override;
@@ -104,6 +104,12 @@ class FiniteTractions final : public FaceTractions {
     return (k < 0 ? s.gradients[cell] : s.on_sides[k]) * d;
   }
 
+  // How much farther a free surface with a gradient of its own lies than the faces between cells, whose tractions are
+  // those of the cells' mean gradients [m].
+  Vector lag(std::size_t side, const Tensor& stress_on_side, const Tensor& stress_of_cell) const;
+  // Of the faces with these pressures, in the order of the forces, by a sweep [m].
+  std::vector<Vector> moves_of_faces(const FiniteSweep& s) const;
+
   // finite_linearisation.cpp
   void set_face_tensors();
   void turn_link(std::size_t link, const std::vector<Vector>& u, const FiniteSweep& s);
@@ -130,6 +136,8 @@ class FiniteTractions final : public FaceTractions {
   std::vector<JumpTurn> jump_turns_;  // by link; empty where the jump's stiffness is that of the tractions
   std::vector<momentum_faces::LinkTensors> link_tensors_;
   std::vector<Tensor> side_tensors_;  // a [Pa/m]
+  std::vector<Vector>
+      moved_initial_;  // by force: constant part of the faces' displacements [m]; empty without pressures
 };
 
 }  // namespace pfdm

@@ -45,9 +45,19 @@ double IsotropicTractions::link_flux(std::size_t i, const Vector& u_P, const Vec
   return link.area * u_n + cells_.pressure().flux_of_warp(link.face, G);
 }
 
-double IsotropicTractions::side_flux(const Side& side, const Vector& u_f, const IsotropicSweep& s) const {
+double IsotropicTractions::lag(std::size_t i, const Tensor& change) const {
+  const Side& side = skeleton_.sides[i];
+  if (skeleton_.mesh.is_interior(side.face)) return 0.0;
+  const double free = side.n.dot(skeleton_.unknowns.free_within(side.node) * side.n);
+  return free * side.n.dot(stress(moduli_[side.cell], change) * side.n) / side_values_[i].a_n;
+}
+
+double IsotropicTractions::side_flux(std::size_t i, const Vector& u_f, const IsotropicSweep& s) const {
+  const Side& side = skeleton_.sides[i];
   const double sign = skeleton_.mesh.owner[side.face] == side.cell ? 1.0 : -1.0;
-  return side.area * side.n.dot(u_f) + sign * cells_.pressure().flux_of_warp(side.face, s.gradients[side.cell]);
+  const double beyond = cells_.layers().any() ? lag(i, symmetric_part(s.layers[skeleton_.turn_of_side(i)])) : 0.0;
+  return side.area * (side.n.dot(u_f) + beyond) +
+         sign * cells_.pressure().flux_of_warp(side.face, s.gradients[side.cell]);
 }
 
 // V q / (lambda - lambda_s) - sum of u_f.S. There is no flux through the sector's own faces.
@@ -73,6 +83,11 @@ void IsotropicTractions::take_away_constant_volumes(std::vector<Vector>& load) c
     const double softness = by.weight_n * (1.0 - by.weight_n) / by.c_n;
     flux[i] = link.area * softness * link.n.dot(initial_jump(i));
   });
+  if (!eigenstrain_changes_.empty())
+    parallel_for(count_of(skeleton_.sides), [&](Index i) {
+      const double beyond = lag(i, eigenstrain_change(skeleton_.turn_of_side(i)));
+      flux[skeleton_.links.size() + as_size(i)] = -skeleton_.sides[i].area * beyond;
+    });
   parallel_for(count_of(cells), [&](Index k) {
     const Index c = cells[k];
     const double freely = skeleton_.mesh.cell_volume[c] * free_volume_change(c);

@@ -33,7 +33,7 @@ void IsotropicTractions::sweep_faces(const std::vector<Vector>& u, IsotropicSwee
     const Vector gap = u[side.node] - u[side.cell] - rise(side.cell, side.d, turn, s);
     const Vector stress = traction(side.cell, side.n, side.d, turn, s, stress_of);
     s.force[n_links + i] = side.area * (stress + momentum_faces::scale(by.a_n, by.a_t, side.n, gap));
-    if (has_fluxes) s.flux[n_links + i] = side_flux(side, u[side.node], s);
+    if (has_fluxes) s.flux[n_links + i] = side_flux(i, u[side.node], s);
   });
 }
 

@@ -176,7 +176,10 @@ class IsotropicTractions : public SmallTractions {
   }
   double link_flux(std::size_t link, const Vector& u_P, const Vector& jump, const Vector& stress_jump,
                    const IsotropicSweep& s) const;
-  double side_flux(const momentum_faces::Side& side, const Vector& u_f, const IsotropicSweep& s) const;
+  // By how much farther a surface with a gradient of its own lies than the faces between cells, whose tractions are
+  // those of the cells' mean gradients: a change of strain there moves it by so much [m].
+  double lag(std::size_t side, const Tensor& change) const;
+  double side_flux(std::size_t side, const Vector& u_f, const IsotropicSweep& s) const;
 
   CellField<IsotropicElasticity> moduli_;
   PolyhedralJump jump_;

@@ -46,12 +46,16 @@ Bent heat(const Beam& beam) {
   box.axes[0] = {{length, beam.along, 1.0}};
   box.axes[1] = {{height, beam.layers, 1.0}};
   box.axes[2] = {{width, in_space ? 2 : 1, 1.0}};
-  const double layer = height / static_cast<double>(beam.layers);
-  box.patches = {{"pin", {-1e-9, -1e-9, -1.0}, {1e-9, layer + 1e-9, 1.0}}};
   const Mesh mesh = make_box_hexes(box);
+  const double slope = (beam.in == BeamIn::plane_strain ? 1.0 + beam.nu : 1.0) * alpha * dT / height;
+  const auto exact = [slope, in_space](const Vector& x) -> Vector {
+    const double y = x[1] - 0.5, z = in_space ? x[2] : 0.0;
+    return {slope * x[0] * y, 0.5 * slope * (y * y - x[0] * x[0] - z * z), slope * y * z};
+  };
   std::vector<BoundaryCondition> boundary{
-      symmetry_on("xmin"),
-      moved("pin", {true, true, !in_space}, [](const Vector&, double) -> Vector { return Vector::Zero(); })};
+      symmetry_on("xmin"), moved("xmax", {false, true, false}, [exact](const Vector& x, double t) -> Vector {
+        return t * exact(x)[1] * Vector::UnitY();
+      })};
   if (in_space)
     boundary.push_back(symmetry_on("zmin"));
   else if (beam.in == BeamIn::plane_strain)
@@ -63,17 +67,11 @@ Bent heat(const Beam& beam) {
     model.regions[0].material = make_hyperelastic("neo_hookean", {.elasticity = steel});
   model.regions[0].expansion = alpha * Tensor::Identity();
   model.loads.temperature = [](const Vector& x, double t) { return t * dT * (x[1] - 0.5) / height; };
-  const Finished done = solve(mesh, model, 1, 1e-12);
-  const double slope = (beam.in == BeamIn::plane_strain ? 1.0 + beam.nu : 1.0) * alpha * dT / height;
-  const auto exact = [&](const Vector& x) {
-    const double y = x[1] - 0.5, z = in_space ? x[2] : 0.0;
-    return Vector(slope * x[0] * y, 0.5 * slope * (y * y - x[0] * x[0] - z * z), slope * y * z);
-  };
-  const double shift = done.fields.displacement[0][1] - exact(mesh.cell_centre[0])[1];
+  const Finished done = solve(mesh, model, 1, beam.in == BeamIn::finite_strain ? 1e-8 : 1e-12);
   Bent bent;
   double largest = 0.0;
   for (Index c = 0; c < mesh.n_cells(); ++c) {
-    const Vector u = exact(mesh.cell_centre[c]) + shift * Vector::UnitY();
+    const Vector u = exact(mesh.cell_centre[c]);
     largest = std::max(largest, u.norm());
     bent.displacement = std::max(bent.displacement, (done.fields.displacement[c] - u).norm());
     Tensor stress = done.fields.stress[c];
@@ -91,16 +89,17 @@ TEST(HeatedBeams, BendWithoutStress) {
   for (const BeamIn in : {BeamIn::plane_stress, BeamIn::plane_strain, BeamIn::space})
     for (const Beam& beam : {Beam{in, 2, 12}, {in, 4, 12}, {in, 4, 48}, {in, 6, 12}}) {
       const Bent bent = heat(beam);
-      EXPECT_LT(bent.displacement, 1e-9);
-      EXPECT_LT(bent.stress, 1e-9);
+      EXPECT_LT(bent.displacement, 1e-8);
+      EXPECT_LT(bent.stress, 1e-8);
     }
 }
 
+// Turned by up to 1.2e-4, the square of which is 7e-4 of the strain.
 TEST(HeatedBeams, BendAtFiniteStrain) {
   for (const Beam& beam : {Beam{BeamIn::finite_strain, 4, 12}, {BeamIn::finite_strain, 6, 48}}) {
     const Bent bent = heat(beam);
     EXPECT_LT(bent.displacement, 1e-4);
-    EXPECT_LT(bent.stress, 1e-4);
+    EXPECT_LT(bent.stress, 7e-4);
   }
 }
 
@@ -108,8 +107,8 @@ TEST(HeatedBeams, BendAtFiniteStrain) {
 TEST(HeatedBeams, OfRubberBendWithoutStress) {
   for (const BeamIn in : {BeamIn::plane_strain, BeamIn::space}) {
     const Bent bent = heat({.in = in, .layers = 4, .along = 12, .nu = 0.49});
-    EXPECT_LT(bent.displacement, 1e-9);
-    EXPECT_LT(bent.stress, 1e-9);
+    EXPECT_LT(bent.displacement, 1e-8);
+    EXPECT_LT(bent.stress, 1e-8);
   }
 }
 
