@@ -2,6 +2,7 @@
 // restart, other cases that read the curve.
 
 #include "postproc/files/csv_table.h"
+#include "tests/cases/page_data.h"
 #include "tests/cases/parted_box.h"
 #include "tests/cases/temporary_case.h"
 
@@ -46,6 +47,8 @@ TEST(DebondingCase, CurveIsThatOfSpringsInSeries) {
   EXPECT_TRUE(std::filesystem::exists(directory.results() / "interfaces.pvd"));
   const Outcome reported = run({"report", directory.path().string()});
   EXPECT_EQ(reported.status, 0) << reported.err;
+  const nlohmann::json page = data_of_page(content_of(directory.results() / "report" / "index.html"));
+  EXPECT_THAT(page["steps"].back().get<std::string>(), HasSubstr("of 20: strain zz 0.05, stress "));
   const Outcome checked = run({"check", directory.path().string()});
   EXPECT_THAT(checked.out, HasSubstr("2 points of mean strain and stress, periodic"));
 }

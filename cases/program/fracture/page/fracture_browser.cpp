@@ -2,6 +2,7 @@
 
 #include "cases/program/fracture/outcome/end_of_run.h"
 #include "cases/program/fracture/outcome/fracture_files.h"
+#include "cases/program/fracture/outcome/mean_curve.h"
 #include "physics/angle.h"
 #include "postproc/browser/body.h"
 #include "postproc/cohesive/cohesive_law.h"
@@ -16,15 +17,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of a box its mean strain and stress.
 std::vector<std::string> words_of_steps(const FractureCase& fracture, const CurveUnits& units,
-                                        const std::vector<CurveRow>& curve) {
+                                        const std::vector<CurveRow>& curve, const fs::path& results) {
+  MeanCurve mean;
+  if (fracture.box) mean = read_mean_curve(results, fracture.interfaces, fracture.box->component);
   std::vector<std::string> words;
-  for (const CurveRow& row : curve) {
-    std::string text = fmt::format("Step {} of {}, load {:.4g}", row.step, curve.back().step, row.load);
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const CurveRow& row = curve[i];
+    std::string text = fmt::format("Step {} of {}", row.step, curve.back().step);
     if (!fracture.box)
-      text = fmt::format("Step {} of {}: displacement {}, force {}", row.step, curve.back().step,
-                         shown_in(units.displacement, row.displacement),
-                         shown_in(units.force, row.force[fracture.output.curve.component]));
+      text += fmt::format(": displacement {}, force {}", shown_in(units.displacement, row.displacement),
+                          shown_in(units.force, row.force[fracture.output.curve.component]));
+    else if (mean.strain.size() == curve.size())
+      text += fmt::format(": strain {} {}, stress {}", name_of_component(fracture.box->component),
+                          shown(mean.strain[i]), shown(mean.stress[i], "Pa"));
     words.push_back(in_print(std::move(text)));
   }
   return words;
@@ -121,7 +128,7 @@ BrowserExtras fracture_extras(const FractureCase& fracture, const CaseFile& file
       extras.headline.push_back(in_print(std::move(sentence)));
     extras.figures = run_figures(fracture, units, *summary, results);
   }
-  extras.steps = words_of_steps(fracture, units, curve);
+  extras.steps = words_of_steps(fracture, units, curve, results);
   if (!fracture.box) extras.more = debonding_charts(curve, results);
   extras.body = body_of(fracture, curve, results);
   extras.beside = {std::string(fracture.box ? "Mean stress against mean strain" : "Force against displacement"),
