@@ -58,6 +58,8 @@ class LayerGradients {
   bool has_lines() const { return !cells_.empty(); }
   /// Whether a cell has lines, whatever they count.
   bool cover(Index cell) const { return any() && is_covered_[cell] != 0; }
+  /// How much the lines of a cell count; 0 without any.
+  double counts(Index cell) const { return cover(cell) ? counting_[cell] : 0.0; }
   /// How much the lines of each cell count, by the stiffness factors g.
   void weigh(const CellField<double>& g);
   /// None counts: for laws by strain, and for materials with a history.

@@ -42,7 +42,6 @@ class LayerGradients::Maker {
   void add(std::span<const BendingCell> all) {
     const Index cell = all.front().cell;
     made_.cells_.push_back({.cell = cell, .first_line = made_.lines_.size(), .end_line = 0});
-    made_.is_covered_[cell] = 1;
     has_line_.clear();
     has_surface_.clear();
     for (const BendingCell& in : all) {
@@ -50,6 +49,7 @@ class LayerGradients::Maker {
       add_line(cell, in.along);
     }
     made_.cells_.back().end_line = made_.lines_.size();
+    made_.is_covered_[cell] = made_.cells_.back().first_line < made_.lines_.size() ? 1 : 0;
     for (const BendingCell& in : all)
       for (const Index face : in.along)
         if (walk_.is_mirror(face)) add_mirror(cell, face);

@@ -37,6 +37,8 @@ void SmallTractions::finish_stress(Index c, const CellSums& sums, const Sweep& s
   result.energy[c] -= 0.5 * result.traction_moment[c].dot(eigenstrain_[c]);
 }
 
+// The strain of a cell is the mean over its faces. Where lines of cells count it is theirs, as that of the tractions:
+// nodes on the surfaces of layers move by other gradients than their cells have. Energies keep to the faces.
 CellMechanics SmallTractions::mechanics(const std::vector<Vector>& u, bool with_gradient,
                                         const CellField<IsotropicElasticity>& part) const {
   const auto lease = sweep();
@@ -59,6 +61,11 @@ CellMechanics SmallTractions::mechanics(const std::vector<Vector>& u, bool with_
     result.energy[c] = sums.work;
     if (part.size() > 0) result.part_energy[c] = energy_of_part(c, part[c], result.strain[c], moves);
     if (with_gradient) result.gradient[c] = gradient;
+    if (const double counts = cells_.layers().counts(c); counts > 0.0) {
+      const Tensor of_lines = with_strain_across(c, lease->gradients[c]);
+      result.strain[c] += counts * (symmetric_part(of_lines) - result.strain[c]);
+      if (with_gradient) result.gradient[c] += counts * (of_lines - gradient);
+    }
     finish_stress(c, sums, *lease, result);
   });
   add_histories(moves, result);
