@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace pfdm::this_file {
 namespace {
@@ -67,6 +70,18 @@ TEST(Units, GivesTheFactorOfAUnit) {
   EXPECT_DOUBLE_EQ(unit_in_si("50 g0", dimension::acceleration), 490.3325);  // the full scale of a file of integers
   EXPECT_DOUBLE_EQ(unit_in_si("degC", dimension::temperature), 1.0);
   EXPECT_THROW(unit_in_si("kg", dimension::length), InputError);
+}
+
+TEST(Units, AreReadByThreadsAtOnce) {
+  std::atomic<int> n_wrong = 0;
+  const auto read = [&] {
+    for (int i = 0; i < 3000; ++i)
+      if (parse_quantity("75 N/mm^2", dimension::stress) != 75e6 || !is_unit("kg m s-2")) ++n_wrong;
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) threads.emplace_back(read);
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(n_wrong, 0);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 namespace pfdm {
@@ -42,6 +43,9 @@ constexpr const Dimension* named_dimensions[] = {&dimension::length,
                                                  &dimension::number};
 
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
+
+/// UDUNITS keeps what it parses in global variables: one thread at a time.
+std::mutex udunits;
 
 ut_system* unit_system() {
   static const std::unique_ptr<ut_system, decltype(&ut_free_system)> system = [] {
@@ -137,21 +141,28 @@ double parse_quantity(std::string_view text, const Dimension& due) {
   // "20 30 um" would be multiplied out by UDUNITS; "20 1/s" is meant so.
   if (split_number(unit) && !unit.starts_with("1/"))
     throw InputError(fmt::format("\"{}\" has two numbers; {}", text, with_example(due)));
+  const std::lock_guard lock(udunits);
   return to_si(value, unit, text, due);
 }
 
 double unit_in_si(std::string_view unit, const Dimension& due) {
+  const std::lock_guard lock(udunits);
   return to_si(1.0, trimmed(unit), unit, due) - to_si(0.0, trimmed(unit), unit, due);
 }
 
-bool is_unit(std::string_view text) { return parse_unit(text) != nullptr; }
+bool is_unit(std::string_view text) {
+  const std::lock_guard lock(udunits);
+  return parse_unit(text) != nullptr;
+}
 
 bool is_unit_of(std::string_view text, const Dimension& due) {
+  const std::lock_guard lock(udunits);
   const Unit unit = parse_unit(text);
   return unit && same_dimension(unit.get(), parse_unit(due.si_unit).get());
 }
 
 const Dimension& dimension_of(std::string_view text) {
+  const std::lock_guard lock(udunits);
   const std::string_view spelled = unit_of(text);
   const Unit unit = parse_unit(spelled);
   if (!unit) throw InputError(fmt::format("\"{}\": the unit \"{}\" is not known", text, spelled));

@@ -1,5 +1,6 @@
 #pragma once
-// Quantities as people write them, "75 MPa", to SI doubles. The only place that knows UDUNITS-2.
+// Quantities as people write them, "75 MPa", to SI doubles. The only place that knows UDUNITS-2. Several threads
+// may call it at once.
 
 #include <string>
 #include <string_view>
