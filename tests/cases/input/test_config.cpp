@@ -49,6 +49,17 @@ TEST(Config, ReadsTypedValues) {
   EXPECT_NO_THROW(config.reject_unknown_keys());
 }
 
+TEST(Config, TakesBareNumbersInSIUnitsInValuesOfAScriptAlone) {
+  constexpr const char* text = "E = 30e9\nn = 2\nl = \"20 mm\"";
+  EXPECT_THROW(Config(text, "case.toml").root().quantity("E", dimension::stress), InputError);
+  const Config config(text, "Law", BareNumbers::in_si);
+  EXPECT_EQ(config.root().quantity("E", dimension::stress), 30e9);
+  EXPECT_EQ(config.root().quantity("n", dimension::length), 2.0);
+  EXPECT_EQ(config.root().quantity("l", dimension::length), 0.02);
+  EXPECT_EQ(message_of([&] { config.root().quantity("n", dimension::length, range::fraction); }),
+            "Law: n: 2 must be between 0 and 1");
+}
+
 TEST(Config, NamesTheNearestKeyOfAMisspeltOne) {
   const Config config("[mesh]\nthicknes = \"2 um\"\n", "cases/x/case.toml");
   const ConfigTable mesh = config.root().table("mesh");

@@ -189,7 +189,9 @@ std::vector<ConfigTable> ConfigTable::tables(std::string_view key) const {
   return result;
 }
 
-Config::Config(const std::string& text, std::string shown_as) : source_(std::make_shared<ConfigSource>()) {
+Config::Config(const std::string& text, std::string shown_as, BareNumbers numbers)
+    : source_(std::make_shared<ConfigSource>()) {
+  source_->numbers = numbers;
   source_->file = std::move(shown_as);
   source_->root = parse_toml(text, source_->file);
 }

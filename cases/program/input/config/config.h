@@ -175,11 +175,15 @@ class ConfigTable {
   std::string path_;
 };
 
+/// Whether a number may stand where a quantity is due: in a case file none may, in values of a script it is in the SI
+/// unit.
+enum class BareNumbers { refused, in_si };
+
 /// A case file. Keep it until reject_unknown_keys() has been called, after everything was read.
 class Config {
  public:
   /// `text` is the file's content, `shown_as` its name in messages.
-  Config(const std::string& text, std::string shown_as);
+  Config(const std::string& text, std::string shown_as, BareNumbers numbers = BareNumbers::refused);
   ConfigTable root() const;
   void reject_unknown_keys() const;
   /// What those who read it have noted so far, with its places.

@@ -59,6 +59,7 @@ std::string ConfigSource::subtable(const std::string& path, std::string_view key
 }
 
 std::string ConfigSource::said_at(int line, const std::string& message) const {
+  if (numbers == BareNumbers::in_si) return fmt::format("{}: {}", file, message);  // values of a script have no lines
   return fmt::format("{}:{}: {}", file, line, message);
 }
 

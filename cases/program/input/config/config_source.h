@@ -15,6 +15,7 @@ namespace pfdm {
 
 struct ConfigSource {
   std::string file;
+  BareNumbers numbers = BareNumbers::refused;
   TomlValue root;
   struct Opened {
     std::string path;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace pfdm {
@@ -14,6 +15,13 @@ namespace {
 
 /// Where the paths of a case start.
 std::filesystem::path directory_of(const std::string& file) { return std::filesystem::path(file).parent_path(); }
+
+/// Of a number without a unit.
+std::optional<double> bare_number(const TomlValue& value) {
+  if (const auto* real = std::get_if<double>(&value.value)) return *real;
+  if (const auto* whole = std::get_if<std::int64_t>(&value.value)) return static_cast<double>(*whole);
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -59,10 +67,8 @@ double ConfigValue::number(const Range& allowed) const {
   double value = 0.0;
   if (path_of_result(*value_) != nullptr)
     value = in_context([&] { return result_number(*value_, directory_of(source_->file), dimension::number); });
-  else if (const auto* real = std::get_if<double>(&value_->value))
-    value = *real;
-  else if (const auto* whole = std::get_if<std::int64_t>(&value_->value))
-    value = static_cast<double>(*whole);
+  else if (const auto bare = bare_number(*value_))
+    value = *bare;
   else
     throw error(fmt::format("expected a number, found {}", shown(*value_)));
   if (!allowed.holds(value)) throw error(fmt::format("{} must be {}", value, allowed.words));
@@ -70,17 +76,17 @@ double ConfigValue::number(const Range& allowed) const {
 }
 
 std::string ConfigValue::shown_with_unit_due(const Dimension& due) const {
-  const bool bare =
-      std::holds_alternative<double>(value_->value) || std::holds_alternative<std::int64_t>(value_->value);
-  return fmt::format("{} {}; expected {}, as in \"{}\"", shown(*value_), bare ? "has no unit" : "is not a quantity",
-                     with_article(due.name), due.example);
+  return fmt::format("{} {}; expected {}, as in \"{}\"", shown(*value_),
+                     bare_number(*value_) ? "has no unit" : "is not a quantity", with_article(due.name), due.example);
 }
 
 double ConfigValue::quantity(const Dimension& due, const Range& allowed) const {
   const auto* text = std::get_if<std::string>(&value_->value);
   const bool from_results = path_of_result(*value_) != nullptr;
-  if (text == nullptr && !from_results) throw error(shown_with_unit_due(due));
+  const auto in_si = source_->numbers == BareNumbers::in_si ? bare_number(*value_) : std::nullopt;
+  if (text == nullptr && !from_results && !in_si) throw error(shown_with_unit_due(due));
   const double value = in_context([&] {
+    if (in_si) return *in_si;
     return from_results ? result_number(*value_, directory_of(source_->file), due) : parse_quantity(*text, due);
   });
   if (!allowed.holds(value)) throw error(fmt::format("{} must be {}", shown(*value_), allowed.words));
