@@ -154,6 +154,10 @@ constexpr FitMethod methods[] = {
     {"ten_step", "iteration with a Prony series (AFRL-RW-EG-TR-2016-088, A4.3), of the first record; for comparison"},
 };
 
+const ExcitationType& type_of(const ConfigTable& excitation) {
+  return choose(excitation.at("type"), excitation_types(), "type of excitation");
+}
+
 VibrationTest read_test(const ConfigTable& table, const fs::path& directory, MassMaterialCase& c) {
   VibrationTest test;
   std::string_view motion;
@@ -161,16 +165,10 @@ VibrationTest read_test(const ConfigTable& table, const fs::path& directory, Mas
   test.name = read_plain_name(*test.where, "files");
   if (table.has("excitation")) {
     const ConfigTable shaker = table.table("excitation");
-    if (c.rate == 0.0)
-      throw shaker.error("a simulated test needs the samples per second: [sampling] rate, as in rate = \"6 kHz\"");
-    const ExcitationType& type = choose(shaker.at("type"), excitation_types(), "type of excitation");
-    motion = type.name;
-    test.excitation = type.read(shaker, directory, c.rate, c.data_files);
+    motion = type_of(shaker).name;
+    test.excitation = read_excitation(shaker, directory, c.rate, c.data_files);
     test.band_low = test.excitation->band_low;
     test.band_high = test.excitation->band_high;
-    if (test.band_high > 0.38 * c.rate)
-      throw shaker.error(fmt::format("the excitation reaches {} Hz; {} samples per second resolve up to {:.4g} Hz",
-                                     test.band_high, c.rate, 0.38 * c.rate));
   }
   if (table.has("record")) {
     const ConfigTable record = table.table("record");
@@ -266,6 +264,33 @@ void read_sampling(const ConfigTable& root, MassMaterialCase& c) {
 }
 
 }  // namespace
+
+MassMaterialCase read_sample_model(const ConfigTable& root) {
+  root.with_keys(mass_material_keys());
+  MassMaterialCase c;
+  read_sample(root, c);
+  read_model(root, c);
+  return c;
+}
+
+void require_parameters(const MassMaterialCase& c) {
+  if (!c.has_parameters)
+    throw InputError("[model] has no \"stiffness\": a run simulates a model with parameters; fit finds them");
+  if (!(static_stiffness(c.model) > 0.0))
+    throw InputError(fmt::format("[model] the static stiffness, kernel included, is {:.4g} N/m; it must be positive",
+                                 static_stiffness(c.model)));
+}
+
+Excitation read_excitation(const ConfigTable& excitation, const fs::path& directory, double rate,
+                           std::vector<fs::path>& data_files) {
+  if (rate == 0.0)
+    throw excitation.error("a simulated test needs the samples per second: [sampling] rate, as in rate = \"6 kHz\"");
+  Excitation read = type_of(excitation).read(excitation, directory, rate, data_files);
+  if (read.band_high > highest_frequency(rate))
+    throw excitation.error(fmt::format("the excitation reaches {} Hz; {} samples per second resolve up to {:.4g} Hz",
+                                       read.band_high, rate, highest_frequency(rate)));
+  return read;
+}
 
 MassMaterialCase read_mass_material_case(const ConfigTable& root, const fs::path& case_directory) {
   root.with_keys(mass_material_keys());

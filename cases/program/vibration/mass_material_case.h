@@ -83,6 +83,16 @@ struct MassMaterialCase {
   std::vector<std::filesystem::path> data_files;
 };
 
+/// Structure, model and size of the sample alone, by [model] and [sample]; `root` may lack the rest of a case.
+MassMaterialCase read_sample_model(const ConfigTable& root);
+/// Throws InputError for a model that cannot be simulated: without stiffness, or not stable at rest.
+void require_parameters(const MassMaterialCase& c);
+/// What so many samples per second [Hz] resolve [Hz].
+constexpr double highest_frequency(double rate) { return 0.38 * rate; }
+/// Of a simulated test, sampled at `rate` [Hz]; files are seen from `directory` and named in `data_files`.
+Excitation read_excitation(const ConfigTable& excitation, const std::filesystem::path& directory, double rate,
+                           std::vector<std::filesystem::path>& data_files);
+
 MassMaterialCase read_mass_material_case(const ConfigTable& root, const std::filesystem::path& case_directory);
 
 /// [model] with these parameters, as TOML.

@@ -25,15 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-/// What a run needs beyond what a fit does.
-void require_parameters(const MassMaterialCase& c) {
-  if (!c.has_parameters)
-    throw InputError("[model] has no \"stiffness\": a run simulates a model with parameters; fit finds them");
-  if (!(static_stiffness(c.model) > 0.0))
-    throw InputError(fmt::format("[model] the static stiffness, kernel included, is {:.4g} N/m; it must be positive",
-                                 static_stiffness(c.model)));
-}
-
 /// Of mass and k1, undamped [Hz].
 double linear_resonance(const MassMaterialCase& c) {
   return std::sqrt(c.model.stiffness.front() / c.model.mass) / (2.0 * std::numbers::pi);
