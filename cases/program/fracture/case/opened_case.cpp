@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace pfdm {
 namespace {
@@ -25,13 +26,21 @@ FractureCase read(const std::filesystem::path& where, const std::vector<std::str
   return fracture;
 }
 
+std::unique_ptr<FractureRun> run_on(const FractureCase& fracture, const Mesh& mesh) {
+  return std::make_unique<FractureRun>(mesh, model_on(fracture, mesh), fracture.staggered, fracture.loading);
+}
+
 }  // namespace
 
 OpenedCase::OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values)
     : settings_(read(where, values)),
       mesh_(std::make_unique<const Mesh>(settings_.mesh.make())),
-      run_(std::make_unique<FractureRun>(*mesh_, model_on(settings_, *mesh_), settings_.staggered, settings_.loading)) {
-}
+      run_(run_on(settings_, *mesh_)) {}
+
+OpenedCase::OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values, Mesh mesh)
+    : settings_(read(where, values)),
+      mesh_(std::make_unique<const Mesh>(std::move(mesh))),
+      run_(run_on(settings_, *mesh_)) {}
 
 Vector OpenedCase::reaction(const StepReport& report, std::string_view patch) const {
   return report.reaction[mesh_->patch_index(std::string(patch))];

@@ -26,6 +26,9 @@ class OpenedCase {
   /// included, and for cases of other kinds.
   explicit OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values = {});
 
+  /// The same on a mesh that was made elsewhere; what [mesh] says is read and not made.
+  OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values, Mesh mesh);
+
   const std::string& title() const { return settings_.title; }
   /// As the file has them: loading, boundary conditions, output.
   const FractureCase& settings() const { return settings_; }
