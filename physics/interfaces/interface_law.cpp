@@ -18,6 +18,14 @@ ModeMixture InterfaceLaw::mixture(const InterfaceStrength& at, double B) const {
   return {.strength = at.strength, .toughness = at.toughness};
 }
 
+bool InterfaceLaw::is_all_rise(const InterfaceStrength& at) const {
+  const auto too_soft = [&](double strength, double toughness) {
+    return strength * strength >= 2.0 * at.stiffness * toughness;
+  };
+  return law->has_rise() && (too_soft(at.strength, at.toughness) ||
+                             (depends_on_mode() && too_soft(at.shear_strength, at.shear_toughness)));
+}
+
 double InterfaceLaw::initial_stiffness(const InterfaceStrength& at) const {
   return point(at, {.strength = at.strength, .toughness = at.toughness}, 0.0).slope;
 }

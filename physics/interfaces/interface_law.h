@@ -108,6 +108,8 @@ struct InterfaceLaw {
   /// be in the mode of this separation [m].
   double damage(const InterfaceStrength& at, const Vector& n, const Vector& separation,
                 const InterfaceHistory& history) const;
+  /// Whether a straight rise of this stiffness, in opening or in shear, takes all the toughness or more.
+  bool is_all_rise(const InterfaceStrength& at) const;
   bool depends_on_mode() const { return mixed_mode->at != nullptr; }
   /// Whether an opened interface pulls along its separation, in any mode.
   bool pulls_along_separation() const;

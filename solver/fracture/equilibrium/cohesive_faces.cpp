@@ -58,12 +58,7 @@ void CohesiveFaces::add(std::size_t number, const CohesiveSurface& surface, std:
   bond_.push_back(bond(f));
   InterfaceStrength at = surface.at[k];
   if (surface.law.law->has_rise() && !(at.stiffness > 0.0)) at.stiffness = rigid_stiffness * bond_.back();
-  const auto too_soft = [&](double strength, double toughness) {
-    return strength * strength >= 2.0 * at.stiffness * toughness;
-  };
-  if (surface.law.law->has_rise() &&
-      (too_soft(at.strength, at.toughness) ||
-       (surface.law.depends_on_mode() && too_soft(at.shear_strength, at.shear_toughness))))
+  if (surface.law.is_all_rise(at))
     throw InputError(
         fmt::format("interface \"{}\": with the stiffness {} the rise to the strength takes more than the toughness; "
                     "at least strength^2 / (2 toughness) = {}",

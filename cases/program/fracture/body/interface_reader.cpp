@@ -183,6 +183,24 @@ std::vector<InterfaceSettings> read_interfaces(const ConfigTable& root, const st
   return interfaces;
 }
 
+UniformInterface read_uniform_interface(const ConfigTable& table, const std::filesystem::path& directory) {
+  InterfaceSettings settings{.name = {}, .where = table};
+  std::vector<std::filesystem::path> data_files;
+  read_law(table, directory, settings, data_files);
+  read_modes(table, settings);
+  for (const auto* value : {&settings.strength, &settings.toughness})
+    if (value->varies) throw table.error("strength and toughness have to be the same everywhere here");
+  const InterfaceStrength at = strength_at(settings, Vector::Zero());
+  if (settings.law.law->has_rise() && !(at.stiffness > 0.0))
+    throw table.error("\"stiffness\" is required: a rigid interface would take it from the cells beside it");
+  if (settings.law.is_all_rise(at))
+    throw table.at("stiffness")
+        .error(fmt::format(
+            "the rise to the strength takes more than the toughness; at least strength^2 / (2 toughness) = {}",
+            quantity_text(0.5 * at.strength * at.strength / at.toughness, "Pa/m")));
+  return {.law = std::move(settings.law), .at = at};
+}
+
 void place_interfaces(const std::vector<InterfaceSettings>& interfaces, const Mesh& mesh, FractureModel& model) {
   for (const InterfaceSettings& settings : interfaces) {
     std::array<Index, 2> regions{-1, -1};

@@ -45,6 +45,15 @@ std::span<const TractionSeparationLaw> interface_laws();
 std::vector<InterfaceSettings> read_interfaces(const ConfigTable& root, const std::filesystem::path& case_directory,
                                                std::vector<std::filesystem::path>& data_files);
 
+/// The law of an interface that is the same everywhere, by the keys of [[interface]] that do not say where it is.
+struct UniformInterface {
+  InterfaceLaw law;
+  InterfaceStrength at;  ///< with a stiffness, where the law has a straight rise
+};
+/// Throws InputError for values that depend on the place as well, and for a rise without a stiffness or that would take
+/// all the toughness.
+UniformInterface read_uniform_interface(const ConfigTable& table, const std::filesystem::path& directory);
+
 /// Throws InputError, with file and line, for regions that the mesh does not have, an interface without a face, and
 /// values that are out of range at a face.
 void place_interfaces(const std::vector<InterfaceSettings>& interfaces, const Mesh& mesh, FractureModel& model);
