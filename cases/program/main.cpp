@@ -11,16 +11,6 @@
 
 namespace {
 
-bool can_run_here() {
-#if defined(__AVX512VL__)
-  return __builtin_cpu_supports("avx512vl");
-#elif defined(__AVX2__)
-  return __builtin_cpu_supports("avx2");
-#else
-  return true;
-#endif
-}
-
 /// What was written waits no longer. Returns the status of the program.
 int with_files_flushed(int status) {
   try {
@@ -54,7 +44,7 @@ int with_output_flushed(int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (!can_run_here()) {
+  if (!pfdm::processor_has_instruction_set()) {
     std::cerr << "pfdm: this program was compiled for " << pfdm::instruction_set()
               << ", which this processor lacks: build it here (./pfdm does), or with -DPFDM_ARCH=x86-64-v2\n";
     return 1;

@@ -25,4 +25,15 @@ constexpr std::string_view instruction_set() {
 #endif
 }
 
+/// Whether this processor has what the compiler may have used.
+inline bool processor_has_instruction_set() {
+#if defined(__AVX512VL__)
+  return __builtin_cpu_supports("avx512vl");
+#elif defined(__AVX2__)
+  return __builtin_cpu_supports("avx2");
+#else
+  return true;
+#endif
+}
+
 }  // namespace pfdm
