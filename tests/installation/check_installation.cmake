@@ -30,6 +30,16 @@ foreach(file share/bash-completion/completions/pfdm share/zsh/vendor-completions
   endif()
 endforeach()
 
+file(GLOB extension ${prefix}/lib/python3/dist-packages/_pfdm.*.so)
+if(extension)
+  find_program(python NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${prefix}/lib/python3/dist-packages ${python} -c
+      "print(__import__('_pfdm').__file__)")
+  if(NOT output MATCHES "^${prefix}/")
+    message(FATAL_ERROR "another extension than the installed one is found: ${output}")
+  endif()
+endif()
+
 file(STRINGS ${BUILD}/CPackConfig.cmake depends REGEX "DEVELOPMENT_PACKAGE_DEPENDS")
 foreach(library libeigen3-dev nlohmann-json3-dev libtet1.5-dev libcairo2-dev libfreetype-dev)
   if(NOT depends MATCHES "[ \"]${library}[,\"]")

@@ -19,6 +19,10 @@ install(
   DESTINATION lib/python3/dist-packages
   COMPONENT program
   PATTERN __pycache__ EXCLUDE)
+if(TARGET pfdm_python)
+  install(TARGETS pfdm_python LIBRARY DESTINATION lib/python3/dist-packages COMPONENT program)
+  install(FILES cases/python/_pfdm.pyi DESTINATION lib/python3/dist-packages COMPONENT program)
+endif()
 file(GLOB scripts ${PROJECT_SOURCE_DIR}/postproc/plots/*.py)
 install(PROGRAMS ${scripts} DESTINATION ${shared}/postproc COMPONENT program)
 install(FILES README.md LICENSE CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

@@ -10,13 +10,23 @@
 A case is computed by the program `pfdm` in a process of its own: results are the same to the last bit as those of the
 command line, several runs go side by side, and neither Ctrl-C nor a failing run harms the script. Quantities that go in
 are texts with units, as in case.toml ("300 J/m^2"), or quantities of pint; what comes out is in SI units.
+
+With the compiled extension pieces of it run in this process, on arrays of NumPy: fracture runs step by step
+(FractureRun), and laws as functions: MassMaterial, Endochronic, InterfaceLaw, softening.
 """
 
 from .case import Case, Check
+from .endochronic import Endochronic
 from .errors import ComputationError, Error, InputError, MissingResult
+from .fracture_run import FractureRun, State
+from .interface_law import InterfaceLaw, softening, softening_laws
+from .mass_material import MassMaterial
+from .mesh import Mesh
+from .native import set_threads
 from .results import Fit, Frame, Results, open  # noqa: A004
 from .study import sweep
 from .vtu import Grid
 
-__all__ = ["Case", "Check", "ComputationError", "Error", "Fit", "Frame", "Grid", "InputError", "MissingResult",
-           "Results", "open", "sweep"]
+__all__ = ["Case", "Check", "ComputationError", "Endochronic", "Error", "Fit", "FractureRun", "Frame", "Grid",
+           "InputError", "InterfaceLaw", "MassMaterial", "Mesh", "MissingResult", "Results", "State", "open", "set_threads",
+           "softening", "softening_laws", "sweep"]

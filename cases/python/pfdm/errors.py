@@ -21,7 +21,9 @@ class InputError(Error):
     def __init__(self, message: str) -> None:
         super().__init__(message)
         place = re.match(r"(?P<file>[^:\n]+?)(?: with --set)?(?::(?P<line>\d+))?: ", message)
-        self.file: str | None = place["file"] if place and not message.startswith("--") else None
+        if place and (message.startswith("--") or not re.search(r"/|\.\w+$", place["file"])):
+            place = None  # words of an option or of a value
+        self.file: str | None = place["file"] if place else None
         self.line: int | None = int(place["line"]) if place and place["line"] else None
         within = re.search(r"\[(?P<table>[\w.\[\]-]+)\] (?:\"(?P<unknown>[^\"]+)\"|(?P<key>[\w.\[\]-]+):)", message)
         of_set = re.match(r"--set (?P<key>[^:=\s]+)", message)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import xml.etree.ElementTree as xml
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -36,7 +37,17 @@ def read_table(path: Path) -> pandas.DataFrame:
     """A CSV file of pfdm as a table; attrs["units"] has the unit of each column whose name ends with one."""
     import pandas
 
-    table = pandas.read_csv(path, comment="#", float_precision="round_trip")
+    return _with_units(pandas.read_csv(path, comment="#", float_precision="round_trip"))
+
+
+def table_of(columns: Mapping[str, numpy.ndarray]) -> pandas.DataFrame:
+    """Columns as a table, with units like those of read_table()."""
+    import pandas
+
+    return _with_units(pandas.DataFrame(columns))
+
+
+def _with_units(table: pandas.DataFrame) -> pandas.DataFrame:
     table.attrs["units"] = {str(name): unit_in(str(name)) for name in table.columns if unit_in(str(name))}
     return table
 

@@ -1,0 +1,26 @@
+#pragma once
+// A mesh of arrays, as a mesh file would have it.
+
+#include "cases/python/extension/arrays.h"
+#include "mesh/mesh.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace pfdm {
+
+/// Cells as VTK has them; triangles and quadrilaterals among them tell patches.
+struct MeshArrays {
+  ArrayOf<double> points;                         ///< (n_points, 3) [m]
+  ArrayOf<std::int64_t> connectivity, offsets;    ///< points of all cells; where each ends, (n_cells,)
+  ArrayOf<int> types;                             ///< (n_cells,), VTK's numbers
+  std::optional<ArrayOf<Index>> numbers;          ///< (n_cells,): of a cell's region, of a face's patch
+  std::map<Index, std::string> regions, patches;  ///< names of the numbers
+};
+
+/// Throws InputError for arrays that do not fit together, and for what is wrong with the mesh, as of a file.
+Mesh mesh_of(const MeshArrays& arrays);
+
+}  // namespace pfdm

@@ -1,0 +1,217 @@
+"""Fracture runs in this process, step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy
+from numpy.typing import NDArray
+
+from .case import Case
+from .errors import Error
+from .mesh import Mesh
+from .native import extension, place_of
+from .program import Step
+
+if TYPE_CHECKING:
+    import _pfdm
+
+
+class State:
+    """The state of a run after a step. It never changes: a run goes on from new ones, and back to it by restore().
+
+    Attributes:
+        step: accepted load steps so far.
+        load: load parameter [-].
+    """
+
+    def __init__(self, state: _pfdm.State) -> None:
+        self._state = state
+        self.step: int = state.step
+        self.load: float = state.load
+
+    def __repr__(self) -> str:
+        return f"<pfdm.State after step {self.step}, load {self.load:g}>"
+
+
+class FractureRun:
+    """A case of kind "fracture" in this process: its mesh, its model and its load steps. It writes nothing.
+
+        with pfdm.FractureRun(pfdm.Case("cases/bar_at2")) as run:
+            for row in run:
+                print(row["displacement_m"], row["force_x_N"], run.damage.max())
+
+    Steps and fields are those of `pfdm run` to the last bit. Arrays are read-only views without copies; they keep what
+    they show, also after later steps and after close(). While it computes, other threads of the script go on; several
+    runs may be stepped in threads of their own, one of them by one thread at a time.
+
+    Args:
+        case: the case, with its values.
+        mesh: takes the place of what [mesh] makes; its regions and patches are those that the case names. Cells and
+            points are put in another order: see cell_centres.
+
+    Raises:
+        InputError: what is wrong with the case or the mesh, with file, line and key.
+        Error: there is no compiled extension.
+    """
+
+    def __init__(self, case: Case, mesh: Mesh | None = None) -> None:
+        parts = None if mesh is None else mesh.parts()
+        self._opened: _pfdm.FractureRun | None = extension().FractureRun(*place_of(case), parts)
+        self._names: list[str] = self._run.row()[0].split(",")
+
+    @property
+    def _run(self) -> _pfdm.FractureRun:
+        if self._opened is None:
+            raise Error("the run was closed")
+        return self._opened
+
+    def step(self, on_iteration: Callable[[dict[str, float]], object] | None = None) -> Step:
+        """Does one accepted load step, with increments cut back until one is, and returns its row of the curve.
+
+        Args:
+            on_iteration: called after each iteration, also of increments that are cut back, with a dict of "step",
+                "iteration", "load", "damage_change", "energy_change". What it raises ends the step and is raised here.
+
+        Raises:
+            InputError: the load has reached its end.
+            ComputationError: the smallest increment does not converge.
+            KeyboardInterrupt: after Ctrl-C, once the iteration is done.
+            RuntimeError: another thread steps this run.
+        After any of them the run is where it was before the step.
+        """
+        self._run.step(on_iteration)
+        return self.row
+
+    def __iter__(self) -> Iterator[Step]:
+        """Steps until the end of the load; the rows of the curve from the next step on."""
+        while not self.is_complete:
+            yield self.step()
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether the load has reached its end."""
+        return self._run.is_complete
+
+    @property
+    def row(self) -> Step:
+        """The present state as a row of force_displacement.csv: "step", "load", "displacement_m", "force_x_N" ..."""
+        return dict(zip(self._names, map(float, self._run.row()[1].split(",")), strict=True))
+
+    @property
+    def load(self) -> float:
+        """The load parameter [-]."""
+        return self._run.state.load
+
+    @property
+    def remarks(self) -> list[str]:
+        """What the last step has to say: increments that were cut back."""
+        return self._run.remarks
+
+    @property
+    def state(self) -> State:
+        """The present state, without a copy. It costs the memory of a few fields as long as it is kept."""
+        return State(self._run.state)
+
+    def restore(self, state: State) -> None:
+        """Goes back, or on, to a state of this run or of another one of the same case.
+
+        Raises InputError if the state belongs to another mesh or model.
+        """
+        self._run.restore(state._state)
+
+    @property
+    def fields(self) -> dict[str, NDArray[Any]]:
+        """The fields of a frame by their names, one value for each cell: damage, displacement, stress ...
+
+        Scalars have the shape (n_cells,), vectors (n_cells, 3), tensors (n_cells, 3, 3). They are computed when they
+        are first asked for in a state.
+        """
+        return self._run.fields()
+
+    @property
+    def damage(self) -> NDArray[numpy.float64]:
+        """d [-], shape (n_cells,): 0 sound, 1 broken."""
+        return self.fields["damage"]
+
+    @property
+    def displacement(self) -> NDArray[numpy.float64]:
+        """u [m], shape (n_cells, 3)."""
+        return self.fields["displacement"]
+
+    @property
+    def stress(self) -> NDArray[numpy.float64]:
+        """sigma [Pa], shape (n_cells, 3, 3); at finite strain Cauchy's."""
+        return self.fields["stress"]
+
+    @property
+    def strain(self) -> NDArray[numpy.float64]:
+        """eps [-], shape (n_cells, 3, 3); at finite strain Green's."""
+        return self.fields["strain"]
+
+    def reaction(self, patch: str) -> NDArray[numpy.float64]:
+        """The force on a patch [N], shape (3,). Raises InputError, which lists the patches."""
+        return numpy.array(self._run.reaction(patch))
+
+    def patch_displacement(self, patch: str) -> NDArray[numpy.float64]:
+        """The area mean of a patch's displacement [m], shape (3,). Raises InputError, which lists the patches."""
+        return numpy.array(self._run.patch_displacement(patch))
+
+    @cached_property
+    def _mesh(self) -> _pfdm.MeshArrays:
+        return self._run.mesh()
+
+    @property
+    def points(self) -> NDArray[numpy.float64]:
+        """(n_points, 3), positions [m]."""
+        return self._mesh["points"]
+
+    @property
+    def connectivity(self) -> NDArray[numpy.int32]:
+        """Points of all cells, one cell after the other, in VTK's order; of polyhedra each point once."""
+        return self._mesh["connectivity"]
+
+    @property
+    def offsets(self) -> NDArray[numpy.int32]:
+        """(n_cells,), where each cell ends in `connectivity`."""
+        return self._mesh["offsets"]
+
+    @property
+    def cell_centres(self) -> NDArray[numpy.float64]:
+        """(n_cells, 3) [m], in the order of the fields."""
+        return self._mesh["cell_centres"]
+
+    @property
+    def cell_volumes(self) -> NDArray[numpy.float64]:
+        """(n_cells,) [m^3], in the order of the fields."""
+        return self._mesh["cell_volumes"]
+
+    def cells_of(self, region: str) -> NDArray[numpy.intp]:
+        """Numbers of the cells of a region. Raises KeyError, which lists the regions."""
+        names = self._mesh["regions"]
+        if region not in names:
+            raise KeyError(f"there is no region \"{region}\" (there are: {', '.join(names)})")
+        return numpy.flatnonzero(self._mesh["region"] == names.index(region))
+
+    @property
+    def patches(self) -> list[str]:
+        """Names of the patches of the boundary."""
+        return list(self._mesh["patches"])
+
+    def close(self) -> None:
+        """Gives mesh and matrices back, but for what arrays show that are kept."""
+        self._opened = None
+        self.__dict__.pop("_mesh", None)
+
+    def __enter__(self) -> FractureRun:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self._opened is None:
+            return "<pfdm.FractureRun, closed>"
+        return f"<pfdm.FractureRun of {self._run.title}: step {self._run.state.step}, load {self.load:g}>"

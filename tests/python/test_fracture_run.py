@@ -1,0 +1,265 @@
+"""Tests of fracture runs in process: steps and fields are those of the program, whatever a script does in between."""
+
+import gc
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+try:
+    import _pfdm  # noqa: F401
+    import numpy
+    import pandas  # noqa: F401
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+import pfdm
+
+shipped = pathlib.Path(__file__).parents[2] / "cases"
+
+
+def bar(**values):
+    """The shipped bar, coarser."""
+    coarse = {"mesh.x[0].cells": 21, "fracture.length": "12 mm", "loading.maximum_increment": 0.1}
+    return pfdm.Case(shipped / "bar_at2", {**coarse, **values})
+
+
+def rows_of(run):
+    return [run.row, *run]
+
+
+def bar_arrays(n=21):
+    """The bar's mesh as arrays: n hexahedra along x, two across; the middle cells are weak."""
+    x, y, z = numpy.meshgrid(numpy.linspace(0.0, 0.1, n + 1), numpy.linspace(-5e-4, 5e-4, 3), [-5e-4, 5e-4], indexing="ij")
+    points = numpy.stack([x.ravel(), y.ravel(), z.ravel()], axis=1)
+    at = numpy.arange(len(points)).reshape(n + 1, 3, 2)
+    low = [at[:-1, :-1, :-1], at[1:, :-1, :-1], at[1:, 1:, :-1], at[:-1, 1:, :-1]]
+    high = [at[:-1, :-1, 1:], at[1:, :-1, 1:], at[1:, 1:, 1:], at[:-1, 1:, 1:]]
+    cells = numpy.stack([each.ravel() for each in low + high], axis=1)
+    numbers = numpy.where(numpy.arange(len(cells)) // 2 == n // 2, 2, 1)
+    return points, cells, numbers
+
+
+class Steps(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_are_those_of_the_program_to_the_last_bit(self):
+        case = bar()
+        theirs = case.run(self.folder / "r", threads=1)
+        with pfdm.FractureRun(case) as run:
+            rows = rows_of(run)
+            self.assertEqual(rows, theirs.curve.to_dict("records"))
+            frame = theirs.frames[-1]
+            self.assertEqual(run.damage.tobytes(), frame.damage.tobytes())
+            self.assertEqual(run.displacement.tobytes(), frame.displacement.tobytes())
+            self.assertEqual(run.stress[:, 0, 1].astype("f4").tobytes(), frame.stress[:, 3].tobytes())
+            self.assertEqual(set(run.fields), set(frame.grid.cell_data))
+            self.assertEqual(run.reaction("xmax")[0], rows[-1]["force_x_N"])
+            self.assertEqual(run.patch_displacement("xmax")[0], rows[-1]["displacement_m"])
+            with self.assertRaisesRegex(pfdm.InputError, "xmin"):
+                run.reaction("left")
+            with self.assertRaisesRegex(pfdm.InputError, "no further step"):
+                run.step()
+
+    def test_of_the_shipped_case_are_the_same_whatever_is_looked_at(self):
+        case = pfdm.Case(shipped / "bar_at2", {"loading.end": 0.3})
+        theirs = case.run(self.folder / "r", threads=2).curve.to_dict("records")
+        run = pfdm.FractureRun(case)
+        rows = [run.row]
+        for row in run:
+            rows.append(row)
+            run.stress.sum()
+        self.assertEqual(rows, theirs)
+
+    def test_with_interfaces_are_the_same(self):
+        case = pfdm.Case(shipped / "cohesive_dcb")
+        theirs = case.run(self.folder / "r", max_steps=2).curve.to_dict("records")
+        run = pfdm.FractureRun(case)
+        self.assertEqual([run.row, run.step(), run.step()], theirs)
+
+    def test_go_on_from_a_state_that_was_kept(self):
+        run = pfdm.FractureRun(bar())
+        for _ in range(4):
+            run.step()
+        state, damage = run.state, run.damage
+        before = damage.copy()
+        first = [run.step() for _ in range(3)]
+        self.assertEqual(damage.tobytes(), before.tobytes())
+        run.restore(state)
+        self.assertEqual((run.state.step, state.step, run.load), (4, 4, state.load))
+        self.assertEqual(run.damage.tobytes(), before.tobytes())
+        self.assertEqual([run.step() for _ in range(3)], first)
+        with self.assertRaisesRegex(pfdm.InputError, "another mesh"):
+            run.restore(pfdm.FractureRun(bar(**{"mesh.x[0].cells": 11})).state)
+
+    def test_that_a_watch_ends_leave_the_run_where_it_was(self):
+        run, other = pfdm.FractureRun(bar()), pfdm.FractureRun(bar())
+        run.step(), other.step()
+        seen = []
+
+        def watch(at):
+            seen.append(at)
+            if len(seen) == 2:
+                raise LookupError("enough")
+
+        before = run.row
+        while not seen or len(seen) < 2:
+            try:
+                run.step(watch)
+                other.step()
+                before = run.row
+            except LookupError:
+                break
+        self.assertEqual(run.row, before)
+        self.assertEqual(list(run), list(other))
+        self.assertEqual(set(seen[0]), {"step", "iteration", "load", "damage_change", "energy_change"})
+
+    def test_cannot_be_done_within_a_step(self):
+        run = pfdm.FractureRun(bar())
+        with self.assertRaisesRegex(RuntimeError, "is computing"):
+            run.step(lambda at: run.step())
+        self.assertEqual(run.step()["step"], 1)
+
+    def test_in_threads_of_their_own_do_not_disturb_each_other(self):
+        cases = [bar(), bar(**{"materials.concrete.toughness": "120 J/m^2"})]
+        alone = [rows_of(pfdm.FractureRun(case)) for case in cases]
+        found = [None, None]
+
+        def work(i):
+            found[i] = rows_of(pfdm.FractureRun(cases[i]))
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, alone)
+
+    def test_end_by_ctrl_c_and_go_on(self):
+        run, other = pfdm.FractureRun(bar()), pfdm.FractureRun(bar())
+        with self.assertRaises(KeyboardInterrupt):
+            run.step(lambda at: os.kill(os.getpid(), signal.SIGINT))
+        self.assertEqual(list(run), list(other))
+
+    def test_end_by_ctrl_c_while_nothing_is_watched(self):
+        run = pfdm.FractureRun(pfdm.Case(shipped / "glass_bead_quick"))
+        threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            run.step()
+            time.sleep(60.0)
+        self.assertEqual(run.state.step, 0)
+
+    def test_of_wrong_cases_say_file_line_and_key(self):
+        with self.assertRaises(pfdm.InputError) as caught:
+            pfdm.FractureRun(bar(**{"materials.concrete.toughness": "3 N"}))
+        self.assertEqual(caught.exception.key, "materials.concrete.toughness")
+        self.assertEqual(caught.exception.file, str(shipped / "bar_at2/case.toml"))
+        with self.assertRaises(pfdm.InputError):
+            pfdm.FractureRun(pfdm.Case(shipped / "endochronic_uniaxial"))
+
+    def test_that_do_not_converge_are_computation_errors(self):
+        run = pfdm.FractureRun(bar(**{"solver.maximum_iterations": 1, "loading.minimum_increment": 0.01}))
+        with self.assertRaises(pfdm.ComputationError):
+            list(run)
+        self.assertLess(run.load, 1.0)
+
+
+class Arrays(unittest.TestCase):
+    def test_are_views_that_outlive_the_run(self):
+        run = pfdm.FractureRun(bar())
+        run.step()
+        damage, stress, volumes = run.damage, run.stress, run.cell_volumes
+        self.assertIs(run.damage.base is not None, True)
+        self.assertEqual(run.damage.ctypes.data, damage.ctypes.data)
+        self.assertFalse(damage.flags.writeable or stress.flags.owndata)
+        copies = [each.copy() for each in (damage, stress, volumes)]
+        run.close()
+        del run
+        gc.collect()
+        for view, copy in zip((damage, stress, volumes), copies, strict=True):
+            self.assertEqual(view.tobytes(), copy.tobytes())
+        self.assertAlmostEqual(volumes.sum(), 1e-7)
+
+    def test_of_a_closed_run_are_refused(self):
+        with pfdm.FractureRun(bar()) as run:
+            pass
+        for ask in (run.step, lambda: run.damage, lambda: run.points):
+            with self.assertRaisesRegex(pfdm.Error, "closed"):
+                ask()
+
+    def test_of_many_runs_are_given_back(self):
+        def resident():
+            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+        for i in range(60):
+            with pfdm.FractureRun(bar()) as run:
+                run.stress.sum(), run.state
+            if i == 20:
+                first = resident()
+        self.assertLess(resident() - first, 4e6)
+
+    def test_of_the_mesh_fit_together(self):
+        run = pfdm.FractureRun(bar())
+        self.assertEqual(run.offsets[-1], len(run.connectivity))
+        self.assertEqual(run.patches, ["xmin", "xmax", "ymin", "ymax", "zmin", "zmax"])
+        centre = run.points[run.connectivity.reshape(-1, 8)].mean(axis=1)
+        numpy.testing.assert_allclose(centre, run.cell_centres, atol=1e-15)
+        self.assertEqual(len(run.cells_of("bar")) + len(run.cells_of("weak")), len(run.cell_volumes))
+        with self.assertRaisesRegex(KeyError, "weak"):
+            run.cells_of("steel")
+
+
+class Meshes(unittest.TestCase):
+    def mesh(self):
+        points, cells, numbers = bar_arrays()
+        return pfdm.Mesh.of_blocks(points, {"hexahedron": cells}, {"hexahedron": numbers}, regions={1: "bar", 2: "weak"})
+
+    def test_of_arrays_take_the_place_of_the_cases(self):
+        ours, theirs = rows_of(pfdm.FractureRun(bar(), self.mesh())), rows_of(pfdm.FractureRun(bar()))
+        self.assertEqual(len(ours), len(theirs))
+        for a, b in zip(ours, theirs, strict=True):
+            self.assertAlmostEqual(a["force_x_N"], b["force_x_N"], delta=1e-6 * (1e-6 + abs(b["force_x_N"])))
+
+    def test_of_arrays_name_patches_by_faces(self):
+        points, cells, numbers = bar_arrays(4)
+        quads = [numpy.flatnonzero(points[:, 0] == x).reshape(3, 2) for x in (0.0, points[:, 0].max())]
+        faces = numpy.array([[q[i, 0], q[i + 1, 0], q[i + 1, 1], q[i, 1]] for q in quads for i in range(2)])
+        mesh = pfdm.Mesh.of_blocks(points, {"hexahedron": cells, "quad": faces},
+                                   {"hexahedron": numbers, "quad": [7, 7, 8, 8]}, regions={1: "bar", 2: "weak"},
+                                   patches={7: "xmin", 8: "xmax"})
+        with self.assertRaisesRegex(pfdm.InputError, "ymin"):  # all else is "walls"
+            pfdm.FractureRun(bar(), mesh)
+
+    def test_of_arrays_that_do_not_fit_are_refused(self):
+        for change, said in [({"points": numpy.zeros((3, 2))}, r"\(3, 2\)"),
+                             ({"types": numpy.zeros(3)}, "offsets has the shape"),
+                             ({"connectivity": self.mesh().connectivity + 1000}, "there are"),
+                             ({"offsets": self.mesh().offsets[::-1]}, "must be above"),
+                             ({"numbers": numpy.zeros(3)}, "numbers has the shape")]:
+            mesh = self.mesh()
+            for name, value in change.items():
+                setattr(mesh, name, value)
+            with self.assertRaisesRegex(pfdm.InputError, said):
+                pfdm.FractureRun(bar(), mesh)
+        with self.assertRaisesRegex(pfdm.InputError, "allowed: tetra"):
+            pfdm.Mesh.of_blocks(numpy.zeros((3, 3)), {"tetra10": numpy.zeros((1, 10))})
+
+
+class Examples(unittest.TestCase):
+    def test_end_well(self):
+        script = shipped / "python/bar_steps.py"
+        said = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, check=True).stdout
+        self.assertIn("N/mm2", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
