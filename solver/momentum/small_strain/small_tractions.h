@@ -78,13 +78,18 @@ double SmallTractions::energy_over_faces(Index cell, const Part& part, const Ten
     const Vector area = (mesh.owner[f] == cell ? 1.0 : -1.0) * mesh.face_area[f];
     const Vector n = area.normalized(), d = mesh.face_centre[f] - mesh.cell_centre[cell];
     const Vector move = moves.seen_from(cell, f) - moves.u[cell];
-    const Tensor at_face = with_strain_across(cell, gradient_at(turn, d, n, move));
-    const Tensor elastic_at_face = eigenstrain_.elastic_part(cell, symmetric_part(at_face) - eigenstrain_change(turn));
-    const Tensor change = part.at_face(elastic_at_face) - mean_stress;
+    const Tensor at_face = with_strain_across(cell, gradient_at(turn, d, n, move) - eigenstrain_change(turn));
+    const Tensor change = part.at_face(eigenstrain_.elastic_part(cell, symmetric_part(at_face))) - mean_stress;
     const Vector elastic_move = eigenstrain_.any() ? (move - to_tensor(eigenstrain_[cell]) * d).eval() : move;
     varying += 0.5 * elastic_move.dot(change * area);
   }
-  const double mean = 0.5 * contract(part.of_cell(elastic), elastic);
+  double mean = 0.5 * contract(part.of_cell(elastic), elastic);
+  // What the strain along lines of cells, which is the cell's, does across the plane; within it the faces do all.
+  if (const double counts = cells_.layers().counts(cell); counts > 0.0 && !is_plane_stress()) {
+    const Tensor beyond = counts * (symmetric_part(moves.sweep.gradients[cell]) - strain);
+    mean +=
+        0.5 * plane_normal().dot(part.of_cell(beyond) * plane_normal()) * plane_normal().dot(elastic * plane_normal());
+  }
   return std::max(mean + varying / mesh.cell_volume[cell], part.least(mean));
 }
 

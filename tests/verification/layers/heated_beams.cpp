@@ -3,6 +3,7 @@
 
 #include "physics/materials/hyperelastic.h"
 #include "tests/verification/finite_solutions.h"
+#include "tests/verification/layers/eigenstrain_bodies.h"
 #include "tests/verification/support.h"
 
 #include <fmt/format.h>
@@ -110,6 +111,44 @@ TEST(HeatedBeams, OfRubberBendWithoutStress) {
     EXPECT_LT(bent.displacement, 1e-8);
     EXPECT_LT(bent.stress, 1e-8);
   }
+}
+
+// Held at its ends: a beam in plane stress stores E (alpha T)^2/2 whatever Poisson's ratio, one in plane strain twice
+// that over 1 - nu; all of it drives damage where there is no split.
+TEST(HeatedBeams, ThatAreHeldDriveDamageByWhatTheyStore) {
+  constexpr double alpha = 1e-5;
+  for (const bool in_plane_stress : {true, false})
+    for (const double nu : {0.0, 0.3, 0.45}) {
+      const IsotropicElasticity steel = from_young_poisson(200e9, nu);
+      BoxHexesSettings box;
+      box.axes = {{{{12.0, 12, 1.0}}, {{1.0, 4, 1.0}}, {{1.0, 1, 1.0}}}};
+      const Mesh mesh = make_box_hexes(box);
+      const auto side = in_plane_stress ? plane_stress_on : plane_on;
+      const double stress = -steel.young_modulus() * alpha / (in_plane_stress ? 1.0 : 1.0 - nu),
+                   slope = (1.0 + nu) * alpha / (in_plane_stress ? 1.0 : 1.0 - nu);
+      const auto at_end = [=](const Vector& x, double t) -> Vector {  // its traction along, its displacement across
+        const double y = x[1] - 0.5;
+        return t * Vector(stress * y, 0.5 * slope * y * y, 0.0);
+      };
+      FractureModel model = elastic_model(
+          {steel}, {symmetry_on("xmin"), moved("xmax", {false, true, false}, at_end), side("zmin"), side("zmax")});
+      model.regions[0].damageable = true;
+      model.regions[0].Gc = model.regions[0].ell = 1.0;
+      model.regions[0].eigenstrain = std::make_shared<const LoadField<Tensor>>(
+          [](const Vector& x, double t) -> Tensor { return t * alpha * (x[1] - 0.5) * Tensor::Identity(); });
+      const Answer answer = equilibrium(mesh, model, CellField<double>(mesh.n_cells(), 0.0));
+      const double modulus = in_plane_stress ? 0.5 * steel.young_modulus() : steel.young_modulus() / (1.0 - nu);
+      double wrong = 0.0, largest = 0.0;
+      for (Index c = 0; c < mesh.n_cells(); ++c) {
+        const double due = modulus * std::pow(alpha * (mesh.cell_centre[c][1] - 0.5), 2);
+        const double stored = answer.stored[c] / mesh.cell_volume[c];
+        wrong = std::max({wrong, std::abs(answer.driving[c] - due), std::abs(stored - due)});
+        largest = std::max(largest, due);
+      }
+      report_row(fmt::format("held, {}, nu {}", in_plane_stress ? "plane stress" : "plane strain", nu),
+                 {{"energies", wrong / largest}});
+      EXPECT_LT(wrong, 1e-7 * largest) << nu;
+    }
 }
 
 }  // namespace
