@@ -75,8 +75,7 @@ InterfaceLaw::Pull InterfaceLaw::pull(const InterfaceStrength& at, const Opening
       S = now;
       slope = (p.slope - S) / (o.lambda * o.lambda) * o.measured;
       if (depends_on_mode()) slope += secant_by_mode(at, here, p, o.lambda) * o.B_slope();
-      // Turned with the body: only the length of the slip counts.
-      const Opening from(*this, o.n, before.opening * o.n + before.shear.norm() * o.n.unitOrthogonal());
+      const Opening from = Opening::of(*this, o.n, before);
       const Loss loss =
           depends_on_mode() ? lost_by_mode(at, from, o, kept, p, slope) : lost(at, from, o, before.reached, p, slope);
       response.history.reached = depends_on_mode() ? 1.0 - S / at.stiffness : o.lambda;
@@ -157,7 +156,7 @@ void InterfaceLaw::rub(const InterfaceStrength& at, const Opening& o, const Inte
 }
 
 InterfaceResponse InterfaceLaw::respond(const InterfaceStrength& at, const Vector& n, const Vector& separation,
-                                        const InterfaceHistory& before) const {
+                                        const InterfaceHistory& before, double duration) const {
   const Opening o(*this, n, separation);
   InterfaceResponse response{.traction = {}, .tangent = {}, .secant = {}, .history = before};
   response.history.opening = o.normal;
@@ -168,6 +167,7 @@ InterfaceResponse InterfaceLaw::respond(const InterfaceStrength& at, const Vecto
   response.secant = own.secant;
   response.tangent = own.secant + own.secant_change;
   response.stored = 0.5 * own.traction.dot(separation);
+  if (rate.any()) resist(at, o, before, duration, response);
   if (friction > 0.0) rub(at, o, before, own, response);
   if (!o.is_closed()) return response;
   const double K = initial_stiffness(at);

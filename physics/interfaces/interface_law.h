@@ -26,7 +26,12 @@
 //
 // What a step dissipates, -dS delta.delta/2, is integrated over its secants: exactly in one mode and for camacho_ortiz,
 // else by the mean over the modes of its two ends; so is the work of friction. Both are of second order in the step.
+//
+// With a rate (interface_rate.h) T is (1 + r) times that, r of the step's own rate (lambda - lambda_before)/duration:
+// implicit, of first order. Contact and friction do not know it. What the law without rate takes up in a step times the
+// mean of r at its two ends is viscous: in balance with the work of the tractions to the second order.
 
+#include "physics/interfaces/interface_rate.h"
 #include "physics/interfaces/traction_separation.h"
 #include "physics/tensor.h"
 
@@ -72,6 +77,8 @@ struct InterfaceHistory {
   double reached_in_shear = 0.0;  ///< largest y of the potential
   double dissipated = 0.0;        ///< by decohesion [J/m^2]
   double rubbed = 0.0;            ///< by friction [J/m^2]
+  double viscous = 0.0;           ///< by the rate of opening [J/m^2]
+  double overstress = 0.0;        ///< r of the last step [-]
   Vector slip = Vector::Zero();   ///< of the friction [m]
   double opening = 0.0;           ///< delta_n now [m]
   Vector shear = Vector::Zero();  ///< delta_s now [m]
@@ -94,10 +101,12 @@ struct InterfaceLaw {
   double shear_ratio = 1.0;  ///< beta; 1 for rules with a shear strength
   double exponent = 1.0;     ///< eta of these
   double friction = 0.0;     ///< mu
+  InterfaceRate rate{};
 
-  /// At the separation [m], of the side that the unit normal n enters from the other one, after `before`.
+  /// At the separation [m], of the side that the unit normal n enters from the other one, after `before` and a step of
+  /// this duration [s]. 0: no time passes, r stays what it was.
   InterfaceResponse respond(const InterfaceStrength& at, const Vector& n, const Vector& separation,
-                            const InterfaceHistory& before) const;
+                            const InterfaceHistory& before, double duration = 0.0) const;
   /// Stiffness of the unbroken interface in opening [Pa/m].
   double initial_stiffness(const InterfaceStrength& at) const;
   /// Likewise in shear.
@@ -135,10 +144,13 @@ struct InterfaceLaw {
             const Vector& secant_slope) const;
   Loss lost_by_mode(const InterfaceStrength& at, const Opening& from, const Opening& to, double kept, const LawPoint& p,
                     const Vector& secant_slope) const;
+  void resist(const InterfaceStrength& at, const Opening& opening, const InterfaceHistory& before, double duration,
+              InterfaceResponse& response) const;
   void rub(const InterfaceStrength& at, const Opening& opening, const InterfaceHistory& before, const Pull& own,
            InterfaceResponse& response) const;
   double secant_after(const InterfaceStrength& at, const InterfaceHistory& history) const;
   double shear_secant_after(const InterfaceStrength& at, const InterfaceHistory& history) const;
+  double stored_after(const InterfaceStrength& at, const InterfaceHistory& history) const;
 };
 
 }  // namespace pfdm

@@ -115,4 +115,27 @@ InterfaceLaw::Loss InterfaceLaw::lost_by_mode(const InterfaceStrength& at, const
   return {.energy = mean_of_ends(energy, at_end.energy), .slope = 0.5 * (slope + at_end.slope)};
 }
 
+double InterfaceLaw::stored_after(const InterfaceStrength& at, const InterfaceHistory& history) const {
+  const double opened = std::max(0.0, history.opening);
+  const double S_n = mixed_mode->is_potential
+                         ? potential_of(at).normal_secant(history.reached, history.reached_in_shear)
+                         : secant_after(at, history);
+  return 0.5 * (S_n * opened * opened + shear_secant_after(at, history) * history.shear.squaredNorm());
+}
+
+// Of a response without rate, contact and friction.
+void InterfaceLaw::resist(const InterfaceStrength& at, const Opening& o, const InterfaceHistory& before,
+                          double duration, InterfaceResponse& response) const {
+  const double growth = o.lambda - Opening::of(*this, o.n, before).lambda;
+  const Overstress r = duration > 0.0 ? rate.at(growth / duration) : Overstress{before.overstress, 0.0};
+  const double taken_up =
+      response.stored - stored_after(at, before) + response.history.dissipated - before.dissipated;  // [J/m^2]
+  if (growth > 0.0) response.history.viscous += mean_of_ends(before.overstress, r.value) * taken_up;
+  response.history.overstress = r.value;
+  response.tangent *= 1.0 + r.value;
+  if (r.slope > 0.0) response.tangent += r.slope / (duration * o.lambda) * response.traction * o.measured.transpose();
+  response.traction *= 1.0 + r.value;
+  response.secant *= 1.0 + r.value;
+}
+
 }  // namespace pfdm

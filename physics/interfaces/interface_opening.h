@@ -40,6 +40,10 @@ struct InterfaceLaw::Opening {
     lambda = std::sqrt(measured.dot(separation));
     B = lambda > 0.0 ? std::min(1.0, rho * shear.squaredNorm() / (lambda * lambda)) : 0.0;
   }
+  /// As far as `history` tells. Turned with the body: only the length of the slip counts.
+  static Opening of(const InterfaceLaw& law, const Vector& n, const InterfaceHistory& history) {
+    return Opening(law, n, history.opening * n + history.shear.norm() * n.unitOrthogonal());
+  }
   bool is_closed() const { return normal < 0.0; }
   double opened() const { return std::max(0.0, normal); }
   // Of the energy of a separation over that of the law in opening at the same lambda: traction and separation are not

@@ -7,6 +7,7 @@
 #include "solver/fracture/finite_stop.h"
 #include "solver/fracture/increments.h"
 #include "solver/fracture/model/held_interfaces.h"
+#include "solver/fracture/rate_resolution.h"
 #include "solver/fracture/spread_damage.h"
 #include "solver/fracture/staggered.h"
 #include "solver/fracture/unconverged.h"
@@ -42,6 +43,7 @@ struct FractureRun::Parts {
   StaggeredSettings settings;
   ResidualStiffness residual_stiffness;
   SpreadDamage spread_damage;
+  RateResolution rate_resolution;
   BodyHeat heat;
   Index krylov_iterations = 0, staggered_iterations = 0;
 
@@ -143,10 +145,11 @@ struct FractureRun::Parts {
     next.increment = next_increment(loading, settings, planned, outcome);
     const bool follows_path = loading.controls_dissipation();
     const std::string unstable = follows_path ? "" : spread_damage.remark(state, next, staggered);
+    const std::string unresolved = rate_resolution.remark(model, state.interfaces, next.interfaces, next.load);
     state = std::move(next);
     const std::string residual =
         residual_stiffness.remark(outcome.share, std::max(outcome.starting_energy, supplied(state.energy)), state.load);
-    for (const std::string& remark : {unstable, residual})
+    for (const std::string& remark : {unstable, unresolved, residual})
       if (!remark.empty()) remarks.push_back(remark);
     StepReport result = report(state, outcome, increment);
     result.remarks = std::move(remarks);

@@ -36,6 +36,7 @@ Staggered::Staggered(const Mesh& mesh, const FractureModel& model, const Unknown
 StepOutcome Staggered::solve_step(const FractureState& start, FractureState& state, const StepLimits& limits,
                                   const IterationWatch& watch) {
   stiffness_.start_step(limits.duration);
+  faces_.start_step(limits.duration);
   momentum_.start_afresh();  // as a restarted run does
   const StrengthDrive strength_before = strength_drive_of(start);
   const FreeStrained strained_before = free_strained(start);
@@ -58,6 +59,7 @@ StepOutcome Staggered::solve_step(const FractureState& start, FractureState& sta
   outcome.energy.elastic = energies.stored - energies.interfaces;
   outcome.energy.interface_energy = energies.interfaces;
   outcome.energy.interface_dissipation = faces_.dissipated(start.interfaces, state.interfaces);
+  outcome.energy.interface_viscous_dissipation = faces_.viscous_dissipation(start.interfaces, state.interfaces);
   outcome.share = residual_share(state, energies);
   outcome.collapsed = outcome.converged && has_collapsed(outcome.share);
   outcome.energy.viscous_dissipation = damage_.viscous_dissipation(state.damage);

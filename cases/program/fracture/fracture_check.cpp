@@ -9,6 +9,7 @@
 #include "postproc/files/folder_lock.h"
 #include "solver/fracture/bending_words.h"
 #include "solver/fracture/fracture_run.h"
+#include "solver/fracture/rate_resolution.h"
 #include "solver/fracture/resolution.h"
 #include "solver/fracture/stiffness_words.h"
 
@@ -83,6 +84,7 @@ void check_fracture(const FractureProgram& program, Session& session) {
   const Mesh mesh = made_mesh(program, log);
   const FractureRun run = made_run(program, mesh, log);
   warn_of_interfaces(run, log);
+  for (const std::string& remark : rate_remarks(mesh, run.model(), loading)) log.say(remark);
   if (const std::string remark = direction_remark(mesh, run.model()); !remark.empty()) log.say(remark);
   if (const auto warning = bending_warning(mesh, run.model())) log.warn(*warning);
   for (const std::string& warning : stiffness_warnings(mesh, run.model())) log.warn(warning);

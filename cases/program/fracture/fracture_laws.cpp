@@ -9,6 +9,7 @@
 #include "physics/damage/degradation.h"
 #include "physics/damage/energy_split.h"
 #include "physics/damage/softening_law.h"
+#include "physics/interfaces/interface_rate.h"
 #include "physics/interfaces/traction_separation.h"
 #include "physics/materials/strength_model.h"
 #include "postproc/fields/energy_release_rate.h"
@@ -26,6 +27,7 @@ std::vector<LawTable> fracture_laws() {
           law_table("energy splits ([fracture] split)", energy_splits()),
           law_table("laws of cohesive interfaces ([[interface]] law)", interface_laws()),
           law_table("their mixed mode ([[interface]] mixed_mode)", mixed_modes()),
+          law_table("their dependence on the rate ([[interface]] rate)", interface_rate_laws()),
           law_table("traction-separation laws that pfdm cohesive fits", traction_separation_laws()),
           law_table("boundary conditions ([[boundary]] type)", boundary_types()),
           law_table("displacement fields (displacement = { field = ... })", displacement_fields()),

@@ -110,6 +110,10 @@ ExportedLaw law_to_export(const GivenLaw& given, const ExportChoice& choice) {
                                     given.law.mixed_mode->name));
   if (given.law.friction > 0.0)
     law.remarks.push_back(fmt::format("Friction {:g} of the case is not in this file", given.law.friction));
+  if (given.law.rate.any())
+    law.remarks.push_back(
+        fmt::format("Rate: {} of the case, {}, is not in this file, which has the law of slow opening",
+                    given.law.rate.law->name, given.law.rate.law->description));
   law.remarks.push_back(fmt::format("Tables: of opening, up to {:.4g} m, where {:.2g} % of the strength are left",
                                     states.back().separation, 100.0 * states.back().traction / at.strength));
   add_tables(law, whole_curve(states, true, law, compliance));

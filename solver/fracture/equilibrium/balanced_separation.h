@@ -11,6 +11,6 @@ namespace pfdm {
 /// and `give` [m/Pa] the compliance beside the face, by damped Newton steps from `now`; none if they do not lead there.
 std::optional<Vector> balanced_separation(const InterfaceLaw& law, const InterfaceStrength& at, const Vector& n,
                                           const InterfaceHistory& before, const Tensor& give, const Vector& due,
-                                          const Vector& now);
+                                          const Vector& now, double duration = 0.0);
 
 }  // namespace pfdm

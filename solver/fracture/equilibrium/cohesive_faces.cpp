@@ -72,6 +72,10 @@ void CohesiveFaces::add(std::size_t number, const CohesiveSurface& surface, std:
                     .at = at});
 }
 
+bool CohesiveFaces::depends_on_rate() const {
+  return std::ranges::any_of(model_.interfaces, [](const CohesiveSurface& surface) { return surface.law.rate.any(); });
+}
+
 double CohesiveFaces::bond(Index face) const {
   const Vector n = mesh_.face_area[face].normalized();
   const auto softness = [&](Index c) {
@@ -110,7 +114,7 @@ void CohesiveFaces::linearise(const std::vector<Vector>& u, const std::vector<In
   parallel_for(count_of(faces_), [&](Index k) {
     const Vector separation = momentum.balance().separation(k, u);
     const Vector n = normal(faces_[k], momentum.balance());
-    const InterfaceResponse response = law(faces_[k]).respond(faces_[k].at, n, separation, before[k]);
+    const InterfaceResponse response = law(faces_[k]).respond(faces_[k].at, n, separation, before[k], duration_);
     const Tensor stiffness = way == Way::tangent ? response.tangent : convex_part(response.tangent);
     springs[k] = {.stiffness = stiffness,
                   .offset = response.traction - stiffness * separation,
@@ -136,9 +140,9 @@ void CohesiveFaces::settle(const std::vector<InterfaceHistory>& before, const Mo
     const Vector now = balance.separation(k, u);
     const Vector due = now + s.give * s.traction - s.give_beyond * s.traction_beyond;
     const Vector n = normal(face, balance);
-    const auto separation = balanced_separation(law(face), face.at, n, before[k], give, due, now);
+    const auto separation = balanced_separation(law(face), face.at, n, before[k], give, due, now, duration_);
     if (!separation) return;
-    const Vector traction = law(face).respond(face.at, n, *separation, before[k]).traction;
+    const Vector traction = law(face).respond(face.at, n, *separation, before[k], duration_).traction;
     balance.part(k, s.give * (traction - s.traction), -(s.give_beyond * (traction + s.traction_beyond)), u);
   });
 }
@@ -149,7 +153,7 @@ double CohesiveFaces::advance(const MomentumOperator& balance, const std::vector
   return parallel_sum(count_of(faces_), [&](Index k) {
     const Face& face = faces_[k];
     const InterfaceResponse response =
-        law(face).respond(face.at, normal(face, balance), balance.separation(k, u), before[k]);
+        law(face).respond(face.at, normal(face, balance), balance.separation(k, u), before[k], duration_);
     after[k] = response.history;
     return face.area * response.stored;
   });
@@ -163,12 +167,19 @@ double CohesiveFaces::dissipated(const std::vector<InterfaceHistory>& from,
   return sum;
 }
 
+double CohesiveFaces::viscous_dissipation(const std::vector<InterfaceHistory>& from,
+                                          const std::vector<InterfaceHistory>& to) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < faces_.size(); ++k) sum += faces_[k].area * (to[k].viscous - from[k].viscous);
+  return sum;
+}
+
 std::vector<double> CohesiveFaces::heat(const std::vector<InterfaceHistory>& from,
                                         const std::vector<InterfaceHistory>& to, double debonding_share) const {
   std::vector<double> made(faces_.size());
   for (std::size_t k = 0; k < faces_.size(); ++k)
-    made[k] =
-        faces_[k].area * (to[k].rubbed - from[k].rubbed + debonding_share * (to[k].dissipated - from[k].dissipated));
+    made[k] = faces_[k].area * (to[k].rubbed - from[k].rubbed + to[k].viscous - from[k].viscous +
+                                debonding_share * (to[k].dissipated - from[k].dissipated));
   return made;
 }
 

@@ -33,6 +33,9 @@ class CohesiveFaces {
   CohesiveFaces(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns);
 
   bool any() const { return !faces_.empty(); }
+  bool depends_on_rate() const;
+  /// At the beginning of a load step, which takes `duration` [s].
+  void start_step(double duration) { duration_ = duration; }
   std::vector<InterfaceHistory> virgin_histories() const { return std::vector<InterfaceHistory>(faces_.size()); }
 
   enum class Way { tangent, convex };
@@ -45,8 +48,10 @@ class CohesiveFaces {
   /// Takes the histories from `before` to the displacements u. Returns the stored energy [J].
   double advance(const MomentumOperator& balance, const std::vector<Vector>& u,
                  const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
-  /// Energy dissipated from one state to the other [J].
+  /// Energy dissipated by decohesion and friction from one state to the other [J].
   double dissipated(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
+  /// Likewise by the rate of opening [J].
+  double viscous_dissipation(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
   /// What each face dissipates from one state to the other [J], of decohesion this share.
   std::vector<double> heat(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to,
                            double debonding_share) const;
@@ -87,6 +92,7 @@ class CohesiveFaces {
   const FractureModel& model_;
   std::vector<Face> faces_;
   std::vector<double> bond_;  // C^-1 of each [Pa/m]
+  double duration_ = 0.0;     // of the step [s]
 };
 
 }  // namespace pfdm

@@ -91,6 +91,7 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
   WayOut way_out(u);
   std::vector<Vector> from;  // before the step
   CohesiveFaces::Way way = CohesiveFaces::Way::tangent;
+  const bool has_rate = faces.depends_on_rate();  // steep where faces begin to move
   const Index most = cells ? most_finite_solves : most_solves;
   for (Index k = 0; k < most; ++k) {
     // The residual at the start of a solve is that of the true laws.
@@ -119,7 +120,8 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
       if (cells) cells();
       return whole;
     }
-    if (way_out.is_marching() || step.initial_residual > falls * last) faces.settle(before, momentum.balance(), u);
+    if (has_rate || way_out.is_marching() || step.initial_residual > falls * last)
+      faces.settle(before, momentum.balance(), u);
     last = step.initial_residual;
     way = way_out.next(step.initial_residual, solved, u);
     if (cells) cells();

@@ -11,12 +11,13 @@ struct EnergyAccount {
   double elastic = 0.0;
   double fracture = 0.0;  ///< surface energy
   double external_work = 0.0;
-  double viscous_dissipation = 0.0;    ///< by the viscosity of the damage equation
-  double plastic_dissipation = 0.0;    ///< by materials with a history
-  double interface_energy = 0.0;       ///< stored in cohesive interfaces
-  double interface_dissipation = 0.0;  ///< by decohesion and friction of cohesive interfaces
-  double strength_dissipation = 0.0;   ///< by the driving force of a strength model; negative in tension
-  double eigenstrain_work = 0.0;       ///< supplied by eigenstrains, as by heating a bar that is held
+  double viscous_dissipation = 0.0;            ///< by the viscosity of the damage equation
+  double plastic_dissipation = 0.0;            ///< by materials with a history
+  double interface_energy = 0.0;               ///< stored in cohesive interfaces
+  double interface_dissipation = 0.0;          ///< by decohesion and friction of cohesive interfaces
+  double strength_dissipation = 0.0;           ///< by the driving force of a strength model; negative in tension
+  double eigenstrain_work = 0.0;               ///< supplied by eigenstrains, as by heating a bar that is held
+  double interface_viscous_dissipation = 0.0;  ///< by the rate at which cohesive interfaces open
   friend bool operator==(const EnergyAccount&, const EnergyAccount&) = default;
 };
 
@@ -47,6 +48,8 @@ inline constexpr EnergyEntry energy_entries[] = {
      "strength_dissipation", "dissipated by the strength's driving force"},
     {&EnergyAccount::eigenstrain_work, EnergyEntry::Role::supplied, "eigenstrain_work", "eigenstrain_work",
      "work of eigenstrains"},
+    {&EnergyAccount::interface_viscous_dissipation, EnergyEntry::Role::dissipated, "interface_viscous_dissipation",
+     "interface_viscous_dissipation", "dissipated by the rate of interfaces"},
 };
 
 /// The work that is neither stored nor dissipated, nor in the surface energy gained since `start`, where there may be

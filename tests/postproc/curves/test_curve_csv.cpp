@@ -40,13 +40,20 @@ void fill(const std::filesystem::path& path, Index n_rows) {
 TEST(CurveCsv, has_the_header_of_the_interface_and_a_row_per_step) {
   const TemporaryFolder folder;
   CurveFile file(folder / "c.csv");
-  append(file,
-         {1, 0.05, 1e-6, Vector(0.5, 0, -2), {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9, 7e-9, 8e-9, 9e-9}, 0.25, 1e-12, 7});
+  append(file, {1,
+                0.05,
+                1e-6,
+                Vector(0.5, 0, -2),
+                {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9, 7e-9, 8e-9, 9e-9, 1e-8},
+                0.25,
+                1e-12,
+                7});
   EXPECT_EQ(content_of(folder / "c.csv"),
             "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,external_work_J,"
             "max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J,plastic_dissipation_J,"
-            "interface_energy_J,interface_dissipation_J,strength_dissipation_J,eigenstrain_work_J\n"
-            "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,4e-09,5e-09,6e-09,7e-09,8e-09,9e-09\n");
+            "interface_energy_J,interface_dissipation_J,strength_dissipation_J,eigenstrain_work_J,"
+            "interface_viscous_dissipation_J\n"
+            "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,4e-09,5e-09,6e-09,7e-09,8e-09,9e-09,1e-08\n");
   EXPECT_EQ(folder.n_entries(), 1u);
 }
 

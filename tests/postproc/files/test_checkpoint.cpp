@@ -33,6 +33,8 @@ FractureState awkward_state() {
                    .reached_in_shear = 0.7,
                    .dissipated = 1.0 / 3.0,
                    .rubbed = -0.0,
+                   .viscous = 1.0 / 7.0,
+                   .overstress = 1e-310,
                    .slip = Vector(1e-9, -0.0, 3.0),
                    .opening = -0.0,
                    .shear = Vector(0.0, 1e-310, -2.0)}};

@@ -24,7 +24,7 @@ CURVE = (
     "step,load,displacement_m,force_x_N,force_y_N,force_z_N,elastic_energy_J,fracture_energy_J,"
     "external_work_J,max_damage,damaged_volume_m3,staggered_iterations,viscous_dissipation_J,"
     "plastic_dissipation_J,interface_energy_J,interface_dissipation_J,strength_dissipation_J,"
-    "eigenstrain_work_J")
+    "eigenstrain_work_J,interface_viscous_dissipation_J")
 STORED = [
     # Which reader, and what it reads: as in targets/stored.cpp.
     (0, '{"status": "finished", "case_hash": "0123456789abcdef", "peak_force_N": 1.5, "unknown": null}'),

@@ -1,5 +1,6 @@
 #include "cases/program/fracture/body/body_keys.h"
 #include "cases/program/fracture/body/interface_reader.h"
+#include "cases/program/input/laws/law_keys.h"
 
 #include <fmt/format.h>
 
@@ -65,6 +66,22 @@ const KeyTable& plane_keys() {
   return table;
 }
 
+constexpr ParameterWords rate_words[] = {
+    {"m", "Exponent of the rate of opening."},
+    {"c", "Growth of the factor with the logarithm of the rate."},
+    {"reference_rate", "Rate of opening v_0; at it the power law doubles the traction."},
+};
+
+const KeyTable& rate_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "interface[].rate",
+      .sentence = "The factor by which an interface pulls more while its separation grows; needs a duration.",
+      .keys = joined({law_keys("rate law of an interface", interface_rate_laws(), "Name of the law.", rate_words)}),
+      .decided_by = "law"};
+  return table;
+}
+
 std::vector<Key> place_and_law_keys() {
   using namespace keys;
   const KeyType strength = varying(quantity(dimension::stress, range::positive)),
@@ -92,6 +109,8 @@ std::vector<Key> place_and_law_keys() {
       {"exponent", number(at_least_one), "1", "Exponent of the mode mix by Benzeggagh and Kenane or by the power law."},
       {"friction", number(range::not_negative), "0",
        "Coulomb's coefficient of friction on the broken part of a closed interface."},
+      {"rate", keys::table(rate_keys), "none",
+       "Dependence of the traction on the rate of opening; strength and toughness grow alike."},
       {"strength_scatter", keys::table(scatter_keys), "none",
        "Random scatter of strength and shear strength over the faces."},
       {"toughness_scatter", keys::table(scatter_keys), "none",

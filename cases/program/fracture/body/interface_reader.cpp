@@ -1,6 +1,7 @@
 #include "cases/program/fracture/body/interface_reader.h"
 
 #include "cases/program/input/config/path_reader.h"
+#include "cases/program/input/laws/law_reader.h"
 #include "physics/quantity_text.h"
 #include "physics/registry.h"
 #include "postproc/files/csv_table.h"
@@ -88,6 +89,14 @@ void read_modes(const ConfigTable& table, InterfaceSettings& settings) {
   if (law.depends_on_mode()) law.exponent = table.number("exponent", 1.0);
 }
 
+InterfaceRate read_rate(const ConfigTable& table) {
+  const ConfigTable rate = table.table("rate");
+  InterfaceRate read{.law = &choose(rate.at("law"), interface_rate_laws(), "rate law of an interface")};
+  for (std::size_t i = 0; i < read.law->parameters.size(); ++i)
+    read.p[i] = read_law_parameter(rate, read.law->parameters[i]);
+  return read;
+}
+
 void read_place(const ConfigTable& table, InterfaceSettings& settings) {
   const auto between = table.find("between"), plane = table.find("plane"), within = table.find("where");
   if (between.has_value() == plane.has_value())
@@ -116,6 +125,7 @@ InterfaceSettings read_interface(const ConfigTable& table, std::size_t number,
   read_place(table, settings);
   read_law(table, case_directory, settings, data_files);
   read_modes(table, settings);
+  if (table.has("rate")) settings.law.rate = read_rate(table);
   settings.strength_scatter = read_scatter(table, "strength_scatter");
   settings.toughness_scatter = read_scatter(table, "toughness_scatter");
   return settings;

@@ -45,6 +45,23 @@ void check_histories(const FractureCase& fracture, const ConfigTable& root) {
   }
 }
 
+/// What interfaces whose law depends on the rate ask of the loading.
+void check_rates(const FractureCase& fracture, const ConfigTable& root) {
+  for (const InterfaceSettings& interface : fracture.interfaces) {
+    if (!interface.law.rate.any()) continue;
+    if (!(fracture.loading.duration > 0.0))
+      throw interface.where.at("rate").error(
+          "an interface whose law depends on the rate requires the time in which the load parameter grows by 1: "
+          "duration = \"1 s\" in [loading]");
+    if (fracture.loading.controls_dissipation())
+      throw root.table("loading")
+          .at("maximum_dissipation")
+          .error(fmt::format("it cannot be combined with the rate of interface \"{}\": the load may decrease, time "
+                             "cannot",
+                             interface.name));
+  }
+}
+
 void check_time(const ConfigTable& table, const FractureModel& model) {
   if (!(model.viscosity > 0.0)) return;
   if (!table.has("duration"))
@@ -230,6 +247,7 @@ FractureCase read_body(const ConfigTable& root, const std::filesystem::path& cas
   fracture.interfaces = read_interfaces(root, case_directory, fracture.data_files);
   fracture.loading = read_loading(root, fracture.model);
   check_histories(fracture, root);
+  check_rates(fracture, root);
   fracture.staggered = read_solver(root);
   return fracture;
 }

@@ -11,7 +11,8 @@ namespace pfdm {
 
 KeyType type_of(const LawParameter& parameter) {
   const Range& allowed = parameter.may_be_zero ? range::not_negative : range::positive;
-  return parameter.unit == "1" ? keys::number(allowed) : keys::quantity(dimension::rate, allowed);
+  if (parameter.unit == "1") return keys::number(allowed);
+  return keys::quantity(parameter.unit == "m/s" ? dimension::velocity : dimension::rate, allowed);
 }
 
 std::string default_of(const LawParameter& parameter) {
