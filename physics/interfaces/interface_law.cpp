@@ -168,6 +168,7 @@ InterfaceResponse InterfaceLaw::respond(const InterfaceStrength& at, const Vecto
   response.tangent = own.secant + own.secant_change;
   response.stored = 0.5 * own.traction.dot(separation);
   if (rate.any()) resist(at, o, before, duration, response);
+  if (!branches.empty()) relax(at, o, before, own, duration, response);
   if (friction > 0.0) rub(at, o, before, own, response);
   if (!o.is_closed()) return response;
   const double K = initial_stiffness(at);

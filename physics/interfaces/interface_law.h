@@ -29,8 +29,10 @@
 //
 // With a rate (interface_rate.h) T is (1 + r) times that, r of the step's own rate (lambda - lambda_before)/duration:
 // implicit, of first order. Contact and friction do not know it. What the law without rate takes up in a step times the
-// mean of r at its two ends is viscous: in balance with the work of the tractions to the second order.
+// mean of r at its two ends is viscous: in balance with the work of the tractions to the second order. Maxwell branches
+// (interface_branches.h) pull beside all that.
 
+#include "physics/interfaces/interface_branches.h"
 #include "physics/interfaces/interface_rate.h"
 #include "physics/interfaces/traction_separation.h"
 #include "physics/tensor.h"
@@ -74,14 +76,15 @@ std::span<const MixedMode> mixed_modes();
 struct InterfaceHistory {
   /// Largest lambda [m]; the damage D where the law depends on the mode; the largest x of the potential.
   double reached = 0.0;
-  double reached_in_shear = 0.0;  ///< largest y of the potential
-  double dissipated = 0.0;        ///< by decohesion [J/m^2]
-  double rubbed = 0.0;            ///< by friction [J/m^2]
-  double viscous = 0.0;           ///< by the rate of opening [J/m^2]
-  double overstress = 0.0;        ///< r of the last step [-]
-  Vector slip = Vector::Zero();   ///< of the friction [m]
-  double opening = 0.0;           ///< delta_n now [m]
-  Vector shear = Vector::Zero();  ///< delta_s now [m]
+  double reached_in_shear = 0.0;                ///< largest y of the potential
+  double dissipated = 0.0;                      ///< by decohesion [J/m^2]
+  double rubbed = 0.0;                          ///< by friction [J/m^2]
+  double viscous = 0.0;                         ///< by the rate of opening, and by branches [J/m^2]
+  double overstress = 0.0;                      ///< r of the last step [-]
+  BranchTractions branch = relaxed_branches();  ///< q of the branches [Pa]
+  Vector slip = Vector::Zero();                 ///< of the friction [m]
+  double opening = 0.0;                         ///< delta_n now [m]
+  Vector shear = Vector::Zero();                ///< delta_s now [m]
   friend bool operator==(const InterfaceHistory&, const InterfaceHistory&) = default;
 };
 
@@ -102,9 +105,10 @@ struct InterfaceLaw {
   double exponent = 1.0;     ///< eta of these
   double friction = 0.0;     ///< mu
   InterfaceRate rate{};
+  std::vector<InterfaceBranch> branches{};  ///< up to most_interface_branches
 
   /// At the separation [m], of the side that the unit normal n enters from the other one, after `before` and a step of
-  /// this duration [s]. 0: no time passes, r stays what it was.
+  /// this duration [s]. 0: no time passes, r and q stay what they were.
   InterfaceResponse respond(const InterfaceStrength& at, const Vector& n, const Vector& separation,
                             const InterfaceHistory& before, double duration = 0.0) const;
   /// Stiffness of the unbroken interface in opening [Pa/m].
@@ -120,6 +124,8 @@ struct InterfaceLaw {
   /// Whether a straight rise of this stiffness, in opening or in shear, takes all the toughness or more.
   bool is_all_rise(const InterfaceStrength& at) const;
   bool depends_on_mode() const { return mixed_mode->at != nullptr; }
+  /// Whether steps have to have a duration.
+  bool depends_on_rate() const { return rate.any() || !branches.empty(); }
   /// Whether an opened interface pulls along its separation, in any mode.
   bool pulls_along_separation() const;
 
@@ -146,6 +152,8 @@ struct InterfaceLaw {
                     const Vector& secant_slope) const;
   void resist(const InterfaceStrength& at, const Opening& opening, const InterfaceHistory& before, double duration,
               InterfaceResponse& response) const;
+  void relax(const InterfaceStrength& at, const Opening& opening, const InterfaceHistory& before, const Pull& own,
+             double duration, InterfaceResponse& response) const;
   void rub(const InterfaceStrength& at, const Opening& opening, const InterfaceHistory& before, const Pull& own,
            InterfaceResponse& response) const;
   double secant_after(const InterfaceStrength& at, const InterfaceHistory& history) const;

@@ -102,16 +102,6 @@ class Prony final : public SmallStrainMaterial {
 
 }  // namespace
 
-PronyDecay decay_over(double x) {
-  const double left = portable::exp(-x);
-  if (x < 1e-2) {  // to rounding
-    const double second = 0.5 - x / 6.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0 * (1.0 - x / 7.0))));
-    return {left, 1.0 - x * second, second};
-  }
-  const double phi = (1.0 - left) / x;
-  return {left, phi, (1.0 - phi) / x};
-}
-
 IsotropicElasticity elasticity_over(const PronyLaw& law, double duration) {
   double mu = law.relaxed.mu, K = law.relaxed.bulk_modulus();
   for (const PronyBranch& branch : law.shear) mu += decay_over(duration / branch.time).phi * branch.modulus;

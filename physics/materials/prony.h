@@ -13,6 +13,7 @@
 // it; a term beta exp(-alpha t) of a relaxation kernel is a branch with mu_i = beta and tau_i = 1/alpha.
 
 #include "physics/materials/material.h"
+#include "physics/prony_decay.h"
 
 #include <memory>
 #include <vector>
@@ -36,14 +37,6 @@ struct PronyLaw {
   std::vector<PronyBranch> shear{}, bulk{};
   PronyDrive drive = PronyDrive::equilibrium;
 };
-
-/// What is left of a branch at the end of a step of the length x = dt/tau in which the strain changes linearly.
-struct PronyDecay {
-  double left = 1.0;    ///< exp(-x), of what its spring had
-  double phi = 1.0;     ///< (1 - exp(-x))/x, of the change of strain
-  double second = 0.5;  ///< (1 - phi)/x, of the change in the mean over the step
-};
-PronyDecay decay_over(double x);
 
 /// By a step of this duration [s]: the moduli that the change of strain meets [Pa].
 IsotropicElasticity elasticity_over(const PronyLaw& law, double duration);

@@ -23,15 +23,21 @@ void require_plain_interfaces(const FractureModel& model, const LoadingSettings&
     throw InputError(
         "dissipation control (loading.maximum_dissipation) can be combined with cohesive interfaces only where no "
         "region is damageable");
-  if (std::ranges::none_of(model.interfaces, [](const CohesiveSurface& s) { return s.law.rate.any(); })) return;
+  if (std::ranges::none_of(model.interfaces, [](const CohesiveSurface& s) { return s.law.depends_on_rate(); })) return;
   if (!(loading.duration > 0.0))
     throw InputError(
-        "an interface whose law depends on the rate ([[interface]] rate) requires loading.duration, the time in which "
+        "an interface whose law depends on the rate ([[interface]] rate or branches) requires loading.duration, the "
+        "time in which "
         "t grows by 1, as in \"1 s\"");
   if (loading.controls_dissipation())
     throw InputError(
         "dissipation control (loading.maximum_dissipation) cannot be combined with a rate of interfaces "
-        "([[interface]] rate): the load may decrease, time cannot");
+        "([[interface]] rate or branches): the load may decrease, time cannot");
+  if (model.is_finite_strain() &&
+      std::ranges::any_of(model.interfaces, [](const CohesiveSurface& s) { return !s.law.branches.empty(); }))
+    throw InputError(
+        "branches of interfaces ([[interface]] branches) cannot be combined with materials of finite strain; a rate "
+        "can");
 }
 
 bool is_proportional(const BoundaryCondition& condition, const Vector& x, double end) {

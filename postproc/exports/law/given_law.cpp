@@ -114,6 +114,10 @@ ExportedLaw law_to_export(const GivenLaw& given, const ExportChoice& choice) {
     law.remarks.push_back(
         fmt::format("Rate: {} of the case, {}, is not in this file, which has the law of slow opening",
                     given.law.rate.law->name, given.law.rate.law->description));
+  if (!given.law.branches.empty())
+    law.remarks.push_back(
+        fmt::format("Rate: {} Maxwell branches of the case are not in this file, which has the law of slow opening",
+                    given.law.branches.size()));
   law.remarks.push_back(fmt::format("Tables: of opening, up to {:.4g} m, where {:.2g} % of the strength are left",
                                     states.back().separation, 100.0 * states.back().traction / at.strength));
   add_tables(law, whole_curve(states, true, law, compliance));

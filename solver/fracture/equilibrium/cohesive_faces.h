@@ -50,7 +50,7 @@ class CohesiveFaces {
                  const std::vector<InterfaceHistory>& before, std::vector<InterfaceHistory>& after) const;
   /// Energy dissipated by decohesion and friction from one state to the other [J].
   double dissipated(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
-  /// Likewise by the rate of opening [J].
+  /// Likewise by the rate of opening and by branches [J].
   double viscous_dissipation(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to) const;
   /// What each face dissipates from one state to the other [J], of decohesion this share.
   std::vector<double> heat(const std::vector<InterfaceHistory>& from, const std::vector<InterfaceHistory>& to,

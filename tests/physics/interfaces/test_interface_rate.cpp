@@ -113,8 +113,8 @@ TEST_P(LawWithRate, StoresOrDissipatesTheWork) {
       EXPECT_GT(history.viscous, 0.1 * work);
       return std::abs(now.stored + history.dissipated + history.viscous - work) / work;
     };
-    EXPECT_LT(left_over(16000), 1e-3) << mode;
-    EXPECT_LT(left_over(16000), 0.6 * left_over(4000) + 1e-6) << mode;
+    EXPECT_LT(left_over(4000), 1e-3) << mode;
+    EXPECT_LT(left_over(4000), 0.6 * left_over(1000) + 1e-6) << mode;
   }
 }
 

@@ -35,6 +35,7 @@ FractureState awkward_state() {
                    .rubbed = -0.0,
                    .viscous = 1.0 / 7.0,
                    .overstress = 1e-310,
+                   .branch = {Vector(1.0, -0.0, 2.0), Vector(3.0, 4.0, 5.0), Vector(1e-310, 6.0, 7.0)},
                    .slip = Vector(1e-9, -0.0, 3.0),
                    .opening = -0.0,
                    .shear = Vector(0.0, 1e-310, -2.0)}};

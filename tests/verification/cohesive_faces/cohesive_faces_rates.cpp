@@ -116,6 +116,79 @@ TEST(InterfacesWithRate, NeedADuration) {
   EXPECT_THROW(blocks.run(), InputError);
 }
 
+// A neo-Hookean bar and the law in series, opened at changing rates, unloaded, opened again.
+TEST(InterfacesWithRate, FollowTheirLawAtFiniteStrain) {
+  using namespace finite_blocks;
+  InterfaceLaw law = law_of(linear());
+  law.rate = {.law = &power(), .p = {0.2, 1e-3}};
+  const double length = bond.toughness / bond.strength;
+  std::vector<double> path{0.0}, traction{0.0};
+  InterfaceHistory history;
+  for (const double x : {0.01, 0.2, 0.4, 0.6, 0.3, 0.7, 1.0}) {
+    const InterfaceResponse response = law.respond(bond, Vector::UnitX(), x * length * Vector::UnitX(), history, 0.5);
+    history = response.history;
+    traction.push_back(response.traction.x());
+    path.push_back(x * length + 2.0 * edge * (confined_stretch(traction.back()) - 1.0));
+  }
+  const Mesh mesh = two_blocks(2);
+  FractureModel model = bonded_blocks(mesh, law, rubber);
+  const auto at = [&](double t) { return path[std::min(static_cast<std::size_t>(std::lround(t)), path.size() - 1)]; };
+  model.boundary = {
+      moved("xmin", {true, false, false}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
+      moved("xmax", {true, false, false}, [&](const Vector&, double t) -> Vector { return at(t) * Vector::UnitX(); })};
+  for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) model.boundary.push_back(symmetry_on(side));
+  const double end = double(path.size() - 1);
+  FractureRun run(mesh, model, {.equilibrium_tolerance = 1e-12},
+                  {.end = end,
+                   .initial_increment = 1.0,
+                   .minimum_increment = 1.0,
+                   .maximum_increment = 1.0,
+                   .duration = 0.5,
+                   .stops = {}});
+  std::size_t i = 0;
+  double of_force = 0.0, viscous = 0.0;
+  run_to_end(run, [&](const FractureState&, const StepReport& report) {
+    const double force = report.reaction[mesh.patch_index("xmax")].x() / (edge * edge);
+    of_force = std::max(of_force, std::abs(force - traction[i++]) / bond.strength);
+    viscous = report.energy.interface_viscous_dissipation / (edge * edge);
+  });
+  report_row("neo-Hookean bar", {{"traction", of_force}, {"viscous dissipation", viscous / history.viscous - 1.0}});
+  EXPECT_LT(of_force, 1e-9);
+  EXPECT_NEAR(viscous, history.viscous, 1e-9 * history.viscous);
+}
+
+// A bond that holds and a branch beside it: u = delta + c T, T = K delta + q, q' + q/tau = K_v delta', in closed form
+// by z = delta: (1 + c (K + K_v)) z' = V - ((1 + c K) z - V t)/tau.
+TEST(InterfacesWithRate, RelaxByTheirBranches) {
+  const double c = 2e-3 / 1e9, K = stiffness, K_v = 2.0 * stiffness, tau = 2e-3, far = 2e-6, time = 4e-3;
+  const double V = far / time, a = 1.0 + c * (K + K_v), b = 1.0 + c * K, decay = b / (a * tau);
+  const auto opening = [&](double t) {  // z = V t/b + B (1 - exp(-decay t))
+    return V * t / b + V * tau / b * (1.0 - a / b) * (1.0 - std::exp(-decay * t));
+  };
+  double before = 0.0;
+  for (const Index n : {20, 40, 80}) {
+    PulledBlocks blocks(n);
+    InterfaceLaw law = law_of(linear());
+    law.branches = {{.stiffness = K_v, .time = tau}};
+    FractureModel model = glued_blocks(blocks.mesh, law);
+    model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                      moved("xmax", {true, true, true},
+                            [&](const Vector&, double t) -> Vector { return far * t * Vector::UnitX(); })};
+    blocks.model = std::move(model);
+    blocks.loading.duration = time;
+    const Pulled end = blocks.pull().back();
+    const double error = end.opening / opening(time) - 1.0,
+                 account = left_over({}, end.energy) / end.energy.external_work;
+    report_row(fmt::format("branch, {} steps", n), {{"opening", error}, {"energy account", account}});
+    EXPECT_LT(std::abs(account), 1e-3);
+    if (before != 0.0) {
+      EXPECT_NEAR(error / before, 0.25, 0.1);
+    }
+    before = error;
+  }
+  EXPECT_NEAR(before, 0.0, 1e-4);
+}
+
 // Opened by D at constant rates; G by force and D (corrected_beams.h), of any length of the crack.
 struct PeeledBeam {
   Index along = 52, across = 12, n_steps = 176;

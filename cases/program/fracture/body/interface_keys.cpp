@@ -72,13 +72,24 @@ constexpr ParameterWords rate_words[] = {
     {"reference_rate", "Rate of opening v_0; at it the power law doubles the traction."},
 };
 
-const KeyTable& rate_keys() {
+const KeyTable& interface_rate_keys() {
   using namespace keys;
   static const KeyTable table{
       .name = "interface[].rate",
       .sentence = "The factor by which an interface pulls more while its separation grows; needs a duration.",
       .keys = joined({law_keys("rate law of an interface", interface_rate_laws(), "Name of the law.", rate_words)}),
       .decided_by = "law"};
+  return table;
+}
+
+const KeyTable& interface_branch_keys() {
+  using namespace keys;
+  static const KeyTable table{
+      .name = "interface[].branches[]",
+      .sentence = "A Maxwell branch beside the law of an interface, a spring and a dashpot in series.",
+      .keys = {{"stiffness", quantity(dimension::interface_stiffness, range::positive), "",
+                "Stiffness of the branch's spring while the bond is whole."},
+               {"time", quantity(dimension::time, range::positive), "", "Relaxation time of the branch."}}};
   return table;
 }
 
@@ -109,8 +120,10 @@ std::vector<Key> place_and_law_keys() {
       {"exponent", number(at_least_one), "1", "Exponent of the mode mix by Benzeggagh and Kenane or by the power law."},
       {"friction", number(range::not_negative), "0",
        "Coulomb's coefficient of friction on the broken part of a closed interface."},
-      {"rate", keys::table(rate_keys), "none",
+      {"rate", keys::table(interface_rate_keys), "none",
        "Dependence of the traction on the rate of opening; strength and toughness grow alike."},
+      {"branches", keys::tables(interface_branch_keys), "none",
+       "Up to three Maxwell branches beside the law, which vanish with debonding; need a duration."},
       {"strength_scatter", keys::table(scatter_keys), "none",
        "Random scatter of strength and shear strength over the faces."},
       {"toughness_scatter", keys::table(scatter_keys), "none",

@@ -89,12 +89,22 @@ void read_modes(const ConfigTable& table, InterfaceSettings& settings) {
   if (law.depends_on_mode()) law.exponent = table.number("exponent", 1.0);
 }
 
-InterfaceRate read_rate(const ConfigTable& table) {
+InterfaceRate read_interface_rate(const ConfigTable& table) {
   const ConfigTable rate = table.table("rate");
   InterfaceRate read{.law = &choose(rate.at("law"), interface_rate_laws(), "rate law of an interface")};
   for (std::size_t i = 0; i < read.law->parameters.size(); ++i)
     read.p[i] = read_law_parameter(rate, read.law->parameters[i]);
   return read;
+}
+
+std::vector<InterfaceBranch> read_interface_branches(const ConfigTable& table) {
+  std::vector<InterfaceBranch> branches;
+  for (const ConfigTable& branch : table.tables("branches"))
+    branches.push_back({branch.quantity("stiffness"), branch.quantity("time")});
+  if (branches.size() > most_interface_branches)
+    throw table.at("branches")
+        .error(fmt::format("found {} branches; at most {} are allowed", branches.size(), most_interface_branches));
+  return branches;
 }
 
 void read_place(const ConfigTable& table, InterfaceSettings& settings) {
@@ -125,7 +135,8 @@ InterfaceSettings read_interface(const ConfigTable& table, std::size_t number,
   read_place(table, settings);
   read_law(table, case_directory, settings, data_files);
   read_modes(table, settings);
-  if (table.has("rate")) settings.law.rate = read_rate(table);
+  if (table.has("rate")) settings.law.rate = read_interface_rate(table);
+  if (table.has("branches")) settings.law.branches = read_interface_branches(table);
   settings.strength_scatter = read_scatter(table, "strength_scatter");
   settings.toughness_scatter = read_scatter(table, "toughness_scatter");
   return settings;

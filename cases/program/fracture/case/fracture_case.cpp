@@ -48,11 +48,12 @@ void check_histories(const FractureCase& fracture, const ConfigTable& root) {
 /// What interfaces whose law depends on the rate ask of the loading.
 void check_rates(const FractureCase& fracture, const ConfigTable& root) {
   for (const InterfaceSettings& interface : fracture.interfaces) {
-    if (!interface.law.rate.any()) continue;
+    if (!interface.law.depends_on_rate()) continue;
     if (!(fracture.loading.duration > 0.0))
-      throw interface.where.at("rate").error(
-          "an interface whose law depends on the rate requires the time in which the load parameter grows by 1: "
-          "duration = \"1 s\" in [loading]");
+      throw interface.where.at(interface.law.rate.any() ? "rate" : "branches")
+          .error(
+              "an interface whose law depends on the rate requires the time in which the load parameter grows by 1: "
+              "duration = \"1 s\" in [loading]");
     if (fracture.loading.controls_dissipation())
       throw root.table("loading")
           .at("maximum_dissipation")
