@@ -45,9 +45,10 @@ TEST(InterfaceRates, AreSaidToBeUnresolvedByLongSteps) {
 }
 
 TEST(InterfaceRates, NeedADuration) {
-  for (const std::string& only : {std::string("rate"), std::string("branches")}) {
-    const std::string key = only == "rate" ? "rate = { law = \"logarithmic\", reference_rate = \"1 mm/s\", c = 0.1 }\n"
-                                           : "branches = [{ stiffness = \"1e11 Pa/m\", time = \"10 ms\" }]\n";
+  for (const char* only : {"rate", "branches"}) {
+    const std::string key = std::string(only) == "rate"
+                                ? "rate = { law = \"logarithmic\", reference_rate = \"1 mm/s\", c = 0.1 }\n"
+                                : "branches = [{ stiffness = \"1e11 Pa/m\", time = \"10 ms\" }]\n";
     const TemporaryCase directory(glued_blocks(linear_glue + key));
     expect_refused(directory,
                    {.name = only, .good = "", .bad = "", .message = {"interface", only, "duration = \"1 s\""}});

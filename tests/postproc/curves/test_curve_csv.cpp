@@ -100,11 +100,11 @@ TEST(CurveCsv, a_restarted_file_equals_an_unbroken_one) {
 TEST(CurveCsv, names_file_and_line_of_what_is_not_a_row) {
   const TemporaryFolder folder;
   const std::string header = curve_header() + "\n";
-  const std::string good = "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0\n";
-  for (const std::string bad : {"1,2\n", "x,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0\n",
-                                "1,0.05,1e-06,0.5,0,-2 N,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0\n",
-                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0,8\n",
-                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7.5,0,0,0,0,0,0\n", "\n"}) {
+  const std::string good = "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0,0\n";
+  for (const std::string bad : {"1,2\n", "x,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0,0\n",
+                                "1,0.05,1e-06,0.5,0,-2 N,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0,0\n",
+                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,0,0,8\n",
+                                "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7.5,0,0,0,0,0,0,0\n", "\n"}) {
     put(folder / "bad.csv", header + good + bad + good);
     EXPECT_THAT(message_of<InputError>([&] { read_curve(folder / "bad.csv"); }), HasSubstr("bad.csv, line 3:")) << bad;
   }

@@ -53,7 +53,8 @@ struct LawCurve {
 
 /// That in opening, and that in shear where the equivalent one is another.
 std::vector<LawCurve> curves_of(const InterfaceLaw& law, const std::string& figures) {
-  std::vector<LawCurve> curves{{"given: " + figures, Vector::UnitX(), SeriesStyle::line}};
+  const std::string given = law.depends_on_rate() ? "given, opened slowly: " : "given: ";
+  std::vector<LawCurve> curves{{given + figures, Vector::UnitX(), SeriesStyle::line}};
   if (law.depends_on_mode()) curves.push_back({"in shear", Vector::UnitY(), SeriesStyle::dashed});
   return curves;
 }
