@@ -1,5 +1,9 @@
 #include "solver/parallel.h"
 
+#include "solver/parallel_forks.h"
+
+#include <pthread.h>
+
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -129,6 +133,22 @@ void set_threads(int n) {
 }
 
 int n_threads() { return pool().size(); }
+
+void keep_threads_out_of_forks() {
+  static std::once_flag once;
+  static int n = 1;  // of whoever has the workers
+  const auto before = [] {
+    while (!take_workers()) std::this_thread::yield();
+    n = pool().size();
+    pool().resize(1);
+  };
+  const auto in_parent = [] {
+    const WorkersTaken taken;
+    pool().resize(n);
+  };
+  const auto in_child = [] { const WorkersTaken taken; };
+  std::call_once(once, [&] { pthread_atfork(before, in_parent, in_child); });
+}
 
 void detail::run_tasks(Index n_tasks, const std::function<void(Index)>& task) {
   if (n_tasks > 1 && pool().size() > 1 && take_workers()) {

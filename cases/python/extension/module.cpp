@@ -6,9 +6,9 @@
 #include "physics/error.h"
 #include "postproc/curves/instruction_set.h"
 #include "solver/parallel.h"
+#include "solver/parallel_forks.h"
 
 #include <fmt/format.h>
-#include <pthread.h>
 
 #include <chrono>
 #include <exception>
@@ -36,17 +36,6 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
-/// A process that fork() makes has no threads but one: the pool is ended before, and begins again in the parent.
-void survive_fork() {
-  static int n = 1;
-  pthread_atfork(
-      [] {
-        n = n_threads();
-        set_threads(1);
-      },
-      [] { set_threads(n); }, nullptr);
-}
-
 }  // namespace
 
 void look_for_signals() {
@@ -68,7 +57,7 @@ PYBIND11_MODULE(_pfdm, module) {
                     pfdm::instruction_set()));
   module.doc() = "Pieces of pfdm in process. Use the package pfdm, which documents them.";
   py::register_local_exception_translator(pfdm::translate);
-  pfdm::survive_fork();
+  pfdm::keep_threads_out_of_forks();
   module.def("set_threads", &pfdm::set_threads, py::arg("n"), py::call_guard<py::gil_scoped_release>());
   module.def("n_threads", &pfdm::n_threads);
   pfdm::define_mass_material(module);

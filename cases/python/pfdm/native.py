@@ -27,8 +27,9 @@ def extension() -> ModuleType:
         version = f"{sys.version_info.major}.{sys.version_info.minor}"
         raise Error(
             f"this needs the compiled extension of pfdm, which was not found for Python {version} ({error}). "
-            "./pfdm python SCRIPT builds it and finds it, and Debian's package has it. By hand: install python3-dev and "
-            "pybind11-dev, run cmake again, build the target pfdm_python, and put the folder of _pfdm.*.so on PYTHONPATH"
+            "./pfdm python SCRIPT builds it and finds it, and Debian's package has that of the Python that it was built "
+            "for. By hand: install python3-dev and pybind11-dev, run cmake again, build the target pfdm_python, and put the "
+            "folder of _pfdm.*.so on PYTHONPATH"
         ) from None
     _pfdm.set_threads(len(os.sched_getaffinity(0)))
     return _pfdm
@@ -37,7 +38,11 @@ def extension() -> ModuleType:
 def set_threads(n: int) -> None:
     """Number of threads of all later computations in this process, at least 1; at first one for each core.
 
-    Results do not depend on it. Of several runs at once one has the threads at a time, the others their own thread.
+    Results do not depend on it. Of several runs at once one has the threads at a time, the others their own thread. A
+    process that os.fork() makes begins with one: call this there for more. Do not fork while another thread of the script
+    computes or opens a case: what that thread has locked stays so in the child. multiprocessing has the start method
+    "spawn" for it.
+
     Raises Error without the compiled extension.
     """
     extension().set_threads(n)
