@@ -30,20 +30,15 @@ def bar(**values):
     return pfdm.Case(shipped / "bar_at2", {**coarse, **values})
 
 
+def long_bar(**values):
+    """So many cells that loops over them are cut into pieces for several threads, and three steps."""
+    long = {"mesh.x[0].cells": 3001, "fracture.length": "12 mm", "loading.end": 0.3, "loading.initial_increment": 0.1,
+            "loading.maximum_increment": 0.1}
+    return pfdm.Case(shipped / "bar_at2", {**long, **values})
+
+
 def rows_of(run):
     return [run.row, *run]
-
-
-def bar_arrays(n=21):
-    """The bar's mesh as arrays: n hexahedra along x, two across; the middle cells are weak."""
-    x, y, z = numpy.meshgrid(numpy.linspace(0.0, 0.1, n + 1), numpy.linspace(-5e-4, 5e-4, 3), [-5e-4, 5e-4], indexing="ij")
-    points = numpy.stack([x.ravel(), y.ravel(), z.ravel()], axis=1)
-    at = numpy.arange(len(points)).reshape(n + 1, 3, 2)
-    low = [at[:-1, :-1, :-1], at[1:, :-1, :-1], at[1:, 1:, :-1], at[:-1, 1:, :-1]]
-    high = [at[:-1, :-1, 1:], at[1:, :-1, 1:], at[1:, 1:, 1:], at[:-1, 1:, 1:]]
-    cells = numpy.stack([each.ravel() for each in low + high], axis=1)
-    numbers = numpy.where(numpy.arange(len(cells)) // 2 == n // 2, 2, 1)
-    return points, cells, numbers
 
 
 class Steps(unittest.TestCase):
@@ -70,10 +65,12 @@ class Steps(unittest.TestCase):
             with self.assertRaisesRegex(pfdm.InputError, "no further step"):
                 run.step()
 
-    def test_of_the_shipped_case_are_the_same_whatever_is_looked_at(self):
-        case = pfdm.Case(shipped / "bar_at2", {"loading.end": 0.3})
-        theirs = case.run(self.folder / "r", threads=2).curve.to_dict("records")
+    def test_by_two_threads_are_the_same_whatever_is_looked_at(self):
+        case = long_bar()
+        theirs = case.run(self.folder / "r", threads=1).curve.to_dict("records")
+        pfdm.set_threads(2)
         run = pfdm.FractureRun(case)
+        self.assertGreater(len(run.cell_volumes), 5000)
         rows = [run.row]
         for row in run:
             rows.append(row)
@@ -130,8 +127,10 @@ class Steps(unittest.TestCase):
         self.assertEqual(run.step()["step"], 1)
 
     def test_in_threads_of_their_own_do_not_disturb_each_other(self):
-        cases = [bar(), bar(**{"materials.concrete.toughness": "120 J/m^2"})]
+        cases = [long_bar(), long_bar(**{"materials.concrete.toughness": "120 J/m^2"})]
+        pfdm.set_threads(1)
         alone = [rows_of(pfdm.FractureRun(case)) for case in cases]
+        pfdm.set_threads(2)
         found = [None, None]
 
         def work(i):
@@ -143,6 +142,29 @@ class Steps(unittest.TestCase):
         for thread in threads:
             thread.join()
         self.assertEqual(found, alone)
+
+    def test_can_be_looked_at_by_another_thread(self):
+        run, ended = pfdm.FractureRun(bar(**{"loading.maximum_increment": 0.01})), threading.Event()
+        seen, failed = [], []
+
+        def look():
+            try:
+                while not ended.is_set():
+                    row = run.row
+                    run.state, repr(run), run.remarks, run.reaction("xmax"), run.patch_displacement("xmax"), run.is_complete
+                    seen.append((row["step"], row["load"]))
+            except Exception as error:  # is told by the main thread
+                failed.append(error)
+
+        threads = [threading.Thread(target=look) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        rows = rows_of(run)
+        ended.set()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(failed, [])
+        self.assertLessEqual(set(seen), {(row["step"], row["load"]) for row in rows})
 
     def test_end_by_ctrl_c_and_go_on(self):
         run, other = pfdm.FractureRun(bar()), pfdm.FractureRun(bar())
@@ -207,6 +229,22 @@ class Arrays(unittest.TestCase):
                 first = resident()
         self.assertLess(resident() - first, 4e6)
 
+    def test_that_are_kept_keep_no_more_than_they_show(self):
+        def resident():
+            gc.collect()
+            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+        def kept():
+            with pfdm.FractureRun(long_bar()) as run:
+                run.step()
+                return run.damage, run.cell_volumes
+
+        warm = [kept() for _ in range(2)]
+        before = resident()
+        views = [kept() for _ in range(8)]
+        each = (resident() - before) / len(views)
+        self.assertLess(each, 1500 * len(warm[0][0]))
+
     def test_of_the_mesh_fit_together(self):
         run = pfdm.FractureRun(bar())
         self.assertEqual(run.offsets[-1], len(run.connectivity))
@@ -216,42 +254,6 @@ class Arrays(unittest.TestCase):
         self.assertEqual(len(run.cells_of("bar")) + len(run.cells_of("weak")), len(run.cell_volumes))
         with self.assertRaisesRegex(KeyError, "weak"):
             run.cells_of("steel")
-
-
-class Meshes(unittest.TestCase):
-    def mesh(self):
-        points, cells, numbers = bar_arrays()
-        return pfdm.Mesh.of_blocks(points, {"hexahedron": cells}, {"hexahedron": numbers}, regions={1: "bar", 2: "weak"})
-
-    def test_of_arrays_take_the_place_of_the_cases(self):
-        ours, theirs = rows_of(pfdm.FractureRun(bar(), self.mesh())), rows_of(pfdm.FractureRun(bar()))
-        self.assertEqual(len(ours), len(theirs))
-        for a, b in zip(ours, theirs, strict=True):
-            self.assertAlmostEqual(a["force_x_N"], b["force_x_N"], delta=1e-6 * (1e-6 + abs(b["force_x_N"])))
-
-    def test_of_arrays_name_patches_by_faces(self):
-        points, cells, numbers = bar_arrays(4)
-        quads = [numpy.flatnonzero(points[:, 0] == x).reshape(3, 2) for x in (0.0, points[:, 0].max())]
-        faces = numpy.array([[q[i, 0], q[i + 1, 0], q[i + 1, 1], q[i, 1]] for q in quads for i in range(2)])
-        mesh = pfdm.Mesh.of_blocks(points, {"hexahedron": cells, "quad": faces},
-                                   {"hexahedron": numbers, "quad": [7, 7, 8, 8]}, regions={1: "bar", 2: "weak"},
-                                   patches={7: "xmin", 8: "xmax"})
-        with self.assertRaisesRegex(pfdm.InputError, "ymin"):  # all else is "walls"
-            pfdm.FractureRun(bar(), mesh)
-
-    def test_of_arrays_that_do_not_fit_are_refused(self):
-        for change, said in [({"points": numpy.zeros((3, 2))}, r"\(3, 2\)"),
-                             ({"types": numpy.zeros(3)}, "offsets has the shape"),
-                             ({"connectivity": self.mesh().connectivity + 1000}, "there are"),
-                             ({"offsets": self.mesh().offsets[::-1]}, "must be above"),
-                             ({"numbers": numpy.zeros(3)}, "numbers has the shape")]:
-            mesh = self.mesh()
-            for name, value in change.items():
-                setattr(mesh, name, value)
-            with self.assertRaisesRegex(pfdm.InputError, said):
-                pfdm.FractureRun(bar(), mesh)
-        with self.assertRaisesRegex(pfdm.InputError, "allowed: tetra"):
-            pfdm.Mesh.of_blocks(numpy.zeros((3, 3)), {"tetra10": numpy.zeros((1, 10))})
 
 
 class Examples(unittest.TestCase):

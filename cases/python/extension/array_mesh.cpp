@@ -13,18 +13,20 @@ namespace {
 
 constexpr const char* numbers_name = "numbers";
 
-void require(bool holds, const std::string& why) {
-  if (!holds) throw InputError("the mesh of arrays: " + why);
+/// `why` and its arguments as of fmt::format, which is called where it does not hold alone.
+template <class... Arguments>
+void require(bool holds, fmt::format_string<const Arguments&...> why, const Arguments&... arguments) {
+  if (!holds) throw InputError("the mesh of arrays: " + fmt::format(why, arguments...));
 }
 
 void require_length(const py::array& array, py::ssize_t n, const char* name) {
-  require(array.ndim() == 1 && array.size() == n,
-          fmt::format("{} has the shape {}; ({},) is expected, an entry for each cell", name, shape_words(array), n));
+  require(array.ndim() == 1 && array.size() == n, "{} has the shape {}; ({},) is expected, an entry for each cell",
+          name, shape_words(array), n);
 }
 
 void add_points(const ArrayOf<double>& points, MeshFile& file) {
   require(points.ndim() == 2 && points.shape(1) == 3 && points.shape(0) > 0,
-          fmt::format("points has the shape {}; (n_points, 3) is expected", shape_words(points)));
+          "points has the shape {}; (n_points, 3) is expected", shape_words(points));
   require(points.shape(0) < std::numeric_limits<Index>::max(), "it has more points than can be counted");
   const double* x = points.data();
   for (py::ssize_t i = 0; i < points.shape(0); ++i, x += 3) file.points.emplace_back(x[0], x[1], x[2]);
@@ -42,17 +44,25 @@ void add_cells(const MeshArrays& arrays, MeshFile& file) {
   for (py::ssize_t i = 0; i < n; ++i) {
     const std::int64_t end = arrays.offsets.data()[i];
     require(end > before && end <= arrays.connectivity.size(),
-            fmt::format("offsets[{}] is {}; it must be above {} and at most {}, where connectivity ends", i, end,
-                        before, arrays.connectivity.size()));
+            "offsets[{}] is {}; it must be above {} and at most {}, where connectivity ends", i, end, before,
+            arrays.connectivity.size());
     file.cell_offsets.push_back(static_cast<Index>(end));
     before = end;
   }
   for (std::int64_t i = 0; i < before; ++i) {
     const std::int64_t point = arrays.connectivity.data()[i];
-    require(point >= 0 && point < count_of(file.points),
-            fmt::format("connectivity[{}] is {}; there are {} points, from 0 on", i, point, file.points.size()));
+    require(point >= 0 && point < count_of(file.points), "connectivity[{}] is {}; there are {} points, from 0 on", i,
+            point, file.points.size());
     file.cell_points.push_back(static_cast<Index>(point));
   }
+}
+
+/// Patches of faces whose numbers have no name, as of Gmsh's groups; 0 is none.
+void name_patches(const MeshArrays& arrays, MeshFile& file) {
+  const std::vector<Index>& numbers = file.integer_arrays.at(numbers_name);
+  for (Index c = 0; c < file.n_cells(); ++c)
+    if (file.is_face(c) && numbers[c] != 0 && !arrays.patches.contains(numbers[c]))
+      file.patch_names.emplace(numbers[c], fmt::format("patch_{}", numbers[c]));
 }
 
 }  // namespace
@@ -66,6 +76,7 @@ Mesh mesh_of(const MeshArrays& arrays) {
   if (arrays.numbers) {
     require_length(*arrays.numbers, arrays.types.size(), numbers_name);
     file.integer_arrays[numbers_name] = {arrays.numbers->data(), arrays.numbers->data() + arrays.numbers->size()};
+    name_patches(arrays, file);
     settings.region_array = settings.face_array = numbers_name;
   }
   settings.region_names = arrays.regions;

@@ -17,7 +17,7 @@ struct MeshArrays {
   ArrayOf<std::int64_t> connectivity, offsets;    ///< points of all cells; where each ends, (n_cells,)
   ArrayOf<int> types;                             ///< (n_cells,), VTK's numbers
   std::optional<ArrayOf<Index>> numbers;          ///< (n_cells,): of a cell's region, of a face's patch
-  std::map<Index, std::string> regions, patches;  ///< names of the numbers
+  std::map<Index, std::string> regions, patches;  ///< names of the numbers; else region_<number>, patch_<number>
 };
 
 /// Throws InputError for arrays that do not fit together, and for what is wrong with the mesh, as of a file.

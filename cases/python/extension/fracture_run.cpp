@@ -77,22 +77,22 @@ py::dict fields(SteppedRun& run) {
     const py::gil_scoped_release others_run;
     output = run.fields();
   }
-  // Regions are the mesh's, the rest the output's: both live as long as the view.
-  struct Owner {
-    std::shared_ptr<OpenedCase> opened;
-    std::shared_ptr<const OutputFields> output;
-  };
-  const auto owner = std::make_shared<Owner>(Owner{run.opened(), output});
+  const std::shared_ptr<const Mesh>& mesh = run.mesh();
+  const NamedField::Values regions = &mesh->region;
   py::dict result;
-  for (const NamedField& field : frame_fields(run.opened()->mesh(), *output))
-    result[py::str(field.name)] = std::visit([&](const auto* values) { return view(owner, values); }, field.values);
+  for (const NamedField& field : frame_fields(*mesh, *output)) {
+    const auto view_of_field = [&](const auto* values) {
+      return field.values == regions ? view(mesh, values) : view(output, values);
+    };
+    result[py::str(field.name)] = std::visit(view_of_field, field.values);
+  }
   return result;
 }
 
 /// The mesh in the order of the fields.
 py::dict mesh(const SteppedRun& run) {
-  const std::shared_ptr<OpenedCase>& owner = run.opened();
-  const Mesh& mesh = owner->mesh();
+  const std::shared_ptr<const Mesh>& owner = run.mesh();
+  const Mesh& mesh = *owner;
   const auto indices = [&](const std::vector<Index>& all, std::size_t from) -> py::array {
     return view_of(owner, all.data() + from, {static_cast<py::ssize_t>(all.size() - from)});
   };

@@ -31,13 +31,25 @@ SteppedRun::SteppedRun(const std::filesystem::path& where, const std::vector<std
   state_ = std::make_shared<const RunState>(std::move(start));
 }
 
+SteppedRun::State SteppedRun::state() const {
+  const std::lock_guard lock(guard_);
+  return state_;
+}
+
+void SteppedRun::publish(State state) {
+  {
+    const std::lock_guard lock(guard_);
+    state_.swap(state);
+  }
+  fields_.reset();
+}
+
 void SteppedRun::step(const IterationWatch& watch) {
   const Busy busy(busy_);
   if (is_complete()) throw InputError("the load has reached its end: there is no further step");
   RunState next{.state = state_->state, .report = {}};
   next.report = case_->run().step(next.state, watch);
-  state_ = std::make_shared<const RunState>(std::move(next));
-  fields_.reset();
+  publish(std::make_shared<const RunState>(std::move(next)));
 }
 
 void SteppedRun::restore(State state) {
@@ -47,8 +59,7 @@ void SteppedRun::restore(State state) {
       now.interfaces.size() != due.interfaces.size() || now.boundary_force.size() != due.boundary_force.size() ||
       now.histories.first != due.histories.first)
     throw InputError("the state belongs to a run of another mesh or model");
-  state_ = std::move(state);
-  fields_.reset();
+  publish(std::move(state));
 }
 
 std::shared_ptr<const OutputFields> SteppedRun::fields() {
@@ -59,7 +70,7 @@ std::shared_ptr<const OutputFields> SteppedRun::fields() {
 
 CurveRow SteppedRun::row() const {
   const CurveSettings& curve = case_->settings().output.curve;
-  return curve_row(state_->report, case_->mesh().patch_index(curve.patch), curve.component);
+  return curve_row(state()->report, case_->mesh().patch_index(curve.patch), curve.component);
 }
 
 }  // namespace pfdm

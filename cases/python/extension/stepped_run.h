@@ -9,6 +9,7 @@
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,24 +35,27 @@ class SteppedRun {
   /// A state of this run, or of another one of the same size. Throws InputError for others.
   void restore(State state);
 
-  const State& state() const { return state_; }
-  bool is_complete() const { return case_->run().is_complete(state_->state); }
+  // What is known of the present state may be asked for while another thread steps.
+  State state() const;
+  bool is_complete() const { return case_->run().is_complete(state()->state); }
   /// The fields of the present state, which are computed when they are first asked for.
   std::shared_ptr<const OutputFields> fields();
   CurveRow row() const;
-  Vector reaction(std::string_view patch) const { return case_->reaction(state_->report, patch); }
-  Vector displacement(std::string_view patch) const { return case_->displacement(state_->report, patch); }
+  Vector reaction(std::string_view patch) const { return case_->reaction(state()->report, patch); }
+  Vector displacement(std::string_view patch) const { return case_->displacement(state()->report, patch); }
 
   const std::string& title() const { return case_->title(); }
-  const std::shared_ptr<OpenedCase>& opened() const { return case_; }
+  const std::shared_ptr<const Mesh>& mesh() const { return case_->shared_mesh(); }
 
  private:
   /// One computation at a time.
   class Busy;
+  void publish(State state);
 
   std::shared_ptr<OpenedCase> case_;
+  mutable std::mutex guard_;  // of state_, for as long as the pointer is copied
   State state_;
-  std::shared_ptr<const OutputFields> fields_;  // of state_, or none yet
+  std::shared_ptr<const OutputFields> fields_;  // of state_, or none yet: of whoever is busy
   std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
 };
 

@@ -45,7 +45,8 @@ class FractureRun:
 
     Steps and fields are those of `pfdm run` to the last bit. Arrays are read-only views without copies; they keep what
     they show, also after later steps and after close(). While it computes, other threads of the script go on; several
-    runs may be stepped in threads of their own, one of them by one thread at a time.
+    runs may be stepped in threads of their own, one of them by one thread at a time. While one is stepped other threads
+    may ask for its row, load, state and reactions, which are those before the step; its fields raise RuntimeError.
 
     Args:
         case: the case, with its values.
@@ -127,7 +128,7 @@ class FractureRun:
         """The fields of a frame by their names, one value for each cell: damage, displacement, stress ...
 
         Scalars have the shape (n_cells,), vectors (n_cells, 3), tensors (n_cells, 3, 3). They are computed when they
-        are first asked for in a state.
+        are first asked for in a state. Raises RuntimeError while another thread steps this run.
         """
         return self._run.fields()
 

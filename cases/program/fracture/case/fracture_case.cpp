@@ -169,10 +169,11 @@ void read_frames_of(const ConfigTable& output, FractureCase& fracture) {
   if (const auto point = output.find("slices_through")) fracture.output.slices_through = read_point(*point);
 }
 
-void read_output(const ConfigTable& root, FractureCase& fracture) {
+void read_output(const ConfigTable& root, FractureCase& fracture, MeshOf mesh) {
   const ConfigTable output = root.table("output");
   read_curve_patch(output, fracture);
-  check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);  // the frames need the curve's patch
+  if (mesh == MeshOf::the_case)  // the frames need the curve's patch
+    check_names(fracture, fracture.mesh.regions, fracture.mesh.patches);
   read_frames_of(output, fracture);
   fracture.output.tips = read_energy_release(output);
 }
@@ -220,7 +221,7 @@ void give_heat(FractureCase& fracture) {
 
 }  // namespace
 
-FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory) {
+FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory, MeshOf mesh) {
   root.with_keys(fracture_keys());
   FractureCase fracture = read_body(root, case_directory, false);
   fracture.boundary = read_boundary(root, fracture.materials);
@@ -228,7 +229,7 @@ FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::
   fracture.heat = read_heat(root, fracture.loading);
   if (fracture.heat) give_heat(fracture);
   for (const BoundarySettings& boundary : fracture.boundary) fracture.model.boundary.push_back(boundary.condition);
-  read_output(root, fracture);
+  read_output(root, fracture, mesh);
   read_columns(root, fracture);
   return fracture;
 }

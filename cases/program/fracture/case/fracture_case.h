@@ -65,8 +65,13 @@ struct FractureCase {
   std::optional<ConfigTable> file;                ///< likewise
 };
 
-/// `root` is the whole case file. Throws InputError for all that can be told without the mesh.
-FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory);
+/// Whose mesh a case is to run on: what its [mesh] makes, or one that the caller has.
+enum class MeshOf { the_case, the_caller };
+
+/// `root` is the whole case file. Throws InputError for all that can be told without the mesh; names of regions and
+/// patches are compared with those of [mesh] only where that is the mesh.
+FractureCase read_fracture_case(const ConfigTable& root, const std::filesystem::path& case_directory,
+                                MeshOf mesh = MeshOf::the_case);
 
 /// What no boundary condition decides: mesh, materials, interfaces, loading, solver. With `may_be_elastic` [fracture]
 /// may be left out: only interfaces break then, and materials have their elasticity alone.

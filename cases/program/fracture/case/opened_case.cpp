@@ -14,11 +14,12 @@
 namespace pfdm {
 namespace {
 
-FractureCase read(const std::filesystem::path& where, const std::vector<std::string>& values) {
+FractureCase read(const std::filesystem::path& where, const std::vector<std::string>& values,
+                  MeshOf mesh = MeshOf::the_case) {
   const CaseFile file = with_overrides(open_case(where), values);
   const ConfigValue kind = file.config.root().at("kind");
   if (kind.string() != "fracture") throw kind.error(fmt::format("\"{}\" is not \"fracture\"", kind.string()));
-  FractureCase fracture = read_fracture_case(file.config.root(), file.directory);
+  FractureCase fracture = read_fracture_case(file.config.root(), file.directory, mesh);
   read_experiment(file.config.root(), file.directory);
   read_curve_fit(file);
   read_sweep(file);
@@ -34,12 +35,12 @@ std::unique_ptr<FractureRun> run_on(const FractureCase& fracture, const Mesh& me
 
 OpenedCase::OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values)
     : settings_(read(where, values)),
-      mesh_(std::make_unique<const Mesh>(settings_.mesh.make())),
+      mesh_(std::make_shared<const Mesh>(settings_.mesh.make())),
       run_(run_on(settings_, *mesh_)) {}
 
 OpenedCase::OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values, Mesh mesh)
-    : settings_(read(where, values)),
-      mesh_(std::make_unique<const Mesh>(std::move(mesh))),
+    : settings_(read(where, values, MeshOf::the_caller)),
+      mesh_(std::make_shared<const Mesh>(std::move(mesh))),
       run_(run_on(settings_, *mesh_)) {}
 
 Vector OpenedCase::reaction(const StepReport& report, std::string_view patch) const {

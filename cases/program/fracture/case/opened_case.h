@@ -26,13 +26,16 @@ class OpenedCase {
   /// included, and for cases of other kinds.
   explicit OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values = {});
 
-  /// The same on a mesh that was made elsewhere; what [mesh] says is read and not made.
+  /// The same on a mesh that was made elsewhere, whose regions and patches the case names; what [mesh] says is read and
+  /// not made.
   OpenedCase(const std::filesystem::path& where, const std::vector<std::string>& values, Mesh mesh);
 
   const std::string& title() const { return settings_.title; }
   /// As the file has them: loading, boundary conditions, output.
   const FractureCase& settings() const { return settings_; }
   const Mesh& mesh() const { return *mesh_; }
+  /// For what outlives the case and shows its mesh alone.
+  const std::shared_ptr<const Mesh>& shared_mesh() const { return mesh_; }
   const FractureModel& model() const { return run_->model(); }
   FractureRun& run() { return *run_; }
 
@@ -43,7 +46,7 @@ class OpenedCase {
 
  private:
   FractureCase settings_;
-  std::unique_ptr<const Mesh> mesh_;  // stays where it is when this moves
+  std::shared_ptr<const Mesh> mesh_;  // stays where it is when this moves
   std::unique_ptr<FractureRun> run_;
 };
 
