@@ -13,7 +13,8 @@ extension = list(Path("build/release/cases/python/extension").glob("_pfdm" + sys
 class BuildWithExtension(build_py):
     def run(self):
         super().run()
-        for file in [*extension, Path("cases/python/_pfdm.pyi")]:
+        stub = [Path("cases/python/_pfdm.pyi")] if extension else []
+        for file in [*extension, *stub]:
             self.copy_file(file, Path(self.build_lib) / file.name)
 
 
