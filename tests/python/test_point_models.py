@@ -2,9 +2,11 @@
 
 import os
 import pathlib
-import subprocess
+import signal
 import sys
 import tempfile
+import threading
+import time
 import unittest
 
 try:
@@ -31,35 +33,6 @@ class Folder(unittest.TestCase):
         for own, other in names.items():
             a, b = ours[own].to_numpy(float), theirs[other].to_numpy(float)
             self.assertEqual(a.tobytes(), b.tobytes(), f"{own}: {numpy.abs(a - b).max()}")
-
-
-class Extension(Folder):
-    def test_is_asked_for_when_it_is_needed_and_its_absence_says_how_to_get_it(self):
-        script = """
-import sys
-sys.modules["_pfdm"] = None
-import pfdm
-print(pfdm.Case(sys.argv[1]).kind)
-try:
-    pfdm.Endochronic(young_modulus=1.0)
-except pfdm.Error as error:
-    print(error)
-"""
-        said = subprocess.run([sys.executable, "-c", script, str(shipped / "bar_at2")], capture_output=True, text=True,
-                              check=True).stdout
-        self.assertIn("fracture", said)
-        for words in ("./pfdm python SCRIPT", "python3-dev and pybind11-dev", f"Python {sys.version_info.major}."):
-            self.assertIn(words, said)
-
-    def test_survives_a_fork(self):
-        pfdm.set_threads(2)
-        law = pfdm.Endochronic(**EndochronicLaws.soft_metal)
-        law.stress(EndochronicLaws.path())
-        child = os.fork()
-        if child == 0:
-            pfdm.set_threads(2)
-            os._exit(0 if law.stress(EndochronicLaws.path()).any() else 1)
-        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
 
 
 class MassMaterials(Folder):
@@ -107,6 +80,22 @@ class MassMaterials(Folder):
         self.assert_same_columns(ours, theirs, self.columns)
         self.assertEqual(ours.attrs["units"]["relative_displacement_m"], "m")
 
+    def test_respond_to_records_of_few_samples(self):
+        model = pfdm.MassMaterial(**self.values)
+        for n in (2, 3, 4, 5):
+            motion = model.respond(numpy.ones(n), rate=1000.0)
+            self.assertEqual(len(motion), n)
+            self.assertTrue(numpy.isfinite(motion.to_numpy()).all())
+
+    def test_end_by_ctrl_c(self):
+        model = pfdm.MassMaterial(**self.values)
+        long = {"type": "harmonic", "level": 1.0, "frequency": 30.0, "duration": 2000.0}
+        threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
+        began = time.process_time()
+        with self.assertRaises(KeyboardInterrupt):
+            model.respond(long, rate=1000.0, tolerance=1e-14)
+        self.assertLess(time.process_time() - began, 0.7)
+
     def test_have_forces_of_any_shape(self):
         model = pfdm.MassMaterial(**self.values)
         z = numpy.array([[0.0, 1e-3], [-2e-3, 4e-3]])
@@ -128,6 +117,7 @@ class MassMaterials(Folder):
         model = pfdm.MassMaterial(**self.values)
         for base, rate, said in [(numpy.zeros((3, 2)), 1000.0, r"\(3, 2\)"), (numpy.zeros(1), 1000.0, "two samples"),
                                  (numpy.zeros(9), -1.0, "must be positive"),
+                                 ({"type": "harmonic"}, 0.0, "rate: 0 Hz must be positive"),
                                  ({"type": "swept_sin"}, 1000.0, "did you mean \"swept_sine\"")]:
             with self.assertRaisesRegex(pfdm.InputError, said):
                 model.respond(base, rate)

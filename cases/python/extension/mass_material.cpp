@@ -13,11 +13,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
 #include <complex>
 #include <filesystem>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pfdm {
@@ -42,7 +42,15 @@ MassMaterialCase model_of_case(const std::filesystem::path& where, const std::ve
   return simulable(read_mass_material_case(file.config.root(), file.directory));
 }
 
-py::dict motion_of(const MassMaterialCase& c, const Excitation& excitation, double rate, double tolerance) {
+void require_rate(double rate) {
+  if (!(rate > 0.0)) throw InputError(fmt::format("rate: {} Hz must be positive", rate));
+}
+
+py::dict motion_of(const MassMaterialCase& c, Excitation excitation, double rate, double tolerance) {
+  excitation.acceleration = [acceleration = std::move(excitation.acceleration)](double time) {
+    look_for_signals();
+    return acceleration(time);
+  };
   Motion motion;
   {
     const py::gil_scoped_release others_run;
@@ -65,8 +73,8 @@ py::dict motion_by_record(const MassMaterialCase& c, const ArrayOf<double>& base
   const Eigen::VectorXd signal = Eigen::VectorXd::Map(samples.data(), static_cast<Eigen::Index>(samples.size()));
   if (samples.size() < 2 || !signal.allFinite())
     throw InputError("base: at least two samples are expected, all of them finite");
-  if (!(base_rate > 0.0 && rate > 0.0))
-    throw InputError(fmt::format("rate: {} Hz must be positive", std::min(base_rate, rate)));
+  require_rate(rate);
+  require_rate(base_rate);
   if (!(low > 0.0 && low < high && high <= highest_frequency(rate)))
     throw InputError(
         fmt::format("band: {} to {} Hz must rise from above 0 to at most {:.4g} Hz at {} samples per second", low, high,
@@ -77,6 +85,7 @@ py::dict motion_by_record(const MassMaterialCase& c, const ArrayOf<double>& base
 /// test = [{ name = "...", excitation = { ... } }]
 py::dict motion_by_excitation(const MassMaterialCase& c, const std::string& toml,
                               const std::filesystem::path& directory, double rate, double tolerance) {
+  require_rate(rate);
   const ConfigTable root = Config(toml, shown_as, BareNumbers::in_si).root().with_keys(mass_material_keys());
   std::vector<std::filesystem::path> data_files;
   const Excitation excitation =

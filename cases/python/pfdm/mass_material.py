@@ -109,7 +109,8 @@ class MassMaterial:
             rate: samples per second of the motion [Hz].
             base_rate: samples per second of `base` [Hz]; None: `rate`.
             band: lowest and highest frequency of `base` [Hz], by which errors are measured; None: from one period in
-                the record to 0.23 of its rate, up to which the signal between samples is known to 1e-9.
+                the record to 0.23 of its rate, up to which the signal between samples is known to 1e-9. Of a record of
+                less than a period it is from half of that.
             folder: where paths of an excitation of type "measured" start.
             tolerance: relative error of a step.
 
@@ -120,6 +121,7 @@ class MassMaterial:
         Raises:
             InputError: an array, a rate or a key that is wrong.
             ComputationError: the mass runs away.
+            KeyboardInterrupt: after Ctrl-C.
         """
         if isinstance(base, Mapping):
             test = toml_piece([{"name": "of_the_script", "excitation": base}])
@@ -127,7 +129,8 @@ class MassMaterial:
         else:
             samples = numpy.asarray(base, dtype=float)
             given = rate if base_rate is None else base_rate
-            low, high = band if band is not None else (given / max(samples.size, 1), 0.23 * min(given, rate))
+            high = 0.23 * min(given, rate)
+            low, high = band if band is not None else (min(given / max(samples.size, 1), high / 2), high)
             columns = self._model.respond(samples, given, low, high, rate, tolerance)
         units = {"base_acceleration": "m_per_s2", "relative_displacement": "m", "relative_velocity": "m_per_s",
                  "relative_acceleration": "m_per_s2"}
