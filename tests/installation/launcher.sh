@@ -14,11 +14,14 @@ echo 1 >"$folder/checkout/cases/point/data.csv"
 printf 'kind = "endochronic" # not kind = "fracture"\n' >"$folder/checkout/cases/point/case.toml"
 
 tool() { cat >"$folder/tools/$1" && chmod +x "$folder/tools/$1"; }
-tool dpkg-query <<'EOF'
+all_are_there() {
+  tool dpkg-query <<'EOF'
 #!/bin/sh
 shift 2
 for package; do echo "$package installed"; done
 EOF
+}
+all_are_there
 tool cmake <<'EOF'
 #!/bin/sh
 [ $# = 1 ] && exit 0 # once more, as it is
@@ -32,7 +35,10 @@ tool ninja <<'EOF'
 #!/bin/sh
 for target; do :; done
 [ "$target" = all ] && target=pfdm
-[ "$target" = pfdm_python ] && mkdir -p "$2/cases/python/extension" && install /dev/null "$2/cases/python/extension/_pfdm.a.so"
+place=$2/cases/python/extension
+suffix=$(PATH=/usr/bin:$PATH python3 -c 'import sysconfig; print(sysconfig.get_config_var("EXT_SUFFIX"))' || echo .so)
+[ "$target" = pfdm_python ] && mkdir -p "$place" && install /dev/null "$place/_pfdm.another.so" &&
+  install /dev/null "$place/_pfdm$suffix"
 mkdir -p "$2/cases/program"
 printf '#!/bin/sh\necho %s "$@"\n' "$target" >"$2/cases/program/$target"
 chmod +x "$2/cases/program/$target"
@@ -112,8 +118,34 @@ expect "pfdm list" "pfdm_fracture pfdm pfdm_python" list
 grep --quiet 'the sources have changed since' "$folder/messages" || complain "list does not say that the program is old"
 expect "pfdm run cases/bar" "pfdm_fracture pfdm pfdm_python pfdm" run cases/bar
 expect "$script" "pfdm_fracture pfdm pfdm_python pfdm pfdm_python" python script.py 3
+rm build/release/.built.pfdm_python
+built="pfdm_fracture pfdm pfdm_python pfdm pfdm_python"
+tool dpkg-query <<'EOF'
+#!/bin/sh
+shift 2
+for package; do [ "$package" = pybind11-dev ] || echo "$package installed"; done
+EOF
+for refusing in sudo apt-get; do printf '#!/bin/sh\necho >>%s\nexit 1\n' "$folder/asked" | tool $refusing; done
+expect "$script" "$built" python script.py 3
+grep --quiet 'apt-get install .*pybind11-dev' "$folder/messages" || complain "python does not say how to install packages"
+asked=$(wc -l <"$folder/asked")
+expect "$script" "$built" python script.py 3
+[[ $(wc -l <"$folder/asked") == "$asked" ]] || complain "python asks for packages again that were refused"
+[[ $(wc -l <"$folder/messages") == 1 ]] || complain "of what was refused before python says: $(<"$folder/messages")"
+all_are_there
+expect "$script" "$built pfdm_python" python script.py 3
+printf '#!/bin/sh\nexit 1\n' | tool dpkg-query
+expect "$script" "$built pfdm_python" python script.py 3 # an extension that is there asks for nothing
+[[ ! -s $folder/messages ]] || complain "python with all that it needs says: $(<"$folder/messages")"
+all_are_there
 rm -r build
 expect "pfdm run cases/point" "pfdm" run cases/point
+if ((EUID != 0)); then # root may write anywhere
+  chmod -w build
+  ./pfdm python script.py 3 >/dev/null 2>"$folder/messages"
+  [[ -n $(find "$folder/cache" -name '_pfdm*.so') ]] || complain "beside a program of others: $(<"$folder/messages")"
+  chmod +w build
+fi
 
 # What the compiler may use where /proc/cpuinfo shows these flags: $1, of the flags that follow.
 expect_level() {
