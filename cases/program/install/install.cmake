@@ -92,6 +92,10 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "${PROJECT_DESCRIPTION}")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS fonts-liberation) # the reports'
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-matplotlib, python3-numpy, python3-pandas")
+if(TARGET pfdm_python) # the extension belongs to one version of Python
+  get_target_property(python pfdm_python PFDM_DEBIAN_PYTHON)
+  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS ", ${python}")
+endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpfdm-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}: libraries and headers")
 # The libraries that the launcher installs.
