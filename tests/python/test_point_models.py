@@ -233,7 +233,8 @@ class InterfaceLaws(unittest.TestCase):
         for values, said in [({"law": "bilinaer"}, "did you mean \"bilinear\""), ({"stiffness": "rigid"}, "is required"),
                              ({"stiffness": 1.0}, "takes more than the toughness"),
                              ({"strength": "2 m"}, "expected a stress"),
-                             ({"strenght": 1.0}, "did you mean \"strength\"")]:
+                             ({"strenght": 1.0}, "did you mean \"strength\""),
+                             ({"rate": {"law": "power", "reference_rate": "1 mm/s", "m": 0.2}}, "have no time")]:
             with self.assertRaisesRegex(pfdm.InputError, said):
                 self.law("bilinear", **values) if "law" not in values else pfdm.InterfaceLaw(**{**self.numbers, **values})
         with self.assertRaisesRegex(pfdm.InputError, r"\(2, 2\)"):

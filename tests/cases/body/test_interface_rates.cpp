@@ -58,6 +58,19 @@ TEST(InterfaceRates, NeedADuration) {
   expect_refused(led_back, {.name = "path", .good = "", .bad = "", .message = {"maximum_dissipation", "time cannot"}});
 }
 
+TEST(InterfaceRates, NeedARuleOfMixedModeThatTakesWorkWhileItOpens) {
+  const std::string ratio = "mixed_mode = \"equal_stiffness\"\nshear_ratio = ";
+  for (const bool is_one : {true, false}) {
+    const TemporaryCase directory(timed(with_rate + ratio + (is_one ? "1.0\n" : "0.5\n")));
+    const Outcome outcome = run({"check", directory.path().string()});
+    EXPECT_EQ(outcome.status, is_one ? 0 : 2) << outcome.err;
+    EXPECT_EQ(outcome.err.find("cannot be combined with mixed_mode = \"equal_stiffness\" and a shear_ratio") ==
+                  std::string::npos,
+              is_one)
+        << outcome.err;
+  }
+}
+
 TEST(InterfaceRates, AreNotExported) {
   const TemporaryCase directory(timed(with_rate));
   const Outcome outcome = run({"cohesive", directory.path().string(), "--export", "abaqus"});

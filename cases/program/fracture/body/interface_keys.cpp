@@ -69,7 +69,7 @@ const KeyTable& plane_keys() {
 constexpr ParameterWords rate_words[] = {
     {"m", "Exponent of the rate of opening."},
     {"c", "Growth of the factor with the logarithm of the rate."},
-    {"reference_rate", "Rate of opening v_0; at it the power law doubles the traction."},
+    {"reference_rate", "Rate of opening v_0 to which the rate is compared."},
 };
 
 const KeyTable& interface_rate_keys() {

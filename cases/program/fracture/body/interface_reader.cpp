@@ -97,6 +97,16 @@ InterfaceRate read_interface_rate(const ConfigTable& table) {
   return read;
 }
 
+/// While the separation grows the law without rate has to take work, or the rate would give some back: not where
+/// opening that turns into slip releases energy.
+void check_rate(const ConfigTable& table, const InterfaceLaw& law) {
+  if (!law.mixed_mode->is_potential && !(law.mixed_mode->keeps_stiffness && law.shear_ratio != 1.0)) return;
+  throw table.at("rate").error(
+      fmt::format("it cannot be combined with mixed_mode = \"{}\"{}: where opening turns into slip the rate would give "
+                  "energy in place of taking it. Other rules of mixed mode are allowed",
+                  law.mixed_mode->name, law.mixed_mode->is_potential ? "" : " and a shear_ratio other than 1"));
+}
+
 std::vector<InterfaceBranch> read_interface_branches(const ConfigTable& table) {
   std::vector<InterfaceBranch> branches;
   for (const ConfigTable& branch : table.tables("branches"))
@@ -135,7 +145,10 @@ InterfaceSettings read_interface(const ConfigTable& table, std::size_t number,
   read_place(table, settings);
   read_law(table, case_directory, settings, data_files);
   read_modes(table, settings);
-  if (table.has("rate")) settings.law.rate = read_interface_rate(table);
+  if (table.has("rate")) {
+    settings.law.rate = read_interface_rate(table);
+    check_rate(table, settings.law);
+  }
   if (table.has("branches")) settings.law.branches = read_interface_branches(table);
   settings.strength_scatter = read_scatter(table, "strength_scatter");
   settings.toughness_scatter = read_scatter(table, "toughness_scatter");
@@ -207,6 +220,8 @@ std::vector<InterfaceSettings> read_interfaces(const ConfigTable& root, const st
 UniformInterface read_uniform_interface(const ConfigTable& table, const std::filesystem::path& directory) {
   InterfaceSettings settings{.name = {}, .where = table};
   std::vector<std::filesystem::path> data_files;
+  for (const char* key : {"rate", "branches"})
+    if (table.has(key)) throw table.at(key).error("separations alone have no time, which it needs: leave it out here");
   read_law(table, directory, settings, data_files);
   read_modes(table, settings);
   for (const auto* value : {&settings.strength, &settings.toughness})
