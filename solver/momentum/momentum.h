@@ -85,6 +85,10 @@ class MomentumOperator {
   void set_springs(std::vector<FaceSpring> springs) { springs_.set(std::move(springs)); }
   /// load += the forces of the springs' offsets, [N].
   void add_spring_offsets(std::vector<Vector>& load) const { springs_.add_offsets(load); }
+  /// out -= forces [N] of the split faces, on the owner's side, on their nodes.
+  void pull_split_faces(const std::vector<Vector>& forces, std::vector<Vector>& out) const {
+    springs_.pull(forces, out);
+  }
   /// Displacement of the neighbour's side of split face number k, less that of the owner's [m].
   Vector separation(std::size_t k, const std::vector<Vector>& u) const { return springs_.separation(k, u); }
   /// What each side of the split faces does about the displacements u, in their order.

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -70,6 +71,17 @@ void CohesiveFaces::add(std::size_t number, const CohesiveSurface& surface, std:
                     .n = mesh_.face_area[f].normalized(),
                     .area = mesh_.face_area[f].norm(),
                     .at = at});
+}
+
+std::vector<Vector> CohesiveFaces::branch_forces(const std::vector<InterfaceHistory>& histories) const {
+  const auto has_branches = [](const CohesiveSurface& surface) { return !surface.law.branches.empty(); };
+  if (std::ranges::none_of(model_.interfaces, has_branches)) return {};
+  std::vector<Vector> forces;
+  for (std::size_t k = 0; k < faces_.size(); ++k) {
+    const BranchTractions& q = histories[k].branch;
+    forces.push_back(faces_[k].area * std::accumulate(q.begin(), q.end(), Vector(Vector::Zero())));
+  }
+  return forces;
 }
 
 bool CohesiveFaces::depends_on_rate() const {

@@ -34,6 +34,8 @@ class CohesiveFaces {
 
   bool any() const { return !faces_.empty(); }
   bool depends_on_rate() const;
+  /// Of the branches of each face while it is whole [N]; empty without branches.
+  std::vector<Vector> branch_forces(const std::vector<InterfaceHistory>& histories) const;
   /// At the beginning of a load step, which takes `duration` [s].
   void start_step(double duration) { duration_ = duration; }
   std::vector<InterfaceHistory> virgin_histories() const { return std::vector<InterfaceHistory>(faces_.size()); }

@@ -125,6 +125,11 @@ double MomentumSolver::reference_norm(double t, const std::vector<Vector>& load)
   reference_load_ = t;
   reference_ = scaled_norm(image, scale_);
   if (unknowns_.loads.eigenstrain) reference_ = std::hypot(reference_, std::sqrt(operator_.energy_if_held()));
+  if (!held_forces_.empty()) {
+    std::vector<Vector> held(load.size(), Vector::Zero());
+    operator_.pull_split_faces(held_forces_, held);
+    reference_ = std::hypot(reference_, scaled_norm(held, scale_));
+  }
   return reference_;
 }
 
@@ -144,6 +149,12 @@ double MomentumSolver::residual(double t, const std::vector<Vector>& u) {
 void MomentumSolver::set_body_force(std::vector<Vector> force) {
   assert(force.empty() || force.size() == as_size(unknowns_.n_cells) || force.size() == as_size(unknowns_.n_nodes()));
   body_force_ = std::move(force);
+  reference_load_.reset();
+}
+
+void MomentumSolver::set_held_forces(std::vector<Vector> forces) {
+  if (forces.empty() && held_forces_.empty()) return;
+  held_forces_ = std::move(forces);
   reference_load_.reset();
 }
 
@@ -171,7 +182,7 @@ Equilibrium MomentumSolver::solve(double t, const Tolerance& tolerance, std::vec
   operator_.add_spring_offsets(load);
   operator_.prescribe(t, u);
   if (reference == 0.0) {
-    // Interfaces that have slid bear no friction without pressure: without load theirs is zero too.
+    // Interfaces that have slid bear no friction without pressure: without load and branches theirs is zero too.
     std::fill(u.begin(), u.end(), Vector::Zero());
     return {.converged = true};
   }

@@ -73,6 +73,9 @@ class MomentumSolver {
   double residual(double t, const std::vector<Vector>& u);
   /// Forces [N] on the cells, or on all nodes, at every load parameter from now on; empty for none.
   void set_body_force(std::vector<Vector> force);
+  /// Forces [N] of the split faces that are there whatever is prescribed, as of Maxwell branches: residuals are
+  /// measured against them, too. Empty for none.
+  void set_held_forces(std::vector<Vector> forces);
 
   MomentumOperator& balance() { return operator_; }
   const MomentumOperator& balance() const { return operator_; }
@@ -89,7 +92,8 @@ class MomentumSolver {
 
   const Unknowns& unknowns_;
   MomentumOperator operator_;
-  std::vector<Vector> body_force_;  // on the cells [N]; may be empty
+  std::vector<Vector> body_force_;   // on the cells [N]; may be empty
+  std::vector<Vector> held_forces_;  // of the split faces [N]; may be empty
   std::unique_ptr<Preconditioner> preconditioner_;
   std::unique_ptr<FreeStrainModes> strain_modes_;  // null without free strains
   StalePreconditioner stale_;

@@ -157,6 +157,31 @@ TEST(InterfacesWithRate, FollowTheirLawAtFiniteStrain) {
   EXPECT_NEAR(viscous, history.viscous, 1e-9 * history.viscous);
 }
 
+// A bond that holds and a branch beside it, pulled and let go: without load (K + K_v) delta' = -K delta/tau.
+TEST(InterfacesWithRate, CloseSlowlyWhenTheLoadIsGone) {
+  const double K_v = 2.0 * stiffness, tau = 2e-3, time = 8e-3;
+  PulledBlocks blocks(80);
+  InterfaceLaw law = law_of(linear());
+  law.branches = {{.stiffness = K_v, .time = tau}};
+  FractureModel model = glued_blocks(blocks.mesh, law);
+  const double most = 0.5 * strength;
+  model.boundary = {displacement_on("xmin", [](const Vector&) -> Vector { return Vector::Zero(); }),
+                    moved("xmax", {false, false, false}, [=](const Vector&, double t) -> Vector {
+                      return most * std::max(0.0, 1.0 - std::abs(4.0 * t - 1.0)) * Vector::UnitX();
+                    })};
+  blocks.model = std::move(model);
+  blocks.loading.duration = time;
+  const std::vector<Pulled> points = blocks.pull();
+  ASSERT_EQ(points.size(), 81u);
+  EXPECT_GT(points[40].opening, 0.1 * most / stiffness);
+  const double rest = points.back().opening / points[40].opening,
+               due = std::exp(-0.5 * time * stiffness / (tau * (stiffness + K_v)));
+  const double account = left_over({}, points.back().energy) / points.back().energy.interface_viscous_dissipation;
+  report_row("let go", {{"what is left of the opening", rest / due - 1.0}, {"energy account", account}});
+  EXPECT_NEAR(rest / due, 1.0, 1e-3);
+  EXPECT_LT(std::abs(account), 5e-3);
+}
+
 // A bond that holds and a branch beside it: u = delta + c T, T = K delta + q, q' + q/tau = K_v delta', in closed form
 // by z = delta: (1 + c (K + K_v)) z' = V - ((1 + c K) z - V t)/tau.
 TEST(InterfacesWithRate, RelaxByTheirBranches) {
