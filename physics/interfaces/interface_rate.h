@@ -3,12 +3,11 @@
 // (interface_law.h) and v = d lambda/dt the rate of the equivalent separation, while it grows; r = 0 at rest and where
 // it falls. Strength and toughness grow by the same factor:
 //
-//   power         r = (v/v_0)^m   the toughness of rubbers and adhesives over the speed (Maugis, Barquins, J. Phys. D
-//   11
-//                 (1978) 1989), as a law of the interface (Corigliano, Ricci, Int. J. Solids Struct. 38 (2001) 547)
-//   logarithmic   r = c ln(1 + v/v_0)   adhesives at impact (Marzi, Hesebeck, Brede, Kleiner, J. Adhes. Sci. Technol.
-//   23
-//                 (2009) 881), here without a lower limit of the rate
+//   power         r = (v/v_0)^m   the toughness of rubbers and adhesives over the speed (Maugis, Barquins,
+//                 J. Phys. D 11 (1978) 1989), as a law of the interface (Corigliano, Ricci,
+//                 Int. J. Solids Struct. 38 (2001) 547)
+//   logarithmic   r = c ln(1 + v/v_0)   adhesives at impact (Marzi, Hesebeck, Brede, Kleiner,
+//                 J. Adhes. Sci. Technol. 23 (2009) 881), here without a lower limit of the rate
 //
 // With m < 1 the first has an infinite slope at rest: below 1e-12 v_0 it is straight.
 

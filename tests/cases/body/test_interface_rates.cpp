@@ -31,7 +31,7 @@ TEST(InterfaceRates, AreWrittenAndGoOnFromACheckpoint) {
   EXPECT_NE(content_of(whole.results() / "summary.json").find("interface_viscous_dissipation_J"), std::string::npos);
 }
 
-// The end moves by 12 um in a step, a tenth of the law: 120 um in one step are all of it.
+// The end moves by 12 um in a step, a tenth of the law; by 60 um in one of the coarse steps, half of it.
 TEST(InterfaceRates, AreSaidToBeUnresolvedByLongSteps) {
   const std::string words = "interface \"interface_1\" depends on the rate";
   const TemporaryCase fine(timed(with_rate));
