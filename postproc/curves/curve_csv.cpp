@@ -86,8 +86,9 @@ CurveRow curve_row(const StepReport& report) {
 }
 
 std::vector<CurveRow> read_curve(const std::filesystem::path& path) {
-  const CsvTable table =
-      read_csv(path, {.whole_numbers = {"step", "staggered_iterations"}, .own_names = column_names()});
+  const CsvTable table = read_csv(path, {.whole_numbers = {"step", "staggered_iterations"},
+                                         .own_names = column_names(),
+                                         .n_newer_names = n_newer_energies});
   std::vector<CurveRow> rows;
   for (std::size_t i = 0; i < table.n_rows(); ++i) {
     std::vector<double> values;

@@ -25,6 +25,9 @@ struct CurveRow {
 
 inline constexpr const char* curve_file = "force_displacement.csv";
 std::string curve_header();
+/// Of the columns of energies, here and in the table of means, the last ones that files of earlier builds may lack:
+/// that of interfaces with rate.
+inline constexpr std::size_t n_newer_energies = 1;
 /// The row as a line of the file, with its line break: the shortest digits that give the same numbers back.
 std::string curve_line(const CurveRow& row);
 

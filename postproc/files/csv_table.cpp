@@ -38,6 +38,7 @@ class CsvReader {
     if (options_.is_foreign) layout_ = found_layout();
     if (options_.is_foreign && !layout_.names && !lines_.empty()) take_columns_without_names();
     for (std::size_t i = 0; i < lines_.size(); ++i) take(i);
+    add_newer_columns();
     if (options_.has_units && !options_.is_foreign && table_.units.empty())
       throw InputError(fmt::format("{}: expected a row of names and a row of units", path_.string()));
     require_rows();
@@ -130,8 +131,20 @@ class CsvReader {
     return may_be ? "; numbers with a decimal comma need another separator between them" : "";
   }
 
+  bool has_own_names() const {
+    const std::vector<std::string>& own = options_.own_names;
+    return words_.size() <= own.size() && words_.size() + options_.n_newer_names >= own.size() &&
+           std::equal(words_.begin(), words_.end(), own.begin());
+  }
+
+  void add_newer_columns() {
+    if (table_.names.empty()) return;
+    for (std::size_t k = table_.names.size(); k < options_.own_names.size(); ++k)
+      table_.add(options_.own_names[k], std::vector<double>(table_.n_rows(), 0.0));
+  }
+
   void take_names() {
-    if (is_own() && !std::ranges::equal(words_, options_.own_names))
+    if (is_own() && !has_own_names())
       throw error(fmt::format("found \"{}\" instead of \"{}\"", line_.text, fmt::join(options_.own_names, ",")));
     if (options_.is_foreign && words_.size() > 1 && words_.back().empty()) words_.pop_back();
     for (const std::string& word : words_) {

@@ -50,6 +50,8 @@ struct CsvOptions {
   /// Of a table that this program wrote: the names that it must have, in this order. It may have no rows, and nan in
   /// them; a last line without its line break is torn, of which even the last number may lack digits, and is left out.
   std::vector<std::string> own_names{};
+  /// As many of them, the last ones, may be missing: earlier builds did not write them. They are 0 then.
+  std::size_t n_newer_names = 0;
   /// As instruments and spreadsheets write: separator and decimal mark are found if they are not given; lines before
   /// the names become comments, and names may be missing; units stand below the names, or in brackets at their ends, or
   /// nowhere; entries may be in quotes, and a separator may end each line. An entry that is empty, nan, NA, N/A, null

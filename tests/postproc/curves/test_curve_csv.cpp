@@ -97,6 +97,22 @@ TEST(CurveCsv, a_restarted_file_equals_an_unbroken_one) {
   EXPECT_EQ(content_of(folder / "broken.csv"), content_of(folder / "unbroken.csv"));
 }
 
+TEST(CurveCsv, newer_energies_of_earlier_builds_are_zero) {
+  const TemporaryFolder folder;
+  const std::string header = curve_header();
+  const auto without = [&](const std::string& column) { return header.substr(0, header.find("," + column)) + "\n"; };
+  const std::string row = "1,0.05,1e-06,0.5,0,-2,1e-09,2e-09,3e-09,0.25,1e-12,7,0,0,0,0,0,9e-09";
+  put(folder / "c.csv", without("interface_viscous_dissipation_J") + row + "\n");
+  const std::vector<CurveRow> rows = read_curve(folder / "c.csv");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].energy.eigenstrain_work, 9e-09);
+  EXPECT_EQ(rows[0].energy.interface_viscous_dissipation, 0.0);
+  put(folder / "c.csv", without("interface_viscous_dissipation_J") + row + ",0\n");
+  EXPECT_THAT(message_of<InputError>([&] { read_curve(folder / "c.csv"); }), HasSubstr("c.csv, line 2:"));
+  put(folder / "c.csv", without("eigenstrain_work_J"));
+  EXPECT_THAT(message_of<InputError>([&] { read_curve(folder / "c.csv"); }), HasSubstr("c.csv, line 1:"));
+}
+
 TEST(CurveCsv, names_file_and_line_of_what_is_not_a_row) {
   const TemporaryFolder folder;
   const std::string header = curve_header() + "\n";

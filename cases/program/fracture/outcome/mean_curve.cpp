@@ -91,7 +91,8 @@ void name_as_means(std::map<std::string, double>& figures, const Vector& size, c
 
 MeanCurve read_mean_curve(const std::filesystem::path& results, const std::vector<InterfaceSettings>& interfaces,
                           const std::array<int, 2>& component) {
-  const CsvTable table = read_csv(results / means_file, {.own_names = columns_of_means(interfaces)});
+  const CsvTable table =
+      read_csv(results / means_file, {.own_names = columns_of_means(interfaces), .n_newer_names = n_newer_energies});
   const std::string_view name = name_of_component(component);
   return {table.column(strain_column(name)), table.column(stress_column(name))};
 }
