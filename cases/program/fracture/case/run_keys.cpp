@@ -104,9 +104,10 @@ const KeyTable& loading_keys() {
       .keys = {
           stored<&L::end>("end", number(range::positive),
                           "Load parameter t at the end; plain quantities are reached at t = 1."),
-          stored<&L::duration>(
-              "duration", quantity(dimension::time, range::positive),
-              "Time in which the load parameter grows by 1, for viscosity, heat, and materials and interfaces with rate.", "none"),
+          stored<&L::duration>("duration", quantity(dimension::time, range::positive),
+                               "Time in which the load parameter grows by 1, for viscosity, heat, and materials and "
+                               "interfaces with rate.",
+                               "none"),
           stored<&L::initial_increment>("initial_increment", number(range::positive),
                                         "First increment of the load parameter."),
           stored<&L::maximum_increment>("maximum_increment", number(range::positive),
