@@ -1,32 +1,12 @@
 """Tests of meshes of arrays for fracture runs in process: what they take, and what they refuse."""
 
-import pathlib
-import sys
-import tempfile
 import unittest
 
-try:
-    import _pfdm  # noqa: F401
-    import numpy
-    import pandas  # noqa: F401
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+from in_process import rows_of
+from shared import Folder, bar, shipped
 
+import numpy
 import pfdm
-
-shipped = pathlib.Path(__file__).parents[2] / "cases"
-
-
-def bar(**values):
-    """The shipped bar, coarser."""
-    coarse = {"mesh.x[0].cells": 21, "fracture.length": "12 mm", "loading.maximum_increment": 0.1}
-    return pfdm.Case(shipped / "bar_at2", {**coarse, **values})
-
-
-def rows_of(run):
-    return [run.row, *run]
-
 
 def bar_arrays(n=21):
     """The bar's mesh as arrays: n hexahedra along x, two across; the middle cells are weak."""
@@ -40,7 +20,7 @@ def bar_arrays(n=21):
     return points, cells, numbers
 
 
-class Meshes(unittest.TestCase):
+class Meshes(Folder):
     def mesh(self):
         points, cells, numbers = bar_arrays()
         return pfdm.Mesh.of_blocks(points, {"hexahedron": cells}, {"hexahedron": numbers}, regions={1: "bar", 2: "weak"})
@@ -69,10 +49,8 @@ class Meshes(unittest.TestCase):
         rest = rest.replace('"free", "free"]', '"0 mm", "0 mm"]')  # the ends are held
         rest = rest.replace("xmin", left).replace("xmax", right).replace('["bar", "weak"]', f'["{body}", "{weak}"]')
         rest = rest.replace("[regions.weak]", f"[regions.{weak}]")
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        (pathlib.Path(folder.name) / "case.toml").write_text(f"{mesh}[materials.concrete]{rest}")
-        return pfdm.Case(folder.name, {"fracture.length": "12 mm"})
+        (self.folder / "case.toml").write_text(f"{mesh}[materials.concrete]{rest}")
+        return pfdm.Case(self.folder, {"fracture.length": "12 mm"})
 
     def test_of_arrays_name_patches_by_faces(self):
         with self.assertRaisesRegex(pfdm.InputError, "ymin"):  # all else is "walls"

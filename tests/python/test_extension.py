@@ -1,25 +1,17 @@
 """Tests of the compiled extension as a whole: its absence, its threads, and forks of the process."""
 
 import os
-import pathlib
 import signal
 import subprocess
 import sys
 import threading
 import unittest
 
-try:
-    import _pfdm
-    import numpy  # noqa: F401
-    import pandas  # noqa: F401
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+from in_process import long_bar
+from shared import shipped
 
+import _pfdm
 import pfdm
-
-shipped = pathlib.Path(__file__).parents[2] / "cases"
-
 
 class Extension(unittest.TestCase):
     def test_is_asked_for_when_it_is_needed_and_its_absence_says_how_to_get_it(self):
@@ -40,7 +32,7 @@ except pfdm.Error as error:
             self.assertIn(words, said)
 
     def test_survives_a_fork(self):
-        run = pfdm.FractureRun(self.long_bar())
+        run = pfdm.FractureRun(long_bar())
         pfdm.set_threads(2)
         run.step()
         state = run.state
@@ -58,7 +50,7 @@ except pfdm.Error as error:
 
     def test_survives_a_fork_while_another_thread_computes(self):
         pfdm.set_threads(2)
-        run, ended = pfdm.FractureRun(self.long_bar()), threading.Event()
+        run, ended = pfdm.FractureRun(long_bar()), threading.Event()
         start = run.state
 
         def work():
@@ -74,10 +66,6 @@ except pfdm.Error as error:
         finally:
             ended.set()
             thread.join()
-
-    def long_bar(self):
-        """So many cells that loops over them are cut into pieces for several threads."""
-        return pfdm.Case(shipped / "bar_at2", {"mesh.x[0].cells": 3001, "fracture.length": "12 mm"})
 
     def assert_child_succeeds(self, act):
         """Of a process that fork makes, within half a minute."""

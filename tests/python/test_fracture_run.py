@@ -6,47 +6,20 @@ import pathlib
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import unittest
 
-try:
-    import _pfdm  # noqa: F401
-    import numpy
-    import pandas  # noqa: F401
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+from in_process import long_bar, rows_of
+from shared import Folder, bar, shipped
 
+import numpy
 import pfdm
 
-shipped = pathlib.Path(__file__).parents[2] / "cases"
+three_steps = {"loading.end": 0.3, "loading.initial_increment": 0.1, "loading.maximum_increment": 0.1}
 
 
-def bar(**values):
-    """The shipped bar, coarser."""
-    coarse = {"mesh.x[0].cells": 21, "fracture.length": "12 mm", "loading.maximum_increment": 0.1}
-    return pfdm.Case(shipped / "bar_at2", {**coarse, **values})
-
-
-def long_bar(**values):
-    """So many cells that loops over them are cut into pieces for several threads, and three steps."""
-    long = {"mesh.x[0].cells": 3001, "fracture.length": "12 mm", "loading.end": 0.3, "loading.initial_increment": 0.1,
-            "loading.maximum_increment": 0.1}
-    return pfdm.Case(shipped / "bar_at2", {**long, **values})
-
-
-def rows_of(run):
-    return [run.row, *run]
-
-
-class Steps(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Steps(Folder):
     def test_are_those_of_the_program_to_the_last_bit(self):
         case = bar()
         theirs = case.run(self.folder / "r", threads=1)
@@ -66,7 +39,7 @@ class Steps(unittest.TestCase):
                 run.step()
 
     def test_by_two_threads_are_the_same_whatever_is_looked_at(self):
-        case = long_bar()
+        case = long_bar(**three_steps)
         theirs = case.run(self.folder / "r", threads=1).curve.to_dict("records")
         pfdm.set_threads(2)
         run = pfdm.FractureRun(case)
@@ -127,7 +100,7 @@ class Steps(unittest.TestCase):
         self.assertEqual(run.step()["step"], 1)
 
     def test_in_threads_of_their_own_do_not_disturb_each_other(self):
-        cases = [long_bar(), long_bar(**{"materials.concrete.toughness": "120 J/m^2"})]
+        cases = [long_bar(**three_steps), long_bar(**three_steps, **{"materials.concrete.toughness": "120 J/m^2"})]
         pfdm.set_threads(1)
         alone = [rows_of(pfdm.FractureRun(case)) for case in cases]
         pfdm.set_threads(2)
@@ -235,7 +208,7 @@ class Arrays(unittest.TestCase):
             return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * 4096
 
         def kept():
-            with pfdm.FractureRun(long_bar()) as run:
+            with pfdm.FractureRun(long_bar(**three_steps)) as run:
                 run.step()
                 return run.damage, run.cell_volumes
 

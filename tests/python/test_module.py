@@ -2,37 +2,18 @@
 
 import csv
 import os
-import pathlib
 import signal
 import subprocess
-import sys
-import tempfile
 import threading
 import unittest
 
-try:
-    import numpy
-    import pandas
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+from shared import Folder, bar, shipped
 
+import numpy
+import pandas
 import pfdm
 
-shipped = pathlib.Path(__file__).parents[2] / "cases"
 toughness = "materials.concrete.toughness"
-
-
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def bar(self, **values):
-        """The shipped bar, coarser."""
-        coarse = {"mesh.x[0].cells": 21, "fracture.length": "12 mm", "loading.maximum_increment": 0.1}
-        return pfdm.Case(shipped / "bar_at2", {**coarse, **values})
 
 
 class Cases(Folder):
@@ -66,26 +47,26 @@ class Cases(Folder):
         class Quantity:  # as pint has it
             magnitude, units = 300.0, Units("J/m**2")
 
-        case = self.bar(**{toughness: Quantity()})
+        case = bar(**{toughness: Quantity()})
         self.assertIn("the input is valid", case.check().text)
 
     def test_check_tells_what_would_run_and_what_is_doubtful(self):
-        check = self.bar(**{"fracture.length": "0.5 mm"}).check()
+        check = bar(**{"fracture.length": "0.5 mm"}).check()
         self.assertIn("cells 42", check.text)
         self.assertTrue(any("no crack would be resolved" in warning for warning in check.warnings), check.warnings)
-        self.assertFalse(self.bar().check().warnings)
+        self.assertFalse(bar().check().warnings)
 
     def test_errors_have_file_line_and_key(self):
         for key, value, named in [(toughness, "3 N", toughness), (toughness, 3.0, toughness),
                                   ("materials.concrete.poisson_ratio", 0.7, "materials.concrete.poisson_ratio"),
                                   ("materials.concrete.toughnes", "3 J/m^2", "materials.concrete.toughnes")]:
             with self.assertRaises(pfdm.InputError) as caught:
-                self.bar(**{key: value}).check()
+                bar(**{key: value}).check()
             self.assertEqual(caught.exception.key, named)
             self.assertEqual(caught.exception.file, str(shipped / "bar_at2/case.toml"))
             self.assertGreater(caught.exception.line, 10)
         with self.assertRaises(pfdm.InputError) as caught:
-            self.bar(**{"boundary[7].patch": "xmin"}).check()
+            bar(**{"boundary[7].patch": "xmin"}).check()
         self.assertEqual(caught.exception.key, "boundary[7].patch")
         with self.assertRaises(pfdm.InputError):
             pfdm.Case(self.folder)
@@ -93,7 +74,7 @@ class Cases(Folder):
 
 class Runs(Folder):
     def test_are_those_of_the_command_line_to_the_last_bit(self):
-        case = self.bar(**{toughness: "120 J/m^2"})
+        case = bar(**{toughness: "120 J/m^2"})
         run = case.run(self.folder / "script", threads=1)
         subprocess.run([os.environ["PFDM_PROGRAM"], *case.words("run", self.folder / "line", 1)], check=True,
                        stdout=subprocess.DEVNULL)
@@ -108,7 +89,7 @@ class Runs(Folder):
 
     def test_tell_each_step_as_it_is_done(self):
         seen = []
-        run = self.bar().run(self.folder / "r", on_step=seen.append)
+        run = bar().run(self.folder / "r", on_step=seen.append)
         self.assertEqual(pandas.DataFrame(seen)["displacement_m"].tolist(), run.curve["displacement_m"].tolist())
 
     def test_of_kinds_without_load_steps_cannot_be_followed(self):
@@ -116,11 +97,11 @@ class Runs(Folder):
             pfdm.Case(shipped / "endochronic_uniaxial").run(self.folder / "r", on_step=print)
 
     def test_end_in_order_where_the_script_says_so(self):
-        run = self.bar().run(self.folder / "r", on_step=lambda step: step["step"] < 3)
+        run = bar().run(self.folder / "r", on_step=lambda step: step["step"] < 3)
         self.assertIn(run.summary["steps"], (3, 4))  # the run waits for the script
         self.assertIn("interrupted", run.status)
-        whole = self.bar().run(self.folder / "r", restart=True)
-        unbroken = self.bar().run(self.folder / "unbroken")
+        whole = bar().run(self.folder / "r", restart=True)
+        unbroken = bar().run(self.folder / "unbroken")
         pandas.testing.assert_frame_equal(whole.curve, unbroken.curve, check_exact=True)
 
     def test_pass_on_what_a_callback_raises(self):
@@ -128,18 +109,18 @@ class Runs(Folder):
             raise ZeroDivisionError(step["step"])
 
         with self.assertRaises(ZeroDivisionError):
-            self.bar().run(self.folder / "r", on_step=fails)
+            bar().run(self.folder / "r", on_step=fails)
 
     def test_end_in_order_by_ctrl_c(self):
         with self.assertRaises(KeyboardInterrupt):
-            self.bar().run(self.folder / "r", on_step=lambda step: os.kill(os.getpid(), signal.SIGINT))
+            bar().run(self.folder / "r", on_step=lambda step: os.kill(os.getpid(), signal.SIGINT))
         self.assertIn("interrupted", pfdm.open(self.folder / "r").status)
 
     def test_go_side_by_side_in_threads(self):
         runs = {}
 
         def make(name):
-            runs[name] = self.bar().run(self.folder / name, threads=1)
+            runs[name] = bar().run(self.folder / name, threads=1)
 
         threads = [threading.Thread(target=make, args=(name,)) for name in ("a", "b")]
         for thread in threads:
@@ -150,10 +131,10 @@ class Runs(Folder):
 
     def test_that_fail_raise_with_the_programs_words(self):
         with self.assertRaisesRegex(pfdm.ComputationError, "converge"):
-            self.bar(**{"solver.maximum_iterations": 2, "loading.minimum_increment": 0.01}).run(self.folder / "r")
+            bar(**{"solver.maximum_iterations": 2, "loading.minimum_increment": 0.01}).run(self.folder / "r")
 
     def test_have_fields_as_arrays(self):
-        run = self.bar().run(self.folder / "r")
+        run = bar().run(self.folder / "r")
         frame = run.frames[-1]
         self.assertEqual(frame.damage.shape, (42,))
         self.assertEqual(frame.stress.shape, (42, 6))
@@ -172,7 +153,7 @@ class Runs(Folder):
             import meshio
         except ImportError:
             self.skipTest("without meshio")
-        run = self.bar().run(self.folder / "r")
+        run = bar().run(self.folder / "r")
         mesh = run.frames[-1].grid.to_meshio()
         again = meshio.read(run.frames[-1].path)
         numpy.testing.assert_array_equal(mesh.cells[0].data, again.cells[0].data)
@@ -196,18 +177,18 @@ class ResultsThatAreNotThere(Folder):
 class Studies(Folder):
     def test_of_all_combinations_find_what_is_there_already(self):
         values = {toughness: ["50 J/m^2", "100 J/m^2"], "fracture.length": ["12 mm", "16 mm"]}
-        table = pfdm.sweep(self.bar(), values, self.folder / "study", processes=2)
+        table = pfdm.sweep(bar(), values, self.folder / "study", processes=2)
         self.assertEqual(list(table[toughness]), ["50 J/m^2"] * 2 + ["100 J/m^2"] * 2)
         # AT2: the strength goes with the square root of Gc over ell.
         self.assertAlmostEqual(table["peak_force_N"][2] / table["peak_force_N"][0], 2**0.5, delta=0.05)
         before = [r.folder.joinpath("summary.json").stat().st_mtime_ns for r in table["results"]]
-        pfdm.sweep(self.bar(), values, self.folder / "study", processes=2)
+        pfdm.sweep(bar(), values, self.folder / "study", processes=2)
         self.assertEqual([r.folder.joinpath("summary.json").stat().st_mtime_ns for r in table["results"]], before)
-        other = pfdm.sweep(self.bar(), {toughness: ["60 J/m^2"]}, self.folder / "study")
+        other = pfdm.sweep(bar(), {toughness: ["60 J/m^2"]}, self.folder / "study")
         self.assertLess(table["peak_force_N"][0], other["peak_force_N"][0])
 
     def test_tell_which_runs_failed(self):
-        case = self.bar(**{"loading.minimum_increment": 0.01})
+        case = bar(**{"loading.minimum_increment": 0.01})
         table = pfdm.sweep(case, {"solver.maximum_iterations": [2, 5000]}, self.folder / "study")
         self.assertTrue(table["status"][0].startswith("failed: "))
         self.assertEqual(table["status"][1], "complete")
@@ -228,7 +209,7 @@ class Fits(Folder):
         self.assertEqual(fit.laws, [])
 
     def test_have_samples_of_the_posterior(self):
-        curve = self.bar().run(self.folder / "truth").curve
+        curve = bar().run(self.folder / "truth").curve
         stiffness = curve["force_x_N"][1] / curve["displacement_m"][1]
         noise = numpy.random.default_rng(4).normal(0.0, 0.02, 41)
         at = numpy.linspace(0.0, 4e-6, 41)

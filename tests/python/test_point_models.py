@@ -1,33 +1,19 @@
 """Tests of the laws of points in process: their arrays are what the program writes, to the last bit."""
 
 import os
-import pathlib
 import signal
-import sys
-import tempfile
 import threading
 import time
 import unittest
 
-try:
-    import _pfdm  # noqa: F401
-    import numpy
-    import pandas
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+import in_process  # noqa: F401  (skips without the extension)
+from shared import Folder, shipped
 
+import numpy
+import pandas
 import pfdm
 
-shipped = pathlib.Path(__file__).parents[2] / "cases"
-
-
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Histories(Folder):
     def assert_same_columns(self, ours, theirs, names):
         """Bit by bit; `names`: ours to theirs."""
         for own, other in names.items():
@@ -35,7 +21,7 @@ class Folder(unittest.TestCase):
             self.assertEqual(a.tobytes(), b.tobytes(), f"{own}: {numpy.abs(a - b).max()}")
 
 
-class MassMaterials(Folder):
+class MassMaterials(Histories):
     case = pfdm.Case(shipped / "htpb_soft_sweep",
                      {"test[0].excitation.duration": "2 s", "test[0].excitation.ramp": "0.1 s"})
     values = {"structure": "2", "mass": 1.12, "damping": "19.7 N s/m",
@@ -128,7 +114,7 @@ class MassMaterials(Folder):
             weak.respond({"type": "harmonic", "level": 500.0, "frequency": 30.0, "duration": 1.0}, 1000.0)
 
 
-class EndochronicLaws(Folder):
+class EndochronicLaws(Histories):
     soft_metal = {"young_modulus": "117 GPa", "poisson_ratio": 0.34,
                   "kernel": [{"C": "60 GPa", "alpha": 3000}, {"C": 15e9, "alpha": 500}, {"C": "2 GPa", "alpha": 30}],
                   "hardening": {"law": "saturating", "f_inf": 3.0, "b": 6.0}}
