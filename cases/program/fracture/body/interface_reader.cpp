@@ -89,14 +89,6 @@ void read_modes(const ConfigTable& table, InterfaceSettings& settings) {
   if (law.depends_on_mode()) law.exponent = table.number("exponent", 1.0);
 }
 
-InterfaceRate read_interface_rate(const ConfigTable& table) {
-  const ConfigTable rate = table.table("rate");
-  InterfaceRate read{.law = &choose(rate.at("law"), interface_rate_laws(), "rate law of an interface")};
-  for (std::size_t i = 0; i < read.law->parameters.size(); ++i)
-    read.p[i] = read_law_parameter(rate, read.law->parameters[i]);
-  return read;
-}
-
 /// While the separation grows the law without rate has to take work, or the rate would give some back: not where
 /// opening that turns into slip releases energy.
 void check_rate(const ConfigTable& table, const InterfaceLaw& law) {
@@ -146,7 +138,8 @@ InterfaceSettings read_interface(const ConfigTable& table, std::size_t number,
   read_law(table, case_directory, settings, data_files);
   read_modes(table, settings);
   if (table.has("rate")) {
-    settings.law.rate = read_interface_rate(table);
+    const auto [law, p] = law_of_table(table.table("rate"), interface_rate_laws(), "rate law of an interface");
+    settings.law.rate = {.law = law, .p = p};
     check_rate(table, settings.law);
   }
   if (table.has("branches")) settings.law.branches = read_interface_branches(table);
