@@ -40,11 +40,7 @@ TEST_P(FiniteBlocks, AreANeoHookeanBarInSeriesWithTheLaw) {
   }
   const Mesh mesh = two_blocks(2);
   FractureModel model = bonded_blocks(mesh, law, rubber);
-  const auto at = [&](double t) { return path[std::min(static_cast<std::size_t>(std::lround(t)), path.size() - 1)]; };
-  model.boundary = {
-      moved("xmin", {true, false, false}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
-      moved("xmax", {true, false, false}, [&](const Vector&, double t) -> Vector { return at(t) * Vector::UnitX(); })};
-  for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) model.boundary.push_back(symmetry_on(side));
+  model.boundary = pulled_along(path);
   const std::vector<Step> steps = finite_steps(mesh, model, path.size() - 1);
   ASSERT_EQ(steps.size(), path.size());
   double of_force = 0.0, of_opening = 0.0;

@@ -7,6 +7,7 @@
 #include "tests/verification/cohesive_blocks.h"
 #include "tests/verification/noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -42,14 +43,27 @@ struct Step {
   EnergyAccount energy;
 };
 
-/// Steps through the values 1, 2 ... of the load parameter.
+/// The end of the blocks follows these displacements, one at each whole load parameter; their sides glide.
+inline std::vector<BoundaryCondition> pulled_along(const std::vector<double>& path) {
+  const auto at = [path](double t) {
+    return path[std::min(static_cast<std::size_t>(std::lround(t)), path.size() - 1)];
+  };
+  std::vector<BoundaryCondition> boundary{
+      moved("xmin", {true, false, false}, [](const Vector&, double) -> Vector { return Vector::Zero(); }),
+      moved("xmax", {true, false, false}, [at](const Vector&, double t) -> Vector { return at(t) * Vector::UnitX(); })};
+  for (const char* side : {"ymin", "ymax", "zmin", "zmax"}) boundary.push_back(symmetry_on(side));
+  return boundary;
+}
+
+/// Steps through the values 1, 2 ... of the load parameter, of this duration each.
 inline std::vector<Step> finite_steps(const Mesh& mesh, const FractureModel& model, std::size_t n_steps,
-                                      double tolerance = 1e-12) {
+                                      double tolerance = 1e-12, double duration = 0.0) {
   FractureRun run(mesh, model, {.equilibrium_tolerance = tolerance},
                   {.end = double(n_steps),
                    .initial_increment = 1.0,
                    .minimum_increment = 1.0,
                    .maximum_increment = 1.0,
+                   .duration = duration,
                    .stops = {}});
   std::vector<Step> steps;
   run_to_end(run, [&](const FractureState& state, const StepReport& report) {
