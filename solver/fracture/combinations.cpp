@@ -27,8 +27,7 @@ void require_plain_interfaces(const FractureModel& model, const LoadingSettings&
   if (!(loading.duration > 0.0))
     throw InputError(
         "an interface whose law depends on the rate ([[interface]] rate or branches) requires loading.duration, the "
-        "time in which "
-        "t grows by 1, as in \"1 s\"");
+        "time in which t grows by 1, as in \"1 s\"");
   if (loading.controls_dissipation())
     throw InputError(
         "dissipation control (loading.maximum_dissipation) cannot be combined with a rate of interfaces "

@@ -84,7 +84,7 @@ std::vector<Vector> CohesiveFaces::branch_forces(const std::vector<InterfaceHist
   return forces;
 }
 
-bool CohesiveFaces::depends_on_rate() const {
+bool CohesiveFaces::has_rate_laws() const {
   return std::ranges::any_of(model_.interfaces, [](const CohesiveSurface& surface) { return surface.law.rate.any(); });
 }
 

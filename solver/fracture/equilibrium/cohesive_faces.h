@@ -33,7 +33,7 @@ class CohesiveFaces {
   CohesiveFaces(const Mesh& mesh, const FractureModel& model, const Unknowns& unknowns);
 
   bool any() const { return !faces_.empty(); }
-  bool depends_on_rate() const;
+  bool has_rate_laws() const;
   /// Of the branches of each face while it is whole [N]; empty without branches.
   std::vector<Vector> branch_forces(const std::vector<InterfaceHistory>& histories) const;
   /// At the beginning of a load step, which takes `duration` [s].

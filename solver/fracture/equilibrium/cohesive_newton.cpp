@@ -91,7 +91,7 @@ Equilibrium solve_with_faces(const CohesiveFaces& faces, const std::vector<Inter
   WayOut way_out(u);
   std::vector<Vector> from;  // before the step
   CohesiveFaces::Way way = CohesiveFaces::Way::tangent;
-  const bool has_rate = faces.depends_on_rate();  // steep where faces begin to move
+  const bool has_rate = faces.has_rate_laws();  // steep where faces begin to move
   momentum.set_held_forces(faces.branch_forces(before));
   const Index most = cells ? most_finite_solves : most_solves;
   for (Index k = 0; k < most; ++k) {

@@ -135,9 +135,8 @@ class FiniteTractions final : public FaceTractions {
   std::vector<FaceTurn> face_turns_;  // by turn
   std::vector<JumpTurn> jump_turns_;  // by link; empty where the jump's stiffness is that of the tractions
   std::vector<momentum_faces::LinkTensors> link_tensors_;
-  std::vector<Tensor> side_tensors_;  // a [Pa/m]
-  std::vector<Vector>
-      moved_initial_;  // by force: constant part of the faces' displacements [m]; empty without pressures
+  std::vector<Tensor> side_tensors_;   // a [Pa/m]
+  std::vector<Vector> moved_initial_;  // by force: constant part of the faces' moves [m]; empty without pressures
 };
 
 }  // namespace pfdm
